@@ -1,0 +1,65 @@
+#pragma once
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace drycut::devices {
+
+/// What a terminal of the controller's cards is.
+enum class Kind : std::uint8_t {
+  counter,    ///< CNT: bidirectional quadrature counter, x4
+  input,      ///< INP: digital input
+  output,     ///< OUT: digital output
+  analogue,   ///< AN: 16-bit signed DAC, +-10 V
+  interrupt,  ///< INT: interrupt line 1..8, latches the counters at its edges
+};
+
+/// A terminal: `2.CNT01` is counter 1 of the card in slot 2; interrupt lines belong to no slot and are
+/// written `INT5`. Slot 1 is the CPU: its counters are simulated, nothing is wired to them.
+/// (spec qem.md §3; `2.IN01` and `2.OUT3` are accepted spellings.)
+struct Address {
+  Kind kind = Kind::counter;
+  int slot = 0;
+  int number = 0;
+  auto operator<=>(const Address&) const = default;
+};
+
+/// Reads an address, any case; nullopt if `text` is none.
+std::optional<Address> parse_address(std::string_view text);
+std::string to_string(const Address& address);
+/// "counter", "digital input", ... for messages.
+std::string_view name_of(Kind kind);
+
+struct Counter {
+  std::int64_t count = 0;    ///< bits x4 since power-up, never wraps
+  std::int64_t latched = 0;  ///< the exact count at the last edge of an interrupt line
+};
+struct DigitalInput {
+  bool level = false;
+};
+struct DigitalOutput {
+  bool level = false;
+};
+struct AnalogueOutput {
+  std::int16_t word = 0;  ///< -32767..32767 = -10..+10 V
+};
+
+/// The terminals of the controller that something uses. References stay valid while terminals are added.
+/// The simulation writes counters and input levels before devices run and reads outputs after;
+/// devices and programs do the reverse.
+struct Cards {
+  std::map<Address, Counter> counters;
+  std::map<Address, DigitalInput> inputs;
+  std::map<Address, DigitalOutput> outputs;
+  std::map<Address, AnalogueOutput> analogue_outputs;
+  std::map<int, DigitalInput> interrupt_lines;  ///< by line number 1..8, present level
+};
+
+/// Full scale of the DAC [bits] and [V].
+inline constexpr int dac_full_scale = 32767;
+inline constexpr double dac_full_scale_volts = 10.0;
+
+}  // namespace drycut::devices

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/cards.hpp"
+
+namespace drycut::devices {
+
+/// A value inside the controller that scenarios record, check and set: "AxisX.posit", "slLength".
+struct ControllerValue {
+  std::string name;
+  std::string unit;
+  std::function<double()> read;
+  std::function<void(double)> write;  ///< empty if read-only; acts as a program's store does (device mailbox)
+};
+
+/// Something that happened inside the controller: a refused command, a run-time error, a device warning.
+struct ControllerEvent {
+  std::string source;  ///< device or task name
+  std::string event;   ///< "refused", "out_of_range", "error", "warning", "stopped"
+  std::string text;
+};
+
+/// A controller with its devices and programs, as the simulation sees it. Time is in integer nanoseconds.
+class Controller {
+ public:
+  Controller() = default;
+  virtual ~Controller() = default;
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+
+  virtual Cards& cards() = 0;
+  /// Every period that something inside runs at [ns], with its name for messages ("AxisX TCamp").
+  struct Period {
+    std::string name;
+    std::int64_t ns;
+  };
+  [[nodiscard]] virtual std::vector<Period> periods() const = 0;
+
+  /// Samples the devices whose period ends at `time_ns`.
+  virtual void run_devices(std::int64_t time_ns) = 0;
+  /// Runs the program tasks whose cycle begins at `time_ns`.
+  virtual void run_tasks(std::int64_t time_ns) = 0;
+  /// An edge on an interrupt line; the counters' `latched` hold their exact counts at the edge.
+  virtual void interrupt(int line, bool rising) = 0;
+  /// Power off: outputs 0, nothing runs. Power on: retentive values kept, programs start from the beginning.
+  virtual void power(bool on) = 0;
+
+  /// The value called `name`, any case, or nullopt. Stays valid as long as the controller.
+  virtual std::optional<ControllerValue> find(const std::string& name) = 0;
+  /// All names that `find` knows, for suggestions.
+  [[nodiscard]] virtual std::vector<std::string> names() const = 0;
+
+  [[nodiscard]] virtual bool has_events() const = 0;
+  virtual std::vector<ControllerEvent> take_events() = 0;
+};
+
+}  // namespace drycut::devices

@@ -1,0 +1,199 @@
+#pragma once
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/cards.hpp"
+
+namespace drycut::devices {
+
+// A device is a table plus a step. The table (DeviceType) is its public face: QCL programs, scenario files,
+// the recorder and `drycut devices` all use it, and nothing about a variable is written twice.
+
+/// Size of a variable as QCL knows it: flag, byte, word, long, single.
+enum class Size : char { F = 'F', B = 'B', W = 'W', L = 'L', S = 'S' };
+enum class Access : std::uint8_t { read, read_write };
+/// What becomes of a value at power-up and INIT.
+enum class Retention : std::uint8_t { retentive, zero, one };
+
+/// What must hold for a write or a command to be accepted: the states whose bits are in `mask` must have the
+/// values of the same bits in `value`. Bit i is row i of the device's state table. `also` names, in the
+/// manual's words, a requirement that is not a state ("rowex != n"); the device checks it itself.
+struct Condition {
+  std::uint64_t mask = 0;
+  std::uint64_t value = 0;
+  std::string_view also = {};
+};
+
+/// One parameter or variable. Values outside min..max are taken and reported, as the manuals say.
+struct Variable {
+  std::string_view name;  ///< the manual's spelling; rows > 1: without the row number ("codeG")
+  Size size = Size::L;
+  std::string_view unit;  ///< "Um", "bits x4", "speed", "1/100 s", "" for a code or a number
+  double min = 0;
+  double max = 0;
+  Access access = Access::read_write;
+  Retention retention = Retention::retentive;
+  Condition write = {};
+  std::string_view meaning;  ///< one sentence
+  std::string_view section;  ///< where the manual defines it, "000 1.9.2"
+  int rows = 1;              ///< 128 for the cam table's program variables codeG1..codeG128
+};
+
+/// One reported state, a flag that programs read.
+struct State {
+  std::string_view name;
+  Retention retention = Retention::zero;
+  std::string_view meaning;
+  std::string_view section;
+};
+
+/// One command. Row order is execution order among commands of the same sample (priority).
+struct Command {
+  std::string_view name;
+  Condition condition = {};
+  std::string_view meaning;
+  std::string_view section;
+};
+
+/// One field of the device's INTDEVICE record in the .CNF, after name and type.
+struct Field {
+  enum class Kind : std::uint8_t { period_ms, counter, interrupt_line, input, output, analogue };
+  std::string_view name;  ///< "TCamp", "CountS", "IntL" ...
+  Kind kind = Kind::period_ms;
+  int min = 0;  ///< range of a number: period [ms] or interrupt line
+  int max = 0;
+  std::string_view meaning;
+};
+
+/// Another spelling that the manuals' programs use.
+struct Alias {
+  std::string_view spelling;
+  std::string_view name;
+};
+
+struct DeviceType {
+  std::string_view name;  ///< "CAMMING4"
+  std::string_view summary;
+  std::span<const Variable> variables;
+  std::span<const State> states;  ///< row 0 is st_init
+  std::span<const Command> commands;
+  std::span<const Field> fields;
+  std::span<const Alias> aliases;
+};
+
+/// Something a device has that can be read by name: a variable (with its row, 0-based) or a state.
+struct Symbol {
+  enum class Kind : std::uint8_t { variable, state };
+  Kind kind = Kind::variable;
+  int index = 0;
+  int row = 0;
+};
+
+/// Looks `name` up, any case, aliases included: "posit", "codeQm17", "st_sync".
+std::optional<Symbol> find_symbol(const DeviceType& type, std::string_view name);
+/// Row of the command table, or nullopt.
+std::optional<int> find_command(const DeviceType& type, std::string_view name);
+/// All names a program may use, for suggestions (program variables once, as "codeG1").
+std::vector<std::string> symbol_names(const DeviceType& type);
+std::string name_of(const DeviceType& type, Symbol symbol);
+/// Wraps a value to a size as a store does: B -128..127, W -32768..32767, L 32 bit, F value != 0.
+std::int32_t wrap(Size size, std::int64_t value);
+
+/// The terminals of one device, in the order of DeviceType::fields.
+struct Resource {
+  int number = 0;                  ///< period_ms and interrupt_line: the number; 0 = unused ("X")
+  std::optional<Address> address;  ///< the others; nullopt = unused ("X.X")
+};
+using Resources = std::vector<Resource>;
+
+/// Something a device did not do, or did with a remark: said once by the device, kept by the simulation.
+struct Diagnostic {
+  enum class Kind : std::uint8_t { command_refused, write_refused, out_of_range, note };
+  Kind kind = Kind::note;
+  std::string subject;  ///< command or variable name
+  std::string text;     ///< "st_still is 0, must be 1"
+};
+
+/// A device inside the controller: dual-port RAM on one side (write, command, read), transducers and DAC on
+/// the other, and a periodic step (spec qem.md §2).
+///
+/// Mailbox: writes and commands wait for the next sample. Writes are applied first, in order; then the *set*
+/// of pending commands runs in table order, so two identical commands between samples are one. Before INIT
+/// the device does nothing but take writes at once and wait for INIT.
+class Device {
+ public:
+  explicit Device(const DeviceType& type);
+  virtual ~Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  [[nodiscard]] const DeviceType& type() const { return type_; }
+
+  // The program's side.
+  void write(Symbol symbol, std::int32_t value);
+  void command(int index);
+  /// False while writes or commands wait for a sample of an initialised device: a program's read suspends
+  /// until then (the barrier of spec §2).
+  [[nodiscard]] bool settled() const;
+  [[nodiscard]] std::int32_t read(Symbol symbol) const;
+
+  // The hardware's side.
+  /// Sampling time [ms]: the TCamp of the .CNF record.
+  [[nodiscard]] virtual int period_ms() const = 0;
+  /// One sampling: latch transducers and inputs, apply writes, run commands, then the device's own step.
+  void sample();
+  /// An edge on interrupt line `line`; the counters' `latched` hold their exact counts at the edge.
+  virtual void interrupt(int line, bool rising);
+  /// Power lost and restored: everything not retentive goes to its power-up value, st_init to 0.
+  virtual void power_up();
+
+  [[nodiscard]] std::vector<Diagnostic> take_diagnostics();
+  [[nodiscard]] bool has_diagnostics() const { return !diagnostics_.empty(); }
+
+ protected:
+  // What a device type supplies.
+  virtual void latch() = 0;               ///< read counters and inputs
+  virtual void initialise() = 0;          ///< the INIT command; the base has reset variables and states
+  virtual void execute(int command) = 0;  ///< a command whose condition holds (never INIT)
+  virtual void step() = 0;  ///< motion, regulation, outputs, states; only called when initialised
+  virtual bool may_write(Symbol symbol, std::int32_t value);  ///< requirements beyond the condition
+  virtual void written(Symbol symbol, std::int32_t value);    ///< default stores the value
+  virtual bool may_execute(int command);                      ///< requirements beyond the condition
+  virtual bool already_true(int command) const;  ///< the command's effect already holds: silent no-op
+  virtual void refused(int command);             ///< a command whose condition did not hold
+
+  [[nodiscard]] bool state(int index) const { return (states_ >> index & 1) != 0; }
+  void set_state(int index, bool on) {
+    states_ = on ? states_ | std::uint64_t{1} << index : states_ & ~(std::uint64_t{1} << index);
+  }
+  [[nodiscard]] std::int32_t& value(int variable, int row = 0) { return values_[offsets_[variable] + row]; }
+  [[nodiscard]] std::int32_t value(int variable, int row = 0) const {
+    return values_[offsets_[variable] + row];
+  }
+  void report(Diagnostic diagnostic);
+
+ private:
+  struct PendingWrite {
+    Symbol symbol;
+    std::int32_t value;
+  };
+  void apply(const PendingWrite& pending);
+  void run(int command);
+  void reset_values();
+  [[nodiscard]] std::string unmet(const Condition& condition) const;
+
+  const DeviceType& type_;
+  std::vector<int> offsets_;
+  std::vector<std::int32_t> values_;
+  std::uint64_t states_ = 0;
+  std::vector<PendingWrite> pending_writes_;
+  std::uint64_t pending_commands_ = 0;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace drycut::devices

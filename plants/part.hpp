@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+namespace drycut::plants {
+
+/// A rigid pose in the world [m], quaternion x y z w. World axes: x along the line in web direction, y up,
+/// z across the line towards the operator.
+struct Pose {
+  std::array<double, 3> position = {0, 0, 0};
+  std::array<double, 4> rotation = {0, 0, 0, 1};
+};
+
+/// What a machine part looks like: primitives for now, a mesh file where one is named. For pictures only,
+/// physics never reads it.
+struct Part {
+  enum class Shape { box, cylinder, wedge };  ///< cylinder axis: z; wedge: a blade, edge towards -y
+  std::string name;                           ///< unique in its plant: "drum", "blade 1"
+  Shape shape = Shape::box;
+  std::array<double, 3> size = {1, 1,
+                                1};  ///< box: x y z; cylinder: diameter, diameter, length; wedge: x y z [m]
+  std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
+  std::string material = "steel";  ///< "steel", "paint", "rubber", "web", "blade"
+  std::string mesh = {};           ///< file that replaces the primitive, "" = none
+};
+
+/// Where a part is now. Parts that come and go (cut pieces) are of a fixed set and hidden while unused.
+struct PartPose {
+  Pose pose;
+  bool visible = true;
+  std::array<double, 3> scale = {1, 1, 1};
+};
+
+}  // namespace drycut::plants

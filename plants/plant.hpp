@@ -1,0 +1,124 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "plants/parameters.hpp"
+#include "plants/part.hpp"
+#include "plants/ports.hpp"
+
+namespace drycut::plants {
+
+class World;
+
+/// A plug of a plant: its name within the plant ("encoder", "servo.reference") and where it is.
+struct Port {
+  std::string name;
+  std::variant<EncoderPort*, SignalPort*, CommandPort*, ReferencePort*> plug;
+  std::string meaning;
+};
+
+/// A number that can be recorded, checked and plotted, already in `unit`.
+struct Channel {
+  std::string name;  ///< within the plant: "angle", "motor.torque"
+  std::string unit;  ///< as written in trace.csv, "" = pure number
+  std::function<double()> read;
+  std::string meaning;
+};
+
+/// A number that the timeline can set or ramp: the line speed, a bench input. Value in SI.
+struct Setting {
+  std::string name;       ///< within the plant: "speed"
+  std::string_view unit;  ///< display unit, for dimension checks; "" = pure number
+  std::function<void(double)> write;
+  std::function<double()> read;
+  std::string meaning;
+};
+
+/// A fault that a component offers. Value in SI; a fault without a quantity takes 0 or 1.
+struct Fault {
+  std::string component;  ///< within the plant: "encoder", "servo"
+  std::string name;       ///< "lose_counts", "stuck", "drift"
+  std::string_view unit;  ///< "" = pure number
+  std::function<void(double)> act;
+  std::string meaning;
+};
+
+/// Something that happened in the machine, at an exact time inside the step.
+struct Event {
+  struct Value {
+    std::string_view name;
+    double number;
+    std::string_view unit;
+  };
+  std::string_view name;      ///< "cut", "tear", "buckle"
+  double fraction = 1;        ///< when in the last step, 0..1
+  std::vector<Value> values;  ///< already in their units
+};
+
+/// A machine or a part of a line. Bodies live in the World; everything else that acts is explicit.
+/// Per step h: drive() of all plants, World::step(), sense() of all plants, in scenario order.
+class Plant {
+ public:
+  Plant() = default;
+  virtual ~Plant() = default;
+  Plant(const Plant&) = delete;
+  Plant& operator=(const Plant&) = delete;
+
+  /// Applies drive, transmission, friction and process forces for the coming step of `h` seconds.
+  virtual void drive(double h) = 0;
+  /// Updates transducers, cuts and events from what the bodies did in the last step of `h` seconds.
+  virtual void sense(double h) = 0;
+
+  // What it offers; asked once after construction. Pointers and functions stay valid as long as the plant.
+  virtual std::vector<Port> ports() { return {}; }
+  virtual std::vector<Channel> channels() { return {}; }
+  virtual std::vector<Setting> settings() { return {}; }
+  virtual std::vector<Fault> faults() { return {}; }
+  virtual std::vector<Part> parts() { return {}; }
+  /// Poses of parts(), same order; called only when a frame is taken.
+  virtual void poses(std::vector<PartPose>& out) { (void)out; }
+
+  [[nodiscard]] bool has_events() const { return !events_.empty(); }
+  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
+
+ protected:
+  void happened(Event event) { events_.push_back(std::move(event)); }
+
+ private:
+  std::vector<Event> events_;
+};
+
+/// The definition of one plant in a scenario: parameters with defaults, then the machine built from them.
+class PlantDefinition {
+ public:
+  virtual ~PlantDefinition() = default;
+  /// The parameter table, bound to this definition.
+  virtual Parameters parameters() = 0;
+  /// What is wrong with the parameters taken together ("blade_count 0 ..."), each naming its parameter;
+  /// ranges of single parameters are checked by the reader.
+  struct Objection {
+    std::string parameter;
+    std::string what;
+    std::string remedy;
+  };
+  virtual std::vector<Objection> objections() { return {}; }
+  /// Builds the machine into `world`. `find` gives the already built plant that a reference parameter names.
+  virtual std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) = 0;
+};
+
+/// One type of plant: the registry behind `type:` in a scenario and `drycut plants`.
+struct PlantType {
+  std::string_view name;  ///< "rotary_knife"
+  std::string_view summary;
+  std::unique_ptr<PlantDefinition> (*define)();
+};
+
+/// All plant types, in order of name.
+const std::vector<PlantType>& plant_types();
+
+}  // namespace drycut::plants

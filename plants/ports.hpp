@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace drycut::plants {
+
+// The plugs of a plant, named from the plant's side. The bus (sim) copies between these and the controller's
+// terminals once a step; a plant never knows what is plugged in.
+
+/// A quadrature transducer, after its faults: what a counter input sees.
+struct EncoderPort {
+  std::int64_t count = 0;  ///< bits x4 since the start
+  double before = 0;       ///< exact position at the start of the last step [bits x4]
+  double now = 0;          ///< exact position at its end [bits x4]
+  /// The count at a fraction 0..1 of the last step.
+  [[nodiscard]] std::int64_t count_at(double fraction) const {
+    return static_cast<std::int64_t>(std::floor(before + (now - before) * fraction + 1e-7));
+  }
+};
+
+/// A signal that the plant gives: sensor, index pulse, in-position.
+struct SignalPort {
+  struct Edge {
+    bool rising = false;
+    double fraction = 0;  ///< when in the last step, 0..1
+  };
+  bool level = false;         ///< at the end of the last step
+  std::array<Edge, 8> edges;  ///< of the last step, in order of time
+  int edge_count = 0;
+  void add_edge(bool rising, double fraction) {
+    if (edge_count < static_cast<int>(edges.size())) edges[edge_count++] = {rising, fraction};
+  }
+};
+
+/// A signal that the plant takes: enable, forward, brake release.
+struct CommandPort {
+  bool level = false;
+};
+
+/// An analogue reference that the plant takes [V].
+struct ReferencePort {
+  double volts = 0;
+};
+
+}  // namespace drycut::plants

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "renders/scene3d.hpp"
+
+namespace drycut::renders {
+
+/// Draws every frame of `film` to `directory`/frame_00000.png ... and returns the paths. `progress` is called
+/// with the number of frames done. Same film, same bytes on the same machine. Throws std::runtime_error if
+/// the context cannot be made or a file not written.
+std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
+                                             const std::function<void(int)>& progress = {});
+
+/// A camera that sees all `placements` of `parts` of the film's frames: from the operator's side, slightly
+/// above and upstream.
+Camera operator_camera(const Film& film);
+
+}  // namespace drycut::renders

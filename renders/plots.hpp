@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drycut::renders {
+
+struct Curve {
+  enum class Style { line, steps, points };
+  std::string label;
+  std::vector<double> x;
+  std::vector<double> y;
+  Style style = Style::line;
+};
+
+/// A horizontal limit or band drawn behind the curves.
+struct Band {
+  std::string label;  ///< "tolerance ±0.1 mm"
+  double low = 0;
+  double high = 0;  ///< equal to `low`: a single limit line
+};
+
+/// One pair of axes.
+struct Panel {
+  std::string title;
+  std::string y_label;  ///< with unit: "following error [counts]"
+  std::vector<Curve> curves;
+  std::vector<Band> bands;
+  std::optional<std::pair<double, double>> y_range;  ///< automatic if absent
+};
+
+/// Panels above each other that share the x axis: one PNG.
+struct Plot {
+  std::string name;  ///< file name without extension
+  std::string title;
+  std::string x_label;  ///< with unit: "time [s]"
+  std::vector<Panel> panels;
+  int width = 1200;        ///< pixels
+  int panel_height = 300;  ///< pixels
+};
+
+/// Draws the plots into `directory` as <name>.png and returns the paths. Throws std::runtime_error with the
+/// plotting program's own words if it fails. Same data, same bytes.
+std::vector<std::filesystem::path> draw_plots(const std::vector<Plot>& plots,
+                                              const std::filesystem::path& directory);
+
+}  // namespace drycut::renders

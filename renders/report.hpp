@@ -1,0 +1,50 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drycut::renders {
+
+struct ReportCheck {
+  std::string name;
+  std::string expectation;  ///< as the scenario states it
+  bool passed = false;
+  std::string margin;  ///< "0.053 mm left at 7.204 s", "" if none can be said
+  std::string detail;  ///< "15 cuts, worst length = 800.047 mm"
+};
+
+struct ReportRow {
+  std::vector<std::string> cells;
+};
+struct ReportTable {
+  std::string title;
+  std::vector<std::string> headings;
+  std::vector<ReportRow> rows;
+  bool folded = false;  ///< shown closed, to be opened by a click
+};
+
+struct ReportFigure {
+  std::filesystem::path png;
+  std::string caption;
+};
+
+/// What a customer gets to read.
+struct Report {
+  std::string title;
+  std::string scenario;  ///< file name
+  bool passed = false;
+  std::string verdict;  ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
+  std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
+  std::vector<ReportCheck> checks;
+  std::vector<ReportFigure> frames;  ///< chosen frames, shown as a strip
+  std::vector<ReportFigure> plots;
+  std::vector<ReportTable> tables;  ///< pieces, events, parameters in force
+  std::string scenario_expanded;    ///< the scenario with every default in force
+};
+
+/// Writes one HTML file that opens offline: pictures inside, no script needed to read it, light and dark,
+/// readable on a phone and in print. Written under a temporary name and renamed, so that a half report never
+/// stands there. Throws std::runtime_error if a picture cannot be read or the file not written.
+void write_report(const Report& report, const std::filesystem::path& file);
+
+}  // namespace drycut::renders

@@ -1,0 +1,56 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+namespace drycut::renders {
+
+// What the renderer draws: plain data, filled by the simulation from recorded poses. Metres; x along the line
+// in web direction, y up, z across the line towards the operator.
+
+struct SolidPart {
+  enum class Shape { box, cylinder, wedge };  ///< cylinder axis: z; wedge: a blade, edge towards -y
+  std::string name;
+  Shape shape = Shape::box;
+  std::array<double, 3> size = {1, 1, 1};  ///< box: x y z; cylinder: diameter, diameter, length; wedge: x y z
+  std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
+  std::string material = "steel";  ///< "steel", "paint", "rubber", "web", "blade"
+};
+
+/// Where a part is in one frame.
+struct Placement {
+  std::array<double, 3> position = {0, 0, 0};
+  std::array<double, 4> rotation = {0, 0, 0, 1};  ///< quaternion x y z w
+  std::array<double, 3> scale = {1, 1, 1};
+  bool visible = true;
+};
+
+/// One number of the caption bar.
+struct CaptionItem {
+  std::string label;  ///< "web.speed"
+  std::string value;  ///< "60.0 m/min"
+};
+
+struct Frame {
+  double time_s = 0;
+  std::vector<Placement> placements;  ///< one a part, same order
+  std::vector<CaptionItem> caption;
+};
+
+struct Camera {
+  std::array<double, 3> eye = {1, 1, 2};
+  std::array<double, 3> target = {0, 0, 0};
+  double field_of_view_deg = 35;  ///< vertical
+};
+
+/// A run as the renderer sees it.
+struct Film {
+  std::string title;
+  std::vector<SolidPart> parts;
+  std::vector<Frame> frames;
+  Camera camera;
+  int width = 960;   ///< pixels
+  int height = 540;  ///< pixels
+};
+
+}  // namespace drycut::renders
