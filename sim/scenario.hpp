@@ -1,0 +1,163 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "devices/problem.hpp"
+#include "plants/plant.hpp"
+#include "sim/time.hpp"
+
+namespace drycut::sim {
+
+// A scenario file as plain structs with defaults: the schema, the reader's target and the writer's source
+// (design §5). Everything that can be wrong later (a name that no plant has) keeps its place in the file.
+
+/// Where in the scenario file something stands, 1-based.
+struct Place {
+  int line = 0;
+  int column = 0;
+};
+struct Text {
+  std::string text;
+  Place place;
+};
+
+struct SceneSection {
+  std::string title;
+  Time step = 100 * microsecond;
+  Time duration = 10 * second;
+  std::uint64_t seed = 1;
+  Place step_place;
+};
+
+struct PlantEntry {
+  Text name;
+  Text type;
+  std::unique_ptr<plants::PlantDefinition> definition;  ///< parameters already read
+  std::vector<std::pair<std::string, Place>> places;    ///< of the parameters that the file gives
+};
+
+/// controller: qmove: ...
+struct QmoveSection {
+  Text configuration;            ///< path of the .CNF, relative to the scenario
+  std::vector<Text> tasks;       ///< paths of the QCL units, one task each
+  Time cycle = 2 * millisecond;  ///< a round of all tasks begins every `cycle`
+  Text retentive;  ///< file that keeps retentive values over power cycles and runs, "" = memory only
+  std::vector<std::pair<Text, double>> set;  ///< values before power-up: {slLength: 800, AxisX.pgain: 5}
+  Place place;
+};
+using ControllerSection = std::variant<std::monostate, QmoveSection>;
+
+/// wiring: {2.CNT01: knife.encoder}
+struct Wire {
+  Text terminal;  ///< of the controller
+  Text plug;      ///< plant.port, or panel.switch
+};
+
+/// A value written by the timeline. Plain numbers keep unit "" and are taken in the target's own display
+/// unit.
+struct Quantity {
+  double number = 0;
+  std::string unit;
+  Place place;
+};
+
+/// One entry of the timeline: when, then what.
+struct Stimulus {
+  std::optional<Time> at;     ///< absolute
+  std::optional<Text> when;   ///< expression; fires once, the first time it is true (from `at`, if given)
+  Time after = 0;             ///< delay after the trigger
+  std::optional<Time> every;  ///< repeats with this period after the first time
+  std::vector<std::pair<Text, Quantity>> set;   ///< target: panel switch, plant setting, controller value
+  std::vector<std::pair<Text, Quantity>> ramp;  ///< target reaches the value over `over`, linearly
+  Time over = 0;
+  struct FaultAction {
+    Text component;  ///< plant.component
+    Text fault;
+    Quantity value;
+  };
+  std::vector<FaultAction> faults;
+  std::optional<bool> power;  ///< controller power on or off
+  Place place;
+};
+
+struct RecordSection {
+  Time every = 2 * millisecond;
+  std::vector<Text> channels;
+  Place place;
+};
+
+struct Check {
+  enum class Kind {
+    each,  ///< every event of this name satisfies `expect`
+    all,  ///< `expect` over statistics of all events of this name: count, mean_x, min_x, max_x, sd_x, slope_x
+    always,      ///< the expression holds at every record instant
+    eventually,  ///< it holds at one record instant at least
+    never        ///< no event of this name happens
+  };
+  Text name;
+  Kind kind = Kind::always;
+  Text event;       ///< each, all, never: the event's name ("cut"), or source.name ("knife.cut")
+  Text expression;  ///< expect, or the value of always / eventually
+  Time from = 0;
+  std::optional<Time> until;   ///< each, all, always, never
+  std::optional<Time> within;  ///< eventually: not later than from + within
+  int at_least = 1;            ///< each, all: fewer events than this fail the check
+};
+
+struct PlotRequest {
+  Text name;  ///< file name, title unless one is given
+  std::string title;
+  struct Panel {
+    std::string title;
+    std::vector<Text> channels;
+  };
+  std::vector<Panel> panels;
+  Time from = 0;
+  std::optional<Time> until;
+};
+
+struct PicturesSection {
+  bool frames = false;  ///< the file has a `frames` map
+  Time every = 40 * millisecond;
+  Time from = 0;
+  std::optional<Time> until;
+  std::string camera = "operator";  ///< operator, overview, close_up
+  int width = 960;
+  int height = 540;
+  std::vector<Text> caption;  ///< channels in the caption bar
+  std::vector<PlotRequest> plots;
+  Place camera_place;
+};
+
+struct Scenario {
+  std::filesystem::path file;
+  SceneSection scene;
+  std::vector<PlantEntry> plants;
+  ControllerSection controller;
+  std::vector<Wire> wiring;
+  std::vector<Stimulus> timeline;
+  RecordSection record;
+  std::vector<Check> checks;
+  PicturesSection pictures;
+};
+
+/// An override from the command line: `--set plants.web.speed="80 m/min"`.
+struct Override {
+  std::string path;
+  std::string value;
+};
+
+/// Reads a scenario. Syntax, unknown and duplicate keys, kinds, units, dimensions and ranges are checked and
+/// reported with their place in `problems`, all of the file in one run. The scenario is usable only if no
+/// problem was added. Problems of an override have the file name "--set PATH".
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                       devices::Problems& problems);
+
+/// The scenario as YAML with every default in force; reading it back gives the same scenario.
+std::string expand(const Scenario& scenario);
+
+}  // namespace drycut::sim

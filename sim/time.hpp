@@ -1,0 +1,15 @@
+#pragma once
+#include <cstdint>
+
+namespace drycut::sim {
+
+/// Simulated time: an integer count of nanoseconds. No floating-point time accumulates anywhere.
+using Time = std::int64_t;
+
+inline constexpr Time microsecond = 1'000;
+inline constexpr Time millisecond = 1'000'000;
+inline constexpr Time second = 1'000'000'000;
+
+inline constexpr double seconds(Time time) { return static_cast<double>(time) / 1e9; }
+
+}  // namespace drycut::sim
