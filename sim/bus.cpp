@@ -1,0 +1,291 @@
+#include "sim/bus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace drycut::sim {
+
+using devices::Address;
+using devices::Kind;
+
+namespace {
+
+constexpr std::string_view panel_name = "panel";
+
+/// "an encoder", ... what a plug of a plant is, in the order of plants::Port::plug.
+std::string_view kind_of(const plants::Port& port) {
+  constexpr std::string_view names[] = {"an encoder", "a signal", "a command", "a reference"};
+  return names[port.plug.index()];
+}
+
+/// The kind of plug that a terminal takes: index into plants::Port::plug.
+std::size_t plug_for(Kind kind) {
+  switch (kind) {
+    case Kind::counter:
+      return 0;
+    case Kind::input:
+    case Kind::interrupt:
+      return 1;
+    case Kind::output:
+      return 2;
+    case Kind::analogue:
+      return 3;
+  }
+  return 0;
+}
+
+std::string list(const std::vector<std::string>& names, std::string_view none) {
+  if (names.empty()) return std::string(none);
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+void Panel::set(const std::string& name, bool on) {
+  auto& port = switches.at(name);
+  if (port.level != on) port.add_edge(on, 0.0);
+  port.level = on;
+}
+
+/// Connects one scenario's wires; keeps what the messages need.
+class Connector {
+ public:
+  Connector(Bus& bus, devices::Controller& controller, const std::vector<NamedPlant>& plants,
+            std::string file, devices::Problems& problems)
+      : bus_(bus), controller_(controller), file_(std::move(file)), problems_(problems) {
+    for (const auto& [name, plant] : plants) {
+      for (auto& port : plant->ports()) ports_.emplace(name + "." + port.name, port);
+      plant_names_.push_back(name);
+    }
+  }
+
+  void connect(const Wire& wire) {
+    const auto address = terminal(wire.terminal);
+    if (!address) return;
+    if (!wired_.insert(*address).second) {
+      problem(wire.terminal.place, fmt::format("{} is wired already", to_string(*address)),
+              "a terminal takes one wire; remove this one");
+      return;
+    }
+    if (wire.plug.text.starts_with("panel.")) {
+      connect_panel(*address, wire);
+    } else if (const auto* port = plug(wire.plug)) {
+      connect_plant(*address, wire, *port);
+    }
+  }
+
+ private:
+  void problem(const Place& place, std::string what, std::string remedy) {
+    problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+  }
+
+  /// The terminal, if it is one and the controller uses it.
+  std::optional<Address> terminal(const Text& text) {
+    const auto address = devices::parse_address(text.text);
+    if (!address) {
+      problem(text.place, fmt::format("'{}' is not a terminal of the controller", text.text),
+              "write slot.CNTnn, slot.INPnn, slot.OUTnn, slot.ANnn or INTn");
+      return {};
+    }
+    if (address->kind == Kind::counter && address->slot == 1) {
+      problem(text.place, fmt::format("{} is a simulated counter of the CPU", to_string(*address)),
+              "nothing is wired to slot 1; wire a counter of another slot");
+      return {};
+    }
+    if (address->kind == Kind::interrupt) return address;
+    const auto known = used_terminals(address->kind);
+    if (std::find(known.begin(), known.end(), to_string(*address)) == known.end()) {
+      problem(text.place, fmt::format("the configuration uses no {}", to_string(*address)),
+              fmt::format("its {} terminals are: {}", name_of(address->kind), list(known, "none")));
+      return {};
+    }
+    return address;
+  }
+
+  std::vector<std::string> used_terminals(Kind kind) {
+    std::vector<std::string> names;
+    const auto collect = [&](const auto& terminals) {
+      for (const auto& [address, terminal] : terminals) {
+        if (address.kind == kind && !(kind == Kind::counter && address.slot == 1))
+          names.push_back(to_string(address));
+      }
+    };
+    collect(controller_.cards().counters);
+    collect(controller_.cards().inputs);
+    collect(controller_.cards().outputs);
+    collect(controller_.cards().analogue_outputs);
+    return names;
+  }
+
+  const plants::Port* plug(const Text& text) {
+    if (const auto found = ports_.find(text.text); found != ports_.end()) return &found->second;
+    const auto plant = text.text.substr(0, text.text.find('.'));
+    const bool known_plant = std::find(plant_names_.begin(), plant_names_.end(), plant) != plant_names_.end();
+    std::vector<std::string> candidates;
+    for (const auto& [name, port] : ports_) {
+      if (!known_plant || name.starts_with(plant + ".")) candidates.push_back(name);
+    }
+    const auto near = devices::nearest(text.text, candidates);
+    if (!known_plant) {
+      problem(text.place, fmt::format("there is no plant '{}'", plant),
+              near.empty() ? fmt::format("plants: {}", list(plant_names_, "none"))
+                           : fmt::format("did you mean {}?", near));
+    } else {
+      problem(text.place,
+              fmt::format("plant '{}' has no plug '{}'", plant,
+                          text.text.substr(std::min(text.text.size(), plant.size() + 1))),
+              near.empty() ? fmt::format("it has: {}", list(candidates, "no plugs"))
+                           : fmt::format("did you mean {}?", near));
+    }
+    return nullptr;
+  }
+
+  std::vector<std::string> plugs_of_kind(std::size_t kind) {
+    std::vector<std::string> names;
+    for (const auto& [name, port] : ports_) {
+      if (port.plug.index() == kind) names.push_back(name);
+    }
+    return names;
+  }
+
+  void connect_plant(const Address& address, const Wire& wire, const plants::Port& port) {
+    if (port.plug.index() != plug_for(address.kind)) {
+      problem(wire.plug.place,
+              fmt::format("{} is a {}, {} is {}", to_string(address), name_of(address.kind), wire.plug.text,
+                          kind_of(port)),
+              fmt::format("wire it to one of: {}",
+                          list(plugs_of_kind(plug_for(address.kind)), "no plug of that kind here")));
+      return;
+    }
+    auto& cards = controller_.cards();
+    switch (address.kind) {
+      case Kind::counter:
+        bus_.counters_.push_back({std::get<plants::EncoderPort*>(port.plug), &cards.counters.at(address)});
+        break;
+      case Kind::input:
+        bus_.inputs_.push_back({std::get<plants::SignalPort*>(port.plug), &cards.inputs.at(address)});
+        break;
+      case Kind::interrupt:
+        connect_interrupt(std::get<plants::SignalPort*>(port.plug), address.number);
+        break;
+      case Kind::output:
+        if (sole_driver(address, wire)) {
+          bus_.outputs_.push_back({&cards.outputs.at(address), std::get<plants::CommandPort*>(port.plug)});
+        }
+        break;
+      case Kind::analogue:
+        if (sole_driver(address, wire)) {
+          bus_.analogue_outputs_.push_back(
+              {&cards.analogue_outputs.at(address), std::get<plants::ReferencePort*>(port.plug)});
+        }
+        break;
+    }
+  }
+
+  void connect_interrupt(const plants::SignalPort* from, int line) {
+    bus_.interrupts_.push_back({from, line, &controller_.cards().interrupt_lines[line]});
+  }
+
+  void connect_panel(const Address& address, const Wire& wire) {
+    const auto name = wire.plug.text.substr(panel_name.size() + 1);
+    auto& cards = controller_.cards();
+    auto& panel = bus_.panel_;
+    switch (address.kind) {
+      case Kind::input:
+        bus_.inputs_.push_back({&panel.switches[name], &cards.inputs.at(address)});
+        break;
+      case Kind::interrupt:
+        connect_interrupt(&panel.switches[name], address.number);
+        break;
+      case Kind::output:
+        if (sole_driver(address, wire))
+          bus_.outputs_.push_back({&cards.outputs.at(address), &panel.lamps[name]});
+        break;
+      case Kind::counter:
+      case Kind::analogue:
+        problem(wire.plug.place,
+                fmt::format("{} is a {}, the panel has switches and lamps", to_string(address),
+                            name_of(address.kind)),
+                fmt::format("wire it to one of: {}",
+                            list(plugs_of_kind(plug_for(address.kind)), "no plug of that kind here")));
+        return;
+    }
+    if (panel.switches.contains(name) && panel.lamps.contains(name)) {
+      problem(wire.plug.place, fmt::format("{} is both a switch and a lamp", wire.plug.text),
+              "give the lamp a name of its own");
+    }
+  }
+
+  /// Notes who drives the plug; false if another terminal does already.
+  bool sole_driver(const Address& address, const Wire& wire) {
+    const auto [at, fresh] = drivers_.emplace(wire.plug.text, address);
+    if (!fresh) {
+      problem(wire.plug.place, fmt::format("{} already drives {}", to_string(at->second), wire.plug.text),
+              fmt::format("wire {} elsewhere: a plug has one driver", to_string(address)));
+    }
+    return fresh;
+  }
+
+  Bus& bus_;
+  devices::Controller& controller_;
+  std::string file_;
+  devices::Problems& problems_;
+  std::map<std::string, plants::Port> ports_;
+  std::vector<std::string> plant_names_;
+  std::map<std::string, Address> drivers_;
+  std::set<Address> wired_;
+};
+
+void Bus::connect(const std::vector<Wire>& wires, devices::Controller& controller,
+                  const std::vector<NamedPlant>& plants, const std::string& file,
+                  devices::Problems& problems) {
+  controller_ = &controller;
+  Connector connector(*this, controller, plants, file, problems);
+  for (const auto& wire : wires) connector.connect(wire);
+}
+
+void Bus::outputs_to_plants() const {
+  for (const auto& wire : outputs_) wire.to->level = wire.from->level;
+  for (const auto& wire : analogue_outputs_) {
+    wire.to->volts = wire.from->word * (devices::dac_full_scale_volts / devices::dac_full_scale);
+  }
+}
+
+void Bus::plants_to_inputs() {
+  for (const auto& wire : counters_) wire.to->count = wire.from->count;
+  for (const auto& wire : inputs_) wire.to->level = wire.from->level;
+  for (const auto& wire : interrupts_) {
+    if (wire.from->edge_count > 0) {
+      deliver_interrupts();
+      break;
+    }
+  }
+  for (const auto& wire : interrupts_) wire.level->level = wire.from->level;
+  for (auto& [name, port] : panel_.switches) port.edge_count = 0;
+}
+
+void Bus::deliver_interrupts() {
+  struct Arrival {
+    double fraction;
+    int line;
+    bool rising;
+  };
+  std::vector<Arrival> arrivals;
+  for (const auto& wire : interrupts_) {
+    for (int i = 0; i < wire.from->edge_count; ++i) {
+      arrivals.push_back({wire.from->edges[i].fraction, wire.line, wire.from->edges[i].rising});
+    }
+  }
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.fraction < b.fraction; });
+  for (const auto& arrival : arrivals) {
+    for (const auto& wire : counters_) wire.to->latched = wire.from->count_at(arrival.fraction);
+    controller_->interrupt(arrival.line, arrival.rising);
+  }
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,83 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "devices/problem.hpp"
+#include "plants/plant.hpp"
+#include "sim/scenario.hpp"
+
+namespace drycut::sim {
+
+/// A plant of the running scenario, by its name there.
+struct NamedPlant {
+  std::string name;
+  plants::Plant* plant = nullptr;
+};
+
+/// The operator's panel: switches that the timeline works and lamps that the controller lights. What it has
+/// is what is wired: a `panel.` plug on an input or interrupt terminal is a switch, on an output it is a
+/// lamp.
+struct Panel {
+  std::map<std::string, plants::SignalPort> switches;
+  std::map<std::string, plants::CommandPort> lamps;
+
+  /// Works a switch at the start of the coming step.
+  void set(const std::string& name, bool on);
+};
+
+/// The wires between the controller's terminals and the plants' plugs. Type-checked when connected: a counter
+/// takes an encoder, an input or interrupt line a signal, an output drives a command, an analogue output a
+/// reference; a plug that the controller drives has one driver.
+class Bus {
+ public:
+  /// Connects `wires`; what cannot be connected is reported with its place in `file` and left out.
+  void connect(const std::vector<Wire>& wires, devices::Controller& controller,
+               const std::vector<NamedPlant>& plants, const std::string& file, devices::Problems& problems);
+
+  /// Controller outputs to plant commands and references.
+  void outputs_to_plants() const;
+  /// Transducers and sensors to the controller; interrupt edges latch the counters and are passed on in order
+  /// of their time inside the step.
+  void plants_to_inputs();
+
+  [[nodiscard]] Panel& panel() { return panel_; }
+  [[nodiscard]] const Panel& panel() const { return panel_; }
+
+ private:
+  struct CounterWire {
+    const plants::EncoderPort* from;
+    devices::Counter* to;
+  };
+  struct InputWire {
+    const plants::SignalPort* from;
+    devices::DigitalInput* to;
+  };
+  struct InterruptWire {
+    const plants::SignalPort* from;
+    int line;
+    devices::DigitalInput* level;
+  };
+  struct OutputWire {
+    const devices::DigitalOutput* from;
+    plants::CommandPort* to;
+  };
+  struct AnalogueWire {
+    const devices::AnalogueOutput* from;
+    plants::ReferencePort* to;
+  };
+
+  void deliver_interrupts();
+
+  devices::Controller* controller_ = nullptr;
+  Panel panel_;
+  std::vector<CounterWire> counters_;
+  std::vector<InputWire> inputs_;
+  std::vector<InterruptWire> interrupts_;
+  std::vector<OutputWire> outputs_;
+  std::vector<AnalogueWire> analogue_outputs_;
+  friend class Connector;
+};
+
+}  // namespace drycut::sim

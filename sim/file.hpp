@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "devices/problem.hpp"
+
+namespace drycut::sim {
+
+/// The text of a file; a file that cannot be read is a problem said in `problems` (at `place` of `named_in`,
+/// or of the file itself if nothing names it).
+std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems,
+                                     const std::string& named_in = "", int line = 1, int column = 1);
+
+/// A file written under a temporary name that takes its own name when finished: no reader ever sees half of
+/// it. Throws std::runtime_error when something cannot be written.
+class OutputFile {
+ public:
+  explicit OutputFile(std::filesystem::path file);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  void write(std::string_view text);
+  void finish();
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path temporary_;
+  std::ofstream stream_;
+  bool finished_ = false;
+};
+
+}  // namespace drycut::sim

@@ -1,0 +1,132 @@
+#include "sim/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr std::string_view panel_prefix = "panel.";
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates,
+                         std::string_view else_say) {
+  const auto near = devices::nearest(name, candidates);
+  return near.empty() ? std::string(else_say) : fmt::format("did you mean {}?", near);
+}
+
+}  // namespace
+
+Names::Names(std::vector<NamedPlant> plants, devices::Controller* controller, Panel& panel)
+    : plants_(std::move(plants)), controller_(controller), panel_(panel) {
+  for (const auto& [name, plant] : plants_) {
+    for (auto& channel : plant->channels()) channels_.emplace(name + "." + channel.name, channel);
+    for (auto& setting : plant->settings()) settings_.emplace(name + "." + setting.name, setting);
+    for (auto& fault : plant->faults()) faults_.emplace_back(name + "." + fault.component, fault);
+  }
+}
+
+std::optional<Reading> Names::reading(const std::string& name) {
+  if (const auto found = channels_.find(name); found != channels_.end()) {
+    return Reading{name, found->second.unit, found->second.read};
+  }
+  if (name.starts_with(panel_prefix)) {
+    const auto plug = name.substr(panel_prefix.size());
+    if (const auto found = panel_.switches.find(plug); found != panel_.switches.end()) {
+      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; }};
+    }
+    if (const auto found = panel_.lamps.find(plug); found != panel_.lamps.end()) {
+      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; }};
+    }
+    return {};
+  }
+  if (controller_ != nullptr) {
+    if (auto value = controller_->find(name)) return Reading{name, value->unit, value->read};
+  }
+  return {};
+}
+
+std::optional<Target> Names::target(const std::string& name) {
+  if (const auto found = settings_.find(name); found != settings_.end()) {
+    const auto& setting = found->second;
+    return Target{name, setting.unit, setting.write, setting.read};
+  }
+  if (name.starts_with(panel_prefix)) {
+    const auto plug = name.substr(panel_prefix.size());
+    if (!panel_.switches.contains(plug)) return {};
+    return Target{name, "", [this, plug](double on) { panel_.set(plug, on != 0); },
+                  [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; }};
+  }
+  if (controller_ != nullptr) {
+    if (auto value = controller_->find(name); value && value->write)
+      return Target{name, "", value->write, value->read};
+  }
+  return {};
+}
+
+std::optional<plants::Fault> Names::fault(const std::string& component, const std::string& fault) {
+  for (const auto& [name, candidate] : faults_) {
+    if (name == component && candidate.name == fault) return candidate;
+  }
+  return {};
+}
+
+std::vector<std::string> Names::reading_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, channel] : channels_) names.push_back(name);
+  for (const auto& [name, port] : panel_.switches) names.push_back(std::string(panel_prefix) + name);
+  for (const auto& [name, port] : panel_.lamps) names.push_back(std::string(panel_prefix) + name);
+  if (controller_ != nullptr) {
+    for (auto& name : controller_->names()) names.push_back(name);
+  }
+  return names;
+}
+
+std::string Names::suggest_reading(const std::string& name) const {
+  std::vector<std::string> own;  // of the same plant, if the plant is right
+  const auto plant = name.substr(0, name.find('.') + 1);
+  for (const auto& [full, channel] : channels_) {
+    if (!plant.empty() && full.starts_with(plant)) own.push_back(full);
+  }
+  if (!own.empty()) {
+    std::string all;
+    for (const auto& full : own) all += (all.empty() ? "" : ", ") + full;
+    return did_you_mean(name, own, "it has: " + all);
+  }
+  return did_you_mean(
+      name, reading_names(),
+      "name a plant's channel (drycut plants), a device variable or state (drycut devices) or a "
+      "variable of the program");
+}
+
+std::string Names::suggest_target(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& [full, setting] : settings_) names.push_back(full);
+  for (const auto& [plug, port] : panel_.switches) names.push_back(std::string(panel_prefix) + plug);
+  if (name.starts_with(panel_prefix)) {
+    return did_you_mean(name, names, fmt::format("wire an input to {} first", name));
+  }
+  if (channels_.contains(name)) return "it can only be read; settings are listed by drycut plants";
+  if (controller_ != nullptr) {
+    for (auto& other : controller_->names()) names.push_back(other);
+  }
+  return did_you_mean(name, names,
+                      "name a plant's setting (drycut plants), a wired panel switch or a controller value");
+}
+
+std::string Names::suggest_fault(const std::string& component) const {
+  std::vector<std::string> components;
+  std::string offered;
+  for (const auto& [name, candidate] : faults_) {
+    if (std::find(components.begin(), components.end(), name) == components.end()) components.push_back(name);
+    if (name == component) offered += (offered.empty() ? "" : ", ") + candidate.name;
+  }
+  if (!offered.empty()) return fmt::format("{} offers: {}", component, offered);
+  std::string all;
+  for (const auto& name : components) all += (all.empty() ? "" : ", ") + name;
+  return did_you_mean(component, components,
+                      all.empty() ? "no plant here offers faults" : "components with faults: " + all);
+}
+
+}  // namespace drycut::sim

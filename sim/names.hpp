@@ -1,0 +1,60 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "devices/problem.hpp"
+#include "sim/bus.hpp"
+#include "sim/scenario.hpp"
+
+namespace drycut::sim {
+
+/// A number that can be recorded or used in an expression.
+struct Reading {
+  std::string name;
+  std::string unit;  ///< of the number; "" = pure number
+  std::function<double()> read;
+};
+
+/// A number that the timeline can set or ramp; `write` takes it in `unit` as the timeline gives it (SI for
+/// plants).
+struct Target {
+  std::string name;
+  std::string_view unit;  ///< "" = pure number
+  std::function<void(double)> write;
+  std::function<double()> read;
+};
+
+/// Every name of a running scenario: `knife.angle`, `AxisX.posit`, `panel.start`, `slLength`, `2.AN01`.
+/// Plants come first, then the panel, then the controller; any of them may be absent.
+class Names {
+ public:
+  Names(std::vector<NamedPlant> plants, devices::Controller* controller, Panel& panel);
+
+  /// What can be recorded or checked under this name.
+  std::optional<Reading> reading(const std::string& name);
+  /// What can be set under this name.
+  std::optional<Target> target(const std::string& name);
+  /// The fault `fault` of `component` ("knife.encoder").
+  std::optional<plants::Fault> fault(const std::string& component, const std::string& fault);
+
+  /// Remedies for an unknown name: the nearest one, or what there is.
+  [[nodiscard]] std::string suggest_reading(const std::string& name) const;
+  [[nodiscard]] std::string suggest_target(const std::string& name) const;
+  [[nodiscard]] std::string suggest_fault(const std::string& component) const;
+  /// All names that `reading` knows.
+  [[nodiscard]] std::vector<std::string> reading_names() const;
+
+ private:
+  std::vector<NamedPlant> plants_;
+  devices::Controller* controller_;
+  Panel& panel_;
+  std::map<std::string, plants::Channel> channels_;
+  std::map<std::string, plants::Setting> settings_;
+  std::vector<std::pair<std::string, plants::Fault>> faults_;  ///< full component name, fault
+};
+
+}  // namespace drycut::sim
