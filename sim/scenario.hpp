@@ -2,7 +2,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,14 +18,23 @@ namespace drycut::sim {
 // A scenario file as plain structs with defaults: the schema, the reader's target and the writer's source
 // (design §5). Everything that can be wrong later (a name that no plant has) keeps its place in the file.
 
-/// Where in the scenario file something stands, 1-based.
+/// Where in the scenario something stands: line and column (in characters), 1-based.
 struct Place {
   int line = 0;
   int column = 0;
+  int source = 0;  ///< which text: 0 the scenario file, n the n-th override; index of Scenario::sources
 };
 struct Text {
   std::string text;
-  Place place;
+  Place place;  ///< of the first character of `text`, inside quotes if it has some
+  /// From byte `offset` of `text` on, the file continues at `place` (escapes, folded lines, UTF-8).
+  struct Break {
+    std::size_t offset = 0;
+    Place place;
+  };
+  std::vector<Break> breaks = {};
+  /// Where byte `offset` of `text` stands.
+  [[nodiscard]] Place at(std::size_t offset) const;
 };
 
 struct SceneSection {
@@ -113,11 +125,15 @@ struct PlotRequest {
   std::string title;
   struct Panel {
     std::string title;
-    std::vector<Text> channels;
+    std::vector<Text> channels;  ///< curves over time
+    Text event;                  ///< instead: points, one an event of this name ("cut")
+    std::vector<Text> values;    ///< of the event ("length")
+    std::optional<std::pair<double, double>> limits;  ///< band drawn behind: [low, high], in the curves' unit
   };
   std::vector<Panel> panels;
   Time from = 0;
   std::optional<Time> until;
+  bool against_number = false;  ///< `against: number`: x is the event's number instead of time; event panels only
 };
 
 struct PicturesSection {
@@ -143,7 +159,12 @@ struct Scenario {
   RecordSection record;
   std::vector<Check> checks;
   PicturesSection pictures;
+  std::vector<std::string> sources;  ///< names for messages: the file, then "--set PATH" of each override
 };
+
+/// A problem at a place of the scenario, with the right file name.
+devices::Problem problem_at(const Scenario& scenario, const Place& place, std::string what,
+                            std::string remedy);
 
 /// An override from the command line: `--set plants.web.speed="80 m/min"`.
 struct Override {
@@ -155,7 +176,12 @@ struct Override {
 /// reported with their place in `problems`, all of the file in one run. The scenario is usable only if no
 /// problem was added. Problems of an override have the file name "--set PATH".
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                       devices::Problems& problems);
+                       devices::Problems& problems,
+                       std::span<const plants::PlantType> types = plants::plant_types());
+/// The same from a text that is already in memory; `file` names it in messages and places relative paths.
+Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides, devices::Problems& problems,
+                            std::span<const plants::PlantType> types = plants::plant_types());
 
 /// The scenario as YAML with every default in force; reading it back gives the same scenario.
 std::string expand(const Scenario& scenario);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,8 @@ double to_si(double number, std::string_view unit);
 double from_si(double si, std::string_view unit);
 /// True if a quantity in unit `a` can be expressed in unit `b`.
 bool same_dimension(std::string_view a, std::string_view b);
+/// The SI base units of `unit`, which must be known: "m.s-1" for "m/min", "" for a pure number.
+std::string si_unit(std::string_view unit);
 /// What quantity a unit measures, for messages: "a length", "a speed", "an inertia"; else "a quantity in
 /// <unit>".
 std::string dimension_name(std::string_view unit);
@@ -28,5 +31,7 @@ struct ParsedQuantity {
 };
 /// nullopt if the text does not start with a number or has nothing but a number and a unit in it.
 std::optional<ParsedQuantity> parse_quantity(std::string_view text);
+/// `si` as a text in `unit`, shortest that reads back to the very same value.
+std::string format_quantity(double si, std::string_view unit);
 
 }  // namespace drycut::sim

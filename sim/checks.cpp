@@ -1,0 +1,263 @@
+#include "sim/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "sim/statistics.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// "cut" names the event of any source, "knife.cut" that of one.
+bool matches(const std::string& wanted, const std::string& source, const std::string& event) {
+  return wanted == event || wanted == source + "." + event;
+}
+
+std::string window_text(const Check& check) {
+  std::string text;
+  if (check.from > 0) text += fmt::format(", from {} s", seconds_text(check.from));
+  if (check.until) text += fmt::format(", until {} s", seconds_text(*check.until));
+  if (check.within) text += fmt::format(", within {} s", seconds_text(*check.within));
+  return text;
+}
+
+std::string expectation_text(const Check& check) {
+  switch (check.kind) {
+    case Check::Kind::each:
+      return fmt::format("each {}: {}{}", check.event.text, check.expression.text, window_text(check));
+    case Check::Kind::all:
+      return fmt::format("all {}: {}{}", check.event.text, check.expression.text, window_text(check));
+    case Check::Kind::always:
+      return fmt::format("always {}{}", check.expression.text, window_text(check));
+    case Check::Kind::eventually:
+      return fmt::format("eventually {}{}", check.expression.text, window_text(check));
+    case Check::Kind::never:
+      return fmt::format("never {}{}", check.event.text, window_text(check));
+  }
+  return "";
+}
+
+bool in_window(const Check& check, double at) {
+  return at >= seconds(check.from) && (!check.until || at <= seconds(*check.until));
+}
+
+}  // namespace
+
+Checks::Checks(const std::vector<Check>& checks, Watch& watch, Names& names,
+               const std::vector<KnownEvent>& events, const std::string& file, devices::Problems& problems) {
+  for (const auto& check : checks) {
+    states_.emplace_back().check = check;
+    bind(states_.back(), watch, names, events, file, problems);
+  }
+}
+
+void Checks::bind(State& state, Watch& watch, Names& names, const std::vector<KnownEvent>& events,
+                  const std::string& file, devices::Problems& problems) {
+  const auto& check = state.check;
+  if (!check.event.text.empty()) {
+    std::vector<std::string> known;
+    const KnownEvent* found = nullptr;
+    for (const auto& event : events) {
+      known.push_back(event.name);
+      known.push_back(event.source + "." + event.name);
+      if (found == nullptr && matches(check.event.text, event.source, event.name)) found = &event;
+    }
+    if (found == nullptr) {
+      const auto near = devices::nearest(check.event.text, known);
+      problems.push_back({file, check.event.place.line, check.event.place.column,
+                          fmt::format("nothing here reports an event '{}'", check.event.text),
+                          near.empty() ? "events of plants are listed by drycut plants"
+                                       : fmt::format("did you mean {}?", near)});
+      return;
+    }
+    for (const auto& [name, unit] : found->values) {
+      if (check.kind == Check::Kind::all) {
+        state.series.push_back({name, unit, {}});
+        for (const auto* statistic : statistic_names)
+          state.slots.emplace_back(fmt::format("{}_{}", statistic, name), 0.0);
+      } else {
+        state.slots.emplace_back(name, 0.0);
+      }
+    }
+    if (check.kind == Check::Kind::all) state.slots.emplace_back("count", 0.0);
+  }
+  if (check.kind == Check::Kind::never) return;
+
+  std::set<std::string> units;
+  auto lookup = expression_names(watch, names);
+  const auto channel = lookup.slot;
+  lookup.slot = [&, channel](const std::string& name) -> const double* {
+    for (const auto& [own, number] : state.slots) {
+      if (own != name) continue;
+      for (const auto& series : state.series) {
+        if (name.ends_with("_" + series.value)) units.insert(series.unit);
+      }
+      for (const auto& event : events) {
+        if (!matches(check.event.text, event.source, event.name)) continue;
+        for (const auto& [value, unit] : event.values) {
+          if (value == name) units.insert(unit);
+        }
+      }
+      return &number;
+    }
+    const auto* slot = channel(name);
+    if (slot != nullptr) units.insert(watch.unit(name));
+    return slot;
+  };
+  for (const auto& [name, number] : state.slots) lookup.own.push_back(name);
+  state.expression = Expression::compile(check.expression, file, lookup, problems);
+  units.erase("");
+  if (units.size() == 1) state.unit = *units.begin();
+}
+
+bool Checks::concerns(const State& state, const RecordedEvent& event) {
+  return !state.check.event.text.empty() && matches(state.check.event.text, event.source, event.event) &&
+         in_window(state.check, event.at_seconds());
+}
+
+void Checks::evaluate(State& state, double at, const std::string& values) {
+  ++state.count;
+  const auto evaluation = state.expression->evaluate();
+  if (!evaluation.holds) ++state.failed;
+  const bool eventually = state.check.kind == Check::Kind::eventually;
+  if (eventually && evaluation.holds && !state.held_at) state.held_at = at;
+  // For "eventually" the moment that counts is the best one, for the others the worst. Without margins it is
+  // the first that decided.
+  bool decisive = false;
+  if (evaluation.margin) {
+    decisive =
+        !state.worst || (eventually ? *evaluation.margin > *state.worst : *evaluation.margin < *state.worst);
+    if (decisive) state.worst = evaluation.margin;
+  } else {
+    decisive = state.failed == 1 && !evaluation.holds && !eventually;
+  }
+  if (decisive) {
+    state.worst_at = at;
+    state.worst_values = values;
+  }
+}
+
+void Checks::sample(Time now) {
+  const double at = seconds(now);
+  for (auto& state : states_) {
+    const auto kind = state.check.kind;
+    if (kind == Check::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
+    if (kind == Check::Kind::eventually && now >= state.check.from && !state.held_at &&
+        (!state.check.within || now <= state.check.from + *state.check.within)) {
+      evaluate(state, at, "");
+    }
+  }
+}
+
+void Checks::happened(const RecordedEvent& event) {
+  for (auto& state : states_) {
+    if (!concerns(state, event)) continue;
+    switch (state.check.kind) {
+      case Check::Kind::each:
+        for (auto& [name, number] : state.slots) {
+          if (const auto* value = event.find(name)) number = value->number;
+        }
+        evaluate(state, event.at_seconds(), values_text(event));
+        break;
+      case Check::Kind::all:
+        ++state.count;
+        for (auto& series : state.series) {
+          if (const auto* value = event.find(series.value)) series.numbers.push_back(value->number);
+        }
+        break;
+      case Check::Kind::never:
+        if (state.count++ == 0) {
+          state.worst_at = event.at_seconds();
+          state.worst_values = values_text(event);
+        }
+        break;
+      case Check::Kind::always:
+      case Check::Kind::eventually:
+        break;
+    }
+  }
+}
+
+void Checks::finish_statistics(State& state) {
+  const auto set = [&](const std::string& name, double number) {
+    for (auto& [own, slot] : state.slots) {
+      if (own == name) slot = number;
+    }
+  };
+  set("count", state.count);
+  std::string values;
+  for (const auto& series : state.series) {
+    const auto numbers = statistics(series.numbers);
+    for (std::size_t i = 0; i < statistic_names.size(); ++i) {
+      set(fmt::format("{}_{}", statistic_names[i], series.value), numbers[i]);
+      const auto name = fmt::format("{}_{}", statistic_names[i], series.value);
+      if (state.check.expression.text.find(name) == std::string::npos) continue;
+      values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name, numbers[i],
+                            series.unit.empty() ? "" : " ", series.unit);
+    }
+  }
+  const int events = state.count;
+  evaluate(state, 0, values);
+  state.count = events;
+}
+
+std::vector<CheckResult> Checks::results(Time end) {
+  std::vector<CheckResult> all;
+  for (auto& state : states_) all.push_back(result(state, end));
+  return all;
+}
+
+CheckResult Checks::result(State& state, Time end) {
+  const auto& check = state.check;
+  CheckResult result{check.name.text, expectation_text(check), false, {}, state.unit, {}, ""};
+  const bool by_event = check.kind == Check::Kind::each || check.kind == Check::Kind::all;
+  if (by_event && state.count < check.at_least) {
+    result.detail = fmt::format("only {} {} in the time looked at, at least {} expected", state.count,
+                                check.event.text, check.at_least);
+    return result;
+  }
+  if (check.kind == Check::Kind::never) {
+    result.passed = state.count == 0;
+    result.detail = state.count == 0 ? "none"
+                                     : fmt::format("{} times, first at {:.4f} s: {}", state.count,
+                                                   state.worst_at, state.worst_values);
+    if (state.count > 0) result.at = state.worst_at;
+    return result;
+  }
+  if (check.kind == Check::Kind::all) finish_statistics(state);
+  if (state.count == 0) {
+    result.detail = fmt::format("never looked at: the run ended at {} s", seconds_text(end));
+    return result;
+  }
+  result.margin = state.worst;
+  if (check.kind == Check::Kind::eventually) {
+    result.passed = state.held_at.has_value();
+    result.at = state.held_at ? state.held_at : std::optional(state.worst_at);
+    result.detail = state.held_at ? fmt::format("first true at {:.4f} s", *state.held_at)
+                                  : "not true at any instant looked at";
+    // Once it held, what is left is time.
+    result.margin.reset();
+    if (state.held_at && check.within) {
+      result.margin = seconds(check.from + *check.within) - *state.held_at;
+      result.unit = "s";
+    }
+    return result;
+  }
+  result.passed = state.failed == 0;
+  if (check.kind != Check::Kind::all && (state.worst || state.failed > 0)) result.at = state.worst_at;
+  const auto looked_at =
+      check.kind == Check::Kind::always ? std::string("instants") : check.event.text + " events";
+  result.detail = fmt::format(
+      "{} {}{}{}", state.count, looked_at,
+      state.failed > 0 && check.kind != Check::Kind::all ? fmt::format(", {} failed", state.failed) : "",
+      state.worst_values.empty()
+          ? ""
+          : (check.kind == Check::Kind::all ? ": " : ", worst: ") + state.worst_values);
+  return result;
+}
+
+}  // namespace drycut::sim

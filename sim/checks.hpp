@@ -1,0 +1,79 @@
+#pragma once
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/expression.hpp"
+#include "sim/names.hpp"
+#include "sim/recorder.hpp"
+#include "sim/scenario.hpp"
+
+namespace drycut::sim {
+
+/// What a check came to.
+struct CheckResult {
+  std::string name;
+  std::string expectation;  ///< "each cut: abs(length - 800) <= 0.1, from 4.0 s"
+  bool passed = false;
+  std::optional<double> margin;  ///< how far the worst moment was from the limit; negative: beyond it
+  std::string unit;              ///< of the margin, "" if it is none or mixed
+  std::optional<double> at;      ///< [s] the worst moment
+  std::string detail;            ///< "15 cuts, worst length = 800.047 mm at 7.204 s"
+};
+
+/// An event that something in the scenario can report, with its values and their units.
+struct KnownEvent {
+  std::string source;
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
+/// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
+/// others at every event; an expression has a channel's number in the unit of its trace.csv column.
+class Checks {
+ public:
+  Checks(const std::vector<Check>& checks, Watch& watch, Names& names, const std::vector<KnownEvent>& events,
+         const std::string& file, devices::Problems& problems);
+  Checks(const Checks&) = delete;
+  Checks& operator=(const Checks&) = delete;
+
+  /// The watch has been updated for this record instant.
+  void sample(Time now);
+  /// An event; the watch has been updated for it.
+  void happened(const RecordedEvent& event);
+  [[nodiscard]] std::vector<CheckResult> results(Time end);
+
+ private:
+  struct Series {
+    std::string value;
+    std::string unit;
+    std::vector<double> numbers;
+  };
+  struct State {
+    Check check;
+    std::optional<Expression> expression;
+    std::deque<std::pair<std::string, double>>
+        slots;                   ///< event values or statistics, by name in the expression
+    std::vector<Series> series;  ///< all: the numbers behind the statistics
+    std::string unit;            ///< common to all names in the expression
+    int count = 0;               ///< events or instants looked at
+    int failed = 0;
+    std::optional<double> worst;
+    double worst_at = 0;
+    std::string worst_values;
+    std::optional<double> held_at;  ///< eventually: first time
+  };
+
+  void bind(State& state, Watch& watch, Names& names, const std::vector<KnownEvent>& events,
+            const std::string& file, devices::Problems& problems);
+  static bool concerns(const State& state, const RecordedEvent& event);
+  static void evaluate(State& state, double at, const std::string& values);
+  static void finish_statistics(State& state);
+  static CheckResult result(State& state, Time end);
+
+  std::deque<State> states_;
+};
+
+}  // namespace drycut::sim

@@ -1,0 +1,117 @@
+#include "sim/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/file.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
+  if (!number || !std::isfinite(*number)) return nullptr;
+  return *number;
+}
+
+}  // namespace
+
+std::string margin_text(const CheckResult& check) {
+  if (!check.margin) return "";
+  const auto unit = check.unit.empty() ? "" : " " + check.unit;
+  auto text = *check.margin >= 0 ? fmt::format("{:.4g}{} left", *check.margin, unit)
+                                 : fmt::format("{:.4g}{} too far", -*check.margin, unit);
+  if (check.at) text += fmt::format(", at {:.4f} s", *check.at);
+  return text;
+}
+
+std::string verdict_text(const Outcome& outcome) {
+  if (!outcome.failure.empty()) return "the simulation stopped: " + outcome.failure;
+  const auto failed =
+      std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
+  if (outcome.checks.empty()) return "the scenario states no checks";
+  if (failed > 0) return fmt::format("{} of {} checks failed", failed, outcome.checks.size());
+  return outcome.checks.size() == 1 ? "the one check passed"
+                                    : fmt::format("all {} checks passed", outcome.checks.size());
+}
+
+void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
+  nlohmann::ordered_json json;
+  json["passed"] = outcome.passed();
+  json["end"] = seconds(outcome.end);
+  json["failure"] = outcome.failure;
+  json["checks"] = nlohmann::ordered_json::array();
+  for (const auto& check : outcome.checks) {
+    json["checks"].push_back({{"name", check.name},
+                              {"expectation", check.expectation},
+                              {"passed", check.passed},
+                              {"margin", number_or_null(check.margin)},
+                              {"unit", check.unit},
+                              {"at", number_or_null(check.at)},
+                              {"detail", check.detail}});
+  }
+  OutputFile out(file);
+  out.write(json.dump(2) + "\n");
+  out.finish();
+}
+
+void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file) {
+  OutputFile out(file);
+  out.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"drycut\">\n");
+  for (const auto& result : results) {
+    const auto& outcome = result.outcome;
+    const auto failed =
+        std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
+    const bool stopped = !outcome.failure.empty();
+    out.write(fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n",
+                          escaped(result.name), outcome.checks.size() + (stopped ? 1 : 0), failed,
+                          stopped ? 1 : 0));
+    for (const auto& check : outcome.checks) {
+      out.write(fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escaped(result.name),
+                            escaped(check.name)));
+      if (check.passed) {
+        out.write("/>\n");
+        continue;
+      }
+      out.write(fmt::format(">\n      <failure message=\"{}\">{}; {}</failure>\n    </testcase>\n",
+                            escaped(check.expectation), escaped(check.detail), escaped(margin_text(check))));
+    }
+    if (stopped) {
+      out.write(
+          fmt::format("    <testcase classname=\"{}\" name=\"runs to its end\">\n      <error "
+                      "message=\"{}\"/>\n    </testcase>\n",
+                      escaped(result.name), escaped(outcome.failure)));
+    }
+    out.write("  </testsuite>\n");
+  }
+  out.write("</testsuites>\n");
+  out.finish();
+}
+
+}  // namespace drycut::sim

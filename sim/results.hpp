@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/simulation.hpp"
+
+namespace drycut::sim {
+
+/// One scenario's outcome among others, for junit.xml and the closing lines.
+struct RunResult {
+  std::string name;  ///< the scenario's file name without extension
+  std::filesystem::path scenario;
+  std::filesystem::path directory;  ///< where its files are
+  Outcome outcome;
+  bool has_report = false;
+};
+
+/// checks.json: name, expectation, passed, margin, unit, at, detail of every check.
+void write_checks(const Outcome& outcome, const std::filesystem::path& file);
+
+/// junit.xml over all scenarios: a suite a scenario, a case a check; a run that stopped is an error.
+void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file);
+
+/// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell.
+std::string margin_text(const CheckResult& check);
+
+/// "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ...".
+std::string verdict_text(const Outcome& outcome);
+
+}  // namespace drycut::sim

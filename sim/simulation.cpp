@@ -1,0 +1,191 @@
+#include "sim/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/controller_loader.hpp"
+
+namespace drycut::sim {
+
+bool Outcome::passed() const {
+  return failure.empty() &&
+         std::all_of(checks.begin(), checks.end(), [](const CheckResult& c) { return c.passed; });
+}
+
+Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
+    : scenario_(scenario),
+      file_(scenario.file.string()),
+      step_(scenario.scene.step),
+      h_(seconds(scenario.scene.step)),
+      world_(scenario.scene.seed) {
+  load_controller(problems);
+  build_plants();
+  if (controller_) {
+    bus_.connect(scenario.wiring, *controller_, named_, file_, problems);
+    check_periods(problems);
+  }
+  names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
+  watch_ = std::make_unique<Watch>(*names_);
+  timeline_ =
+      std::make_unique<Timeline>(scenario.timeline, *names_, controller_.get(), step_, file_, problems);
+  for (const auto& [name, plant] : named_) {
+    for (const auto& type : plant->event_types()) {
+      KnownEvent event{name, std::string(type.name), {}};
+      for (const auto& value : type.values) event.values.emplace_back(value.name, value.unit);
+      known_events_.push_back(std::move(event));
+    }
+  }
+  checks_ = std::make_unique<Checks>(scenario.checks, *watch_, *names_, known_events_, file_, problems);
+  bind_recording(problems);
+  bind_pictures(problems);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::load_controller(devices::Problems& problems) {
+  controller_ = sim::load_controller(scenario_, problems);
+}
+
+void Simulation::build_plants() {
+  const auto find = [this](std::string_view name) -> plants::Plant* {
+    const auto found =
+        std::find_if(named_.begin(), named_.end(), [&](const NamedPlant& p) { return p.name == name; });
+    return found == named_.end() ? nullptr : found->plant;
+  };
+  for (const auto& entry : scenario_.plants) {
+    plants_.push_back(entry.definition->build(world_, find));
+    named_.push_back({entry.name.text, plants_.back().get()});
+  }
+}
+
+void Simulation::check_periods(devices::Problems& problems) const {
+  const auto place = scenario_.scene.step_place;
+  for (const auto& period : controller_->periods()) {
+    if (period.ns % step_ == 0) continue;
+    problems.push_back({file_, place.line, place.column,
+                        fmt::format("{} of {} ns is not a whole multiple of the step of {} ns", period.name,
+                                    period.ns, step_),
+                        "choose a step that divides it"});
+  }
+}
+
+void Simulation::add_channel(const Text& name, devices::Problems& problems) {
+  if (recording_.add(*watch_, name.text)) return;
+  problems.push_back({file_, name.place.line, name.place.column,
+                      fmt::format("there is no channel '{}'", name.text),
+                      names_->suggest_reading(name.text)});
+}
+
+void Simulation::bind_recording(devices::Problems& problems) {
+  for (const auto& name : scenario_.record.channels) add_channel(name, problems);
+  recording_.reserve(static_cast<std::size_t>(scenario_.scene.duration / scenario_.record.every) + 2);
+}
+
+void Simulation::bind_pictures(devices::Problems& problems) {
+  for (const auto& plot : scenario_.pictures.plots) {
+    for (const auto& panel : plot.panels) {
+      for (const auto& name : panel.channels) add_channel(name, problems);
+    }
+  }
+  for (const auto& name : scenario_.pictures.caption) {
+    const auto* slot = watch_->slot(name.text);
+    if (slot == nullptr) {
+      problems.push_back({file_, name.place.line, name.place.column,
+                          fmt::format("there is no channel '{}'", name.text),
+                          names_->suggest_reading(name.text)});
+      continue;
+    }
+    caption_.push_back(slot);
+    caption_units_.push_back(watch_->unit(name.text));
+  }
+}
+
+// The order of everything inside a step, once and whole (design: time).
+void Simulation::step() {
+  timeline_->run(time_, recording_);
+
+  if (controller_) {
+    controller_->run_devices(time_);
+    controller_->run_tasks(time_);
+    bus_.outputs_to_plants();
+  }
+
+  for (auto& plant : plants_) plant->drive(h_);
+  world_.step(h_);
+  for (auto& plant : plants_) plant->sense(h_);
+
+  if (controller_) bus_.plants_to_inputs();
+
+  collect_events();
+  time_ += step_;
+  if (time_ >= next_record_) record();
+  if (time_ >= next_snapshot_) snapshot();
+}
+
+void Simulation::collect_events() {
+  for (const auto& [name, plant] : named_) {
+    if (!plant->has_events()) continue;
+    for (const auto& event : plant->take_events()) {
+      RecordedEvent recorded{time_, event.fraction * h_, name, std::string(event.name), {}, ""};
+      for (const auto& value : event.values) {
+        recorded.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
+      }
+      recording_.happened(std::move(recorded));
+    }
+  }
+  if (controller_ && controller_->has_events()) {
+    for (auto& event : controller_->take_events()) {
+      recording_.happened(
+          {time_, 0, std::move(event.source), std::move(event.event), {}, std::move(event.text)});
+    }
+  }
+  if (events_seen_ == recording_.events().size()) return;
+  watch_->update();
+  for (; events_seen_ < recording_.events().size(); ++events_seen_) {
+    checks_->happened(recording_.events()[events_seen_]);
+  }
+}
+
+void Simulation::record() {
+  watch_->update();
+  recording_.sample(time_);
+  checks_->sample(time_);
+  next_record_ = time_ + scenario_.record.every;
+  if (const auto name = watch_->not_finite(); !name.empty()) {
+    failure_ = fmt::format("{} is no longer a finite number at {} s: the simulation diverged", name,
+                           seconds_text(time_));
+  }
+}
+
+void Simulation::snapshot() {
+  const auto& pictures = scenario_.pictures;
+  next_snapshot_ = std::max(time_ + pictures.every, pictures.from);
+  if (!pictures.frames || time_ < pictures.from || (pictures.until && time_ > *pictures.until)) return;
+  watch_->update();
+  auto& shot = snapshots_.emplace_back();
+  shot.time = time_;
+  for (auto& plant : plants_) plant->poses(shot.poses);
+  for (const auto* slot : caption_) shot.caption.push_back(*slot);
+}
+
+Outcome Simulation::run(const std::function<void(Time)>& progress) {
+  constexpr int steps_between_reports = 2000;
+  record();
+  next_snapshot_ = std::max(scenario_.pictures.every, scenario_.pictures.from);
+  int countdown = steps_between_reports;
+  while (time_ < scenario_.scene.duration && failure_.empty()) {
+    step();
+    if (--countdown == 0) {
+      countdown = steps_between_reports;
+      if (progress) progress(time_);
+    }
+  }
+  Outcome outcome;
+  outcome.end = time_;
+  outcome.failure = failure_;
+  outcome.checks = checks_->results(time_);
+  return outcome;
+}
+
+}  // namespace drycut::sim

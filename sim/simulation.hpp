@@ -1,0 +1,97 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "devices/problem.hpp"
+#include "plants/plant.hpp"
+#include "plants/world.hpp"
+#include "sim/bus.hpp"
+#include "sim/checks.hpp"
+#include "sim/names.hpp"
+#include "sim/recorder.hpp"
+#include "sim/scenario.hpp"
+#include "sim/timeline.hpp"
+#include "sim/watch.hpp"
+
+namespace drycut::sim {
+
+/// Where every part was at the instant of a frame, and the captions' numbers.
+struct Snapshot {
+  Time time = 0;
+  std::vector<plants::PartPose> poses;  ///< of all plants, in order
+  std::vector<double> caption;          ///< one a caption channel
+};
+
+/// How a run ended.
+struct Outcome {
+  Time end = 0;         ///< simulated until
+  std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
+  std::vector<CheckResult> checks;
+  [[nodiscard]] bool passed() const;
+};
+
+/// A scenario put together: controller, plants, wires, stimuli, checks; then run. One object is one run,
+/// always from time zero in a fresh world.
+class Simulation {
+ public:
+  /// Puts `scenario` together. Everything that does not fit is reported in `problems`; run() may be called
+  /// only if there are none. `scenario` must outlive the simulation.
+  Simulation(const Scenario& scenario, devices::Problems& problems);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
+  Outcome run(const std::function<void(Time)>& progress = {});
+
+  [[nodiscard]] const Recording& recording() const { return recording_; }
+  [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+  [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }
+  /// Units of the caption channels.
+  [[nodiscard]] const std::vector<std::string>& caption_units() const { return caption_units_; }
+  /// Events that the plants and the controller can report.
+  [[nodiscard]] const std::vector<KnownEvent>& known_events() const { return known_events_; }
+
+ private:
+  void load_controller(devices::Problems& problems);
+  void build_plants();
+  void check_periods(devices::Problems& problems) const;
+  void bind_recording(devices::Problems& problems);
+  void bind_pictures(devices::Problems& problems);
+  void add_channel(const Text& name, devices::Problems& problems);
+
+  void step();
+  void collect_events();
+  void record();
+  void snapshot();
+
+  const Scenario& scenario_;
+  std::string file_;
+  Time step_;
+  double h_;  ///< [s]
+  Time time_ = 0;
+
+  std::unique_ptr<devices::Controller> controller_;
+  plants::World world_;
+  std::vector<std::unique_ptr<plants::Plant>> plants_;
+  std::vector<NamedPlant> named_;
+  Bus bus_;
+  std::unique_ptr<Names> names_;
+  std::unique_ptr<Watch> watch_;
+  std::unique_ptr<Timeline> timeline_;
+  std::unique_ptr<Checks> checks_;
+  Recording recording_;
+  std::size_t events_seen_ = 0;
+  Time next_record_ = 0;
+  Time next_snapshot_ = 0;
+  std::vector<Snapshot> snapshots_;
+  std::vector<const double*> caption_;
+  std::vector<std::string> caption_units_;
+  std::vector<KnownEvent> known_events_;
+  std::string failure_;
+};
+
+}  // namespace drycut::sim
