@@ -54,9 +54,9 @@ void Panel::set(const std::string& name, bool on) {
 /// Connects one scenario's wires; keeps what the messages need.
 class Connector {
  public:
-  Connector(Bus& bus, devices::Controller& controller, const std::vector<NamedPlant>& plants,
-            std::string file, devices::Problems& problems)
-      : bus_(bus), controller_(controller), file_(std::move(file)), problems_(problems) {
+  Connector(Bus& bus, const Scenario& scenario, devices::Controller& controller,
+            const std::vector<NamedPlant>& plants, devices::Problems& problems)
+      : bus_(bus), scenario_(scenario), controller_(controller), problems_(problems) {
     for (const auto& [name, plant] : plants) {
       for (auto& port : plant->ports()) ports_.emplace(name + "." + port.name, port);
       plant_names_.push_back(name);
@@ -80,7 +80,7 @@ class Connector {
 
  private:
   void problem(const Place& place, std::string what, std::string remedy) {
-    problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 
   /// The terminal, if it is one and the controller uses it.
@@ -231,8 +231,8 @@ class Connector {
   }
 
   Bus& bus_;
+  const Scenario& scenario_;
   devices::Controller& controller_;
-  std::string file_;
   devices::Problems& problems_;
   std::map<std::string, plants::Port> ports_;
   std::vector<std::string> plant_names_;
@@ -240,12 +240,11 @@ class Connector {
   std::set<Address> wired_;
 };
 
-void Bus::connect(const std::vector<Wire>& wires, devices::Controller& controller,
-                  const std::vector<NamedPlant>& plants, const std::string& file,
-                  devices::Problems& problems) {
+void Bus::connect(const Scenario& scenario, devices::Controller& controller,
+                  const std::vector<NamedPlant>& plants, devices::Problems& problems) {
   controller_ = &controller;
-  Connector connector(*this, controller, plants, file, problems);
-  for (const auto& wire : wires) connector.connect(wire);
+  Connector connector(*this, scenario, controller, plants, problems);
+  for (const auto& wire : scenario.wiring) connector.connect(wire);
 }
 
 void Bus::outputs_to_plants() const {

@@ -32,9 +32,9 @@ struct Panel {
 /// reference; a plug that the controller drives has one driver.
 class Bus {
  public:
-  /// Connects `wires`; what cannot be connected is reported with its place in `file` and left out.
-  void connect(const std::vector<Wire>& wires, devices::Controller& controller,
-               const std::vector<NamedPlant>& plants, const std::string& file, devices::Problems& problems);
+  /// Makes the scenario's wires; what cannot be connected is reported with its place and left out.
+  void connect(const Scenario& scenario, devices::Controller& controller,
+               const std::vector<NamedPlant>& plants, devices::Problems& problems);
 
   /// Controller outputs to plant commands and references.
   void outputs_to_plants() const;

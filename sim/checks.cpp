@@ -47,69 +47,68 @@ bool in_window(const Check& check, double at) {
 
 }  // namespace
 
-Checks::Checks(const std::vector<Check>& checks, Watch& watch, Names& names,
-               const std::vector<KnownEvent>& events, const std::string& file, devices::Problems& problems) {
-  for (const auto& check : checks) {
+Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
+               const std::vector<KnownEvent>& events, devices::Problems& problems) {
+  for (const auto& check : scenario.checks) {
     states_.emplace_back().check = check;
-    bind(states_.back(), watch, names, events, file, problems);
+    bind(states_.back(), scenario, watch, names, events, problems);
   }
 }
 
-void Checks::bind(State& state, Watch& watch, Names& names, const std::vector<KnownEvent>& events,
-                  const std::string& file, devices::Problems& problems) {
+/// Finds the event of a check and makes the slots of its values or statistics.
+const KnownEvent* Checks::bind_event(State& state, const Scenario& scenario,
+                                     const std::vector<KnownEvent>& events, devices::Problems& problems) {
   const auto& check = state.check;
-  if (!check.event.text.empty()) {
-    std::vector<std::string> known;
-    const KnownEvent* found = nullptr;
-    for (const auto& event : events) {
-      known.push_back(event.name);
-      known.push_back(event.source + "." + event.name);
-      if (found == nullptr && matches(check.event.text, event.source, event.name)) found = &event;
-    }
-    if (found == nullptr) {
-      const auto near = devices::nearest(check.event.text, known);
-      problems.push_back({file, check.event.place.line, check.event.place.column,
-                          fmt::format("nothing here reports an event '{}'", check.event.text),
-                          near.empty() ? "events of plants are listed by drycut plants"
-                                       : fmt::format("did you mean {}?", near)});
-      return;
-    }
-    for (const auto& [name, unit] : found->values) {
-      if (check.kind == Check::Kind::all) {
-        state.series.push_back({name, unit, {}});
-        for (const auto* statistic : statistic_names)
-          state.slots.emplace_back(fmt::format("{}_{}", statistic, name), 0.0);
-      } else {
-        state.slots.emplace_back(name, 0.0);
-      }
-    }
-    if (check.kind == Check::Kind::all) state.slots.emplace_back("count", 0.0);
+  const KnownEvent* found = nullptr;
+  std::vector<std::string> known;
+  for (const auto& event : events) {
+    known.push_back(event.name);
+    known.push_back(event.source + "." + event.name);
+    if (found == nullptr && matches(check.event.text, event.source, event.name)) found = &event;
   }
+  if (found == nullptr) {
+    const auto near = devices::nearest(check.event.text, known);
+    problems.push_back(problem_at(scenario, check.event.place,
+                                  fmt::format("nothing here reports an event '{}'", check.event.text),
+                                  near.empty() ? "events of plants are listed by drycut plants"
+                                               : fmt::format("did you mean {}?", near)));
+    return nullptr;
+  }
+  for (const auto& [name, unit] : found->values) {
+    if (check.kind == Check::Kind::all) {
+      state.series.push_back({name, unit, {}});
+      for (const auto* statistic : statistic_names) {
+        state.slots.push_back({fmt::format("{}_{}", statistic, name), unit, 0.0});
+      }
+    } else {
+      state.slots.push_back({name, unit, 0.0});
+    }
+  }
+  if (check.kind == Check::Kind::all) state.slots.push_back({"count", "", 0.0});
+  return found;
+}
+
+void Checks::bind(State& state, const Scenario& scenario, Watch& watch, const Names& names,
+                  const std::vector<KnownEvent>& events, devices::Problems& problems) {
+  const auto& check = state.check;
+  if (!check.event.text.empty() && bind_event(state, scenario, events, problems) == nullptr) return;
   if (check.kind == Check::Kind::never) return;
 
+  // The values of the event come before channels of the same name.
   std::set<std::string> units;
-  auto lookup = expression_names(watch, names);
-  const auto channel = lookup.slot;
-  lookup.slot = [&, channel](const std::string& name) -> const double* {
-    for (const auto& [own, number] : state.slots) {
-      if (own != name) continue;
-      for (const auto& series : state.series) {
-        if (name.ends_with("_" + series.value)) units.insert(series.unit);
-      }
-      for (const auto& event : events) {
-        if (!matches(check.event.text, event.source, event.name)) continue;
-        for (const auto& [value, unit] : event.values) {
-          if (value == name) units.insert(unit);
-        }
-      }
-      return &number;
+  const auto resolve = [&](const std::string& name) -> const double* {
+    for (const auto& slot : state.slots) {
+      if (slot.name != name) continue;
+      units.insert(slot.unit);
+      return &slot.number;
     }
-    const auto* slot = channel(name);
+    const auto* slot = watch.slot(name);
     if (slot != nullptr) units.insert(watch.unit(name));
     return slot;
   };
-  for (const auto& [name, number] : state.slots) lookup.own.push_back(name);
-  state.expression = Expression::compile(check.expression, file, lookup, problems);
+  auto known = names.reading_names();
+  for (const auto& slot : state.slots) known.push_back(slot.name);
+  state.expression = Expression::compile(check.expression, scenario, resolve, known, problems);
   units.erase("");
   if (units.size() == 1) state.unit = *units.begin();
 }
@@ -158,8 +157,8 @@ void Checks::happened(const RecordedEvent& event) {
     if (!concerns(state, event)) continue;
     switch (state.check.kind) {
       case Check::Kind::each:
-        for (auto& [name, number] : state.slots) {
-          if (const auto* value = event.find(name)) number = value->number;
+        for (auto& slot : state.slots) {
+          if (const auto* value = event.find(slot.name)) slot.number = value->number;
         }
         evaluate(state, event.at_seconds(), values_text(event));
         break;
@@ -184,8 +183,8 @@ void Checks::happened(const RecordedEvent& event) {
 
 void Checks::finish_statistics(State& state) {
   const auto set = [&](const std::string& name, double number) {
-    for (auto& [own, slot] : state.slots) {
-      if (own == name) slot = number;
+    for (auto& slot : state.slots) {
+      if (slot.name == name) slot.number = number;
     }
   };
   set("count", state.count);

@@ -34,8 +34,8 @@ struct KnownEvent {
 /// others at every event; an expression has a channel's number in the unit of its trace.csv column.
 class Checks {
  public:
-  Checks(const std::vector<Check>& checks, Watch& watch, Names& names, const std::vector<KnownEvent>& events,
-         const std::string& file, devices::Problems& problems);
+  Checks(const Scenario& scenario, Watch& watch, const Names& names, const std::vector<KnownEvent>& events,
+         devices::Problems& problems);
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -51,11 +51,15 @@ class Checks {
     std::string unit;
     std::vector<double> numbers;
   };
+  struct Slot {
+    std::string name;
+    std::string unit;
+    double number = 0;
+  };
   struct State {
     Check check;
     std::optional<Expression> expression;
-    std::deque<std::pair<std::string, double>>
-        slots;                   ///< event values or statistics, by name in the expression
+    std::deque<Slot> slots;      ///< event values or statistics, by name in the expression
     std::vector<Series> series;  ///< all: the numbers behind the statistics
     std::string unit;            ///< common to all names in the expression
     int count = 0;               ///< events or instants looked at
@@ -66,8 +70,10 @@ class Checks {
     std::optional<double> held_at;  ///< eventually: first time
   };
 
-  void bind(State& state, Watch& watch, Names& names, const std::vector<KnownEvent>& events,
-            const std::string& file, devices::Problems& problems);
+  void bind(State& state, const Scenario& scenario, Watch& watch, const Names& names,
+            const std::vector<KnownEvent>& events, devices::Problems& problems);
+  static const KnownEvent* bind_event(State& state, const Scenario& scenario,
+                                      const std::vector<KnownEvent>& events, devices::Problems& problems);
   static bool concerns(const State& state, const RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
   static void finish_statistics(State& state);

@@ -15,10 +15,14 @@ constexpr std::uintmax_t largest_input = 16U << 20U;  // [bytes]; programs and s
 
 }  // namespace
 
+std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems) {
+  return read_file(file, problems, {file.string(), 1, 1, "", ""});
+}
+
 std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems,
-                                     const std::string& named_in, int line, int column) {
+                                     const devices::Problem& where) {
   const auto problem = [&](const std::string& what, const std::string& remedy) {
-    problems.push_back({named_in.empty() ? file.string() : named_in, line, column, what, remedy});
+    problems.push_back({where.file, where.line, where.column, what, remedy});
     return std::nullopt;
   };
   std::error_code error;

@@ -9,10 +9,12 @@
 
 namespace drycut::sim {
 
-/// The text of a file; a file that cannot be read is a problem said in `problems` (at `place` of `named_in`,
-/// or of the file itself if nothing names it).
+/// The text of a file. If it cannot be read, that is a problem at the place that names it: `where` gives
+/// file, line and column.
 std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems,
-                                     const std::string& named_in = "", int line = 1, int column = 1);
+                                     const devices::Problem& where);
+/// The same for a file that the command line names: the place is the file's own beginning.
+std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems);
 
 /// A file written under a temporary name that takes its own name when finished: no reader ever sees half of
 /// it. Throws std::runtime_error when something cannot be written.

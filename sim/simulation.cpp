@@ -15,20 +15,18 @@ bool Outcome::passed() const {
 
 Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
     : scenario_(scenario),
-      file_(scenario.file.string()),
       step_(scenario.scene.step),
       h_(seconds(scenario.scene.step)),
       world_(scenario.scene.seed) {
   load_controller(problems);
   build_plants();
   if (controller_) {
-    bus_.connect(scenario.wiring, *controller_, named_, file_, problems);
+    bus_.connect(scenario, *controller_, named_, problems);
     check_periods(problems);
   }
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
   watch_ = std::make_unique<Watch>(*names_);
-  timeline_ =
-      std::make_unique<Timeline>(scenario.timeline, *names_, controller_.get(), step_, file_, problems);
+  timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
   for (const auto& [name, plant] : named_) {
     for (const auto& type : plant->event_types()) {
       KnownEvent event{name, std::string(type.name), {}};
@@ -36,7 +34,7 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
       known_events_.push_back(std::move(event));
     }
   }
-  checks_ = std::make_unique<Checks>(scenario.checks, *watch_, *names_, known_events_, file_, problems);
+  checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, known_events_, problems);
   bind_recording(problems);
   bind_pictures(problems);
 }
@@ -63,18 +61,17 @@ void Simulation::check_periods(devices::Problems& problems) const {
   const auto place = scenario_.scene.step_place;
   for (const auto& period : controller_->periods()) {
     if (period.ns % step_ == 0) continue;
-    problems.push_back({file_, place.line, place.column,
-                        fmt::format("{} of {} ns is not a whole multiple of the step of {} ns", period.name,
-                                    period.ns, step_),
-                        "choose a step that divides it"});
+    problems.push_back(problem_at(scenario_, place,
+                                  fmt::format("{} of {} ns is not a whole multiple of the step of {} ns",
+                                              period.name, period.ns, step_),
+                                  "choose a step that divides it"));
   }
 }
 
 void Simulation::add_channel(const Text& name, devices::Problems& problems) {
   if (recording_.add(*watch_, name.text)) return;
-  problems.push_back({file_, name.place.line, name.place.column,
-                      fmt::format("there is no channel '{}'", name.text),
-                      names_->suggest_reading(name.text)});
+  problems.push_back(problem_at(scenario_, name.place, fmt::format("there is no channel '{}'", name.text),
+                                names_->suggest_reading(name.text)));
 }
 
 void Simulation::bind_recording(devices::Problems& problems) {
@@ -91,9 +88,8 @@ void Simulation::bind_pictures(devices::Problems& problems) {
   for (const auto& name : scenario_.pictures.caption) {
     const auto* slot = watch_->slot(name.text);
     if (slot == nullptr) {
-      problems.push_back({file_, name.place.line, name.place.column,
-                          fmt::format("there is no channel '{}'", name.text),
-                          names_->suggest_reading(name.text)});
+      problems.push_back(problem_at(scenario_, name.place, fmt::format("there is no channel '{}'", name.text),
+                                    names_->suggest_reading(name.text)));
       continue;
     }
     caption_.push_back(slot);

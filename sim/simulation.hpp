@@ -69,7 +69,6 @@ class Simulation {
   void snapshot();
 
   const Scenario& scenario_;
-  std::string file_;
   Time step_;
   double h_;  ///< [s]
   Time time_ = 0;

@@ -21,11 +21,11 @@ std::string text_of(const std::string& name, const Quantity& quantity, std::stri
 /// Converts stimuli of one file and says what does not fit.
 class Binder {
  public:
-  Binder(Names& names, std::string file, devices::Problems& problems)
-      : names_(names), file_(std::move(file)), problems_(problems) {}
+  Binder(Names& names, const Scenario& scenario, devices::Problems& problems)
+      : names_(names), scenario_(scenario), problems_(problems) {}
 
   void problem(const Place& place, std::string what, std::string remedy) {
-    problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 
   /// The quantity as a setting or fault with `unit` takes it (SI); nullopt after a problem.
@@ -70,17 +70,21 @@ class Binder {
 
  private:
   Names& names_;
-  std::string file_;
+  const Scenario& scenario_;
   devices::Problems& problems_;
 };
 
 }  // namespace
 
-Timeline::Timeline(const std::vector<Stimulus>& stimuli, Names& names, devices::Controller* controller,
-                   Time step, const std::string& file, devices::Problems& problems)
-    : watch_(names), controller_(controller), look_every_((millisecond + step - 1) / step * step) {
-  Binder binder(names, file, problems);
-  for (const auto& stimulus : stimuli) {
+Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* controller,
+                   devices::Problems& problems)
+    : watch_(names),
+      controller_(controller),
+      look_every_((millisecond + scenario.scene.step - 1) / scenario.scene.step * scenario.scene.step) {
+  Binder binder(names, scenario, problems);
+  const auto known = names.reading_names();
+  const auto slot = [this](const std::string& name) { return watch_.slot(name); };
+  for (const auto& stimulus : scenario.timeline) {
     Entry entry;
     entry.after = stimulus.after;
     entry.every = stimulus.every;
@@ -88,7 +92,7 @@ Timeline::Timeline(const std::vector<Stimulus>& stimuli, Names& names, devices::
     entry.power = stimulus.power;
     entry.from = stimulus.at.value_or(0);
     if (stimulus.when) {
-      entry.when = Expression::compile(*stimulus.when, file, expression_names(watch_, names), problems);
+      entry.when = Expression::compile(*stimulus.when, scenario, slot, known, problems);
     } else {
       entry.due = stimulus.at.value_or(0) + stimulus.after;
     }

@@ -15,9 +15,9 @@ namespace drycut::sim {
 /// millisecond, or every step if that is longer; everything else acts at the first step at or after its time.
 class Timeline {
  public:
-  /// Binds names and converts quantities; what does not fit is reported with its place in `file`.
-  Timeline(const std::vector<Stimulus>& stimuli, Names& names, devices::Controller* controller, Time step,
-           const std::string& file, devices::Problems& problems);
+  /// Binds names and converts quantities; what does not fit is reported with its place in the scenario.
+  Timeline(const Scenario& scenario, Names& names, devices::Controller* controller,
+           devices::Problems& problems);
 
   /// Acts on everything due at `now`; what was done is told to `record`.
   void run(Time now, Recording& recording) {

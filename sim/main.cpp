@@ -1,0 +1,79 @@
+// The program `drycut`: reads the command line and calls what does the work (sim/commands.hpp).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+
+#include "sim/commands.hpp"
+
+namespace {
+
+using namespace drycut::sim;
+
+int run(int argc, char** argv) {
+  CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", DRYCUT_VERSION);
+  int status = all_passed;
+
+  RunOptions run_options;
+  std::uint64_t seed = 0;
+  bool no_pictures = false;
+  auto* run =
+      app.add_subcommand("run", "Run scenarios: traces, events, checks, pictures and a report for each");
+  run->add_option("scenarios", run_options.scenarios, "Scenario files (.yaml)")->required();
+  run->add_option("--out", run_options.out, "Directory for the results")->capture_default_str();
+  run->add_option("--jobs", run_options.jobs, "Scenarios run at the same time")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  auto* seed_option =
+      run->add_option("--seed", seed, "Seed of every random source, in place of the scenarios'");
+  run->add_flag("--no-pictures", no_pictures, "No frames, plots or report");
+  run->add_option("--set", run_options.set, "Override a value of the scenarios: path=value, may be repeated")
+      ->allow_extra_args(false);
+  run->callback([&] {
+    if (seed_option->count() > 0) run_options.seed = seed;
+    run_options.pictures = !no_pictures;
+    status = run_scenarios(run_options);
+  });
+
+  CheckOptions check_options;
+  auto* check = app.add_subcommand("check", "Parse and type-check files without running anything");
+  check
+      ->add_option("files", check_options.files,
+                   "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf")
+      ->required();
+  check->add_flag("--expand", check_options.expand, "Print scenarios with every default in force");
+  check->callback([&] { status = check_files(check_options); });
+
+  std::string name;
+  bool json = false;
+  auto* devices = app.add_subcommand("devices", "List device types, or the table of one");
+  devices->add_option("name", name, "Device type, such as CAMMING4");
+  devices->add_flag("--json", json, "As JSON");
+  devices->callback([&] { status = list_devices(name, json); });
+
+  auto* plants = app.add_subcommand("plants", "List plant types, or the table of one");
+  plants->add_option("name", name, "Plant type, such as rotary_knife");
+  plants->add_flag("--json", json, "As JSON");
+  plants->callback([&] { status = list_plants(name, json); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? all_passed : bad_input;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "drycut: {}\n", error.what());
+    return simulation_failed;
+  }
+}
