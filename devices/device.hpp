@@ -39,25 +39,25 @@ struct Variable {
   Access access = Access::read_write;
   Retention retention = Retention::retentive;
   Condition write = {};
-  std::string_view meaning;  ///< one sentence
-  std::string_view section;  ///< where the manual defines it, "000 1.9.2"
-  int rows = 1;              ///< 128 for the cam table's program variables codeG1..codeG128
+  std::string_view meaning = {};  ///< one sentence
+  std::string_view section = {};  ///< where the manual defines it, "000 1.9.2"
+  int rows = 1;                   ///< 128 for the cam table's program variables codeG1..codeG128
 };
 
 /// One reported state, a flag that programs read.
 struct State {
   std::string_view name;
   Retention retention = Retention::zero;
-  std::string_view meaning;
-  std::string_view section;
+  std::string_view meaning = {};
+  std::string_view section = {};
 };
 
 /// One command. Row order is execution order among commands of the same sample (priority).
 struct Command {
   std::string_view name;
   Condition condition = {};
-  std::string_view meaning;
-  std::string_view section;
+  std::string_view meaning = {};
+  std::string_view section = {};
 };
 
 /// One field of the device's INTDEVICE record in the .CNF, after name and type.
@@ -67,7 +67,7 @@ struct Field {
   Kind kind = Kind::period_ms;
   int min = 0;  ///< range of a number: period [ms] or interrupt line
   int max = 0;
-  std::string_view meaning;
+  std::string_view meaning = {};
 };
 
 /// Another spelling that the manuals' programs use.
@@ -80,8 +80,8 @@ struct DeviceType {
   std::string_view name;  ///< "CAMMING4"
   std::string_view summary;
   std::span<const Variable> variables;
-  std::span<const State> states;  ///< row 0 is st_init
-  std::span<const Command> commands;
+  std::span<const State> states;      ///< row 0 is st_init
+  std::span<const Command> commands;  ///< row 0 is INIT
   std::span<const Field> fields;
   std::span<const Alias> aliases;
 };
@@ -141,6 +141,8 @@ class Device {
   /// until then (the barrier of spec §2).
   [[nodiscard]] bool settled() const;
   [[nodiscard]] std::int32_t read(Symbol symbol) const;
+  /// Puts a retentive value or state back as the memory kept it, without conditions; only before INIT.
+  void restore(Symbol symbol, std::int32_t value);
 
   // The hardware's side.
   /// Sampling time [ms]: the TCamp of the .CNF record.
@@ -174,6 +176,10 @@ class Device {
   [[nodiscard]] std::int32_t& value(int variable, int row = 0) { return values_[offsets_[variable] + row]; }
   [[nodiscard]] std::int32_t value(int variable, int row = 0) const {
     return values_[offsets_[variable] + row];
+  }
+  /// True if the states are as `condition` says (its `also` is the device's to check).
+  [[nodiscard]] bool holds(const Condition& condition) const {
+    return ((states_ ^ condition.value) & condition.mask) == 0;
   }
   void report(Diagnostic diagnostic);
 

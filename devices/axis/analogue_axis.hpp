@@ -1,0 +1,125 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "devices/axis/dac.hpp"
+#include "devices/axis/following_error.hpp"
+#include "devices/axis/frequency_meter.hpp"
+#include "devices/axis/position.hpp"
+#include "devices/axis/profile.hpp"
+#include "devices/axis/regulator.hpp"
+
+namespace drycut::devices::axis {
+
+/// What the parameters of an analogue positioner mean in bits x4 and seconds; computed when one changes.
+struct AxisSettings {
+  Resolution resolution;
+  double bits_per_speed = 0;  ///< bits x4/s of one unit of a speed parameter
+  double max_speed = 0;       ///< maxvel [bits x4/s]
+  Demand ramps;               ///< everything of a demand but its speed
+  bool finish_ramp = false;   ///< stopt 0
+  Gains gains;
+  std::int32_t offset = 0;  ///< [DAC bits]
+  int period_ms = 1;
+  std::int32_t max_following_error = 0;  ///< [bits x4]
+  int frequency_window_ms = 240;
+  double term_limit = dac_full_scale;  ///< of the integral and derivative actions [DAC bits]
+};
+
+/// Seconds for each bit x4/s of a ramp that takes `hundredths` of a second from rest to `max_speed`.
+inline double seconds_per_speed(std::int32_t hundredths, double max_speed) {
+  return hundredths > 0 && max_speed > 0 ? hundredths / 100.0 / max_speed : 0;
+}
+
+/// What drives the DAC.
+enum class Drive : std::uint8_t {
+  reaction,     ///< the loop closed: PID and feed-forward
+  open_loop,    ///< feed-forward only (LOOPOFF)
+  calibration,  ///< a constant voltage (CALON)
+  emergency,    ///< 0 V, the theoretical position follows the axis (EMRG)
+  frozen,       ///< the DAC keeps its word, the theoretical position follows the axis (REGOFF)
+};
+
+/// An analogue positioner: counting, positioning profile, regulation (spec 5). CAMMING4, EPICPOS and EANPOS
+/// put their parameters, commands and states around it. A plain value.
+class AnalogueAxis {
+ public:
+  AxisSettings settings;
+  Quota quota;  ///< posit; after changing it call requota()
+
+  // Counting.
+  void rebase(std::int64_t raw) { transducer_.rebase(raw); }
+  void follow(std::int64_t raw, bool locked, bool reversed);
+  [[nodiscard]] const Transducer& transducer() const { return transducer_; }
+  [[nodiscard]] std::int32_t posit() const {
+    return static_cast<std::int32_t>(quota.um(settings.resolution));
+  }
+  [[nodiscard]] std::int64_t counted() const { return counted_; }
+
+  // Motion. Speeds in units of the speed parameters.
+  /// Starts a placement at the quota `target` [Um].
+  void place(std::int32_t target, std::int32_t speed);
+  /// Runs in a direction until stopped, at most to the quota `limit` [Um] if there is one.
+  void run(bool backward, std::optional<std::int32_t> limit, std::int32_t speed);
+  void stop();
+  /// Stops with the ramp from a speed that the profile did not give [bits x4/s].
+  void brake(double bits_per_second);
+  /// Ends a movement here and now, and forgets what it was to reach.
+  void abort();
+  /// setvel or ramp times were written while moving.
+  bool change(std::int32_t speed);
+  /// setpos was written while moving: false if the target stays the old one.
+  bool retarget(std::int32_t target);
+  /// posit changed under a movement: the target quota stays; a target that cannot be reached any more ends
+  /// in a stop.
+  void requota();
+  /// Theoretical := actual, integral 0: the following error is gone (LOOPON, RESUME).
+  void settle();
+  /// Advances the profile by a period; true when the movement ended in it.
+  bool step_profile();
+  /// A theoretical position and speed from elsewhere: the cam [bits x4], [bits x4/s].
+  void set_theoretical(const Theoretical& theoretical, double speed) {
+    theoretical_ = theoretical;
+    speed_ = speed;
+  }
+
+  // Regulation.
+  /// One period: actions and DAC word. `tenths` [0.1 V] is for calibration.
+  void regulate(Drive drive, std::int32_t tenths);
+
+  /// The demand for a speed in units of the speed parameters.
+  [[nodiscard]] Demand demand(std::int32_t speed) const;
+  [[nodiscard]] const Profile& profile() const { return profile_; }
+  [[nodiscard]] const Theoretical& theoretical() const { return theoretical_; }
+  [[nodiscard]] double speed() const { return speed_; }  ///< theoretical [bits x4/s]
+  [[nodiscard]] double error() const { return theoretical_.minus(transducer_.total()); }  ///< [bits x4]
+  [[nodiscard]] const Actions& actions() const { return actions_; }
+  [[nodiscard]] DacOutput output() const { return output_; }
+  [[nodiscard]] bool following_error() const { return following_error_; }
+  [[nodiscard]] const FrequencyMeter& frequency() const { return frequency_; }
+  /// True in the period in which the frequency meter's window ended.
+  [[nodiscard]] bool frequency_new() const { return frequency_new_; }
+  /// Quota of the last placement [Um], or nothing after a run or a stop.
+  [[nodiscard]] std::optional<std::int32_t> placed() const { return placed_; }
+
+ private:
+  [[nodiscard]] double theoretical_way_to(std::int32_t target) const;
+
+  Transducer transducer_;
+  Profile profile_;
+  Regulator regulator_;
+  FrequencyMeter frequency_;
+  FollowingErrorHold hold_;
+  Theoretical theoretical_;
+  double speed_ = 0;
+  Actions actions_;
+  DacOutput output_;
+  std::int64_t counted_ = 0;
+  std::optional<std::int32_t> target_;
+  std::optional<std::int32_t> placed_;
+  bool placing_ = false;
+  bool following_error_ = false;
+  bool frequency_new_ = false;
+};
+
+}  // namespace drycut::devices::axis

@@ -1,0 +1,101 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+namespace drycut::devices::axis {
+
+/// Resolution of an axis: `measure` Um while the transducer gives `pulse` bits x4 (spec qem.md 1.2). EPICPOS
+/// and its kin have measure = cntratio and pulse = 400000 (1.3).
+struct Resolution {
+  std::int64_t measure = 1;  ///< [Um]
+  std::int64_t pulse = 1;    ///< [bits x4]
+  bool operator==(const Resolution&) const = default;
+};
+
+/// A resolution that can be computed with, whatever was written into the parameters: values outside 1..2^30
+/// act as the nearest of the two.
+inline Resolution usable(std::int64_t measure, std::int64_t pulse) {
+  constexpr std::int64_t most = std::int64_t{1} << 30;
+  return {std::clamp<std::int64_t>(measure, 1, most), std::clamp<std::int64_t>(pulse, 1, most)};
+}
+
+/// a + b*c that wraps where a counter of absurd size would overflow.
+inline std::int64_t multiply_add(std::int64_t a, std::int64_t b, std::int64_t c) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) +
+                                   static_cast<std::uint64_t>(b) * static_cast<std::uint64_t>(c));
+}
+
+/// What a device makes of a hardware counter: bits x4 counted since INIT, with lock and reversal (CNTLOCK,
+/// CNTREV). The total never jumps, so motion is computed in it; quotas are kept beside it (Quota).
+class Transducer {
+ public:
+  /// Starts from the hardware count `raw` without counting.
+  void rebase(std::int64_t raw) { last_ = raw; }
+  /// Follows the hardware count; returns the bits x4 counted.
+  std::int64_t follow(std::int64_t raw, bool locked, bool reversed) {
+    const std::int64_t moved = locked ? 0 : reversed ? last_ - raw : raw - last_;
+    last_ = raw;
+    total_ += moved;
+    return moved;
+  }
+  [[nodiscard]] std::int64_t total() const { return total_; }
+  /// The total that belongs to a hardware count of the recent past, such as a latched one.
+  [[nodiscard]] std::int64_t total_at(std::int64_t raw, bool locked, bool reversed) const {
+    return locked ? total_ : total_ + (reversed ? last_ - raw : raw - last_);
+  }
+
+ private:
+  std::int64_t last_ = 0;
+  std::int64_t total_ = 0;
+};
+
+/// A position as programs see it, exact: a whole number of 1/pulse Um (spec 1.2, 1.4).
+class Quota {
+ public:
+  void count(std::int64_t bits, Resolution r) { numerator_ = multiply_add(numerator_, bits, r.measure); }
+  /// Adds a whole number of 1/pulse Um; keeps the remainder (DELCNT, cam updates).
+  void shift(std::int64_t numerator) { numerator_ = multiply_add(numerator_, numerator, 1); }
+  void add_um(std::int64_t um, Resolution r) { numerator_ = multiply_add(numerator_, um, r.pulse); }
+  /// Exactly `um`.000: the remainder is dropped.
+  void set_um(std::int64_t um, Resolution r) { numerator_ = multiply_add(0, um, r.pulse); }
+  void set_bits(std::int64_t bits, Resolution r) { numerator_ = multiply_add(0, bits, r.measure); }
+  /// A new resolution keeps the quota [Um] and drops the remainder.
+  void rescale(Resolution from, Resolution to) { set_um(um(from), to); }
+
+  /// [Um], truncated toward zero.
+  [[nodiscard]] std::int64_t um(Resolution r) const { return numerator_ / r.pulse; }
+  /// [bits x4], to the nearest; each count moves it by one.
+  [[nodiscard]] std::int64_t bits(Resolution r) const {
+    const std::int64_t n = numerator_ + r.measure / 2;
+    return n / r.measure - (n % r.measure < 0 ? 1 : 0);
+  }
+  [[nodiscard]] std::int64_t numerator() const { return numerator_; }
+  /// Way from here to the quota `um` [bits x4].
+  [[nodiscard]] double bits_to(std::int64_t um, Resolution r) const {
+    return static_cast<double>(multiply_add(-numerator_, um, r.pulse)) / static_cast<double>(r.measure);
+  }
+
+ private:
+  std::int64_t numerator_ = 0;
+};
+
+/// A theoretical position in the total of a transducer [bits x4]: whole bits and a part of -1..1, so that it
+/// stays exact to far below 1e-6 bit however far the axis has run.
+struct Theoretical {
+  std::int64_t whole = 0;
+  double part = 0;
+
+  void add(double bits) {
+    part += bits;
+    const auto carry = static_cast<std::int64_t>(part);
+    whole += carry;
+    part -= static_cast<double>(carry);
+  }
+  /// This minus `total` [bits x4].
+  [[nodiscard]] double minus(std::int64_t total) const { return static_cast<double>(whole - total) + part; }
+  [[nodiscard]] double minus(const Theoretical& other) const {
+    return static_cast<double>(whole - other.whole) + (part - other.part);
+  }
+};
+
+}  // namespace drycut::devices::axis

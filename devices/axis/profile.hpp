@@ -1,0 +1,87 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "devices/axis/ramp.hpp"
+
+namespace drycut::devices::axis {
+
+/// How an axis is to move. Ramp times hold between rest and full speed, so gradients are constant (spec 1.6).
+struct Demand {
+  double speed = 0;                 ///< [bits x4/s]; 0 or less: waits without moving
+  double seconds_per_speed_up = 0;  ///< acceleration: seconds for each bit x4/s; 0 = a step of speed
+  double seconds_per_speed_down = 0;
+  RampShape shape = RampShape::trapezoidal;
+  bool keep_gradient =
+      true;  ///< a short move: true lowers ramp times too (rtype 1), false keeps them (rtype 0)
+};
+
+/// A movement: a first ramp, a stretch of constant speed, a last ramp to rest.
+struct Plan {
+  RampShape shape = RampShape::trapezoidal;
+  Ramp first;
+  double constant = 0;  ///< [s]
+  Ramp last;
+  [[nodiscard]] double duration() const { return first.duration + constant + last.duration; }
+  [[nodiscard]] double space() const;
+  [[nodiscard]] double space_at(double t) const;
+  [[nodiscard]] double speed_at(double t) const;
+};
+
+/// The movement over `distance` >= 0 [bits x4] that begins at `speed` >= 0; nullopt if the axis cannot stop
+/// in that distance (spec 5.3, 5.5; 000 1.1.8).
+std::optional<Plan> plan_move(double speed, double distance, const Demand& demand);
+/// The ramp from `speed` to rest.
+Plan plan_stop(double speed, const Demand& demand);
+
+enum class Phase : std::uint8_t { still, accelerating, constant, decelerating };
+
+/// Follows a plan period by period and replans when the demand, the target or a STOP changes it.
+class Profile {
+ public:
+  /// Starts from rest over a signed distance [bits x4].
+  void move(double distance, const Demand& demand);
+  /// Starts a stop from a signed speed [bits x4/s] that something else gave the axis (STOPCAM).
+  void brake(double speed, const Demand& demand);
+  /// New speed or ramp times in mid-move. Trapezoidal: at once. Epicycloidal: when the running ramp has
+  /// ended. False, and nothing changes, in the last ramp or if the target could no longer be reached.
+  bool change(const Demand& demand);
+  /// New signed distance from here to the target. False, and nothing changes, in the last ramp or if the
+  /// target cannot be reached in this direction.
+  bool retarget(double remaining);
+  /// Stops with the demand's deceleration; an epicycloidal first ramp is finished before if `finish_ramp`
+  /// (stopt 0, 000 1.1.9).
+  void stop(bool finish_ramp, const Demand& demand);
+  /// Ends the movement here and now.
+  void abort() { moving_ = false; }
+  /// Advances by one period of `period_s`; returns the signed way of the period [bits x4].
+  double step(double period_s);
+
+  [[nodiscard]] bool moving() const { return moving_; }
+  [[nodiscard]] bool backward() const { return direction_ < 0; }
+  /// A STOP, not a target, ends this movement.
+  [[nodiscard]] bool stopping() const { return stopping_; }
+  [[nodiscard]] Phase phase() const;
+  /// In the ramp that ends the movement: no change is taken any more.
+  [[nodiscard]] bool in_last_ramp() const;
+  /// Signed speed [bits x4/s].
+  [[nodiscard]] double speed() const { return moving_ ? direction_ * plan_.speed_at(time_) : 0; }
+
+ private:
+  void adopt(const Plan& plan);
+  [[nodiscard]] bool in_first_ramp() const { return time_ < plan_.first.duration; }
+  [[nodiscard]] double remaining() const { return distance_ - covered_; }
+
+  Plan plan_;
+  Demand demand_;
+  double direction_ = 1;
+  double distance_ = 0;
+  double covered_ = 0;
+  double time_ = 0;
+  std::int64_t periods_ = 0;
+  bool moving_ = false;
+  bool stopping_ = false;
+  bool change_waits_ = false;
+};
+
+}  // namespace drycut::devices::axis

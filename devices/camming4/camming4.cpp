@@ -1,0 +1,306 @@
+#include "devices/camming4/camming4.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "devices/axis/speed.hpp"
+#include "devices/camming4/rows.hpp"
+
+namespace drycut::devices::camming4 {
+
+const DeviceType camming4_type = {
+    "CAMMING4",
+    "analogue slave axis: positioner and cam generator of 128 sectors",
+    table::variables,
+    table::states,
+    table::commands,
+    table::fields,
+    {},
+};
+
+std::unique_ptr<Device> make_camming4(const Resources& resources, Cards& cards) {
+  return std::make_unique<Camming4>(resources, cards);
+}
+
+namespace {
+
+/// The terminal at `address` in `terminals`, added if it is not there; nullptr if the field is unused.
+template <typename Terminal>
+Terminal* connect(std::map<Address, Terminal>& terminals, const Resource& resource) {
+  return resource.address ? &terminals[*resource.address] : nullptr;
+}
+
+std::int64_t count_of(const Counter* counter) { return counter ? counter->count : 0; }
+
+}  // namespace
+
+Camming4::Camming4(const Resources& resources, Cards& cards) : Device(camming4_type) {
+  period_ms_ = std::max(resources[f_TCamp].number, 1);
+  terminals_.slave = connect(cards.counters, resources[f_CountS]);
+  terminals_.master = {connect(cards.counters, resources[f_CountMA]),
+                       connect(cards.counters, resources[f_CountMB])};
+  terminals_.enable = connect(cards.inputs, resources[f_IAZero]);
+  terminals_.enable_master = connect(cards.inputs, resources[f_IAZeroM]);
+  terminals_.input = connect(cards.inputs, resources[f_InG]);
+  terminals_.dac = connect(cards.analogue_outputs, resources[f_IoutA]);
+  terminals_.output = connect(cards.outputs, resources[f_Out]);
+  terminals_.zero_line = resources[f_IntL].number;
+  terminals_.zero_line_master = resources[f_IntLM].number;
+  terminals_.function_line = resources[f_InGInt].number;
+  if (terminals_.function_line != 0)
+    terminals_.interrupt_level = &cards.interrupt_lines[terminals_.function_line];
+  rescale();
+  recompute();
+}
+
+void Camming4::power_up() {
+  Device::power_up();
+  cam_.stop();
+  const axis::AxisSettings settings = axis_.settings;
+  const axis::Quota quota = axis_.quota;
+  axis_ = {};
+  axis_.settings = settings;
+  axis_.quota = quota;
+  if (terminals_.dac) terminals_.dac->word = 0;
+}
+
+void Camming4::initialise() {
+  rescale();
+  recompute();
+  load_table();
+  // Kept positions go on with their remainder, unless memory was restored from elsewhere.
+  if (axis_.posit() != value(v_posit)) axis_.quota.set_um(value(v_posit), axis_.settings.resolution);
+  if (master_quota_.um(master_resolution_) != value(v_positm))
+    master_quota_.set_um(value(v_positm), master_resolution_);
+  check_resolution("measure", axis_.settings.resolution);
+  check_resolution("measurem", master_resolution_);
+
+  axis_.rebase(count_of(terminals_.slave));
+  master_.rebase(master_raw());
+  axis_.abort();
+  axis_.settle();
+  master_history_.fill(master_.total());
+  master_way_ = 0;
+  search_.abort();
+  recovery_.abort();
+  enable_was_ = enable_master_was_ = true;
+  master_released_ = false;
+  zero_.reset();
+  zero_master_.reset();
+  input_was_ = terminals_.input && terminals_.input->level;
+  capture_.reset();
+  recalculation_ = 0;
+  inhibit_stop_ms_ = 0;
+}
+
+std::int64_t Camming4::master_raw() const { return count_of(terminals_.master[value(v_mtype) == 1 ? 1 : 0]); }
+
+void Camming4::latch() {
+  if (!state(st_init)) return;
+  axis_.follow(count_of(terminals_.slave), state(st_cntlock), state(st_cntrev));
+  const std::int64_t moved = master_.follow(master_raw(), state(st_cntlockm), state(st_cntrevm));
+  master_quota_.count(moved, master_resolution_);
+  if (master_frequency_.sample(moved, period_ms_, master_window_ms_))
+    value(v_frqm) = axis::to_long(master_frequency_.bits_per_second() / 4);
+
+  std::int64_t& oldest = master_history_[master_history_next_];
+  master_way_ = master_.total() - oldest;
+  oldest = master_.total();
+  master_history_next_ = (master_history_next_ + 1) % master_history_.size();
+}
+
+void Camming4::step() {
+  sample_inputs();
+  sample_presets();
+  if (state(st_camex))
+    step_cam();
+  else
+    step_positioner();
+  regulate();
+  publish_positions();
+  publish_regulation();
+  publish_states();
+  drive_output();
+
+  if (recalculation_ > 0) --recalculation_;
+  if (inhibit_stop_ms_ > 0) inhibit_stop_ms_ -= period_ms_;
+}
+
+double Camming4::master_speed() const {
+  const double seconds = static_cast<double>(master_history_.size()) * period_ms_ / 1000.0;
+  return static_cast<double>(master_way_) / axis::bits_per_um(master_resolution_) / seconds;
+}
+
+void Camming4::step_cam() {
+  const axis::Resolution slave = axis_.settings.resolution;
+  CamSample sample;
+  sample.master_count = master_.total();
+  sample.master_grains = master_quota_.numerator();
+  sample.slave_count = axis_.transducer().total();
+  // The cam knows nothing of the recovery beside it: its counts are those of an axis without it.
+  sample.slave_grains = axis::multiply_add(axis_.quota.numerator(), recovery_done_, slave.pulse) +
+                        static_cast<std::int64_t>(recovery_way_ * static_cast<double>(slave.measure));
+  sample.master_speed = master_speed();
+  const CamStep& cam = cam_.advance(sample);
+
+  master_quota_.shift(-cam.master_shift);
+  axis_.quota.shift(-cam.slave_shift);
+  for (int i = 0; i < cam.read_out_count; ++i) {
+    const CamStep::ReadOut& read = cam.read_outs[static_cast<std::size_t>(i)];
+    value(v_codeQma, read.row - 1) = read.codeQma;
+  }
+  for (int i = 0; i < cam.warning_count; ++i) {
+    const CamEvent& warning = cam.warnings[static_cast<std::size_t>(i)];
+    warn(warning.code, warning.row);
+  }
+  if (cam.error.code != 0) {
+    fail(cam.error.code, cam.error.row);
+    return;
+  }
+  value(v_rowex) = cam.row;
+  value(v_codeMex) = cam.codeM;
+
+  recovery_due_ += cam.recovery;
+  step_recovery();
+  axis::Theoretical theoretical{cam.slave_bits, cam.slave_fraction};
+  if (recovery_done_ != 0 || recovery_running_ != 0) {
+    const std::int64_t numerator = axis::multiply_add(0, recovery_done_, slave.pulse);
+    theoretical.whole += numerator / slave.measure;
+    theoretical.add(static_cast<double>(numerator % slave.measure) / static_cast<double>(slave.measure) +
+                    recovery_way_);
+  }
+  const double way = theoretical.minus(axis_.theoretical());
+  axis_.set_theoretical(theoretical, way * 1000.0 / period_ms_);
+  if (!cam.running) leave_cam();
+}
+
+void Camming4::step_recovery() {
+  if (!recovery_.moving()) {
+    if (recovery_due_ == 0) return;
+    recovery_running_ = recovery_due_;
+    recovery_due_ = 0;
+    recovery_way_ = 0;
+    recovery_.move(static_cast<double>(recovery_running_) * axis::bits_per_um(axis_.settings.resolution),
+                   axis_.demand(value(v_setvel)));
+  }
+  recovery_way_ += recovery_.step(period_ms_ / 1000.0);
+  if (recovery_.moving()) return;
+  recovery_done_ += recovery_running_;
+  recovery_running_ = 0;
+  recovery_way_ = 0;
+}
+
+void Camming4::step_positioner() {
+  const bool ended = axis_.step_profile();
+  if (search_.finished(axis_)) {
+    set_state(st_prson, false);
+    set_state(st_prsok, true);
+  }
+  if (ended && !search_.searching()) set_state(st_still, true);
+}
+
+void Camming4::regulate() {
+  using axis::Drive;
+  const Drive drive = state(st_emrg)     ? Drive::emergency
+                      : state(st_regoff) ? Drive::frozen
+                      : state(st_cal)    ? Drive::calibration
+                      : state(st_loopon) ? Drive::reaction
+                                         : Drive::open_loop;
+  axis_.regulate(drive, value(v_vout));
+  const axis::DacOutput output = axis_.output();
+  if (terminals_.dac) terminals_.dac->word = output.word;
+  if (drive != Drive::calibration) {
+    if (output.saturated > 0) warn(3, value(v_rowex));
+    if (output.saturated < 0) warn(4, value(v_rowex));
+    value(v_vout) = axis::to_long(output.word / axis::dac_bits_of_tenths(1));
+  }
+}
+
+void Camming4::publish_positions() {
+  const axis::Resolution resolution = axis_.settings.resolution;
+  value(v_posit) = axis_.posit();
+  value(v_encoder) = static_cast<std::int32_t>(axis_.quota.bits(resolution));
+  value(v_positm) = static_cast<std::int32_t>(master_quota_.um(master_resolution_));
+  value(v_encoderm) = static_cast<std::int32_t>(master_quota_.bits(master_resolution_));
+  if (axis_.frequency_new()) {
+    const double rate = axis_.frequency().bits_per_second();
+    value(v_frq) = axis::to_long(rate / 4);
+    value(v_vel) =
+        axis_.settings.bits_per_speed > 0 ? axis::to_long(rate / axis_.settings.bits_per_speed) : 0;
+  }
+}
+
+void Camming4::publish_regulation() {
+  const axis::Actions& actions = axis_.actions();
+  value(v_follerr) = axis::to_long(std::abs(axis_.error()));
+  value(v_ffwdreg) = axis::to_long(actions.feed_forward);
+  value(v_propreg) = axis::to_long(actions.proportional);
+  value(v_intreg) = axis::to_long(actions.integral);
+  value(v_derreg) = axis::to_long(actions.derivative);
+  set_state(st_foller, axis_.following_error());
+
+  const axis::Resolution resolution = axis_.settings.resolution;
+  const double band = static_cast<double>(value(v_syncrange)) * static_cast<double>(resolution.pulse);
+  const bool in_band = std::abs(axis_.error()) * static_cast<double>(resolution.measure) <= band;
+  const bool was_sync = state(st_sync);
+  set_state(st_sync, state(st_camex) && in_band);
+  if (was_sync && state(st_camex) && !in_band) warn(12, value(v_rowex));
+}
+
+bool Camming4::within(std::int32_t quota) const {
+  const std::int64_t miss = std::int64_t{value(v_posit)} - quota;
+  return std::abs(miss) <= value(v_toll);
+}
+
+void Camming4::publish_states() {
+  const axis::Profile& profile = axis_.profile();
+  const axis::Phase phase = profile.phase();
+  set_state(st_acc, phase == axis::Phase::accelerating);
+  set_state(st_dec, phase == axis::Phase::decelerating);
+  set_state(st_vconst, phase == axis::Phase::constant);
+  set_state(st_chvel, profile.moving() && !profile.stopping() && !profile.in_last_ramp() && !state(st_prson));
+  if (profile.moving()) set_state(st_movdir, profile.backward());
+  set_state(st_tpos, within(value(v_setpos)));
+  const auto placed = axis_.placed();
+  set_state(st_toll, placed && within(*placed));
+  set_state(st_int, terminals_.interrupt_level && terminals_.interrupt_level->level);
+}
+
+void Camming4::drive_output() {
+  if (!terminals_.output) return;
+  const std::int32_t code = value(v_codeMex);
+  bool& level = terminals_.output->level;
+  switch (value(v_funOut)) {
+    case 1:
+      level = false;
+      break;
+    case 2:
+      level = true;
+      break;
+    case 3:
+      level = state(st_toll);
+      break;
+    case 4:
+      level = state(st_tpos);
+      break;
+    case 5:
+      level = state(st_sync);
+      break;
+    case 6:
+      level = code == 1000;
+      break;
+    case 7:
+      level = code == 1000 && state(st_sync);
+      break;
+    case 8:
+      level = code == 1001;
+      break;
+    case 9:
+      level = code == 1002;
+      break;
+    default:
+      break;  // not driven by the device
+  }
+}
+
+}  // namespace drycut::devices::camming4

@@ -1,0 +1,145 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/axis/analogue_axis.hpp"
+#include "devices/axis/preset.hpp"
+#include "devices/camming4/cam.hpp"
+#include "devices/device.hpp"
+
+namespace drycut::devices::camming4 {
+
+extern const DeviceType camming4_type;
+
+/// The CAMMING4 device: a positioner and a cam generator on one slave axis (000 1; spec qem.md 8).
+class Camming4 final : public Device {
+ public:
+  /// `resources` as the .CNF record gives them, in the order of DeviceType::fields; terminals that the cards
+  /// lack are added.
+  Camming4(const Resources& resources, Cards& cards);
+
+  [[nodiscard]] int period_ms() const override { return period_ms_; }
+  void interrupt(int line, bool rising) override;
+  void power_up() override;
+
+ protected:
+  void latch() override;
+  void initialise() override;
+  void execute(int command) override;
+  void step() override;
+  bool may_write(Symbol symbol, std::int32_t value) override;
+  void written(Symbol symbol, std::int32_t value) override;
+  bool may_execute(int command) override;
+  [[nodiscard]] bool already_true(int command) const override;
+  void refused(int command) override;
+
+ private:
+  /// An edge of an armed input: where the axes were, to the count.
+  struct Capture {
+    std::int64_t slave = 0;  ///< totals [bits x4]
+    std::int64_t master = 0;
+    bool late = false;  ///< held back by a recalculation (warning 8)
+  };
+  /// Latches that a terminal gives, or nothing where the .CNF says X.X.
+  struct Terminals {
+    const Counter* slave = nullptr;
+    std::array<const Counter*, 2> master = {};  ///< A and B
+    const DigitalInput* enable = nullptr;
+    const DigitalInput* enable_master = nullptr;
+    const DigitalInput* input = nullptr;
+    const DigitalInput* interrupt_level = nullptr;
+    AnalogueOutput* dac = nullptr;
+    DigitalOutput* output = nullptr;
+    int zero_line = 0;
+    int zero_line_master = 0;
+    int function_line = 0;
+  };
+
+  // Parameters (camming4_parameters.cpp).
+  void recompute();
+  void rescale();
+  void load_table();
+  void write_row(Symbol symbol, std::int32_t value);
+  void write_position(int variable, std::int32_t value);
+  void write_motion(int variable);
+  void check_dependent_range(int variable, std::int32_t value);
+  void check_resolution(std::string_view measure, axis::Resolution resolution);
+
+  // Commands (camming4_commands.cpp).
+  void execute_motion(int command);
+  void execute_switch(int command);
+  void start_placement();
+  void start_manual(bool backward);
+  void preset();
+  void start_cam(std::int64_t master);
+  void stop_cam();
+  void leave_cam();
+  void emergency();
+  void rest();
+  void fail(int code, int row);
+  void warn(int code, int row);
+  [[nodiscard]] std::int32_t clamped(std::int32_t quota) const;
+
+  // Inputs and presets (camming4_inputs.cpp).
+  void sample_inputs();
+  void run_function(int function, const Capture& capture, std::string_view subject);
+  void function_start(const Capture& capture, std::string_view subject);
+  void sample_presets();
+  void sample_master_preset();
+  [[nodiscard]] std::int64_t slave_bits_at(std::int64_t total) const;
+  [[nodiscard]] std::int64_t master_bits_at(std::int64_t total) const;
+
+  // The periodic step (camming4.cpp).
+  void step_cam();
+  void step_recovery();
+  void step_positioner();
+  void regulate();
+  void publish_positions();
+  void publish_regulation();
+  void publish_states();
+  void drive_output();
+  [[nodiscard]] double master_speed() const;
+  [[nodiscard]] std::int64_t master_raw() const;
+  [[nodiscard]] bool within(std::int32_t quota) const;
+
+  Terminals terminals_;
+  int period_ms_ = 1;
+
+  axis::AnalogueAxis axis_;
+  axis::Transducer master_;
+  axis::Quota master_quota_;
+  axis::Resolution master_resolution_;
+  axis::FrequencyMeter master_frequency_;
+  int master_window_ms_ = 240;
+  /// Totals of the last samples. The master's speed is taken over all of them: one bit more or less in a
+  /// sample is no acceleration.
+  std::array<std::int64_t, 8> master_history_{};
+  std::size_t master_history_next_ = 0;
+  std::int64_t master_way_ = 0;  ///< over the history [bits x4]
+
+  Cam cam_;
+  axis::Profile recovery_;             ///< RSV: the correction that runs beside the cam
+  std::int64_t recovery_due_ = 0;      ///< [Um] not yet begun
+  std::int64_t recovery_running_ = 0;  ///< [Um]
+  std::int64_t recovery_done_ = 0;     ///< [Um] since the cam began
+  double recovery_way_ = 0;            ///< of the running correction [bits x4]
+
+  axis::PresetSearch search_;
+  bool enable_was_ = true;  ///< a preset without search needs a release first
+  bool enable_master_was_ = true;
+  bool master_released_ = false;      ///< prsmodem 1: the enable was released, a zero pulse loads
+  std::optional<std::int64_t> zero_;  ///< totals at zero pulses since the last sample
+  std::optional<std::int64_t> zero_master_;
+
+  bool input_was_ = false;
+  std::optional<Capture> capture_;  ///< of the interrupt input, to be run at the next sample
+  int recalculation_ = 0;           ///< samples left
+  int inhibit_stop_ms_ = 0;         ///< functions 11 and 12
+};
+
+std::unique_ptr<Device> make_camming4(const Resources& resources, Cards& cards);
+
+}  // namespace drycut::devices::camming4

@@ -1,0 +1,295 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "devices/camming4/camming4.hpp"
+#include "devices/camming4/messages.hpp"
+#include "devices/camming4/rows.hpp"
+
+namespace drycut::devices::camming4 {
+
+bool Camming4::may_execute(int command) {
+  switch (command) {
+    case c_PRESET:
+      return state(st_still) || state(st_prson);
+    case c_STOPCAM:
+      return inhibit_stop_ms_ <= 0;
+    case c_ENBL:
+      return value(v_inpcapt) > 0;
+    case c_INTENBL:
+      return value(v_intcapt) > 0;
+    default:
+      return true;
+  }
+}
+
+bool Camming4::already_true(int command) const {
+  switch (command) {
+    case c_RESUME:
+      return !state(st_emrg);
+    case c_LOOPON:
+      return state(st_loopon);
+    case c_LOOPOFF:
+      return !state(st_loopon);
+    case c_CALON:
+      return state(st_cal);
+    case c_CALOFF:
+      return !state(st_cal);
+    case c_REGOFF:
+      return state(st_regoff);
+    case c_REGON:
+      return !state(st_regoff);
+    case c_RSCAPT:
+      return !state(st_capt);
+    case c_RSINTCAPT:
+      return !state(st_intcapt);
+    default:
+      return false;  // the others do no harm when repeated
+  }
+}
+
+void Camming4::refused(int) { warn(11, value(v_rowex)); }
+
+void Camming4::execute(int command) {
+  switch (command) {
+    case c_EMRG:
+      emergency();
+      break;
+    case c_RESUME:
+      set_state(st_emrg, false);
+      axis_.settle();
+      break;
+    case c_PRESETM:
+      if (value(v_prsmodem) == 2) break;  // no search: the enable loads
+      set_state(st_prsonm, true);
+      set_state(st_prsokm, false);
+      master_released_ = false;
+      break;
+    case c_RSPRSM:
+      set_state(state(st_prsonm) ? st_prsonm : st_prsokm, false);
+      break;
+    case c_RSPRSOK:
+      set_state(st_prsok, false);
+      break;
+    case c_RSERR:
+      set_state(st_error, false);
+      value(v_errcode) = value(v_errvalue) = 0;
+      break;
+    case c_RSWRN:
+      set_state(st_warning, false);
+      value(v_wrncode) = value(v_wrnvalue) = 0;
+      break;
+    case c_DELCNT:
+      axis_.quota.add_um(value(v_delta1), axis_.settings.resolution);
+      break;
+    case c_DELCNTM:
+      master_quota_.add_um(value(v_delta2), master_resolution_);
+      break;
+    case c_STOP:
+    case c_START:
+    case c_PRESET:
+    case c_MANFW:
+    case c_MANBW:
+    case c_STARTCAM:
+    case c_STOPCAM:
+      execute_motion(command);
+      break;
+    default:
+      execute_switch(command);
+      break;
+  }
+}
+
+void Camming4::execute_motion(int command) {
+  switch (command) {
+    case c_STOP:
+      search_.abort();
+      set_state(st_prson, false);
+      axis_.stop();
+      break;
+    case c_START:
+      start_placement();
+      break;
+    case c_PRESET:
+      preset();
+      break;
+    case c_MANFW:
+      start_manual(false);
+      break;
+    case c_MANBW:
+      start_manual(true);
+      break;
+    case c_STARTCAM:
+      start_cam(master_.total());
+      break;
+    case c_STOPCAM:
+      stop_cam();
+      break;
+    default:
+      break;
+  }
+}
+
+void Camming4::execute_switch(int command) {
+  switch (command) {
+    case c_LOOPON:
+      set_state(st_loopon, true);
+      axis_.settle();
+      break;
+    case c_LOOPOFF:
+      set_state(st_loopon, false);
+      break;
+    case c_CALON:
+      rest();
+      set_state(st_cal, true);
+      value(v_vout) = 0;  // it showed the running output: calibration begins at 0 V
+      break;
+    case c_CALOFF:
+      set_state(st_cal, false);
+      axis_.settle();
+      break;
+    case c_REGOFF:
+      set_state(st_regoff, true);
+      break;
+    case c_REGON:
+      set_state(st_regoff, false);
+      axis_.settle();
+      break;
+    case c_CNTLOCK:
+      set_state(st_cntlock, true);
+      break;
+    case c_CNTUNLOCK:
+      set_state(st_cntlock, false);
+      break;
+    case c_CNTREV:
+      set_state(st_cntrev, true);
+      break;
+    case c_CNTDIR:
+      set_state(st_cntrev, false);
+      break;
+    case c_CNTLOCKM:
+      set_state(st_cntlockm, true);
+      break;
+    case c_CNTUNLOCKM:
+      set_state(st_cntlockm, false);
+      break;
+    case c_CNTREVM:
+      set_state(st_cntrevm, true);
+      break;
+    case c_CNTDIRM:
+      set_state(st_cntrevm, false);
+      break;
+    case c_ENBL:
+      set_state(st_enbl, true);
+      break;
+    case c_DSBL:
+      set_state(st_enbl, false);
+      break;
+    case c_INTENBL:
+      set_state(st_intenbl, true);
+      break;
+    case c_INTDSBL:
+      set_state(st_intenbl, false);
+      capture_.reset();
+      break;
+    case c_RSCAPT:
+      set_state(st_capt, false);
+      break;
+    case c_RSINTCAPT:
+      set_state(st_intcapt, false);
+      break;
+    default:
+      break;
+  }
+}
+
+std::int32_t Camming4::clamped(std::int32_t quota) const {
+  return std::max(value(v_minpos), std::min(quota, value(v_maxpos)));
+}
+
+void Camming4::start_placement() {
+  const std::int32_t target = clamped(value(v_setpos));
+  if (target != value(v_setpos))
+    report(
+        {Diagnostic::Kind::note, "START",
+         fmt::format("setpos {} is outside minpos..maxpos, the axis goes to {}", value(v_setpos), target)});
+  set_state(st_still, false);
+  axis_.place(target, value(v_setvel));
+}
+
+void Camming4::start_manual(bool backward) {
+  const std::int32_t limit = value(backward ? v_minpos : v_maxpos);
+  if (backward ? value(v_posit) <= limit : value(v_posit) >= limit) {
+    report(
+        {Diagnostic::Kind::note, backward ? "MANBW" : "MANFW",
+         fmt::format("posit {} is already at {} {}", value(v_posit), backward ? "minpos" : "maxpos", limit)});
+    return;
+  }
+  set_state(st_still, false);
+  axis_.run(backward, limit, value(v_setvel));
+}
+
+void Camming4::start_cam(std::int64_t master) {
+  rest();
+  cam_.set(
+      CamSettings{{value(v_measurem), value(v_pulsem)}, {value(v_measure), value(v_pulse)}, value(v_decpt)});
+  axis::Theoretical slave = axis_.theoretical();
+  if (slave.part < 0) {
+    --slave.whole;
+    slave.part = std::min(slave.part + 1, 1 - 1e-12);
+  }
+  cam_.start({master, slave.whole, slave.part});
+  set_state(st_camex, true);
+}
+
+void Camming4::stop_cam() {
+  const double speed = axis_.speed();
+  leave_cam();
+  set_state(st_still, false);
+  axis_.brake(speed);
+}
+
+void Camming4::leave_cam() {
+  cam_.stop();
+  recovery_.abort();
+  recovery_due_ = recovery_running_ = recovery_done_ = 0;
+  recovery_way_ = 0;
+  set_state(st_camex, false);
+  value(v_rowex) = value(v_codeMex) = 0;
+}
+
+void Camming4::rest() {
+  if (state(st_camex)) leave_cam();
+  search_.abort();
+  axis_.abort();
+  set_state(st_prson, false);
+  set_state(st_still, true);
+}
+
+void Camming4::emergency() {
+  rest();
+  set_state(st_emrg, true);
+}
+
+void Camming4::fail(int code, int row) {
+  set_state(st_error, true);
+  value(v_errcode) = code;
+  value(v_errvalue) = row;
+  report({Diagnostic::Kind::note, "st_error",
+          fmt::format("error {} in row {}: {}", code, row, error_text(code))});
+  emergency();
+}
+
+void Camming4::warn(int code, int row) {
+  if (state(st_warning)) {
+    if (code == value(v_wrncode) && row == value(v_wrnvalue)) return;
+    if (warning_priority(code) > warning_priority(value(v_wrncode))) return;
+  }
+  set_state(st_warning, true);
+  value(v_wrncode) = code;
+  value(v_wrnvalue) = row;
+  report({Diagnostic::Kind::note, "st_warning",
+          fmt::format("warning {} in row {}: {}", code, row, warning_text(code))});
+}
+
+}  // namespace drycut::devices::camming4

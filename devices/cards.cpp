@@ -1,0 +1,103 @@
+#include "devices/cards.hpp"
+
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace drycut::devices {
+
+namespace {
+
+struct Spelling {
+  std::string_view text;
+  Kind kind;
+};
+
+// First spelling of a kind is the one that we print. "IN" is found in some of the manuals' records.
+constexpr std::array<Spelling, 6> spellings{{{"CNT", Kind::counter},
+                                             {"INP", Kind::input},
+                                             {"IN", Kind::input},
+                                             {"OUT", Kind::output},
+                                             {"AN", Kind::analogue},
+                                             {"INT", Kind::interrupt}}};
+
+constexpr int max_number = 999;
+constexpr int interrupt_lines = 8;
+
+// Takes the decimal number at the start of `text`; nullopt if there is none or it is too large to be one.
+std::optional<int> take_number(std::string_view& text) {
+  int number = 0;
+  std::size_t length = 0;
+  while (length < text.size() && std::isdigit(static_cast<unsigned char>(text[length])) != 0) {
+    number = number * 10 + (text[length] - '0');
+    if (number > max_number) return std::nullopt;
+    ++length;
+  }
+  if (length == 0) return std::nullopt;
+  text.remove_prefix(length);
+  return number;
+}
+
+std::string take_letters(std::string_view& text) {
+  std::string letters;
+  while (!text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0) {
+    letters += static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    text.remove_prefix(1);
+  }
+  return letters;
+}
+
+std::optional<Kind> kind_of(std::string_view letters) {
+  for (const Spelling& spelling : spellings)
+    if (spelling.text == letters) return spelling.kind;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Address> parse_address(std::string_view text) {
+  Address address;
+  const std::optional<int> slot = take_number(text);
+  if (slot) {
+    if (*slot < 1 || text.empty() || text.front() != '.') return std::nullopt;
+    text.remove_prefix(1);
+    address.slot = *slot;
+  }
+  const std::optional<Kind> kind = kind_of(take_letters(text));
+  if (!kind) return std::nullopt;
+  address.kind = *kind;
+  const std::optional<int> number = take_number(text);
+  if (!number || *number < 1 || !text.empty()) return std::nullopt;
+  address.number = *number;
+  // Interrupt lines, and only they, belong to no slot.
+  if ((address.kind == Kind::interrupt) == slot.has_value()) return std::nullopt;
+  if (address.kind == Kind::interrupt && address.number > interrupt_lines) return std::nullopt;
+  return address;
+}
+
+std::string to_string(const Address& address) {
+  if (address.kind == Kind::interrupt) return fmt::format("INT{}", address.number);
+  for (const Spelling& spelling : spellings)
+    if (spelling.kind == address.kind)
+      return fmt::format("{}.{}{:02}", address.slot, spelling.text, address.number);
+  return {};
+}
+
+std::string_view name_of(Kind kind) {
+  switch (kind) {
+    case Kind::counter:
+      return "counter";
+    case Kind::input:
+      return "digital input";
+    case Kind::output:
+      return "digital output";
+    case Kind::analogue:
+      return "analogue output";
+    case Kind::interrupt:
+      return "interrupt line";
+  }
+  return "terminal";
+}
+
+}  // namespace drycut::devices

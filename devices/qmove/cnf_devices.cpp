@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "devices/qmove/cnf_parser.hpp"
+
+// The INTDEVICE section of the .CNF: one record a device, checked against the fields of its type.
+namespace drycut::devices::qmove {
+
+namespace {
+
+std::string form_of(const DeviceType& type) {
+  std::string form = fmt::format("<name> {}", type.name);
+  for (const Field& field : type.fields) form += fmt::format(" {}", field.name);
+  return form;
+}
+
+std::string article(std::string_view noun) {
+  const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+  return fmt::format("{} {}", vowel ? "an" : "a", noun);
+}
+
+struct TerminalKind {
+  Kind kind;
+  std::string_view example;
+};
+
+TerminalKind terminal_kind(Field::Kind kind) {
+  switch (kind) {
+    case Field::Kind::counter:
+      return {Kind::counter, "2.CNT01"};
+    case Field::Kind::input:
+      return {Kind::input, "2.INP01"};
+    case Field::Kind::output:
+      return {Kind::output, "2.OUT01"};
+    default:
+      return {Kind::analogue, "2.AN01"};
+  }
+}
+
+}  // namespace
+
+void CnfParser::device(const Words& words) {
+  const bool named = declare(words[0]);
+  if (words.size() < 2) {
+    complain(words[0].place, quoted(words[0].text) + " has no device type", "write: <name> <type> <fields>");
+    return;
+  }
+  const std::optional<std::size_t> type_index = device_type(words[1]);
+  if (!type_index) return;
+  const DeviceType& type = *catalogue_[*type_index].type;
+  std::vector<Word> fields(words.begin() + 2, words.end());
+
+  // CAMMING4's own example leaves out CountMB: what stands in its place is no address (spec D6).
+  constexpr std::size_t fourth = 3;
+  if (fields.size() + 1 == type.fields.size() && fields.size() > fourth &&
+      type.fields[fourth].name == "CountMB" && fields[fourth].text.find('.') == std::string_view::npos)
+    fields.insert(fields.begin() + fourth, Word{"X.X", fields[fourth].place});
+
+  if (fields.size() != type.fields.size()) {
+    const bool missing = fields.size() < type.fields.size();
+    const Word& at = missing ? words.back() : fields[type.fields.size()];
+    complain(at.place,
+             fmt::format("{} {} has {} fields after its name and type, found {}", type.name,
+                         quoted(words[0].text), type.fields.size(), fields.size()),
+             "write: " + form_of(type));
+  }
+  DeviceRecord record{std::string(words[0].text), *type_index, {}, words[0].place};
+  bool sound = fields.size() == type.fields.size();
+  for (std::size_t i = 0; i < std::min(fields.size(), type.fields.size()); ++i) {
+    const std::optional<Resource> found = resource(type.fields[i], fields[i], type);
+    sound = sound && found;
+    record.resources.push_back(found.value_or(Resource{}));
+  }
+  // A record with a fault stays, so that modules that name the device are still checked.
+  record.resources.resize(type.fields.size());
+  if (named) configuration_.devices.push_back(std::move(record));
+}
+
+std::optional<std::size_t> CnfParser::device_type(const Word& word) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < catalogue_.size(); ++i) {
+    if (same_word(catalogue_[i].type->name, word.text)) return i;
+    names.emplace_back(catalogue_[i].type->name);
+  }
+  complain(word.place, "unknown device type " + quoted(word.text),
+           suggestion(word.text, names, "known types are " + listed(names)));
+  return std::nullopt;
+}
+
+std::optional<Resource> CnfParser::resource(const Field& field, const Word& word, const DeviceType& type) {
+  if (field.kind == Field::Kind::period_ms || field.kind == Field::Kind::interrupt_line)
+    return number_resource(field, word, type);
+  if (same_word(word.text, "X.X")) return Resource{};
+  const TerminalKind wanted = terminal_kind(field.kind);
+  const std::optional<Address> address = parse_address(word.text);
+  if (!address || address->kind != wanted.kind) {
+    complain(word.place,
+             fmt::format("{} of {}: {} is {}", field.name, type.name, quoted(word.text),
+                         address ? article(name_of(address->kind)) : "no address"),
+             fmt::format("write the address of {} such as {}, or X.X if unused",
+                         article(name_of(wanted.kind)), wanted.example));
+    return std::nullopt;
+  }
+  slot_uses_.push_back({address->slot, word});
+  return Resource{0, address};
+}
+
+std::optional<Resource> CnfParser::number_resource(const Field& field, const Word& word,
+                                                   const DeviceType& type) {
+  const bool line = field.kind == Field::Kind::interrupt_line;
+  if (line && same_word(word.text, "X")) return Resource{};
+  int value = -1;
+  const char* const end = word.text.data() + word.text.size();
+  const auto [stop, error] = std::from_chars(word.text.data(), end, value);
+  if (error != std::errc{} || stop != end || value < field.min || value > field.max) {
+    complain(word.place, fmt::format("{} of {} cannot be {}", field.name, type.name, quoted(word.text)),
+             line ? fmt::format("write an interrupt line from {} to {}, or X if unused", field.min, field.max)
+                  : fmt::format("write the sampling time in ms, from {} to {}", field.min, field.max));
+    return std::nullopt;
+  }
+  return Resource{value, std::nullopt};
+}
+
+// An address in a slot without a card is a slip. A text without BUS (a fragment) is not judged.
+void CnfParser::check_bus() {
+  if (!bus_seen_) return;
+  for (const SlotUse& use : slot_uses_) {
+    const auto found = std::find_if(configuration_.slots.begin(), configuration_.slots.end(),
+                                    [&](const Slot& slot) { return slot.number == use.slot; });
+    if (found == configuration_.slots.end())
+      complain(use.word.place, fmt::format("{}: BUS has no slot {}", quoted(use.word.text), use.slot),
+               "use a slot that BUS gives a card, or add it to BUS");
+    else if (found->card.empty())
+      complain(use.word.place, fmt::format("{}: slot {} is empty", quoted(use.word.text), use.slot),
+               fmt::format("use a slot with a card, or put a card into line {}", found->place.line));
+  }
+}
+
+}  // namespace drycut::devices::qmove

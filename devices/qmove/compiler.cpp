@@ -1,0 +1,174 @@
+#include "devices/qmove/compiler.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace drycut::devices::qmove {
+
+namespace {
+
+// "folder/task_00.mod" is the task "task_00".
+std::string task_name(const std::string& file) {
+  const std::size_t slash = file.find_last_of("/\\");
+  const std::string name = slash == std::string::npos ? file : file.substr(slash + 1);
+  return name.substr(0, name.find_last_of('.'));
+}
+
+// How many cells an instruction adds to the stack.
+int stack_effect(Op op) {
+  switch (op) {
+    case Op::push:
+    case Op::load:
+    case Op::load_device:
+    case Op::load_input:
+    case Op::load_output:
+    case Op::load_timer:
+      return 1;
+    case Op::load_at:
+    case Op::index:
+    case Op::index_recipe:
+    case Op::negate:
+    case Op::negate_real:
+    case Op::to_real:
+    case Op::to_real_below:
+    case Op::to_long:
+    case Op::to_flag_real:
+    case Op::to_flag_real_below:
+    case Op::logic_not:
+    case Op::bit_not:
+    case Op::barrier:
+    case Op::jump:
+    case Op::command:
+    case Op::yield:
+    case Op::call:
+    case Op::back:
+    case Op::end:
+      return 0;
+    case Op::store_at:
+      return -2;
+    default:
+      return -1;  // operators of two operands, stores, conditions
+  }
+}
+
+}  // namespace
+
+Program compile_module(std::string_view text, const std::string& file_name,
+                       const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
+                       Problems& problems) {
+  return Compiler(file_name, configuration, catalogue, problems).compile(text);
+}
+
+Compiler::Compiler(std::string file, const Configuration& configuration,
+                   std::span<const CatalogueEntry> catalogue, Problems& problems)
+    : file_(std::move(file)),
+      configuration_(configuration),
+      catalogue_(catalogue),
+      problems_(problems),
+      names_(configuration) {}
+
+Program Compiler::compile(std::string_view text) {
+  const std::size_t first = problems_.size();
+  program_.name = task_name(file_);
+  program_.file = file_;
+  const std::vector<std::string_view> lines = split_lines(text);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    line_ = tokens_of(lines[i], static_cast<int>(i) + 1, file_, problems_);
+    if (line_.size() == 1) continue;
+    at_ = 0;
+    line_failed_ = false;
+    last_ = line_.back().place;
+    statement();
+  }
+  for (const Block& block : blocks_) unclosed(block);
+  if (!ended_) complain(last_, "the module has no END", "write END after its last statement");
+  emit(Op::end);
+  resolve();
+  sort_from(problems_, first);
+  if (problems_.size() > first) {
+    program_.code.clear();
+    program_.lines.clear();
+  }
+  return std::move(program_);
+}
+
+const Token& Compiler::after(std::size_t count) const {
+  return line_[std::min(at_ + count, line_.size() - 1)];
+}
+
+bool Compiler::is_sign(const Token& token, char sign) {
+  return token.kind == Token::Kind::sign && token.text[0] == sign;
+}
+
+bool Compiler::is_word(std::string_view word) const {
+  return token().kind == Token::Kind::word && same_word(token().text, word);
+}
+
+void Compiler::advance() { at_ = std::min(at_ + 1, line_.size() - 1); }
+
+bool Compiler::accept(char sign) {
+  if (!is_sign(sign)) return false;
+  advance();
+  return true;
+}
+
+bool Compiler::expect(char sign, const std::string& remedy) {
+  if (accept(sign)) return true;
+  syntax_error(token(), fmt::format("expected '{}', found {}", sign, found(token())), remedy);
+  return false;
+}
+
+void Compiler::end_of_statement() {
+  if (token().kind == Token::Kind::end_of_line) return;
+  if (is_sign('='))
+    syntax_error(token(), "unexpected '='", "EQ compares; an assignment stands alone on its line");
+  else
+    syntax_error(token(), "unexpected " + found(token()), "one statement a line, comments after ';'");
+}
+
+void Compiler::complain(Place place, std::string what, std::string remedy) {
+  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+}
+
+// The rest of the line is given up: what follows a syntax fault would only be guessed at.
+void Compiler::syntax_error(const Token& at, std::string what, std::string remedy) {
+  if (!line_failed_ && at.kind != Token::Kind::bad) complain(at.place, std::move(what), std::move(remedy));
+  line_failed_ = true;
+  at_ = line_.size() - 1;
+}
+
+std::string Compiler::found(const Token& token) {
+  return token.kind == Token::Kind::end_of_line ? "the end of the line" : quoted(token.text);
+}
+
+int Compiler::emit(Op op, int a, int b) {
+  stack_ += stack_effect(op);
+  if (stack_ > max_depth)
+    syntax_error(token(), "the expression is nested too deep", "split it into several assignments");
+  program_.code.push_back({op, a, b});
+  program_.lines.push_back(last_.line);
+  return here() - 1;
+}
+
+// Puts barriers before the code from `begin` on, for all devices that it reads: a statement waits until
+// they have taken what was written to them, then runs as a whole (spec §2). That code has no jumps yet.
+void Compiler::insert_barriers(int begin) {
+  std::vector<Instruction> barriers;
+  for (const int device : devices_read_) barriers.push_back({Op::barrier, begin, device});
+  program_.code.insert(program_.code.begin() + begin, barriers.begin(), barriers.end());
+  program_.lines.insert(program_.lines.begin() + begin, barriers.size(), last_.line);
+  devices_read_.clear();
+}
+
+int Compiler::add_symbol(Symbol symbol) {
+  const auto same = std::find_if(program_.symbols.begin(), program_.symbols.end(), [&](const Symbol& other) {
+    return other.kind == symbol.kind && other.index == symbol.index && other.row == symbol.row;
+  });
+  if (same != program_.symbols.end()) return static_cast<int>(same - program_.symbols.begin());
+  program_.symbols.push_back(symbol);
+  return static_cast<int>(program_.symbols.size()) - 1;
+}
+
+}  // namespace drycut::devices::qmove

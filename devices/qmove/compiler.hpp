@@ -1,0 +1,144 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/qmove/lexer.hpp"
+#include "devices/qmove/program.hpp"
+#include "devices/qmove/symbols.hpp"
+
+namespace drycut::devices::qmove {
+
+/// Compiles one module line by line, by recursive descent, straight into code. A syntax fault gives up its
+/// line, an unknown name does not. Used by compile_module.
+class Compiler {
+ public:
+  Compiler(std::string file, const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
+           Problems& problems);
+  Program compile(std::string_view text);
+
+ private:
+  enum class Type : std::uint8_t { integer, real };
+
+  // Tokens of the present line (compiler.cpp).
+  [[nodiscard]] const Token& token() const { return line_[at_]; }
+  [[nodiscard]] const Token& after(std::size_t count) const;
+  [[nodiscard]] bool is_sign(char sign) const { return is_sign(token(), sign); }
+  [[nodiscard]] static bool is_sign(const Token& token, char sign);
+  [[nodiscard]] bool is_word(std::string_view word) const;
+  void advance();
+  bool accept(char sign);
+  bool expect(char sign, const std::string& remedy);
+  void end_of_statement();
+  void complain(Place place, std::string what, std::string remedy);
+  void syntax_error(const Token& at, std::string what, std::string remedy);
+  static std::string found(const Token& token);
+
+  // Statements (statements.cpp).
+  void statement();
+  void word_statement();
+  const NamedThing* assignment();
+  void store(const NamedThing& thing, Type type);
+  void check_assignable(const NamedThing& thing, const Token& name);
+  void check_writable(int device, Symbol symbol, const Token& parameter);
+  void label();
+  void wait();
+  void jump();
+  void call();
+  void end();
+  void set_output(bool on);
+  void device_command();
+  void unknown_statement();
+  const Token* name_operand(const std::string& form);
+
+  // Blocks (blocks.cpp).
+  struct Block {
+    enum class Kind : std::uint8_t { if_, else_, while_, for_, sub };
+    Kind kind = Kind::if_;
+    Place place;    ///< of the IF, WHILE, FOR or SUB
+    Place here;     ///< of the ELSE, else the same
+    int exit = -1;  ///< the jump to the block's end (if_: to its ELSE), -1 = none
+    int again = 0;  ///< where a loop goes on
+  };
+  static std::string_view opener(Block::Kind kind);
+  static std::string_view closer(Block::Kind kind);
+  void open_condition(Block::Kind kind);
+  void else_block();
+  void endif_block();
+
+  void endwhile_block();
+  void for_block();
+  void for_step(const NamedThing* variable, const std::string& form);
+  void next_block();
+  void sub_block();
+  void endsub_block();
+  std::optional<Block> close(std::string_view closing, std::initializer_list<Block::Kind> kinds);
+  void unclosed(const Block& block);
+  void aim(int code);
+  void resolve();
+
+  // Expressions (expressions.cpp).
+  Type expression(int level = 0);
+  Type unary();
+  Type primary();
+  Type name_value();
+  Type parenthesis();
+  void binary(std::size_t row, Type left, Type right, const Token& op);
+  void condition();
+  void indexes(const NamedThing& thing, const Token& name);
+  const NamedThing* find_name(const Token& name);
+  [[nodiscard]] bool is_device(std::string_view name) const;
+  std::optional<int> find_device(const Token& name);
+  std::optional<Symbol> find_parameter(int device, const Token& name);
+  [[nodiscard]] const DeviceType& type_of(int device) const;
+  [[nodiscard]] std::vector<std::string> device_names() const;
+  [[nodiscard]] std::vector<std::string> all_commands() const;
+
+  // Code (compiler.cpp).
+  int emit(Op op, int a = 0, int b = 0);
+  [[nodiscard]] int here() const { return static_cast<int>(program_.code.size()); }
+  void insert_barriers(int begin);
+  int add_symbol(Symbol symbol);
+
+  std::string file_;
+  const Configuration& configuration_;
+  std::span<const CatalogueEntry> catalogue_;
+  Problems& problems_;
+  SymbolTable names_;
+  Program program_;
+
+  std::vector<Token> line_;
+  std::size_t at_ = 0;
+  bool line_failed_ = false;
+  int nesting_ = 0;             ///< of parentheses and signs, in the present expression
+  int stack_ = 0;               ///< cells on the stack at this point of the code
+  std::set<int> devices_read_;  ///< by the present statement: it waits until they are settled
+
+  struct Target {
+    int code;
+    Place place;
+  };
+  struct Reference {
+    int code;
+    std::string name;
+    Place place;
+  };
+  std::vector<Block> blocks_;
+  std::map<std::string, Target> labels_;
+  std::map<std::string, Target> subs_;
+  std::vector<std::string> label_names_;
+  std::vector<std::string> sub_names_;
+  std::vector<Reference> jumps_;
+  std::vector<Reference> calls_;
+  bool ended_ = false;
+  Place last_ = {1, 1};
+};
+
+}  // namespace drycut::devices::qmove

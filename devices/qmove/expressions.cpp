@@ -1,0 +1,328 @@
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "devices/qmove/compiler.hpp"
+
+// Expressions of QCL: values, indexes, operators.
+namespace drycut::devices::qmove {
+
+namespace {
+
+// What an operator accepts: singles too, longs only, or flags (each side compared with 0).
+enum class Operands : std::uint8_t { numbers, longs, flags };
+
+struct Operator {
+  std::string_view spelling;
+  int level;  ///< higher binds tighter
+  Operands operands;
+  Op integer;
+  Op real;
+  bool compares;  ///< the result is 0 or 1
+};
+
+// Precedence (spec D8). Unary minus, NOT and NOTB bind tighter than all of these.
+constexpr std::array<Operator, 17> operators{{
+    {"*", 7, Operands::numbers, Op::multiply, Op::multiply_real, false},
+    {"/", 7, Operands::numbers, Op::divide, Op::divide_real, false},
+    {"%", 7, Operands::longs, Op::modulo, Op::modulo, false},
+    {"+", 6, Operands::numbers, Op::add, Op::add_real, false},
+    {"-", 6, Operands::numbers, Op::subtract, Op::subtract_real, false},
+    {"LT", 5, Operands::numbers, Op::less, Op::less_real, true},
+    {"LE", 5, Operands::numbers, Op::less_equal, Op::less_equal_real, true},
+    {"GT", 5, Operands::numbers, Op::greater, Op::greater_real, true},
+    {"GE", 5, Operands::numbers, Op::greater_equal, Op::greater_equal_real, true},
+    {"EQ", 5, Operands::numbers, Op::equal, Op::equal_real, true},
+    {"NEQ", 5, Operands::numbers, Op::not_equal, Op::not_equal_real, true},
+    {"NE", 5, Operands::numbers, Op::not_equal, Op::not_equal_real, true},
+    {"ANDB", 4, Operands::longs, Op::bit_and, Op::bit_and, false},
+    {"XORB", 3, Operands::longs, Op::bit_xor, Op::bit_xor, false},
+    {"ORB", 2, Operands::longs, Op::bit_or, Op::bit_or, false},
+    {"AND", 1, Operands::flags, Op::logic_and, Op::logic_and, true},
+    {"OR", 0, Operands::flags, Op::logic_or, Op::logic_or, true},
+}};
+
+std::optional<std::size_t> operator_row(const Token& token) {
+  if (token.kind != Token::Kind::word && token.kind != Token::Kind::sign) return std::nullopt;
+  for (std::size_t i = 0; i < operators.size(); ++i)
+    if (same_word(operators[i].spelling, token.text)) return i;
+  return std::nullopt;
+}
+
+}  // namespace
+
+// Reads operands joined by operators of at least `level`.
+Compiler::Type Compiler::expression(int level) {
+  Type type = unary();
+  while (!line_failed_) {
+    const std::optional<std::size_t> row = operator_row(token());
+    if (!row || operators[*row].level < level) break;
+    const Token op = token();
+    advance();
+    const Type right = expression(operators[*row].level + 1);
+    binary(*row, type, right, op);
+    const bool real = type == Type::real || right == Type::real;
+    type = real && !operators[*row].compares && operators[*row].operands == Operands::numbers ? Type::real
+                                                                                              : Type::integer;
+  }
+  return type;
+}
+
+void Compiler::binary(std::size_t row, Type left, Type right, const Token& op) {
+  const Operator& found = operators[row];
+  const bool any_real = left == Type::real || right == Type::real;
+  if (found.operands == Operands::longs && any_real)
+    complain(op.place, fmt::format("{} works on whole numbers, one side is a single", found.spelling),
+             "assign the single to a long first");
+  if (found.operands == Operands::numbers && any_real) {
+    if (left == Type::integer) emit(Op::to_real_below);
+    if (right == Type::integer) emit(Op::to_real);
+    emit(found.real);
+    return;
+  }
+  if (found.operands == Operands::flags && right == Type::real) emit(Op::to_flag_real);
+  if (found.operands == Operands::flags && left == Type::real) emit(Op::to_flag_real_below);
+  emit(found.integer);
+}
+
+Compiler::Type Compiler::unary() {
+  if (++nesting_ > max_depth)
+    syntax_error(token(), "the expression is nested too deep", "split it into several assignments");
+  Type type = Type::integer;
+  if (is_sign('-')) {
+    advance();
+    if (token().kind == Token::Kind::integer) {
+      // The most negative long has no positive counterpart that could be negated.
+      emit(Op::push, static_cast<std::int32_t>(-token().integer));
+      advance();
+    } else {
+      type = unary();
+      emit(type == Type::real ? Op::negate_real : Op::negate);
+    }
+  } else if (is_word("NOT")) {
+    advance();
+    if (unary() == Type::real) emit(Op::to_flag_real);
+    emit(Op::logic_not);
+  } else if (is_word("NOTB")) {
+    const Place place = token().place;
+    advance();
+    if (unary() == Type::real)
+      complain(place, "NOTB works on whole numbers, not on a single", "assign the single to a long first");
+    emit(Op::bit_not);
+  } else {
+    type = primary();
+  }
+  --nesting_;
+  return type;
+}
+
+Compiler::Type Compiler::primary() {
+  const Token& here = token();
+  switch (here.kind) {
+    case Token::Kind::integer:
+      if (here.integer > std::numeric_limits<std::int32_t>::max())
+        complain(here.place, quoted(here.text) + " is out of range",
+                 "a long goes from -2147483648 to 2147483647");
+      emit(Op::push, static_cast<std::int32_t>(here.integer));
+      advance();
+      return Type::integer;
+    case Token::Kind::real:
+      emit(Op::push, std::bit_cast<std::int32_t>(here.real));
+      advance();
+      return Type::real;
+    case Token::Kind::word:
+      if (!is_reserved(here.text)) return name_value();
+      break;
+    case Token::Kind::sign:
+      if (here.text[0] == '(') return parenthesis();
+      break;
+    default:
+      break;
+  }
+  const bool at_end = here.kind == Token::Kind::end_of_line;
+  syntax_error(here,
+               at_end ? "missing operand at the end of the line" : "missing operand before " + found(here),
+               "write a number, a name, Device:parameter or an expression in parentheses");
+  return Type::integer;
+}
+
+Compiler::Type Compiler::parenthesis() {
+  advance();
+  const Type type = expression();
+  expect(')', "close the parenthesis");
+  return type;
+}
+
+// A name in an expression: something of the configuration, or Device:parameter.
+Compiler::Type Compiler::name_value() {
+  const Token name = token();
+  advance();
+  if (is_sign(':') || is_sign('.')) {
+    advance();
+    const std::optional<int> device = find_device(name);
+    if (token().kind != Token::Kind::word) {
+      syntax_error(token(),
+                   fmt::format("expected a parameter after {}:, found {}", name.text, found(token())),
+                   "write Device:parameter");
+      return Type::integer;
+    }
+    const Token parameter = token();
+    advance();
+    const std::optional<Symbol> symbol = device ? find_parameter(*device, parameter) : std::nullopt;
+    if (device) devices_read_.insert(*device);
+    emit(Op::load_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
+    return Type::integer;
+  }
+  const NamedThing* thing = find_name(name);
+  if (!thing) {
+    // Read over the indexes of an unknown array, so that only the name is complained about.
+    if (is_sign('[')) indexes({}, name);
+    emit(Op::push);
+    return Type::integer;
+  }
+  switch (thing->kind) {
+    case NamedThing::Kind::constant:
+      emit(Op::push, thing->real ? std::bit_cast<std::int32_t>(static_cast<float>(thing->value))
+                                 : static_cast<std::int32_t>(thing->value));
+      return thing->real ? Type::real : Type::integer;
+    case NamedThing::Kind::timer:
+      emit(Op::load_timer, thing->index);
+      return Type::integer;
+    case NamedThing::Kind::input:
+      emit(Op::load_input, thing->index);
+      return Type::integer;
+    case NamedThing::Kind::output:
+      emit(Op::load_output, thing->index);
+      return Type::integer;
+    case NamedThing::Kind::scalar:
+      emit(Op::load, thing->index);
+      break;
+    case NamedThing::Kind::array:
+    case NamedThing::Kind::group_static:
+    case NamedThing::Kind::group_step:
+      indexes(*thing, name);
+      emit(Op::load_at);
+      break;
+    case NamedThing::Kind::device:
+      complain(name.place, fmt::format("{} is a device, not a value", quoted(name.text)),
+               fmt::format("write {}:parameter", name.text));
+      emit(Op::push);
+      return Type::integer;
+    case NamedThing::Kind::group:
+      complain(name.place, fmt::format("{} is a datagroup, not a value", quoted(name.text)),
+               "name one of its variables");
+      emit(Op::push);
+      return Type::integer;
+  }
+  return thing->size == Size::S ? Type::real : Type::integer;
+}
+
+// Reads [i] or [i, j] and leaves the number of the cell on the stack. A nameless thing takes any count.
+void Compiler::indexes(const NamedThing& thing, const Token& name) {
+  const std::size_t wanted = thing.kind == NamedThing::Kind::group_step ? 2 : 1;
+  const std::string form = wanted == 2                                    ? "[recipe, step]"
+                           : thing.kind == NamedThing::Kind::group_static ? "[recipe]"
+                                                                          : "[index]";
+  if (!is_sign('[')) {
+    syntax_error(name, fmt::format("{} is {} and needs an index", quoted(name.text), name_of(thing.kind)),
+                 fmt::format("write {}{}", name.text, form));
+    return;
+  }
+  const int stack = stack_;
+  const Token open = token();
+  std::size_t count = 0;
+  do {
+    advance();
+    if (expression() == Type::real) emit(Op::to_long);
+    ++count;
+  } while (is_sign(',') && !line_failed_);
+  expect(']', "close the index");
+  if (count != wanted && !thing.name.empty() && !line_failed_)
+    complain(open.place,
+             fmt::format("{} takes {} index{}, found {}", quoted(name.text), wanted, wanted == 1 ? "" : "es",
+                         count),
+             fmt::format("write {}{}", name.text, form));
+  if (thing.kind == NamedThing::Kind::group_step) {
+    program_.steps.push_back(thing);
+    emit(Op::index_step, static_cast<int>(program_.steps.size()) - 1);
+  } else {
+    emit(thing.kind == NamedThing::Kind::group_static ? Op::index_recipe : Op::index, thing.index,
+         thing.length);
+  }
+  stack_ = stack + (thing.name.empty() ? 0 : 1);  // as if the count had been right
+}
+
+// The value of a condition as 0 or not 0.
+void Compiler::condition() {
+  nesting_ = 0;
+  if (expression() == Type::real) emit(Op::to_flag_real);
+}
+
+const NamedThing* Compiler::find_name(const Token& name) {
+  const NamedThing* thing = names_.find(name.text);
+  if (!thing)
+    complain(name.place, "unknown name " + quoted(name.text),
+             suggestion(name.text, names_.names(), "declare it in " + configuration_.file));
+  return thing;
+}
+
+bool Compiler::is_device(std::string_view name) const {
+  const NamedThing* thing = names_.find(name);
+  return thing && thing->kind == NamedThing::Kind::device;
+}
+
+std::optional<int> Compiler::find_device(const Token& name) {
+  const NamedThing* thing = names_.find(name.text);
+  if (thing && thing->kind == NamedThing::Kind::device) return thing->index;
+  complain(name.place,
+           thing ? fmt::format("{} is {}, not a device", quoted(name.text), name_of(thing->kind))
+                 : "unknown device " + quoted(name.text),
+           suggestion(name.text, device_names(),
+                      device_names().empty() ? "declare it under INTDEVICE in " + configuration_.file
+                                             : "devices are " + listed(device_names())));
+  return std::nullopt;
+}
+
+std::optional<Symbol> Compiler::find_parameter(int device, const Token& name) {
+  const DeviceType& type = type_of(device);
+  const std::optional<Symbol> symbol = find_symbol(type, name.text);
+  if (symbol) return symbol;
+  const std::string& device_name = configuration_.devices[static_cast<std::size_t>(device)].name;
+  // Print loses underscores: `Axis:st init`.
+  const std::string joined = fmt::format("{}_{}", name.text, token().text);
+  if (token().kind == Token::Kind::word && find_symbol(type, joined)) {
+    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, quoted(name.text)),
+             "did you mean " + quoted(joined) + "?");
+    advance();
+    return std::nullopt;
+  }
+  if (const std::optional<int> command = find_command(type, name.text))
+    complain(name.place, fmt::format("{} is a command of {}, not a parameter", quoted(name.text), type.name),
+             fmt::format("write {} {}", type.commands[static_cast<std::size_t>(*command)].name, device_name));
+  else
+    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, quoted(name.text)),
+             suggestion(name.text, symbol_names(type), fmt::format("see: drycut devices {}", type.name)));
+  return std::nullopt;
+}
+
+const DeviceType& Compiler::type_of(int device) const {
+  return *catalogue_[configuration_.devices[static_cast<std::size_t>(device)].type].type;
+}
+
+std::vector<std::string> Compiler::device_names() const {
+  std::vector<std::string> names;
+  for (const DeviceRecord& device : configuration_.devices) names.push_back(device.name);
+  return names;
+}
+
+std::vector<std::string> Compiler::all_commands() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < configuration_.devices.size(); ++i)
+    for (const Command& command : type_of(static_cast<int>(i)).commands) names.emplace_back(command.name);
+  return names;
+}
+
+}  // namespace drycut::devices::qmove

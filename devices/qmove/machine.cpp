@@ -1,0 +1,318 @@
+#include "devices/qmove/machine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace drycut::devices::qmove {
+
+namespace {
+
+std::int32_t wrapping(std::int64_t value) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
+}
+float real(std::int32_t bits) { return std::bit_cast<float>(bits); }
+std::int32_t bits(float value) { return std::bit_cast<std::int32_t>(value); }
+
+// Truncates as a long holds it; what no long can hold saturates, not-a-number is 0.
+std::int32_t to_long(float value) {
+  constexpr float beyond = 2147483648.0F;
+  if (std::isnan(value)) return 0;
+  if (value >= beyond) return INT32_MAX;
+  if (value < -beyond) return INT32_MIN;
+  return static_cast<std::int32_t>(value);
+}
+
+// Memory holds longs and the bits of singles as they are; flags, bytes and words wrap.
+std::int32_t wrapped(std::int32_t size, std::int32_t value) {
+  switch (static_cast<Size>(size)) {
+    case Size::F:
+      return value != 0 ? 1 : 0;
+    case Size::B:
+      return static_cast<std::int8_t>(value);
+    case Size::W:
+      return static_cast<std::int16_t>(value);
+    case Size::L:
+    case Size::S:
+      break;
+  }
+  return value;
+}
+
+// The quotient and remainder of the most negative long by -1 do not fit a long: in 64 bits they do.
+std::int32_t quotient(std::int32_t a, std::int32_t b) { return wrapping(std::int64_t{a} / b); }
+std::int32_t remainder(std::int32_t a, std::int32_t b) { return wrapping(std::int64_t{a} % b); }
+
+bool within(std::int32_t index, std::int32_t count) { return index >= 1 && index <= count; }
+
+}  // namespace
+
+std::string_view name_of(RunTimeError error) {
+  switch (error) {
+    case RunTimeError::none:
+      return "none";
+    case RunTimeError::index_out_of_bound:
+      return "index out of bound";
+    case RunTimeError::recipe_out_of_range:
+      return "datagroup recipe out of range";
+    case RunTimeError::step_out_of_range:
+      return "datagroup step out of range";
+    case RunTimeError::division_by_zero:
+      return "division by zero";
+    case RunTimeError::watchdog:
+      return "watchdog, the task loops without WAIT";
+    case RunTimeError::stack:
+      return "stack, CALL nested too deep or ENDSUB without CALL";
+  }
+  return "";
+}
+
+// One switch over all instructions: the room's hottest loop, kept in one piece for speed.
+RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
+  std::array<std::int32_t, max_depth + 2> stack{};  // the compiler has checked that no expression needs more
+  std::int32_t* top = stack.data();                 // the value on top
+  const Instruction* const code = program.code.data();
+  int at = task.at;
+  int left = max_instructions;
+  const auto fail = [&](RunTimeError error) {
+    task.at = at;
+    return error;
+  };
+  const auto suspend = [&](int where) {
+    task.at = where;
+    return RunTimeError::none;
+  };
+  for (;; ++at) {
+    if (left-- == 0) return fail(RunTimeError::watchdog);
+    const Instruction& now = code[at];
+    switch (now.op) {
+      case Op::push:
+        *++top = now.a;
+        break;
+      case Op::load:
+        *++top = machine.cells[now.a];
+        break;
+      case Op::load_at:
+        *top = machine.cells[*top];
+        break;
+      case Op::index:
+        if (!within(*top, now.b)) return fail(RunTimeError::index_out_of_bound);
+        *top += now.a - 1;
+        break;
+      case Op::index_recipe:
+        if (!within(*top, now.b)) return fail(RunTimeError::recipe_out_of_range);
+        *top += now.a - 1;
+        break;
+      case Op::index_step: {
+        const NamedThing& variable = program.steps[now.a];
+        const std::int32_t step = *top--;
+        if (!within(*top, variable.length)) return fail(RunTimeError::recipe_out_of_range);
+        if (!within(step, variable.steps)) return fail(RunTimeError::step_out_of_range);
+        *top = variable.index + (*top - 1) * variable.steps + step - 1;
+        break;
+      }
+      case Op::load_device:
+        *++top = machine.devices[now.b]->read(program.symbols[now.a]);
+        break;
+      case Op::load_input:
+        *++top = machine.inputs[now.a]->level ? 1 : 0;
+        break;
+      case Op::load_output:
+        *++top = machine.outputs[now.a]->level ? 1 : 0;
+        break;
+      case Op::load_timer:
+        *++top = machine.now >= machine.timers[now.a] ? 1 : 0;
+        break;
+
+      case Op::store:
+        machine.cells[now.a] = wrapped(now.b, *top--);
+        break;
+      case Op::store_at:
+        machine.cells[top[-1]] = wrapped(now.b, *top);
+        top -= 2;
+        break;
+      case Op::store_device:
+        machine.devices[now.b]->write(program.symbols[now.a], *top--);
+        break;
+      case Op::store_output:
+        machine.outputs[now.a]->level = *top-- != 0;
+        break;
+      case Op::store_timer: {
+        constexpr std::int64_t ns_per_ms = 1'000'000;
+        machine.timers[now.a] = machine.now + std::max(*top--, 0) * ns_per_ms;
+        break;
+      }
+
+      case Op::add:
+        --top;
+        *top = wrapping(std::int64_t{*top} + top[1]);
+        break;
+      case Op::subtract:
+        --top;
+        *top = wrapping(std::int64_t{*top} - top[1]);
+        break;
+      case Op::multiply:
+        --top;
+        *top = wrapping(std::int64_t{*top} * top[1]);
+        break;
+      case Op::divide:
+        if (*top == 0) return fail(RunTimeError::division_by_zero);
+        --top;
+        *top = quotient(*top, top[1]);
+        break;
+      case Op::modulo:
+        if (*top == 0) return fail(RunTimeError::division_by_zero);
+        --top;
+        *top = remainder(*top, top[1]);
+        break;
+      case Op::negate:
+        *top = wrapping(-std::int64_t{*top});
+        break;
+      case Op::add_real:
+        --top;
+        *top = bits(real(*top) + real(top[1]));
+        break;
+      case Op::subtract_real:
+        --top;
+        *top = bits(real(*top) - real(top[1]));
+        break;
+      case Op::multiply_real:
+        --top;
+        *top = bits(real(*top) * real(top[1]));
+        break;
+      case Op::divide_real:
+        if (real(*top) == 0.0F) return fail(RunTimeError::division_by_zero);
+        --top;
+        *top = bits(real(*top) / real(top[1]));
+        break;
+      case Op::negate_real:
+        *top = bits(-real(*top));
+        break;
+      case Op::to_real:
+        *top = bits(static_cast<float>(*top));
+        break;
+      case Op::to_real_below:
+        top[-1] = bits(static_cast<float>(top[-1]));
+        break;
+      case Op::to_long:
+        *top = to_long(real(*top));
+        break;
+      case Op::to_flag_real:
+        *top = real(*top) != 0.0F ? 1 : 0;
+        break;
+      case Op::to_flag_real_below:
+        top[-1] = real(top[-1]) != 0.0F ? 1 : 0;
+        break;
+
+      case Op::equal:
+        --top;
+        *top = *top == top[1] ? 1 : 0;
+        break;
+      case Op::not_equal:
+        --top;
+        *top = *top != top[1] ? 1 : 0;
+        break;
+      case Op::less:
+        --top;
+        *top = *top < top[1] ? 1 : 0;
+        break;
+      case Op::less_equal:
+        --top;
+        *top = *top <= top[1] ? 1 : 0;
+        break;
+      case Op::greater:
+        --top;
+        *top = *top > top[1] ? 1 : 0;
+        break;
+      case Op::greater_equal:
+        --top;
+        *top = *top >= top[1] ? 1 : 0;
+        break;
+      case Op::equal_real:
+        --top;
+        *top = real(*top) == real(top[1]) ? 1 : 0;
+        break;
+      case Op::not_equal_real:
+        --top;
+        *top = real(*top) != real(top[1]) ? 1 : 0;
+        break;
+      case Op::less_real:
+        --top;
+        *top = real(*top) < real(top[1]) ? 1 : 0;
+        break;
+      case Op::less_equal_real:
+        --top;
+        *top = real(*top) <= real(top[1]) ? 1 : 0;
+        break;
+      case Op::greater_real:
+        --top;
+        *top = real(*top) > real(top[1]) ? 1 : 0;
+        break;
+      case Op::greater_equal_real:
+        --top;
+        *top = real(*top) >= real(top[1]) ? 1 : 0;
+        break;
+
+      case Op::logic_and:
+        --top;
+        *top = *top != 0 && top[1] != 0 ? 1 : 0;
+        break;
+      case Op::logic_or:
+        --top;
+        *top = *top != 0 || top[1] != 0 ? 1 : 0;
+        break;
+      case Op::logic_not:
+        *top = *top == 0 ? 1 : 0;
+        break;
+      case Op::bit_and:
+        --top;
+        *top &= top[1];
+        break;
+      case Op::bit_or:
+        --top;
+        *top |= top[1];
+        break;
+      case Op::bit_xor:
+        --top;
+        *top ^= top[1];
+        break;
+      case Op::bit_not:
+        *top = ~*top;
+        break;
+
+      case Op::barrier:
+        if (!machine.devices[now.b]->settled()) return suspend(now.a);
+        break;
+      case Op::jump:
+        at = now.a - 1;
+        break;
+      case Op::jump_if_zero:
+        if (*top-- == 0) at = now.a - 1;
+        break;
+      case Op::command:
+        machine.devices[now.b]->command(now.a);
+        break;
+      case Op::yield:
+        return suspend(at + 1);
+      case Op::wait_until:
+        if (*top-- == 0) return suspend(now.a);
+        break;
+      case Op::call:
+        if (task.calls.size() >= max_calls) return fail(RunTimeError::stack);
+        task.calls.push_back(at);
+        at = now.a - 1;
+        break;
+      case Op::back:
+        if (task.calls.empty()) return fail(RunTimeError::stack);
+        at = task.calls.back();
+        task.calls.pop_back();
+        break;
+      case Op::end:
+        task.ended = true;
+        return suspend(at);
+    }
+  }
+}
+
+}  // namespace drycut::devices::qmove

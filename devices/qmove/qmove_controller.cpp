@@ -1,0 +1,175 @@
+#include "devices/qmove/qmove_controller.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace drycut::devices::qmove {
+
+namespace {
+
+constexpr std::int64_t ns_per_ms = 1'000'000;
+
+// The first multiple of `period` after `time`.
+std::int64_t next_multiple(std::int64_t time, std::int64_t period) { return (time / period + 1) * period; }
+
+std::string_view event_of(Diagnostic::Kind kind) {
+  switch (kind) {
+    case Diagnostic::Kind::command_refused:
+    case Diagnostic::Kind::write_refused:
+      return "refused";
+    case Diagnostic::Kind::out_of_range:
+      return "out_of_range";
+    case Diagnostic::Kind::note:
+      return "warning";
+  }
+  return "warning";
+}
+
+}  // namespace
+
+QmoveController::QmoveController(Configuration configuration, std::vector<Program> programs,
+                                 std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns)
+    : configuration_(std::move(configuration)),
+      programs_(std::move(programs)),
+      names_(configuration_),
+      cycle_ns_(cycle_ns) {
+  assert(cycle_ns > 0);
+  machine_.cells.assign(static_cast<std::size_t>(names_.cells()), 0);
+  machine_.timers.assign(configuration_.timers.size(), 0);
+  for (const Terminal& input : configuration_.inputs) {
+    add_terminal(input.address);
+    machine_.inputs.push_back(&cards_.inputs[input.address]);
+  }
+  for (const Terminal& output : configuration_.outputs) {
+    add_terminal(output.address);
+    machine_.outputs.push_back(&cards_.outputs[output.address]);
+  }
+  for (const DeviceRecord& record : configuration_.devices) {
+    const CatalogueEntry& entry = catalogue[record.type];
+    for (std::size_t i = 0; i < record.resources.size(); ++i) {
+      if (record.resources[i].address) add_terminal(*record.resources[i].address);
+      if (entry.type->fields[i].kind == Field::Kind::interrupt_line && record.resources[i].number > 0)
+        add_terminal({Kind::interrupt, 0, record.resources[i].number});
+    }
+    machine_.devices.push_back(entry.make(record.resources, cards_));
+    device_due_.push_back({machine_.devices.back()->period_ms() * ns_per_ms});
+  }
+  start_tasks();
+}
+
+void QmoveController::add_terminal(const Address& address) {
+  switch (address.kind) {
+    case Kind::counter:
+      cards_.counters.try_emplace(address);
+      break;
+    case Kind::input:
+      cards_.inputs.try_emplace(address);
+      break;
+    case Kind::output:
+      cards_.outputs.try_emplace(address);
+      break;
+    case Kind::analogue:
+      cards_.analogue_outputs.try_emplace(address);
+      break;
+    case Kind::interrupt:
+      cards_.interrupt_lines.try_emplace(address.number);
+      break;
+  }
+}
+
+std::vector<Controller::Period> QmoveController::periods() const {
+  std::vector<Period> periods;
+  for (std::size_t i = 0; i < device_due_.size(); ++i)
+    periods.push_back({configuration_.devices[i].name + " TCamp", device_due_[i].period_ns});
+  periods.push_back({"task cycle", cycle_ns_});
+  return periods;
+}
+
+// Called every step of the simulation: most calls end at the first line.
+void QmoveController::run_devices(std::int64_t time_ns) {
+  if (time_ns < next_device_ns_) return;
+  machine_.now = time_ns;
+  next_device_ns_ = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t i = 0; i < device_due_.size(); ++i) {
+    Due& due = device_due_[i];
+    if (time_ns >= due.next_ns) {
+      due.next_ns = next_multiple(time_ns, due.period_ns);
+      if (powered_) {
+        machine_.devices[i]->sample();
+        collect_diagnostics(i);
+      }
+    }
+    next_device_ns_ = std::min(next_device_ns_, due.next_ns);
+  }
+}
+
+void QmoveController::run_tasks(std::int64_t time_ns) {
+  if (time_ns < next_round_ns_) return;
+  next_round_ns_ = next_multiple(time_ns, cycle_ns_);
+  machine_.now = time_ns;
+  if (!powered_ || mode_ != OsMode::run) return;
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    if (tasks_[i].ended) continue;
+    const RunTimeError error = run_turn(programs_[i], tasks_[i], machine_);
+    if (error != RunTimeError::none) return stop(error, i);
+  }
+}
+
+void QmoveController::interrupt(int line, bool rising) {
+  cards_.interrupt_lines[line].level = rising;
+  if (!powered_) return;
+  for (const auto& device : machine_.devices) device->interrupt(line, rising);
+}
+
+void QmoveController::power(bool on) {
+  powered_ = on;
+  if (on) {
+    for (const auto& device : machine_.devices) device->power_up();
+    said_.clear();
+    start_tasks();
+    return;
+  }
+  mode_ = OsMode::initial;
+  for (auto& [address, output] : cards_.outputs) output.level = false;
+  for (auto& [address, output] : cards_.analogue_outputs) output.word = 0;
+}
+
+// Programs begin at their first statement, with all that is not retentive at zero.
+void QmoveController::start_tasks() {
+  std::fill_n(machine_.cells.begin(), names_.volatile_cells(), 0);
+  std::fill(machine_.timers.begin(), machine_.timers.end(), 0);
+  tasks_.assign(programs_.size(), {});
+  // A module with faults has no code: there is nothing to run.
+  for (std::size_t i = 0; i < programs_.size(); ++i) tasks_[i].ended = programs_[i].code.empty();
+  mode_ = OsMode::run;
+  error_ = RunTimeError::none;
+}
+
+void QmoveController::stop(RunTimeError error, std::size_t task) {
+  mode_ = OsMode::error;
+  error_ = error;
+  const Program& program = programs_[task];
+  events_.push_back({program.name, "error",
+                     fmt::format("{}:{}: error {}: {}; all tasks stop", program.file,
+                                 program.lines[static_cast<std::size_t>(tasks_[task].at)],
+                                 static_cast<int>(error), name_of(error))});
+}
+
+void QmoveController::collect_diagnostics(std::size_t device) {
+  if (!machine_.devices[device]->has_diagnostics()) return;
+  for (Diagnostic& diagnostic : machine_.devices[device]->take_diagnostics()) {
+    if (!said_.emplace(device, diagnostic.kind, diagnostic.subject, diagnostic.text).second) continue;
+    const std::string separator = diagnostic.subject.empty() || diagnostic.text.empty() ? "" : ": ";
+    events_.push_back({configuration_.devices[device].name, std::string(event_of(diagnostic.kind)),
+                       diagnostic.subject + separator + diagnostic.text});
+  }
+}
+
+std::vector<ControllerEvent> QmoveController::take_events() { return std::exchange(events_, {}); }
+
+}  // namespace drycut::devices::qmove

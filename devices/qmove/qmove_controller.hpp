@@ -1,0 +1,119 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "devices/catalogue.hpp"
+#include "devices/controller.hpp"
+#include "devices/problem.hpp"
+#include "devices/qmove/cnf.hpp"
+#include "devices/qmove/machine.hpp"
+#include "devices/qmove/program.hpp"
+#include "devices/qmove/symbols.hpp"
+
+namespace drycut::devices::qmove {
+
+/// What the controller's CPU is doing, as QMOS reports it in osmode (spec 4.5).
+enum class OsMode : std::uint8_t { initial = 0, run = 3, error = 5 };
+
+/// A QMOVE controller: devices and program tasks on one set of cards.
+///
+/// Scheduling (spec D9): every `cycle_ns` a round begins in which each task, in the order given, has one
+/// turn; a turn lasts until WAIT or END, or until the task reads a device that has not yet taken what was
+/// written to it. A run-time error or a task that loops without WAIT stops all tasks until the next
+/// power-up; devices go on.
+class QmoveController : public Controller {
+ public:
+  /// `configuration` and `programs` are free of problems; `programs` were compiled against `configuration`
+  /// and both against `catalogue`. `cycle_ns` > 0. The controller begins powered on, at time 0.
+  QmoveController(Configuration configuration, std::vector<Program> programs,
+                  std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns);
+
+  Cards& cards() override { return cards_; }
+  [[nodiscard]] std::vector<Period> periods() const override;
+  void run_devices(std::int64_t time_ns) override;
+  void run_tasks(std::int64_t time_ns) override;
+  void interrupt(int line, bool rising) override;
+  void power(bool on) override;
+
+  /// Values by name, any case: variables `slLength`, `arr[3]`, `ddbCodeG[2,1]`, timers (1 = elapsed), inputs
+  /// and outputs by symbol or terminal (`2.OUT01`, `2.AN01` in V, `2.CNT01` in counts), devices
+  /// `AxisX.posit`, and `QMOS.oserr`, `QMOS.osmode`. A value read-only to programs is read-only here.
+  std::optional<ControllerValue> find(const std::string& name) override;
+  /// Arrays and datagroup variables are listed by their first element.
+  [[nodiscard]] std::vector<std::string> names() const override;
+
+  [[nodiscard]] bool has_events() const override { return !events_.empty(); }
+  std::vector<ControllerEvent> take_events() override;
+
+  /// What survives power-off, as text: one `name = value` a line. Zeros of arrays and datagroups are left
+  /// out.
+  [[nodiscard]] std::string retentive_state() const;
+  /// Puts such a text back, before any device is initialised: variables that it does not name become 0,
+  /// device values that it does not name stay. False, and nothing changed, if `problems` had to be added.
+  bool restore(const std::string& text, Problems& problems, const std::string& file_name = "retentive state");
+
+ private:
+  /// Where a value lives.
+  struct Location {
+    enum class Kind : std::uint8_t { cell, timer, input, output, device, terminal, oserr, osmode };
+    Kind kind = Kind::cell;
+    int index = 0;  ///< cell, or number of the timer, input, output, device
+    Size size = Size::L;
+    Symbol symbol = {};
+    Address address = {};
+    std::string name = {};  ///< in the declared spelling
+  };
+  [[nodiscard]] std::optional<Location> locate(std::string_view name) const;
+  [[nodiscard]] std::optional<Location> locate_indexed(std::string_view name) const;
+  [[nodiscard]] std::optional<Location> locate_symbol(std::string_view device, std::string_view symbol) const;
+  [[nodiscard]] bool has_terminal(const Address& address) const;
+  ControllerValue terminal_value(const Location& location);
+  [[nodiscard]] double cell_value(int cell, Size size) const;
+  void set_cell(int cell, Size size, double value);
+  void write_device(int device, Symbol symbol, double value);
+  [[nodiscard]] bool is_retentive(const Location& location) const;
+  /// A value to put back, and where.
+  struct Kept {
+    Location location;
+    double value;
+  };
+  void read_kept(std::string_view line, int number, const std::string& file, std::set<std::string>& seen,
+                 std::vector<Kept>& kept, Problems& problems) const;
+
+  void add_terminal(const Address& address);
+  void start_tasks();
+  void stop(RunTimeError error, std::size_t task);
+  void collect_diagnostics(std::size_t device);
+
+  Configuration configuration_;
+  std::vector<Program> programs_;
+  SymbolTable names_;
+  std::int64_t cycle_ns_;
+  Cards cards_;
+  Machine machine_;
+  std::vector<Task> tasks_;
+  bool powered_ = true;
+  OsMode mode_ = OsMode::run;
+  RunTimeError error_ = RunTimeError::none;
+
+  struct Due {
+    std::int64_t period_ns;
+    std::int64_t next_ns = 0;
+  };
+  std::vector<Due> device_due_;      ///< by device
+  std::int64_t next_device_ns_ = 0;  ///< the earliest of them
+  std::int64_t next_round_ns_ = 0;
+
+  std::vector<ControllerEvent> events_;
+  /// Diagnostics said since power-up: a program that repeats a refused command does not flood.
+  std::set<std::tuple<std::size_t, Diagnostic::Kind, std::string, std::string>> said_;
+};
+
+}  // namespace drycut::devices::qmove

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "devices/qmove/compiler.hpp"
+
+// Statements of QCL, but for blocks. One a line.
+namespace drycut::devices::qmove {
+
+void Compiler::statement() {
+  nesting_ = 0;
+  stack_ = 0;
+  devices_read_.clear();
+  if (token().kind != Token::Kind::word)
+    syntax_error(token(), found(token()) + " does not begin a statement",
+                 "write a statement, or ';' before a comment");
+  else if (is_sign(after(1), ':') && after(2).kind == Token::Kind::end_of_line)
+    label();
+  else
+    word_statement();
+  if (!line_failed_) end_of_statement();
+}
+
+void Compiler::word_statement() {
+  struct Row {
+    std::string_view word;
+    void (*run)(Compiler&);
+  };
+  static constexpr std::array<Row, 15> table{{
+      {"IF", [](Compiler& c) { c.open_condition(Block::Kind::if_); }},
+      {"ELSE", [](Compiler& c) { c.else_block(); }},
+      {"ENDIF", [](Compiler& c) { c.endif_block(); }},
+      {"WHILE", [](Compiler& c) { c.open_condition(Block::Kind::while_); }},
+      {"ENDWHILE", [](Compiler& c) { c.endwhile_block(); }},
+      {"FOR", [](Compiler& c) { c.for_block(); }},
+      {"NEXT", [](Compiler& c) { c.next_block(); }},
+      {"WAIT", [](Compiler& c) { c.wait(); }},
+      {"JUMP", [](Compiler& c) { c.jump(); }},
+      {"SUB", [](Compiler& c) { c.sub_block(); }},
+      {"ENDSUB", [](Compiler& c) { c.endsub_block(); }},
+      {"CALL", [](Compiler& c) { c.call(); }},
+      {"END", [](Compiler& c) { c.end(); }},
+      {"SETOUT", [](Compiler& c) { c.set_output(true); }},
+      {"RESOUT", [](Compiler& c) { c.set_output(false); }},
+  }};
+  for (const Row& row : table)
+    if (is_word(row.word)) return row.run(*this);
+  const Token& next = after(1);
+  if (next.kind == Token::Kind::word) return device_command();
+  const bool assigns = next.kind == Token::Kind::sign && std::string_view("=[:.").find(next.text[0]) < 4;
+  if (assigns && !is_reserved(token().text))
+    assignment();
+  else
+    unknown_statement();
+}
+
+// name = e, name[i] = e, name[i, j] = e, Device:parameter = e. Returns the name assigned to, if it is one.
+const NamedThing* Compiler::assignment() {
+  const int begin = here();
+  const Token name = token();
+  advance();
+  const std::string remedy = "write: name = value";
+  if (is_sign(':') || is_sign('.')) {
+    advance();
+    const std::optional<int> device = find_device(name);
+    const Token parameter = token();
+    if (parameter.kind != Token::Kind::word) {
+      syntax_error(parameter,
+                   fmt::format("expected a parameter after {}:, found {}", name.text, found(parameter)),
+                   "write Device:parameter = value");
+      return nullptr;
+    }
+    advance();
+    const std::optional<Symbol> symbol = device ? find_parameter(*device, parameter) : std::nullopt;
+    if (symbol) check_writable(*device, *symbol, parameter);
+    if (!expect('=', "write: Device:parameter = value")) return nullptr;
+    if (expression() == Type::real) emit(Op::to_long);
+    emit(Op::store_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
+    insert_barriers(begin);
+    return nullptr;
+  }
+  const NamedThing* thing = find_name(name);
+  const bool indexed =
+      thing && (thing->kind == NamedThing::Kind::array || thing->kind == NamedThing::Kind::group_static ||
+                thing->kind == NamedThing::Kind::group_step);
+  if (thing) check_assignable(*thing, name);
+  if (indexed || (is_sign('[') && !thing)) indexes(indexed ? *thing : NamedThing{}, name);
+  if (thing && !indexed && is_sign('['))
+    syntax_error(token(), fmt::format("{} is {} and takes no index", quoted(name.text), name_of(thing->kind)),
+                 remedy);
+  if (line_failed_ || !expect('=', remedy)) return thing;
+  store(thing ? *thing : NamedThing{}, expression());
+  insert_barriers(begin);
+  return thing;
+}
+
+// Converts the value on the stack to what `thing` holds and stores it there.
+void Compiler::store(const NamedThing& thing, Type type) {
+  if (thing.size == Size::S && type == Type::integer) emit(Op::to_real);
+  if (thing.size != Size::S && type == Type::real)
+    emit(thing.size == Size::F ? Op::to_flag_real : Op::to_long);
+  const int size = static_cast<int>(thing.size);
+  switch (thing.kind) {
+    case NamedThing::Kind::array:
+    case NamedThing::Kind::group_static:
+    case NamedThing::Kind::group_step:
+      emit(Op::store_at, 0, size);
+      break;
+    case NamedThing::Kind::timer:
+      emit(Op::store_timer, thing.index);
+      break;
+    case NamedThing::Kind::output:
+      emit(Op::store_output, thing.index);
+      break;
+    default:
+      emit(Op::store, thing.index, size);
+      break;
+  }
+}
+
+void Compiler::check_assignable(const NamedThing& thing, const Token& name) {
+  using Kind = NamedThing::Kind;
+  if (thing.kind == Kind::constant || thing.kind == Kind::input || thing.kind == Kind::group ||
+      thing.kind == Kind::device)
+    complain(name.place,
+             fmt::format("{} is {} and cannot be assigned", quoted(name.text), name_of(thing.kind)),
+             thing.kind == Kind::device  ? fmt::format("write {}:parameter = value", name.text)
+             : thing.kind == Kind::group ? "assign one of its variables"
+                                         : "assign a variable, a timer, an output or Device:parameter");
+}
+
+void Compiler::check_writable(int device, Symbol symbol, const Token& parameter) {
+  const DeviceType& type = type_of(device);
+  if (symbol.kind == Symbol::Kind::state)
+    complain(
+        parameter.place,
+        fmt::format("{} is a state of {}, only the device changes it", quoted(parameter.text), type.name),
+        "give the command that changes it");
+  else if (type.variables[static_cast<std::size_t>(symbol.index)].access == Access::read)
+    complain(parameter.place, fmt::format("{} of {} is read-only", quoted(parameter.text), type.name),
+             "assign a parameter that programs may write");
+}
+
+void Compiler::label() {
+  const Token name = token();
+  advance();
+  advance();
+  if (is_reserved(name.text) || is_device(name.text)) {
+    complain(name.place, fmt::format("{} cannot be a label", quoted(name.text)),
+             is_reserved(name.text) ? "it is a word of the language"
+                                    : fmt::format("it is a device; write {}:parameter = value", name.text));
+    return;
+  }
+  const auto [target, is_new] = labels_.emplace(lower(name.text), Target{here(), name.place});
+  if (is_new)
+    label_names_.emplace_back(name.text);
+  else
+    complain(name.place, fmt::format("the label {} stands twice", quoted(name.text)),
+             fmt::format("the first is in line {}; rename one", target->second.place.line));
+}
+
+void Compiler::wait() {
+  advance();
+  emit(Op::yield);
+  const int begin = here();
+  condition();
+  insert_barriers(begin);
+  emit(Op::wait_until, begin);
+}
+
+// The name after JUMP, CALL or SUB.
+const Token* Compiler::name_operand(const std::string& form) {
+  advance();
+  if (token().kind != Token::Kind::word || is_reserved(token().text)) {
+    syntax_error(token(), "expected a name, found " + found(token()), "write: " + form);
+    return nullptr;
+  }
+  const Token* name = &token();
+  advance();
+  return name;
+}
+
+void Compiler::jump() {
+  const Token* name = name_operand("JUMP <label>");
+  if (name) jumps_.push_back({emit(Op::jump), std::string(name->text), name->place});
+}
+
+void Compiler::call() {
+  const Token* name = name_operand("CALL <subroutine>");
+  if (name) calls_.push_back({emit(Op::call), std::string(name->text), name->place});
+}
+
+void Compiler::end() {
+  advance();
+  ended_ = true;
+  emit(Op::end);
+}
+
+void Compiler::set_output(bool on) {
+  const Token* name = name_operand(on ? "SETOUT <output>" : "RESOUT <output>");
+  if (!name) return;
+  const NamedThing* thing = find_name(*name);
+  if (!thing) return;
+  if (thing->kind != NamedThing::Kind::output) {
+    complain(name->place, fmt::format("{} is {}, not an output", quoted(name->text), name_of(thing->kind)),
+             "name an output that is declared under OUTPUT");
+    return;
+  }
+  emit(Op::push, on ? 1 : 0);
+  emit(Op::store_output, thing->index);
+}
+
+// COMMAND Device: two words and nothing else.
+void Compiler::device_command() {
+  const Token word = token();
+  const Token name = after(1);
+  const std::vector<std::string> commands = all_commands();
+  const bool is_command = std::any_of(commands.begin(), commands.end(), [&](const std::string& command) {
+    return same_word(command, word.text);
+  });
+  if (!is_device(name.text) && !is_command) return unknown_statement();
+  advance();
+  advance();
+  const std::optional<int> device = find_device(name);
+  if (!device) return;
+  const DeviceType& type = type_of(*device);
+  const std::optional<int> command = find_command(type, word.text);
+  if (command) {
+    emit(Op::command, *command, *device);
+    return;
+  }
+  std::vector<std::string> own;
+  for (const Command& candidate : type.commands) own.emplace_back(candidate.name);
+  complain(word.place, fmt::format("{} has no command {}", type.name, quoted(word.text)),
+           suggestion(word.text, own, fmt::format("see: drycut devices {}", type.name)));
+}
+
+void Compiler::unknown_statement() {
+  std::vector<std::string> words = reserved_words();
+  const std::vector<std::string> commands = all_commands();
+  words.insert(words.end(), commands.begin(), commands.end());
+  for (const NamedThing& thing : names_.things()) words.push_back(thing.name);
+  const std::string usual = "write an assignment, a command such as INIT Device, or IF, WAIT, JUMP, ...";
+  const NamedThing* thing = names_.find(token().text);
+  if (is_reserved(token().text))
+    syntax_error(token(), quoted(token().text) + " does not begin a statement", usual);
+  else if (thing)
+    syntax_error(
+        after(1), fmt::format("expected '=' after {}, found {}", quoted(token().text), found(after(1))),
+        thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter = value", token().text)
+                                                : "write: name = value");
+  else
+    syntax_error(token(), "unknown statement " + quoted(token().text),
+                 suggestion(token().text, words, usual));
+}
+
+}  // namespace drycut::devices::qmove

@@ -1,0 +1,434 @@
+#include <gmock/gmock.h>
+
+#include "camming4_fixture.hpp"
+
+namespace drycut::devices::camming4 {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+class Camming4Inputs : public Camming4Test {
+ protected:
+  static constexpr const char* normal = "2.INP03";
+  static constexpr const char* enable = "2.INP01";
+  static constexpr const char* enable_master = "2.INP02";
+  static constexpr int function_line = 5;
+  static constexpr int zero_line = 1;
+  static constexpr int zero_line_master = 2;
+
+  void load_cam() {
+    row(1, {132, 100, 50});
+    row(2, {133, 1000, 1000});
+    row(3, {137, 2});
+  }
+  void arm_input(int function, int mode = 2) {
+    set({{"funInp", function}, {"inpcapt", mode}});
+    command("ENBL");
+  }
+  void arm_interrupt(int function, int mode = 2) {
+    set({{"funInt", function}, {"intcapt", mode}});
+    command("INTENBL");
+    ticks(2);
+  }
+  void pulse_input(std::int64_t bits = 0) {
+    input(normal) = true;
+    tick(bits);
+    input(normal) = false;
+  }
+};
+
+TEST_F(Camming4Inputs, ShowsTheInterruptLine) {
+  command("INIT");
+  edge(function_line, true);
+  tick();
+  EXPECT_EQ(get("st_int"), 1);
+  edge(function_line, false);
+  tick();
+  EXPECT_EQ(get("st_int"), 0);
+}
+
+TEST_F(Camming4Inputs, CapturesOnceOnTheArmedEdge) {
+  command("INIT");
+  slave().count = 42;
+  arm_input(3, 2);
+  EXPECT_EQ(get("st_enbl"), 1);
+  pulse_input();
+  EXPECT_EQ(get("delta1"), 42);
+  EXPECT_EQ(get("st_enbl"), 0);
+  EXPECT_EQ(get("st_capt"), 1);
+  slave().count = 50;
+  tick();
+  pulse_input();
+  EXPECT_EQ(get("delta1"), 42);
+  command("RSCAPT");
+  EXPECT_EQ(get("st_capt"), 0);
+}
+
+TEST_F(Camming4Inputs, TakesTheFallingEdgeToo) {
+  command("INIT");
+  arm_input(5, 1);
+  input(normal) = true;
+  tick();
+  EXPECT_EQ(get("delta1"), 0);
+  input(normal) = false;
+  tick();
+  EXPECT_EQ(get("delta1"), 1);
+}
+
+TEST_F(Camming4Inputs, ADisarmedInputDoesNothing) {
+  command("INIT");
+  arm_input(5);
+  command("DSBL");
+  pulse_input();
+  EXPECT_EQ(get("delta1"), 0);
+  EXPECT_EQ(get("st_capt"), 0);
+  arm_interrupt(5);
+  command("INTDSBL");
+  edge(function_line, true);
+  tick();
+  EXPECT_EQ(get("delta1"), 0);
+  arm_interrupt(0);
+  edge(function_line, true);
+  tick();
+  EXPECT_EQ(get("st_intcapt"), 0);
+}
+
+TEST_F(Camming4Inputs, LatchesTheExactCountAtTheEdge) {
+  command("INIT");
+  arm_interrupt(3);
+  slave().count = 1003;
+  edge(function_line, true);
+  slave().count = 1010;
+  tick();
+  EXPECT_EQ(get("delta1"), 1003);
+  EXPECT_EQ(get("encoder"), 1010);
+  EXPECT_EQ(get("st_intenbl"), 0);
+  EXPECT_EQ(get("st_intcapt"), 1);
+  command("RSINTCAPT");
+  EXPECT_EQ(get("st_intcapt"), 0);
+  command("CNTREVM");
+  arm_interrupt(4, 1);
+  master().count = 7;
+  edge(function_line, false);
+  master().count = 20;
+  tick();
+  EXPECT_EQ(get("delta2"), -7);
+}
+
+TEST_F(Camming4Inputs, LoadsCountsAtTheEdge) {
+  command("INIT");
+  set({{"delta1", 500}, {"delta2", -30}});
+  arm_interrupt(7);
+  slave().count = 100;
+  edge(function_line, true);
+  slave().count = 104;
+  tick();
+  EXPECT_EQ(get("posit"), 504);
+  arm_input(8);
+  pulse_input();
+  EXPECT_EQ(get("positm"), -30);
+}
+
+TEST_F(Camming4Inputs, CountsEvents) {
+  command("INIT");
+  write("delta2", 2147483647);
+  for (int i = 0; i < 3; ++i) {
+    arm_input(5);
+    pulse_input();
+    tick();
+  }
+  EXPECT_EQ(get("delta1"), 3);
+  arm_input(6);
+  pulse_input();
+  EXPECT_EQ(get("delta2"), -2147483647 - 1);
+}
+
+TEST_F(Camming4Inputs, StartsTheCamFromTheLatchedCount) {
+  load_cam();
+  start();
+  arm_interrupt(10);
+  master().count = 1000;
+  edge(function_line, true);
+  tick(30);  // the master is 30 Um on at the sample
+  EXPECT_EQ(get("delta2"), 1000);
+  EXPECT_EQ(get("st_camex"), 1);
+  slave_blocked = true;
+  ticks(17, 10);  // 200 Um in all: 50 + 100
+  EXPECT_EQ(get("follerr") + get("posit"), 150);
+}
+
+TEST_F(Camming4Inputs, ARecalculationDelaysTheEvent) {
+  load_cam();
+  start();
+  arm_interrupt(2);
+  write("maxvel", 40000);  // 5 samples
+  edge(function_line, true);
+  tick(10);
+  EXPECT_EQ(get("st_camex"), 0);
+  EXPECT_EQ(get("wrncode"), 8);
+  ticks(4, 10);
+  EXPECT_EQ(get("st_camex"), 0);
+  tick(10);
+  EXPECT_EQ(get("st_camex"), 1);
+  // Its origin is the present count, not the latched one: row 1 ends 100 Um from here.
+  ticks(9, 10);
+  EXPECT_EQ(get("rowex"), 1);
+  tick(10);
+  EXPECT_EQ(get("rowex"), 2);
+}
+
+TEST_F(Camming4Inputs, EachParameterHasItsRecalculationTime) {
+  struct Delay {
+    const char* name;
+    int samples;
+  };
+  command("INIT");
+  for (const auto& [name, count] :
+       {Delay{"codeQm1", 1}, Delay{"toll", 1}, Delay{"tbfm", 2}, Delay{"tbf", 3}, Delay{"decpt", 6},
+        Delay{"pulsem", 130}, Delay{"measure", 139}, Delay{"offset", 0}, Delay{"setpos", 0}}) {
+    arm_interrupt(5);
+    while (get("st_intcapt") == 1) command("RSINTCAPT");
+    const int before = get("delta1");
+    write(name, 1);
+    edge(function_line, true);
+    int waited = 0;
+    for (tick(); get("delta1") == before && waited < 1000; ++waited) tick();
+    EXPECT_EQ(waited, count) << name;
+  }
+}
+
+TEST_F(Camming4Inputs, StopCamIsInhibitedAfterFunctionEleven) {
+  load_cam();
+  start();
+  arm_input(11);
+  pulse_input();
+  EXPECT_EQ(get("st_camex"), 1);
+  for (int ms = 2; ms < 24; ms += 2) {
+    command("STOPCAM");
+    ASSERT_EQ(get("st_camex"), 1) << ms;
+  }
+  EXPECT_THAT(diagnostics(), Contains(HasSubstr("STOPCAM: needs 25 ms")));
+  ticks(2);
+  command("STOPCAM");
+  EXPECT_EQ(get("st_camex"), 0);
+}
+
+TEST_F(Camming4Inputs, AnInputStopsTheCam) {
+  load_cam();
+  start();
+  arm_input(1);
+  pulse_input();
+  EXPECT_EQ(get("st_still"), 1);
+  command("STARTCAM");
+  ticks(20, 10);
+  order("ENBL");
+  tick(10);
+  pulse_input(10);
+  EXPECT_EQ(get("st_camex"), 0);
+  EXPECT_EQ(get("st_still"), 0);
+}
+
+TEST_F(Camming4Inputs, AStartWhoseConditionsFailIsReported) {
+  load_cam();
+  start();
+  command("EMRG");
+  arm_input(9);
+  slave().count = 5;
+  diagnostics();
+  pulse_input();
+  EXPECT_EQ(get("st_camex"), 0);
+  EXPECT_EQ(get("delta1"), 5);
+  EXPECT_THAT(diagnostics(), Contains("STARTCAM: by funInp: the command's conditions do not hold"));
+  write("funInp", 44);
+  command("ENBL");
+  pulse_input();
+  EXPECT_THAT(diagnostics(), Contains("funInp: function 44 does nothing"));
+}
+
+// Presets (spec 5.11). The enable is active from 2000 Um on, or up to 2200 Um.
+class Camming4Preset : public Camming4Inputs {
+ protected:
+  std::int64_t from = 2000;
+  std::int64_t to = 1000000;
+  void track(int count = 1) {
+    for (int i = 0; i < count; ++i) {
+      input(enable) = slave().count >= from && slave().count < to;
+      tick();
+    }
+  }
+  bool search_ends() {
+    for (int i = 0; i < 20000 && get("st_prson") == 1; ++i) track();
+    return get("st_prson") == 0;
+  }
+};
+
+TEST_F(Camming4Preset, ModeZeroLoadsAtTheEnablesRelease) {
+  set({{"prspos", 700}, {"pgain", 500}});
+  start();
+  command("PRESET");
+  EXPECT_EQ(get("st_prson"), 1);
+  EXPECT_EQ(get("st_still"), 0);
+  track(60);
+  EXPECT_EQ(get("setvel"), 5000);
+  EXPECT_EQ(get("ffwdreg"), 3277);
+  ASSERT_TRUE(search_ends());
+  EXPECT_EQ(get("st_prsok"), 1);
+  EXPECT_EQ(get("st_still"), 1);
+  EXPECT_EQ(get("setvel"), 1000);
+  EXPECT_EQ(get("setpos"), 700);
+  track(200);
+  EXPECT_NEAR(get("posit"), 700, 1);
+  // The quota 700 lies where the slow leg left the enable, within the way of one sample (2 Um).
+  EXPECT_NEAR(static_cast<double>(slave().count), 1999, 3);
+}
+
+TEST_F(Camming4Preset, ModeZeroBackwardCrossesAShortEnable) {
+  from = -1010;
+  to = -1000;
+  set({{"prspos", -50}, {"prsdir", 1}, {"minpos", -100}, {"maxpos", 100}, {"pgain", 500}});
+  start();
+  command("PRESET");
+  ASSERT_TRUE(search_ends());  // the limits do not count meanwhile
+  track(200);
+  EXPECT_NEAR(get("posit"), -50, 1);
+  // It ran over the enable, came back forward and left it at its upper end.
+  EXPECT_NEAR(static_cast<double>(slave().count), -1000, 3);
+}
+
+TEST_F(Camming4Preset, ModeOneLoadsAtTheFirstZeroPulseAfterIt) {
+  set({{"prspos", 0}, {"prsmode", 1}, {"pgain", 500}});
+  start();
+  command("PRESET");
+  bool seen = false;
+  std::int64_t pulse = 0;
+  for (int i = 0; i < 20000 && get("st_prson") == 1; ++i) {
+    const std::int64_t before = slave().count;
+    track();
+    // A zero pulse each 512 bits: its exact count is latched between two samples.
+    const std::int64_t mark = slave().count / 512 * 512;
+    if (before > mark && slave().count <= mark + 1 && !seen) {
+      for (auto& [address, counter] : cards.counters) counter.latched = mark;
+      device.interrupt(zero_line, true);
+      if (slave().count < from) {
+        pulse = mark;
+        seen = true;
+      }
+    }
+  }
+  EXPECT_EQ(pulse, 1536);
+  EXPECT_EQ(get("st_prsok"), 1);
+  track(100);
+  EXPECT_EQ(get("posit"), slave().count - 1536);
+}
+
+TEST_F(Camming4Preset, StartsWithTheSlowLegInsideTheEnable) {
+  from = -400;
+  set({{"prspos", 10}, {"pgain", 500}});
+  start();
+  track(2);
+  command("PRESET");
+  track(60);
+  EXPECT_EQ(get("setvel"), 1000);
+  EXPECT_EQ(get("ffwdreg"), -655);
+  ASSERT_TRUE(search_ends());
+}
+
+TEST_F(Camming4Preset, PresetAgainTurnsTheSearch) {
+  from = 1000000;
+  start();
+  command("PRESET");
+  track(100);
+  EXPECT_GT(get("ffwdreg"), 0);
+  command("PRESET");
+  track(150);
+  EXPECT_LT(get("ffwdreg"), 0);
+  EXPECT_EQ(get("st_prson"), 1);
+  command("STOP");
+  EXPECT_EQ(get("st_prson"), 0);
+  EXPECT_EQ(get("st_prsok"), 0);
+  EXPECT_TRUE(wait("st_still", 1));
+}
+
+TEST_F(Camming4Preset, ModeTwoLoadsAtTheEnableAfterARelease) {
+  set({{"prspos", 99}, {"prsmode", 2}});
+  input(enable) = true;
+  start();
+  ticks(5);
+  EXPECT_EQ(get("st_prsok"), 0);
+  input(enable) = false;
+  ticks(2);
+  input(enable) = true;
+  tick();
+  EXPECT_EQ(get("st_prsok"), 1);
+  EXPECT_EQ(get("posit"), 99);
+  command("RSPRSOK");
+  EXPECT_EQ(get("st_prsok"), 0);
+  command("PRESET");
+  EXPECT_EQ(get("st_prson"), 0);
+}
+
+TEST_F(Camming4Inputs, MasterPresetModeZero) {
+  write("prsposm", 5000);
+  start();
+  input(enable_master) = true;
+  tick(10);
+  input(enable_master) = false;
+  tick(10);
+  EXPECT_EQ(get("positm"), 20);  // nobody asked
+  command("PRESETM");
+  EXPECT_EQ(get("st_prsonm"), 1);
+  input(enable_master) = true;
+  tick(10);
+  EXPECT_EQ(get("st_prsonm"), 1);
+  input(enable_master) = false;
+  tick(10);
+  EXPECT_EQ(get("positm"), 5000);
+  EXPECT_EQ(get("st_prsokm"), 1);
+  EXPECT_EQ(get("st_prsonm"), 0);
+  command("RSPRSM");
+  EXPECT_EQ(get("st_prsokm"), 0);
+}
+
+TEST_F(Camming4Inputs, MasterPresetModeOneTakesTheLatchedCount) {
+  set({{"prsposm", 100}, {"prsmodem", 1}});
+  start();
+  command("PRESETM");
+  input(enable_master) = true;
+  tick(10);
+  edge(zero_line_master, true);
+  tick(10);
+  EXPECT_EQ(get("st_prsonm"), 1);  // the enable is not released
+  input(enable_master) = false;
+  tick(10);
+  edge(zero_line_master, true);
+  tick(7);
+  EXPECT_EQ(get("positm"), 107);
+  EXPECT_EQ(get("st_prsokm"), 1);
+}
+
+TEST_F(Camming4Inputs, MasterPresetModeTwoNeedsNoCommand) {
+  set({{"prsposm", 100}, {"prsmodem", 2}});
+  start();
+  ticks(3, 5);
+  input(enable_master) = true;
+  tick(5);
+  EXPECT_EQ(get("positm"), 100);
+  tick(5);
+  EXPECT_EQ(get("positm"), 105);
+}
+
+TEST_F(Camming4Inputs, RsprsmEndsTheMasterSearch) {
+  start();
+  command("PRESETM");
+  command("RSPRSM");
+  EXPECT_EQ(get("st_prsonm"), 0);
+  input(enable_master) = true;
+  tick();
+  input(enable_master) = false;
+  tick();
+  EXPECT_EQ(get("st_prsokm"), 0);
+}
+
+}  // namespace
+}  // namespace drycut::devices::camming4

@@ -1,0 +1,512 @@
+#include <gmock/gmock.h>
+
+#include "camming4_fixture.hpp"
+
+namespace drycut::devices::camming4 {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+using Camming4Motion = Camming4Test;
+
+TEST_F(Camming4Motion, DoesNothingBeforeInit) {
+  order("LOOPON");
+  tick();
+  EXPECT_EQ(get("st_loopon"), 0);
+  EXPECT_EQ(get("st_still"), 1);
+  slave().count = 500;
+  tick();
+  EXPECT_EQ(get("posit"), 0);
+  EXPECT_EQ(get("st_warning"), 0);
+}
+
+TEST_F(Camming4Motion, StartsUpAsTheManualShows) {
+  // 000 1.1.1.1: commands whose effect already holds are no refusals [D16].
+  for (const char* name :
+       {"INIT", "LOOPON", "CALOFF", "CNTUNLOCK", "CNTDIR", "CNTUNLOCKM", "CNTDIRM", "REGON"})
+    command(name);
+  for (const char* name : {"st_cal", "st_cntlock", "st_cntrev", "st_cntlockm", "st_cntrevm", "st_regoff",
+                           "st_warning", "st_emrg"})
+    EXPECT_EQ(get(name), 0) << name;
+  EXPECT_EQ(get("st_init"), 1);
+  EXPECT_EQ(get("st_loopon"), 1);
+  EXPECT_THAT(diagnostics(), IsEmpty());
+}
+
+TEST_F(Camming4Motion, JogsWithOneVoltAtATenthOfMaxvel) {
+  start();
+  write("setvel", 5000);
+  command("MANFW");
+  EXPECT_EQ(get("st_still"), 0);
+  EXPECT_EQ(get("st_acc"), 1);
+  ticks(60);  // the ramp takes 0.1 s
+  EXPECT_EQ(get("st_vconst"), 1);
+  EXPECT_EQ(get("ffwdreg"), 3277);
+  EXPECT_NEAR(word(), 3277, 0.02 * 3277);
+  EXPECT_EQ(get("vout"), 10);
+  EXPECT_EQ(get("st_movdir"), 0);
+  command("STOP");
+  EXPECT_EQ(get("st_dec"), 1);
+  EXPECT_TRUE(wait("st_still", 1, 60));
+  ticks(100);
+  EXPECT_LE(get("follerr"), 1);
+  command("MANBW");
+  ticks(60);
+  EXPECT_EQ(get("ffwdreg"), -3277);
+  EXPECT_EQ(get("st_movdir"), 1);
+}
+
+TEST_F(Camming4Motion, PlacesTheAxisExactly) {
+  start();
+  for (const int target : {1000, -2000, -1999, 0}) {
+    write("setpos", target);
+    command("START");
+    EXPECT_EQ(get("st_toll"), 0);
+    ASSERT_TRUE(wait("st_still", 1));
+    ticks(200);
+    EXPECT_NEAR(get("posit"), target, 1);
+    EXPECT_EQ(get("st_toll"), 1);
+    EXPECT_EQ(get("st_tpos"), 1);
+  }
+}
+
+TEST_F(Camming4Motion, APlacementTakesItsClosedFormTime) {
+  start();
+  // 5000 Um/s, a = d = 50000 Um/s2: 0.1 s each ramp, 500 Um in ramps, 500 Um at speed.
+  write("setpos", 1000);
+  order("START");
+  const long before = samples;
+  tick();
+  ASSERT_TRUE(wait("st_still", 1));
+  EXPECT_EQ(samples - before, 150);  // 0.3 s
+}
+
+TEST_F(Camming4Motion, TheToleranceOfAQuotaNeedsAPlacement) {
+  start();
+  write("setpos", 0);
+  sample();
+  EXPECT_EQ(get("st_tpos"), 1);
+  EXPECT_EQ(get("st_toll"), 0);
+  write("setpos", 3);
+  sample();
+  EXPECT_EQ(get("st_tpos"), 0);
+  write("setpos", 2);
+  sample();
+  EXPECT_EQ(get("st_tpos"), 1);
+}
+
+TEST_F(Camming4Motion, AStoppedPlacementIsNotInTolerance) {
+  start();
+  write("setpos", 1000);
+  command("START");
+  ticks(80);
+  command("STOP");
+  ASSERT_TRUE(wait("st_still", 1));
+  ticks(50);
+  EXPECT_EQ(get("st_toll"), 0);
+  EXPECT_LT(get("posit"), 999);
+}
+
+TEST_F(Camming4Motion, HoldsTheSoftwareLimits) {
+  set({{"minpos", -300}, {"maxpos", 500}});
+  start();
+  write("setpos", 900);
+  sample();
+  diagnostics();
+  command("START");
+  EXPECT_THAT(diagnostics(),
+              ElementsAre("START: setpos 900 is outside minpos..maxpos, the axis goes to 500"));
+  ASSERT_TRUE(wait("st_still", 1));
+  ticks(200);
+  EXPECT_NEAR(get("posit"), 500, 1);
+  write("posit", 500);
+  command("MANFW");
+  EXPECT_EQ(get("st_still"), 1);
+  EXPECT_THAT(diagnostics(), ElementsAre("MANFW: posit 500 is already at maxpos 500"));
+  command("MANBW");
+  ASSERT_TRUE(wait("st_still", 1));
+  ticks(200);
+  EXPECT_NEAR(get("posit"), -300, 1);
+}
+
+TEST_F(Camming4Motion, ChangesSpeedAndTargetOnTheFly) {
+  start();
+  write("setpos", 5000);
+  command("START");
+  ticks(60);
+  EXPECT_EQ(get("st_chvel"), 1);
+  set({{"setvel", 2500}, {"setpos", 4000}});
+  ticks(60);
+  EXPECT_EQ(get("ffwdreg"), 1638);
+  ASSERT_TRUE(wait("st_dec", 1));
+  EXPECT_EQ(get("st_chvel"), 0);
+  ASSERT_TRUE(wait("st_still", 1));
+  ticks(200);
+  EXPECT_NEAR(get("posit"), 4000, 1);
+  EXPECT_EQ(get("st_toll"), 1);
+}
+
+TEST_F(Camming4Motion, ATargetBehindIsStoredOnly) {
+  start();
+  write("setpos", 2000);
+  command("START");
+  ticks(100);
+  write("setpos", 100);
+  ASSERT_TRUE(wait("st_still", 1));
+  ticks(200);
+  EXPECT_NEAR(get("posit"), 2000, 1);
+  EXPECT_EQ(get("setpos"), 100);
+  EXPECT_EQ(get("st_toll"), 1);
+  EXPECT_EQ(get("st_tpos"), 0);
+}
+
+TEST_F(Camming4Motion, MovesForEverWhenPositIsWrittenBack) {
+  write("maxpos", 2000);
+  start();
+  command("MANFW");
+  ticks(60);
+  for (int i = 0; i < 20; ++i) {
+    ticks(50);
+    write("posit", 0);
+    tick();
+    EXPECT_EQ(get("ffwdreg"), 3277);
+  }
+  EXPECT_GT(slave().count, 10000);
+  ASSERT_TRUE(wait("st_still", 1));
+  ticks(200);
+  EXPECT_NEAR(get("posit"), 2000, 1);
+}
+
+TEST_F(Camming4Motion, EpicycloidalRampsPlaceInTheSameTime) {
+  write("ramptype", 1);
+  start();
+  write("setpos", 1000);
+  order("START");
+  const long before = samples;
+  tick();
+  ASSERT_TRUE(wait("st_still", 1));
+  EXPECT_EQ(samples - before, 150);
+  ticks(200);
+  EXPECT_NEAR(get("posit"), 1000, 1);
+}
+
+TEST_F(Camming4Motion, OpenLoopMovesOnFeedForwardOnly) {
+  command("INIT");
+  write("setpos", 1000);
+  command("START");
+  ASSERT_TRUE(wait("st_still", 1));
+  EXPECT_EQ(get("propreg"), 0);
+  EXPECT_EQ(word(), 0);
+  EXPECT_NEAR(get("posit"), 1000, 30);
+  command("LOOPON");
+  EXPECT_EQ(get("follerr"), 0);
+}
+
+TEST_F(Camming4Motion, EmergencyStopsWithoutRampAndResumeReactsOnTheSpot) {
+  start();
+  command("MANFW");
+  ticks(60);
+  command("EMRG");
+  EXPECT_EQ(word(), 0);
+  EXPECT_EQ(get("st_emrg"), 1);
+  EXPECT_EQ(get("st_still"), 1);
+  EXPECT_EQ(get("st_loopon"), 1);
+  slave().count += 777;
+  sample();
+  EXPECT_EQ(word(), 0);
+  for (const char* name : {"START", "MANFW", "STARTCAM", "PRESET"}) command(name);
+  EXPECT_EQ(get("st_still"), 1);
+  EXPECT_EQ(get("wrncode"), 11);
+  command("RESUME");
+  EXPECT_EQ(get("st_emrg"), 0);
+  EXPECT_EQ(get("follerr"), 0);
+  EXPECT_EQ(word(), 0);
+  slave().count += 10;
+  sample();
+  EXPECT_EQ(get("propreg"), -655);  // pgain 200: 0.2 * 10/100 of 32767
+}
+
+TEST_F(Camming4Motion, CalibrationIsAVoltageSource) {
+  start();
+  write("offset", 7);
+  write("vout", 50);
+  sample();
+  EXPECT_THAT(diagnostics(), ElementsAre("vout: st_cal is 0, must be 1"));
+  command("CALON");
+  EXPECT_EQ(word(), 7);
+  write("vout", -25);
+  sample();
+  EXPECT_EQ(word(), -8192 + 7);
+  EXPECT_EQ(get("vout"), -25);
+  slave().count -= 4000;
+  sample();
+  command("CALOFF");
+  EXPECT_EQ(get("follerr"), 0);
+  EXPECT_EQ(word(), 7);
+}
+
+TEST_F(Camming4Motion, RegulationOffFreezesTheOutput) {
+  start();
+  slave_blocked = true;
+  slave().count = -20;
+  sample();
+  const int before = word();
+  EXPECT_EQ(before, 1311);  // 0.2 * 20/100 of 32767
+  command("REGOFF");
+  slave().count = 300;
+  sample();
+  EXPECT_EQ(word(), before);
+  EXPECT_EQ(get("posit"), 300);
+  command("START");
+  EXPECT_EQ(get("wrncode"), 11);
+  command("REGON");
+  EXPECT_EQ(word(), 0);
+}
+
+TEST_F(Camming4Motion, RegulatesByItsClosedForms) {
+  set({{"pgain", 1000}, {"feedfw", 0}});
+  start();
+  slave_blocked = true;
+  slave().count = -100;  // the way of one period at maxvel
+  sample();
+  EXPECT_EQ(word(), 32767);
+  EXPECT_EQ(get("propreg"), 32767);
+  EXPECT_EQ(get("follerr"), 100);
+  EXPECT_EQ(get("st_warning"), 0);
+  slave().count = 50;
+  set({{"offset", -100}});
+  sample();
+  EXPECT_EQ(word(), -16384 - 100);
+}
+
+TEST_F(Camming4Motion, SaturationIsAWarning) {
+  write("pgain", 1000);
+  start();
+  slave_blocked = true;
+  slave().count = -101;
+  sample();
+  EXPECT_EQ(word(), 32767);
+  EXPECT_EQ(get("wrncode"), 3);
+  slave().count = 101;
+  sample();
+  EXPECT_EQ(word(), -32767);
+  EXPECT_EQ(get("wrncode"), 3);  // 4 is of lower priority
+  command("RSWRN");
+  EXPECT_EQ(get("wrncode"), 4);  // and comes back at once
+}
+
+TEST_F(Camming4Motion, FollowingErrorIsHeldForHalfASecond) {
+  write("maxfollerr", 40);
+  start();
+  slave_blocked = true;
+  slave().count = 41;
+  sample();
+  EXPECT_EQ(get("st_foller"), 1);
+  slave().count = 40;
+  for (int ms = period; ms < 500; ms += period) {
+    sample();
+    ASSERT_EQ(get("st_foller"), 1) << ms;
+  }
+  sample();
+  EXPECT_EQ(get("st_foller"), 0);
+}
+
+TEST_F(Camming4Motion, MeasuresFrequencyAndSpeed) {
+  set({{"tbf", 2}, {"tbfm", 2}});
+  command("INIT");
+  for (int i = 0; i < 12; ++i) {
+    slave().count -= 8;
+    tick(20);
+  }
+  EXPECT_EQ(get("frq"), 1000);
+  EXPECT_EQ(get("vel"), 4000);
+  EXPECT_EQ(get("frqm"), 2500);
+}
+
+TEST_F(Camming4Motion, LocksAndReversesItsCounts) {
+  command("INIT");
+  command("CNTREV");
+  slave().count += 10;
+  sample();
+  EXPECT_EQ(get("posit"), -10);
+  command("CNTLOCK");
+  slave().count += 10;
+  sample();
+  EXPECT_EQ(get("posit"), -10);
+  command("CNTUNLOCK");
+  command("CNTDIR");
+  slave().count += 3;
+  tick(4);
+  EXPECT_EQ(get("posit"), -7);
+  command("CNTREVM");
+  tick(1);
+  EXPECT_EQ(get("positm"), 3);
+  command("CNTLOCKM");
+  tick(100);
+  EXPECT_EQ(get("encoderm"), 3);
+}
+
+TEST_F(Camming4Motion, DelCntKeepsTheRemainder) {
+  set({{"measure", 1}, {"pulse", 10}});
+  command("INIT");
+  slave().count = 23;
+  sample();
+  EXPECT_EQ(get("posit"), 2);
+  write("delta1", 2);
+  command("DELCNT");
+  slave().count += 7;
+  sample();
+  EXPECT_EQ(get("posit"), 5);  // 4.3 + 0.7
+  slave().count += 3;
+  sample();
+  write("posit", 5);
+  sample();
+  slave().count += 9;
+  sample();
+  EXPECT_EQ(get("posit"), 5);
+}
+
+TEST_F(Camming4Motion, TwoDelCntBetweenSamplesAreOne) {
+  command("INIT");
+  set({{"posit", 1000}, {"delta1", -100}});
+  order("DELCNT");
+  order("DELCNT");
+  sample();
+  EXPECT_EQ(get("posit"), 900);
+  command("DELCNT");
+  EXPECT_EQ(get("posit"), 800);
+}
+
+TEST_F(Camming4Motion, ConvertsByTheRatioOfMeasureAndPulse) {
+  set({{"measure", 220}, {"pulse", 4096}});
+  command("INIT");
+  slave().count = 62296;
+  sample();
+  EXPECT_EQ(get("posit"), 3345);
+  write("encoder", -4096);
+  sample();
+  EXPECT_EQ(get("posit"), -220);
+}
+
+TEST_F(Camming4Motion, ChangesTheMasterWithoutAJump) {
+  command("INIT");
+  master().count = 100;
+  master_b().count = 5000;
+  sample();
+  write("mtype", 1);
+  sample();
+  EXPECT_EQ(get("positm"), 100);
+  master().count = 300;
+  master_b().count = 5007;
+  sample();
+  EXPECT_EQ(get("positm"), 107);
+  write("mtype", 0);
+  sample();
+  master().count = 301;
+  sample();
+  EXPECT_EQ(get("positm"), 108);
+}
+
+TEST_F(Camming4Motion, RefusesWhatItsConditionsForbid) {
+  start();
+  struct Case {
+    const char* command;
+    const char* reason;
+  };
+  for (const auto& [name, reason] :
+       {Case{"STOP", "STOP: st_still is 1, must be 0"}, Case{"STOPCAM", "STOPCAM: st_camex is 0, must be 1"},
+        Case{"INIT", "INIT: st_init is 1, must be 0"}, Case{"ENBL", "ENBL: needs inpcapt > 0"},
+        Case{"INTENBL", "INTENBL: needs intcapt > 0"}}) {
+    command("RSWRN");
+    diagnostics();
+    command(name);
+    EXPECT_THAT(diagnostics(), Contains(reason));
+    EXPECT_EQ(get("wrncode"), 11) << name;
+  }
+  command("MANFW");
+  ticks(10);
+  diagnostics();
+  for (const auto& [name, reason] :
+       {Case{"START", "START: st_still is 0, must be 1"}, Case{"MANBW", "MANBW: st_still is 0, must be 1"},
+        Case{"STARTCAM", "STARTCAM: st_still is 0, must be 1"},
+        Case{"REGOFF", "REGOFF: st_still is 0, must be 1"},
+        Case{"PRESET", "PRESET: needs st_still = 1 or st_prson = 1"},
+        Case{"DELCNT", "DELCNT: st_still is 0, must be 1"}}) {
+    command(name);
+    EXPECT_THAT(diagnostics(), Contains(reason));
+  }
+  for (const char* name : {"decpt", "measure", "maxvel", "maxpos", "prspos", "toll", "ramptype"}) {
+    const std::int32_t before = get(name);
+    write(name, before + 1);
+    tick();
+    EXPECT_EQ(get(name), before) << name;
+  }
+}
+
+TEST_F(Camming4Motion, ReportsRangesThatDependOnOtherParameters) {
+  set({{"maxpos", 100}, {"minpos", -100}});
+  diagnostics();
+  set({{"setvel", 50001}, {"setpos", 101}, {"sprsvel", 5001}, {"setvel", 50000}, {"prspos", -100}});
+  EXPECT_THAT(diagnostics(), ElementsAre("setvel: 50001 is outside 0..50000 (maxvel), taken anyway",
+                                         "setpos: 101 is outside -100..100 (maxpos), taken anyway",
+                                         "sprsvel: 5001 is outside 0..5000 (prsvel), taken anyway"));
+  EXPECT_EQ(get("setpos"), 101);
+}
+
+TEST_F(Camming4Motion, ReportsAResolutionOutOfRange) {
+  set({{"measure", 2}, {"pulse", 1}, {"measurem", 934}, {"pulsem", 999999}});
+  command("INIT");
+  EXPECT_THAT(diagnostics(), ElementsAre("measure: 2 * 4 / 1 is outside 0.00374..4, taken anyway"));
+}
+
+TEST_F(Camming4Motion, PowerLossKeepsPositionsAndParameters) {
+  start();
+  write("posit", 1234);
+  sample();
+  command("MANFW");
+  ticks(20);
+  const int posit = get("posit");
+  device.power_up();
+  EXPECT_EQ(word(), 0);
+  EXPECT_EQ(get("st_init"), 0);
+  EXPECT_EQ(get("st_still"), 1);
+  command("INIT");
+  EXPECT_EQ(get("posit"), posit);
+  EXPECT_EQ(get("maxvel"), 50000);
+  ticks(10);
+  EXPECT_EQ(word(), 0);
+}
+
+TEST_F(Camming4Motion, HostileParametersAreHarmless) {
+  for (const Variable& variable : device.type().variables)
+    for (const std::int32_t value : {0, -1, 2147483647, -2147483647 - 1}) {
+      write(std::string(variable.name) + (variable.rows > 1 ? "1" : ""), value);
+      order("INIT");
+      tick(1000000);
+      for (const char* name : {"LOOPON", "START", "MANFW", "STARTCAM", "PRESET", "STOP", "RSERR", "RESUME"}) {
+        order(name);
+        tick(-1000000);
+      }
+    }
+  EXPECT_LE(std::abs(word()), 32767);
+}
+
+/// The manual's own example names one counter for both axes.
+class Camming4OneCounter : public Camming4Test {
+ protected:
+  Camming4OneCounter() : Camming4Test("2.CNT01", "2.CNT01") {}
+};
+
+TEST_F(Camming4OneCounter, CountsForSlaveAndMaster) {
+  set({{"measurem", 1}, {"pulsem", 2}});
+  command("INIT");
+  slave().count = 10;
+  sample();
+  EXPECT_EQ(get("posit"), 10);
+  EXPECT_EQ(get("positm"), 5);
+}
+
+}  // namespace
+}  // namespace drycut::devices::camming4
