@@ -60,6 +60,17 @@ struct Event {
   std::vector<Value> values;  ///< already in their units
 };
 
+/// An event that a plant can report and the values that come with it, for checks and messages.
+struct EventType {
+  struct Value {
+    std::string_view name;
+    std::string_view unit;
+  };
+  std::string_view name;
+  std::vector<Value> values;
+  std::string_view meaning;
+};
+
 /// A machine or a part of a line. Bodies live in the World; everything else that acts is explicit.
 /// Per step h: drive() of all plants, World::step(), sense() of all plants, in scenario order.
 class Plant {
@@ -79,6 +90,7 @@ class Plant {
   virtual std::vector<Channel> channels() { return {}; }
   virtual std::vector<Setting> settings() { return {}; }
   virtual std::vector<Fault> faults() { return {}; }
+  virtual std::vector<EventType> event_types() { return {}; }
   virtual std::vector<Part> parts() { return {}; }
   /// Poses of parts(), same order; called only when a frame is taken.
   virtual void poses(std::vector<PartPose>& out) { (void)out; }

@@ -1,0 +1,29 @@
+#include "plants/bench.hpp"
+#include "plants/ideal_axis.hpp"
+#include "plants/plant.hpp"
+#include "plants/rotary_knife.hpp"
+#include "plants/web.hpp"
+
+namespace drycut::plants {
+
+namespace {
+template <class Definition>
+std::unique_ptr<PlantDefinition> define() {
+  return std::make_unique<Definition>();
+}
+}  // namespace
+
+const std::vector<PlantType>& plant_types() {
+  static const std::vector<PlantType> types = {
+      {"bench", "counters, switches and meters without physics, turned by the timeline",
+       define<BenchDefinition>},
+      {"ideal_axis", "an axis without mass: voltage is speed, exactly", define<IdealAxisDefinition>},
+      {"rotary_knife", "a servo-driven drum with blades that cuts the running web",
+       define<RotaryKnifeDefinition>},
+      {"web", "the material: line drive, measuring wheel, cut pieces on an outfeed belt",
+       define<WebDefinition>},
+  };
+  return types;
+}
+
+}  // namespace drycut::plants

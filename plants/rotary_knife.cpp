@@ -1,0 +1,147 @@
+#include "plants/rotary_knife.hpp"
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double degrees = 360 / turn;  // rad -> deg
+constexpr double rpm = 60 / turn;       // rad/s -> rpm
+constexpr double metres_a_minute = 60;  // m/s -> m/min
+constexpr double millimetres = 1000;
+
+CutterData cutter_data(const RotaryKnifeData& knife, const WebData& web, double radius) {
+  return {.radius = radius,
+          .blades = knife.blade_count,
+          .thickness = web.thickness,
+          .peak_force = web.shear_strength * web.thickness * web.width,
+          .coupling = knife.coupling,
+          .grip = knife.grip,
+          .mismatch_limit = knife.mismatch_limit};
+}
+
+PositionSwitchData in_turns(const PositionSwitchData& radians) {
+  return {radians.centre / turn, radians.width / turn, radians.hysteresis / turn, radians.delay};
+}
+
+}  // namespace
+
+RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
+    : data_(data),
+      web_(web),
+      radius_(data.circumference / turn),
+      rotor_(world.add_shaft({.name = "knife motor",
+                              .inertia = data.servo.rotor_inertia,
+                              .revolutions = data.initial_angle / turn * data.gear.ratio})),
+      drum_(world.add_shaft(
+          {.name = "knife drum", .inertia = data.drum_inertia, .revolutions = data.initial_angle / turn})),
+      servo_(data.servo, world.random("servo")),
+      gear_(data.gear),
+      encoder_(data.encoder, data.encoder_on_drum ? drum_.revolutions() : rotor_.revolutions(),
+               world.random("encoder")),
+      home_(in_turns(data.home), 1, drum_.part),
+      cutter_(cutter_data(data, web.data(), radius_), drum_) {}
+
+void RotaryKnife::drive(double h) {
+  servo_.drive(rotor_, h);
+  gear_.drive(rotor_, drum_);
+  const Cutter::Load load = cutter_.load(drum_, web_.material());
+  drum_.add_torque(load.torque);
+  web_.material().add_force(load.web_force);
+  // Dry friction last: it answers to all other torques.
+  rotor_.add_torque(friction_effort(data_.motor_friction, rotor_.speed, rotor_.torque, rotor_.inertia, h));
+  drum_.add_torque(
+      friction_effort(data_.drum_friction, drum_.speed, drum_.torque, drum_.inertia, h, load.dry));
+}
+
+void RotaryKnife::sense(double h) {
+  gear_.sense(rotor_, drum_, h);
+  encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_);
+  home_.sense(drum_.part_before, drum_.part, h);
+  const Cutter::Outcome outcome = cutter_.sense(drum_, web_.material(), h);
+  if (outcome.separated || outcome.tore || outcome.buckled) report(outcome);
+}
+
+void RotaryKnife::report(const Cutter::Outcome& outcome) {
+  if (outcome.separated) {
+    last_length_ = web_.separate(outcome.fraction);
+    last_mismatch_ = outcome.mismatch;
+    ++cuts_;
+    happened({"cut",
+              outcome.fraction,
+              {{"length", last_length_ * millimetres, "mm"},
+               {"mismatch", last_mismatch_ * millimetres, "mm/s"},
+               {"force", outcome.force, "N"},
+               {"number", static_cast<double>(cuts_), ""}}});
+  }
+  if (outcome.tore || outcome.buckled)
+    happened({outcome.tore ? "tear" : "buckle", 1, {{"mismatch", outcome.excess * millimetres, "mm/s"}}});
+}
+
+std::vector<Port> RotaryKnife::ports() {
+  return {{"encoder", &encoder_.pulses.port, "incremental encoder of the knife"},
+          {"encoder.index", &encoder_.index, "its index pulse, once a turn"},
+          {"servo.reference", &servo_.reference, "speed reference, +-10 V"},
+          {"servo.enable", &servo_.enable, "enable of the amplifier; strapped high unless wired"},
+          {"home", &home_.port, "home switch on the drum"}};
+}
+
+std::vector<Channel> RotaryKnife::channels() {
+  const auto blade_speed = [this] { return drum_.speed * radius_; };
+  return {
+      {"angle", "deg", [this] { return drum_.part * 360; },
+       "drum angle within a turn, 0 = blade 1 at the cut"},
+      {"angle.total", "deg", [this] { return drum_.revolutions() * 360; }, "drum angle over all turns"},
+      {"speed", "rpm", [this] { return drum_.speed * rpm; }, "speed of the drum"},
+      {"blade.speed", "m/min", [blade_speed] { return blade_speed() * metres_a_minute; },
+       "speed of the blade tips"},
+      {"blade.ratio", "",
+       [this, blade_speed] {
+         const double web = web_.material().speed;
+         return web != 0 ? blade_speed() / web : 0;
+       },
+       "blade tip speed over web speed"},
+      {"mismatch", "mm/s", [this] { return cutter_.mismatch() * millimetres; },
+       "blade speed along the web minus web speed while the blade is in the web, else 0"},
+      {"cut.length", "mm", [this] { return last_length_ * millimetres; }, "length of the last piece"},
+      {"cut.mismatch", "mm/s", [this] { return last_mismatch_ * millimetres; },
+       "largest speed mismatch of the last cut"},
+      {"cut.force", "N", [this] { return cutter_.force(); }, "vertical force on the blade"},
+      {"cut.number", "", [this] { return static_cast<double>(cuts_); }, "cuts since the start"},
+      {"motor.speed", "rpm", [this] { return rotor_.speed * rpm; }, "speed of the motor"},
+      {"motor.torque", "N m", [this] { return servo_.torque(); }, "torque of the motor"},
+      {"motor.utilisation", "%", [this] { return servo_.utilisation() * 100; },
+       "motor torque over rated torque"},
+      {"servo.reference", "V", [this] { return servo_.volts(); },
+       "speed reference as the amplifier reads it"},
+      {"servo.set_speed", "rpm", [this] { return servo_.speed_reference() * rpm; },
+       "speed reference after offset, drift and filter"},
+      {"servo.saturated", "", [this] { return servo_.saturated() ? 1.0 : 0.0; },
+       "1 while the torque limit acts"},
+      {"gear.torque", "N m", [this] { return gear_.torque(); }, "torque of the gear on the drum"},
+      {"gear.twist", "deg", [this] { return gear_.twist() * degrees; },
+       "twist between motor and drum, at the drum"},
+      {"encoder.count", "", [this] { return static_cast<double>(encoder_.pulses.port.count); },
+       "count of the encoder (x4), after faults"},
+      {"home", "", [this] { return home_.port.level ? 1.0 : 0.0; }, "home switch"},
+  };
+}
+
+std::vector<EventType> RotaryKnife::event_types() {
+  return {{"cut",
+           {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
+           "a blade went through the web at bottom dead centre: length of the piece, largest speed mismatch in "
+           "the web, largest vertical force, number since the start"},
+          {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
+          {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"}};
+}
+
+std::vector<Fault> RotaryKnife::faults() {
+  std::vector<Fault> faults;
+  servo_.offer_faults(faults, "servo");
+  encoder_.pulses.offer_faults(faults, "encoder");
+  home_.offer_faults(faults, "home");
+  return faults;
+}
+
+}  // namespace drycut::plants

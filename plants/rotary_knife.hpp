@@ -1,0 +1,86 @@
+#pragma once
+#include <string>
+
+#include "plants/cutting.hpp"
+#include "plants/encoder.hpp"
+#include "plants/plant.hpp"
+#include "plants/position_switch.hpp"
+#include "plants/servo_drive.hpp"
+#include "plants/transmission.hpp"
+#include "plants/web.hpp"
+
+namespace drycut::plants {
+
+/// Parameters of `type: rotary_knife`.
+struct RotaryKnifeData {
+  std::string web = "web";                  ///< the web that it cuts, by name
+  double circumference = 0.6;               ///< of the circle of the blade tips [m]
+  int blade_count = 1;                      ///< evenly on the drum
+  double blade_width = 0.4;                 ///< of the drum and its blades, across the line [m]
+  double drum_inertia = 0.41;               ///< with blades [kg m2]
+  double initial_angle = std::numbers::pi;  ///< of blade 1 from bottom dead centre [rad]
+  double coupling = 2000;       ///< horizontal force between blade and web per speed mismatch [N s/m]
+  double grip = 500;            ///< largest horizontal force [N]
+  double mismatch_limit = 0.1;  ///< speed mismatch at which the web tears or buckles [m/s]
+  ServoData servo;
+  TransmissionData gear;
+  Friction motor_friction = {0.1, 0.0005, 0, 0};
+  Friction drum_friction = {2, 0.1, 0, 0};
+  EncoderData encoder;  ///< on the motor or on the drum
+  bool encoder_on_drum = false;
+  /// Home switch on the drum, angles in rad.
+  PositionSwitchData home = {std::numbers::pi, std::numbers::pi / 18, std::numbers::pi / 360, 0.5e-3};
+};
+
+/// A drum with blades that cuts the web against an anvil while it runs: servo motor, gear, drum. Drum angle 0
+/// has blade 1 at bottom dead centre; positive turns move the blade with the web.
+///
+/// Events: `cut` (length, mismatch, force, number) when a blade reaches bottom dead centre; `tear` and
+/// `buckle` (mismatch) when blade and web differ by more than mismatch_limit while the blade is in the web,
+/// once per engagement. The first cut, number 1, is as long as the web beyond the cut at the start plus its
+/// travel.
+class RotaryKnife : public Plant {
+ public:
+  RotaryKnife(const RotaryKnifeData& data, World& world, Web& web);
+
+  void drive(double h) override;
+  void sense(double h) override;
+  std::vector<Port> ports() override;
+  std::vector<Channel> channels() override;
+  std::vector<Fault> faults() override;
+  std::vector<EventType> event_types() override;
+  std::vector<Part> parts() override;
+  void poses(std::vector<PartPose>& out) override;
+
+  [[nodiscard]] Shaft& rotor() { return rotor_; }
+  [[nodiscard]] Shaft& drum() { return drum_; }
+  [[nodiscard]] const Transmission& gear() const { return gear_; }
+  [[nodiscard]] double radius() const { return radius_; }  ///< of the blade tips [m]
+
+ private:
+  void report(const Cutter::Outcome& outcome);
+
+  RotaryKnifeData data_;
+  Web& web_;
+  double radius_;
+  Shaft& rotor_;
+  Shaft& drum_;
+  ServoDrive servo_;
+  Transmission gear_;
+  Encoder encoder_;
+  PositionSwitch home_;
+  Cutter cutter_;
+  int cuts_ = 0;
+  double last_length_ = 0;    // [m]
+  double last_mismatch_ = 0;  // [m/s]
+};
+
+class RotaryKnifeDefinition : public PlantDefinition {
+ public:
+  RotaryKnifeData data;
+  Parameters parameters() override;
+  std::vector<Objection> objections() override;
+  std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
+};
+
+}  // namespace drycut::plants

@@ -1,0 +1,135 @@
+#include "plants/servo_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drycut::plants {
+
+double driving_torque_limit(const ServoData& data, double speed) {
+  const double n = std::abs(speed);
+  if (n <= data.rated_speed) return data.peak_torque;
+  if (n <= data.max_speed)
+    return data.peak_torque + (data.torque_at_max_speed - data.peak_torque) * (n - data.rated_speed) /
+                                  (data.max_speed - data.rated_speed);
+  const double overspeed = (n / data.max_speed - 1) / 0.05;
+  return std::max(0.0, data.torque_at_max_speed * (1 - overspeed));
+}
+
+void ServoDrive::prepare(double h) {
+  h_ = h;
+  const auto share = [h](double lag) { return lag > 0 ? -std::expm1(-h / lag) : 1; };
+  filter_share_ = share(data_.filter);
+  lag_share_ = share(data_.current_lag);
+  speed_per_volt_ = data_.speed_at_10v / 10;
+  lsb_ = 20.0 / static_cast<double>(1LL << data_.adc_bits);
+}
+
+double ServoDrive::convert(double volts) const {
+  return lsb_ * std::nearbyint(std::clamp(volts, -10.0, 10.0 - lsb_) / lsb_);
+}
+
+double ServoDrive::speed_loop(double speed, double h) {
+  const double gain = (1 + data_.inertia_ratio) * data_.rotor_inertia * data_.speed_gain;
+  const double error = filtered_ - speed;
+  const double wanted = gain * error + integral_;
+  double limit = std::abs(speed) > data_.rated_speed && wanted * speed > 0
+                     ? driving_torque_limit(data_, speed)
+                     : data_.peak_torque;
+  if (faults_.torque_limit > 0) limit = std::min(limit, faults_.torque_limit);
+  const double command = std::clamp(wanted, -limit, limit);
+  saturated_ = command != wanted;
+  // Anti-windup: the integral stands while the limit acts and the error drives it further in.
+  if (!saturated_ || wanted * error < 0) integral_ += gain / data_.integral_time * error * h;
+  return command;
+}
+
+void ServoDrive::drive(Shaft& rotor, double h) {
+  if (h != h_) prepare(h);
+  faults_.drifted += faults_.drift * h;
+  double input = faults_.stuck ? faults_.stuck_at : reference.volts;
+  input += data_.offset + faults_.offset + faults_.drifted;
+  if (faults_.noise > 0) input += faults_.noise * random_.gaussian();
+  converted_ = convert(input);
+
+  double command = 0;
+  if (enable.level && !faults_.disabled) {
+    filtered_ += (converted_ * speed_per_volt_ - filtered_) * filter_share_;
+    command = speed_loop(rotor.speed, h);
+  } else {
+    // Without enable the motor coasts; the loop starts from its speed when enable returns.
+    filtered_ = rotor.speed;
+    integral_ = 0;
+    saturated_ = false;
+  }
+  torque_ += (command - torque_) * lag_share_;
+  rotor.add_torque(torque_);
+}
+
+void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& component) {
+  Faults& f = faults_;
+  faults.push_back(
+      {component, "offset", "V", [&f](double v) { f.offset = v; }, "added to the analogue input"});
+  faults.push_back({component, "drift", "V/s",
+                    [&f](double v) {
+                      f.drift = v;
+                      if (v == 0) f.drifted = 0;
+                    },
+                    "the analogue input drifts at this rate; 0 takes the drift away"});
+  faults.push_back({component, "noise", "V", [&f](double v) { f.noise = std::abs(v); },
+                    "white noise on the analogue input, rms"});
+  faults.push_back({component, "stuck", "",
+                    [this](double v) {
+                      if (v != 0 && !faults_.stuck) faults_.stuck_at = reference.volts;
+                      faults_.stuck = v != 0;
+                    },
+                    "1: the reference stays as it is now"});
+  faults.push_back({component, "disabled", "", [&f](double v) { f.disabled = v != 0; },
+                    "1: the amplifier trips, the motor coasts"});
+  faults.push_back({component, "torque_limit", "N m", [&f](double v) { f.torque_limit = std::abs(v); },
+                    "the torque is limited to this; 0 takes the limit away"});
+}
+
+Parameters servo_parameters(ServoData& data, const std::string& prefix) {
+  constexpr std::string_view sheet = "data sheet: Mitsubishi HG-SR202";
+  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
+                             double min, double max, std::string_view source) {
+    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
+  };
+  return {
+      row("rotor_inertia", "kg m2", "inertia of the rotor, a body of its own", &data.rotor_inertia, 1e-7, 10,
+          sheet),
+      row("rated_torque", "N m", "continuous torque; utilisation is measured against it", &data.rated_torque,
+          1e-3, 1e4, sheet),
+      row("peak_torque", "N m", "largest torque up to rated speed", &data.peak_torque, 1e-3, 1e5, sheet),
+      row("torque_at_max_speed", "N m", "largest driving torque at max_speed", &data.torque_at_max_speed,
+          1e-3, 1e5, "estimate: typical fall of the class above rated speed"),
+      row("rated_speed", "rpm", "speed up to which the peak torque is available", &data.rated_speed, 1, 1e5,
+          sheet),
+      row("max_speed", "rpm", "no driving torque is left 5 % above this speed", &data.max_speed, 1, 1e5,
+          sheet),
+      row("speed_at_10v", "rpm", "motor speed at a reference of 10 V", &data.speed_at_10v, 1, 1e5,
+          "usual setting: rated speed at 10 V"),
+      {prefix + "adc_bits",
+       "",
+       "resolution of the analogue input over -10 V .. +10 V",
+       &data.adc_bits,
+       8,
+       24,
+       {},
+       {},
+       "estimate: 14 bits are usual in the class"},
+      row("offset", "V", "offset of the analogue input", &data.offset, -1, 1, "ideal: none"),
+      row("filter", "ms", "time constant of the reference filter, 0 = none", &data.filter, 0, 1000,
+          "estimate"),
+      row("speed_gain", "rad/s", "gain of the speed loop, Kp = (1 + inertia_ratio) rotor_inertia speed_gain",
+          &data.speed_gain, 0.1, 5000, "estimate: medium stiffness of an auto-tuned axis"),
+      row("integral_time", "ms", "integral time Ti of the speed loop", &data.integral_time, 0.1, 1e5,
+          "estimate: as speed_gain"),
+      row("inertia_ratio", "", "load to motor inertia, as set in the amplifier", &data.inertia_ratio, 0, 300,
+          "the default drum behind gear 5: 0.41 / 25 / 0.00468"),
+      row("current_lag", "ms", "time constant of the current loop, 0 = none", &data.current_lag, 0, 100,
+          "estimate: bandwidth of 300 Hz"),
+  };
+}
+
+}  // namespace drycut::plants

@@ -1,0 +1,91 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "plants/plant.hpp"
+#include "plants/random.hpp"
+#include "plants/world.hpp"
+
+namespace drycut::plants {
+
+/// A servo amplifier with +-10 V speed reference and its motor. Data sheet values: Mitsubishi HG-SR202 (2
+/// kW).
+struct ServoData {
+  // Motor
+  double rotor_inertia = 46.8e-4;  ///< [kg m2]
+  double rated_torque = 9.5;       ///< [N m]
+  double peak_torque = 28.6;       ///< up to rated speed [N m]
+  double torque_at_max_speed =
+      19;  ///< peak torque left at max_speed, falling linearly from rated speed [N m]
+  double rated_speed = 209.4395102;  ///< 2000 rpm [rad/s]
+  double max_speed = 314.1592654;    ///< 3000 rpm [rad/s]; no driving torque is left 5 % above it
+  // Reference input
+  double speed_at_10v = 209.4395102;  ///< [rad/s]
+  int adc_bits = 14;                  ///< over -10 V .. +10 V
+  double offset = 0;                  ///< of the analogue input [V]
+  double filter = 1e-3;               ///< time constant of the reference filter, 0 = none [s]
+  // Speed loop: Kp = (1 + inertia_ratio) * rotor_inertia * speed_gain
+  double speed_gain = 250;       ///< [rad/s]
+  double integral_time = 20e-3;  ///< Ti [s]
+  double inertia_ratio = 3.5;    ///< load to motor inertia, as set in the amplifier
+  double current_lag = 0.5e-3;   ///< time constant of the current loop, 0 = none [s]
+};
+
+/// Rows for a parameter table; `prefix` ends with a dot: "servo.".
+Parameters servo_parameters(ServoData& data, const std::string& prefix);
+
+/// Largest torque of the motor [N m] while it drives at `speed` [rad/s, either sign]. Braking has the peak
+/// torque at any speed.
+[[nodiscard]] double driving_torque_limit(const ServoData& data, double speed);
+
+class ServoDrive {
+ public:
+  ServoDrive(const ServoData& data, Random noise) : data_(data), random_(noise) { enable.level = true; }
+
+  ReferencePort reference;
+  CommandPort enable;  ///< high unless something is wired to it (strapped in the cabinet)
+
+  /// One step of the amplifier: torque on the rotor for the coming step of `h` seconds.
+  void drive(Shaft& rotor, double h);
+
+  [[nodiscard]] double torque() const { return torque_; }             ///< on the rotor [N m]
+  [[nodiscard]] double speed_reference() const { return filtered_; }  ///< after the filter [rad/s]
+  [[nodiscard]] double volts() const { return converted_; }           ///< as converted [V]
+  [[nodiscard]] bool saturated() const { return saturated_; }         ///< the torque limit acts
+  [[nodiscard]] double utilisation() const { return std::abs(torque_) / data_.rated_torque; }
+
+  /// Faults for a plant's list, under the component name `component`. A value of 0 clears each of them.
+  void offer_faults(std::vector<Fault>& faults, const std::string& component);
+
+ private:
+  void prepare(double h);
+  [[nodiscard]] double convert(double volts) const;
+  [[nodiscard]] double speed_loop(double speed, double h);
+
+  ServoData data_;
+  Random random_;
+  double h_ = 0;  // the step for which the coefficients below hold
+  double filter_share_ = 1;
+  double lag_share_ = 1;
+  double speed_per_volt_ = 0;
+  double lsb_ = 0;
+
+  double converted_ = 0;
+  double filtered_ = 0;
+  double integral_ = 0;
+  double torque_ = 0;
+  bool saturated_ = false;
+
+  struct Faults {
+    double offset = 0;   // [V]
+    double drift = 0;    // [V/s]
+    double drifted = 0;  // [V]
+    double noise = 0;    // rms [V]
+    bool stuck = false;
+    double stuck_at = 0;  // [V]
+    bool disabled = false;
+    double torque_limit = 0;  // [N m], 0 = none
+  } faults_;
+};
+
+}  // namespace drycut::plants

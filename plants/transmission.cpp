@@ -1,0 +1,70 @@
+#include "plants/transmission.hpp"
+
+#include <cmath>
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double no_backlash = 1e-10;  // [rad]: less play than this is none
+
+double reduced_inertia(const TransmissionData& data, double motor, double load) {
+  const double reflected = motor * data.ratio * data.ratio;
+  return reflected * load / (reflected + load);
+}
+
+}  // namespace
+
+double transmission_torque(const TransmissionData& data, double twist, double twist_rate) {
+  const double damper = data.damping * twist_rate;
+  if (data.backlash <= no_backlash) return data.stiffness * twist + damper;
+  const double half = data.backlash / 2;
+  if (twist > half) {
+    const double spring = data.stiffness * (twist - half);
+    return std::max(0.0, spring + std::min(spring, damper));
+  }
+  if (twist < -half) {
+    const double spring = data.stiffness * (twist + half);
+    return std::min(0.0, spring + std::max(spring, damper));
+  }
+  return 0;
+}
+
+double resonance(const TransmissionData& data, double motor_inertia, double load_inertia) {
+  return std::sqrt(data.stiffness / reduced_inertia(data, motor_inertia, load_inertia));
+}
+
+bool stable(const TransmissionData& data, double motor_inertia, double load_inertia, double h) {
+  // Symplectic Euler with an explicit damper: k h2 + 2 c h < 4 J.
+  const double j = reduced_inertia(data, motor_inertia, load_inertia);
+  return data.stiffness * h * h + 2 * data.damping * h < 4 * j;
+}
+
+Parameters transmission_parameters(TransmissionData& data, const std::string& prefix) {
+  return {
+      {prefix + "ratio", "", "turns of the motor for one of the load", &data.ratio, 0.01, 1000},
+      {.name = prefix + "stiffness",
+       .unit = "N m/rad",
+       .meaning = "torsional stiffness of gear, shaft and coupling, seen at the load",
+       .value = &data.stiffness,
+       .min = 1,
+       .max = 1e7,
+       .source = "estimate: planetary gear of the 2 kW class, 15 N m/arcmin"},
+      {.name = prefix + "damping",
+       .unit = "N m s/rad",
+       .meaning = "torsional damping, seen at the load",
+       .value = &data.damping,
+       .min = 0,
+       .max = 1e5,
+       .source = "estimate: 5 % of critical"},
+      {.name = prefix + "backlash",
+       .unit = "deg",
+       .meaning = "play between the flanks, seen at the load",
+       .value = &data.backlash,
+       .min = 0,
+       .max = 10,
+       .source = "none: set it to study its effect"},
+  };
+}
+
+}  // namespace drycut::plants

@@ -1,0 +1,58 @@
+#pragma once
+#include <algorithm>
+#include <string>
+
+#include "plants/parameters.hpp"
+#include "plants/world.hpp"
+
+namespace drycut::plants {
+
+/// Gear, shaft and coupling between a rotor and its load. Both are bodies of their own; nothing is reflected.
+struct TransmissionData {
+  double ratio = 5;         ///< turns of the motor for one of the load
+  double stiffness = 52e3;  ///< torsional, seen at the load [N m/rad]
+  double damping = 7;       ///< seen at the load [N m s/rad]
+  double backlash = 0;      ///< whole play, seen at the load [rad]
+};
+
+/// Rows for a parameter table; `prefix` ends with a dot: "gear.".
+Parameters transmission_parameters(TransmissionData& data, const std::string& prefix);
+
+/// Torque that a spring with damper and play exerts for a twist [rad] and its rate [rad/s]. With play the
+/// flanks only push: damping neither pulls nor exceeds the spring (after Modelica's ElastoBacklash2).
+[[nodiscard]] double transmission_torque(const TransmissionData& data, double twist, double twist_rate);
+
+class Transmission {
+ public:
+  explicit Transmission(const TransmissionData& data) : data_(data) {}
+
+  /// Acts on both bodies for the coming step: +torque on the load, -torque/ratio on the motor.
+  void drive(Shaft& motor, Shaft& load) {
+    rate_ = motor.speed / data_.ratio - load.speed;
+    torque_ = transmission_torque(data_, twist_, rate_);
+    load.add_torque(torque_);
+    motor.add_torque(-torque_ / data_.ratio);
+  }
+  /// Follows the bodies over the last step. The twist is summed up from the speeds, as Bullet sums up angles:
+  /// a difference of two unwrapped angles would lose its digits over a long run.
+  void sense(const Shaft& motor, const Shaft& load, double h) {
+    twist_ += (motor.speed / data_.ratio - load.speed) * h;
+  }
+
+  [[nodiscard]] double torque() const { return torque_; }  ///< on the load [N m]
+  [[nodiscard]] double twist() const { return twist_; }    ///< motor/ratio - load [rad]
+  [[nodiscard]] double rate() const { return rate_; }  ///< of the twist when torque() was computed [rad/s]
+
+ private:
+  TransmissionData data_;
+  double twist_ = 0;
+  double rate_ = 0;
+  double torque_ = 0;
+};
+
+/// Angular frequency of the free two-mass oscillation [rad/s], inertias in kg m2.
+[[nodiscard]] double resonance(const TransmissionData& data, double motor_inertia, double load_inertia);
+/// True if explicit steps of `h` seconds follow that oscillation without growing.
+[[nodiscard]] bool stable(const TransmissionData& data, double motor_inertia, double load_inertia, double h);
+
+}  // namespace drycut::plants

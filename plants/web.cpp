@@ -1,0 +1,132 @@
+#include "plants/web.hpp"
+
+#include <fmt/format.h>
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double metres_a_minute = 60;  // m/s -> m/min
+constexpr double millimetres = 1000;
+
+}  // namespace
+
+Web::Web(const WebData& data, World& world)
+    : data_(data),
+      material_(world.add_slide({.name = "web", .mass = data.mass, .speed = data.drive.speed})),
+      drive_(data.drive),
+      wheel_(data.wheel, world.random("wheel")),
+      outfeed_(data.outfeed, data.thickness * data.width * data.density, world),
+      lead_end_(-data.lead) {}
+
+void Web::drive(double h) {
+  drive_.drive(material_, h);
+  outfeed_.drive(drive_.roll_speed(), h);
+}
+
+void Web::sense(double h) {
+  h_ = h;
+  wheel_.sense(material_.position_before, material_.position);
+}
+
+double Web::separate(double fraction) {
+  const double travel = within_step(material_.position_before, material_.position, material_.speed_before,
+                                    material_.speed, h_, fraction);
+  const double length = travel - lead_end_;
+  lead_end_ = travel;
+  ++pieces_;
+  // A web that stands or has run back leaves nothing that a belt could carry.
+  if (length > 0) outfeed_.add(length, material_.speed, fraction, h_);
+  return length;
+}
+
+std::vector<Port> Web::ports() {
+  return {{"wheel", &wheel_.pulses.port, "encoder of the measuring wheel"},
+          {"wheel.index", &wheel_.index, "its index pulse, once a turn of the wheel"}};
+}
+
+std::vector<Channel> Web::channels() {
+  return {
+      {"speed", "m/min", [this] { return material_.speed * metres_a_minute; }, "speed of the web"},
+      {"position", "mm", [this] { return material_.position * millimetres; },
+       "travel of the web since the start"},
+      {"set_speed", "m/min", [this] { return drive_.roll_speed() * metres_a_minute; },
+       "set speed of the line drive after its acceleration limit"},
+      {"drive.force", "N", [this] { return drive_.force(); }, "force of the line drive on the web"},
+      {"wheel.count", "", [this] { return static_cast<double>(wheel_.pulses.port.count); },
+       "count of the measuring wheel (x4), after faults"},
+      {"lead", "mm", [this] { return (material_.position - lead_end_) * millimetres; },
+       "web beyond the cut: the length of a piece cut now"},
+      {"pieces", "", [this] { return static_cast<double>(pieces_); }, "pieces cut since the start"},
+      {"outfeed.pieces", "", [this] { return static_cast<double>(outfeed_.on_belt()); },
+       "pieces on the outfeed belt"},
+  };
+}
+
+std::vector<Setting> Web::settings() {
+  return {{"speed", "m/min", [this](double v) { drive_.set_speed(v); }, [this] { return drive_.set_speed(); },
+           "set speed of the line drive"}};
+}
+
+std::vector<Fault> Web::faults() {
+  std::vector<Fault> faults;
+  wheel_.offer_faults(faults, "wheel");
+  return faults;
+}
+
+Parameters WebDefinition::parameters() {
+  const auto row = [](const char* name, std::string_view unit, std::string_view meaning, double* value,
+                      double min, double max, std::string_view source) {
+    return Parameter{name, unit, meaning, value, min, max, {}, {}, source};
+  };
+  Parameters table = {
+      row("speed", "m/min", "line speed at the start; the web already runs at it", &data.drive.speed, 0, 1000,
+          "a usual speed of a cut-to-length line"),
+      row("thickness", "mm", "thickness of the web", &data.thickness, 0.01, 100, "solid board"),
+      row("width", "mm", "width of the web", &data.width, 1, 10000, "a narrow line"),
+      row("density", "kg/m3", "density of the material", &data.density, 1, 20000, "solid board"),
+      row("shear_strength", "MPa", "shear resistance of the material, mean over the length of the blade",
+          &data.shear_strength, 0, 2000, "estimate: solid board, blade with a slight helix"),
+      row("mass", "kg", "mass that moves with the web", &data.mass, 0.01, 1e5,
+          "estimate: 10 m of strip, 2 kg, and the rolls that it drives"),
+      row("lead", "mm", "web beyond the cut at the start; the first piece is longer by it", &data.lead, 0,
+          100000, "the lead end is at the cut"),
+      row("drive.acceleration", "m/s2", "largest acceleration of the line drive", &data.drive.acceleration,
+          1e-3, 1000, "estimate: a second to 120 m/min"),
+      row("drive.stiffness", "N/m", "stiffness of the web between line drive and cut", &data.drive.stiffness,
+          1, 1e9, "estimate: 16 Hz with 20 kg"),
+      row("drive.damping", "N s/m", "damping of the line drive's speed loop on the web", &data.drive.damping,
+          0, 1e7, "estimate: 70 % of critical"),
+      row("drive.max_force", "N", "largest force of the line drive before it slips", &data.drive.max_force,
+          0.1, 1e6, "estimate"),
+      row("outfeed.speed_factor", "", "speed of the outfeed belt over line speed", &data.outfeed.speed_factor,
+          1, 10, "usual 10 to 30 % faster"),
+      row("outfeed.friction", "", "Coulomb friction coefficient, piece on belt", &data.outfeed.friction, 0.01,
+          2, "estimate: board on rubber"),
+      row("outfeed.start", "mm", "where the outfeed belt begins behind the cut", &data.outfeed.start, 0,
+          10000, "estimate"),
+      row("outfeed.length", "mm", "length of the outfeed belt", &data.outfeed.length, 100, 100000,
+          "estimate"),
+  };
+  for (Parameter& p : wheel_parameters(data.wheel, "wheel.")) table.push_back(std::move(p));
+  return table;
+}
+
+std::vector<PlantDefinition::Objection> WebDefinition::objections() {
+  std::vector<Objection> found;
+  const double share = data.drive.damping / data.mass;
+  if (share > 2000)
+    found.push_back({"drive.damping",
+                     fmt::format("{:g} N s/m on {:g} kg settles faster than steps of 1 ms can follow",
+                                 data.drive.damping, data.mass),
+                     fmt::format("at most {:g} N s/m, or more mass", 2000 * data.mass)});
+  return found;
+}
+
+std::unique_ptr<Plant> WebDefinition::build(World& world,
+                                            const std::function<Plant*(std::string_view)>& find) {
+  (void)find;
+  return std::make_unique<Web>(data, world);
+}
+
+}  // namespace drycut::plants

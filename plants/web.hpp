@@ -1,0 +1,63 @@
+#pragma once
+#include "plants/line_drive.hpp"
+#include "plants/measuring_wheel.hpp"
+#include "plants/outfeed.hpp"
+#include "plants/plant.hpp"
+
+namespace drycut::plants {
+
+/// Parameters of `type: web`.
+struct WebData {
+  double thickness = 1e-3;      ///< [m]
+  double width = 0.3;           ///< [m]
+  double density = 700;         ///< [kg/m3]
+  double shear_strength = 5e6;  ///< mean over the blade's length [Pa]
+  double mass = 20;  ///< of what moves with the web: strip between the stands and driven rolls [kg]
+  double lead = 0;   ///< web beyond the cut at the start [m]
+  LineDriveData drive;
+  MeasuringWheelData wheel;
+  OutfeedData outfeed;
+};
+
+/// The web: material that a line drive pulls past a measuring wheel and a cut to an outfeed belt. Along the
+/// line x, the cut at x = 0. What cuts it acts on `material` and calls separate().
+class Web : public Plant {
+ public:
+  Web(const WebData& data, World& world);
+
+  void drive(double h) override;
+  void sense(double h) override;
+  std::vector<Port> ports() override;
+  std::vector<Channel> channels() override;
+  std::vector<Setting> settings() override;
+  std::vector<Fault> faults() override;
+  std::vector<Part> parts() override;
+  void poses(std::vector<PartPose>& out) override;
+
+  [[nodiscard]] const WebData& data() const { return data_; }
+  [[nodiscard]] Slide& material() { return material_; }
+  [[nodiscard]] const Outfeed& outfeed() const { return outfeed_; }
+  /// Cuts the web off at x = 0 at `fraction` of the last step; the piece goes to the outfeed belt. Returns
+  /// its length [m]: the travel since the last cut, of the first piece since the lead end.
+  double separate(double fraction);
+
+ private:
+  WebData data_;
+  Slide& material_;  // position: travel since the start
+  LineDrive drive_;
+  MeasuringWheel wheel_;
+  Outfeed outfeed_;
+  double h_ = 0;     // of the last step [s]
+  double lead_end_;  // travel at which the present lead end passed x = 0 [m]
+  int pieces_ = 0;
+};
+
+class WebDefinition : public PlantDefinition {
+ public:
+  WebData data;
+  Parameters parameters() override;
+  std::vector<Objection> objections() override;
+  std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
+};
+
+}  // namespace drycut::plants

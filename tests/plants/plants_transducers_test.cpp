@@ -1,0 +1,292 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "plants/encoder.hpp"
+#include "plants/measuring_wheel.hpp"
+#include "plants/position_switch.hpp"
+#include "tests/plants/plants_lookup.hpp"
+
+namespace drycut::plants {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double h = 1e-4;
+
+/// A shaft with imposed speed and an encoder on it.
+struct Turning {
+  World world;
+  Shaft& shaft;
+  Encoder encoder;
+  std::vector<Fault> faults;
+  explicit Turning(const EncoderData& data = {}, double start = 0)
+      : shaft(world.add_shaft({.name = "shaft", .inertia = 1, .revolutions = start})),
+        encoder(data, start, world.random("encoder")) {
+    encoder.pulses.offer_faults(faults, "encoder");
+  }
+  void run(double turns_per_step, int steps) {
+    shaft.speed = turns_per_step * 2 * pi / h;
+    for (int i = 0; i < steps; ++i) {
+      world.step(h);
+      encoder.sense(shaft);
+    }
+  }
+  [[nodiscard]] std::int64_t count() const { return encoder.pulses.port.count; }
+};
+
+TEST(Encoder, CountsExactlyOverAMillionTurnsBothWays) {
+  Turning t({.lines = 2501});
+  int indexes = 0;
+  int wrong = 0;
+  const auto run = [&](double turns_per_step, int steps) {
+    t.shaft.speed = turns_per_step * 2 * pi / h;
+    for (int i = 0; i < steps; ++i) {
+      t.world.step(h);
+      t.encoder.sense(t.shaft);
+      for (int e = 0; e < t.encoder.index.edge_count; ++e) {
+        const SignalPort::Edge edge = t.encoder.index.edges[static_cast<std::size_t>(e)];
+        if (!edge.rising) continue;
+        ++indexes;
+        // The index is at a whole turn: its count is a multiple of the counts per turn, exactly.
+        if (t.encoder.pulses.port.count_at(edge.fraction) % 10004 != 0) ++wrong;
+      }
+    }
+  };
+  const int steps = 8333340;
+  run(0.12, steps);  // 1 000 000.8 turns: count 10 004 008 003.2
+  EXPECT_EQ(t.count(), 10004008003);
+  EXPECT_EQ(indexes, 1000000);
+  EXPECT_EQ(wrong, 0);
+  run(-0.12, steps);
+  EXPECT_NEAR(t.encoder.pulses.port.now, 0, 1e-3);
+  run(-0.12, steps);
+  EXPECT_EQ(t.count(), -10004008004);
+  EXPECT_EQ(indexes, 3000001);  // a million each way and back, and the one at zero
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Encoder, CountIsTheFloorOfTheExactPosition) {
+  Turning t({.lines = 2});
+  const double turns[] = {0.05, 0.05, 0.05, 0.05, -0.05, -0.05, -0.05, -0.05, -0.05};
+  const std::int64_t counts[] = {0, 0, 1, 1, 1, 0, 0, 0, -1};  // 8 a turn
+  for (int i = 0; i < 9; ++i) {
+    t.run(turns[i], 1);
+    EXPECT_EQ(t.count(), counts[i]) << i;
+  }
+}
+
+TEST(Encoder, StartsAtZeroWhereTheShaftStandsAndKeepsTheIndexWhereItIs) {
+  Turning t({.lines = 2048}, 2.5);
+  t.run(0.1, 6);
+  const SignalPort& index = t.encoder.index;
+  EXPECT_NEAR(t.encoder.pulses.port.now, 0.6 * 8192, 1e-6);
+  Turning back({.lines = 2048}, 2.5);
+  back.run(0.1, 5);  // reaches 3.0 in the fifth step, or the next by rounding
+  if (back.encoder.index.edge_count == 0) back.run(0.1, 1);
+  ASSERT_EQ(back.encoder.index.edge_count, 2);
+  EXPECT_EQ(back.encoder.pulses.port.count_at(back.encoder.index.edges[0].fraction), 4096);
+  EXPECT_EQ(index.edge_count, 0);
+}
+
+TEST(Encoder, IndexIsTheSameCountFromBothSides) {
+  Turning t({.lines = 1024}, 0.93);
+  t.run(0.02, 6);
+  std::int64_t forwards = 0;
+  std::int64_t backwards = 1;
+  Turning u({.lines = 1024}, 0.93);
+  for (int i = 0; i < 8; ++i) {
+    u.run(0.0171, 1);
+    if (u.encoder.index.edge_count > 0)
+      forwards = u.encoder.pulses.port.count_at(u.encoder.index.edges[0].fraction);
+  }
+  for (int i = 0; i < 8; ++i) {
+    u.run(-0.0171, 1);
+    if (u.encoder.index.edge_count > 0)
+      backwards = u.encoder.pulses.port.count_at(u.encoder.index.edges[0].fraction);
+  }
+  EXPECT_EQ(forwards, static_cast<std::int64_t>(std::floor(0.07 * 4096 + 1e-7)));
+  EXPECT_EQ(backwards, forwards);
+}
+
+TEST(Encoder, ReverseMountingCountsDown) {
+  Turning t({.lines = 2048, .reverse = true});
+  t.run(0.1, 11);
+  EXPECT_NEAR(t.encoder.pulses.port.now, -1.1 * 8192, 1e-6);
+}
+
+TEST(EncoderFaults, LostCountsStayLostInTheDirectionOfMotion) {
+  for (const double direction : {1.0, -1.0}) {
+    Turning t;
+    t.run(0.1 * direction, 3);
+    const double before = t.encoder.pulses.port.now;
+    fault(t.faults, "encoder", "lose_counts", 200);
+    t.run(0.1 * direction, 1);
+    EXPECT_NEAR(t.encoder.pulses.port.now, before + direction * (819.2 - 200), 1e-6);
+    t.run(0.1 * direction, 10);
+    EXPECT_NEAR(t.encoder.pulses.port.now, direction * (1.4 * 8192 - 200), 1e-6);
+  }
+}
+
+TEST(EncoderFaults, StuckHoldsTheCountAndTheIndex) {
+  Turning t;
+  t.run(0.1, 5);
+  fault(t.faults, "encoder", "stuck", 1);
+  const std::int64_t held = t.count();
+  for (int i = 0; i < 20; ++i) {
+    t.run(0.1, 1);
+    EXPECT_EQ(t.count(), held);
+    EXPECT_EQ(t.encoder.index.edge_count, 0);
+  }
+  fault(t.faults, "encoder", "stuck", 0);
+  t.run(0.1, 5);
+  EXPECT_NEAR(t.encoder.pulses.port.now, 8192, 1e-6);
+}
+
+TEST(EncoderFaults, ReverseTurnsTheCountRoundFromItsTime) {
+  Turning t;
+  t.run(0.1, 5);
+  fault(t.faults, "encoder", "reverse", 1);
+  t.run(0.1, 2);
+  EXPECT_NEAR(t.encoder.pulses.port.now, 0.3 * 8192, 1e-6);
+  fault(t.faults, "encoder", "reverse", 0);
+  t.run(0.1, 1);
+  EXPECT_NEAR(t.encoder.pulses.port.now, 0.4 * 8192, 1e-6);
+}
+
+TEST(EncoderFaults, JitterHasItsRmsAndLeavesNoOffset) {
+  Turning t;
+  fault(t.faults, "encoder", "jitter", 3);
+  double square = 0;
+  double last = 0;
+  const int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    t.run(0, 1);
+    EXPECT_EQ(t.encoder.pulses.port.before, last);  // steps join
+    last = t.encoder.pulses.port.now;
+    square += last * last / n;
+  }
+  EXPECT_NEAR(std::sqrt(square), 3, 0.1);
+  fault(t.faults, "encoder", "jitter", 0);
+  t.run(0, 1);
+  EXPECT_EQ(t.count(), 0);
+}
+
+TEST(MeasuringWheel, CountsTravelByItsTrueCircumference) {
+  MeasuringWheelData data;
+  MeasuringWheel ideal(data, Random());
+  ideal.sense(0, 12.34567);
+  EXPECT_EQ(ideal.pulses.port.count, 246913);
+  data.circumference_error = 0.01;
+  MeasuringWheel worn(data, Random());
+  worn.sense(0, 1.01);
+  EXPECT_EQ(worn.pulses.port.count, 20000);
+  data = {.slip = 0.25};
+  MeasuringWheel slipping(data, Random());
+  slipping.sense(0, 1);
+  EXPECT_EQ(slipping.pulses.port.count, 15000);
+}
+
+TEST(MeasuringWheel, IndexComesOnceATurnAtItsCount) {
+  MeasuringWheel wheel({}, Random());
+  int indexes = 0;
+  double x = 0;
+  for (int i = 0; i < 10000; ++i) {
+    wheel.sense(x, x + 1.3e-3);
+    x += 1.3e-3;
+    if (wheel.index.edge_count == 0) continue;
+    ++indexes;
+    EXPECT_EQ(wheel.pulses.port.count_at(wheel.index.edges[0].fraction), 10000 * indexes);
+  }
+  EXPECT_EQ(indexes, 26);
+}
+
+TEST(MeasuringWheelFaults, SlipFromNowOnKeepsWhatWasCounted) {
+  MeasuringWheel wheel({}, Random());
+  std::vector<Fault> faults;
+  wheel.offer_faults(faults, "wheel");
+  wheel.sense(0, 1);
+  fault(faults, "wheel", "slip", 0.5);
+  wheel.sense(1, 2);
+  EXPECT_NEAR(wheel.pulses.port.before, 20000, 1e-6);
+  EXPECT_NEAR(wheel.pulses.port.now, 30000, 1e-6);
+  fault(faults, "wheel", "slip", 0);
+  wheel.sense(2, 3);
+  EXPECT_NEAR(wheel.pulses.port.now, 50000, 1e-6);
+  fault(faults, "wheel", "lose_counts", 7);
+  fault(faults, "wheel", "stuck", 1);
+  wheel.sense(3, 4);
+  EXPECT_NEAR(wheel.pulses.port.now, 49993, 1e-6);
+}
+
+/// Moves a switch from a to b in steps and gives the positions of its edges, with the delay's travel in them.
+std::vector<double> edges(PositionSwitch& s, double from, double to, double step) {
+  std::vector<double> found;
+  double x = from;
+  const double dx = to > from ? step : -step;
+  for (int i = 0; i < std::lround((to - from) / dx); ++i) {
+    s.sense(x, x + dx, h);
+    for (int e = 0; e < s.port.edge_count; ++e)
+      found.push_back(x + dx * s.port.edges[static_cast<std::size_t>(e)].fraction);
+    x += dx;
+  }
+  return found;
+}
+
+TEST(PositionSwitch, SwitchesAtTheTargetAndLetsGoBehindTheHysteresis) {
+  PositionSwitch s({.centre = 1, .width = 0.2, .hysteresis = 0.05}, 0, 0);
+  EXPECT_FALSE(s.port.level);
+  const std::vector<double> up = edges(s, 0, 2, 0.013);
+  ASSERT_EQ(up.size(), 2U);
+  EXPECT_NEAR(up[0], 0.9, 1e-9);
+  EXPECT_NEAR(up[1], 1.15, 1e-9);
+  const std::vector<double> down = edges(s, 2, 0, 0.013);
+  ASSERT_EQ(down.size(), 2U);
+  EXPECT_NEAR(down[0], 1.1, 1e-9);
+  EXPECT_NEAR(down[1], 0.85, 1e-9);
+}
+
+TEST(PositionSwitch, RepeatsWithItsPeriod) {
+  PositionSwitch s({.centre = 0.5, .width = 0.1}, 1, 0);
+  int rising = 0;
+  double part = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double next = part + 0.01 >= 1 ? part + 0.01 - 1 : part + 0.01;
+    s.sense(part, next, h);
+    part = next;
+    for (int e = 0; e < s.port.edge_count; ++e)
+      rising += s.port.edges[static_cast<std::size_t>(e)].rising ? 1 : 0;
+  }
+  EXPECT_EQ(rising, 30);
+}
+
+TEST(PositionSwitch, DelaysItsEdgesAndSwallowsShortOnes) {
+  const double delay = 5.5 * h;
+  PositionSwitch s({.centre = 1, .width = 0.2, .delay = delay}, 0, 0);
+  const double speed = 0.01;  // per step
+  const std::vector<double> slow = edges(s, 0, 2, speed);
+  ASSERT_EQ(slow.size(), 2U);
+  EXPECT_NEAR(slow[0], 0.9 + 5.5 * speed, 1e-9);
+  EXPECT_NEAR(slow[1], 1.1 + 5.5 * speed, 1e-9);
+  EXPECT_TRUE(edges(s, 2, 0, 0.1).empty());  // over the target for two steps only
+}
+
+TEST(PositionSwitch, FaultsHoldOrKillTheSignal) {
+  PositionSwitch s({.centre = 0, .width = 0.2}, 0, 0);
+  std::vector<Fault> faults;
+  s.offer_faults(faults, "home");
+  EXPECT_TRUE(s.port.level);
+  fault(faults, "home", "stuck", 1);
+  s.sense(0, 1, h);
+  EXPECT_TRUE(s.port.level);
+  fault(faults, "home", "stuck", 0);
+  EXPECT_FALSE(s.port.level);
+  fault(faults, "home", "dead", 1);
+  s.sense(1, 0, h);
+  EXPECT_FALSE(s.port.level);
+  fault(faults, "home", "dead", 0);
+  EXPECT_TRUE(s.port.level);
+}
+
+}  // namespace
+}  // namespace drycut::plants
