@@ -1,0 +1,48 @@
+#include "renders/axis_ticks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace drycut::renders {
+namespace {
+
+constexpr double kDenser = 0.75;  ///< rather a third more ticks than wanted than half as many
+
+/// The next of 1, 2, 5, 10 ... at or above `least`.
+double round_step(double least) {
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * decade >= least * (1 - 1e-9)) return step * decade;
+  }
+  return 10 * decade;
+}
+
+std::string label(double value, double step, double largest) {
+  const int exponent = static_cast<int>(std::floor(std::log10(step) + 1e-9));
+  if (largest >= 1e7 || largest < 1e-4) {
+    const int digits = std::max(0, static_cast<int>(std::floor(std::log10(largest) + 1e-9)) - exponent);
+    return value == 0 ? "0" : fmt::format("{:.{}e}", value, std::min(digits, 15));
+  }
+  return fmt::format("{:.{}f}", value, std::max(0, -exponent));
+}
+
+}  // namespace
+
+std::vector<Tick> axis_ticks(double low, double high, int wanted, double least_step) {
+  assert(low < high && wanted >= 1);
+  const double step = round_step(std::max(kDenser * (high - low) / wanted, least_step));
+  const double largest = std::max(std::abs(low), std::abs(high));
+  std::vector<Tick> ticks;
+  const double first = std::ceil(low / step - 1e-9);
+  for (double k = first; k * step <= high + 1e-9 * step; ++k) {
+    if (ticks.size() > 1000) break;  // a range too narrow for its size: steps no longer tell in a double
+    const double value = k == 0 ? 0 : k * step;  // no "-0"
+    ticks.push_back({value, label(value, step, largest)});
+  }
+  return ticks;
+}
+
+}  // namespace drycut::renders

@@ -1,0 +1,203 @@
+#include "renders/caption_bar.hpp"
+
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "renders/text.hpp"
+
+namespace drycut::renders {
+namespace {
+
+constexpr const char* kFont = "DejaVu Sans";
+constexpr double kLine = 1.5;       ///< line height / font size
+constexpr double kValueGap = 0.55;  ///< between label and value / font size
+constexpr double kColumnGap = 2.0;  ///< between columns / font size
+
+struct Colour {
+  double red, green, blue;
+};
+constexpr Colour kGround = {0.105, 0.125, 0.150};
+constexpr Colour kRule = {0.92, 0.46, 0.10};
+constexpr Colour kTitle = {0.97, 0.98, 0.99};
+constexpr Colour kLabel = {0.62, 0.68, 0.74};
+constexpr Colour kValue = {0.97, 0.98, 0.99};
+
+/// A cairo picture to write on.
+class Page {
+ public:
+  Page(int width, int height)
+      : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy),
+        cairo_(cairo_create(surface_.get()), cairo_destroy) {
+    if (cairo_status(cairo_.get()) != CAIRO_STATUS_SUCCESS) {
+      throw std::runtime_error("pictures: cairo cannot make a caption bar");
+    }
+    // Without hinting, widths are proportional to the font size and the same on every machine.
+    const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(
+        cairo_font_options_create(), cairo_font_options_destroy);
+    cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+    cairo_set_font_options(cairo_.get(), options.get());
+  }
+
+  void font(double size, bool bold = false) {
+    cairo_select_font_face(cairo_.get(), kFont, CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo_.get(), size);
+  }
+
+  double width(const std::string& text) {
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo_.get(), text.c_str(), &extents);
+    return extents.x_advance;
+  }
+
+  /// `text`, or its beginning and an ellipsis, no wider than `room` [pixels].
+  std::string fitted(std::string text, double room) {
+    if (width(text) <= room) return text;
+    while (!text.empty() && width(text + "…") > room) drop_last_character(text);
+    return text + "…";
+  }
+
+  void text(double x, double baseline, const std::string& words, const Colour& colour) {
+    cairo_set_source_rgb(cairo_.get(), colour.red, colour.green, colour.blue);
+    cairo_move_to(cairo_.get(), x, baseline);
+    cairo_show_text(cairo_.get(), words.c_str());
+  }
+
+  void fill(double x, double y, double w, double h, const Colour& colour) {
+    cairo_set_source_rgb(cairo_.get(), colour.red, colour.green, colour.blue);
+    cairo_rectangle(cairo_.get(), x, y, w, h);
+    cairo_fill(cairo_.get());
+  }
+
+  void copy_to(Image& image, int first_row, int rows) {
+    cairo_surface_flush(surface_.get());
+    const unsigned char* pixels = cairo_image_surface_get_data(surface_.get());
+    const int stride = cairo_image_surface_get_stride(surface_.get());
+    for (int y = 0; y < rows; ++y) {
+      std::uint8_t* to = image.row(first_row + y);
+      const unsigned char* from = pixels + static_cast<std::ptrdiff_t>(y) * stride;
+      for (int x = 0; x < image.width; ++x, to += 3, from += 4) {
+        to[0] = from[2];
+        to[1] = from[1];
+        to[2] = from[0];
+      }
+    }
+  }
+
+ private:
+  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
+  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
+};
+
+}  // namespace
+
+CaptionLayout::CaptionLayout(const Film& film) : title_(one_line(film.title)), width_(film.width) {
+  const double scale = std::clamp(film.height / 540.0, 0.5, 4.0);
+  margin_ = 16 * scale;
+  title_size_ = 16 * scale;
+
+  Page page(16, 16);
+  constexpr double kMeasure = 64;
+  page.font(kMeasure);
+  std::vector<Widths> items;
+  for (const Frame& frame : film.frames) {
+    if (frame.caption.size() > items.size()) items.resize(frame.caption.size());
+    for (std::size_t i = 0; i < frame.caption.size(); ++i) {
+      items[i].label = std::max(items[i].label, page.width(one_line(frame.caption[i].label)) / kMeasure);
+      items[i].value = std::max(items[i].value, page.width(one_line(frame.caption[i].value)) / kMeasure);
+    }
+  }
+
+  // Rather a little smaller than one row more, rather one row more than hard to read.
+  constexpr double kSmallest = 10.5;
+  struct Attempt {
+    std::size_t rows;
+    double largest, smallest;
+  };
+  bool placed = false;
+  for (const Attempt& attempt : {Attempt{1, 15, 13}, Attempt{2, 15, 12}, Attempt{3, 14, kSmallest}}) {
+    for (double size = attempt.largest; !placed && size >= attempt.smallest; size -= 0.5) {
+      placed = place(items, attempt.rows, size * scale, false);
+    }
+  }
+  if (!placed) place(items, 4, kSmallest * scale, true);
+}
+
+bool CaptionLayout::place(const std::vector<Widths>& items, std::size_t rows, double font_size,
+                          bool by_force) {
+  const std::size_t columns = (items.size() + rows - 1) / rows;
+  std::vector<Widths> widest(columns);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    Widths& column = widest[i % columns];
+    column.label = std::max(column.label, items[i].label);
+    column.value = std::max(column.value, items[i].value);
+  }
+  const double room = width_ - 2 * margin_;
+  double used = 0;
+  for (const Widths& column : widest) used += (column.label + kValueGap + column.value) * font_size;
+  if (columns > 1) used += static_cast<double>(columns - 1) * kColumnGap * font_size;
+  if (used > room && !by_force) return false;
+
+  font_size_ = font_size;
+  cells_.clear();
+  const double share = columns > 0 ? room / static_cast<double>(columns) : 0;  // of a column, when by force
+  double left = margin_;
+  std::vector<Cell> line;
+  for (const Widths& column : widest) {
+    Cell cell;
+    cell.left = left;
+    cell.label_width = column.label * font_size;
+    cell.right = left + (column.label + kValueGap + column.value) * font_size;
+    if (by_force) {
+      cell.right = left + share - kValueGap * font_size;
+      const double value = std::min(column.value * font_size, 0.6 * share);
+      cell.label_width = std::max(0.0, cell.right - left - value - kValueGap * font_size);
+      left += share;
+    } else {
+      left = cell.right + kColumnGap * font_size;
+    }
+    line.push_back(cell);
+  }
+  const double first_line = 0.45 * margin_ + kLine * title_size_;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    Cell cell = line[i % columns];
+    cell.baseline = first_line + (static_cast<double>(i / columns) + 0.72) * kLine * font_size;
+    cells_.push_back(cell);
+  }
+  const double lines = columns > 0 ? static_cast<double>((items.size() + columns - 1) / columns) : 0;
+  height_ = static_cast<int>(std::ceil(first_line + lines * kLine * font_size + 0.45 * margin_));
+  return true;
+}
+
+void CaptionLayout::draw(const Frame& frame, Image& image) const {
+  Page page(width_, height_);
+  page.fill(0, 0, width_, height_, kGround);
+  page.fill(0, 0, width_, std::max(1.0, std::round(margin_ / 8)), kRule);
+
+  const double baseline = 0.45 * margin_ + 0.85 * kLine * title_size_ * 0.92;
+  page.font(title_size_, true);
+  const std::string time = fmt::format("t = {:.3f} s", frame.time_s);
+  const double time_width = page.width(time);
+  page.text(margin_, baseline, page.fitted(title_, width_ - 3 * margin_ - time_width), kTitle);
+  page.text(width_ - margin_ - time_width, baseline, time, kTitle);
+
+  page.font(font_size_);
+  for (std::size_t i = 0; i < std::min(frame.caption.size(), cells_.size()); ++i) {
+    const Cell& cell = cells_[i];
+    const double value_room = cell.right - cell.left - cell.label_width - kValueGap * font_size_;
+    const std::string label = page.fitted(one_line(frame.caption[i].label), cell.label_width + 0.01);
+    const std::string value = page.fitted(one_line(frame.caption[i].value), value_room + 0.01);
+    page.text(cell.left, cell.baseline, label, kLabel);
+    page.text(cell.right - page.width(value), cell.baseline, value, kValue);
+  }
+  page.copy_to(image, image.height - height_, height_);
+}
+
+}  // namespace drycut::renders

@@ -1,0 +1,54 @@
+#include "renders/gl_context.hpp"
+
+#include <GL/osmesa.h>
+
+#include <array>
+#include <cstdlib>
+#include <mutex>
+#include <stdexcept>
+
+namespace drycut::renders {
+namespace {
+
+/// Runs are spread over the cores by process or thread, so the rasteriser shall not start threads of its own
+/// (unless the user says otherwise). It reads the variable when the first context is made.
+void one_thread_a_context() {
+  static std::once_flag once;
+  std::call_once(once, [] { setenv("LP_NUM_THREADS", "0", /*overwrite=*/0); });
+}
+
+}  // namespace
+
+void GlContext::Release::operator()(void* context) const {
+  OSMesaDestroyContext(static_cast<OSMesaContext>(context));
+}
+
+GlContext::GlContext() : buffer_(16 * 16 * 4) {
+  one_thread_a_context();
+  const std::array<int, 13> attributes = {OSMESA_FORMAT,
+                                          OSMESA_RGBA,
+                                          OSMESA_DEPTH_BITS,
+                                          0,
+                                          OSMESA_PROFILE,
+                                          OSMESA_CORE_PROFILE,
+                                          OSMESA_CONTEXT_MAJOR_VERSION,
+                                          3,
+                                          OSMESA_CONTEXT_MINOR_VERSION,
+                                          3,
+                                          0,
+                                          0,
+                                          0};
+  context_.reset(OSMesaCreateContextAttribs(attributes.data(), nullptr));
+  if (context_ == nullptr) {
+    throw std::runtime_error(
+        "pictures: OSMesa gives no OpenGL 3.3 core context; install libosmesa6 with llvmpipe");
+  }
+  if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), buffer_.data(), GL_UNSIGNED_BYTE, 16,
+                        16) == GL_FALSE) {
+    throw std::runtime_error("pictures: OSMesa could not make its context current");
+  }
+}
+
+GlContext::~GlContext() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+}  // namespace drycut::renders

@@ -1,0 +1,97 @@
+#include "renders/pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "renders/camera.hpp"
+#include "renders/caption_bar.hpp"
+#include "renders/gl_renderer.hpp"
+
+namespace drycut::renders {
+namespace {
+
+constexpr int kSmallest = 160;
+constexpr int kLargest = 8192;
+
+template <std::size_t N>
+bool all_finite(const std::array<double, N>& values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+bool all_positive(const Vec3& values) {
+  return all_finite(values) && std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
+}
+
+void require(bool good, const std::string& otherwise) {
+  if (!good) throw std::invalid_argument("pictures: " + otherwise);
+}
+
+void require_drawable(const Film& film) {
+  require(film.width >= kSmallest && film.width <= kLargest && film.height >= kSmallest &&
+              film.height <= kLargest,
+          fmt::format("size {}x{} cannot be drawn; width and height are {} to {} pixels", film.width,
+                      film.height, kSmallest, kLargest));
+  const Camera& camera = film.camera;
+  require(all_finite(camera.eye) && all_finite(camera.target) && length(camera.target - camera.eye) > 0,
+          "the camera's eye and target must be two different points");
+  require(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150,
+          fmt::format("field of view {} degrees; 1 to 150 can be drawn", camera.field_of_view_deg));
+  for (const SolidPart& part : film.parts) {
+    require(all_positive(part.size), fmt::format("part '{}': sizes must be more than 0 m", part.name));
+    require(find_material(part.material) != nullptr,
+            fmt::format("part '{}': unknown material '{}'; known: {}", part.name, part.material,
+                        material_names()));
+  }
+  for (std::size_t f = 0; f < film.frames.size(); ++f) {
+    const Frame& frame = film.frames[f];
+    require(
+        frame.placements.size() == film.parts.size(),
+        fmt::format("frame {}: {} placements for {} parts", f, frame.placements.size(), film.parts.size()));
+    for (std::size_t i = 0; i < film.parts.size(); ++i) {
+      const Placement& p = frame.placements[i];
+      const bool turned = all_finite(p.rotation) && p.rotation != std::array<double, 4>{0, 0, 0, 0};
+      require(!p.visible || (all_finite(p.position) && turned && all_positive(p.scale)),
+              fmt::format(
+                  "frame {}: part '{}' has no place that can be drawn (a number is not finite, the rotation "
+                  "is 0 0 0 0 or a scale is not more than 0)",
+                  f, film.parts[i].name));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
+                                             const std::function<void(int)>& progress) {
+  require_drawable(film);
+  std::vector<std::filesystem::path> files;
+  if (film.frames.empty()) return files;
+
+  const CaptionLayout caption(film);
+  const int view_height = film.height - caption.height();
+  require(
+      view_height >= kSmallest / 4,
+      fmt::format("size {}x{} leaves no room above the caption; make it higher", film.width, film.height));
+  GlRenderer renderer({film.camera, mechanism_extent(film), floor_level(film), film.width, view_height});
+
+  std::filesystem::create_directories(directory);
+  Image image(film.width, film.height);
+  std::vector<Vertex> triangles;
+  for (const Frame& frame : film.frames) {
+    triangles.clear();
+    for (std::size_t i = 0; i < film.parts.size(); ++i) {
+      if (frame.placements[i].visible) append_solid(triangles, film.parts[i], frame.placements[i]);
+    }
+    renderer.draw(triangles, image);
+    caption.draw(frame, image);
+    files.push_back(directory / fmt::format("frame_{:05}.png", files.size()));
+    write_file(files.back(), png_bytes(image));
+    if (progress) progress(static_cast<int>(files.size()));
+  }
+  return files;
+}
+
+}  // namespace drycut::renders

@@ -1,0 +1,165 @@
+#include "renders/plot_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renders/text.hpp"
+
+namespace drycut::renders {
+namespace {
+
+constexpr double kTitleHeight = 46;
+constexpr double kPanelHeader = 34;
+constexpr double kLegendRow = 23;
+constexpr double kPanelGap = 12;
+constexpr double kXAxisHeight = 62;  ///< tick labels and axis label below the last panel
+constexpr double kYLabelWidth = 40;
+constexpr double kRightMargin = 26;
+constexpr double kEntryGap = 24;
+
+class Span {
+ public:
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    const double bounded = std::clamp(value, -1e150, 1e150);  // so that the difference stays finite
+    low_ = std::min(low_, bounded);
+    high_ = std::max(high_, bounded);
+  }
+  /// Widened by a share of itself; made wide enough to draw if it is a point.
+  Range range(double margin) const {
+    if (low_ > high_) return {0, 1};
+    const double size = std::max(std::abs(low_), std::abs(high_));
+    if (high_ - low_ <= 1e-9 * size) {
+      const double around = size > 0 ? 0.1 * size : 1;
+      return {low_ - around, high_ + around};
+    }
+    const double border = margin * (high_ - low_);
+    return {low_ - border, high_ + border};
+  }
+
+ private:
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
+};
+
+Range x_range(const Plot& plot) {
+  Span span;
+  for (const Panel& panel : plot.panels) {
+    for (const Curve& curve : panel.curves) {
+      for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        if (std::isfinite(curve.y[i])) span.add(curve.x[i]);
+      }
+    }
+  }
+  return span.range(0);
+}
+
+Range y_range(const Panel& panel) {
+  if (panel.y_range) return *panel.y_range;
+  Span span;
+  for (const Curve& curve : panel.curves) {
+    for (std::size_t i = 0; i < curve.y.size(); ++i) {
+      if (std::isfinite(curve.x[i])) span.add(curve.y[i]);
+    }
+  }
+  for (const Band& band : panel.bands) {
+    span.add(band.low);
+    span.add(band.high);
+  }
+  return span.range(0.06);
+}
+
+/// Flags and counters have nothing between two whole numbers.
+bool only_whole_numbers(const Panel& panel) {
+  return std::any_of(panel.curves.begin(), panel.curves.end(),
+                     [](const Curve& curve) { return !curve.y.empty(); }) &&
+         std::all_of(panel.curves.begin(), panel.curves.end(), [](const Curve& curve) {
+           return std::all_of(curve.y.begin(), curve.y.end(),
+                              [](double y) { return !std::isfinite(y) || y == std::floor(y); });
+         });
+}
+
+/// Entries from the left, beside the title as far as they fit and in rows below it. Returns the rows used
+/// below the title.
+int lay_legend(const Panel& panel, double left, double right, double first_row,
+               std::vector<LegendEntry>& legend) {
+  const double title =
+      panel.title.empty() ? 0 : text_width(one_line(panel.title), PlotType::panel_title, true) + 30;
+  const double room = right - left - kLegendSample - kLegendGap;
+  double x = left + title;
+  int row = 0;
+  const auto add = [&](bool band, std::size_t index, const std::string& label) {
+    if (label.empty()) return;
+    LegendEntry entry{band, index, fitted_text(one_line(label), PlotType::text, room), 0, 0};
+    const double width = kLegendSample + kLegendGap + text_width(entry.label, PlotType::text);
+    const bool row_is_empty = x == left && (row > 0 || title == 0);
+    if (x + width > right && !row_is_empty) {
+      ++row;
+      x = left;
+    }
+    entry.left = x;
+    entry.baseline = first_row + row * kLegendRow;
+    x += width + kEntryGap;
+    legend.push_back(entry);
+  };
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) add(false, i, panel.curves[i].label);
+  for (std::size_t i = 0; i < panel.bands.size(); ++i) add(true, i, panel.bands[i].label);
+  return row;
+}
+
+/// A run of 10 s that was recorded up to 9.998 s still ends at a mark.
+Range up_to_marks(const Range& range, int wanted) {
+  const std::vector<Tick> ticks = axis_ticks(range.first, range.second, wanted);
+  if (ticks.size() < 2) return range;
+  const double step = ticks[1].value - ticks[0].value;
+  const double near = 0.01 * (range.second - range.first);
+  const double before = ticks.front().value - step;
+  const double after = ticks.back().value + step;
+  return {range.first - before < near ? before : range.first,
+          after - range.second < near ? after : range.second};
+}
+
+double widest_label(const std::vector<Tick>& ticks) {
+  double widest = 0;
+  for (const Tick& tick : ticks) widest = std::max(widest, text_width(tick.label, PlotType::text));
+  return widest;
+}
+
+}  // namespace
+
+PlotLayout laid_out(const Plot& plot) {
+  PlotLayout layout;
+  layout.width = plot.width;
+  layout.right = plot.width - kRightMargin;
+  layout.x_range = x_range(plot);
+
+  double widest = 0;
+  for (const Panel& panel : plot.panels) {
+    PanelLayout here;
+    here.y_range = y_range(panel);
+    const double least = only_whole_numbers(panel) ? 1 : 0;
+    const int wanted = std::clamp(plot.panel_height / 48, 2, 12);
+    here.y_ticks = axis_ticks(here.y_range.first, here.y_range.second, wanted, least);
+    widest = std::max(widest, widest_label(here.y_ticks));
+    layout.panels.push_back(here);
+  }
+  layout.left = std::min(kYLabelWidth + widest + 12, 0.5 * plot.width);
+  const int x_ticks = std::clamp(static_cast<int>((layout.right - layout.left) / 110), 2, 16);
+  layout.x_range = up_to_marks(layout.x_range, x_ticks);
+  layout.x_ticks = axis_ticks(layout.x_range.first, layout.x_range.second, x_ticks);
+
+  double y = plot.title.empty() ? 10 : kTitleHeight;
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    PanelLayout& here = layout.panels[i];
+    here.title_y = y + kPanelHeader / 2;
+    const int rows = lay_legend(plot.panels[i], layout.left, layout.right, here.title_y, here.legend);
+    here.top = y + kPanelHeader + rows * kLegendRow;
+    here.bottom = here.top + plot.panel_height - kPanelHeader - kPanelGap;
+    y = here.bottom + kPanelGap;
+  }
+  layout.height = static_cast<int>(std::ceil(y - kPanelGap + kXAxisHeight));
+  return layout;
+}
+
+}  // namespace drycut::renders

@@ -1,0 +1,54 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renders/axis_ticks.hpp"
+#include "renders/plots.hpp"
+
+namespace drycut::renders {
+
+// Where everything of a plot goes, in pixels from the upper left corner.
+
+using Range = std::pair<double, double>;
+
+/// Sizes of type in a plot [pixels]; 1 pt is 4/3 of a pixel at 96 dots an inch.
+struct PlotType {
+  static constexpr double title = 20;
+  static constexpr double panel_title = 16;
+  static constexpr double text = 15;
+};
+
+/// One entry of a legend: sample and label. It stands for a curve, or for a band.
+struct LegendEntry {
+  bool band = false;
+  std::size_t index = 0;  ///< of the curve or band in its panel
+  std::string label;
+  double left = 0;      ///< of the sample
+  double baseline = 0;  ///< middle of the text's height
+};
+
+struct PanelLayout {
+  double top = 0, bottom = 0;  ///< of the axes
+  double title_y = 0;          ///< middle of the title's height
+  Range y_range = {0, 1};
+  std::vector<Tick> y_ticks;
+  std::vector<LegendEntry> legend;
+};
+
+struct PlotLayout {
+  int width = 0, height = 0;
+  double left = 0, right = 0;  ///< of all axes
+  Range x_range = {0, 1};
+  std::vector<Tick> x_ticks;
+  std::vector<PanelLayout> panels;
+};
+
+/// Length of a legend's sample and its distance from the label [pixels].
+inline constexpr double kLegendSample = 34;
+inline constexpr double kLegendGap = 7;
+
+/// Ranges, ticks, margins and legends. Axes without points go from 0 to 1.
+PlotLayout laid_out(const Plot& plot);
+
+}  // namespace drycut::renders

@@ -1,0 +1,185 @@
+#include "renders/report.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+
+#include "renders/html.hpp"
+#include "renders/png_image.hpp"
+
+namespace drycut::renders {
+namespace {
+
+const char* state(bool passed) { return passed ? "pass" : "fail"; }
+
+std::string picture(const ReportFigure& figure) {
+  const std::string bytes = read_file(figure.png);
+  if (bytes.rfind("\x89PNG\r\n", 0) != 0)
+    throw std::runtime_error(figure.png.string() + ": not a PNG picture");
+  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", html_text(figure.caption),
+                     base64(bytes));
+}
+
+std::string caption(const ReportFigure& figure) {
+  if (figure.caption.empty()) return "";
+  return fmt::format("<figcaption>{}</figcaption>", html_text(figure.caption));
+}
+
+/// "12", "-0.5 mm", "800.012 mm": right-aligned, so that digits stand below digits.
+bool starts_like_number(const std::string& cell) {
+  const std::size_t digit = cell.find_first_not_of("+-. ");
+  return digit != std::string::npos && digit <= 2 && cell[digit] >= '0' && cell[digit] <= '9' &&
+         cell.size() < 24;
+}
+
+/// Columns in which every filled cell is a number.
+std::vector<bool> number_columns(const ReportTable& table) {
+  std::vector<bool> numbers(table.headings.size(), !table.rows.empty());
+  for (std::size_t column = 0; column < numbers.size(); ++column) {
+    bool any = false;
+    for (const ReportRow& row : table.rows) {
+      if (column >= row.cells.size() || row.cells[column].empty()) continue;
+      any = true;
+      if (!starts_like_number(row.cells[column])) numbers[column] = false;
+    }
+    if (!any) numbers[column] = false;
+  }
+  return numbers;
+}
+
+void write_head(std::string& page, const Report& report) {
+  page += "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+  page += fmt::format("<title>{}: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
+                      report.passed ? "PASS" : "FAIL", html_text(report.title), kReportStyle);
+  page += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n", html_text(report.title),
+                      html_text(report.scenario));
+  page += fmt::format("<p class=\"verdict {}\"><strong>{}</strong> <span>{}</span></p>\n",
+                      state(report.passed), report.passed ? "PASS" : "FAIL", html_text(report.verdict));
+}
+
+void write_facts(std::string& page, const std::vector<ReportRow>& facts) {
+  if (facts.empty()) return;
+  page += "<dl class=\"facts\">\n";
+  for (const ReportRow& fact : facts) {
+    std::string value;
+    for (std::size_t i = 1; i < fact.cells.size(); ++i) value += (i > 1 ? " " : "") + fact.cells[i];
+    page += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n",
+                        html_text(fact.cells.empty() ? "" : fact.cells[0]), html_text(value));
+  }
+  page += "</dl>\n";
+}
+
+void write_checks(std::string& page, const std::vector<ReportCheck>& checks) {
+  if (checks.empty()) return;
+  page +=
+      "<h2>Checks</h2>\n<div class=\"scroll checks\">\n<table class=\"checks\">\n<thead><tr><th>result</th>"
+      "<th>check</th><th>expected</th><th>margin</th></tr></thead>\n<tbody>\n";
+  for (const ReportCheck& check : checks) {
+    page += fmt::format("<tr class=\"{0}\"><td><span class=\"badge {0}\">{1}</span></td><td>{2}",
+                        state(check.passed), check.passed ? "PASS" : "FAIL", html_text(check.name));
+    if (!check.detail.empty()) page += fmt::format("<small>{}</small>", html_text(check.detail));
+    page += fmt::format("</td><td><code>{}</code></td><td>{}</td></tr>\n", html_text(check.expectation),
+                        html_text(check.margin));
+  }
+  page += "</tbody>\n</table>\n</div>\n";
+}
+
+void write_frames(std::string& page, const std::vector<ReportFigure>& frames) {
+  if (frames.empty()) return;
+  page += "<h2>The run in pictures</h2>\n<div class=\"strip\">\n";
+  for (const ReportFigure& frame : frames) {
+    page += fmt::format("<figure>{}{}</figure>\n", picture(frame), caption(frame));
+  }
+  page += "</div>\n";
+}
+
+void write_plots(std::string& page, const std::vector<ReportFigure>& plots) {
+  if (plots.empty()) return;
+  page += "<h2>Measured</h2>\n";
+  for (const ReportFigure& plot : plots) {
+    page += fmt::format("<figure class=\"plot\"><div class=\"ground\">{}</div>{}</figure>\n", picture(plot),
+                        caption(plot));
+  }
+}
+
+void write_rows(std::string& page, const ReportTable& table) {
+  const std::vector<bool> numbers = number_columns(table);
+  const auto kind = [&](std::size_t column) {
+    return column < numbers.size() && numbers[column] ? " class=\"number\"" : "";
+  };
+  page += "<div class=\"scroll\">\n<table>\n<thead><tr>";
+  for (std::size_t i = 0; i < table.headings.size(); ++i) {
+    page += fmt::format("<th{}>{}</th>", kind(i), html_text(table.headings[i]));
+  }
+  page += "</tr></thead>\n<tbody>\n";
+  for (const ReportRow& row : table.rows) {
+    page += "<tr>";
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      page += fmt::format("<td{}>{}</td>", kind(i), html_text(row.cells[i]));
+    }
+    page += "</tr>\n";
+  }
+  page += "</tbody>\n</table>\n</div>\n";
+}
+
+void write_table(std::string& page, const ReportTable& table) {
+  const std::string count = fmt::format("{} {}", table.rows.size(), table.rows.size() == 1 ? "row" : "rows");
+  if (table.folded) {
+    page += fmt::format("<details><summary>{}<small>{}</small></summary>\n", html_text(table.title), count);
+  } else {
+    page += fmt::format("<h2>{} <small>{}</small></h2>\n", html_text(table.title), count);
+  }
+  write_rows(page, table);
+  if (table.folded) page += "</details>\n";
+}
+
+void write_scenario(std::string& page, const std::string& expanded) {
+  if (expanded.empty()) return;
+  page += fmt::format(
+      "<details><summary>Scenario with every default in force</summary>\n<div class=\"scroll\">"
+      "<pre>{}</pre></div>\n</details>\n",
+      html_text(expanded));
+}
+
+/// Written beside its place and moved there at once: who looks sees the old report or the whole new one.
+void replace_file(const std::filesystem::path& file, const std::string& bytes) {
+  std::filesystem::path unfinished = file;
+  unfinished += fmt::format(".{}.part", getpid());
+  try {
+    write_file(unfinished, bytes);
+    std::filesystem::rename(unfinished, file);
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw;
+  }
+}
+
+}  // namespace
+
+void write_report(const Report& report, const std::filesystem::path& file) {
+  std::string page;
+  write_head(page, report);
+  write_facts(page, report.facts);
+  write_checks(page, report.checks);
+  write_frames(page, report.frames);
+  write_plots(page, report.plots);
+  // What is folded goes to the end: first what is read, then what is looked up.
+  for (const bool folded : {false, true}) {
+    const bool any = std::any_of(report.tables.begin(), report.tables.end(),
+                                 [&](const ReportTable& table) { return table.folded == folded; });
+    if (folded && (any || !report.scenario_expanded.empty())) page += "<h2>Details</h2>\n";
+    for (const ReportTable& table : report.tables) {
+      if (table.folded == folded) write_table(page, table);
+    }
+  }
+  write_scenario(page, report.scenario_expanded);
+  page += "</main>\n</body>\n</html>\n";
+  replace_file(file, page);
+}
+
+}  // namespace drycut::renders

@@ -1,0 +1,208 @@
+#include "renders/solid_mesh.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "renders/geometry.hpp"
+
+namespace drycut::renders {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Material>, 5> kMaterials = {{
+    {"steel", {0.42F, 50}},
+    {"paint", {0.10F, 36}},
+    {"rubber", {0.02F, 6}},
+    {"web", {0.05F, 14}},
+    {"blade", {0.62F, 110}},
+}};
+constexpr int kSegments = 72;     ///< of a cylinder
+constexpr int kMarkSegments = 3;  ///< width of the index mark on a cylinder's end
+using Colour = std::array<float, 3>;
+
+Colour shaded(const Colour& colour, float factor) {
+  return {colour[0] * factor, colour[1] * factor, colour[2] * factor};
+}
+
+/// A corner before the part is placed.
+struct Corner {
+  Vec3 position;
+  Vec3 normal;
+};
+
+/// Puts a part's own coordinates into the world and collects its triangles.
+class Builder {
+ public:
+  Builder(std::vector<Vertex>& triangles, const Placement& placement, const Material& material)
+      : triangles_(triangles), placement_(placement), surface_{material.reflection, material.gloss} {}
+
+  void triangle(const Corner& a, const Corner& b, const Corner& c, const Colour& colour) {
+    for (const Corner* corner : {&a, &b, &c}) add(*corner, colour);
+  }
+
+  void quad(const Corner& a, const Corner& b, const Corner& c, const Corner& d, const Colour& colour) {
+    triangle(a, b, c, colour);
+    triangle(a, c, d, colour);
+  }
+
+  /// A flat polygon, counter-clockwise from outside.
+  void polygon(const std::vector<Vec3>& points, const Colour& colour) {
+    const Vec3 normal = normalised(cross(points[1] - points[0], points[2] - points[0]));
+    for (std::size_t i = 2; i < points.size(); ++i) {
+      triangle({points[0], normal}, {points[i - 1], normal}, {points[i], normal}, colour);
+    }
+  }
+
+ private:
+  void add(const Corner& corner, const Colour& colour) {
+    const Vec3 p = placement_.position + rotated(placement_.rotation, corner.position);
+    const Vec3 n = rotated(placement_.rotation, corner.normal);
+    triangles_.push_back({{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])},
+                          {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])},
+                          colour,
+                          surface_});
+  }
+
+  std::vector<Vertex>& triangles_;
+  const Placement& placement_;
+  std::array<float, 2> surface_;
+};
+
+/// How far edges are broken: a few per cent of the thinnest side, at most 4 mm.
+double edge_break(const Vec3& half) {
+  return std::min(0.004, 0.12 * *std::min_element(half.begin(), half.end()));
+}
+
+void box(Builder& build, const Vec3& half, const Colour& colour) {
+  const double bevel = edge_break(half);
+  // The corner (sx, sy, sz) as it belongs to the face of `axis`: on that face, set in by the bevel elsewhere.
+  const auto corner = [&](std::size_t axis, const std::array<int, 3>& sign) {
+    Vec3 point{};
+    for (std::size_t i = 0; i < 3; ++i) point[i] = sign[i] * (half[i] - (i == axis ? 0 : bevel));
+    return point;
+  };
+  const auto outward = [&](std::vector<Vec3> points) {
+    const Vec3 normal = cross(points[1] - points[0], points[2] - points[0]);
+    if (dot(normal, points[0] + points[2]) < 0) std::reverse(points.begin(), points.end());
+    build.polygon(points, colour);
+  };
+
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t b = (axis + 1) % 3;
+    const std::size_t c = (axis + 2) % 3;
+    for (const int side : {-1, 1}) {
+      std::vector<Vec3> face;
+      for (const auto& [sb, sc] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        std::array<int, 3> sign{};
+        sign[axis] = side;
+        sign[b] = sb;
+        sign[c] = sc;
+        face.push_back(corner(axis, sign));
+      }
+      outward(face);
+      // The edge between this face and that of axis b, along c.
+      for (const int other : {-1, 1}) {
+        std::array<int, 3> sign{};
+        sign[axis] = side;
+        sign[b] = other;
+        sign[c] = -1;
+        std::array<int, 3> end = sign;
+        end[c] = 1;
+        outward({corner(axis, sign), corner(b, sign), corner(b, end), corner(axis, end)});
+      }
+    }
+  }
+  for (const int x : {-1, 1}) {
+    for (const int y : {-1, 1}) {
+      for (const int z : {-1, 1}) outward({corner(0, {x, y, z}), corner(1, {x, y, z}), corner(2, {x, y, z})});
+    }
+  }
+}
+
+/// One end of a cylinder: hub, face with the index mark, rim. `side` is the sign of z.
+void cylinder_end(Builder& build, const Vec3& half, double rim, int side, const Colour& colour) {
+  const Vec3 normal = {0, 0, static_cast<double>(side)};
+  const auto point = [&](int segment, double share) {
+    const double angle = 2 * std::numbers::pi * segment / kSegments;
+    return Corner{{share * half[0] * std::cos(angle), share * half[1] * std::sin(angle), side * half[2]},
+                  normal};
+  };
+  const std::array<double, 5> rings = {0, 0.22, 0.34, 0.86, rim};
+  for (int i = 0; i < kSegments; ++i) {
+    const int next = side > 0 ? i + 1 : i;
+    const int first = side > 0 ? i : i + 1;
+    const bool mark = i < kMarkSegments;
+    for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring) {
+      const float factor = ring == 0 ? 0.55F : (ring == 2 && mark ? 0.25F : 0.92F);
+      build.quad(point(first, rings[ring]), point(first, rings[ring + 1]), point(next, rings[ring + 1]),
+                 point(next, rings[ring]), shaded(colour, factor));
+    }
+  }
+}
+
+void cylinder(Builder& build, const Vec3& half, const Colour& colour) {
+  const double bevel = edge_break(half);
+  const double rim = 1 - bevel / std::min(half[0], half[1]);
+  const auto point = [&](int segment, double share, double z, double slope) {
+    const double angle = 2 * std::numbers::pi * segment / kSegments;
+    const Vec3 radial = normalised({std::cos(angle) / half[0], std::sin(angle) / half[1], 0});
+    return Corner{{share * half[0] * std::cos(angle), share * half[1] * std::sin(angle), z},
+                  normalised(radial + Vec3{0, 0, slope})};
+  };
+  const double shoulder = half[2] - bevel;
+  for (int i = 0; i < kSegments; ++i) {
+    build.quad(point(i, 1, -shoulder, 0), point(i + 1, 1, -shoulder, 0), point(i + 1, 1, shoulder, 0),
+               point(i, 1, shoulder, 0), colour);
+    build.quad(point(i, 1, shoulder, 1), point(i + 1, 1, shoulder, 1), point(i + 1, rim, half[2], 1),
+               point(i, rim, half[2], 1), colour);
+    build.quad(point(i + 1, 1, -shoulder, -1), point(i, 1, -shoulder, -1), point(i, rim, -half[2], -1),
+               point(i + 1, rim, -half[2], -1), colour);
+  }
+  cylinder_end(build, half, rim, 1, colour);
+  cylinder_end(build, half, rim, -1, colour);
+}
+
+void wedge(Builder& build, const Vec3& half, const Colour& colour) {
+  const Vec3 left_back = {-half[0], half[1], -half[2]};
+  const Vec3 left_front = {-half[0], half[1], half[2]};
+  const Vec3 right_back = {half[0], half[1], -half[2]};
+  const Vec3 right_front = {half[0], half[1], half[2]};
+  const Vec3 edge_back = {0, -half[1], -half[2]};
+  const Vec3 edge_front = {0, -half[1], half[2]};
+  build.polygon({left_back, left_front, right_front, right_back}, colour);
+  build.polygon({left_front, left_back, edge_back, edge_front}, colour);
+  build.polygon({right_back, right_front, edge_front, edge_back}, colour);
+  build.polygon({left_front, edge_front, right_front}, colour);
+  build.polygon({right_back, edge_back, left_back}, colour);
+}
+
+}  // namespace
+
+const Material* find_material(std::string_view name) {
+  for (const auto& [known, material] : kMaterials) {
+    if (known == name) return &material;
+  }
+  return nullptr;
+}
+
+std::string_view material_names() { return "steel, paint, rubber, web, blade"; }
+
+void append_solid(std::vector<Vertex>& triangles, const SolidPart& part, const Placement& placement) {
+  const Material* material = find_material(part.material);
+  assert(material != nullptr);
+  Builder build(triangles, placement, *material);
+  const Vec3 half = {part.size[0] * placement.scale[0] / 2, part.size[1] * placement.scale[1] / 2,
+                     part.size[2] * placement.scale[2] / 2};
+  switch (part.shape) {
+    case SolidPart::Shape::box:
+      return box(build, half, part.colour);
+    case SolidPart::Shape::cylinder:
+      return cylinder(build, half, part.colour);
+    case SolidPart::Shape::wedge:
+      return wedge(build, half, part.colour);
+  }
+}
+
+}  // namespace drycut::renders
