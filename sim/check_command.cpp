@@ -4,7 +4,7 @@
 
 #include "devices/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
-#include "devices/qmove/compiler.hpp"
+#include "devices/qmove/program.hpp"
 #include "sim/commands.hpp"
 #include "sim/file.hpp"
 #include "sim/simulation.hpp"

@@ -4,8 +4,8 @@
 
 #include "devices/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
-#include "devices/qmove/compiler.hpp"
-#include "devices/qmove/controller.hpp"
+#include "devices/qmove/program.hpp"
+#include "devices/qmove/qmove_controller.hpp"
 #include "sim/file.hpp"
 
 namespace drycut::sim {

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renders/pictures.hpp"
+#include "sim/parameter_text.hpp"
 #include "sim/results.hpp"
-#include "sim/units.hpp"
 
 namespace drycut::sim {
 

@@ -125,15 +125,16 @@ struct PlotRequest {
   std::string title;
   struct Panel {
     std::string title;
-    std::vector<Text> channels;  ///< curves over time
-    Text event;                  ///< instead: points, one an event of this name ("cut")
-    std::vector<Text> values;    ///< of the event ("length")
+    std::vector<Text> channels;                       ///< curves over time
+    Text event;                                       ///< instead: points, one an event of this name ("cut")
+    std::vector<Text> values;                         ///< of the event ("length")
     std::optional<std::pair<double, double>> limits;  ///< band drawn behind: [low, high], in the curves' unit
   };
   std::vector<Panel> panels;
   Time from = 0;
   std::optional<Time> until;
-  bool against_number = false;  ///< `against: number`: x is the event's number instead of time; event panels only
+  bool against_number =
+      false;  ///< `against: number`: x is the event's number instead of time; event panels only
 };
 
 struct PicturesSection {
@@ -159,6 +160,9 @@ struct Scenario {
   RecordSection record;
   std::vector<Check> checks;
   PicturesSection pictures;
+  /// True if the machine can be built: plants and controller have no problem. Problems elsewhere do not stop
+  /// a check of the names.
+  bool buildable = false;
   std::vector<std::string> sources;  ///< names for messages: the file, then "--set PATH" of each override
 };
 

@@ -115,6 +115,7 @@ void Simulation::step() {
 
   collect_events();
   time_ += step_;
+  if (!world_.failure().empty()) failure_ = world_.failure();
   if (time_ >= next_record_) record();
   if (time_ >= next_snapshot_) snapshot();
 }
@@ -161,7 +162,11 @@ void Simulation::snapshot() {
   watch_->update();
   auto& shot = snapshots_.emplace_back();
   shot.time = time_;
-  for (auto& plant : plants_) plant->poses(shot.poses);
+  std::vector<plants::PartPose> poses;
+  for (auto& plant : plants_) {
+    plant->poses(poses);
+    shot.poses.insert(shot.poses.end(), poses.begin(), poses.end());
+  }
   for (const auto* slot : caption_) shot.caption.push_back(*slot);
 }
 

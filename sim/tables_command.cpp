@@ -8,7 +8,7 @@
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 #include "sim/commands.hpp"
-#include "sim/units.hpp"
+#include "sim/parameter_text.hpp"
 
 namespace drycut::sim {
 
@@ -195,7 +195,7 @@ ordered_json plant_json(const plants::PlantType& type) {
   ordered_json json = {{"name", type.name}, {"summary", type.summary}};
   Specimen specimen;
   auto* plant = specimen.build(type, "it");
-  for (const auto& p : type.define()->parameters()) {
+  for (const auto& p : specimen.definitions.front()->parameters()) {
     json["parameters"].push_back({{"name", p.name},
                                   {"default", value_text(p)},
                                   {"unit", p.unit},
@@ -225,7 +225,7 @@ void print_plant(const plants::PlantType& type) {
   Specimen specimen;
   auto* plant = specimen.build(type, "it");
   TextTable parameters({"parameter", "default", "range", "meaning", "from"});
-  for (const auto& p : type.define()->parameters()) {
+  for (const auto& p : specimen.definitions.front()->parameters()) {
     auto range = range_text(p);
     if (!p.unit.empty() && !range.empty()) range += fmt::format(" {}", p.unit);
     parameters.add({p.name, value_text(p), range, std::string(p.meaning), std::string(p.source)});

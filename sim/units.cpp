@@ -192,6 +192,7 @@ bool same_dimension(std::string_view a, std::string_view b) {
 std::string si_unit(std::string_view unit) { return find(unit).value().dimension; }
 
 std::string dimension_name(std::string_view unit) {
+  if (unit == "%") return "a percentage";
   for (const auto& [known, name] : dimension_names) {
     if (same_dimension(unit, known)) return std::string(name);
   }

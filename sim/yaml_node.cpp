@@ -1,6 +1,7 @@
 #include "sim/yaml_node.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
@@ -12,6 +13,8 @@ namespace drycut::sim {
 namespace {
 
 constexpr int deepest = 100;
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 // The lines of a text, for places: yaml-cpp counts columns in bytes, from 0.
 class Lines {
@@ -25,8 +28,8 @@ class Lines {
   }
 
   [[nodiscard]] std::size_t offset(const YAML::Mark& mark) const {
-    const auto line = std::clamp<std::size_t>(static_cast<std::size_t>(std::max(mark.line, 0)), 0,
-                                              starts_.size() - 1);
+    const auto line =
+        std::clamp<std::size_t>(static_cast<std::size_t>(std::max(mark.line, 0)), 0, starts_.size() - 1);
     return std::min(text_.size(), starts_[line] + static_cast<std::size_t>(std::max(mark.column, 0)));
   }
   [[nodiscard]] Place place(std::size_t offset) const {
@@ -40,6 +43,14 @@ class Lines {
   }
   [[nodiscard]] Place place(const YAML::Mark& mark) const { return place(offset(mark)); }
   [[nodiscard]] std::string_view text() const { return text_; }
+  // A tab before the first word of the line of `mark`; yaml-cpp's own message is not always about it.
+  [[nodiscard]] std::optional<Place> indenting_tab(const YAML::Mark& mark) const {
+    const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), starts_.size() - 1);
+    for (std::size_t i = starts_[line]; i < text_.size() && is_blank(text_[i]) && text_[i] != '\n'; ++i) {
+      if (text_[i] == '\t') return place(i);
+    }
+    return {};
+  }
 
  private:
   std::string_view text_;
@@ -70,8 +81,6 @@ std::size_t character_length(char first) {
   return byte >= 0xC0 ? 2 : 1;
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
 // Walks the value of a scalar beside the file's own characters, so that every byte of the value has its
 // place.
 class Alignment {
@@ -82,7 +91,7 @@ class Alignment {
   Text run() {
     quote_ = at_ < raw_.size() && (raw_[at_] == '"' || raw_[at_] == '\'') ? raw_[at_] : '\0';
     if (quote_ != '\0') ++at_;
-    if (at_ < raw_.size() && (raw_[at_] == '|' || raw_[at_] == '>')) skip_block_header();
+    if (quote_ == '\0' && at_ < raw_.size() && (raw_[at_] == '|' || raw_[at_] == '>')) skip_block_header();
     Text text{value_, lines_.place(at_)};
     for (std::size_t i = 0; i < value_.size();) {
       const std::size_t before = at_;
@@ -270,9 +279,6 @@ std::pair<std::string, std::string> explain(const YAML::ParserException& error,
   if (error.msg == YAML::ErrorMsg::END_OF_MAP_FLOW) {
     return {fmt::format("the map{} is not closed", opened), "write } or a comma here"};
   }
-  if (error.msg.find("tab") != std::string::npos) {
-    return {"a tab in the indentation", "indent with spaces"};
-  }
   if (error.msg == YAML::ErrorMsg::UNKNOWN_TOKEN) {
     return {"no YAML text begins like this", "put the text into quotes"};
   }
@@ -305,6 +311,7 @@ devices::Problems Findings::sorted() const {
 
 YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
   const Lines lines(text, source);
+  const auto before = findings.count();
   Builder builder(lines, findings);
   try {
     std::istringstream stream{std::string(text)};
@@ -317,15 +324,19 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
       findings.add(rest.take().text.place, "something stands after the end of the document",
                    "one document a file, and nothing after its closing bracket");
     }
-    return root;
+    if (findings.count() == before) return root;
   } catch (const TooDeep& deep) {
     findings.add(deep.place, fmt::format("nested more than {} levels deep", deepest), "nest less");
   } catch (const YAML::DeepRecursion& deep) {
     findings.add(lines.place(deep.mark), fmt::format("nested more than {} levels deep", deepest),
                  "nest less");
   } catch (const YAML::ParserException& error) {
-    auto [what, remedy] = explain(error, builder.open_bracket());
-    findings.add(lines.place(error.mark), std::move(what), std::move(remedy));
+    if (const auto tab = lines.indenting_tab(error.mark)) {
+      findings.add(*tab, "a tab in the indentation", "indent with spaces");
+    } else {
+      auto [what, remedy] = explain(error, builder.open_bracket());
+      findings.add(lines.place(error.mark), std::move(what), std::move(remedy));
+    }
   } catch (const std::exception& error) {
     findings.add({1, 1, source}, fmt::format("not readable as YAML: {}", error.what()),
                  "a scenario is a YAML text");

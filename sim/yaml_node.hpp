@@ -14,9 +14,9 @@ struct YamlNode {
   enum class Kind { null, scalar, sequence, map };
   struct Entry;
   Kind kind = Kind::null;
-  Text text;                   ///< of a scalar; of all kinds the place
-  std::vector<YamlNode> items = {};   ///< of a sequence
-  std::vector<Entry> entries = {};    ///< of a map, in the order of the file; duplicate keys are kept
+  Text text;                         ///< of a scalar; of all kinds the place
+  std::vector<YamlNode> items = {};  ///< of a sequence
+  std::vector<Entry> entries = {};   ///< of a map, in the order of the file; duplicate keys are kept
 };
 struct YamlNode::Entry {
   Text key;
@@ -46,7 +46,7 @@ class Findings {
 };
 
 /// Reads one YAML document. Syntax errors, anchors, aliases, tags and second documents are problems at their
-/// place in `source`; after a syntax error the tree is empty (null). Never throws.
+/// place in `source`, and then the tree is empty (null). Never throws.
 YamlNode parse_yaml(std::string_view text, int source, Findings& findings);
 
 /// What kind of node it is, for messages: "a map", "a list", "a text", "nothing".

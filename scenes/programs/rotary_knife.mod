@@ -2,7 +2,7 @@
 ; Rotary knife, see rotary_knife.cnf. Set slLength before the start.
 ;-----
 ; Set-up of the axis: 8192 bits a turn of the motor, gear 5:1, 600 mm a turn of the drum;
-; measuring wheel 10000 bits for 500 mm; 10 V = 3000 rpm of the motor = 360 m/min of the blade.
+; measuring wheel 10000 bits for 500 mm; 10 V = 2000 rpm of the motor = 240 m/min of the blade.
 ;-----
 AxisX:decpt    = 1
 AxisX:measure  = 6000
@@ -10,7 +10,7 @@ AxisX:pulse    = 40960
 AxisX:measurem = 5000
 AxisX:pulsem   = 10000
 AxisX:unitvel  = 0                ; speeds in mm/min
-AxisX:maxvel   = 360000
+AxisX:maxvel   = 240000
 AxisX:setvel   = 30000
 AxisX:prsvel   = 20000
 AxisX:sprsvel  = 2000

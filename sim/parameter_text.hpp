@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include "plants/parameters.hpp"
+
+namespace drycut::sim {
+
+/// The present value of a parameter as a scenario writes it: "600 mm", "5", "true", "web".
+std::string value_text(const plants::Parameter& parameter);
+
+}  // namespace drycut::sim

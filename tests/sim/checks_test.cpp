@@ -1,0 +1,203 @@
+#include "sim/checks.hpp"
+
+#include <gmock/gmock.h>
+
+#include "sim/results.hpp"
+#include "sim/statistics.hpp"
+#include "tests/sim/fakes.hpp"
+
+namespace drycut::sim {
+namespace {
+
+using fakes::text;
+
+struct ChecksTest : testing::Test {
+  ChecksTest() {
+    scenario.file = "line.yaml";
+    scenario.sources = {"line.yaml"};
+    controller.values["error"] = 0;
+  }
+  Check& add(Check::Kind kind, const std::string& event, const std::string& expression) {
+    auto& check = scenario.checks.emplace_back();
+    check.name = text("the check");
+    check.kind = kind;
+    check.event = text(event, 3, 4);
+    check.expression = text(expression, 5, 6);
+    return check;
+  }
+  void start() {
+    checks = std::make_unique<Checks>(scenario, watch, names, events, problems);
+    ASSERT_TRUE(problems.empty()) << to_string(problems.front());
+  }
+  void sample(Time now, double error) {
+    controller.values["error"] = error;
+    watch.update();
+    checks->sample(now);
+  }
+  void cut(Time now, double length) {
+    watch.update();
+    checks->happened({now, 0, "knife", "cut", {{"length", length, "mm"}, {"force", 130, "N"}}, ""});
+  }
+  CheckResult result() { return checks->results(10 * second).front(); }
+
+  Scenario scenario;
+  fakes::FakeController controller;
+  Panel panel;
+  Names names{{}, &controller, panel};
+  Watch watch{names};
+  std::vector<KnownEvent> events = {{"knife", "cut", {{"length", "mm"}, {"force", "N"}}},
+                                    {"knife", "tear", {}}};
+  devices::Problems problems;
+  std::unique_ptr<Checks> checks;
+};
+
+TEST_F(ChecksTest, EachTellsTheWorstEventAndItsMargin) {
+  add(Check::Kind::each, "cut", "abs(length - 800) <= 0.2").from = second;
+  start();
+  cut(500 * millisecond, 700);  // before the time looked at
+  cut(2 * second, 800.05);
+  cut(3 * second, 799.85);
+  cut(4 * second, 800.1);
+  const auto r = result();
+  EXPECT_TRUE(r.passed);
+  EXPECT_NEAR(*r.margin, 0.05, 1e-9);
+  EXPECT_EQ(r.unit, "mm");
+  EXPECT_DOUBLE_EQ(*r.at, 3.0);
+  EXPECT_EQ(r.expectation, "each cut: abs(length - 800) <= 0.2, from 1.0 s");
+  EXPECT_EQ(r.detail, "3 cut events, worst: length=799.85 mm; force=130 N");
+  EXPECT_EQ(margin_text(r), "0.05 mm left, at 3.0000 s");
+}
+
+TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
+  add(Check::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
+  start();
+  cut(2 * second, 800.5);
+  cut(3 * second, 800.0);
+  const auto r = result();
+  EXPECT_FALSE(r.passed);
+  EXPECT_NEAR(*r.margin, -0.3, 1e-9);
+  EXPECT_EQ(margin_text(r), "0.3 mm too far, at 2.0000 s");
+  EXPECT_EQ(r.detail, "2 cut events, 1 failed, worst: length=800.5 mm; force=130 N");
+}
+
+TEST_F(ChecksTest, EachWithoutAnEventFails) {
+  add(Check::Kind::each, "cut", "length > 0");
+  start();
+  EXPECT_FALSE(result().passed);
+  EXPECT_EQ(result().detail, "only 0 cut in the time looked at, at least 1 expected");
+}
+
+TEST_F(ChecksTest, AllLooksAtStatistics) {
+  add(Check::Kind::all, "cut", "abs(slope_length) * count <= 0.5 && mean_length > 800");
+  start();
+  for (int i = 0; i < 10; ++i) cut((i + 1) * second, 800 + 0.01 * i);
+  const auto r = result();
+  EXPECT_TRUE(r.passed);
+  EXPECT_NEAR(*r.margin, 0.045, 1e-9);  // the mean is 800.045, the slope leaves 0.4
+  EXPECT_THAT(r.detail, testing::StartsWith("10 cut events: mean_length=800.045 mm; slope_length=0.01 mm"));
+}
+
+TEST_F(ChecksTest, AlwaysFindsTheWorstInstantInItsWindow) {
+  auto& check = add(Check::Kind::always, "", "error < 100");
+  check.from = second;
+  check.until = 3 * second;
+  start();
+  sample(0, 500);
+  sample(second, 10);
+  sample(2 * second, 60);
+  sample(3 * second, 20);
+  sample(4 * second, 500);
+  const auto r = result();
+  EXPECT_TRUE(r.passed);
+  EXPECT_DOUBLE_EQ(*r.margin, 40);
+  EXPECT_EQ(r.unit, "Um");
+  EXPECT_DOUBLE_EQ(*r.at, 2.0);
+}
+
+TEST_F(ChecksTest, AlwaysWithoutMarginTellsTheFirstFailure) {
+  add(Check::Kind::always, "", "error == 0 || error == 7");
+  start();
+  sample(second, 7);
+  sample(2 * second, 3);
+  sample(3 * second, 4);
+  const auto r = result();
+  EXPECT_FALSE(r.passed);
+  EXPECT_FALSE(r.margin);
+  EXPECT_DOUBLE_EQ(*r.at, 2.0);
+  EXPECT_EQ(r.detail, "3 instants, 2 failed");
+}
+
+TEST_F(ChecksTest, AlwaysNeverLookedAtFails) {
+  add(Check::Kind::always, "", "error < 100").from = 20 * second;
+  start();
+  sample(second, 0);
+  EXPECT_FALSE(result().passed);
+  EXPECT_EQ(result().detail, "never looked at: the run ended at 10.0 s");
+}
+
+TEST_F(ChecksTest, EventuallyTellsWhenAndTheTimeLeft) {
+  add(Check::Kind::eventually, "", "error > 5").within = 3 * second;
+  start();
+  sample(second, 1);
+  sample(2 * second, 6);
+  sample(3 * second, 1);
+  const auto r = result();
+  EXPECT_TRUE(r.passed);
+  EXPECT_DOUBLE_EQ(*r.at, 2.0);
+  EXPECT_DOUBLE_EQ(*r.margin, 1.0);
+  EXPECT_EQ(r.unit, "s");
+}
+
+TEST_F(ChecksTest, EventuallyTooLateFails) {
+  add(Check::Kind::eventually, "", "error > 5").within = second;
+  start();
+  sample(second, 1);
+  sample(2 * second, 6);
+  EXPECT_FALSE(result().passed);
+}
+
+TEST_F(ChecksTest, NeverCountsEvents) {
+  add(Check::Kind::never, "cut", "");
+  start();
+  EXPECT_TRUE(result().passed);
+  cut(2 * second, 800);
+  EXPECT_FALSE(result().passed);
+  EXPECT_EQ(result().detail, "1 times, first at 2.0000 s: length=800 mm; force=130 N");
+}
+
+TEST_F(ChecksTest, UnknownNamesAreProblems) {
+  add(Check::Kind::never, "tearr", "");
+  add(Check::Kind::each, "cut", "lenght > 3");
+  Checks bad(scenario, watch, names, events, problems);
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(to_string(problems[0]),
+            "line.yaml:3:4: nothing here reports an event 'tearr'; did you mean tear?");
+  EXPECT_EQ(problems[1].line, 5);
+  EXPECT_EQ(problems[1].column, 6);
+  EXPECT_THAT(problems[1].remedy, testing::HasSubstr("length"));
+}
+
+TEST(Statistics, AgreesWithClosedForms) {
+  std::vector<double> line;
+  for (int i = 0; i < 101; ++i) line.push_back(5 + 0.25 * i);
+  const auto [mean, low, high, sd, slope, slope_error] = statistics(line);
+  EXPECT_DOUBLE_EQ(mean, 17.5);
+  EXPECT_DOUBLE_EQ(low, 5);
+  EXPECT_DOUBLE_EQ(high, 30);
+  EXPECT_NEAR(sd, 0.25 * std::sqrt(101.0 * 102 / 12), 1e-12);
+  EXPECT_NEAR(slope, 0.25, 1e-14);
+  EXPECT_NEAR(slope_error, 0, 1e-7);
+  EXPECT_EQ(statistics({})[0], 0);
+  EXPECT_EQ(statistics({3})[3], 0);
+}
+
+TEST(Statistics, SlopeErrorOfAlternatingNoise) {
+  // y = +-1: residual sum n(1 - small), closed form by hand for n = 4: slope -0.4, S = 4 - 0.8, error
+  // sqrt(1.6/5).
+  const auto s = statistics({1, -1, 1, -1});
+  EXPECT_NEAR(s[4], -0.4, 1e-15);
+  EXPECT_NEAR(s[5], std::sqrt(3.2 / 2 / 5), 1e-15);
+}
+
+}  // namespace
+}  // namespace drycut::sim

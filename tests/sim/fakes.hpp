@@ -1,0 +1,85 @@
+#pragma once
+// A controller and a plant made of plain values, for tests of what connects them.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "plants/plant.hpp"
+#include "sim/names.hpp"
+#include "sim/scenario.hpp"
+
+namespace drycut::sim::fakes {
+
+class FakeController : public devices::Controller {
+ public:
+  devices::Cards& cards() override { return cards_; }
+  [[nodiscard]] std::vector<Period> periods() const override { return {{"Axis TCamp", 2'000'000}}; }
+  void run_devices(std::int64_t) override {}
+  void run_tasks(std::int64_t) override {}
+  void interrupt(int line, bool rising) override {
+    const auto counter = cards_.counters.begin();
+    interrupts.push_back({line, rising, counter == cards_.counters.end() ? 0 : counter->second.latched});
+  }
+  void power(bool on) override { powered = on; }
+  std::optional<devices::ControllerValue> find(const std::string& name) override {
+    const auto found = values.find(name);
+    if (found == values.end()) return {};
+    return devices::ControllerValue{name, "Um", [found] { return found->second; },
+                                    [found](double v) { found->second = v; }};
+  }
+  [[nodiscard]] std::vector<std::string> names() const override {
+    std::vector<std::string> all;
+    for (const auto& [name, value] : values) all.push_back(name);
+    return all;
+  }
+  [[nodiscard]] bool has_events() const override { return false; }
+  std::vector<devices::ControllerEvent> take_events() override { return {}; }
+
+  struct Interrupt {
+    int line;
+    bool rising;
+    std::int64_t latched;
+    bool operator==(const Interrupt&) const = default;
+  };
+  std::vector<Interrupt> interrupts;
+  std::map<std::string, double> values;
+  bool powered = true;
+
+ private:
+  devices::Cards cards_;
+};
+
+class FakePlant : public plants::Plant {
+ public:
+  void drive(double) override {}
+  void sense(double) override {}
+  std::vector<plants::Port> ports() override {
+    return {{"encoder", &encoder, ""},
+            {"index", &index, ""},
+            {"enable", &enable, ""},
+            {"reference", &reference, ""}};
+  }
+  std::vector<plants::Channel> channels() override {
+    return {{"speed", "m/min", [this] { return speed * 60; }, ""}};
+  }
+  std::vector<plants::Setting> settings() override {
+    return {{"speed", "m/min", [this](double v) { speed = v; }, [this] { return speed; }, ""}};
+  }
+  std::vector<plants::Fault> faults() override {
+    return {{"encoder", "lose_counts", "", [this](double v) { lost += v; }, ""}};
+  }
+
+  plants::EncoderPort encoder;
+  plants::SignalPort index;
+  plants::CommandPort enable;
+  plants::ReferencePort reference;
+  double speed = 1;  ///< [m/s]
+  double lost = 0;
+};
+
+inline Text text(std::string words, int line = 1, int column = 1) {
+  return {std::move(words), {line, column}};
+}
+
+}  // namespace drycut::sim::fakes

@@ -1,0 +1,135 @@
+#include "sim/timeline.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/sim/fakes.hpp"
+
+namespace drycut::sim {
+namespace {
+
+using fakes::text;
+
+struct TimelineTest : testing::Test {
+  TimelineTest() {
+    scenario.file = "line.yaml";
+    scenario.sources = {"line.yaml"};
+    scenario.scene.step = 100 * microsecond;
+    controller.values["slLength"] = 800;
+    panel.switches["start"];
+  }
+  Timeline make() { return {scenario, names, &controller, problems}; }
+  Stimulus& at(Time time) {
+    scenario.timeline.emplace_back().at = time;
+    return scenario.timeline.back();
+  }
+  static Quantity quantity(double number, std::string unit = "") { return {number, std::move(unit), {7, 9}}; }
+  /// Runs the timeline over [from, until) in steps.
+  void run(Timeline& timeline, Time from, Time until) {
+    for (Time now = from; now < until; now += scenario.scene.step) timeline.run(now, recording);
+  }
+
+  Scenario scenario;
+  fakes::FakeController controller;
+  fakes::FakePlant plant;
+  Panel panel;
+  Names names{{{"web", &plant}}, &controller, panel};
+  devices::Problems problems;
+  Recording recording;
+};
+
+TEST_F(TimelineTest, SetsAtItsTimeAndNotBefore) {
+  at(2 * millisecond).set = {{text("web.speed"), quantity(90, "m/min")},
+                             {text("slLength"), quantity(500)},
+                             {text("panel.start"), quantity(1)}};
+  auto timeline = make();
+  ASSERT_TRUE(problems.empty());
+  run(timeline, 0, 2 * millisecond);
+  EXPECT_DOUBLE_EQ(plant.speed, 1.0);
+  EXPECT_FALSE(panel.switches["start"].level);
+  run(timeline, 2 * millisecond, 3 * millisecond);
+  EXPECT_DOUBLE_EQ(plant.speed, 1.5);
+  EXPECT_DOUBLE_EQ(controller.values["slLength"], 500);
+  EXPECT_TRUE(panel.switches["start"].level);
+  ASSERT_EQ(recording.events().size(), 3U);
+  EXPECT_EQ(recording.events()[0].text, "web.speed = 90 m/min");
+  EXPECT_EQ(recording.events()[0].time, 2 * millisecond);
+}
+
+TEST_F(TimelineTest, RampIsLinearAndEndsExactly) {
+  auto& stimulus = at(millisecond);
+  stimulus.ramp = {{text("web.speed"), quantity(120, "m/min")}};
+  stimulus.over = 10 * millisecond;
+  auto timeline = make();
+  run(timeline, 0, 6 * millisecond + scenario.scene.step);
+  EXPECT_DOUBLE_EQ(plant.speed, 1.5);
+  run(timeline, 6 * millisecond + scenario.scene.step, 20 * millisecond);
+  EXPECT_DOUBLE_EQ(plant.speed, 2.0);
+}
+
+TEST_F(TimelineTest, SetEndsARampOfTheSameTarget) {
+  auto& ramp = at(0);
+  ramp.ramp = {{text("web.speed"), quantity(120, "m/min")}};
+  ramp.over = 10 * millisecond;
+  at(5 * millisecond).set = {{text("web.speed"), quantity(30, "m/min")}};
+  auto timeline = make();
+  run(timeline, 0, 20 * millisecond);
+  EXPECT_DOUBLE_EQ(plant.speed, 0.5);
+}
+
+TEST_F(TimelineTest, ConditionFiresOnceAfterItsDelay) {
+  auto& stimulus = scenario.timeline.emplace_back();
+  stimulus.when = text("slLength > 900");
+  stimulus.after = 3 * millisecond;
+  stimulus.faults = {{text("web.encoder"), text("lose_counts"), quantity(200)}};
+  auto timeline = make();
+  ASSERT_TRUE(problems.empty());
+  run(timeline, 0, 10 * millisecond);
+  EXPECT_EQ(plant.lost, 0);
+  controller.values["slLength"] = 901;
+  run(timeline, 10 * millisecond, 12 * millisecond);
+  EXPECT_EQ(plant.lost, 0);
+  run(timeline, 12 * millisecond, 40 * millisecond);
+  EXPECT_EQ(plant.lost, 200);
+}
+
+TEST_F(TimelineTest, EveryRepeats) {
+  auto& stimulus = at(millisecond);
+  stimulus.every = 2 * millisecond;
+  stimulus.faults = {{text("web.encoder"), text("lose_counts"), quantity(1)}};
+  auto timeline = make();
+  run(timeline, 0, 10 * millisecond);  // at 1, 3, 5, 7, 9 ms
+  EXPECT_EQ(plant.lost, 5);
+}
+
+TEST_F(TimelineTest, SwitchesThePower) {
+  at(millisecond).power = false;
+  auto timeline = make();
+  run(timeline, 0, 2 * millisecond);
+  EXPECT_FALSE(controller.powered);
+}
+
+TEST_F(TimelineTest, SaysWhatDoesNotFit) {
+  auto& wrong = at(0);
+  wrong.set = {{text("web.sped", 1, 5), quantity(1, "m/min")},
+               {text("web.speed", 2, 5), quantity(1)},
+               {text("web.speed", 3, 5), quantity(1, "kg")},
+               {text("slLength", 4, 5), quantity(1, "mm")},
+               {text("panel.stop", 5, 5), quantity(1)}};
+  wrong.faults = {{text("web.encoder", 6, 5), text("explode", 6, 20), quantity(1)},
+                  {text("web.motor", 8, 5), text("stuck", 8, 20), quantity(1)}};
+  make();
+  std::vector<std::string> all;
+  for (const auto& problem : problems) all.push_back(to_string(problem));
+  EXPECT_THAT(all,
+              testing::ElementsAre(
+                  "line.yaml:1:5: nothing called 'web.sped' can be set; did you mean web.speed?",
+                  "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min",
+                  "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min",
+                  "line.yaml:7:9: slLength takes a plain number, not 'mm'; leave the unit away",
+                  "line.yaml:5:5: nothing called 'panel.stop' can be set; wire an input to panel.stop first",
+                  "line.yaml:6:20: web.encoder offers no fault 'explode'; web.encoder offers: lose_counts",
+                  "line.yaml:8:20: web.motor offers no fault 'stuck'; components with faults: web.encoder"));
+}
+
+}  // namespace
+}  // namespace drycut::sim

@@ -1,0 +1,155 @@
+#include "sim/units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+namespace drycut::sim {
+namespace {
+
+TEST(Units, ConvertsTheUnitsOfTheField) {
+  const struct {
+    double number;
+    const char* unit;
+    double si;
+  } cases[] = {{60, "m/min", 1},
+               {3, "mm", 0.003},
+               {7, "um", 7e-6},
+               {100, "us", 1e-4},
+               {300, "rpm", 10 * std::numbers::pi},
+               {90, "deg", std::numbers::pi / 2},
+               {1, "rev", 2 * std::numbers::pi},
+               {1, "turn", 2 * std::numbers::pi},
+               {1, "revolution", 2 * std::numbers::pi},
+               {9.5, "N m", 9.5},
+               {9.5, "Nm", 9.5},
+               {2, "kg m^2", 2},
+               {4000, "N m/rad", 4000},
+               {180, "deg/s", std::numbers::pi},
+               {120, "1/min", 2},
+               {5, "%", 0.05},
+               {6, "bar", 6e5},
+               {10, "V", 10},
+               {2500, "lines", 2500},
+               {4, "counts", 4},
+               {3, "pieces", 3},
+               {20, "celsius", 293.15},
+               {2, "m2", 2},
+               {0.5, "", 0.5}};
+  for (const auto& [number, unit, si] : cases) {
+    ASSERT_TRUE(is_unit(unit)) << unit;
+    EXPECT_NEAR(to_si(number, unit), si, 4e-16 * std::abs(si)) << unit;
+    EXPECT_NEAR(from_si(si, unit), number, 4e-14 * number) << unit;
+  }
+}
+
+TEST(Units, DecimalFractionsOfSiAreTheNearestDouble) {
+  // A literal in the plants and the same number in a scenario must be the same bits.
+  for (int n = 1; n <= 2000; ++n) {
+    EXPECT_EQ(to_si(n, "mm"), n / 1e3);
+    EXPECT_EQ(to_si(n, "us"), n / 1e6);
+    EXPECT_EQ(to_si(n, "m/min"), n / 60.0);
+  }
+}
+
+TEST(Units, RefusesWhatIsNoUnit) {
+  for (const char* text : {"mmm", "foo", "10 mm", "mm 10", "m / 2", "2", "s since 2000-01-01", "lg(re 1 mW)",
+                           "m @ 3", "m/", "-m", " m", "m ", "m;", "\n", "m\x01", "m**", "("}) {
+    EXPECT_FALSE(is_unit(text)) << text;
+  }
+  EXPECT_FALSE(is_unit(std::string(100, 'm')));
+}
+
+TEST(Units, AngleIsADimensionOfItsOwn) {
+  EXPECT_TRUE(same_dimension("deg", "rad"));
+  EXPECT_FALSE(same_dimension("deg", ""));
+  EXPECT_FALSE(same_dimension("rpm", "1/min"));  // UDUNITS alone would take 1/min for 1 rad/min
+  EXPECT_FALSE(same_dimension("N m", "N m/rad"));
+  EXPECT_TRUE(same_dimension("rpm", "deg/s"));
+  EXPECT_TRUE(same_dimension("%", "count"));
+  EXPECT_FALSE(same_dimension("mm", "ms"));
+  EXPECT_FALSE(same_dimension("mm", "foo"));
+  EXPECT_FALSE(same_dimension("foo", "foo"));
+}
+
+TEST(Units, NamesDimensions) {
+  EXPECT_EQ(dimension_name("mm"), "a length");
+  EXPECT_EQ(dimension_name("m/min"), "a speed");
+  EXPECT_EQ(dimension_name("rpm"), "a rotational speed");
+  EXPECT_EQ(dimension_name("kg cm^2"), "an inertia");
+  EXPECT_EQ(dimension_name("Nm"), "a torque");
+  EXPECT_EQ(dimension_name("N m/deg"), "a torsional stiffness");
+  EXPECT_EQ(dimension_name(""), "a pure number");
+  EXPECT_EQ(dimension_name("%"), "a percentage");
+  EXPECT_EQ(dimension_name("m^5"), "a quantity in m^5");
+}
+
+TEST(Units, GivesTheSiUnit) {
+  EXPECT_EQ(si_unit("m/min"), "m.s-1");
+  EXPECT_EQ(si_unit("count"), "");
+  EXPECT_EQ(to_si(2.5, si_unit("N m/rad")), 2.5);
+}
+
+TEST(Quantity, SplitsNumberAndUnit) {
+  const struct {
+    const char* text;
+    double number;
+    const char* unit;
+    std::size_t offset;
+  } cases[] = {{"1200 mm", 1200, "mm", 5}, {"-0.5", -0.5, "", 4},    {"+5 V", 5, "V", 3},
+               {"60 m/min", 60, "m/min", 3}, {"1e-3 m", 1e-3, "m", 5}, {".5 m", 0.5, "m", 3},
+               {"12mm", 12, "mm", 2},        {"5  N m ", 5, "N m", 3}};
+  for (const auto& [text, number, unit, offset] : cases) {
+    const auto parsed = parse_quantity(text);
+    ASSERT_TRUE(parsed) << text;
+    EXPECT_EQ(parsed->number, number) << text;
+    EXPECT_EQ(parsed->unit, unit) << text;
+    EXPECT_EQ(parsed->unit_offset, offset) << text;
+  }
+}
+
+TEST(Quantity, RefusesWhatIsNoNumber) {
+  for (const char* text : {"", "mm", "inf", "nan", "-inf m", "1e999", "- 5", "+-5", "--5", "e5", " 5", "."}) {
+    EXPECT_FALSE(parse_quantity(text)) << text;
+  }
+}
+
+TEST(Quantity, IsWrittenShortAndReadsBackExactly) {
+  EXPECT_EQ(format_quantity(1, "m/min"), "60 m/min");
+  EXPECT_EQ(format_quantity(0.6, "mm"), "600 mm");
+  EXPECT_EQ(format_quantity(0.05, "%"), "5 %");
+  EXPECT_EQ(format_quantity(0.3, ""), "0.3");
+  EXPECT_EQ(format_quantity(0, "mm"), "0 mm");
+  double si = 1e-7;
+  for (const char* unit : {"mm", "m/min", "deg", "rpm", "%", "bar", "N m/rad", "1/min", "count"}) {
+    for (int i = 0; i < 2000; ++i) {
+      si = si * 1.0137 + 1e-9;
+      if (si > 1e9) si = 1e-7;
+      const auto text = format_quantity(si, unit);
+      const auto back = parse_quantity(text);
+      ASSERT_TRUE(back) << text;
+      EXPECT_EQ(to_si(back->number, back->unit), si) << text;
+    }
+  }
+}
+
+TEST(Units, MayBeAskedByManyThreads) {
+  std::vector<std::thread> threads;
+  std::vector<int> right(4, 0);
+  for (int& count : right) {
+    threads.emplace_back([&count] {
+      for (int i = 1; i <= 500; ++i) {
+        const auto unit = "m" + std::to_string(i % 7 + 1);
+        count += to_si(i, unit) == i && is_unit("m/min") ? 1 : 0;
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  for (const int count : right) EXPECT_EQ(count, 500);
+}
+
+}  // namespace
+}  // namespace drycut::sim
