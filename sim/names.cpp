@@ -27,6 +27,12 @@ Names::Names(std::vector<NamedPlant> plants, devices::Controller* controller, Pa
   }
 }
 
+bool Names::of_controller(const std::string& name) const {
+  const auto plant = name.substr(0, name.find('.'));
+  return plant != "panel" &&
+         std::none_of(plants_.begin(), plants_.end(), [&](const auto& p) { return p.name == plant; });
+}
+
 std::optional<Reading> Names::reading(const std::string& name) {
   if (const auto found = channels_.find(name); found != channels_.end()) {
     return Reading{name, found->second.unit, found->second.read};
@@ -41,6 +47,7 @@ std::optional<Reading> Names::reading(const std::string& name) {
     }
     return {};
   }
+  if (assumed_ && of_controller(name)) return Reading{name, "", [] { return 0.0; }};
   if (controller_ != nullptr) {
     if (auto value = controller_->find(name)) return Reading{name, value->unit, value->read};
   }
@@ -58,6 +65,7 @@ std::optional<Target> Names::target(const std::string& name) {
     return Target{name, "", [this, plug](double on) { panel_.set(plug, on != 0); },
                   [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; }};
   }
+  if (assumed_ && of_controller(name)) return Target{name, "", [](double) {}, [] { return 0.0; }};
   if (controller_ != nullptr) {
     if (auto value = controller_->find(name); value && value->write)
       return Target{name, "", value->write, value->read};

@@ -33,6 +33,9 @@ struct Target {
 class Names {
  public:
   Names(std::vector<NamedPlant> plants, devices::Controller* controller, Panel& panel);
+  /// For a scenario whose controller has problems of its own: every name that no plant and no panel could
+  /// have is taken for one of the controller's, so that only what is wrong is told.
+  void assume_controller() { assumed_ = true; }
 
   /// What can be recorded or checked under this name.
   std::optional<Reading> reading(const std::string& name);
@@ -51,7 +54,10 @@ class Names {
  private:
   std::vector<NamedPlant> plants_;
   devices::Controller* controller_;
+  [[nodiscard]] bool of_controller(const std::string& name) const;
+
   Panel& panel_;
+  bool assumed_ = false;
   std::map<std::string, plants::Channel> channels_;
   std::map<std::string, plants::Setting> settings_;
   std::vector<std::pair<std::string, plants::Fault>> faults_;  ///< full component name, fault

@@ -160,8 +160,8 @@ struct Scenario {
   RecordSection record;
   std::vector<Check> checks;
   PicturesSection pictures;
-  /// True if the machine can be built: plants and controller have no problem. Problems elsewhere do not stop
-  /// a check of the names.
+  /// True if the machine can be built: plants and controller have no problem and all periods are multiples
+  /// of the step. Problems elsewhere do not stop a check of the names.
   bool buildable = false;
   std::vector<std::string> sources;  ///< names for messages: the file, then "--set PATH" of each override
 };

@@ -198,14 +198,16 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
   if (const auto* node = reader.map("controller")) {
     scenario.controller = read_controller(*node, findings);
   }
-  scenario.buildable = findings.count() == before;
+  const bool machine_sound = findings.count() == before;
   if (const auto* node = reader.map("wiring")) scenario.wiring = read_wiring(*node, findings);
   if (const auto* node = reader.list("timeline")) scenario.timeline = read_timeline(*node, findings);
   if (const auto* node = reader.map("record")) scenario.record = read_record(*node, findings);
   if (const auto* node = reader.list("checks")) scenario.checks = read_checks(*node, findings);
   if (const auto* node = reader.map("pictures")) scenario.pictures = read_pictures(*node, findings);
   reader.finish();
+  const auto singly = findings.count();
   check_together(scenario, root, findings);
+  scenario.buildable = machine_sound && findings.count() == singly;
 }
 
 // The tree of the file, or a map without entries where nothing can be read.

@@ -155,9 +155,9 @@ void MapReader::finish() {
     if (std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) continue;
     const auto where = name_.empty() ? std::string() : fmt::format(" in {}", name_);
     const bool torn = entry.key.text.find_first_of("()") != std::string::npos;  // max(a, b) in a {...}
-    findings_.add(entry.key.place, fmt::format("unknown key '{}'{}", entry.key.text, where),
-                  torn ? "an expression with a comma in it stands in quotes"
-                       : did_you_mean(entry.key.text, known_));
+    findings_.add(
+        entry.key.place, fmt::format("unknown key '{}'{}", entry.key.text, where),
+        torn ? "an expression with a comma in it stands in quotes" : did_you_mean(entry.key.text, known_));
   }
 }
 

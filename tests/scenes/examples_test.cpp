@@ -1,0 +1,54 @@
+// The manuals' own programs, run unmodified. They are not part of the product: where they are absent these
+// tests skip.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "sim/simulation.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path examples() {
+  if (const char* folder = std::getenv("DRYCUT_EXAMPLES")) return folder;
+  return fs::path(DRYCUT_SOURCE_DIR).parent_path() / "shared" / "examples";
+}
+
+/// Runs tests/scenes/examples/<name>.yaml with EXAMPLES replaced by where the programs are.
+void run(const std::string& name) {
+  if (!fs::exists(examples())) GTEST_SKIP() << "the manuals' programs are not here";
+  const auto file = fs::path(DRYCUT_SOURCE_DIR) / "tests/scenes/examples" / (name + ".yaml");
+  std::ifstream stream(file);
+  ASSERT_TRUE(stream) << file;
+  std::stringstream buffer;
+  buffer << stream.rdbuf();
+  auto text = buffer.str();
+  const std::string placeholder = "EXAMPLES";
+  for (auto at = text.find(placeholder); at != std::string::npos; at = text.find(placeholder, at)) {
+    text.replace(at, placeholder.size(), examples().string());
+  }
+  devices::Problems problems;
+  const auto scenario = read_scenario_text(text, file, {}, problems);
+  ASSERT_TRUE(problems.empty()) << to_string(problems.front());
+  Simulation simulation(scenario, problems);
+  ASSERT_TRUE(problems.empty()) << to_string(problems.front());
+  const auto outcome = simulation.run();
+  EXPECT_EQ(outcome.failure, "");
+  EXPECT_FALSE(outcome.checks.empty());
+  for (const auto& check : outcome.checks) {
+    EXPECT_TRUE(check.passed) << check.name << ": " << check.detail
+                              << (check.at ? " at " + std::to_string(*check.at) : "");
+  }
+}
+
+TEST(Examples, Camming4Startup) { run("camming4_startup"); }
+TEST(Examples, Camming4Jog) { run("camming4_jog"); }
+TEST(Examples, Camming4Datagroup) { run("camming4_datagroup"); }
+
+}  // namespace
+}  // namespace drycut::sim
