@@ -13,7 +13,7 @@ struct OutfeedData {
   double speed_factor = 1.2;  ///< belt speed over line speed: opens a gap between the pieces
   double friction = 0.4;      ///< Coulomb, piece on belt
   double start = 0.15;        ///< of the belt [m]
-  double length = 3;          ///< of the belt [m]; a piece whose middle has passed its end is gone
+  double length = 2;          ///< of the belt [m]; a piece whose middle has passed its end is gone
 };
 
 /// The cut pieces on the outfeed belt: rigid bodies of their own, moved in the slow world. A fixed pool; when

@@ -10,9 +10,9 @@ namespace drycut::plants {
 /// this table over it is what the scenario reader fills, `drycut check --expand` writes and `drycut plants`
 /// prints.
 struct Parameter {
-  std::string name;       ///< as in the scenario; a dot is a nested map ("servo.rated_torque")
-  std::string_view unit;  ///< unit in which it is printed and in which min and max are given; "" = pure
-                          ///< number. The bound member always holds SI (m, kg, s, rad, N m, V).
+  std::string name;          ///< as in the scenario; a dot is a nested map ("servo.rated_torque")
+  std::string_view unit;     ///< unit in which it is printed and in which min and max are given; "" = pure
+                             ///< number. The bound member always holds SI (m, kg, s, rad, N m, V).
   std::string_view meaning;  ///< one sentence
   /// What it is bound to: a quantity or number, an integer, a switch, a word.
   std::variant<double*, int*, bool*, std::string*> value;

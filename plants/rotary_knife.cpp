@@ -128,12 +128,13 @@ std::vector<Channel> RotaryKnife::channels() {
 }
 
 std::vector<EventType> RotaryKnife::event_types() {
-  return {{"cut",
-           {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
-           "a blade went through the web at bottom dead centre: length of the piece, largest speed mismatch in "
-           "the web, largest vertical force, number since the start"},
-          {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
-          {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"}};
+  return {
+      {"cut",
+       {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
+       "a blade went through the web at bottom dead centre: length of the piece, largest speed mismatch in "
+       "the web, largest vertical force, number since the start"},
+      {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
+      {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"}};
 }
 
 std::vector<Fault> RotaryKnife::faults() {

@@ -5,8 +5,8 @@
 
 namespace drycut::plants {
 
-// How the knife looks: drum over the web, anvil roll under it, motor and gearbox behind, away from the
-// operator.
+// How the knife looks: drum over the web, anvil roll under it. Bearing, gearbox and motor are behind, so that
+// the operator sees the drum from its free end.
 
 namespace {
 
@@ -30,13 +30,13 @@ std::vector<Part> RotaryKnife::parts() {
   const double body = 2 * (radius_ - blade_height * 0.8);
   std::vector<Part> parts = {
       {"drum", Shape::cylinder, {body, body, w}, drum_colour, "steel"},
-      {"drum shaft", Shape::cylinder, {0.05, 0.05, w + 0.16}, steel, "steel"},
+      {"drum shaft", Shape::cylinder, {0.05, 0.05, w + 0.06}, steel, "steel"},
       {"drum mark", Shape::box, {0.012, radius_ * 0.6, 0.004}, mark_colour, "paint"},
       {"anvil roll", Shape::cylinder, {anvil_diameter, anvil_diameter, w}, steel, "steel"},
-      {"bearing", Shape::box, {0.10, 0.10, 0.04}, frame_colour, "paint"},
+      {"bearing", Shape::cylinder, {0.12, 0.12, 0.05}, frame_colour, "paint"},
       {"post", Shape::box, {0.07, 2 * radius_ + 0.14, 0.05}, frame_colour, "paint"},
-      {"back plate", Shape::box, {0.34, 2 * radius_ + 0.34, 0.03}, frame_colour, "paint"},
-      {"base", Shape::box, {0.34, 0.66, w * 0.9}, frame_colour, "paint"},
+      {"back plate", Shape::box, {0.26, 2 * radius_ + 0.34, 0.03}, frame_colour, "paint"},
+      {"base", Shape::box, {0.30, 0.75, w}, frame_colour, "paint"},
       {"gearbox", Shape::cylinder, {0.13, 0.13, 0.12}, steel, "steel"},
       {"motor", Shape::box, {0.14, 0.14, 0.20}, motor_colour, "paint"},
       {"encoder", Shape::cylinder, {0.09, 0.09, 0.05}, motor_colour, "paint"},
@@ -61,10 +61,10 @@ void RotaryKnife::poses(std::vector<PartPose>& out) {
   const double mark = radius_ * 0.36;
   out.push_back({.pose = turned(mark * std::sin(angle), axis - mark * std::cos(angle), end + 0.003, angle)});
   out.push_back({.pose = turned(0, -anvil_diameter / 2, 0, -angle)});
-  out.push_back(at(0, axis, end + gap + 0.05));
+  out.push_back(at(0, axis, -end - gap - 0.02));
   out.push_back(at(0, axis + 0.12, -end - gap - 0.03));
   out.push_back(at(0, axis, -end - gap - 0.07));
-  out.push_back(at(0, -0.57, 0));
+  out.push_back(at(0, -0.525, 0));
   out.push_back(at(0, axis, -end - 0.17));
   out.push_back(at(0, axis, -end - 0.33));
   out.push_back(at(0, axis, -end - 0.455));

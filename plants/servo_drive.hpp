@@ -17,13 +17,14 @@ struct ServoData {
   double peak_torque = 28.6;       ///< up to rated speed [N m]
   double torque_at_max_speed =
       19;  ///< peak torque left at max_speed, falling linearly from rated speed [N m]
-  double rated_speed = 209.4395102;  ///< 2000 rpm [rad/s]
-  double max_speed = 314.1592654;    ///< 3000 rpm [rad/s]; no driving torque is left 5 % above it
+  double rated_speed = 2000 * std::numbers::pi / 30;  ///< 2000 rpm [rad/s]
+  double max_speed =
+      3000 * std::numbers::pi / 30;  ///< 3000 rpm [rad/s]; no driving torque is left 5 % above it
   // Reference input
-  double speed_at_10v = 209.4395102;  ///< [rad/s]
-  int adc_bits = 14;                  ///< over -10 V .. +10 V
-  double offset = 0;                  ///< of the analogue input [V]
-  double filter = 1e-3;               ///< time constant of the reference filter, 0 = none [s]
+  double speed_at_10v = 2000 * std::numbers::pi / 30;  ///< [rad/s]
+  int adc_bits = 14;                                   ///< over -10 V .. +10 V
+  double offset = 0;                                   ///< of the analogue input [V]
+  double filter = 1e-3;  ///< time constant of the reference filter, 0 = none [s]
   // Speed loop: Kp = (1 + inertia_ratio) * rotor_inertia * speed_gain
   double speed_gain = 250;       ///< [rad/s]
   double integral_time = 20e-3;  ///< Ti [s]

@@ -12,10 +12,10 @@ namespace drycut::plants {
 namespace {
 
 constexpr double floor_y = -0.9;
-constexpr double upstream = 2.4;     // visible web before the cut [m]
+constexpr double upstream = 1.7;     // visible web before the cut [m]
 constexpr double least_look = 3e-3;  // thinner web would vanish in the picture [m]
-constexpr double pull_x = -1.7;      // line drive
-constexpr double wheel_x = -0.9;
+constexpr double pull_x = -1.25;     // line drive
+constexpr double wheel_x = -0.7;
 constexpr double roll_diameter = 0.14;
 constexpr int cleats = 8;  // marks on the belt that show its motion
 
@@ -43,7 +43,7 @@ std::vector<Part> Web::parts() {
       {"measuring wheel mark", Shape::box, {0.012, wheel * 0.38, 0.006}, mark_colour, "paint"},
       {"wheel arm", Shape::box, {0.26, 0.025, 0.02}, steel, "steel"},
       {"table", Shape::box, {upstream - 0.25, 0.02, w * 1.1}, steel, "steel"},
-      {"infeed frame", Shape::box, {upstream - 0.3, 0.12, w * 0.8}, paint, "paint"},
+      {"infeed frame", Shape::box, {upstream - 0.3, 0.22, w * 0.8}, paint, "paint"},
       {"infeed leg 1", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint"},
       {"infeed leg 2", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint"},
       {"outfeed belt", Shape::box, {belt, 0.03, w * 1.15}, rubber, "rubber"},
@@ -88,9 +88,9 @@ void Web::poses(std::vector<PartPose>& out) {
                       wheel_y + wheel_radius * 0.55 * std::cos(wheel_angle), wheel_z + 0.018, wheel_angle)});
   out.push_back(at(wheel_x - 0.13, wheel_y + 0.02, wheel_z - 0.03));
   out.push_back(at(-(upstream + 0.25) / 2, -0.011));
-  out.push_back(at(-(upstream + 0.3) / 2, -0.21));
+  out.push_back(at(-(upstream + 0.3) / 2, -0.13));
   out.push_back(at(-upstream + 0.25, leg_y));
-  out.push_back(at(-0.6, leg_y));
+  out.push_back(at(-0.45, leg_y));
   out.push_back(at(belt_x + belt / 2, -0.016));
   out.push_back(at(belt_x + 0.02, -0.052));
   out.push_back(at(belt_x + belt - 0.02, -0.052));

@@ -147,7 +147,8 @@ bool CaptionLayout::place(const std::vector<Widths>& items, std::size_t rows, do
 
   font_size_ = font_size;
   cells_.clear();
-  const double share = columns > 0 ? room / static_cast<double>(columns) : 0;  // of a column, when by force
+  const double share = columns > 0 ? (room + kColumnGap * font_size) / static_cast<double>(columns)
+                                   : 0;  // of a column, when by force
   double left = margin_;
   std::vector<Cell> line;
   for (const Widths& column : widest) {
@@ -156,7 +157,7 @@ bool CaptionLayout::place(const std::vector<Widths>& items, std::size_t rows, do
     cell.label_width = column.label * font_size;
     cell.right = left + (column.label + kValueGap + column.value) * font_size;
     if (by_force) {
-      cell.right = left + share - kValueGap * font_size;
+      cell.right = left + share - kColumnGap * font_size;
       const double value = std::min(column.value * font_size, 0.6 * share);
       cell.label_width = std::max(0.0, cell.right - left - value - kValueGap * font_size);
       left += share;

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "renders/text.hpp"
@@ -142,12 +143,17 @@ std::string run_gnuplot(const std::string& script, const std::string& program) {
 
 std::string gnuplot_string(const std::string& text) {
   // Every sign that could mean something to gnuplot (quotes, backslash, backticks, macros) as an octal
-  // escape, which it reads when all substitutions are over.
+  // escape, which it reads when all substitutions are over. It takes as many digits as it finds, so that a
+  // digit after an escape must be one as well.
+  constexpr std::string_view kPlain = " .,:;+-*/=()[]_<>|";
   std::string quoted = "\"";
+  bool escaped = false;
   for (const char c : one_line(text)) {
-    const bool plain = static_cast<unsigned char>(c) >= 0x80 || (c >= '0' && c <= '9') ||
-                       (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == ' ';
-    quoted += plain ? std::string(1, c) : fmt::format("\\{:03o}", static_cast<unsigned>(c));
+    const bool digit = c >= '0' && c <= '9';
+    const bool letter =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+    escaped = !(letter || kPlain.find(c) != std::string_view::npos || (digit && !escaped));
+    quoted += escaped ? fmt::format("\\{:03o}", static_cast<unsigned>(c)) : std::string(1, c);
   }
   return quoted + "\"";
 }

@@ -11,6 +11,7 @@ void Cam::set(const CamSettings& settings) {
 }
 
 void Cam::write(int number, Column column, std::int32_t value) {
+  assert(number >= 1 && number <= cam_rows);
   Row& row = stored(number);
   switch (column) {
     case Column::codeG:

@@ -75,8 +75,8 @@ class Cam {
   /// Writes the table, any time. A write to the row after the running one waits for the next time that row
   /// is reached. The caller asks refuses() first.
   void write(int number, Column column, std::int32_t value);
-  [[nodiscard]] bool refuses(int number,
-                             Column column) const;  ///< error 5: the row runs (gearing: not codeQs, codeQsa)
+  /// Error 5 if it is written: the row runs (of a gearing codeQs and codeQsa may be).
+  [[nodiscard]] bool refuses(int number, Column column) const;
 
   /// STARTCAM: row 1 from the next advance(). The codeQma of all 190 rows becomes 0.
   void start(const CamStart& start);
@@ -87,8 +87,8 @@ class Cam {
   [[nodiscard]] const CamStep& step() const { return step_; }
   [[nodiscard]] bool running() const { return step_.running; }
 
-  /// The sector that runs (waiting() and held at a boundary included), for validation: sample its law with
-  /// at(). Its place on the axes is exact.
+  /// The sector that runs, for validation: sample its law with at(). Only while step().running and not
+  /// step().waiting. Its place on the axes is exact.
   [[nodiscard]] const Sector& sector() const { return sectors_[static_cast<std::size_t>(current_ - 1)]; }
   [[nodiscard]] const Point& master_origin() const { return master_origin_; }
   [[nodiscard]] const Point& slave_origin() const { return slave_origin_; }

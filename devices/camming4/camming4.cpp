@@ -79,6 +79,7 @@ void Camming4::initialise() {
   master_.rebase(master_raw());
   axis_.abort();
   axis_.settle();
+  master_frequency_ = {};
   master_history_.fill(master_.total());
   master_way_ = 0;
   search_.abort();

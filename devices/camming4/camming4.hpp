@@ -43,7 +43,7 @@ class Camming4 final : public Device {
     std::int64_t master = 0;
     bool late = false;  ///< held back by a recalculation (warning 8)
   };
-  /// Latches that a terminal gives, or nothing where the .CNF says X.X.
+  /// The terminals of the record; nullptr or line 0 where the .CNF says X.X or X.
   struct Terminals {
     const Counter* slave = nullptr;
     std::array<const Counter*, 2> master = {};  ///< A and B

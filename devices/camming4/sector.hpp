@@ -77,8 +77,8 @@ bool is_standstill(double speed);
 bool asks_softening(const Row& row);
 /// True if the row takes no master space although its code is a movement (133, 134, arcs with zeros).
 bool is_empty_movement(const Code& code, const Row& row);
-/// Makes the sector of a movement row (spec qem.md 8.4-8.6). Warnings 5, 6, 7, 10; 1 and 2 need the master's
-/// speed and are the caller's.
+/// Makes the sector of a movement row (spec qem.md 8.4-8.6). Warnings 5, 6 and 7; 1 and 2 need the master's
+/// speed, 10 the rows between, and are the caller's.
 SectorResult make_sector(const Code& code, const Row& row, int number, const CamSettings& settings,
                          const SectorEntry& entry);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <set>
+#include <thread>
 
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"
@@ -145,6 +145,20 @@ TEST(RendersFilm, FrameDoesNotDependOnTheFramesBefore) {
   std::swap(film.frames[0], film.frames[2]);
   const auto swapped = draw_film(film, scratch / "swapped");
   EXPECT_EQ(read_file(all[2]), read_file(swapped[0]));
+}
+
+TEST(RendersFilm, FilmsDrawnInTwoThreadsDoNotMix) {
+  const Scratch scratch;
+  const Film film = two_parts();
+  const auto alone = draw_film(film, scratch / "alone");
+  std::thread one([&] { draw_film(film, scratch / "one"); });
+  std::thread two([&] { draw_film(film, scratch / "two"); });
+  one.join();
+  two.join();
+  for (const auto& file : alone) {
+    EXPECT_EQ(read_file(file), read_file(scratch / "one" / file.filename()));
+    EXPECT_EQ(read_file(file), read_file(scratch / "two" / file.filename()));
+  }
 }
 
 TEST(RendersFilm, TellsItsProgress) {

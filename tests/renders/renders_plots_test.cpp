@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
 
@@ -305,6 +304,16 @@ TEST(RendersGnuplot, SaysWhatGnuplotSays) {
       ::testing::AllOf(HasSubstr("gnuplot failed"), HasSubstr("undefined function: no_such_function")));
   EXPECT_THAT(message_of<std::runtime_error>([] { run_gnuplot("set encoding utf8\n"); }),
               HasSubstr("gnuplot drew nothing"));
+}
+
+TEST(RendersGnuplot, StringMeansJustItsCharacters) {
+  for (const std::string text :
+       {"800.05", "\"5 \\n 'quotes' `77` @x $HOME %d {1}_2 ^3", "±0.1 µm …", "''", "#12 ~8!9"}) {
+    // gnuplot prints to its standard error, which we get to see because no picture comes.
+    const std::string words =
+        message_of<std::runtime_error>([&] { run_gnuplot("print " + gnuplot_string(text) + "\n"); });
+    EXPECT_EQ(words, "plots: gnuplot drew nothing: " + text);
+  }
 }
 
 TEST(RendersGnuplot, SaysWhatToInstallIfThereIsNone) {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <regex>
+#include <string>
+#include <vector>
 
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
@@ -54,27 +54,26 @@ std::string written(const Report& report, const Scratch& scratch) {
   return read_file(scratch / "report.html");
 }
 
-/// The tags of the page opened and not closed, or closed out of order; empty if it is well-formed.
+/// The tags after the style sheet that are opened and not closed, or the first that is closed out of order;
+/// empty if the page is well-formed.
 std::string unbalanced(const std::string& page) {
-  std::vector<std::string> open;
-  const std::regex tag("<(/?)([a-z0-9]+)[^>]*>");
-  const std::string body = page.substr(page.find("</style>") + 8);
-  std::vector<std::string> all;
-  for (std::sregex_iterator it(body.begin(), body.end(), tag), end; it != end; ++it) {
-    const std::string name = (*it)[2];
+  std::vector<std::string> open = {"html", "head"};
+  for (std::size_t at = page.find('<', page.find("</style>") + 1); at != std::string::npos;
+       at = page.find('<', at + 1)) {
+    const bool closes = page[at + 1] == '/';
+    const std::size_t begin = at + (closes ? 2 : 1);
+    const std::string name = page.substr(begin, page.find_first_of(" >", begin) - begin);
     if (name == "img") continue;
-    if ((*it)[1].length() == 0) {
+    if (!closes) {
       open.push_back(name);
     } else if (!open.empty() && open.back() == name) {
       open.pop_back();
-    } else if (name != "head" && name != "body" && name != "html") {
-      return name;
+    } else {
+      return "/" + name;
     }
   }
   std::string left;
-  for (const std::string& name : open) {
-    if (name != "body") left += name + " ";
-  }
+  for (const std::string& name : open) left += name + " ";
   return left;
 }
 

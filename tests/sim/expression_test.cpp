@@ -43,7 +43,8 @@ std::string faults_of(std::string_view text, const Numbers& numbers = {{"x", 1},
   EXPECT_FALSE(compile(text, numbers, faults)) << text;
   std::string all;
   for (const auto& fault : faults) {
-    all += (all.empty() ? "" : " | ") + std::to_string(fault.offset) + ": " + fault.what + "; " + fault.remedy;
+    all +=
+        (all.empty() ? "" : " | ") + std::to_string(fault.offset) + ": " + fault.what + "; " + fault.remedy;
   }
   return all;
 }
@@ -53,15 +54,32 @@ TEST(Expression, HoldsOrNot) {
   const struct {
     const char* text;
     bool holds;
-  } cases[] = {{"x == 3", true},          {"x != 3", false},      {"x", true},
-               {"zero", false},           {"!zero", true},        {"!x", false},
-               {"!(x < 5)", false},       {"x < 5 && y < 0", true}, {"x > 5 || y < 0", true},
-               {"x > 5 || y > 0", false}, {"x > 5 ? y > 0 : y < 0", true},
-               {"x + y == 1", true},      {"2 * x - -y == 4", true}, {"x ^ 2 == 9", true},
-               {"-x < y", true},          {"1 / zero > 1e300", true}, {"sqrt(y) < 100", false},
-               {"(x < 5) && ((y < 0))", true}, {"x > 3", false},  {"x >= 3", true},
-               {"x < 3", false},          {"x <= 3", true},       {"x == 3 && y == -2", true},
-               {"x == 3 && y == 2", false}, {"2e0 < x", true},    {".5e+1 > x", true}};
+  } cases[] = {{"x == 3", true},
+               {"x != 3", false},
+               {"x", true},
+               {"zero", false},
+               {"!zero", true},
+               {"!x", false},
+               {"!(x < 5)", false},
+               {"x < 5 && y < 0", true},
+               {"x > 5 || y < 0", true},
+               {"x > 5 || y > 0", false},
+               {"x > 5 ? y > 0 : y < 0", true},
+               {"x + y == 1", true},
+               {"2 * x - -y == 4", true},
+               {"x ^ 2 == 9", true},
+               {"-x < y", true},
+               {"1 / zero > 1e300", true},
+               {"sqrt(y) < 100", false},
+               {"(x < 5) && ((y < 0))", true},
+               {"x > 3", false},
+               {"x >= 3", true},
+               {"x < 3", false},
+               {"x <= 3", true},
+               {"x == 3 && y == -2", true},
+               {"x == 3 && y == 2", false},
+               {"2e0 < x", true},
+               {".5e+1 > x", true}};
   for (const auto& [text, holds] : cases) EXPECT_EQ(evaluate(text, numbers).holds, holds) << text;
 }
 
@@ -77,9 +95,9 @@ TEST(Expression, KnowsTheFunctions) {
 TEST(Expression, NamesMayHaveDotsIndicesAndLeadingDigits) {
   const Numbers numbers = {
       {"AxisX.st_sync", 1}, {"2.AN01", 5}, {"table[3]", 7}, {"recipe[2,5]", 9}, {"knife.servo.torque", 4}};
-  for (const char* text : {"AxisX.st_sync == 1", "2.AN01 == 5", "table[3] == 7", "recipe[2, 5] == 9",
-                           "recipe[2,5]-table[3] == 2", "knife.servo.torque*2.AN01 == 20",
-                           "max(table[3],recipe[2,5]) == 9"}) {
+  for (const char* text :
+       {"AxisX.st_sync == 1", "2.AN01 == 5", "table[3] == 7", "recipe[2, 5] == 9",
+        "recipe[2,5]-table[3] == 2", "knife.servo.torque*2.AN01 == 20", "max(table[3],recipe[2,5]) == 9"}) {
     EXPECT_TRUE(evaluate(text, numbers).holds) << text;
   }
 }
@@ -126,8 +144,8 @@ TEST(Expression, MarginIsTheLeastRoomOfAConjunction) {
 
 TEST(Expression, OtherFormsPassOrFailOnly) {
   const Numbers numbers = {{"x", 3}, {"y", 1}};
-  for (const char* text : {"x == 3", "x < 5 || y < 0", "x < 5 && y == 1", "!(x > 5)", "x < 5 ? 1 : 0",
-                           "(x < 5) * 1", "x"}) {
+  for (const char* text :
+       {"x == 3", "x < 5 || y < 0", "x < 5 && y == 1", "!(x > 5)", "x < 5 ? 1 : 0", "(x < 5) * 1", "x"}) {
     const auto result = evaluate(text, numbers);
     EXPECT_TRUE(result.holds) << text;
     EXPECT_FALSE(result.margin) << text;
@@ -140,8 +158,7 @@ TEST(Expression, TermsAreTheTextsBetweenTheAnds) {
   const Numbers numbers = {{"a", 1}, {"b", 2}};
   const auto expression = compile(" (a <  1 && abs( b )>2)&& (a == 1 || b == 2) ", numbers, faults);
   ASSERT_TRUE(expression);
-  EXPECT_EQ(expression->terms(),
-            (std::vector<std::string>{"a <  1", "abs( b )>2", "a == 1 || b == 2"}));
+  EXPECT_EQ(expression->terms(), (std::vector<std::string>{"a <  1", "abs( b )>2", "a == 1 || b == 2"}));
   EXPECT_FALSE(expression->has_margin());
 }
 
@@ -169,10 +186,12 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
       {"x < * 3", "4: a value is missing before '*'; add a name or a number"},
       {"&& x", "0: a value is missing before '&&'; add a name or a number"},
       {"abs()", "4: a value is missing before ')'; add a name or a number"},
-      {"x < 3 mm", "6: an operator is missing before 'mm'; add + - * / < > == && or ||; numbers carry no unit "
-                   "here"},
-      {"x (3)", "0: unknown function 'x'; known: abs, acos, acosh, asin, asinh, atan, atan2, atanh, avg, cos, "
-                "cosh, exp, ln, log, log10, log2, max, min, rint, sign, sin, sinh, sqrt, sum, tan, tanh"},
+      {"x < 3 mm",
+       "6: an operator is missing before 'mm'; add + - * / < > == && or ||; numbers carry no unit "
+       "here"},
+      {"x (3)",
+       "0: unknown function 'x'; known: abs, acos, acosh, asin, asinh, atan, atan2, atanh, avg, cos, "
+       "cosh, exp, ln, log, log10, log2, max, min, rint, sign, sin, sinh, sqrt, sum, tan, tanh"},
       {"(x < 3", "0: this ( is not closed; add )"},
       {"x < 3)", "5: this ) closes nothing; remove it"},
       {"x = 3", "2: '=' does not compare; write =="},
@@ -186,20 +205,25 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
       {"x : 1", "2: ':' without '?'; write condition ? value : other value"},
       {"AxisX.posti < 3", "0: unknown name 'AxisX.posti'; did you mean AxisX.posit?"},
       {"x < 3 && AxisY.posit > 2 && z < 1",
-       "9: unknown name 'AxisY.posit'; did you mean AxisX.posit? | 28: unknown name 'z'; known: AxisX.posit, x"},
+       "9: unknown name 'AxisY.posit'; did you mean AxisX.posit? | 28: unknown name 'z'; known: AxisX.posit, "
+       "x"},
       {"sqr(x) < 3", "0: unknown function 'sqr'; did you mean sqrt?"},
       {"1 + sin(1, x) < 3", "4: sin has too many arguments; remove some"},
       {"atan2(x) < 3", "0: atan2 has too few arguments; add what is missing"},
-      {"x < 3mm", "4: unknown name '3mm'; numbers carry no unit here: they are in the unit of the name they are "
-                  "compared with"},
+      {"x < 3mm",
+       "4: unknown name '3mm'; numbers carry no unit here: they are in the unit of the name they are "
+       "compared with"},
       {"x < table[3", "9: this [ is not closed; write ] after the index"},
       {"x < table[i]", "10: 'i' in an index; an index is a number, or two: [3], [2,5]"},
-      {"x < \"3\"", "4: '\"' has no meaning in an expression; use numbers, names, + - * / ^ < <= > >= == != && "
-                    "|| ! ?: and functions"},
-      {"x \xE2\x89\xA4 3", "2: '\xE2\x89\xA4' has no meaning in an expression; use numbers, names, + - * / ^ < "
-                           "<= > >= == != && || ! ?: and functions"},
-      {"x and 3", "2: an operator is missing before 'and'; add + - * / < > == && or ||; numbers carry no unit "
-                  "here"},
+      {"x < \"3\"",
+       "4: '\"' has no meaning in an expression; use numbers, names, + - * / ^ < <= > >= == != && "
+       "|| ! ?: and functions"},
+      {"x \xE2\x89\xA4 3",
+       "2: '\xE2\x89\xA4' has no meaning in an expression; use numbers, names, + - * / ^ < "
+       "<= > >= == != && || ! ?: and functions"},
+      {"x and 3",
+       "2: an operator is missing before 'and'; add + - * / < > == && or ||; numbers carry no unit "
+       "here"},
   };
   for (const auto& [text, fault] : cases) EXPECT_EQ(faults_of(text), fault) << text;
   EXPECT_EQ(faults_of(std::string(2001, ' ')), "0: the expression has 2001 characters; at most 2000");
@@ -222,8 +246,9 @@ TEST(Expression, FaultsOfAScenarioStandAtTheirPlaceInTheFile) {
 
 TEST(Expression, NoTextCrashesIt) {
   std::mt19937_64 random(7);
-  const std::string_view pieces[] = {"x", "(", ")", "<", "&&", "||", "!", "?", ":", "abs(", "max(", ",",
-                                     "1", "-", "+", "^", "==", "[", "]", "3.", ".", "e", "\xC3", " ", "_pi"};
+  const std::string_view pieces[] = {"x",    "(",    ")", "<", "&&",   "||", "!",  "?",  ":",
+                                     "abs(", "max(", ",", "1", "-",    "+",  "^",  "==", "[",
+                                     "]",    "3.",   ".", "e", "\xC3", " ",  "_pi"};
   int compiled = 0;
   for (int i = 0; i < 20000; ++i) {
     std::string text;

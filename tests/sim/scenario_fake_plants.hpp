@@ -10,19 +10,17 @@ namespace drycut::sim::fakes {
 // Plants with every kind of parameter and no machine behind them: the reader under test sees only tables.
 
 struct FakeWeb : plants::PlantDefinition {
-  double speed = 1;        // [m/s]
-  double slip = 0.02;      // pure number
-  double friction = 0.3;   // pure number
-  double mass = 5.5;       // [kg]
+  double speed = 1;       // [m/s]
+  double slip = 0.02;     // pure number
+  double friction = 0.3;  // pure number
+  double mass = 5.5;      // [kg]
   int lines = 2500;
   bool brake = false;
   plants::Parameters parameters() override {
-    return {{"speed", "m/min", "line speed", &speed, 0, 300},
-            {"slip", "%", "slip of the wheel", &slip, 0, 50},
-            {"friction", "", "coefficient", &friction, 0, 1},
-            {"mass", "kg", "moving mass", &mass, 0.1, 1000},
-            {"lines", "", "lines a turn", &lines, 1, 100000},
-            {"brake", "", "has a brake", &brake}};
+    return {
+        {"speed", "m/min", "line speed", &speed, 0, 300}, {"slip", "%", "slip of the wheel", &slip, 0, 50},
+        {"friction", "", "coefficient", &friction, 0, 1}, {"mass", "kg", "moving mass", &mass, 0.1, 1000},
+        {"lines", "", "lines a turn", &lines, 1, 100000}, {"brake", "", "has a brake", &brake}};
   }
   std::vector<Objection> objections() override {
     if (brake && mass > 500) return {{"mass", "too heavy for the brake", "at most 500 kg with a brake"}};
@@ -37,11 +35,11 @@ struct FakeWeb : plants::PlantDefinition {
 struct FakeKnife : plants::PlantDefinition {
   std::string web = "web";
   std::string mounting = "motor";
-  double circumference = 0.6;  // [m]
-  double angle = 0;            // [rad]
-  double rated_torque = 9.5;   // [N m]
+  double circumference = 0.6;               // [m]
+  double angle = 0;                         // [rad]
+  double rated_torque = 9.5;                // [N m]
   double rated_speed = 209.43951023931953;  // [rad/s]
-  double stiffness = 4000;     // [N m/rad]
+  double stiffness = 4000;                  // [N m/rad]
   double gain = 1;
   plants::Parameters parameters() override {
     return {{"web", "", "the web that it cuts", &web, 0, 0, {}, "web"},
@@ -76,9 +74,8 @@ std::unique_ptr<plants::PlantDefinition> define() {
   return std::make_unique<Definition>();
 }
 
-inline const std::array<plants::PlantType, 3> fake_types = {{{"axis", "", define<FakeAxis>},
-                                                             {"rotary_knife", "", define<FakeKnife>},
-                                                             {"web", "", define<FakeWeb>}}};
+inline const std::array<plants::PlantType, 3> fake_types = {
+    {{"axis", "", define<FakeAxis>}, {"rotary_knife", "", define<FakeKnife>}, {"web", "", define<FakeWeb>}}};
 
 /// Reads a scenario from memory; the problems as "line:column: what; remedy", with "--set ...:" in front of
 /// those of an override.

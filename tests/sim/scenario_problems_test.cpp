@@ -29,7 +29,8 @@ TEST(ScenarioProblems, Text) {
       {"---\n", {sections}},
       {"hello", {"1:1: a scenario must be a map, not a single value; write key: value, or {key: value}"}},
       {"- scene\n", {"1:1: a scenario must be a map, not a list; write key: value, or {key: value}"}},
-      {std::string("scene: {}\nab\0c", 14), {"2:3: byte 0x00 is no text; a scenario is a YAML text in UTF-8"}},
+      {std::string("scene: {}\nab\0c", 14),
+       {"2:3: byte 0x00 is no text; a scenario is a YAML text in UTF-8"}},
       {"scene: {title: \xFF}", {"1:16: byte 0xff is no text; a scenario is a YAML text in UTF-8"}},
       {"scene: \xE2\x89", {"1:8: byte 0xe2 is no text; a scenario is a YAML text in UTF-8"}},
       {std::string(10'000'000, 'a'), {"1:1: the text has 10000000 bytes; a scenario has at most 1048576"}},
@@ -48,7 +49,8 @@ TEST(ScenarioProblems, Yaml) {
       {"scene:\n\tstep: 1 ms\n", {"2:1: a tab in the indentation; indent with spaces"}},
       {"scene: {title: @b}\n", {"1:16: no YAML text begins like this; put the text into quotes"}},
       {"scene: a: b\n",
-       {"1:9: not readable as YAML: illegal map value; check indentation, colons and brackets here and in the "
+       {"1:9: not readable as YAML: illegal map value; check indentation, colons and brackets here and in "
+        "the "
         "line before"}},
       {"scene: {title: \"abc}\nseed: 1\n",
        {"1:16: this quotation is not closed; end the text with the same quote",
@@ -59,15 +61,17 @@ TEST(ScenarioProblems, Yaml) {
       {"scene: {title: *x}\n", {"1:16: aliases (*name) are not used in scenarios; write the value out"}},
       {"scene: {title: !!str 4}\n", {"1:16: tags (!name) are not used in scenarios; write the value alone"}},
       {"scene: {}\n<<: {scene: {}}\n",
-       {"2:1: unknown key '<<'; known: scene, plants, controller, wiring, timeline, record, checks, pictures"}},
+       {"2:1: unknown key '<<'; known: scene, plants, controller, wiring, timeline, record, checks, "
+        "pictures"}},
       {"scene: {}\n---\nscene: {}\n",
-       {"3:1: something stands after the end of the document; one document a file, and nothing after its closing "
+       {"3:1: something stands after the end of the document; one document a file, and nothing after its "
+        "closing "
         "bracket"}},
       {"{scene: {}} x\n",
-       {"1:13: something stands after the end of the document; one document a file, and nothing after its closing "
+       {"1:13: something stands after the end of the document; one document a file, and nothing after its "
+        "closing "
         "bracket"}},
-      {"? [scene]\n: {}\n",
-       {"1:3: a list cannot be a key; write key: value"}},
+      {"? [scene]\n: {}\n", {"1:3: a list cannot be a key; write key: value"}},
   });
   EXPECT_THAT(problems_of(std::string(10000, '[')), ElementsAre(HasSubstr(deep)));
   EXPECT_THAT(problems_of(std::string(10000, '{')), ElementsAre(HasSubstr(deep)));
@@ -113,12 +117,12 @@ TEST(ScenarioProblems, Times) {
       {"scene: {duration: soon}\n",
        {"1:19: scene.duration: 'soon' is not a number; write a number, with its unit if it has one: 0.5, 60 "
         "m/min"}},
-      {"scene: {duration: 10 sek}\n", {"1:22: scene.duration: unknown unit 'sek'; units are written like mm, m/min, N m, kg m^2, rpm, deg, "
+      {"scene: {duration: 10 sek}\n",
+       {"1:22: scene.duration: unknown unit 'sek'; units are written like mm, m/min, N m, kg m^2, rpm, deg, "
         "%"}},
       {"checks: [{name: a, never: b, from: -1 s}]\n",
        {"1:36: checks.0.from is -1 s; it must not be negative; for example 0 s"}},
-      {"scene: {seed: -1}\n",
-       {"1:15: scene.seed: '-1' is not a whole number; 0 to 18446744073709551615"}},
+      {"scene: {seed: -1}\n", {"1:15: scene.seed: '-1' is not a whole number; 0 to 18446744073709551615"}},
   });
 }
 
@@ -131,10 +135,12 @@ TEST(ScenarioProblems, PeriodsThatDoNotFitTheStep) {
       {"scene: {step: 3 ms, duration: 3 s}\n",
        {"1:1: record.every 2 ms is not a whole multiple of scene.step 3 ms; for example 3 ms"}},
       {"scene: {step: 2 ms}\npictures: {frames: {every: 33 ms}}\n",
-       {"2:28: pictures.frames.every 33 ms is not a whole multiple of scene.step 2 ms; for example 32 ms or 34 "
+       {"2:28: pictures.frames.every 33 ms is not a whole multiple of scene.step 2 ms; for example 32 ms or "
+        "34 "
         "ms"}},
       {"scene: {step: 2 ms}\ncontroller: {qmove: {configuration: a.cnf, cycle: 5 ms}}\n",
-       {"2:51: controller.qmove.cycle 5 ms is not a whole multiple of scene.step 2 ms; for example 4 ms or 6 ms"}},
+       {"2:51: controller.qmove.cycle 5 ms is not a whole multiple of scene.step 2 ms; for example 4 ms or 6 "
+        "ms"}},
       {"scene: {step: 2 ms, duration: 1 ms}\n",
        {"1:31: scene.duration 1 ms is shorter than scene.step 2 ms; let it last at least one step"}},
   });
@@ -176,34 +182,40 @@ Case knife(const std::string& text, const std::string& problem) {
 TEST(ScenarioProblems, Parameters) {
   expect_problems({
       knife("circumference: 600 mmm", "4:22: plants.k.circumference: unknown unit 'mmm'; did you mean mm?"),
-      knife("circumference: 600 furz", "4:22: plants.k.circumference: unknown unit 'furz'; units are written "
-                                       "like mm, m/min, N m, kg m^2, rpm, deg, %"),
+      knife("circumference: 600 furz",
+            "4:22: plants.k.circumference: unknown unit 'furz'; units are written "
+            "like mm, m/min, N m, kg m^2, rpm, deg, %"),
       knife("circumference: 600 ms",
             "4:22: plants.k.circumference is a length, not a time (ms); for example 1 mm"),
-      knife("circumference: 600", "4:18: plants.k.circumference: '600' has no unit, but this is a length; write "
-                                  "600 mm if that is meant"),
+      knife("circumference: 600",
+            "4:18: plants.k.circumference: '600' has no unit, but this is a length; write "
+            "600 mm if that is meant"),
       knife("angle: 0.5",
             "4:10: plants.k.angle: '0.5' has no unit, but this is an angle; write 0.5 deg if that is meant"),
       knife("angle: 50 %", "4:13: plants.k.angle is an angle, not a percentage (%); for example 1 deg"),
       knife("servo: {rated_speed: 1500 1/min}",
-            "4:29: plants.k.servo.rated_speed is a rotational speed, not a frequency (1/min); for example 1 rpm"),
-      knife("circumference: 6 m",
-            "4:18: plants.k.circumference is 6000 mm, out of range; 100 mm to 5000 mm"),
+            "4:29: plants.k.servo.rated_speed is a rotational speed, not a frequency (1/min); for example 1 "
+            "rpm"),
+      knife("circumference: 6 m", "4:18: plants.k.circumference is 6000 mm, out of range; 100 mm to 5000 mm"),
       knife("angle: -180.5 deg", "4:10: plants.k.angle is -180.5 deg, out of range; -180 deg to 180 deg"),
-      knife("circumference: nan mm", "4:18: plants.k.circumference: 'nan mm' is not a number; write a number, "
-                                     "with its unit if it has one: 0.5, 60 m/min"),
+      knife("circumference: nan mm",
+            "4:18: plants.k.circumference: 'nan mm' is not a number; write a number, "
+            "with its unit if it has one: 0.5, 60 m/min"),
       knife("circumference: [600 mm]",
             "4:18: plants.k.circumference must be a single value, not a list; write one value"),
       knife("circumference: ", "4:3: plants.k.circumference has no value; give it one, or leave the key out"),
-      knife("servo: 3", "4:10: plants.k.servo must be a map, not a single value; write key: value, or {key: "
-                        "value}"),
+      knife("servo: 3",
+            "4:10: plants.k.servo must be a map, not a single value; write key: value, or {key: "
+            "value}"),
       knife("servo: {rated_torq: 3 N m}",
             "4:11: unknown key 'rated_torq' in plants.k.servo; did you mean rated_torque?"),
-      knife("rated_torque: 3 N m", "4:3: unknown key 'rated_torque' in plants.k; did you mean servo.rated_torque?"),
+      knife("rated_torque: 3 N m",
+            "4:3: unknown key 'rated_torque' in plants.k; did you mean servo.rated_torque?"),
       knife("servo.rated_torque: 3 N m, servo: {rated_torque: 3 N m}",
             "4:38: plants.k.servo.rated_torque is given twice; keep one; the first is at line 4"),
-      knife("encoder: {mounting: lad}", "4:23: plants.k.encoder.mounting: unknown choice 'lad'; did you mean "
-                                         "load?"),
+      knife("encoder: {mounting: lad}",
+            "4:23: plants.k.encoder.mounting: unknown choice 'lad'; did you mean "
+            "load?"),
       knife("encoder: {mounting: roof}",
             "4:23: plants.k.encoder.mounting: unknown choice 'roof'; known: motor, load"),
       knife("web: wep", "4:8: plants.k.web: there is no plant 'wep'; name one of: web"),
@@ -244,11 +256,13 @@ TEST(ScenarioProblems, Controller) {
       {"controller: {qmove: {tasks: [a.mod]}}\n",
        {"1:21: controller.qmove.configuration is missing; add configuration: programs/line.cnf"}},
       {"controller: {qmove: {configuration: a.cnf, tasks: a.mod}}\n",
-       {"1:51: controller.qmove.tasks must be a list, not a single value; write [first, second], or a line '- "
+       {"1:51: controller.qmove.tasks must be a list, not a single value; write [first, second], or a line "
+        "'- "
         "...' for each"}},
       {"controller: {qmove: {configuration: a.cnf, set: {a: 5 mm, b: x, c: [1], a: 3}}}\n",
        {"1:55: controller.qmove.set.a is a pure number, not a length (mm); write a number without unit",
-        "1:62: controller.qmove.set.b: 'x' is not a number; write a number, with its unit if it has one: 0.5, 60 "
+        "1:62: controller.qmove.set.b: 'x' is not a number; write a number, with its unit if it has one: "
+        "0.5, 60 "
         "m/min",
         "1:68: controller.qmove.set.c must be a single value, not a list; write one value",
         "1:73: 'a' is given twice in controller.qmove.set; keep one; the first is at line 1"}},
@@ -282,12 +296,14 @@ TEST(ScenarioProblems, Timeline) {
       {"timeline: [{at: 1 s, every: 0 s, set: {a: 1}}]\n",
        {"1:29: timeline.0.every is 0 s; it must be longer than 0; for example 2 ms"}},
       {"timeline: [{at: 1 s, set: {a: x, b: [1], c: , d: 5 mis}}]\n",
-       {"1:31: timeline.0.set.a: 'x' is not a number; write a number, with its unit if it has one: 0.5, 60 m/min",
+       {"1:31: timeline.0.set.a: 'x' is not a number; write a number, with its unit if it has one: 0.5, 60 "
+        "m/min",
         "1:37: timeline.0.set.b must be a single value, not a list; write one value",
         "1:42: timeline.0.set.c has no value; write the value to set",
         "1:52: timeline.0.set.d: unknown unit 'mis'; did you mean ms?"}},
       {"timeline: [{at: 1 s, fault: {knife.encoder: stuck}}]\n",
-       {"1:30: timeline.0.fault.knife.encoder names no fault; write knife.encoder: {fault: value}; 'drycut plants' "
+       {"1:30: timeline.0.fault.knife.encoder names no fault; write knife.encoder: {fault: value}; 'drycut "
+        "plants' "
         "lists the faults"}},
       {"timeline: [{at: 1 s, power: maybe}]\n",
        {"1:29: timeline.0.power: 'maybe' is not a switch position; write on or off (or true, false)"}},
@@ -312,7 +328,8 @@ TEST(ScenarioProblems, Checks) {
       {"checks: [{name: a, never: tear, within: 1 s}]\n",
        {"1:33: checks.0.within does not go with this kind of check; within belongs to eventually"}},
       {"checks: [{name: a, eventually: x < 1, until: 1 s}]\n",
-       {"1:39: checks.0.until does not go with this kind of check; until belongs to each, all, always and never"}},
+       {"1:39: checks.0.until does not go with this kind of check; until belongs to each, all, always and "
+        "never"}},
       {"checks: [{name: a, always: x < 1, at_least: 3}]\n",
        {"1:35: checks.0.at_least does not go with this kind of check; at_least belongs to each and all"}},
       {"checks: [{name: a, each: cut, expect: x < 1, at_least: -1}]\n",
@@ -335,22 +352,26 @@ TEST(ScenarioProblems, Checks) {
 TEST(ScenarioProblems, Pictures) {
   const std::string frames = "pictures: {frames: {";
   expect_problems({
-      {frames + "size: 960}}\n", {"1:27: pictures.frames.size: '960' is no picture size; write width x height in "
-                                  "pixels without blanks: 960x540"}},
-      {frames + "size: 960x}}\n", {"1:27: pictures.frames.size: '960x' is no picture size; write width x height in "
-                                   "pixels without blanks: 960x540"}},
+      {frames + "size: 960}}\n",
+       {"1:27: pictures.frames.size: '960' is no picture size; write width x height in "
+        "pixels without blanks: 960x540"}},
+      {frames + "size: 960x}}\n",
+       {"1:27: pictures.frames.size: '960x' is no picture size; write width x height in "
+        "pixels without blanks: 960x540"}},
       {frames + "size: 9x9}}\n",
        {"1:27: pictures.frames.size is 9x9, out of range; 64 to 4096 pixels each way"}},
-      {frames + "size: 99999999999x9}}\n", {"1:27: pictures.frames.size: '99999999999x9' is no picture size; write "
-                                            "width x height in pixels without blanks: 960x540"}},
+      {frames + "size: 99999999999x9}}\n",
+       {"1:27: pictures.frames.size: '99999999999x9' is no picture size; write "
+        "width x height in pixels without blanks: 960x540"}},
       {frames + "camera: closeup}}\n",
        {"1:29: pictures.frames.camera: unknown choice 'closeup'; did you mean close_up?"}},
       {frames + "from: 2 s, until: 1 s}}\n",
        {"1:32: pictures.frames.until is not after from; let until be later than from"}},
       {"pictures: {plots: [{panels: []}]}\n",
        {"1:20: pictures.plots.0.name is missing; it names the file: name.png"}},
-      {"pictures: {plots: [{name: a}]}\n", {"1:20: pictures.plots.0.panels is missing; add panels: [{title: ..., "
-                                            "channels: [...]}]"}},
+      {"pictures: {plots: [{name: a}]}\n",
+       {"1:20: pictures.plots.0.panels is missing; add panels: [{title: ..., "
+        "channels: [...]}]"}},
       {"pictures: {plots: [{name: a/b, panels: []}]}\n",
        {"1:27: pictures.plots.0.name 'a/b' is no file name; leave / and \\ out; it becomes name.png"}},
       {"pictures: {plots: [{name: a, panels: []}, {name: a, panels: []}]}\n",
@@ -363,12 +384,15 @@ TEST(ScenarioProblems, Pictures) {
       {"pictures: {plots: [{name: a, panels: [{event: cut}]}]}\n",
        {"1:40: pictures.plots.0.panels.0: event and values go together; write event: cut, values: [length]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [2, 1]}]}]}\n",
-       {"1:63: pictures.plots.0.panels.0.limits must be a lower and an upper limit; for example [499.8, 500.2]"}},
+       {"1:63: pictures.plots.0.panels.0.limits must be a lower and an upper limit; for example [499.8, "
+        "500.2]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [x, 1]}]}]}\n",
-       {"1:64: pictures.plots.0.panels.0.limits: 'x' is not a number; write a number, with its unit if it has one: "
+       {"1:64: pictures.plots.0.panels.0.limits: 'x' is not a number; write a number, with its unit if it "
+        "has one: "
         "0.5, 60 m/min"}},
       {"pictures: {plots: [{name: a, against: number, panels: [{channels: [b]}]}]}\n",
-       {"1:39: pictures.plots.0.against: channels have no number; against: number is for plots whose panels all "
+       {"1:39: pictures.plots.0.against: channels have no number; against: number is for plots whose panels "
+        "all "
         "show events"}},
       {"pictures: {plots: [{name: a, against: wall, panels: []}]}\n",
        {"1:39: pictures.plots.0.against: unknown choice 'wall'; known: time, number"}},

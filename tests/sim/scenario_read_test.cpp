@@ -45,8 +45,9 @@ TEST(ScenarioRead, LeavesDefaultsWhereNothingIsSaid) {
 }
 
 TEST(ScenarioRead, Scene) {
-  const auto scenario = sound("scene: {title: \"A: b\", step: 0.25 ms, duration: 1.5 min,\n"
-                              "  seed: 18446744073709551615}\n");
+  const auto scenario = sound(
+      "scene: {title: \"A: b\", step: 0.25 ms, duration: 1.5 min,\n"
+      "  seed: 18446744073709551615}\n");
   EXPECT_EQ(scenario.scene.title, "A: b");
   EXPECT_EQ(scenario.scene.step, 250 * microsecond);
   EXPECT_EQ(scenario.scene.duration, 90 * second);
@@ -247,18 +248,19 @@ TEST(ScenarioRead, ByteOrderMarkAndCarriageReturnsAreNoMatter) {
 }
 
 TEST(ScenarioRead, EveryByteOfATextKnowsItsPlace) {
-  const auto scenario = sound("checks:\n"
-                              "- {name: a, always: \"x < 1 &&\n"
-                              "     y\\u0020> 2 && z < 3\"}\n"
-                              "- {name: b, always: 'x < 1   \n"
-                              "    && y > 2'}\n"
-                              "- name: c\n"
-                              "  always: x < 1 &&\n"
-                              "    y > 2\n"
-                              "- name: d\n"
-                              "  always: |\n"
-                              "    x < 1 &&\n"
-                              "    y > 2\n");
+  const auto scenario = sound(
+      "checks:\n"
+      "- {name: a, always: \"x < 1 &&\n"
+      "     y\\u0020> 2 && z < 3\"}\n"
+      "- {name: b, always: 'x < 1   \n"
+      "    && y > 2'}\n"
+      "- name: c\n"
+      "  always: x < 1 &&\n"
+      "    y > 2\n"
+      "- name: d\n"
+      "  always: |\n"
+      "    x < 1 &&\n"
+      "    y > 2\n");
   const auto place = [&](std::size_t check, std::string_view what) {
     const auto& text = scenario.checks.at(check).expression;
     const auto at = text.at(text.text.find(what));

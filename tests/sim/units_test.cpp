@@ -99,7 +99,7 @@ TEST(Quantity, SplitsNumberAndUnit) {
     double number;
     const char* unit;
     std::size_t offset;
-  } cases[] = {{"1200 mm", 1200, "mm", 5}, {"-0.5", -0.5, "", 4},    {"+5 V", 5, "V", 3},
+  } cases[] = {{"1200 mm", 1200, "mm", 5},   {"-0.5", -0.5, "", 4},    {"+5 V", 5, "V", 3},
                {"60 m/min", 60, "m/min", 3}, {"1e-3 m", 1e-3, "m", 5}, {".5 m", 0.5, "m", 3},
                {"12mm", 12, "mm", 2},        {"5  N m ", 5, "N m", 3}};
   for (const auto& [text, number, unit, offset] : cases) {

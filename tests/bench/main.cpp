@@ -1,0 +1,77 @@
+// make bench: how long a physics step of the default line takes, everything included, beside other engines
+// that step only its bare mechanism. All in one run, one after the other in rounds, so that the ratios mean
+// something on a busy machine; the smallest time of the rounds counts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/simulation.hpp"
+#include "tests/bench/mechanism.hpp"
+
+namespace {
+
+using namespace drycut;
+
+constexpr int rounds = 7;
+constexpr double simulated = 20;  // [s] a round
+
+struct Row {
+  std::string name;
+  std::function<void()> run;
+  std::int64_t steps = 0;
+  double best = 1e9;  // [s]
+};
+
+double seconds_of(const std::function<void()>& run) {
+  const auto begin = std::chrono::steady_clock::now();
+  run();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// The default line, its closed loop with devices, program, checks and recording, without pictures.
+void run_line() {
+  devices::Problems problems;
+  const std::vector<sim::Override> overrides = {{"scene.duration", fmt::format("{} s", simulated)},
+                                                {"pictures", "{}"}};
+  const auto scenario =
+      sim::read_scenario(DRYCUT_SOURCE_DIR "/scenes/rotary_knife.yaml", overrides, problems);
+  sim::Simulation simulation(scenario, problems);
+  for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_string(problem));
+  if (problems.empty()) simulation.run();
+}
+
+}  // namespace
+
+int main() {
+  const bench::Mechanism mechanism;
+  const auto steps = static_cast<std::int64_t>(simulated / mechanism.step);
+  double bullet_speed = 0;
+  std::vector<Row> rows = {{"drycut, the whole closed loop with recording and checks", run_line, steps},
+                           {"stock Bullet, bare mechanism, hinges and slider",
+                            [&] { bullet_speed = bench::run_bullet(mechanism, steps); }, steps}};
+#ifdef DRYCUT_WITH_MUJOCO
+  double mujoco_speed = 0;
+  rows.push_back({"MuJoCo, bare mechanism, contacts and constraints off",
+                  [&] { mujoco_speed = bench::run_mujoco(mechanism, steps); }, steps});
+#endif
+  for (int round = 0; round < rounds; ++round) {
+    for (auto& row : rows) row.best = std::min(row.best, seconds_of(row.run));
+  }
+  fmt::print("Rotary knife line, step 100 us, {} s simulated, best of {} rounds\n\n", simulated, rounds);
+  fmt::print("{:<56} {:>9} {:>12} {:>10}\n", "", "us/step", "x real time", "ratio");
+  for (const auto& row : rows) {
+    fmt::print("{:<56} {:>9.3f} {:>12.0f} {:>10.2f}\n", row.name,
+               row.best / static_cast<double>(row.steps) * 1e6, simulated / row.best,
+               row.best / rows.front().best);
+  }
+  fmt::print("\nratio: time of the row over the time of drycut; the bar is 4 for Bullet, 1.67 for MuJoCo.\n");
+  fmt::print("drum speed at the end: Bullet {:.6f} rad/s", bullet_speed);
+#ifdef DRYCUT_WITH_MUJOCO
+  fmt::print(", MuJoCo {:.6f} rad/s", mujoco_speed);
+#endif
+  fmt::print("\n");
+}
