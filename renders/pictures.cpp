@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"
@@ -62,35 +66,69 @@ void require_drawable(const Film& film) {
   }
 }
 
-}  // namespace
+std::filesystem::path frame_file(const std::filesystem::path& directory, std::size_t number) {
+  return directory / fmt::format("frame_{:05}.png", number);
+}
 
-std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
-                                             const std::function<void(int)>& progress) {
-  require_drawable(film);
-  std::vector<std::filesystem::path> files;
-  if (film.frames.empty()) return files;
-
-  const CaptionLayout caption(film);
-  const int view_height = film.height - caption.height();
-  require(
-      view_height >= kSmallest / 4,
-      fmt::format("size {}x{} leaves no room above the caption; make it higher", film.width, film.height));
-  GlRenderer renderer({film.camera, mechanism_extent(film), floor_level(film), film.width, view_height});
-
-  std::filesystem::create_directories(directory);
+/// Draws the frames whose number is taken from `next`, until none is left, in a context of its own.
+void draw_frames(const Film& film, const CaptionLayout& caption, const std::filesystem::path& directory,
+                 std::atomic<std::size_t>& next, const std::function<void()>& drawn) {
+  GlRenderer renderer(
+      {film.camera, mechanism_extent(film), floor_level(film), film.width, film.height - caption.height()});
   Image image(film.width, film.height);
   std::vector<Vertex> triangles;
-  for (const Frame& frame : film.frames) {
+  for (auto number = next++; number < film.frames.size(); number = next++) {
+    const Frame& frame = film.frames[number];
     triangles.clear();
     for (std::size_t i = 0; i < film.parts.size(); ++i) {
       if (frame.placements[i].visible) append_solid(triangles, film.parts[i], frame.placements[i]);
     }
     renderer.draw(triangles, image);
     caption.draw(frame, image);
-    files.push_back(directory / fmt::format("frame_{:05}.png", files.size()));
-    write_file(files.back(), png_bytes(image));
-    if (progress) progress(static_cast<int>(files.size()));
+    write_file(frame_file(directory, number), png_bytes(image));
+    drawn();
   }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
+                                             const std::function<void(int)>& progress, int threads) {
+  require_drawable(film);
+  std::vector<std::filesystem::path> files;
+  if (film.frames.empty()) return files;
+  const CaptionLayout caption(film);
+  require(
+      film.height - caption.height() >= kSmallest / 4,
+      fmt::format("size {}x{} leaves no room above the caption; make it higher", film.width, film.height));
+  std::filesystem::create_directories(directory);
+
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  int done = 0;
+  std::exception_ptr trouble;
+  const auto drawn = [&] {
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress(done);
+  };
+  const auto work = [&] {
+    try {
+      draw_frames(film, caption, directory, next, drawn);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      trouble = std::current_exception();
+      next = film.frames.size();
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+    work();
+  }
+  if (trouble) std::rethrow_exception(trouble);
+  for (std::size_t number = 0; number < film.frames.size(); ++number)
+    files.push_back(frame_file(directory, number));
   return files;
 }
 

@@ -9,10 +9,12 @@
 namespace drycut::renders {
 
 /// Draws every frame of `film` to `directory`/frame_00000.png ... and returns the paths. `progress` is called
-/// with the number of frames done. Same film, same bytes on the same machine. Throws std::runtime_error if
-/// the context cannot be made or a file not written.
+/// with the number of frames done, by one thread at a time. Same film, same bytes on the same machine,
+/// whatever the number of `threads` that draw. Throws std::runtime_error if the context cannot be made or a
+/// file not written, std::invalid_argument if the film cannot be drawn (sizes, materials, poses that are not
+/// finite).
 std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
-                                             const std::function<void(int)>& progress = {});
+                                             const std::function<void(int)>& progress = {}, int threads = 1);
 
 /// A camera that sees all `placements` of `parts` of the film's frames: from the operator's side, slightly
 /// above and upstream.

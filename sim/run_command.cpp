@@ -72,14 +72,14 @@ std::vector<std::unique_ptr<Job>> prepare(const RunOptions& options, devices::Pr
   return jobs;
 }
 
-void write_pictures(Job& job, const std::function<void(const char*, double)>& progress) {
+void write_pictures(Job& job, int threads, const std::function<void(const char*, double)>& progress) {
   const auto& directory = job.result.directory;
   std::vector<std::filesystem::path> frames;
   if (!job.simulation->snapshots().empty()) {
     const auto film = film_of(job.scenario, *job.simulation);
     const auto count = static_cast<double>(film.frames.size());
-    frames =
-        renders::draw_film(film, directory / "frames", [&](int done) { progress("drawing", done / count); });
+    frames = renders::draw_film(
+        film, directory / "frames", [&](int done) { progress("drawing", done / count); }, threads);
   }
   const auto plots =
       renders::draw_plots(plots_of(job.scenario, job.simulation->recording()), directory / "plots");
@@ -88,7 +88,7 @@ void write_pictures(Job& job, const std::function<void(const char*, double)>& pr
   job.result.has_report = true;
 }
 
-void run_job(Job& job, bool pictures, const std::function<void(const char*, double)>& progress) {
+void run_job(Job& job, bool pictures, int threads, const std::function<void(const char*, double)>& progress) {
   const auto& directory = job.result.directory;
   const auto duration = static_cast<double>(job.scenario.scene.duration);
   job.result.outcome =
@@ -99,10 +99,13 @@ void run_job(Job& job, bool pictures, const std::function<void(const char*, doub
   write_trace(job.simulation->recording(), directory / "trace.csv");
   write_events(job.simulation->recording(), directory / "events.csv");
   write_checks(job.result.outcome, directory / "checks.json");
-  if (pictures) write_pictures(job, progress);
+  if (pictures) write_pictures(job, threads, progress);
 }
 
 void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options) {
+  // Cores that no scenario runs on help to draw; the pictures are the same whoever draws them.
+  const auto running = std::min<std::size_t>(static_cast<std::size_t>(options.jobs), jobs.size());
+  const auto drawing_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency() / running));
   Progress bar;
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
@@ -112,15 +115,14 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
         bar.show(fmt::format("{} {} ({} of {})", doing, job.result.name, i + 1, jobs.size()), done);
       };
       try {
-        run_job(job, options.pictures, show);
+        run_job(job, options.pictures, drawing_threads, show);
       } catch (const std::exception& error) {
         job.trouble = error.what();
       }
     }
   };
   std::vector<std::jthread> threads;
-  const auto count = std::min<std::size_t>(static_cast<std::size_t>(options.jobs), jobs.size());
-  for (std::size_t i = 1; i < count; ++i) threads.emplace_back(work);
+  for (std::size_t i = 1; i < running; ++i) threads.emplace_back(work);
   work();
 }
 

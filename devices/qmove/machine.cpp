@@ -181,11 +181,13 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
         --top;
         *top = bits(real(*top) * real(top[1]));
         break;
-      case Op::divide_real:
-        if (real(*top) == 0.0F) return fail(RunTimeError::division_by_zero);
+      case Op::divide_real: {
+        const float divisor = real(*top);
+        if (divisor == 0.0F) return fail(RunTimeError::division_by_zero);
         --top;
-        *top = bits(real(*top) / real(top[1]));
+        *top = bits(real(*top) / divisor);
         break;
+      }
       case Op::negate_real:
         *top = bits(-real(*top));
         break;

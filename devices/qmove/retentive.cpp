@@ -69,7 +69,7 @@ std::string QmoveController::retentive_state() const {
     }
     if (cell_count(thing) == 0 || thing.index < names_.volatile_cells()) continue;
     for (int i = 0; i < cell_count(thing); ++i) {
-      const std::int32_t content = machine_.cells[static_cast<std::size_t>(thing.index + i)];
+      const std::int32_t content = machine_.cells[thing.index + i];
       if (thing.kind != NamedThing::Kind::scalar && content == 0) continue;
       if (thing.size == Size::S)
         text += fmt::format("{} = {}\n", element(thing, i), std::bit_cast<float>(content));
