@@ -221,9 +221,11 @@ CheckResult Checks::result(State& state, Time end) {
   }
   if (check.kind == Check::Kind::never) {
     result.passed = state.count == 0;
-    result.detail = state.count == 0 ? "none"
-                                     : fmt::format("{} times, first at {:.4f} s: {}", state.count,
-                                                   state.worst_at, state.worst_values);
+    result.detail = state.count == 0
+                        ? "none"
+                        : fmt::format("{}, first at {:.4f} s: {}",
+                                      state.count == 1 ? "once" : fmt::format("{} times", state.count),
+                                      state.worst_at, state.worst_values);
     if (state.count > 0) result.at = state.worst_at;
     return result;
   }

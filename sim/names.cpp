@@ -113,7 +113,10 @@ std::string Names::suggest_target(const std::string& name) const {
   for (const auto& [full, setting] : settings_) names.push_back(full);
   for (const auto& [plug, port] : panel_.switches) names.push_back(std::string(panel_prefix) + plug);
   if (name.starts_with(panel_prefix)) {
-    return did_you_mean(name, names, fmt::format("wire an input to {} first", name));
+    std::string switches;
+    for (const auto& [plug, port] : panel_.switches)
+      switches += fmt::format("{} panel.{}", switches.empty() ? "; switches:" : ",", plug);
+    return fmt::format("wire an input to {} first{}", name, switches);
   }
   if (channels_.contains(name)) return "it can only be read; settings are listed by drycut plants";
   if (controller_ != nullptr) {

@@ -77,7 +77,7 @@ TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
   EXPECT_FALSE(r.passed);
   EXPECT_NEAR(*r.margin, -0.3, 1e-9);
   EXPECT_EQ(margin_text(r), "0.3 mm too far, at 2.0000 s");
-  EXPECT_EQ(r.detail, "2 cut events, 1 failed, worst: length=800.5 mm; force=130 N");
+  EXPECT_EQ(r.detail, "2 knife.cut events, 1 failed, worst: length=800.5 mm; force=130 N");
 }
 
 TEST_F(ChecksTest, EachWithoutAnEventFails) {
@@ -162,7 +162,7 @@ TEST_F(ChecksTest, NeverCountsEvents) {
   EXPECT_TRUE(result().passed);
   cut(2 * second, 800);
   EXPECT_FALSE(result().passed);
-  EXPECT_EQ(result().detail, "1 times, first at 2.0000 s: length=800 mm; force=130 N");
+  EXPECT_EQ(result().detail, "once, first at 2.0000 s: length=800 mm; force=130 N");
 }
 
 TEST_F(ChecksTest, UnknownNamesAreProblems) {

@@ -126,7 +126,8 @@ TEST_F(TimelineTest, SaysWhatDoesNotFit) {
                   "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min",
                   "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min",
                   "line.yaml:7:9: slLength takes a plain number, not 'mm'; leave the unit away",
-                  "line.yaml:5:5: nothing called 'panel.stop' can be set; wire an input to panel.stop first",
+                  "line.yaml:5:5: nothing called 'panel.stop' can be set; wire an input to panel.stop first; "
+                  "switches: panel.start",
                   "line.yaml:6:20: web.encoder offers no fault 'explode'; web.encoder offers: lose_counts",
                   "line.yaml:8:20: web.motor offers no fault 'stuck'; components with faults: web.encoder"));
 }

@@ -1,0 +1,167 @@
+// The program as a user calls it: exit status, what it writes, what it leaves alone.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Result {
+  int status = -1;
+  std::string text;  ///< standard output and error
+};
+
+Result call(const std::string& arguments) {
+  Result result;
+  const auto command = std::string(DRYCUT_PROGRAM) + " " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return result;
+  std::array<char, 4096> buffer{};
+  while (const auto count = fread(buffer.data(), 1, buffer.size(), pipe))
+    result.text.append(buffer.data(), count);
+  result.status = WEXITSTATUS(pclose(pipe));
+  return result;
+}
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+const std::string scenes = std::string(DRYCUT_SOURCE_DIR) + "/scenes/";
+
+struct ProgramTest : testing::Test {
+  ProgramTest() { fs::remove_all(out); }
+  ~ProgramTest() override { fs::remove_all(out); }
+  fs::path out = fs::path(testing::TempDir()) /
+                 ("drycut_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  std::string to() const { return " --out " + out.string(); }
+};
+
+TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
+  const auto result = call("run " + scenes + "rotary_knife_short.yaml --set scene.duration='5 s'" + to());
+  EXPECT_EQ(result.status, 0) << result.text;
+  EXPECT_THAT(result.text, testing::HasSubstr("rotary_knife_short: passed, all 8 checks passed"));
+  const auto folder = out / "rotary_knife_short";
+  for (const auto* name : {"trace.csv", "events.csv", "checks.json", "report.html", "plots/motion.png",
+                           "frames/frame_00000.png"}) {
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  }
+  EXPECT_THAT(
+      contents(out / "junit.xml"),
+      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"8\" failures=\"0\" errors=\"0\">"));
+  EXPECT_THAT(contents(folder / "trace.csv"), testing::StartsWith("time [s],AxisX.posit [Um],"));
+  EXPECT_THAT(contents(folder / "events.csv"), testing::HasSubstr(",knife,cut,length=500"));
+}
+
+TEST_F(ProgramTest, SameBytesTwiceAndAtAnyNumberOfJobs) {
+  const std::string both =
+      scenes + "rotary_knife_short.yaml " + scenes + "rotary_knife_equal.yaml --no-pictures";
+  ASSERT_EQ(call("run " + both + " --out " + (out / "a").string()).status, 0);
+  ASSERT_EQ(call("run " + both + " --out " + (out / "b").string() + " --jobs 2").status, 0);
+  for (const auto* name :
+       {"rotary_knife_short/trace.csv", "rotary_knife_short/events.csv", "rotary_knife_equal/trace.csv",
+        "rotary_knife_equal/events.csv", "rotary_knife_equal/checks.json", "junit.xml"}) {
+    const auto first = contents(out / "a" / name);
+    EXPECT_FALSE(first.empty()) << name;
+    EXPECT_EQ(first, contents(out / "b" / name)) << name;
+  }
+}
+
+TEST_F(ProgramTest, FailedCheckIsStatusOne) {
+  const auto result = call("run " + std::string(DRYCUT_SOURCE_DIR) +
+                           "/tests/scenes/failing/wrong_feed_forward.yaml --no-pictures" + to());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.text, testing::AllOf(testing::HasSubstr("wrong_feed_forward: FAILED, "),
+                                          testing::HasSubstr("FAIL cut length: ")));
+  EXPECT_THAT(contents(out / "junit.xml"), testing::HasSubstr("<failure message="));
+}
+
+TEST_F(ProgramTest, BadInputIsStatusTwoAndWritesNothing) {
+  const auto result =
+      call("run " + scenes + "rotary_knife_short.yaml --set plants.web.sped='1 m/min'" + to());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.text, testing::HasSubstr("sped"));
+  EXPECT_FALSE(fs::exists(out));
+  EXPECT_EQ(call("run " + scenes + "none.yaml" + to()).status, 2);
+  EXPECT_EQ(call("run").status, 2);
+  EXPECT_EQ(call("jump").status, 2);
+  EXPECT_EQ(call("run " + scenes + "rotary_knife.yaml --jobs 0").status, 2);
+}
+
+TEST_F(ProgramTest, DivergedSimulationIsStatusThreeAndKeepsWhatItHas) {
+  // A gear far too stiff for the step.
+  const auto result = call("run " + scenes +
+                           "rotary_knife_short.yaml --no-pictures --set scene.step='1 ms'"
+                           " --set plants.knife.gear.stiffness='1e6 N m/rad'" +
+                           to());
+  EXPECT_EQ(result.status, 3) << result.text;
+  EXPECT_THAT(result.text, testing::HasSubstr("STOPPED, the simulation stopped: knife"));
+  EXPECT_FALSE(contents(out / "rotary_knife_short/trace.csv").empty());
+  EXPECT_THAT(contents(out / "junit.xml"), testing::HasSubstr("<error message="));
+}
+
+TEST_F(ProgramTest, UnwritableResultIsStatusThree) {
+  fs::create_directories(out);
+  std::ofstream(out / "rotary_knife_short") << "a file where a directory must be";
+  const auto result = call("run " + scenes + "rotary_knife_short.yaml --no-pictures" + to());
+  EXPECT_EQ(result.status, 3) << result.text;
+}
+
+TEST_F(ProgramTest, ScenariosWithOneNameAreRefused) {
+  const auto file = scenes + "rotary_knife_short.yaml";
+  const auto result = call("run " + file + " " + file + to());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.text, testing::HasSubstr("its results would overwrite those of"));
+}
+
+TEST_F(ProgramTest, ExpandReadsBackAsItself) {
+  const auto first = call("check --expand " + scenes + "rotary_knife.yaml");
+  ASSERT_EQ(first.status, 0) << first.text;
+  fs::create_directories(out);
+  // Program paths are relative to the scenario, so the copy needs the programs beside it.
+  fs::copy(scenes + "programs", out / "programs");
+  std::ofstream(out / "copy.yaml") << first.text;
+  const auto second = call("check --expand " + (out / "copy.yaml").string());
+  EXPECT_EQ(second.status, 0) << second.text;
+  EXPECT_EQ(first.text, second.text);
+}
+
+TEST_F(ProgramTest, CheckTakesAModuleAgainstTheConfigurationBeforeIt) {
+  EXPECT_EQ(
+      call("check " + scenes + "programs/rotary_knife.cnf " + scenes + "programs/rotary_knife.mod").status,
+      0);
+  const auto alone = call("check " + scenes + "programs/rotary_knife.mod");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.text, testing::HasSubstr("rotary_knife.mod:1:1: a QCL module needs a configuration to be "
+                                             "checked against; name its .cnf file before it"));
+  EXPECT_EQ(call("check README.doc").status, 2);
+}
+
+TEST_F(ProgramTest, TablesAreComplete) {
+  const auto device = call("devices camming4 --json");
+  EXPECT_EQ(device.status, 0);
+  for (const auto* name :
+       {"\"codeG\"", "\"syncrange\"", "\"STARTCAM\"", "\"st_sync\"", "\"retention\"", "\"condition\""}) {
+    EXPECT_THAT(device.text, testing::HasSubstr(name));
+  }
+  const auto plant = call("plants rotary_knife");
+  EXPECT_EQ(plant.status, 0);
+  for (const auto* name : {"circumference", "servo.reference", "blade.speed", "lose_counts", "buckle"}) {
+    EXPECT_THAT(plant.text, testing::HasSubstr(name));
+  }
+  EXPECT_EQ(call("plants --json").status, 0);
+  const auto wrong = call("devices CAMING4");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.text, testing::HasSubstr("did you mean CAMMING4?"));
+}
+
+}  // namespace

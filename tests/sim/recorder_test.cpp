@@ -1,0 +1,133 @@
+#include "sim/recorder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "sim/file.hpp"
+#include "sim/results.hpp"
+#include "tests/sim/fakes.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RecorderTest : testing::Test {
+  RecorderTest() {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    controller.values["error"] = 0;
+  }
+  ~RecorderTest() override { fs::remove_all(folder); }
+  static std::string contents(const fs::path& file) {
+    std::ifstream stream(file);
+    std::stringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+
+  fs::path folder =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  fakes::FakeController controller;
+  fakes::FakePlant plant;
+  Panel panel;
+  Names names{{{"web", &plant}}, &controller, panel};
+  Watch watch{names};
+  Recording recording;
+};
+
+TEST_F(RecorderTest, TraceHasTimeThenChannelsWithUnits) {
+  panel.switches["start"];
+  ASSERT_TRUE(recording.add(watch, "web.speed"));
+  ASSERT_TRUE(recording.add(watch, "error"));
+  ASSERT_TRUE(recording.add(watch, "panel.start"));
+  ASSERT_TRUE(recording.add(watch, "web.speed")) << "twice is once";
+  EXPECT_FALSE(recording.add(watch, "web.sped"));
+  watch.update();
+  recording.sample(0);
+  plant.speed = 1.0 / 3;
+  watch.update();
+  recording.sample(2'100'000);
+  write_trace(recording, folder / "trace.csv");
+  EXPECT_EQ(contents(folder / "trace.csv"),
+            "time [s],web.speed [m/min],error [Um],panel.start [-]\n"
+            "0.0,60,0,0\n"
+            "0.0021,20,0,0\n");
+}
+
+TEST_F(RecorderTest, EventsCarryTheirTimeInsideTheStep) {
+  recording.happened({100'000, 0.00005, "knife", "cut", {{"length", 800.0125, "mm"}, {"number", 3, ""}}, ""});
+  recording.happened({200'000, 0, "AxisX", "refused", {}, "START: st_still is 0, must be 1"});
+  recording.happened({300'000, 0, "task", "error", {}, "say \"no\", twice"});
+  write_events(recording, folder / "events.csv");
+  EXPECT_EQ(contents(folder / "events.csv"),
+            "time [s],source,event,values\n"
+            "0.000150000,knife,cut,length=800.0125 mm; number=3\n"
+            "0.000200000,AxisX,refused,\"START: st_still is 0, must be 1\"\n"
+            "0.000300000,task,error,\"say \"\"no\"\", twice\"\n");
+}
+
+TEST(SecondsText, IsExact) {
+  EXPECT_EQ(seconds_text(0), "0.0");
+  EXPECT_EQ(seconds_text(12 * second + 400'000), "12.0004");
+  EXPECT_EQ(seconds_text(1), "0.000000001");
+}
+
+TEST_F(RecorderTest, AFileThatIsNotFinishedIsNeverThere) {
+  {
+    OutputFile out(folder / "half.csv");
+    out.write("first line\n");
+  }
+  EXPECT_TRUE(fs::is_empty(folder));
+  EXPECT_THROW(OutputFile(folder / "nowhere" / "x.csv"), std::runtime_error);
+}
+
+TEST_F(RecorderTest, ReadFileSaysWhatIsWrong) {
+  devices::Problems problems;
+  EXPECT_FALSE(read_file(folder / "none.cnf", problems, {"line.yaml", 4, 7, "", ""}));
+  EXPECT_FALSE(read_file(folder, problems));
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(problems[0].file, "line.yaml");
+  EXPECT_EQ(problems[0].line, 4);
+  EXPECT_EQ(problems[0].column, 7);
+  EXPECT_EQ(problems[0].what, "there is no file " + (folder / "none.cnf").string());
+  EXPECT_EQ(problems[1].what, folder.string() + " is not a regular file");
+}
+
+TEST_F(RecorderTest, JunitAndChecksJsonTellTheSame) {
+  Outcome outcome;
+  outcome.end = 10 * second;
+  outcome.checks = {{"good", "always x < 1", true, 0.25, "mm", 3.5, "9 instants"},
+                    {"bad & worse", "always y < 1", false, -2, "N", 4.5, "9 instants, 1 failed"}};
+  write_checks(outcome, folder / "checks.json");
+  EXPECT_THAT(contents(folder / "checks.json"),
+              testing::AllOf(testing::HasSubstr("\"passed\": false"), testing::HasSubstr("\"margin\": 0.25"),
+                             testing::HasSubstr("\"bad & worse\"")));
+  Outcome stopped = outcome;
+  stopped.failure = "it <diverged>";
+  write_junit(
+      {{"line", "line.yaml", folder, outcome, false}, {"other", "other.yaml", folder, stopped, false}},
+      folder / "junit.xml");
+  const auto xml = contents(folder / "junit.xml");
+  EXPECT_THAT(xml, testing::HasSubstr("<testsuite name=\"line\" tests=\"2\" failures=\"1\" errors=\"0\">"));
+  EXPECT_THAT(xml, testing::HasSubstr("<testsuite name=\"other\" tests=\"3\" failures=\"1\" errors=\"1\">"));
+  EXPECT_THAT(xml, testing::HasSubstr("name=\"bad &amp; worse\""));
+  EXPECT_THAT(xml, testing::HasSubstr("message=\"it &lt;diverged&gt;\""));
+}
+
+TEST(Verdict, SaysHowItEnded) {
+  Outcome outcome;
+  EXPECT_EQ(verdict_text(outcome), "the scenario states no checks");
+  outcome.checks = {{"a", "", true, {}, "", {}, ""}, {"b", "", false, {}, "", {}, ""}};
+  EXPECT_EQ(verdict_text(outcome), "1 of 2 checks failed");
+  outcome.checks[1].passed = true;
+  EXPECT_EQ(verdict_text(outcome), "all 2 checks passed");
+  outcome.failure = "diverged";
+  EXPECT_EQ(verdict_text(outcome), "the simulation stopped: diverged");
+  EXPECT_FALSE(outcome.passed());
+}
+
+}  // namespace
+}  // namespace drycut::sim
