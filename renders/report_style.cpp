@@ -31,6 +31,7 @@ dt { color: var(--soft); font-size: 0.82rem; }
 dd { margin: 0; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; }
 .scroll { overflow: auto; max-height: 30rem; background: var(--card); border: 1px solid var(--line);
   border-radius: 10px; }
+.scroll.checks { max-height: none; }
 table { border-collapse: collapse; width: 100%; font-size: 0.92rem; font-variant-numeric: tabular-nums; }
 th, td { padding: 7px 14px; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); }
 tr:last-child td { border-bottom: 0; }
@@ -71,7 +72,6 @@ pre { margin: 0; padding: 14px 16px; font: 13px/1.5 ui-monospace, "DejaVu Sans M
   table.checks tr { display: block; padding: 8px 0; border-bottom: 1px solid var(--line); }
   table.checks tr:last-child { border-bottom: 0; }
   table.checks td { display: block; border: 0; padding: 2px 14px; }
-  .scroll.checks { max-height: none; }
 }
 @media print {
   :root { color-scheme: light; --ground: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --head: #eee;

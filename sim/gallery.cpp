@@ -183,6 +183,17 @@ std::vector<std::size_t> chosen_frames(const std::vector<Snapshot>& snapshots, c
   return chosen;
 }
 
+/// The film as the camera sees it: of one plant only its own parts, unless it shows the whole line.
+renders::Film shown(const renders::Film& film, const std::string& camera) {
+  auto view = film;
+  if (camera == "operator") return view;
+  for (std::size_t i = 0; i < view.parts.size(); ++i) {
+    if (view.parts[i].name.starts_with(camera + ".")) continue;
+    for (auto& frame : view.frames) frame.placements[i].visible = false;
+  }
+  return view;
+}
+
 }  // namespace
 
 renders::Film film_of(const Scenario& scenario, const Simulation& simulation) {
@@ -205,7 +216,7 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation) {
     }
     film.frames.push_back(std::move(frame));
   }
-  film.camera = renders::operator_camera(film);
+  film.camera = renders::operator_camera(shown(film, scenario.pictures.camera));
   return film;
 }
 
@@ -244,7 +255,7 @@ renders::Report report_of(const Scenario& scenario, const Simulation& simulation
           {frames.at(index), fmt::format("{} s", seconds_text(simulation.snapshots()[index].time))});
     }
   }
-  for (const auto& plot : plots) report.plots.push_back({plot, plot.stem().string()});
+  for (const auto& plot : plots) report.plots.push_back({plot, "plots/" + plot.filename().string()});
   for (const auto& known : simulation.known_events()) {
     auto table = event_table(simulation.recording(), known);
     if (!table.rows.empty()) report.tables.push_back(std::move(table));

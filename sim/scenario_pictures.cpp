@@ -49,9 +49,7 @@ void read_frames(const YamlNode& node, PicturesSection& pictures, Findings& find
   refuse_empty_window(reader, pictures.from, pictures.until, findings);
   if (const auto* camera = reader.scalar("camera")) {
     pictures.camera_place = camera->place;
-    if (read_choice(*camera, "pictures.frames.camera", {"operator", "overview", "close_up"}, findings)) {
-      pictures.camera = camera->text;
-    }
+    pictures.camera = camera->text;
   }
   if (const auto* size = reader.scalar("size")) read_size(*size, pictures, findings);
   reader.finish();

@@ -1,6 +1,7 @@
 #include "sim/simulation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -82,6 +83,14 @@ void Simulation::bind_recording(devices::Problems& problems) {
 }
 
 void Simulation::bind_pictures(devices::Problems& problems) {
+  const auto& camera = scenario_.pictures.camera;
+  std::vector<std::string> cameras = {"operator"};
+  for (const auto& plant : named_) cameras.push_back(plant.name);
+  if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
+    problems.push_back(problem_at(scenario_, scenario_.pictures.camera_place,
+                                  fmt::format("there is no camera '{}'", camera),
+                                  fmt::format("cameras: {}", fmt::join(cameras, ", "))));
+  }
   for (const auto& plot : scenario_.pictures.plots) {
     for (const auto& panel : plot.panels) {
       for (const auto& name : panel.channels) add_channel(name, problems);
