@@ -226,7 +226,8 @@ std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& r
     renders::Plot plot;
     plot.name = request.name.text;
     plot.title = request.title.empty() ? request.name.text : request.title;
-    plot.x_label = request.against_number ? "number" : "time [s]";
+    plot.x_label = "time [s]";
+    if (request.against_number) plot.x_label = request.panels.front().event.text + " number";
     for (const auto& panel : request.panels) plot.panels.push_back(panel_of(recording, request, panel));
     plots.push_back(std::move(plot));
   }
