@@ -49,6 +49,9 @@ class Controller {
   /// Power off: outputs 0, nothing runs. Power on: retentive values kept, programs start from the beginning.
   virtual void power(bool on) = 0;
 
+  /// What survives power-off, as text, one `name = value` a line; "" if there is nothing.
+  [[nodiscard]] virtual std::string retentive_state() const { return ""; }
+
   /// The value called `name`, any case, or nullopt. Stays valid as long as the controller.
   virtual std::optional<ControllerValue> find(const std::string& name) = 0;
   /// All names that `find` knows, for suggestions.

@@ -54,11 +54,22 @@ std::unique_ptr<devices::Controller> load_qmove(const QmoveSection& section, con
   if (problems.size() != before) return nullptr;
   auto controller = std::make_unique<qmove::QmoveController>(std::move(configuration), std::move(programs),
                                                              devices::catalogue(), section.cycle);
+  const auto retentive = retentive_file(scenario);
+  if (retentive && std::filesystem::exists(*retentive)) {
+    const auto kept = read_file(*retentive, problems, problem_at(scenario, section.retentive.place, "", ""));
+    if (kept) controller->restore(*kept, problems, retentive->string());
+  }
   set_values(section, scenario, *controller, problems);
   return controller;
 }
 
 }  // namespace
+
+std::optional<std::filesystem::path> retentive_file(const Scenario& scenario) {
+  const auto* section = std::get_if<QmoveSection>(&scenario.controller);
+  if (section == nullptr || section->retentive.text.empty()) return {};
+  return scenario.file.parent_path() / section->retentive.text;
+}
 
 std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems) {
   if (const auto* section = std::get_if<QmoveSection>(&scenario.controller))

@@ -1,5 +1,7 @@
 #pragma once
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "devices/controller.hpp"
 #include "devices/problem.hpp"
@@ -9,6 +11,11 @@ namespace drycut::sim {
 
 /// The controller that the scenario names, with its programs read and compiled and its values set; nullptr if
 /// there is none or it has problems, which are told in `problems` by the program's own file, line and column.
+/// Retentive values come from the scenario's retentive file where it names one that exists; what the scenario
+/// sets itself comes after.
 std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems);
+
+/// The file that keeps the controller's retentive values from run to run, if the scenario names one.
+std::optional<std::filesystem::path> retentive_file(const Scenario& scenario);
 
 }  // namespace drycut::sim

@@ -11,6 +11,7 @@
 #include "renders/plots.hpp"
 #include "renders/report.hpp"
 #include "sim/commands.hpp"
+#include "sim/controller_loader.hpp"
 #include "sim/file.hpp"
 #include "sim/gallery.hpp"
 #include "sim/progress.hpp"
@@ -59,6 +60,15 @@ std::vector<std::unique_ptr<Job>> prepare(const RunOptions& options, devices::Pr
                           fmt::format("its results would overwrite those of {}", other->second.string()),
                           "give the scenarios different file names or run them apart"});
     }
+    if (const auto kept = retentive_file(job->scenario)) {
+      if (const auto [other, fresh] = names.emplace("retentive " + kept->lexically_normal().string(), file);
+          !fresh) {
+        problems.push_back(
+            {file.string(), 1, 1,
+             fmt::format("it keeps its retentive values in the file of {}", other->second.string()),
+             "give each scenario a retentive file of its own or run them apart"});
+      }
+    }
     if (job->scenario.buildable) {
       job->simulation = std::make_unique<Simulation>(job->scenario, problems);
     } else if (problems.size() == before) {
@@ -99,6 +109,11 @@ void run_job(Job& job, bool pictures, int threads, const std::function<void(cons
   write_trace(job.simulation->recording(), directory / "trace.csv");
   write_events(job.simulation->recording(), directory / "events.csv");
   write_checks(job.result.outcome, directory / "checks.json");
+  if (const auto kept = retentive_file(job.scenario)) {
+    OutputFile out(*kept);
+    out.write(job.simulation->retentive_state());
+    out.finish();
+  }
   if (pictures) write_pictures(job, threads, progress);
 }
 

@@ -47,6 +47,8 @@ class Simulation {
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
   Outcome run(const std::function<void(Time)>& progress = {});
 
+  /// The controller's retentive values as they are now, as text.
+  [[nodiscard]] std::string retentive_state() const { return controller_ ? controller_->retentive_state() : ""; }
   [[nodiscard]] const Recording& recording() const { return recording_; }
   [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }
   [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }

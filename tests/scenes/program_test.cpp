@@ -135,6 +135,29 @@ TEST_F(ProgramTest, ExpandReadsBackAsItself) {
   EXPECT_EQ(first.text, second.text);
 }
 
+TEST_F(ProgramTest, RetentiveValuesAreKeptInTheFileThatTheScenarioNames) {
+  fs::create_directories(out);
+  std::ofstream(out / "count.cnf") << "SYSTEM\nslRuns L\nGLOBAL\nglRuns L\nEND\n";
+  std::ofstream(out / "count.mod") << "slRuns = slRuns + 1\nglRuns = glRuns + 1\nEND\n";
+  std::ofstream(out / "count.yaml")
+      << "scene: {duration: 100 ms}\nplants: {}\n"
+         "controller: {qmove: {configuration: count.cnf, tasks: [count.mod], retentive: kept.txt}}\n"
+         "timeline: [{at: 20 ms, power: off}, {at: 40 ms, power: on}]\n"
+         "record: {every: 2 ms, channels: [slRuns, glRuns]}\n";
+  const auto run =
+      "run " + (out / "count.yaml").string() + " --no-pictures --out " + (out / "results").string();
+  EXPECT_EQ(call(run).status, 0);
+  EXPECT_THAT(contents(out / "kept.txt"), testing::HasSubstr("slRuns = 2\n")) << "a power cycle counts";
+  EXPECT_EQ(call(run).status, 0);
+  EXPECT_THAT(contents(out / "kept.txt"), testing::HasSubstr("slRuns = 4\n"))
+      << "and goes on in the next run";
+  EXPECT_THAT(contents(out / "results/count/trace.csv"), testing::EndsWith("\n0.1,4,1\n"));
+  std::ofstream(out / "kept.txt") << "slRuns = many\n";
+  const auto broken = call(run);
+  EXPECT_EQ(broken.status, 2);
+  EXPECT_THAT(broken.text, testing::HasSubstr("kept.txt:1:"));
+}
+
 TEST_F(ProgramTest, CheckTakesAModuleAgainstTheConfigurationBeforeIt) {
   EXPECT_EQ(
       call("check " + scenes + "programs/rotary_knife.cnf " + scenes + "programs/rotary_knife.mod").status,
