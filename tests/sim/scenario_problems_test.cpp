@@ -363,8 +363,6 @@ TEST(ScenarioProblems, Pictures) {
       {frames + "size: 99999999999x9}}\n",
        {"1:27: pictures.frames.size: '99999999999x9' is no picture size; write "
         "width x height in pixels without blanks: 960x540"}},
-      {frames + "camera: closeup}}\n",
-       {"1:29: pictures.frames.camera: unknown choice 'closeup'; did you mean close_up?"}},
       {frames + "from: 2 s, until: 1 s}}\n",
        {"1:32: pictures.frames.until is not after from; let until be later than from"}},
       {"pictures: {plots: [{panels: []}]}\n",
