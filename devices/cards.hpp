@@ -24,7 +24,7 @@ struct Address {
   Kind kind = Kind::counter;
   int slot = 0;
   int number = 0;
-  auto operator<=>(const Address&) const = default;
+  auto operator<=>(const Address&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 sees one here
 };
 
 /// Reads an address, any case; nullopt if `text` is none.
@@ -36,6 +36,7 @@ std::string_view name_of(Kind kind);
 struct Counter {
   std::int64_t count = 0;    ///< bits x4 since power-up, never wraps
   std::int64_t latched = 0;  ///< the exact count at the last edge of an interrupt line
+  int movers = 0;            ///< devices that move it themselves: slot 1 only, and more than one is a slip
 };
 struct DigitalInput {
   bool level = false;
@@ -44,7 +45,8 @@ struct DigitalOutput {
   bool level = false;
 };
 struct AnalogueOutput {
-  std::int16_t word = 0;  ///< -32767..32767 = -10..+10 V
+  std::int16_t word = 0;         ///< -32767..32767 = -10..+10 V
+  const void* driver = nullptr;  ///< what regulates on it: devices that share a DAC take turns
 };
 
 /// The terminals of the controller that something uses. References stay valid while terminals are added.

@@ -1,5 +1,6 @@
 #include "devices/axis/analogue_axis.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drycut::devices::axis {
@@ -30,7 +31,7 @@ void AnalogueAxis::place(std::int32_t target, std::int32_t speed) {
   target_ = target;
   placing_ = true;
   placed_.reset();
-  profile_.move(theoretical_way_to(target), demand(speed));
+  depart(theoretical_way_to(target), speed);
 }
 
 void AnalogueAxis::run(bool backward, std::optional<std::int32_t> limit, std::int32_t speed) {
@@ -38,20 +39,32 @@ void AnalogueAxis::run(bool backward, std::optional<std::int32_t> limit, std::in
   placing_ = false;
   placed_.reset();
   const double way = limit ? theoretical_way_to(*limit) : backward ? -unlimited : unlimited;
-  profile_.move(way, demand(speed));
+  depart(way, speed);
 }
 
-void AnalogueAxis::stop() { profile_.stop(settings.finish_ramp, settings.ramps); }
+void AnalogueAxis::depart(double way, std::int32_t speed) {
+  profile_.move(way, demand(speed));
+  const bool turns = way != 0 && profile_.backward() != last_backward_;
+  pause_ms_ = turns ? std::max(settings.reversal_pause_ms - rest_ms_, 0) : 0;
+}
+
+void AnalogueAxis::stop() {
+  // A movement that still waits to begin has no ramp to finish.
+  profile_.stop(settings.finish_ramp && pause_ms_ == 0, settings.ramps);
+  pause_ms_ = 0;
+}
 
 void AnalogueAxis::brake(double bits_per_second) {
   target_.reset();
   placing_ = false;
   placed_.reset();
+  pause_ms_ = 0;
   profile_.brake(bits_per_second, settings.ramps);
 }
 
 void AnalogueAxis::abort() {
   profile_.abort();
+  pause_ms_ = 0;
   target_.reset();
   placed_.reset();
   placing_ = false;
@@ -65,13 +78,13 @@ bool AnalogueAxis::retarget(std::int32_t target) {
   return true;
 }
 
-void AnalogueAxis::requota() {
-  if (!profile_.moving() || profile_.stopping() || !target_) return;
-  if (!profile_.retarget(theoretical_way_to(*target_))) {
-    target_.reset();
-    placing_ = false;
-    stop();
-  }
+bool AnalogueAxis::requota() {
+  if (!profile_.moving() || profile_.stopping() || !target_) return true;
+  if (profile_.retarget(theoretical_way_to(*target_))) return true;
+  target_.reset();
+  placing_ = false;
+  stop();
+  return false;
 }
 
 void AnalogueAxis::settle() {
@@ -80,13 +93,30 @@ void AnalogueAxis::settle() {
   if (target_) requota();
 }
 
+void AnalogueAxis::rest() { rest_ms_ = std::min(rest_ms_ + settings.period_ms, long_rest_ms); }
+
+std::int64_t AnalogueAxis::settle_by_bits() {
+  const auto bits = static_cast<std::int64_t>(std::llround(-error()));
+  theoretical_.whole += bits;
+  regulator_.reset(error());
+  return bits;
+}
+
 bool AnalogueAxis::step_profile() {
-  if (!profile_.moving()) {
+  if (!profile_.moving() || pause_ms_ > 0) {
     speed_ = 0;
+    pause_ms_ = std::max(pause_ms_ - settings.period_ms, 0);
+    rest();
     return false;
   }
-  const double period_s = settings.period_ms / 1000.0;
-  theoretical_.add(profile_.step(period_s));
+  const double way = profile_.step(settings.period_ms / 1000.0);
+  theoretical_.add(way);
+  if (way != 0) {
+    rest_ms_ = 0;
+    last_backward_ = way < 0;
+  } else {
+    rest();
+  }
   speed_ = profile_.speed();
   if (profile_.moving()) return false;
   if (target_ && !profile_.stopping()) {

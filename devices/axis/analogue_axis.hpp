@@ -21,6 +21,7 @@ struct AxisSettings {
   Gains gains;
   std::int32_t offset = 0;  ///< [DAC bits]
   int period_ms = 1;
+  int reversal_pause_ms = 0;             ///< between a movement's end and one the other way (tinvt)
   std::int32_t max_following_error = 0;  ///< [bits x4]
   int frequency_window_ms = 240;
   double term_limit = dac_full_scale;  ///< of the integral and derivative actions [DAC bits]
@@ -71,10 +72,13 @@ class AnalogueAxis {
   /// setpos was written while moving: false if the target stays the old one.
   bool retarget(std::int32_t target);
   /// posit changed under a movement: the target quota stays; a target that cannot be reached any more ends
-  /// in a stop.
-  void requota();
+  /// in a stop, and false is returned.
+  bool requota();
   /// Theoretical := actual, integral 0: the following error is gone (LOOPON, RESUME).
   void settle();
+  /// The same for a theoretical position that comes from elsewhere and keeps its fraction of a bit: moves it
+  /// by the whole bits nearest to the error, and gives them [bits x4].
+  std::int64_t settle_by_bits();
   /// Advances the profile by a period; true when the movement ended in it.
   bool step_profile();
   /// A theoretical position and speed from elsewhere: the cam [bits x4], [bits x4/s].
@@ -99,11 +103,17 @@ class AnalogueAxis {
   [[nodiscard]] const FrequencyMeter& frequency() const { return frequency_; }
   /// True in the period in which the frequency meter's window ended.
   [[nodiscard]] bool frequency_new() const { return frequency_new_; }
+  /// True while the axis is on its way to the quota of a placement.
+  [[nodiscard]] bool placing() const { return placing_ && profile_.moving() && !profile_.stopping(); }
   /// Quota of the last placement [Um], or nothing after a run or a stop.
   [[nodiscard]] std::optional<std::int32_t> placed() const { return placed_; }
 
  private:
+  static constexpr int long_rest_ms = 1 << 20;  ///< longer than any pause before a reversal
+
   [[nodiscard]] double theoretical_way_to(std::int32_t target) const;
+  void depart(double way, std::int32_t speed);
+  void rest();
 
   Transducer transducer_;
   Profile profile_;
@@ -118,6 +128,9 @@ class AnalogueAxis {
   std::optional<std::int32_t> target_;
   std::optional<std::int32_t> placed_;
   bool placing_ = false;
+  bool last_backward_ = false;  ///< direction of the last movement
+  int rest_ms_ = long_rest_ms;  ///< since the last movement, at most long_rest_ms
+  int pause_ms_ = 0;            ///< left before the movement begins
   bool following_error_ = false;
   bool frequency_new_ = false;
 };

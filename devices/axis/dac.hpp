@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string_view>
 
 #include "devices/cards.hpp"
 
@@ -17,6 +18,33 @@ inline DacOutput to_dac(double bits) {
   if (bits <= -dac_full_scale - 0.5) return {static_cast<std::int16_t>(-dac_full_scale), -1};
   return {static_cast<std::int16_t>(bits < 0 ? bits - 0.5 : bits + 0.5), 0};
 }
+
+/// A device's part in a DAC that several devices may name: they take turns with REGON and REGOFF and must
+/// never regulate on it at once (002 1.3.1).
+class DacTurn {
+ public:
+  /// Puts a word out. True once if another device regulates on the DAC too: in two samples on end, since a
+  /// turn that changes hands within one is in order.
+  bool put(AnalogueOutput& dac, std::int16_t word) {
+    dac.word = word;
+    if (dac.driver == nullptr) dac.driver = this;
+    contested_ = dac.driver == this ? 0 : contested_ + 1;
+    return contested_ == 2;
+  }
+  /// Leaves the DAC, as it stands, to the others.
+  void release(AnalogueOutput& dac) {
+    if (dac.driver == this) dac.driver = nullptr;
+    contested_ = 0;
+  }
+
+ private:
+  std::int64_t contested_ = 0;  ///< samples on end in which another device was there too
+};
+
+/// What a device says when DacTurn::put finds another one on its DAC.
+inline constexpr std::string_view shared_dac_text =
+    "another device regulates on the same analogue output; of devices that share one, all but one need "
+    "REGOFF";
 
 /// DAC bits of `tenths` of a volt (parameter vout).
 inline double dac_bits_of_tenths(std::int32_t tenths) {

@@ -30,12 +30,14 @@ bool PresetSearch::sample(const PresetSettings& settings, bool enable, std::opti
       axis.stop();
       return false;
     case Leg::turn:
+      // Turned by the program, the axis can still run into the enable before it stands.
+      if (enable && after_turn_ == Leg::approach) after_turn_ = Leg::leave;
       if (axis.profile().moving()) return false;
       leg_ = after_turn_;
       axis.run(backward_, std::nullopt, speed(settings));
       return false;
     case Leg::leave:
-      if (!released) return false;
+      if (!released || (settings.mode == 0 && settings.locked)) return false;
       if (settings.mode == 0) {
         load(settings, axis.transducer().total(), axis);
         return true;
@@ -43,7 +45,7 @@ bool PresetSearch::sample(const PresetSettings& settings, bool enable, std::opti
       leg_ = Leg::zero_pulse;
       return false;
     case Leg::zero_pulse:
-      if (!zero) return false;
+      if (!zero || settings.locked) return false;
       load(settings, *zero, axis);
       return true;
     case Leg::halt:

@@ -13,6 +13,7 @@ struct PresetSettings {
   std::int32_t quota = 0;  ///< prspos [Um]
   std::int32_t fast = 0;   ///< prsvel [speed]
   std::int32_t slow = 0;   ///< sprsvel [speed]
+  bool locked = false;     ///< the count is locked: nothing loads it (CNTLOCK, 002 1.4.2)
 };
 
 /// The search of modes 0 and 1: fast toward the enable input, back slowly, load the quota when the enable is

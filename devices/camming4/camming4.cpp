@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "devices/axis/speed.hpp"
 #include "devices/camming4/rows.hpp"
@@ -32,6 +33,13 @@ Terminal* connect(std::map<Address, Terminal>& terminals, const Resource& resour
 
 std::int64_t count_of(const Counter* counter) { return counter ? counter->count : 0; }
 
+/// Makes a quota fit what retentive memory shows of it: the count, as far as it agrees with the position.
+void resume_quota(axis::Quota& quota, axis::Resolution resolution, std::int32_t um, std::int32_t bits) {
+  if (quota.um(resolution) == um && static_cast<std::int32_t>(quota.bits(resolution)) == bits) return;
+  quota.set_bits(bits, resolution);
+  if (quota.um(resolution) != um) quota.set_um(um, resolution);
+}
+
 }  // namespace
 
 Camming4::Camming4(const Resources& resources, Cards& cards) : Device(camming4_type) {
@@ -61,7 +69,10 @@ void Camming4::power_up() {
   axis_ = {};
   axis_.settings = settings;
   axis_.quota = quota;
-  if (terminals_.dac) terminals_.dac->word = 0;
+  if (terminals_.dac) {
+    terminals_.dac->word = 0;
+    dac_turn_.release(*terminals_.dac);
+  }
 }
 
 void Camming4::initialise() {
@@ -69,9 +80,8 @@ void Camming4::initialise() {
   recompute();
   load_table();
   // Kept positions go on with their remainder, unless memory was restored from elsewhere.
-  if (axis_.posit() != value(v_posit)) axis_.quota.set_um(value(v_posit), axis_.settings.resolution);
-  if (master_quota_.um(master_resolution_) != value(v_positm))
-    master_quota_.set_um(value(v_positm), master_resolution_);
+  resume_quota(axis_.quota, axis_.settings.resolution, value(v_posit), value(v_encoder));
+  resume_quota(master_quota_, master_resolution_, value(v_positm), value(v_encoderm));
   check_resolution("measure", axis_.settings.resolution);
   check_resolution("measurem", master_resolution_);
 
@@ -81,9 +91,12 @@ void Camming4::initialise() {
   axis_.settle();
   master_frequency_ = {};
   master_history_.fill(master_.total());
-  master_way_ = 0;
+  master_way_ = master_moved_ = 0;
   search_.abort();
-  recovery_.abort();
+  reset_recovery();
+  slip_ = 0;
+  slip_due_ = false;
+  master_rate_ = 0;
   enable_was_ = enable_master_was_ = true;
   master_released_ = false;
   zero_.reset();
@@ -100,6 +113,7 @@ void Camming4::latch() {
   if (!state(st_init)) return;
   axis_.follow(count_of(terminals_.slave), state(st_cntlock), state(st_cntrev));
   const std::int64_t moved = master_.follow(master_raw(), state(st_cntlockm), state(st_cntrevm));
+  master_moved_ = moved;
   master_quota_.count(moved, master_resolution_);
   if (master_frequency_.sample(moved, period_ms_, master_window_ms_))
     value(v_frqm) = axis::to_long(master_frequency_.bits_per_second() / 4);
@@ -132,16 +146,34 @@ double Camming4::master_speed() const {
   return static_cast<double>(master_way_) / axis::bits_per_um(master_resolution_) / seconds;
 }
 
+/// The mean of the last samples [bits x4 a sample]. A master that has just changed its speed by more than
+/// its own bit counts as it is now.
+double Camming4::master_rate() const {
+  const double mean = static_cast<double>(master_way_) / static_cast<double>(master_history_.size());
+  const auto now = static_cast<double>(master_moved_);
+  return std::abs(now - mean) > 1 ? now : mean;
+}
+
+/// The slave's speed in a cam [bits x4/s], as smooth as the master's: the law's ratio times the master's
+/// rate.
+double Camming4::cam_speed() const {
+  const double master_um = master_rate_ * 1000.0 / period_ms_ / axis::bits_per_um(master_resolution_);
+  return cam_.step().ratio * master_um * axis::bits_per_um(axis_.settings.resolution) + recovery_.speed();
+}
+
 void Camming4::step_cam() {
   const axis::Resolution slave = axis_.settings.resolution;
   CamSample sample;
   sample.master_count = master_.total();
   sample.master_grains = master_quota_.numerator();
   sample.slave_count = axis_.transducer().total();
-  // The cam knows nothing of the recovery beside it: its counts are those of an axis without it.
+  // The cam knows nothing of the recovery beside it, nor of the slip: its counts are those of an axis
+  // without them.
   sample.slave_grains = axis::multiply_add(axis_.quota.numerator(), recovery_done_, slave.pulse) +
                         static_cast<std::int64_t>(recovery_way_ * static_cast<double>(slave.measure));
+  sample.slave_grains = axis::multiply_add(sample.slave_grains, slip_, slave.measure);
   sample.master_speed = master_speed();
+  master_rate_ = master_rate();
   const CamStep& cam = cam_.advance(sample);
 
   master_quota_.shift(-cam.master_shift);
@@ -163,7 +195,7 @@ void Camming4::step_cam() {
 
   recovery_due_ += cam.recovery;
   step_recovery();
-  axis::Theoretical theoretical{cam.slave_bits, cam.slave_fraction};
+  axis::Theoretical theoretical{cam.slave_bits + slip_, cam.slave_fraction};
   if (recovery_done_ != 0 || recovery_running_ != 0) {
     const std::int64_t numerator = axis::multiply_add(0, recovery_done_, slave.pulse);
     theoretical.whole += numerator / slave.measure;
@@ -172,7 +204,11 @@ void Camming4::step_cam() {
   }
   const double way = theoretical.minus(axis_.theoretical());
   axis_.set_theoretical(theoretical, way * 1000.0 / period_ms_);
-  if (!cam.running) leave_cam();
+  if (std::exchange(slip_due_, false)) slip_ += axis_.settle_by_bits();
+  if (cam.running) return;
+  if (recovery_.moving() || recovery_due_ != 0)
+    report({Diagnostic::Kind::note, "st_camex", "the cam ended before the recovery of sector 180 was done"});
+  leave_cam();
 }
 
 void Camming4::step_recovery() {
@@ -209,12 +245,21 @@ void Camming4::regulate() {
                                          : Drive::open_loop;
   axis_.regulate(drive, value(v_vout));
   const axis::DacOutput output = axis_.output();
-  if (terminals_.dac) terminals_.dac->word = output.word;
+  if (terminals_.dac) put_out(drive, output.word);
   if (drive != Drive::calibration) {
     if (output.saturated > 0) warn(3, value(v_rowex));
     if (output.saturated < 0) warn(4, value(v_rowex));
-    value(v_vout) = axis::to_long(output.word / axis::dac_bits_of_tenths(1));
+    // A calibration that regulation off has frozen goes on with its voltage.
+    if (drive != Drive::frozen || !state(st_cal))
+      value(v_vout) = axis::to_long(output.word / axis::dac_bits_of_tenths(1));
   }
+}
+
+void Camming4::put_out(axis::Drive drive, std::int16_t word) {
+  if (drive == axis::Drive::frozen)
+    dac_turn_.release(*terminals_.dac);
+  else if (dac_turn_.put(*terminals_.dac, word))
+    report({Diagnostic::Kind::note, "IoutA", std::string(axis::shared_dac_text)});
 }
 
 void Camming4::publish_positions() {

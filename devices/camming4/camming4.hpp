@@ -41,7 +41,8 @@ class Camming4 final : public Device {
   struct Capture {
     std::int64_t slave = 0;  ///< totals [bits x4]
     std::int64_t master = 0;
-    bool late = false;  ///< held back by a recalculation (warning 8)
+    std::int64_t start = 0;  ///< master's origin of a cam that it starts
+    bool late = false;       ///< held back by a recalculation (warning 8)
   };
   /// The terminals of the record; nullptr or line 0 where the .CNF says X.X or X.
   struct Terminals {
@@ -87,6 +88,7 @@ class Camming4 final : public Device {
   void sample_inputs();
   void run_function(int function, const Capture& capture, std::string_view subject);
   void function_start(const Capture& capture, std::string_view subject);
+  void report_refusal(std::string_view what, std::string_view subject);
   void sample_presets();
   void sample_master_preset();
   [[nodiscard]] std::int64_t slave_bits_at(std::int64_t total) const;
@@ -95,13 +97,17 @@ class Camming4 final : public Device {
   // The periodic step (camming4.cpp).
   void step_cam();
   void step_recovery();
+  void reset_recovery();
   void step_positioner();
   void regulate();
+  void put_out(axis::Drive drive, std::int16_t word);
   void publish_positions();
   void publish_regulation();
   void publish_states();
   void drive_output();
   [[nodiscard]] double master_speed() const;
+  [[nodiscard]] double master_rate() const;
+  [[nodiscard]] double cam_speed() const;
   [[nodiscard]] std::int64_t master_raw() const;
   [[nodiscard]] bool within(std::int32_t quota) const;
 
@@ -109,6 +115,7 @@ class Camming4 final : public Device {
   int period_ms_ = 1;
 
   axis::AnalogueAxis axis_;
+  axis::DacTurn dac_turn_;
   axis::Transducer master_;
   axis::Quota master_quota_;
   axis::Resolution master_resolution_;
@@ -116,11 +123,15 @@ class Camming4 final : public Device {
   int master_window_ms_ = 240;
   /// Totals of the last samples. The master's speed is taken over all of them: one bit more or less in a
   /// sample is no acceleration.
-  std::array<std::int64_t, 8> master_history_{};
+  std::array<std::int64_t, 16> master_history_{};
   std::size_t master_history_next_ = 0;
-  std::int64_t master_way_ = 0;  ///< over the history [bits x4]
+  std::int64_t master_way_ = 0;    ///< over the history [bits x4]
+  std::int64_t master_moved_ = 0;  ///< in the last sample [bits x4]
+  double master_rate_ = 0;         ///< at the cam's last step, smoothed [bits x4 a sample]
 
   Cam cam_;
+  std::int64_t slip_ = 0;  ///< LOOPON in a cam: the axis runs so far off its table [bits x4]
+  bool slip_due_ = false;
   axis::Profile recovery_;             ///< RSV: the correction that runs beside the cam
   std::int64_t recovery_due_ = 0;      ///< [Um] not yet begun
   std::int64_t recovery_running_ = 0;  ///< [Um]

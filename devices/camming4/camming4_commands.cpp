@@ -134,7 +134,9 @@ void Camming4::execute_switch(int command) {
   switch (command) {
     case c_LOOPON:
       set_state(st_loopon, true);
-      axis_.settle();
+      // In a cam the table goes on from where the axis is; else the axis would jump after it.
+      slip_due_ = state(st_camex);
+      if (!slip_due_) axis_.settle();
       break;
     case c_LOOPOFF:
       set_state(st_loopon, false);
@@ -239,11 +241,12 @@ void Camming4::start_cam(std::int64_t master) {
     slave.part = std::min(slave.part + 1, 1 - 1e-12);
   }
   cam_.start({master, slave.whole, slave.part});
+  for (int row = 0; row < cam_rows; ++row) value(v_codeQma, row) = cam_.row(row + 1).codeQma;
   set_state(st_camex, true);
 }
 
 void Camming4::stop_cam() {
-  const double speed = axis_.speed();
+  const double speed = cam_speed();
   leave_cam();
   set_state(st_still, false);
   axis_.brake(speed);
@@ -251,11 +254,17 @@ void Camming4::stop_cam() {
 
 void Camming4::leave_cam() {
   cam_.stop();
+  reset_recovery();
+  slip_ = 0;
+  slip_due_ = false;
+  set_state(st_camex, false);
+  value(v_rowex) = value(v_codeMex) = 0;
+}
+
+void Camming4::reset_recovery() {
   recovery_.abort();
   recovery_due_ = recovery_running_ = recovery_done_ = 0;
   recovery_way_ = 0;
-  set_state(st_camex, false);
-  value(v_rowex) = value(v_codeMex) = 0;
 }
 
 void Camming4::rest() {
@@ -269,6 +278,7 @@ void Camming4::rest() {
 void Camming4::emergency() {
   rest();
   set_state(st_emrg, true);
+  value(v_vout) = 0;  // a calibration does not come back with its voltage
 }
 
 void Camming4::fail(int code, int row) {

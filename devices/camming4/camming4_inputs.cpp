@@ -34,11 +34,11 @@ void Camming4::interrupt(int line, bool rising) {
   if (rising && line == terminals_.zero_line_master && !zero_master_) zero_master_ = master_total();
   if (line == terminals_.function_line && state(st_intenbl) && !capture_ &&
       value(v_intcapt) == (rising ? rising_edge : falling))
-    capture_ = Capture{slave_total(), master_total(), false};
+    capture_ = Capture{slave_total(), master_total(), master_total(), false};
 }
 
 void Camming4::sample_inputs() {
-  const Capture now{axis_.transducer().total(), master_.total(), false};
+  const Capture now{axis_.transducer().total(), master_.total(), master_.total(), false};
   const bool level = is_level(terminals_.input);
   const bool edge = level != input_was_ && value(v_inpcapt) == (level ? rising_edge : falling);
   input_was_ = level;
@@ -50,12 +50,13 @@ void Camming4::sample_inputs() {
 
   if (!capture_) return;
   if (recalculation_ > 0) {
-    capture_->late = true;
-    warn(8, value(v_rowex));
+    if (!std::exchange(capture_->late, true)) warn(8, value(v_rowex));
     return;
   }
-  const Capture capture = capture_->late ? now : *capture_;
+  Capture capture = *capture_;
   capture_.reset();
+  // The counts were latched at the edge; a cam cannot begin before the calculations are done (000 1.4).
+  if (capture.late) capture.start = now.start;
   if (!state(st_intenbl) || value(v_funInt) == 0) return;
   set_state(st_intenbl, false);
   set_state(st_intcapt, true);
@@ -78,7 +79,10 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
   const bool counts_writable = holds(type().variables[v_encoder].write);
   switch (function) {
     case 1:
-      if (holds(type().commands[c_STOPCAM].condition) && may_execute(c_STOPCAM)) stop_cam();
+      if (holds(type().commands[c_STOPCAM].condition) && may_execute(c_STOPCAM))
+        stop_cam();
+      else
+        report_refusal("STOPCAM", subject);
       break;
     case 2:
       function_start(capture, subject);
@@ -102,13 +106,19 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
       value(v_delta2) = incremented(value(v_delta2));
       break;
     case 7:
-      if (!counts_writable) break;
+      if (!counts_writable) {
+        report_refusal("encoder", subject);
+        break;
+      }
       axis_.quota.set_bits(value(v_delta1), axis_.settings.resolution);
       axis_.quota.count(axis_.transducer().total() - capture.slave, axis_.settings.resolution);
       axis_.requota();
       break;
     case 8:
-      if (!counts_writable) break;
+      if (!counts_writable) {
+        report_refusal("encoderm", subject);
+        break;
+      }
       master_quota_.set_bits(value(v_delta2), master_resolution_);
       master_quota_.count(master_.total() - capture.master, master_resolution_);
       break;
@@ -121,11 +131,15 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
 
 void Camming4::function_start(const Capture& capture, std::string_view subject) {
   if (holds(type().commands[c_STARTCAM].condition)) {
-    start_cam(capture.master);
+    start_cam(capture.start);
   } else {
-    report({Diagnostic::Kind::command_refused, "STARTCAM",
-            fmt::format("by {}: the command's conditions do not hold", subject)});
+    report_refusal("STARTCAM", subject);
   }
+}
+
+void Camming4::report_refusal(std::string_view what, std::string_view subject) {
+  report({Diagnostic::Kind::command_refused, std::string(what),
+          fmt::format("by {}: its conditions do not hold", subject)});
 }
 
 void Camming4::preset() {

@@ -99,7 +99,13 @@ void Camming4::written(Symbol symbol, std::int32_t new_value) {
   if (!changed) return;
   rescale();
   recompute();
-  if (state(st_init)) write_motion(variable);
+  if (state(st_init)) {
+    write_motion(variable);
+  } else {
+    // The counts of a new resolution, for INIT to go on from.
+    value(v_encoder) = static_cast<std::int32_t>(axis_.quota.bits(axis_.settings.resolution));
+    value(v_encoderm) = static_cast<std::int32_t>(master_quota_.bits(master_resolution_));
+  }
 }
 
 void Camming4::write_row(Symbol symbol, std::int32_t new_value) {
@@ -119,7 +125,7 @@ void Camming4::write_position(int variable, std::int32_t new_value) {
   if (variable == v_encoder) axis_.quota.set_bits(new_value, axis_.settings.resolution);
   if (variable == v_positm) master_quota_.set_um(new_value, master_resolution_);
   if (variable == v_encoderm) master_quota_.set_bits(new_value, master_resolution_);
-  axis_.requota();
+  if (variable == v_posit || variable == v_encoder) axis_.requota();
 }
 
 void Camming4::write_motion(int variable) {

@@ -142,6 +142,30 @@ TEST(CamEngine, NextRowIsTakenAsItWasWhenTheRunningRowBegan) {
   EXPECT_NEAR(bench.slave_um(), 200 + 100 + 100, tolerance);  // next time the new one
 }
 
+TEST(CamEngine, ComingBackTheRowAheadIsStillAsItWas) {
+  CamBench bench({{154, 100, 100}, {154, 100, 100}, {137, 1}});
+  bench.start();
+  bench.run(120);
+  bench.run(80);
+  EXPECT_EQ(bench.cam.step().row, 1);
+  bench.cam.write(2, Column::codeQs, 300);
+  bench.run(150);
+  EXPECT_NEAR(bench.slave_um(), 150, tolerance);
+  bench.run(350);
+  EXPECT_NEAR(bench.slave_um(), 200 + 100 + 150, tolerance);
+}
+
+TEST(CamEngine, ALoopAfterAStartSyncTakesOffWhatRanSinceTheQuota) {
+  CamBench bench({{160, 50}, {154, 100, 60}, {138}});
+  bench.start();
+  bench.run(100);
+  bench.cam.write(1, Column::codeG, 130);  // else the loop would meet it again: error 7
+  bench.run(160);
+  EXPECT_EQ(bench.positm(), 160 - 100);
+  EXPECT_EQ(bench.posit(), 6);
+  EXPECT_TRUE(bench.errors.empty());
+}
+
 TEST(CamEngine, RowAfterTheNextIsTakenAsItStands) {
   CamBench bench({{154, 100, 100}, {154, 100, 100}, {154, 100, 100}, end_row});
   bench.start();

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "camming4_covers.hpp"
 #include "camming4_fixture.hpp"
 #include "devices/camming4/messages.hpp"
 
@@ -42,6 +43,7 @@ TEST_F(Camming4Errors, AnErrorBlocksTheAxisUntilRserrAndResume) {
   EXPECT_EQ(get("errvalue"), 0);
   command("STARTCAM");
   EXPECT_EQ(get("st_camex"), 1);
+  covers({"error 3", "errcode", "errvalue", "st_error", "RSERR accepted", "STARTCAM accepted"});
 }
 
 TEST_F(Camming4Errors, RserrLeavesTheEmergency) {
@@ -73,6 +75,7 @@ TEST_F(Camming4Errors, AWriteIntoTheRunningRowIsErrorFive) {
   EXPECT_EQ(get("errvalue"), 1);
   EXPECT_EQ(get("codeQs1"), 50);
   EXPECT_THAT(diagnostics(), Contains("codeQs1: needs rowex != n, or gearing"));
+  covers({"error 5"});
 }
 
 TEST_F(Camming4Errors, LeavingTheSyncRangeIsWarningTwelve) {
@@ -91,6 +94,7 @@ TEST_F(Camming4Errors, LeavingTheSyncRangeIsWarningTwelve) {
   EXPECT_EQ(get("st_sync"), 0);
   EXPECT_EQ(get("wrncode"), 12);
   EXPECT_EQ(get("wrnvalue"), 1);
+  covers({"warning 12", "syncrange", "st_sync"});
 }
 
 TEST_F(Camming4Errors, WarningsKeepTheHighestPriority) {
@@ -113,6 +117,23 @@ TEST_F(Camming4Errors, WarningsKeepTheHighestPriority) {
   EXPECT_EQ(get("st_warning"), 0);
   EXPECT_EQ(get("wrncode"), 0);
   EXPECT_EQ(get("wrnvalue"), 0);
+  covers({"RSWRN accepted", "wrncode", "wrnvalue", "st_warning", "warning 6"});
+}
+
+TEST_F(Camming4Errors, TheSameWarningOfAnotherRowIsTheNewOne) {
+  row(1, {154, 100, 100});
+  row(2, {133, 100, 40});
+  row(3, {154, 100, 100});
+  row(4, {133, 100, 40});
+  row(5, {136});
+  start();
+  command("STARTCAM");
+  ticks(30, 5);
+  EXPECT_EQ(get("wrncode"), 5);
+  EXPECT_EQ(get("wrnvalue"), 2);
+  ticks(40, 5);
+  EXPECT_EQ(get("wrncode"), 5);
+  EXPECT_EQ(get("wrnvalue"), 4);
 }
 
 TEST_F(Camming4Errors, WatchesTheGradientLimits) {
@@ -132,6 +153,7 @@ TEST_F(Camming4Errors, WatchesTheGradientLimits) {
   tick(10);
   EXPECT_EQ(get("wrncode"), 1);
   EXPECT_EQ(get("wrnvalue"), 1);
+  covers({"warning 1", "taccmax"});
 }
 
 struct TableError {
@@ -159,6 +181,7 @@ TEST_P(Camming4TableErrors, BlockTheAxis) {
   EXPECT_EQ(get("st_emrg"), 1);
   EXPECT_EQ(get("st_camex"), 0);
   EXPECT_EQ(word(), 0);
+  covers({"error " + std::to_string(GetParam().code), "errcode", "errvalue", "st_error"});
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -184,6 +207,7 @@ TEST_F(Camming4Errors, NamesRowOneHundredTwentyEight) {
   ticks(20, 10);
   EXPECT_EQ(get("errcode"), 3);
   EXPECT_EQ(get("errvalue"), 128);
+  covers({"errvalue"});
 }
 
 TEST(Camming4Messages, HaveThePrioritiesOfTheManual) {

@@ -19,10 +19,11 @@ class Camming4Test : public testing::Test {
   static constexpr double full_speed = 50000;  ///< of the ideal axis [bits/s]
   static constexpr int period = 2;             ///< [ms]
 
-  explicit Camming4Test(const char* slave = "2.CNT01", const char* master = "2.CNT02")
+  explicit Camming4Test(const char* slave = "2.CNT01", const char* master = "2.CNT02",
+                        int period_ms = period)
       : slave_address(*parse_address(slave)),
         master_address(*parse_address(master)),
-        device({{period, {}},
+        device({{period_ms, {}},
                 {0, slave_address},
                 {0, master_address},
                 {0, parse_address("2.CNT03")},

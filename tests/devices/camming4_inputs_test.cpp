@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "camming4_covers.hpp"
 #include "camming4_fixture.hpp"
 
 namespace drycut::devices::camming4 {
@@ -42,6 +43,7 @@ TEST_F(Camming4Inputs, ShowsTheInterruptLine) {
   edge(function_line, false);
   tick();
   EXPECT_EQ(get("st_int"), 0);
+  covers({"st_int"});
 }
 
 TEST_F(Camming4Inputs, CapturesOnceOnTheArmedEdge) {
@@ -59,6 +61,7 @@ TEST_F(Camming4Inputs, CapturesOnceOnTheArmedEdge) {
   EXPECT_EQ(get("delta1"), 42);
   command("RSCAPT");
   EXPECT_EQ(get("st_capt"), 0);
+  covers({"ENBL accepted", "RSCAPT accepted", "st_enbl", "st_capt", "normal input 3", "funInp"});
 }
 
 TEST_F(Camming4Inputs, TakesTheFallingEdgeToo) {
@@ -70,6 +73,7 @@ TEST_F(Camming4Inputs, TakesTheFallingEdgeToo) {
   input(normal) = false;
   tick();
   EXPECT_EQ(get("delta1"), 1);
+  covers({"inpcapt"});
 }
 
 TEST_F(Camming4Inputs, ADisarmedInputDoesNothing) {
@@ -88,6 +92,7 @@ TEST_F(Camming4Inputs, ADisarmedInputDoesNothing) {
   edge(function_line, true);
   tick();
   EXPECT_EQ(get("st_intcapt"), 0);
+  covers({"DSBL accepted", "INTDSBL accepted", "interrupt input 0"});
 }
 
 TEST_F(Camming4Inputs, LatchesTheExactCountAtTheEdge) {
@@ -110,6 +115,8 @@ TEST_F(Camming4Inputs, LatchesTheExactCountAtTheEdge) {
   master().count = 20;
   tick();
   EXPECT_EQ(get("delta2"), -7);
+  covers({"INTENBL accepted", "RSINTCAPT accepted", "st_intenbl", "st_intcapt", "intcapt", "funInt",
+          "interrupt input 3", "interrupt input 4"});
 }
 
 TEST_F(Camming4Inputs, LoadsCountsAtTheEdge) {
@@ -124,6 +131,7 @@ TEST_F(Camming4Inputs, LoadsCountsAtTheEdge) {
   arm_input(8);
   pulse_input();
   EXPECT_EQ(get("positm"), -30);
+  covers({"interrupt input 7", "normal input 8"});
 }
 
 TEST_F(Camming4Inputs, CountsEvents) {
@@ -152,6 +160,7 @@ TEST_F(Camming4Inputs, StartsTheCamFromTheLatchedCount) {
   slave_blocked = true;
   ticks(17, 10);  // 200 Um in all: 50 + 100
   EXPECT_EQ(get("follerr") + get("posit"), 150);
+  covers({"interrupt input 10"});
 }
 
 TEST_F(Camming4Inputs, ARecalculationDelaysTheEvent) {
@@ -172,6 +181,7 @@ TEST_F(Camming4Inputs, ARecalculationDelaysTheEvent) {
   EXPECT_EQ(get("rowex"), 1);
   tick(10);
   EXPECT_EQ(get("rowex"), 2);
+  covers({"warning 8", "interrupt input 2"});
 }
 
 TEST_F(Camming4Inputs, EachParameterHasItsRecalculationTime) {
@@ -235,7 +245,7 @@ TEST_F(Camming4Inputs, AStartWhoseConditionsFailIsReported) {
   pulse_input();
   EXPECT_EQ(get("st_camex"), 0);
   EXPECT_EQ(get("delta1"), 5);
-  EXPECT_THAT(diagnostics(), Contains("STARTCAM: by funInp: the command's conditions do not hold"));
+  EXPECT_THAT(diagnostics(), Contains("STARTCAM: by funInp: its conditions do not hold"));
   write("funInp", 44);
   command("ENBL");
   pulse_input();

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "camming4_covers.hpp"
 #include "camming4_fixture.hpp"
 
 namespace drycut::devices::camming4 {
@@ -33,6 +34,7 @@ TEST_F(Camming4Motion, StartsUpAsTheManualShows) {
   EXPECT_EQ(get("st_init"), 1);
   EXPECT_EQ(get("st_loopon"), 1);
   EXPECT_THAT(diagnostics(), IsEmpty());
+  covers({"INIT accepted", "LOOPON accepted", "st_init", "st_loopon"});
 }
 
 TEST_F(Camming4Motion, JogsWithOneVoltAtATenthOfMaxvel) {
@@ -56,6 +58,12 @@ TEST_F(Camming4Motion, JogsWithOneVoltAtATenthOfMaxvel) {
   ticks(60);
   EXPECT_EQ(get("ffwdreg"), -3277);
   EXPECT_EQ(get("st_movdir"), 1);
+  command("STOP");
+  ASSERT_TRUE(wait("st_still", 1));
+  ticks(5);
+  EXPECT_EQ(get("st_movdir"), 1);  // of the last movement
+  covers({"MANFW accepted", "MANBW accepted", "STOP accepted", "st_acc", "st_vconst", "st_dec", "st_movdir",
+          "ffwdreg"});
 }
 
 TEST_F(Camming4Motion, PlacesTheAxisExactly) {
@@ -70,6 +78,7 @@ TEST_F(Camming4Motion, PlacesTheAxisExactly) {
     EXPECT_EQ(get("st_toll"), 1);
     EXPECT_EQ(get("st_tpos"), 1);
   }
+  covers({"START accepted", "setpos", "st_toll", "st_tpos"});
 }
 
 TEST_F(Camming4Motion, APlacementTakesItsClosedFormTime) {
@@ -129,6 +138,7 @@ TEST_F(Camming4Motion, HoldsTheSoftwareLimits) {
   ASSERT_TRUE(wait("st_still", 1));
   ticks(200);
   EXPECT_NEAR(get("posit"), -300, 1);
+  covers({"minpos", "maxpos"});
 }
 
 TEST_F(Camming4Motion, ChangesSpeedAndTargetOnTheFly) {
@@ -146,6 +156,7 @@ TEST_F(Camming4Motion, ChangesSpeedAndTargetOnTheFly) {
   ticks(200);
   EXPECT_NEAR(get("posit"), 4000, 1);
   EXPECT_EQ(get("st_toll"), 1);
+  covers({"st_chvel", "setvel", "setpos"});
 }
 
 TEST_F(Camming4Motion, ATargetBehindIsStoredOnly) {

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "camming4_covers.hpp"
 #include "camming4_fixture.hpp"
 
 namespace drycut::devices::camming4 {
@@ -44,6 +45,7 @@ TEST_F(Camming4Preset, ModeZeroLoadsAtTheEnablesRelease) {
   EXPECT_NEAR(get("posit"), 700, 1);
   // The quota 700 lies where the slow leg left the enable, within the way of one sample (2 Um).
   EXPECT_NEAR(static_cast<double>(slave().count), 1999, 3);
+  covers({"PRESET accepted", "prspos", "prsvel", "sprsvel", "prsmode", "st_prson", "st_prsok"});
 }
 
 TEST_F(Camming4Preset, ModeZeroBackwardCrossesAShortEnable) {
@@ -57,6 +59,7 @@ TEST_F(Camming4Preset, ModeZeroBackwardCrossesAShortEnable) {
   EXPECT_NEAR(get("posit"), -50, 1);
   // It ran over the enable, came back forward and left it at its upper end.
   EXPECT_NEAR(static_cast<double>(slave().count), -1000, 3);
+  covers({"prsdir"});
 }
 
 TEST_F(Camming4Preset, ModeOneLoadsAtTheFirstZeroPulseAfterIt) {
@@ -83,6 +86,7 @@ TEST_F(Camming4Preset, ModeOneLoadsAtTheFirstZeroPulseAfterIt) {
   EXPECT_EQ(get("st_prsok"), 1);
   track(100);
   EXPECT_EQ(get("posit"), slave().count - 1536);
+  covers({"prsmode"});
 }
 
 TEST_F(Camming4Preset, StartsWithTheSlowLegInsideTheEnable) {
@@ -129,6 +133,7 @@ TEST_F(Camming4Preset, ModeTwoLoadsAtTheEnableAfterARelease) {
   EXPECT_EQ(get("st_prsok"), 0);
   command("PRESET");
   EXPECT_EQ(get("st_prson"), 0);
+  covers({"RSPRSOK accepted", "st_prsok"});
 }
 
 TEST_F(Camming4Preset, MasterPresetModeZero) {
@@ -151,6 +156,7 @@ TEST_F(Camming4Preset, MasterPresetModeZero) {
   EXPECT_EQ(get("st_prsonm"), 0);
   command("RSPRSM");
   EXPECT_EQ(get("st_prsokm"), 0);
+  covers({"PRESETM accepted", "RSPRSM accepted", "prsposm", "prsmodem", "st_prsonm", "st_prsokm"});
 }
 
 TEST_F(Camming4Preset, MasterPresetModeOneTakesTheLatchedCount) {

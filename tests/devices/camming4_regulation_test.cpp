@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "camming4_covers.hpp"
 #include "camming4_fixture.hpp"
 
 namespace drycut::devices::camming4 {
@@ -43,6 +44,7 @@ TEST_F(Camming4Regulation, EmergencyStopsWithoutRampAndResumeReactsOnTheSpot) {
   slave().count += 10;
   sample();
   EXPECT_EQ(get("propreg"), -655);  // pgain 200: 0.2 * 10/100 of 32767
+  covers({"EMRG accepted", "RESUME accepted", "st_emrg"});
 }
 
 TEST_F(Camming4Regulation, CalibrationIsAVoltageSource) {
@@ -62,6 +64,7 @@ TEST_F(Camming4Regulation, CalibrationIsAVoltageSource) {
   command("CALOFF");
   EXPECT_EQ(get("follerr"), 0);
   EXPECT_EQ(word(), 7);
+  covers({"CALON accepted", "CALOFF accepted", "st_cal", "vout", "offset"});
 }
 
 TEST_F(Camming4Regulation, RegulationOffFreezesTheOutput) {
@@ -80,6 +83,7 @@ TEST_F(Camming4Regulation, RegulationOffFreezesTheOutput) {
   EXPECT_EQ(get("wrncode"), 11);
   command("REGON");
   EXPECT_EQ(word(), 0);
+  covers({"REGOFF accepted", "REGON accepted", "st_regoff"});
 }
 
 TEST_F(Camming4Regulation, RegulatesByItsClosedForms) {
@@ -96,6 +100,7 @@ TEST_F(Camming4Regulation, RegulatesByItsClosedForms) {
   set({{"offset", -100}});
   sample();
   EXPECT_EQ(word(), -16384 - 100);
+  covers({"pgain", "propreg", "follerr"});
 }
 
 TEST_F(Camming4Regulation, SaturationIsAWarning) {
@@ -183,6 +188,7 @@ TEST_F(Camming4Regulation, DelCntKeepsTheRemainder) {
   slave().count += 9;
   sample();
   EXPECT_EQ(get("posit"), 5);
+  covers({"DELCNT accepted", "delta1"});
 }
 
 TEST_F(Camming4Regulation, TwoDelCntBetweenSamplesAreOne) {
@@ -224,6 +230,7 @@ TEST_F(Camming4Regulation, ChangesTheMasterWithoutAJump) {
   master().count = 301;
   sample();
   EXPECT_EQ(get("positm"), 108);
+  covers({"mtype"});
 }
 
 }  // namespace

@@ -49,6 +49,8 @@ void run(const std::string& name) {
 TEST(Examples, Camming4Startup) { run("camming4_startup"); }
 TEST(Examples, Camming4Jog) { run("camming4_jog"); }
 TEST(Examples, Camming4Datagroup) { run("camming4_datagroup"); }
+TEST(Examples, Camming4SimulatedMaster) { run("camming4_simulated_master"); }
+TEST(Examples, Epicpos) { run("epicpos"); }
 
 }  // namespace
 }  // namespace drycut::sim

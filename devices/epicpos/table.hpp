@@ -1,0 +1,218 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
+#include "devices/device.hpp"
+
+// The public face of EPICPOS (002 1.4; spec qem.md 6, with the print's slips corrected as D1 and D16 say).
+// EANPOS has the same rows but for the last ones (spec qem.md 7, D17).
+
+namespace drycut::devices::epicpos::table {
+
+using R = Retention;
+using enum Access;
+
+/// Number of the row called `name`; a name that is not in the table does not compile.
+template <typename Rows>
+consteval int row_of(const Rows& rows, std::string_view name) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].name == name) return static_cast<int>(i);
+  throw "no such row";
+}
+
+/// The rows of `first`, then those of `then`.
+template <typename Row, std::size_t N, std::size_t M>
+consteval std::array<Row, N + M> joined(const std::array<Row, N>& first, const std::array<Row, M>& then) {
+  std::array<Row, N + M> rows{};
+  for (std::size_t i = 0; i < N; ++i) rows[i] = first[i];
+  for (std::size_t i = 0; i < M; ++i) rows[N + i] = then[i];
+  return rows;
+}
+
+inline constexpr std::array states = {
+    State{"st_init", R::zero, "the device is initialised and runs", "002 1.4.4"},
+    State{"st_emrg", R::zero, "emergency: no reaction, no movement, output 0 V", "002 1.4.4"},
+    State{"st_toll", R::zero, "the last placement stands within toll of its quota, for toldly already",
+          "002 1.4.4"},
+    State{"st_prsok", R::zero, "the count has been preset", "002 1.4.4"},
+    State{"st_still", R::one, "no movement runs", "002 1.4.4"},
+    State{"st_prson", R::zero, "the preset search runs", "002 1.4.4"},
+    State{"st_movdir", R::zero, "direction of the last movement, 1 = backward", "002 1.4.4"},
+    State{"st_loopon", R::zero, "the position loop is closed", "002 1.4.4"},
+    State{"st_foller", R::zero, "following error above maxfollerr, held for 500 ms", "002 1.4.4"},
+    State{"st_regoff", R::zero, "regulation off: the DAC is left as it stands, movements are refused",
+          "002 1.4.4"},
+    State{"st_cal", R::zero, "calibration: the output is the voltage vout", "002 1.4.4"},
+    State{"st_cntlock", R::retentive, "the count is locked", "002 1.4.4"},
+    State{"st_cntrev", R::retentive, "the count is reversed", "002 1.4.4"},
+};
+
+/// The condition that these states are 1, or 0 where the name begins with '!'.
+consteval Condition needs(std::initializer_list<std::string_view> names, std::string_view also = {}) {
+  Condition condition{0, 0, also};
+  for (std::string_view name : names) {
+    const bool off = name.starts_with('!');
+    const std::uint64_t bit = std::uint64_t{1} << row_of(states, off ? name.substr(1) : name);
+    condition.mask |= bit;
+    if (!off) condition.value |= bit;
+  }
+  return condition;
+}
+
+inline constexpr Condition any = {};
+inline constexpr Condition still = needs({"st_still"});
+inline constexpr Condition can_move = needs({"st_init", "!st_regoff", "!st_emrg", "!st_cal", "st_still"});
+
+inline constexpr std::array commands = {
+    Command{"INIT", needs({"!st_init"}), "computes the parameters and starts the device", "002 1.4.2"},
+    Command{"EMRG", needs({"st_init"}), "stops everything without ramp, opens the reaction, output 0 V",
+            "002 1.4.2"},
+    Command{"RESUME", needs({"st_init", "st_emrg"}), "ends the emergency; the axis reacts where it stands",
+            "002 1.4.2"},
+    Command{"START", can_move, "places the axis at setpos with setvel", "002 1.4.2"},
+    Command{"STOP", needs({"st_init", "!st_regoff", "!st_emrg", "!st_cal", "!st_still"}),
+            "ends a movement with the deceleration ramp", "002 1.4.2"},
+    Command{"LOOPON", needs({"st_init"}), "closes the position loop; the following error becomes 0",
+            "002 1.4.2"},
+    Command{"LOOPOFF", needs({"st_init"}), "opens the position loop without stopping the axis", "002 1.4.2"},
+    Command{"CNTLOCK", needs({"st_init"}), "stops counting the transducer; no preset is loaded", "002 1.4.2"},
+    Command{"CNTUNLOCK", needs({"st_init"}), "counts the transducer again", "002 1.4.2"},
+    Command{"CNTREV", needs({"st_init"}), "reverses the counting direction", "002 1.4.2"},
+    Command{"CNTDIR", needs({"st_init"}), "restores the counting direction", "002 1.4.2"},
+    Command{"PRESET", needs({"st_init", "!st_regoff", "!st_emrg", "!st_cal"}, "st_still = 1 or st_prson = 1"),
+            "starts the preset search; while it runs, turns its direction", "002 1.4.2"},
+    Command{"CALON", needs({"st_init"}), "makes the output a voltage source set by vout; ends any movement",
+            "002 1.4.2"},
+    Command{"CALOFF", needs({"st_init", "st_cal"}), "ends calibration; the axis reacts where it stands",
+            "002 1.4.2"},
+    Command{"MANFW", needs({"st_init", "!st_regoff", "!st_prson", "st_still", "!st_emrg", "!st_cal"}),
+            "runs forward at setvel until STOP, at most to maxpos", "002 1.4.2"},
+    Command{"MANBW", needs({"st_init", "!st_regoff", "!st_prson", "st_still", "!st_emrg", "!st_cal"}),
+            "runs backward at setvel until STOP, at most to minpos", "002 1.4.2"},
+    Command{"REGOFF", needs({"st_init", "st_still"}),
+            "turns regulation off: the DAC stays as it stands, free for another device", "002 1.4.2"},
+    Command{"REGON", needs({"st_init", "st_regoff"}), "turns regulation on; the axis reacts where it stands",
+            "002 1.4.2"},
+    Command{"DELCNT", needs({"st_init", "st_still"}), "adds delta to posit, remainder kept", "002 1.4.2"},
+};
+
+inline constexpr double lowest = -2147483648.0;
+inline constexpr double highest = 2147483647.0;
+
+/// A ramp parameter written in mid-move is stored; the running movement takes it if it can.
+inline constexpr Condition ramp_write = needs({}, "the quota to stay in reach, to act in motion");
+
+inline constexpr std::array variables = {
+    Variable{"cntratio", Size::L, "Um/pulse x 1e5", 374, 400000, read_write, R::retentive, still,
+             "resolution: 100000 times the Um of one transducer pulse (4 bits)", "002 1.4.3"},
+    Variable{"maxpos", Size::L, "Um", -999999, 999999, read_write, R::retentive, still,
+             "largest quota of placements and manual movements", "002 1.4.3"},
+    Variable{"minpos", Size::L, "Um", -999999, 999999, read_write, R::retentive, still,
+             "smallest quota of placements and manual movements", "002 1.4.3"},
+    Variable{"prspos", Size::L, "Um", -999999, 999999, read_write, R::retentive, still,
+             "quota that the preset search loads, minpos..maxpos", "002 1.4.3"},
+    Variable{"maxvel", Size::L, "speed", 0, 999999, read_write, R::retentive, still,
+             "speed at an output of 10 V", "002 1.4.3"},
+    Variable{"prsvel", Size::L, "speed", 0, 999999, read_write, R::retentive, still,
+             "speed of the preset search toward the enable input, up to maxvel", "002 1.4.3"},
+    Variable{"sprsvel", Size::L, "speed", 0, 999999, read_write, R::retentive, still,
+             "speed of the preset search's slow leg, up to prsvel", "002 1.4.3"},
+    Variable{"toll", Size::L, "Um", 0, 999999, read_write, R::retentive, still,
+             "largest distance from the quota for st_toll", "002 1.4.3"},
+    Variable{"maxfollerr", Size::L, "bits x4", 0, highest, read_write, R::retentive, any,
+             "following error above which st_foller is reported", "002 1.4.3"},
+    Variable{"rampmode", Size::B, "", 0, 1, read_write, R::retentive, ramp_write,
+             "0: taccdec is the time of both ramps, 1: tacc and tdec are", "002 1.4.3"},
+    Variable{"taccdec", Size::W, "1/100 s", 0, 999, read_write, R::retentive, ramp_write,
+             "time from rest to maxvel and from maxvel to rest, if rampmode is 0", "002 1.4.3"},
+    Variable{"tacc", Size::W, "1/100 s", 0, 999, read_write, R::retentive, ramp_write,
+             "acceleration time from rest to maxvel, if rampmode is 1", "002 1.4.3"},
+    Variable{"tdec", Size::W, "1/100 s", 0, 999, read_write, R::retentive, ramp_write,
+             "deceleration time from maxvel to rest, if rampmode is 1", "002 1.4.3"},
+    Variable{"tinvt", Size::W, "1/100 s", 0, 999, read_write, R::retentive, any,
+             "shortest rest between a movement and one in the other direction", "002 1.4.3"},
+    Variable{"toldly", Size::W, "1/100 s", 0, 999, read_write, R::retentive, any,
+             "time in tolerance after a placement before st_toll says so", "002 1.4.3"},
+    Variable{"pgain", Size::W, "1/1000", 0, 32767, read_write, R::retentive, any,
+             "proportional gain: 1000 gives 10 V at the way of maxvel in one TCamp", "002 1.4.3"},
+    Variable{"feedfw", Size::W, "1/1000", 0, 32767, read_write, R::retentive, any,
+             "feed-forward: 1000 gives 10 V at the theoretical speed maxvel", "002 1.4.3"},
+    Variable{"integt", Size::W, "ms", 0, 32767, read_write, R::retentive, any,
+             "integration time, smaller is stronger, 0 = off", "002 1.4.3"},
+    Variable{"derivt", Size::W, "ms", 0, 32767, read_write, R::retentive, any,
+             "derivative time, larger is stronger, 0 = off", "002 1.4.3"},
+    Variable{
+        "prsmode", Size::B, "", 0, 2, read_write, R::retentive, any,
+        "preset: 0 at the enable's release, 1 at the zero pulse after it, 2 at the enable without search",
+        "002 1.4.3"},
+    Variable{"prsdir", Size::B, "", 0, 1, read_write, R::retentive, any,
+             "first direction of the preset search: 0 forward, 1 backward", "002 1.4.3"},
+    Variable{"unitvel", Size::B, "", 0, 1, read_write, R::retentive, still,
+             "time unit of speeds: 0 per minute, 1 per second", "002 1.4.3"},
+    Variable{"decpt", Size::B, "", 0, 3, read_write, R::retentive, still,
+             "decimals of the unit of measure: speeds are in whole units", "002 1.4.3"},
+    Variable{"offset", Size::W, "DAC bits", -32768, 32767, read_write, R::retentive, any,
+             "added to the output always while the device drives it", "002 1.4.3"},
+    Variable{"setpos", Size::L, "Um", -999999, 999999, read_write, R::retentive,
+             needs({}, "a quota that the running placement can still reach without turning"),
+             "quota of placements, minpos..maxpos; the preset search alters it", "002 1.4.3"},
+    Variable{"setvel", Size::L, "speed", 0, 999999, read_write, R::retentive,
+             needs({}, "no deceleration to the quota yet, to act in motion"),
+             "speed of placements and manual movements, up to maxvel; the preset search alters it",
+             "002 1.4.3"},
+    Variable{"vout", Size::B, "0.1 V", -100, 100, read_write, R::zero, needs({"st_cal"}),
+             "output voltage of the calibration", "002 1.4.3"},
+    Variable{"vel", Size::L, "speed", lowest, highest, read, R::zero, any,
+             "magnitude of the axis' speed, from frq's window", "002 1.4.3"},
+    Variable{"frq", Size::L, "Hz", lowest, highest, read, R::zero, any,
+             "frequency of one phase of the transducer over 240 ms", "002 1.4.3"},
+    Variable{"posit", Size::L, "Um", -999999, 999999, read_write, R::retentive,
+             needs({}, "no deceleration to the quota yet, and the quota ahead, in motion"),
+             "position of the axis", "002 1.4.3"},
+    Variable{"follerr", Size::L, "bits x4", lowest, highest, read, R::zero, any,
+             "theoretical minus actual position", "002 1.4.3"},
+    Variable{"ffwdreg", Size::L, "DAC bits", lowest, highest, read, R::zero, any, "feed-forward action",
+             "002 1.4.3"},
+    Variable{"propreg", Size::L, "DAC bits", lowest, highest, read, R::zero, any, "proportional action",
+             "002 1.4.3"},
+    Variable{"integ", Size::L, "DAC bits", -1024, 1024, read, R::zero, any, "integral action", "002 1.4.3"},
+    Variable{"derreg", Size::L, "DAC bits", -1024, 1024, read, R::zero, any, "derivative action",
+             "002 1.4.3"},
+    Variable{"delta", Size::L, "Um", -999999, 999999, read_write, R::retentive, any, "what DELCNT adds",
+             "002 1.4.3"},
+};
+
+/// What only EPICPOS has.
+inline constexpr std::array epicpos_variables = {
+    Variable{"rtype", Size::B, "", 0, 1, read_write, R::retentive, any,
+             "short movements: 0 keep ramp times, 1 keep gradients", "002 1.4.3"},
+    Variable{"stopt", Size::B, "", 0, 1, read_write, R::retentive, any,
+             "STOP in an acceleration: 0 ends the ramp first, 1 decelerates at once", "002 1.4.3"},
+};
+
+/// What only EANPOS has.
+inline constexpr std::array eanpos_variables = {
+    Variable{"ramptype", Size::B, "", 0, 1, read_write, R::retentive, still,
+             "ramps: 0 trapezoidal, 1 epicycloidal", "000 1.5"},
+};
+
+inline constexpr std::array fields = {
+    Field{"TCamp", Field::Kind::period_ms, 1, 255, "sampling time [ms]"},
+    Field{"ICont", Field::Kind::counter, 0, 0,
+          "transducer; on slot 1 a simulated one that the device itself moves"},
+    Field{"IntL", Field::Kind::interrupt_line, 1, 8, "zero pulse"},
+    Field{"IAZero", Field::Kind::input, 0, 0, "enable of the preset"},
+    Field{"IOutA", Field::Kind::analogue, 0, 0, "speed reference"},
+};
+
+/// Spellings of the manual's text and programs beside those of its table (spec 6).
+inline constexpr std::array aliases = {
+    Alias{"cnratio", "cntratio"}, Alias{"prsvl", "prsvel"},       Alias{"prsvcl", "prsvel"},
+    Alias{"sprsvl", "sprsvel"},   Alias{"sprsvcl", "sprsvel"},    Alias{"spsvl", "sprsvel"},
+    Alias{"prmdir", "prsdir"},    Alias{"prsdire", "prsdir"},     Alias{"folterr", "follerr"},
+    Alias{"intreg", "integ"},     Alias{"feedforward", "feedfw"}, Alias{"rampm", "rampmode"},
+};
+
+}  // namespace drycut::devices::epicpos::table
