@@ -5,6 +5,7 @@
 #include "devices/catalogue.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
+#include "sim/cam_table.hpp"
 #include "sim/commands.hpp"
 #include "sim/file.hpp"
 #include "sim/simulation.hpp"
@@ -29,9 +30,13 @@ class Checker {
       check_configuration(file);
     } else if (kind == ".mod" || kind == ".qcl") {
       check_module(file);
+    } else if (kind == ".csv") {
+      if (const auto text = read_file(file, problems_)) read_cam_table(*text, file.string(), problems_);
     } else {
-      problems_.push_back({file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
-                           "give a scenario (.yaml), a configuration (.cnf) or a QCL module (.mod, .qcl)"});
+      problems_.push_back(
+          {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
+           "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl) or a cam "
+           "table (.csv)"});
     }
   }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/cam_run.hpp"
 #include "sim/scenario.hpp"
 
 namespace drycut::sim {
@@ -33,8 +34,21 @@ struct CheckOptions {
   bool expand = false;
 };
 /// drycut check: scenarios (.yaml), configurations (.cnf), QCL modules (.mod, .qcl; against the .cnf before
-/// them)
+/// them), cam tables (.csv)
 int check_files(const CheckOptions& options);
+
+struct CamOptions {
+  std::filesystem::path table;
+  std::string device = "camming4";
+  CamDuty duty;
+  std::vector<double> at;  ///< master positions [Um], empty = 1000 a pass and every boundary
+  std::string csv;         ///< "" = none, "-" = standard output
+  std::string png;         ///< "" = none
+  int loops = 1;
+  bool strict = false;  ///< warnings and cautions fail too
+};
+/// drycut cam: 0 sound, 1 an error or a violated limit, 2 bad input
+int validate_cam(const CamOptions& options);
 
 /// drycut devices, drycut plants: the tables; of one type if `name` is given.
 int list_devices(const std::string& name, bool json);

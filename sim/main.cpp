@@ -11,6 +11,35 @@ namespace {
 
 using namespace drycut::sim;
 
+void add_cam(CLI::App& app, CamOptions& options, int& status) {
+  auto* cam = app.add_subcommand(
+      "cam",
+      "Validate a cam table without a machine: its sectors, errors, warnings and violated limits.\n"
+      "Positions are in Um of the table; speeds in 10^decpt Um per minute or second (unitvel), as maxvel.\n"
+      "Exit status: 0 sound (warnings are printed), 1 an error or a violated limit, 2 bad input");
+  cam->add_option("table", options.table,
+                  "Cam table (.csv): sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM")
+      ->required();
+  cam->add_option("--device", options.device, "Device that runs the cam")
+      ->check(CLI::IsMember({"camming4"}))
+      ->capture_default_str();
+  cam->add_option("--master-speed", options.duty.master_speed,
+                  "Speed of the master: results in time too, errors 4 of sampling, warnings 1 and 2");
+  cam->add_option("--max-velocity", options.duty.max_velocity, "Limit of the slave's velocity");
+  cam->add_option("--max-acceleration", options.duty.max_acceleration,
+                  "Limit of the slave's acceleration [Um/s2]");
+  cam->add_option("--at", options.at, "Sample at these master positions [Um], M1,M2,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  cam->add_option("--csv", options.csv, "Write the samples; - prints them, the report to standard error");
+  cam->add_option("--png", options.png, "Draw position, velocity, acceleration and jerk");
+  cam->add_option("--loops", options.loops, "Times round, for a cam that jumps back")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  cam->add_flag("--strict", options.strict, "Warnings and cautions fail as well");
+  cam->callback([&] { status = validate_cam(options); });
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
   app.require_subcommand(1);
@@ -41,11 +70,16 @@ int run(int argc, char** argv) {
   CheckOptions check_options;
   auto* check = app.add_subcommand("check", "Parse and type-check files without running anything");
   check
-      ->add_option("files", check_options.files,
-                   "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf")
+      ->add_option(
+          "files", check_options.files,
+          "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, cam tables "
+          "(.csv)")
       ->required();
   check->add_flag("--expand", check_options.expand, "Print scenarios with every default in force");
   check->callback([&] { status = check_files(check_options); });
+
+  CamOptions cam_options;
+  add_cam(app, cam_options, status);
 
   std::string name;
   bool json = false;
