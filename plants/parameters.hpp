@@ -6,6 +6,9 @@
 
 namespace drycut::plants {
 
+/// The word by which a reference parameter names no plant, where its default does.
+inline constexpr std::string_view no_plant = "none";
+
 /// One parameter of a plant, bound to the member that holds it. A plain struct with defaults is the schema:
 /// this table over it is what the scenario reader fills, `drycut check --expand` writes and `drycut plants`
 /// prints.

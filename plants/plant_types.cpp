@@ -1,5 +1,6 @@
 #include "plants/bench.hpp"
 #include "plants/ideal_axis.hpp"
+#include "plants/linear_axis.hpp"
 #include "plants/plant.hpp"
 #include "plants/rotary_knife.hpp"
 #include "plants/web.hpp"
@@ -18,6 +19,8 @@ const std::vector<PlantType>& plant_types() {
       {"bench", "counters, switches and meters without physics, turned by the timeline",
        define<BenchDefinition>},
       {"ideal_axis", "an axis without mass: voltage is speed, exactly", define<IdealAxisDefinition>},
+      {"linear_axis", "a carriage on a ball screw or belt with servo, end stops and switches",
+       define<LinearAxisDefinition>},
       {"rotary_knife", "a servo-driven drum with blades that cuts the running web",
        define<RotaryKnifeDefinition>},
       {"web", "the material: line drive, measuring wheel, cut pieces on an outfeed belt",

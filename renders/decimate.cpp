@@ -100,4 +100,32 @@ Points decimated(const Curve& curve, const PixelGrid& grid) {
   return kept;
 }
 
+Points thinned_path(const Curve& curve, const PixelGrid& grid) {
+  constexpr double nearest = 0.5;  // [pixels]
+  const double x_pixel = (grid.x_high - grid.x_low) / grid.columns;
+  const double y_pixel = (grid.y_high - grid.y_low) / grid.rows;
+  Points kept;
+  const auto keep = [&kept](double x, double y) {
+    kept.x.push_back(x);
+    kept.y.push_back(y);
+  };
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const double x = curve.x[i];
+    const double y = curve.y[i];
+    if (!drawn(x, y)) {
+      if (!kept.x.empty() && drawn(kept.x.back(), kept.y.back())) {
+        keep(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
+      }
+      continue;
+    }
+    const bool first = kept.x.empty() || !drawn(kept.x.back(), kept.y.back());
+    const bool last = i + 1 == curve.x.size() || !drawn(curve.x[i + 1], curve.y[i + 1]);
+    if (first || last ||
+        std::hypot((x - kept.x.back()) / x_pixel, (y - kept.y.back()) / y_pixel) >= nearest) {
+      keep(x, y);
+    }
+  }
+  return kept;
+}
+
 }  // namespace drycut::renders

@@ -25,4 +25,8 @@ struct PixelGrid {
 /// to right. Points: one a pixel. Gaps stay gaps.
 Points decimated(const Curve& curve, const PixelGrid& grid);
 
+/// What is left of a path in a plane, which may run any way: a point that is less than half a pixel from the
+/// last one kept is left out, the last of a stretch stays. Gaps stay gaps.
+Points thinned_path(const Curve& curve, const PixelGrid& grid);
+
 }  // namespace drycut::renders

@@ -52,7 +52,12 @@ Range x_range(const Plot& plot) {
       }
     }
   }
-  return span.range(0);
+  bool equal_scale = false;
+  for (const Panel& panel : plot.panels) {
+    equal_scale = equal_scale || panel.equal_scale;
+    for (const NamedPoint& point : panel.points) span.add(point.x);
+  }
+  return span.range(equal_scale ? 0.06 : 0);
 }
 
 Range y_range(const Panel& panel) {
@@ -67,6 +72,7 @@ Range y_range(const Panel& panel) {
     span.add(band.low);
     span.add(band.high);
   }
+  for (const NamedPoint& point : panel.points) span.add(point.y);
   return span.range(0.06);
 }
 
@@ -120,10 +126,82 @@ Range up_to_marks(const Range& range, int wanted) {
           after - range.second < near ? after : range.second};
 }
 
+Range grown_to(const Range& range, double size) {
+  const double add = std::max(0.0, (size - (range.second - range.first)) / 2);
+  return {range.first - add, range.second + add};
+}
+
+/// Lets the ranges of panels of equal scale grow until a unit is as long in x as in y. The other panels
+/// share the x axis and grow with it.
+void equalise(const Plot& plot, PlotLayout& layout, double width, double height) {
+  if (!(width > 0 && height > 0)) return;
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    if (!plot.panels[i].equal_scale) continue;
+    const auto [low, high] = layout.panels[i].y_range;
+    layout.x_range = grown_to(layout.x_range, (high - low) * width / height);
+  }
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    if (!plot.panels[i].equal_scale) continue;
+    const double x_size = layout.x_range.second - layout.x_range.first;
+    layout.panels[i].y_range = grown_to(layout.panels[i].y_range, x_size * height / width);
+  }
+}
+
 double widest_label(const std::vector<Tick>& ticks) {
   double widest = 0;
   for (const Tick& tick : ticks) widest = std::max(widest, text_width(tick.label, PlotType::text));
   return widest;
+}
+
+/// Moves labels that stand across apart until they no longer touch; leaves labels out if there is no room for
+/// all, first those with the least room of their own.
+void spread(std::vector<MarkLayout>& marks, double left, double right) {
+  constexpr double pitch = PlotType::mark + 3;
+  const auto most = static_cast<std::size_t>(std::max(1.0, std::floor((right - left) / pitch)));
+  std::vector<std::size_t> order(marks.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto room = [&](std::size_t i) {
+    return (i + 1 < marks.size() ? marks[i + 1].line : right) - marks[i].line;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return room(a) > room(b); });
+  for (std::size_t i = most; i < order.size(); ++i) marks[order[i]].label.clear();
+
+  double next = left;
+  for (MarkLayout& mark : marks) {
+    if (mark.label.empty()) continue;
+    mark.text = std::max(mark.line, next);
+    next = mark.text + pitch;
+  }
+  double limit = right;
+  for (auto mark = marks.rbegin(); mark != marks.rend(); ++mark) {
+    if (mark->label.empty()) continue;
+    mark->text = std::min(mark->text, limit);
+    limit = mark->text - pitch;
+  }
+}
+
+/// Places the marks and returns the height of their strip of labels.
+double lay_marks(const Plot& plot, PlotLayout& layout) {
+  constexpr double widest_label = 120;
+  const auto [low, high] = layout.x_range;
+  for (const Mark& mark : plot.marks) {
+    if (!(mark.x >= low && mark.x <= high)) continue;
+    const double x = layout.left + (mark.x - low) / (high - low) * (layout.right - layout.left);
+    layout.marks.push_back({fitted_text(one_line(mark.label), PlotType::mark, widest_label), x, x + 4});
+  }
+  double widest = 0;
+  for (std::size_t i = 0; i < layout.marks.size(); ++i) {
+    const MarkLayout& mark = layout.marks[i];
+    const double end = i + 1 < layout.marks.size() ? layout.marks[i + 1].line : layout.right + kRightMargin;
+    const double width = text_width(mark.label, PlotType::mark);
+    if (mark.text + width > end) layout.marks_across = true;
+    widest = std::max(widest, width);
+  }
+  if (widest == 0) return 0;
+  if (!layout.marks_across) return PlotType::mark + 6;
+  spread(layout.marks, layout.left, layout.right);
+  return widest + 6 + kMarkLeader;
 }
 
 }  // namespace
@@ -134,28 +212,37 @@ PlotLayout laid_out(const Plot& plot) {
   layout.right = plot.width - kRightMargin;
   layout.x_range = x_range(plot);
 
+  const int y_ticks = std::clamp(plot.panel_height / 48, 2, 12);
   double widest = 0;
   for (const Panel& panel : plot.panels) {
     PanelLayout here;
     here.y_range = y_range(panel);
     const double least = only_whole_numbers(panel) ? 1 : 0;
-    const int wanted = std::clamp(plot.panel_height / 48, 2, 12);
-    here.y_ticks = axis_ticks(here.y_range.first, here.y_range.second, wanted, least);
+    here.y_ticks = axis_ticks(here.y_range.first, here.y_range.second, y_ticks, least);
     widest = std::max(widest, widest_label(here.y_ticks));
     layout.panels.push_back(here);
   }
   layout.left = std::min(kYLabelWidth + widest + 12, 0.5 * plot.width);
   const int x_ticks = std::clamp(static_cast<int>((layout.right - layout.left) / 110), 2, 16);
-  layout.x_range = up_to_marks(layout.x_range, x_ticks);
+  const double axes_height = plot.panel_height - kPanelHeader - kPanelGap;
+  if (std::any_of(plot.panels.begin(), plot.panels.end(), [](const Panel& p) { return p.equal_scale; })) {
+    equalise(plot, layout, layout.right - layout.left, axes_height);
+    for (PanelLayout& here : layout.panels)
+      here.y_ticks = axis_ticks(here.y_range.first, here.y_range.second, y_ticks);
+  } else {
+    layout.x_range = up_to_marks(layout.x_range, x_ticks);
+  }
   layout.x_ticks = axis_ticks(layout.x_range.first, layout.x_range.second, x_ticks);
 
+  const double strip = lay_marks(plot, layout);
   double y = plot.title.empty() ? 10 : kTitleHeight;
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
     PanelLayout& here = layout.panels[i];
     here.title_y = y + kPanelHeader / 2;
     const int rows = lay_legend(plot.panels[i], layout.left, layout.right, here.title_y, here.legend);
-    here.top = y + kPanelHeader + rows * kLegendRow;
-    here.bottom = here.top + plot.panel_height - kPanelHeader - kPanelGap;
+    here.top = y + kPanelHeader + rows * kLegendRow + (i == 0 ? strip : 0);
+    here.bottom = here.top + axes_height;
+    if (i == 0) layout.marks_bottom = here.top - 3;
     y = here.bottom + kPanelGap;
   }
   layout.height = static_cast<int>(std::ceil(y - kPanelGap + kXAxisHeight));

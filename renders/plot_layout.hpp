@@ -17,6 +17,7 @@ struct PlotType {
   static constexpr double title = 20;
   static constexpr double panel_title = 16;
   static constexpr double text = 15;
+  static constexpr double mark = 13;
 };
 
 /// One entry of a legend: sample and label. It stands for a curve, or for a band.
@@ -36,17 +37,29 @@ struct PanelLayout {
   std::vector<LegendEntry> legend;
 };
 
+/// A mark's label: upright in a strip above the first panel, or across where the labels would touch.
+struct MarkLayout {
+  std::string label;  ///< "" = no room for it
+  double line = 0;    ///< of the mark
+  double text = 0;    ///< left end of an upright label, middle of one that stands across
+};
+
 struct PlotLayout {
   int width = 0, height = 0;
   double left = 0, right = 0;  ///< of all axes
   Range x_range = {0, 1};
   std::vector<Tick> x_ticks;
   std::vector<PanelLayout> panels;
+  std::vector<MarkLayout> marks;  ///< those inside x_range
+  bool marks_across = false;
+  double marks_bottom = 0;  ///< of the strip of labels
 };
 
 /// Length of a legend's sample and its distance from the label [pixels].
 inline constexpr double kLegendSample = 34;
 inline constexpr double kLegendGap = 7;
+/// Between a label that stands across and the first panel: room for the line that leads to its mark.
+inline constexpr double kMarkLeader = 14;
 
 /// Ranges, ticks, margins and legends. Axes without points go from 0 to 1.
 PlotLayout laid_out(const Plot& plot);

@@ -21,6 +21,9 @@ constexpr std::array<const char*, 7> kCurveColours = {"#0072b2", "#d55e00", "#00
                                                       "#e69f00", "#56b4e9", "#333333"};
 constexpr std::array<const char*, 3> kBandColours = {"#e8c400", "#56b4e9", "#8a8f98"};
 constexpr const char* kLimitColour = "#b3261e";
+constexpr const char* kMarkColour = "#7b8794";
+constexpr const char* kMarkTextColour = "#52606d";
+constexpr const char* kPointColour = "#1f2933";
 constexpr double kBandOpacity = 0.22;
 
 /// A plot's script as it grows; converts pixels from the upper left corner to gnuplot's screen coordinates.
@@ -107,7 +110,8 @@ std::vector<std::string> write_data(Script& script, const Plot& plot, const Plot
     };
     for (std::size_t c = 0; c < plot.panels[p].curves.size(); ++c) {
       const Curve& curve = plot.panels[p].curves[c];
-      const Points points = decimated(curve, grid);
+      const bool path = plot.panels[p].equal_scale && curve.style != Curve::Style::points;
+      const Points points = path ? thinned_path(curve, grid) : decimated(curve, grid);
       if (curve.style == Curve::Style::points) {
         plot_block("points", c, points, "with points pointtype 7 pointsize 0.7");
         continue;
@@ -175,6 +179,41 @@ void write_legend(Script& script, const Panel& panel, const PanelLayout& place) 
   }
 }
 
+void write_marks(Script& script, const PlotLayout& layout, const PanelLayout& place, bool labels) {
+  for (const MarkLayout& mark : layout.marks) {
+    script.line("set arrow from {} to {} nohead back lw 0.8 dashtype 3 lc rgb '{}'",
+                script.at(mark.line, place.bottom), script.at(mark.line, place.top), kMarkColour);
+    if (!labels || mark.label.empty()) continue;
+    if (!layout.marks_across) {
+      script.text(mark.text, layout.marks_bottom - PlotType::mark / 2, mark.label, "left", PlotType::mark,
+                  false, kMarkTextColour);
+      continue;
+    }
+    script.line("set arrow from {} to {} nohead front lw 0.8 lc rgb '{}'", script.at(mark.line, place.top),
+                script.at(mark.text, layout.marks_bottom - kMarkLeader + 2), kMarkColour);
+    script.text(mark.text, layout.marks_bottom - kMarkLeader, mark.label, "left rotate by 90", PlotType::mark,
+                false, kMarkTextColour);
+  }
+}
+
+void write_points_named(Script& script, const Panel& panel, const PlotLayout& layout,
+                        const PanelLayout& place) {
+  constexpr double aside = 9;  // of the label from its dot [pixels]
+  const auto share = [](double value, const Range& range) {
+    return (value - range.first) / (range.second - range.first);
+  };
+  for (const NamedPoint& point : panel.points) {
+    const double x = share(point.x, layout.x_range);
+    const double y = share(point.y, place.y_range);
+    if (!(x >= 0 && x <= 1 && y >= 0 && y <= 1)) continue;
+    const double left = layout.left + x * (layout.right - layout.left);
+    const double down = place.bottom - y * (place.bottom - place.top);
+    script.line("set label '' at {} point pointtype 7 pointsize 1.2 lc rgb '{}' front", script.at(left, down),
+                kPointColour);
+    script.text(left + aside, down - aside, one_line(point.label), "left", PlotType::panel_title, true);
+  }
+}
+
 void write_panel(Script& script, const Plot& plot, const PlotLayout& layout, std::size_t index,
                  const std::string& curves) {
   const Panel& panel = plot.panels[index];
@@ -208,6 +247,8 @@ void write_panel(Script& script, const Plot& plot, const PlotLayout& layout, std
                 "#7b8794");
   }
   write_bands(script, panel, place);
+  write_marks(script, layout, place, index == 0);
+  write_points_named(script, panel, layout, place);
   write_legend(script, panel, place);
   script.line("plot {}", curves.empty() ? "NaN" : curves);
 }
@@ -257,6 +298,10 @@ void require_drawable(const Plot& plot) {
                            panel.y_range->first < panel.y_range->second);
     if (!ordered)
       refuse(fmt::format("panel '{}': the y range must go from low to high", one_line(panel.title)));
+    for (const NamedPoint& point : panel.points) {
+      if (std::isfinite(point.x) && std::isfinite(point.y)) continue;
+      refuse(fmt::format("point '{}' is not at a finite place", one_line(point.label)));
+    }
   }
 }
 

@@ -22,6 +22,19 @@ struct Band {
   double high = 0;  ///< equal to `low`: a single limit line
 };
 
+/// A vertical line through all panels of a plot; its label, above the first panel, tells what begins there.
+struct Mark {
+  double x = 0;
+  std::string label;
+};
+
+/// A named point of a panel: a dot with its label beside it.
+struct NamedPoint {
+  std::string label;
+  double x = 0;
+  double y = 0;
+};
+
 /// One pair of axes.
 struct Panel {
   std::string title;
@@ -29,6 +42,8 @@ struct Panel {
   std::vector<Curve> curves;
   std::vector<Band> bands;
   std::optional<std::pair<double, double>> y_range;  ///< automatic if absent
+  std::vector<NamedPoint> points = {};
+  bool equal_scale = false;  ///< a unit is as long in x as in y, for a path in a plane; y_range may grow
 };
 
 /// Panels above each other that share the x axis: one PNG.
@@ -37,8 +52,9 @@ struct Plot {
   std::string title;
   std::string x_label;  ///< with unit: "time [s]"
   std::vector<Panel> panels;
-  int width = 1200;        ///< pixels
-  int panel_height = 300;  ///< pixels
+  int width = 1200;              ///< pixels
+  int panel_height = 300;        ///< pixels
+  std::vector<Mark> marks = {};  ///< in ascending order of x
 };
 
 /// Draws the plots into `directory` as <name>.png and returns the paths. Throws std::runtime_error with the

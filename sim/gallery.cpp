@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "renders/pictures.hpp"
 #include "sim/parameter_text.hpp"
@@ -80,6 +82,46 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
   std::string text;
   for (const auto& unit : distinct) text += (text.empty() ? "" : ", ") + unit;
   return fmt::format("{}{}[{}]", title, title.empty() ? "" : " ", text);
+}
+
+/// A path in a plane: one curve, or one for each whole value of the split channel.
+renders::Panel path_panel(const Recording& recording, const PlotRequest& plot,
+                          const PlotRequest::Panel& request) {
+  const auto& x = *recording.column(request.x.text);
+  const auto& y = *recording.column(request.y.text);
+  const auto* split = request.split.text.empty() ? nullptr : recording.column(request.split.text);
+  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  std::map<double, renders::Curve> curves;
+  double before = 0;
+  for (std::size_t row = 0; row < recording.times().size(); ++row) {
+    const auto time = recording.times()[row];
+    if (time < plot.from || (plot.until && time > *plot.until)) continue;
+    const double part = split == nullptr ? 1 : split->values[row];
+    if (part >= 1) {
+      auto& curve = curves[part];
+      if (part != before && !curve.x.empty()) {
+        curve.x.push_back(gap);
+        curve.y.push_back(gap);
+      }
+      curve.x.push_back(x.values[row]);
+      curve.y.push_back(y.values[row]);
+    }
+    before = part;
+  }
+  renders::Panel panel;
+  panel.title = request.title;
+  panel.y_label = axis_label(y.name, {y.unit});
+  panel.equal_scale = true;
+  for (auto& [part, curve] : curves) {
+    if (split != nullptr) {
+      curve.label = fmt::format("{:g}", part);
+      if (part <= static_cast<double>(request.labels.size()))
+        curve.label = request.labels[static_cast<std::size_t>(part) - 1].text;
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  for (const auto& point : request.points) panel.points.push_back({point.label.text, point.x, point.y});
+  return panel;
 }
 
 renders::Panel panel_of(const Recording& recording, const PlotRequest& plot,
@@ -228,7 +270,17 @@ std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& r
     plot.title = request.title.empty() ? request.name.text : request.title;
     plot.x_label = "time [s]";
     if (request.against_number) plot.x_label = request.panels.front().event.text + " number";
-    for (const auto& panel : request.panels) plot.panels.push_back(panel_of(recording, request, panel));
+    for (const auto& panel : request.panels) {
+      if (!panel.is_path()) {
+        plot.panels.push_back(panel_of(recording, request, panel));
+        continue;
+      }
+      const auto& x = *recording.column(panel.x.text);
+      plot.x_label = axis_label(x.name, {x.unit});
+      plot.width = 960;
+      plot.panel_height = 900;
+      plot.panels.push_back(path_panel(recording, request, panel));
+    }
     plots.push_back(std::move(plot));
   }
   if (plots.empty() && !recording.columns().empty()) plots.push_back(overview(recording));

@@ -129,6 +129,19 @@ struct PlotRequest {
     Text event;                                       ///< instead: points, one an event of this name ("cut")
     std::vector<Text> values;                         ///< of the event ("length")
     std::optional<std::pair<double, double>> limits;  ///< band drawn behind: [low, high], in the curves' unit
+    /// Instead: a path in a plane, at equal scale. With `split`, one curve for each of that channel's whole
+    /// values from 1, named by `labels`; nothing is drawn where it is 0.
+    Text x;
+    Text y;
+    Text split;
+    std::vector<Text> labels;
+    struct Point {
+      Text label;
+      double x = 0;
+      double y = 0;
+    };
+    std::vector<Point> points;  ///< named places on the plane, in the channels' units
+    [[nodiscard]] bool is_path() const { return !x.text.empty(); }
   };
   std::vector<Panel> panels;
   Time from = 0;
@@ -142,7 +155,7 @@ struct PicturesSection {
   Time every = 40 * millisecond;
   Time from = 0;
   std::optional<Time> until;
-  std::string camera = "operator";  ///< operator, overview, close_up
+  std::string camera = "operator";  ///< what it shows: operator = the whole line, else one plant by its name
   int width = 960;
   int height = 540;
   std::vector<Text> caption;  ///< channels in the caption bar

@@ -196,7 +196,16 @@ class Writer {
 
   static std::string panel(const PlotRequest::Panel& one) {
     std::vector<std::string> items = {"title: " + yaml_text(one.title)};
-    if (one.event.text.empty()) {
+    if (one.is_path()) {
+      items.push_back("x: " + yaml_text(one.x.text));
+      items.push_back("y: " + yaml_text(one.y.text));
+      if (!one.split.text.empty()) items.push_back("split: " + yaml_text(one.split.text));
+      if (!one.labels.empty()) items.push_back("labels: " + texts(one.labels));
+      std::vector<std::string> points;
+      for (const auto& p : one.points)
+        points.push_back(fmt::format("{}: [{}, {}]", yaml_text(p.label.text), p.x, p.y));
+      if (!points.empty()) items.push_back("points: " + map(points));
+    } else if (one.event.text.empty()) {
       items.push_back("channels: " + texts(one.channels));
     } else {
       items.push_back("event: " + yaml_text(one.event.text));

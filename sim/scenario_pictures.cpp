@@ -72,6 +72,44 @@ void read_limits(const YamlNode& list, const std::string& name, PlotRequest::Pan
   panel.limits = {numbers[0], numbers[1]};
 }
 
+// points: {A: [0, 0], B: [15, -33]}
+void read_points(const YamlNode& map, const std::string& name, PlotRequest::Panel& panel,
+                 Findings& findings) {
+  refuse_duplicates(map, name, findings);
+  for (const auto& [key, value] : map.entries) {
+    const auto full = name + "." + key.text;
+    std::vector<double> numbers;
+    if (value.kind == YamlNode::Kind::sequence) {
+      for (const auto& text : read_texts(value, full, findings)) {
+        if (const auto number = read_si(text, full, "", findings)) numbers.push_back(*number);
+      }
+      if (numbers.size() != value.items.size()) continue;
+    }
+    if (numbers.size() != 2) {
+      findings.add(key.place, fmt::format("{} must be a place in the plane", full), "for example [15, -33]");
+      continue;
+    }
+    panel.points.push_back({key, numbers[0], numbers[1]});
+  }
+}
+
+void check_path(MapReader& reader, const std::string& name, const PlotRequest::Panel& panel,
+                Findings& findings) {
+  if (reader.has("x") != reader.has("y")) {
+    findings.add(reader.place(reader.has("x") ? "x" : "y"), fmt::format("{}: x and y go together", name),
+                 "write x: AxisX.posit, y: AxisY.posit");
+  }
+  for (const auto* key : {"channels", "event", "values", "limits"}) {
+    if (!reader.has(key)) continue;
+    findings.add(reader.place(key), fmt::format("{} has both a path and {}", name, key),
+                 "make two plots of it");
+  }
+  if (!panel.labels.empty() && panel.split.text.empty()) {
+    findings.add(reader.place("labels"), fmt::format("{}: labels are for the parts of a split path", name),
+                 "add split: with the channel that numbers them, or leave labels out");
+  }
+}
+
 PlotRequest::Panel read_panel(const YamlNode& node, const std::string& name, Findings& findings) {
   PlotRequest::Panel panel;
   MapReader reader(node, name, findings);
@@ -80,8 +118,22 @@ PlotRequest::Panel read_panel(const YamlNode& node, const std::string& name, Fin
   reader.text("event", panel.event);
   reader.texts("values", panel.values);
   if (const auto* limits = reader.list("limits")) read_limits(*limits, name + ".limits", panel, findings);
+  reader.text("x", panel.x);
+  reader.text("y", panel.y);
+  reader.text("split", panel.split);
+  reader.texts("labels", panel.labels);
+  if (const auto* points = reader.map("points")) read_points(*points, name + ".points", panel, findings);
   reader.finish();
   if (node.kind != YamlNode::Kind::map) return panel;
+  if (reader.has("x") || reader.has("y")) {
+    check_path(reader, name, panel, findings);
+    return panel;
+  }
+  for (const auto* key : {"split", "labels", "points"}) {
+    if (!reader.has(key)) continue;
+    findings.add(reader.place(key), fmt::format("{}: {} goes with a path in a plane", name, key),
+                 "write x: AxisX.posit, y: AxisY.posit, or leave it out");
+  }
   if (reader.has("channels") && reader.has("event")) {
     findings.add(reader.place("event"), fmt::format("{} has both channels and an event", name),
                  "make two panels of it");
@@ -137,6 +189,15 @@ PlotRequest read_plot(const YamlNode& node, const std::string& name, Findings& f
                  "leave / and \\ out; it becomes name.png");
   }
   if (!reader.has("panels")) reader.missing("panels", "add panels: [{title: ..., channels: [...]}]");
+  const auto paths = std::count_if(plot.panels.begin(), plot.panels.end(),
+                                   [](const PlotRequest::Panel& panel) { return panel.is_path(); });
+  if (paths > 0 && plot.panels.size() > 1) {
+    findings.add(reader.place("panels"), fmt::format("{}: a path stands alone in its plot", name),
+                 "make a plot of each");
+  }
+  if (paths > 0 && plot.against_number) {
+    findings.add(reader.place("against"), fmt::format("{}: a path has its own x", name), "leave against out");
+  }
   return plot;
 }
 

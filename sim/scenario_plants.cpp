@@ -221,6 +221,7 @@ std::vector<std::size_t> references(const std::vector<PlantEntry>& all, const Pl
   for (const auto& parameter : plant.definition->parameters()) {
     if (parameter.reference.empty()) continue;
     const auto& name = *std::get<std::string*>(parameter.value);
+    if (name == plants::no_plant) continue;
     const auto place = place_of(plant, parameter.name);
     const auto full = fmt::format("plants.{}.{}", plant.name.text, parameter.name);
     const auto target = std::find_if(all.begin(), all.end(),

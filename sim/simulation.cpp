@@ -94,6 +94,8 @@ void Simulation::bind_pictures(devices::Problems& problems) {
   for (const auto& plot : scenario_.pictures.plots) {
     for (const auto& panel : plot.panels) {
       for (const auto& name : panel.channels) add_channel(name, problems);
+      for (const auto* name : {&panel.x, &panel.y, &panel.split})
+        if (!name->text.empty()) add_channel(*name, problems);
     }
   }
   for (const auto& name : scenario_.pictures.caption) {
@@ -175,6 +177,7 @@ void Simulation::snapshot() {
   shot.time = time_;
   std::vector<plants::PartPose> poses;
   for (auto& plant : plants_) {
+    poses.clear();
     plant->poses(poses);
     shot.poses.insert(shot.poses.end(), poses.begin(), poses.end());
   }

@@ -155,7 +155,8 @@ struct Specimen {
     definitions.push_back(type.define());
     auto* definition = definitions.back().get();
     for (auto& parameter : definition->parameters()) {
-      if (parameter.reference.empty()) continue;
+      if (parameter.reference.empty() || *std::get<std::string*>(parameter.value) == plants::no_plant)
+        continue;
       const auto& types = plants::plant_types();
       const auto other = std::find_if(types.begin(), types.end(),
                                       [&](const auto& t) { return t.name == parameter.reference; });

@@ -1,0 +1,258 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plants/linear_axis.hpp"
+
+namespace drycut::plants {
+
+// How a linear axis looks: beam with two rails and the screw (or belt) between them, motor at the lower end,
+// carriage on top. All sizes follow the carriage, so that a short axis is a small one.
+
+namespace {
+
+using Shape = Part::Shape;
+using Point = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;
+
+constexpr double floor_y = -0.9;
+constexpr double belt_lead = 0.06;   // no screw has such a lead [m]
+constexpr double ink_step = 1.2e-3;  // [m]
+constexpr std::size_t ink_dots = 600;
+constexpr double right_angle = std::numbers::pi / 2;
+
+constexpr std::array<float, 3> beam_colour = {0.16F, 0.30F, 0.42F};
+constexpr std::array<float, 3> steel = {0.74F, 0.76F, 0.78F};
+constexpr std::array<float, 3> carriage_colour = {0.93F, 0.55F, 0.13F};
+constexpr std::array<float, 3> dark = {0.12F, 0.12F, 0.13F};
+constexpr std::array<float, 3> red = {0.86F, 0.12F, 0.10F};
+constexpr std::array<float, 3> white = {0.95F, 0.95F, 0.95F};
+constexpr std::array<float, 3> ink_colour = {0.05F, 0.25F, 0.75F};
+
+Quaternion about_x(double angle) { return {std::sin(angle / 2), 0, 0, std::cos(angle / 2)}; }
+Quaternion about_y(double angle) { return {0, std::sin(angle / 2), 0, std::cos(angle / 2)}; }
+Quaternion about_z(double angle) { return {0, 0, std::sin(angle / 2), std::cos(angle / 2)}; }
+
+Quaternion product(const Quaternion& a, const Quaternion& b) {
+  return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
+          a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
+          a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
+          a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
+}
+
+double carriage_length(const LinearAxisData& data) {
+  return std::clamp(0.2 * (data.travel_max - data.travel_min), 0.07, 0.2);
+}
+/// Size of everything against a carriage of 160 mm.
+double size_factor(const LinearAxisData& data) { return carriage_length(data) / 0.16; }
+double middle(const LinearAxisData& data) { return (data.travel_min + data.travel_max) / 2; }
+
+}  // namespace
+
+/// A part and where its middle is: along the axis from position 0, over the beam's lower side, to its right.
+struct LinearAxis::Item {
+  Part part;
+  double along = 0;
+  double up = 0;
+  double side = 0;
+  bool carried = false;  ///< moves with the carriage; `along` is from its middle
+  Quaternion turned = {0, 0, 0, 1};
+};
+
+Point LinearAxis::point(const Point& from, double along, double up, double side) const {
+  const double ch = std::cos(data_.heading);
+  const double sh = std::sin(data_.heading);
+  const double ci = std::cos(data_.inclination);
+  const double si = std::sin(data_.inclination);
+  return {from[0] + ci * ch * along - si * ch * up + sh * side, from[1] + si * along + ci * up,
+          from[2] - ci * sh * along + si * sh * up + ch * side};
+}
+
+Point LinearAxis::origin(double carrier_position) const {
+  const Point place = {data_.place_x, data_.place_y, data_.place_z};
+  if (carrier_ == nullptr) return place;
+  const Point on = carrier_->mount(carrier_position);
+  const Point middle_at = {on[0] + place[0], on[1] + place[1], on[2] + place[2]};
+  return point(middle_at, -middle(data_), 0, 0);
+}
+
+Point LinearAxis::mount(double position) const {
+  return point(origin(carrier_ != nullptr ? carrier_->carriage_.position : 0), position,
+               0.13 * size_factor(data_), 0);
+}
+
+Point LinearAxis::pen_tip(double carrier_position, double position) const {
+  const double k = size_factor(data_);
+  return point(origin(carrier_position), position, 0.13 * k, -0.24 * k);
+}
+
+void LinearAxis::draw_ink() {
+  if (ink_.size() == ink_dots) return;
+  const Point tip = pen_tip(carrier_ != nullptr ? carrier_->carriage_.position : 0, carriage_.position);
+  if (!ink_.empty()) {
+    const Point& last = ink_.back();
+    if (std::hypot(tip[0] - last[0], tip[1] - last[1], tip[2] - last[2]) < ink_step) return;
+  }
+  ink_.push_back(tip);
+}
+
+std::vector<LinearAxis::Item> LinearAxis::items() const {
+  const double k = size_factor(data_);
+  const double c = carriage_length(data_);
+  const double mid = middle(data_);
+  const double beam = data_.travel_max - data_.travel_min + c + 0.1 * k;
+  const double low = mid - beam / 2;
+  const double high = mid + beam / 2;
+  const auto beside = [&](double distance) {  // of the motor's end
+    return data_.motor == "upper" ? high + distance * k : low - distance * k;
+  };
+  const bool belt = data_.lead >= belt_lead;
+  const Quaternion lying = about_y(right_angle);
+  const double angle = 2 * std::numbers::pi * rotor_.part;
+  const double mark = 0.026 * k;
+  std::vector<Item> all = {
+      {{"beam", Shape::box, {beam, 0.07 * k, 0.14 * k}, beam_colour, "paint"}, mid, 0.035 * k, 0},
+      {{"rail 1", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel"},
+       mid,
+       0.085 * k,
+       0.05 * k},
+      {{"rail 2", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel"},
+       mid,
+       0.085 * k,
+       -0.05 * k},
+      {{"end block 1", Shape::box, {0.03 * k, 0.1 * k, 0.15 * k}, beam_colour, "paint"}, low, 0.05 * k, 0},
+      {{"end block 2", Shape::box, {0.03 * k, 0.1 * k, 0.15 * k}, beam_colour, "paint"}, high, 0.05 * k, 0},
+      {{"coupling", Shape::cylinder, {0.05 * k, 0.05 * k, 0.05 * k}, steel, "steel"},
+       beside(0.04),
+       0.085 * k,
+       0,
+       false,
+       lying},
+      {{"coupling mark", Shape::box, {0.03 * k, 0.006 * k, 0.014 * k}, red, "paint"},
+       beside(0.04),
+       0.085 * k + mark * std::cos(angle),
+       mark * std::sin(angle),
+       false,
+       about_x(angle)},
+      {{"motor", Shape::box, {0.16 * k, 0.11 * k, 0.11 * k}, dark, "paint"}, beside(0.145), 0.085 * k, 0},
+      {{"encoder", Shape::cylinder, {0.085 * k, 0.085 * k, 0.04 * k}, steel, "steel"},
+       beside(0.245),
+       0.085 * k,
+       0,
+       false,
+       lying},
+      {{"stop 1", Shape::box, {0.03 * k, 0.035 * k, 0.1 * k}, red, "rubber"},
+       data_.travel_min - c / 2 - 0.015 * k,
+       0.116 * k,
+       0},
+      {{"stop 2", Shape::box, {0.03 * k, 0.035 * k, 0.1 * k}, red, "rubber"},
+       data_.travel_max + c / 2 + 0.015 * k,
+       0.116 * k,
+       0},
+      {{"home switch", Shape::box, {0.035 * k, 0.025 * k, 0.025 * k}, white, "paint"},
+       data_.home.centre,
+       0.045 * k,
+       0.086 * k},
+      {{"home flag", Shape::box, {0.02 * k, 0.06 * k, 0.006 * k}, white, "paint"},
+       0,
+       0.09 * k,
+       0.083 * k,
+       true},
+      {{"carriage", Shape::box, {c, 0.03 * k, 0.16 * k}, carriage_colour, "paint"}, 0, 0.117 * k, 0, true},
+  };
+  if (belt)
+    all.push_back(
+        {{"belt", Shape::box, {beam - 0.05 * k, 0.008 * k, 0.05 * k}, dark, "rubber"}, mid, 0.085 * k, 0});
+  else
+    all.push_back({{"screw", Shape::cylinder, {0.025 * k, 0.025 * k, beam - 0.02 * k}, steel, "steel"},
+                   mid,
+                   0.085 * k,
+                   0,
+                   false,
+                   lying});
+  if (carrier_ == nullptr && beam > 0.6) {
+    const double height = data_.place_y - floor_y;
+    for (const double at : {-0.38, 0.38})
+      all.push_back({{at < 0 ? "leg 1" : "leg 2", Shape::box, {0.09, height, 0.1}, beam_colour, "paint"},
+                     mid + at * beam,
+                     -height / 2,
+                     0});
+  }
+  const double stroke = tool_.level ? 0 : 1;
+  if (data_.tool == "blade") {
+    const double web = -data_.place_y;  // height of the web over the beam's lower side
+    const double reach = -data_.place_z;
+    const double blade = web + 0.05 + 0.07 * stroke;
+    all.push_back(
+        {{"column", Shape::box, {0.1, 0.24, 0.06}, carriage_colour, "paint"}, 0, 0.13 * k + 0.12, 0, true});
+    all.push_back({{"arm", Shape::box, {0.08, 0.06, reach + 0.24}, carriage_colour, "paint"},
+                   0,
+                   0.13 * k + 0.22,
+                   (reach + 0.18) / 2,
+                   true});
+    all.push_back({{"ram", Shape::box, {0.05, 0.3, 0.05}, steel, "steel"}, 0, blade + 0.18, reach, true});
+    all.push_back({{"blade", Shape::wedge, {0.03, 0.1, 0.34}, red, "blade"}, 0, blade, reach, true});
+  } else if (data_.tool == "guide") {
+    all.push_back(
+        {{"post", Shape::box, {0.04 * k, 0.2 * k, 0.04 * k}, steel, "steel"}, 0, 0.23 * k, 0, true});
+    all.push_back(
+        {{"arm", Shape::box, {0.03 * k, 0.025 * k, 0.2 * k}, steel, "steel"}, 0, 0.32 * k, 0.1 * k, true});
+    for (const double at : {-1.0, 1.0})
+      all.push_back(
+          {{at < 0 ? "roller 1" : "roller 2", Shape::cylinder, {0.03 * k, 0.03 * k, 0.08 * k}, dark, "steel"},
+           at * 0.02 * k,
+           0.32 * k,
+           0.23 * k,
+           true,
+           about_x(right_angle)});
+  } else if (data_.tool == "pen") {
+    const double lift = 0.02 * k * stroke;
+    all.push_back({{"pen holder", Shape::box, {0.06 * k, 0.06 * k, 0.1 * k}, carriage_colour, "paint"},
+                   0,
+                   0.13 * k,
+                   -0.08 * k,
+                   true});
+    all.push_back({{"pen", Shape::cylinder, {0.022 * k, 0.022 * k, 0.22 * k}, red, "paint"},
+                   0,
+                   0.13 * k,
+                   -0.13 * k + lift,
+                   true});
+  }
+  return all;
+}
+
+std::vector<Part> LinearAxis::parts() {
+  std::vector<Part> list;
+  for (Item& item : items()) list.push_back(std::move(item.part));
+  if (data_.tool == "pen") {
+    const double wide = carrier_ != nullptr ? carrier_->data_.travel_max - carrier_->data_.travel_min : 0.05;
+    const double deep = data_.travel_max - data_.travel_min;
+    list.push_back({"sheet", Shape::box, {deep, wide, 0.004}, white, "paint"});
+    for (std::size_t i = 0; i < ink_dots; ++i)
+      list.push_back(
+          {fmt::format("ink {}", i + 1), Shape::box, {1.4e-3, 1.4e-3, 1.4e-3}, ink_colour, "paint"});
+  }
+  return list;
+}
+
+void LinearAxis::poses(std::vector<PartPose>& out) {
+  const double carrier_position = carrier_ != nullptr ? carrier_->carriage_.position : 0;
+  const Point zero = origin(carrier_position);
+  const Quaternion attitude = product(about_y(data_.heading), about_z(data_.inclination));
+  out.clear();
+  for (const Item& item : items()) {
+    const double along = item.along + (item.carried ? carriage_.position : 0);
+    out.push_back({.pose = {point(zero, along, item.up, item.side), product(attitude, item.turned)}});
+  }
+  if (data_.tool != "pen") return;
+  Point sheet = pen_tip(carrier_ != nullptr ? middle(carrier_->data_) : 0, middle(data_));
+  sheet = point(sheet, 0, 0, -0.0025);
+  out.push_back({.pose = {sheet, attitude}});
+  for (std::size_t i = 0; i < ink_dots; ++i) {
+    const bool drawn = i < ink_.size();
+    out.push_back({.pose = {drawn ? ink_[i] : sheet, {0, 0, 0, 1}}, .visible = drawn});
+  }
+}
+
+}  // namespace drycut::plants

@@ -1,0 +1,381 @@
+#include "plants/linear_axis.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/plants/plants_lookup.hpp"
+
+namespace drycut::plants {
+namespace {
+
+constexpr double h = 1e-4;
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double g = 9.80665;
+
+/// The default unit without friction, a servo that may be off.
+struct Unit {
+  World world;
+  std::unique_ptr<Plant> plant;
+  std::vector<Event> events;
+  std::vector<double> times;
+  int steps = 0;
+  explicit Unit(const LinearAxisDefinition& definition, bool enabled = false) {
+    LinearAxisDefinition mine = definition;
+    plant = mine.build(world, nullptr);
+    plug<CommandPort>(*plant, "servo.enable").level = enabled;
+  }
+  LinearAxis& axis() { return static_cast<LinearAxis&>(*plant); }
+  Slide& carriage() { return axis().carriage(); }
+  Shaft& rotor() { return axis().rotor(); }
+  void step(double dt = h) {
+    plant->drive(dt);
+    world.step(dt);
+    plant->sense(dt);
+    for (Event& event : plant->take_events()) {
+      times.push_back((steps + event.fraction) * dt);
+      events.push_back(std::move(event));
+    }
+    ++steps;
+  }
+  void run(double seconds) {
+    const auto count = std::lround(seconds / h);
+    for (long i = 0; i < count; ++i) step();
+    ASSERT_EQ(world.failure(), "");
+  }
+  /// Carriage and motor together at `speed` [m/s].
+  void launch(double speed, const LinearAxisData& data) {
+    carriage().speed = speed;
+    rotor().speed = speed * turn / data.lead * data.gear.ratio;
+  }
+};
+
+LinearAxisDefinition frictionless() {
+  LinearAxisDefinition definition;
+  definition.data.motor_friction = {};
+  definition.data.carriage_friction = {};
+  return definition;
+}
+
+double inertia_at_carriage(const LinearAxisData& data) {
+  const double per_metre = turn / data.lead * data.gear.ratio;
+  return data.mass + (data.servo.rotor_inertia + data.screw_inertia / (data.gear.ratio * data.gear.ratio)) *
+                         per_metre * per_metre;
+}
+
+TEST(LinearAxis, FreeMotionKeepsItsSpeed) {
+  const auto definition = frictionless();
+  Unit unit(definition);
+  unit.launch(0.3, definition.data);
+  unit.run(2);
+  EXPECT_NEAR(channel(*unit.plant, "speed"), 300, 1e-9);
+  EXPECT_NEAR(channel(*unit.plant, "position"), 700, 1e-6);
+  EXPECT_NEAR(channel(*unit.plant, "motor.speed"), 0.3 / 0.02 * 60, 1e-9);
+  EXPECT_NEAR(channel(*unit.plant, "encoder.count"), 10000 * 0.6 / 0.02, 1);
+  EXPECT_NEAR(channel(*unit.plant, "scale.count"), 600000, 1);
+}
+
+TEST(LinearAxis, AnOuterForceAcceleratesCarriageAndMotorTogether) {
+  // Symplectic Euler overshoots the travel by a t h / 2.
+  auto definition = frictionless();
+  definition.data.gear.ratio = 2;
+  Unit unit(definition);
+  set(*unit.plant, "force", 500);
+  unit.run(0.5);
+  const double a = 500 / inertia_at_carriage(definition.data);
+  // The spring stretches by the force that moves the motor; its oscillation dies out by its damper.
+  EXPECT_NEAR(channel(*unit.plant, "speed") / (1000 * a * 0.5), 1, 1e-2);
+  EXPECT_NEAR(channel(*unit.plant, "position"), 100 + 1000 * (0.5 * a * 0.25 + 0.5 * a * 0.5 * h), 0.05);
+  set(*unit.plant, "force", 0);
+  const double before = channel(*unit.plant, "speed");
+  unit.run(0.2);
+  EXPECT_NEAR(channel(*unit.plant, "speed"), before, before * 1e-2);
+}
+
+TEST(LinearAxis, ConservesMomentumAndLosesEnergyOnlyInTheDamper) {
+  auto definition = frictionless();
+  const auto& data = definition.data;
+  const auto run = [&](double damping) {
+    definition.data.gear.damping = damping;
+    Unit unit(definition);
+    unit.carriage().speed = 0.2;  // the motor stands: the screw is wound up
+    const double per_metre = turn / data.lead;
+    const auto momentum = [&] {
+      return unit.carriage().speed * data.mass + unit.rotor().speed * unit.rotor().inertia * per_metre;
+    };
+    const auto energy = [&] {
+      const double twist = unit.axis().twist();
+      return 0.5 * data.mass * std::pow(unit.carriage().speed, 2) +
+             0.5 * unit.rotor().inertia * std::pow(unit.rotor().speed, 2) +
+             0.5 * data.gear.stiffness * twist * twist;
+    };
+    const double p = momentum();
+    const double e = energy();
+    unit.run(0.5);
+    EXPECT_NEAR(momentum() / p, 1, 1e-10);
+    return energy() / e;
+  };
+  // Without the damper symplectic Euler lets the energy swing by about w h / 2.
+  const double w = std::sqrt(1000 / (20 * std::pow(0.02 / turn, 2)));
+  EXPECT_NEAR(run(0), 1, w * h);
+  const double end = data.mass / inertia_at_carriage(data);  // both at the common speed
+  EXPECT_NEAR(run(0.05), end, 0.01 * end);
+}
+
+TEST(LinearAxis, OscillatesAtTheTwoMassResonance) {
+  auto definition = frictionless();
+  definition.data.gear.damping = 0;
+  Unit unit(definition);
+  unit.carriage().speed = 0.05;
+  std::vector<double> crossings;
+  double before = 0;
+  const double fine = 1e-5;
+  for (int i = 0; i < 20000; ++i) {
+    unit.step(fine);
+    const double now = unit.axis().twist();
+    if (before < 0 && now >= 0) crossings.push_back((i + before / (before - now)) * fine);
+    before = now;
+  }
+  ASSERT_GT(crossings.size(), 20U);
+  const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  const auto& data = definition.data;
+  const double load = data.mass * std::pow(data.lead / turn, 2);
+  const double motor = data.servo.rotor_inertia + data.screw_inertia;
+  EXPECT_NEAR(turn / period / std::sqrt(1000 * (1 / motor + 1 / load)), 1, 1e-3);
+}
+
+TEST(LinearAxis, EndStopTakesTheMomentumOfAFreeCarriage) {
+  for (const double side : {-1.0, 1.0}) {
+    auto definition = frictionless();
+    definition.data.gear.stiffness = 1e-12;  // the motor holds nothing
+    definition.data.gear.damping = 0;
+    definition.data.stop.damping = 0;
+    definition.data.start = side > 0 ? 1.0 : 0.0;
+    Unit unit(definition);
+    unit.carriage().speed = side * 0.5;
+    while (unit.events.empty() && unit.steps < 20000) unit.step(1e-5);
+    ASSERT_EQ(unit.events.size(), 1U);
+    const Event& hit = unit.events[0];
+    EXPECT_EQ(hit.name, "end_stop");
+    EXPECT_EQ(value(hit, "side"), side);
+    const double speed = value(hit, "speed") / 1000;
+    EXPECT_NEAR(speed, 0.5, 1e-9);
+    EXPECT_NEAR(value(hit, "impulse"), 20 * 0.5, 1e-6);
+    EXPECT_NEAR(value(hit, "force") / (speed * std::sqrt(2e6 * 20)), 1, 2e-3);
+    // A quarter of the contact's period after the touch.
+    EXPECT_NEAR(unit.times[0], 0.05 / 0.5 + turn / 4 / std::sqrt(2e6 / 20), 3e-5);
+  }
+}
+
+TEST(LinearAxis, PressingOnTheStopIsOneHit) {
+  auto definition = frictionless();
+  definition.data.start = 1.04;
+  definition.data.stop.damping = 2e4;  // over-damped with the motor: no rebound
+  Unit unit(definition);
+  set(*unit.plant, "force", 200);
+  unit.run(3);
+  ASSERT_GE(unit.events.size(), 1U);
+  EXPECT_EQ(value(unit.events[0], "side"), 1);
+  const auto hits = unit.events.size();
+  unit.run(1);
+  EXPECT_EQ(unit.events.size(), hits);
+  EXPECT_NEAR(channel(*unit.plant, "stop.force"), 200, 0.1);
+  EXPECT_NEAR(channel(*unit.plant, "position"), 1050 + 200 / 2e6 * 1000, 1e-3);
+}
+
+TEST(LinearAxis, WeightActsAlongAnInclinedAxis) {
+  auto definition = frictionless();
+  definition.data.inclination = std::numbers::pi / 6;
+  definition.data.start = 0.9;
+  Unit unit(definition);
+  unit.run(0.3);
+  const double a = definition.data.mass * g * 0.5 / inertia_at_carriage(definition.data);
+  EXPECT_NEAR(channel(*unit.plant, "speed") / (-1000 * a * 0.3), 1, 1e-2);
+}
+
+TEST(LinearAxis, FrictionHoldsTheCarriageOnASlope) {
+  LinearAxisDefinition definition;
+  definition.data.inclination = 5 * std::numbers::pi / 180;  // 17 N of weight, 30 N of friction
+  Unit unit(definition);
+  unit.run(0.5);
+  EXPECT_EQ(channel(*unit.plant, "position"), 100);
+  EXPECT_EQ(channel(*unit.plant, "speed"), 0);
+}
+
+TEST(LinearAxis, TheServoCarriesTheWeight) {
+  LinearAxisDefinition definition;
+  definition.data.inclination = std::numbers::pi / 2;
+  Unit unit(definition, true);
+  unit.run(1);
+  EXPECT_NEAR(channel(*unit.plant, "speed"), 0, 1e-3);
+  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 20 * g, 31);  // friction may take 30 N of it
+  EXPECT_GT(channel(*unit.plant, "position"), 99);
+}
+
+TEST(LinearAxis, TheReferenceIsASpeed) {
+  LinearAxisDefinition definition;
+  Unit unit(definition, true);
+  plug<ReferencePort>(*unit.plant, "servo.reference").volts = 3;
+  unit.run(1);
+  EXPECT_NEAR(channel(*unit.plant, "motor.speed"), 600, 0.5);
+  EXPECT_NEAR(channel(*unit.plant, "speed"), 200, 0.2);
+  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 30 + 50 * 0.2, 0.5);
+}
+
+TEST(LinearAxis, SwitchesAndZeroPulsesAreWhereTheyAreSet) {
+  auto definition = frictionless();
+  definition.data.start = -0.04;
+  Unit unit(definition);
+  unit.launch(0.1, definition.data);
+  const auto& home = plug<SignalPort>(*unit.plant, "home");
+  const auto& low = plug<SignalPort>(*unit.plant, "limit_min");
+  const auto& high = plug<SignalPort>(*unit.plant, "limit_max");
+  const auto& index = plug<SignalPort>(*unit.plant, "encoder.index");
+  const auto& counter = plug<EncoderPort>(*unit.plant, "encoder");
+  EXPECT_TRUE(low.level);
+  EXPECT_FALSE(home.level);
+  int pulses = 0;
+  double home_on = 0;
+  double home_off = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const bool was = home.level;
+    unit.step();
+    const double at = unit.carriage().position;
+    if (!was && home.level) home_on = at;
+    if (was && !home.level) home_off = at;
+    if (index.edge_count == 0) continue;
+    // At whole turns of the motor: multiples of 20 mm, exact to the count.
+    EXPECT_EQ((counter.count_at(index.edges[0].fraction) - 20000) % 10000, 0);
+    ++pulses;
+  }
+  EXPECT_NEAR(home_on, -0.01 + 0.5e-3 * 0.1, 2e-5);
+  EXPECT_NEAR(home_off, 0.0105 + 0.5e-3 * 0.1, 2e-5);
+  EXPECT_EQ(pulses, 2);  // 0 mm and ... the run ends just before 20 mm
+  EXPECT_FALSE(low.level);
+  EXPECT_FALSE(high.level);
+}
+
+TEST(LinearAxis, BacklashLetsTheCarriageStandWhileTheMotorTurnsBack) {
+  LinearAxisDefinition definition;
+  definition.data.gear.backlash = 3.6 * std::numbers::pi / 180;  // 0.2 mm at the carriage
+  Unit unit(definition, true);
+  auto& volts = plug<ReferencePort>(*unit.plant, "servo.reference").volts;
+  volts = 0.5;
+  unit.run(0.5);
+  for (; volts > 0; volts -= 1e-4) unit.step();  // gently, so that the carriage stays on its flank
+  volts = 0;
+  unit.run(0.3);
+  const double position = channel(*unit.plant, "position");
+  const double angle = unit.rotor().revolutions();
+  volts = -0.05;  // 10 rpm: the play of 1 % of a turn takes 60 ms
+  while (channel(*unit.plant, "position") > position - 1e-3 && unit.steps < 20000) unit.step();
+  EXPECT_NEAR(angle - unit.rotor().revolutions(), 0.01, 1.5e-3);
+}
+
+TEST(LinearAxis, Faults) {
+  LinearAxisDefinition definition;
+  Unit unit(definition, true);
+  plug<ReferencePort>(*unit.plant, "servo.reference").volts = 1;
+  unit.run(0.2);
+  fault(unit.plant->faults(), "encoder", "stuck", 1);
+  fault(unit.plant->faults(), "scale", "lose_counts", 100);
+  fault(unit.plant->faults(), "home", "dead", 1);
+  fault(unit.plant->faults(), "limit_min", "stuck", 1);
+  fault(unit.plant->faults(), "limit_max", "stuck", 1);
+  const double count = channel(*unit.plant, "encoder.count");
+  unit.run(0.2);
+  EXPECT_EQ(channel(*unit.plant, "encoder.count"), count);
+  EXPECT_NEAR(channel(*unit.plant, "scale.count"), channel(*unit.plant, "position") * 1000 - 100000 - 100, 2);
+  fault(unit.plant->faults(), "servo", "disabled", 1);
+  unit.run(2);
+  EXPECT_EQ(channel(*unit.plant, "speed"), 0);
+  EXPECT_EQ(channel(*unit.plant, "home"), 0);
+}
+
+TEST(LinearAxis, WhatCannotBeBuiltIsRefused) {
+  const auto objections = [](auto change) {
+    LinearAxisDefinition definition;
+    change(definition.data);
+    std::vector<std::string> names;
+    for (const auto& o : definition.objections()) {
+      EXPECT_FALSE(o.what.empty());
+      EXPECT_FALSE(o.remedy.empty());
+      names.push_back(o.parameter);
+    }
+    return names;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(objections([](LinearAxisData&) {}), ElementsAre());
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.gear.stiffness = 1e6; }), ElementsAre("gear.stiffness"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.stop.damping = 1e6; }), ElementsAre("stop.stiffness"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.motor_friction.viscous = 99; }),
+              ElementsAre("motor_friction.viscous"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.carriage_friction.viscous = 9e5; }),
+              ElementsAre("carriage_friction.viscous"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.travel_max = -1; }), ElementsAre("travel_max"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.start = 2; }), ElementsAre("start"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.limit_max = -1; }), ElementsAre("limit_max"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.servo.max_speed = 1; }), ElementsAre("servo.max_speed"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.servo.peak_torque = 1; }),
+              ElementsAre("servo.peak_torque", "servo.torque_at_max_speed"));
+}
+
+TEST(LinearAxis, TheCarrierMustBeOne) {
+  LinearAxisDefinition definition;
+  definition.data.carrier = "web";
+  World world;
+  EXPECT_THAT([&] { definition.build(world, [](std::string_view) { return nullptr; }); },
+              ::testing::ThrowsMessage<std::invalid_argument>(
+                  ::testing::HasSubstr("'web' is no plant of type linear_axis")));
+}
+
+TEST(LinearAxis, EveryPartHasAPoseAndTheCarriedAxisRidesAlong) {
+  LinearAxisDefinition lower;
+  LinearAxisDefinition upper;
+  upper.data.inclination = std::numbers::pi / 2;
+  upper.data.carrier = "x";
+  upper.data.tool = "pen";
+  World world;
+  const auto x = lower.build(world, nullptr);
+  const auto y = upper.build(world, [&](std::string_view) { return x.get(); });
+  std::vector<PartPose> before;
+  std::vector<PartPose> after;
+  y->poses(before);
+  ASSERT_EQ(before.size(), y->parts().size());
+  static_cast<LinearAxis&>(*x).carriage().position += 0.25;
+  y->poses(after);
+  EXPECT_NEAR(after[0].pose.position[0] - before[0].pose.position[0], 0.25, 1e-12);
+  EXPECT_NEAR(after[0].pose.position[1], before[0].pose.position[1], 1e-12);
+  for (const char* tool : {"none", "guide", "blade", "pen"}) {
+    LinearAxisDefinition definition;
+    definition.data.tool = tool;
+    const auto plant = definition.build(world, nullptr);
+    plant->poses(after);
+    EXPECT_EQ(after.size(), plant->parts().size()) << tool;
+  }
+}
+
+TEST(LinearAxis, ThePenLeavesInkOnlyWhileItIsDown) {
+  auto definition = frictionless();
+  definition.data.tool = "pen";
+  Unit unit(definition);
+  unit.launch(0.1, definition.data);
+  const auto visible = [&] {
+    std::vector<PartPose> poses;
+    unit.plant->poses(poses);
+    return std::count_if(poses.begin(), poses.end(), [](const PartPose& p) { return p.visible; });
+  };
+  const auto blank = visible();
+  unit.run(0.1);
+  EXPECT_EQ(visible(), blank);
+  plug<CommandPort>(*unit.plant, "tool").level = true;
+  unit.run(0.1);  // 10 mm, a dot every 1.2 mm
+  EXPECT_NEAR(static_cast<double>(visible() - blank), 9, 1);
+  unit.run(8);
+  EXPECT_LE(visible() - blank, 600);
+}
+
+}  // namespace
+}  // namespace drycut::plants

@@ -1,0 +1,101 @@
+// Every scenario in scenes/ passes its own checks, every one in tests/scenes/failing fails one; a new file
+// there is tested without a list to keep.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "sim/recorder.hpp"
+#include "sim/simulation.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = DRYCUT_SOURCE_DIR;
+
+std::vector<std::string> scenarios(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string listed(const devices::Problems& problems) {
+  std::string text;
+  for (const auto& problem : problems) text += to_string(problem) + "\n";
+  return text;
+}
+
+/// A run to the end; the pictures are left out.
+struct Played {
+  devices::Problems problems;
+  Scenario scenario;
+  std::unique_ptr<Simulation> simulation;
+  Outcome outcome;
+  explicit Played(const fs::path& file) : scenario(read_scenario(file, {}, problems)) {
+    scenario.pictures.frames = false;
+    if (!problems.empty()) return;
+    simulation = std::make_unique<Simulation>(scenario, problems);
+    if (problems.empty()) outcome = simulation->run();
+  }
+};
+
+class Scenes : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Scenes, PassTheirChecks) {
+  const Played run(root / "scenes" / (GetParam() + ".yaml"));
+  ASSERT_EQ(listed(run.problems), "");
+  EXPECT_EQ(run.outcome.failure, "");
+  EXPECT_EQ(run.outcome.end, run.scenario.scene.duration);
+  EXPECT_FALSE(run.outcome.checks.empty());
+  for (const auto& check : run.outcome.checks)
+    EXPECT_TRUE(check.passed) << check.name << ": " << check.detail;
+}
+
+class FailingScenes : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(FailingScenes, FailACheckAndNothingElse) {
+  const Played run(root / "tests/scenes/failing" / (GetParam() + ".yaml"));
+  ASSERT_EQ(listed(run.problems), "");
+  EXPECT_EQ(run.outcome.failure, "");
+  EXPECT_FALSE(run.outcome.passed());
+}
+
+const auto own_name = [](const auto& info) { return info.param; };
+INSTANTIATE_TEST_SUITE_P(All, Scenes, ::testing::ValuesIn(scenarios(root / "scenes")), own_name);
+INSTANTIATE_TEST_SUITE_P(All, FailingScenes, ::testing::ValuesIn(scenarios(root / "tests/scenes/failing")),
+                         own_name);
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream buffer;
+  buffer << stream.rdbuf();
+  return buffer.str();
+}
+
+TEST(Determinism, TwoRunsLeaveTheSameBytes) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "drycut_determinism";
+  fs::create_directories(folder);
+  std::vector<std::string> traces;
+  std::vector<std::string> events;
+  for (int i = 0; i < 2; ++i) {
+    const Played run(root / "scenes/rotary_knife_short.yaml");
+    ASSERT_EQ(listed(run.problems), "");
+    write_trace(run.simulation->recording(), folder / "trace.csv");
+    write_events(run.simulation->recording(), folder / "events.csv");
+    traces.push_back(bytes_of(folder / "trace.csv"));
+    events.push_back(bytes_of(folder / "events.csv"));
+  }
+  fs::remove_all(folder);
+  EXPECT_GT(traces[0].size(), 100000U);
+  EXPECT_TRUE(traces[0] == traces[1]);  // not EXPECT_EQ: nobody reads a difference of megabytes
+  EXPECT_EQ(events[0], events[1]);
+}
+
+}  // namespace
+}  // namespace drycut::sim
