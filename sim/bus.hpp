@@ -6,7 +6,7 @@
 #include "devices/controller.hpp"
 #include "devices/problem.hpp"
 #include "plants/plant.hpp"
-#include "sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
 

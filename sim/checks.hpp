@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/expression.hpp"
 #include "sim/names.hpp"
 #include "sim/recorder.hpp"
-#include "sim/scenario.hpp"
+#include "sim/scenario/expression.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
 

@@ -5,7 +5,7 @@
 
 #include "devices/controller.hpp"
 #include "devices/problem.hpp"
-#include "sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
 

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "renders/pictures.hpp"
-#include "sim/parameter_text.hpp"
 #include "sim/results.hpp"
+#include "sim/scenario/parameter_text.hpp"
 
 namespace drycut::sim {
 

@@ -1,11 +1,11 @@
-// The program `drycut`: reads the command line and calls what does the work (sim/commands.hpp).
+// The program `drycut`: reads the command line and calls what does the work (sim/commands/commands.hpp).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <string>
 
-#include "sim/commands.hpp"
+#include "sim/commands/commands.hpp"
 
 namespace {
 

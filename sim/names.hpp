@@ -8,7 +8,7 @@
 #include "devices/controller.hpp"
 #include "devices/problem.hpp"
 #include "sim/bus.hpp"
-#include "sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
 

@@ -12,7 +12,7 @@
 #include "sim/checks.hpp"
 #include "sim/names.hpp"
 #include "sim/recorder.hpp"
-#include "sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim/timeline.hpp"
 #include "sim/watch.hpp"
 
@@ -48,7 +48,9 @@ class Simulation {
   Outcome run(const std::function<void(Time)>& progress = {});
 
   /// The controller's retentive values as they are now, as text.
-  [[nodiscard]] std::string retentive_state() const { return controller_ ? controller_->retentive_state() : ""; }
+  [[nodiscard]] std::string retentive_state() const {
+    return controller_ ? controller_->retentive_state() : "";
+  }
   [[nodiscard]] const Recording& recording() const { return recording_; }
   [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }
   [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "sim/units.hpp"
+#include "sim/scenario/units.hpp"
 
 namespace drycut::sim {
 

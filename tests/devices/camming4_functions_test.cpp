@@ -8,7 +8,6 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Every function of the inputs (000 1.7) on the normal input, which sees the counts of its sample, and on
 /// the interrupt input, which has them latched at the edge; every function of the output (000 1.8).
@@ -185,6 +184,7 @@ TEST_P(Camming4Functions, SevenInAMovementKeepsTheQuotaOfTheTarget) {
   EXPECT_NEAR(static_cast<double>(to_go), 2000, 20);
   const std::int64_t at = slave().count;
   ASSERT_TRUE(wait("st_still", 1));
+  EXPECT_NEAR(get("posit"), 9000, 30);  // the profile itself ends there
   ticks(200);
   EXPECT_NEAR(get("posit"), 9000, 1);
   EXPECT_NEAR(static_cast<double>(slave().count - at), static_cast<double>(to_go), 1);

@@ -7,9 +7,6 @@ namespace drycut::devices::camming4 {
 namespace {
 
 using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 /// Leaving a cam and being disturbed in it. Without gains and with the slave blocked the following error is
 /// the theoretical way.

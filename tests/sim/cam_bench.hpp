@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/cam_findings.hpp"
-#include "sim/cam_run.hpp"
-#include "sim/cam_samples.hpp"
-#include "sim/cam_table.hpp"
+#include "sim/cam/findings.hpp"
+#include "sim/cam/run.hpp"
+#include "sim/cam/samples.hpp"
+#include "sim/cam/table.hpp"
 
 namespace drycut::sim::cams {
 

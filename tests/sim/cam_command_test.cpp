@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "sim/cam_plot.hpp"
-#include "sim/commands.hpp"
+#include "sim/cam/plot.hpp"
+#include "sim/commands/commands.hpp"
 #include "tests/sim/cam_bench.hpp"
 
 namespace drycut::sim {

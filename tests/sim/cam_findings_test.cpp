@@ -1,4 +1,4 @@
-#include "sim/cam_findings.hpp"
+#include "sim/cam/findings.hpp"
 
 #include <gmock/gmock.h>
 

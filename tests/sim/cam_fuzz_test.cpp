@@ -5,7 +5,7 @@
 #include <random>
 
 #include "devices/camming4/codes.hpp"
-#include "sim/cam_report.hpp"
+#include "sim/cam/report.hpp"
 #include "tests/sim/cam_bench.hpp"
 
 namespace drycut::sim {

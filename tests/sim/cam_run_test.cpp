@@ -1,4 +1,4 @@
-#include "sim/cam_run.hpp"
+#include "sim/cam/run.hpp"
 
 #include <gmock/gmock.h>
 

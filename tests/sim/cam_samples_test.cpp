@@ -1,4 +1,4 @@
-#include "sim/cam_samples.hpp"
+#include "sim/cam/samples.hpp"
 
 #include <gmock/gmock.h>
 

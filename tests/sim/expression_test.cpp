@@ -1,4 +1,4 @@
-#include "sim/expression.hpp"
+#include "sim/scenario/expression.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
 namespace {

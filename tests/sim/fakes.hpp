@@ -7,7 +7,7 @@
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "sim/names.hpp"
-#include "sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::fakes {
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "sim/scenario_format.hpp"
+#include "sim/scenario/format.hpp"
 #include "tests/sim/scenario_fake_plants.hpp"
 
 namespace drycut::sim {

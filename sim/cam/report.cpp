@@ -1,0 +1,211 @@
+#include "sim/cam/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace drycut::sim {
+
+namespace {
+
+namespace camming4 = devices::camming4;
+
+constexpr std::size_t most_lines = 400;  // of sectors that run differently each time round
+
+/// Without what rounding leaves of a zero.
+std::string number(double value) { return number_text(std::abs(value) < 1e-14 ? 0 : value, 6); }
+
+/// What a row does, in words; a cycloidal code's words are its straight one's.
+std::string meaning(const camming4::Row& row) {
+  const auto* code = camming4::find_code(row.codeG);
+  if (code == nullptr) return "";
+  const auto* straight = code->epicycloidal ? camming4::find_code(code->code - 100) : nullptr;
+  if (straight != nullptr) return fmt::format("{} (cycloidal)", straight->meaning);
+  std::string text(code->meaning);
+  if (row.codeG == 137) text += fmt::format(": {}", row.codeQm);
+  if (row.codeG == 190) text += fmt::format(": {}, {} times", row.codeQm, row.codeQs);
+  if (row.codeG == 160) text += fmt::format(": {} Um", row.codeQm);
+  return text;
+}
+
+/// Columns of text, as wide as their widest cells; numbers to the right, words to the left.
+class Columns {
+ public:
+  explicit Columns(std::vector<bool> words) : words_(std::move(words)) {}
+  void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
+
+  [[nodiscard]] std::string text() const {
+    std::vector<std::size_t> widths(words_.size(), 0);
+    for (const auto& cells : lines_)
+      for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
+    std::string text;
+    for (const auto& cells : lines_) {
+      std::string line;
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        line += words_[i] ? fmt::format("  {:<{}}", cells[i], widths[i])
+                          : fmt::format("  {:>{}}", cells[i], widths[i]);
+      line.erase(line.find_last_not_of(' ') + 1);
+      text += line + '\n';
+    }
+    return text;
+  }
+
+ private:
+  std::vector<bool> words_;
+  std::vector<std::vector<std::string>> lines_;
+};
+
+/// A line of the table of sectors, and how often the cam ran it just so.
+struct Line {
+  std::vector<std::string> cells;
+  int times = 1;
+};
+
+class Report {
+ public:
+  Report(const CamTable& table, const CamDuty& duty, const CamRun& run)
+      : table_(table), duty_(duty), run_(run) {
+    if (duty.master_speed) master_ = *duty.master_speed * um_per_second(table);
+  }
+
+  [[nodiscard]] std::string heading() const {
+    const auto& axes = table_.settings;
+    const auto bit = [](const camming4::Resolution& axis) {
+      return number(static_cast<double>(axis.measure) / static_cast<double>(axis.pulse));
+    };
+    auto text = fmt::format("{}: CAMMING4, {} sector{}; 1 bit x4 = {} Um of the master, {} Um of the slave\n",
+                            table_.file, table_.count(), table_.count() == 1 ? "" : "s", bit(axes.master),
+                            bit(axes.slave));
+    if (master_ > 0)
+      text += fmt::format("master at {} {} = {} Um/s, sampled every {} ms\n", number(*duty_.master_speed),
+                          speed_unit(table_), number(master_), table_.TCamp);
+    if (table_.settings.decpt > 0)
+      text +=
+          fmt::format("speeds in units of {} Um (decpt {})\n", number(std::pow(10, axes.decpt)), axes.decpt);
+    return text;
+  }
+
+  /// The sectors in the order of running; one that runs again in the same way is only counted.
+  std::string sectors() {
+    std::size_t passage = 0;
+    for (std::size_t i = 0; i <= run_.shown; ++i) {
+      for (; passage < run_.passages.size() && run_.passages[passage].visits <= i; ++passage)
+        for (const int row : run_.passages[passage].rows) add_row(row);
+      if (i < run_.shown) add_visit(run_.visits[i]);
+    }
+    const bool repeats =
+        std::any_of(lines_.begin(), lines_.end(), [](const Line& line) { return line.times > 1; });
+    std::vector<bool> words = {false, true, false, false, false, false, false, false};
+    std::vector<std::string> names = {"row", "code", "master", "slave", "entry", "exit", "peak v", "peak a"};
+    std::vector<std::string> units = {"", "", "Um", "Um", "", "", "", "1/Um"};
+    if (master_ > 0) {
+      words.insert(words.end(), 3, false);
+      names.insert(names.end(), {"time", "peak v", "peak a"});
+      units.insert(units.end(), {"s", speed_unit(table_), "Um/s2"});
+    }
+    if (repeats) {
+      words.push_back(false);
+      names.emplace_back("times");
+      units.emplace_back("");
+    }
+    words.push_back(true);
+    names.emplace_back("what it does");
+    Columns columns(words);
+    columns.add(names);
+    columns.add(units);
+    for (const auto& line : lines_) {
+      auto cells = line.cells;
+      if (repeats) cells.insert(cells.end() - 1, std::to_string(line.times));
+      columns.add(std::move(cells));
+    }
+    auto text = columns.text();
+    if (untold_ > 0) text += fmt::format("  ... and {} more that run differently each time\n", untold_);
+    return text;
+  }
+
+  [[nodiscard]] std::string totals() const {
+    std::string text = fmt::format("master total {} Um, slave total {} Um", number_text(run_.master_total),
+                                   number_text(run_.slave_total));
+    if (run_.passes > 1) text += fmt::format(" in {} passes", run_.passes);
+    if (master_ > 0) text += fmt::format(", {} s", number(run_.master_total / master_));
+    return text + '\n';
+  }
+
+ private:
+  void add_row(int row) {
+    const auto& values = table_.sector(row).row;
+    std::vector<std::string> cells = {std::to_string(row), code_text(values.codeG), "", "", "", "", "", ""};
+    if (master_ > 0) cells.insert(cells.end(), 3, "");
+    cells.push_back(meaning(values));
+    count(std::move(cells));
+  }
+
+  void add_visit(const CamVisit& visit) {
+    const auto& row = table_.sector(visit.row).row;
+    const double peak = peak_speed(visit);
+    const double gradient = peak_gradient(visit);
+    std::vector<std::string> cells = {std::to_string(visit.row),
+                                      code_text(row.codeG),
+                                      number(visit.master_length),
+                                      number(visit.slave_length),
+                                      number(visit.entry_speed()),
+                                      number(visit.exit_speed()),
+                                      number(peak),
+                                      number(gradient)};
+    if (master_ > 0) {
+      cells.push_back(number(visit.master_length / master_));
+      cells.push_back(number(peak * *duty_.master_speed));
+      cells.push_back(number(gradient * master_ * master_));
+    }
+    cells.push_back(meaning(row));
+    count(std::move(cells));
+  }
+
+  void count(std::vector<std::string> cells) {
+    const auto [place, fresh] = places_.emplace(cells, lines_.size());
+    if (!fresh) {
+      if (place->second < lines_.size()) ++lines_[place->second].times;
+      return;
+    }
+    if (lines_.size() < most_lines)
+      lines_.push_back({std::move(cells)});
+    else
+      ++untold_;
+  }
+
+  const CamTable& table_;
+  const CamDuty& duty_;
+  const CamRun& run_;
+  double master_ = 0;  ///< [Um/s], 0 = not given
+  std::vector<Line> lines_;
+  std::map<std::vector<std::string>, std::size_t> places_;
+  std::size_t untold_ = 0;
+};
+
+std::string findings_text(const std::vector<CamFinding>& findings) {
+  if (findings.empty()) return "no finding\n";
+  std::string text;
+  for (const auto& finding : findings) text += to_string(finding) + '\n';
+  return text;
+}
+
+}  // namespace
+
+std::string cam_report(const CamTable& table, const CamDuty& duty, const CamRun& run,
+                       const std::vector<CamFinding>& findings) {
+  Report report(table, duty, run);
+  return report.heading() + '\n' + report.sectors() + '\n' + findings_text(findings) + report.totals();
+}
+
+std::string cam_samples_text(const std::vector<CamPoint>& points) {
+  Columns columns({false, false, false, false, false, false});
+  columns.add({"master", "slave", "velocity", "acceleration", "jerk", "sector"});
+  for (const auto& p : points)
+    columns.add({number_text(p.master), number_text(p.slave), number_text(p.velocity),
+                 number_text(p.acceleration), number_text(p.jerk), std::to_string(p.row)});
+  return columns.text();
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "devices/catalogue.hpp"
+#include "devices/qmove/cnf.hpp"
+#include "devices/qmove/program.hpp"
+#include "sim/cam/table.hpp"
+#include "sim/commands/commands.hpp"
+#include "sim/file.hpp"
+#include "sim/simulation.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+namespace qmove = devices::qmove;
+
+/// Checks files in the order given; a configuration stands for the modules after it.
+class Checker {
+ public:
+  explicit Checker(bool expand) : expand_(expand) {}
+
+  void check(const std::filesystem::path& file) {
+    auto kind = file.extension().string();
+    for (auto& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (kind == ".yaml" || kind == ".yml") {
+      check_scenario(file);
+    } else if (kind == ".cnf") {
+      check_configuration(file);
+    } else if (kind == ".mod" || kind == ".qcl") {
+      check_module(file);
+    } else if (kind == ".csv") {
+      if (const auto text = read_file(file, problems_)) read_cam_table(*text, file.string(), problems_);
+    } else {
+      problems_.push_back(
+          {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
+           "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl) or a cam "
+           "table (.csv)"});
+    }
+  }
+
+  [[nodiscard]] const devices::Problems& problems() const { return problems_; }
+
+ private:
+  void check_scenario(const std::filesystem::path& file) {
+    const auto before = problems_.size();
+    const auto scenario = read_scenario(file, {}, problems_);
+    if (scenario.buildable) Simulation simulation(scenario, problems_);
+    if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
+  }
+
+  void check_configuration(const std::filesystem::path& file) {
+    configuration_.reset();
+    if (const auto text = read_file(file, problems_)) {
+      configuration_ = qmove::parse_configuration(*text, file.string(), devices::catalogue(), problems_);
+    }
+  }
+
+  void check_module(const std::filesystem::path& file) {
+    if (!configuration_) {
+      problems_.push_back({file.string(), 1, 1, "a QCL module needs a configuration to be checked against",
+                           "name its .cnf file before it"});
+      return;
+    }
+    if (const auto text = read_file(file, problems_)) {
+      qmove::compile_module(*text, file.string(), *configuration_, devices::catalogue(), problems_);
+    }
+  }
+
+  bool expand_;
+  devices::Problems problems_;
+  std::optional<qmove::Configuration> configuration_;
+};
+
+}  // namespace
+
+int check_files(const CheckOptions& options) {
+  Checker checker(options.expand);
+  for (const auto& file : options.files) checker.check(file);
+  print_problems(checker.problems());
+  if (!checker.problems().empty()) {
+    fmt::print(stderr, "{} problem{} in {} file{}\n", checker.problems().size(),
+               checker.problems().size() == 1 ? "" : "s", options.files.size(),
+               options.files.size() == 1 ? "" : "s");
+    return bad_input;
+  }
+  if (!options.expand)
+    fmt::print("{} file{} checked, no problem\n", options.files.size(), options.files.size() == 1 ? "" : "s");
+  return all_passed;
+}
+
+}  // namespace drycut::sim

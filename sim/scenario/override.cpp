@@ -1,0 +1,119 @@
+// --set path=value, put into the tree before the scenario is read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "sim/scenario/sections.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+class OverrideSetter {
+ public:
+  OverrideSetter(const Override& override, int source, Findings& findings)
+      : override_(override), place_{1, 1, source}, findings_(findings) {}
+
+  void apply(YamlNode& root) {
+    const auto before = findings_.count();
+    value_ = parse_yaml(override_.value, place_.source, findings_);
+    if (findings_.count() != before) return;
+    if (root.kind == YamlNode::Kind::map) set(root, override_.path, "");
+  }
+
+ private:
+  // Follows `rest` below `node`, which is called `name`.
+  void set(YamlNode& node, std::string_view rest, const std::string& name) {
+    if (rest.empty()) return refuse("the path ends with a dot or is empty", "write section.key=value");
+    switch (node.kind) {
+      case YamlNode::Kind::map:
+        return set_in_map(node, rest, name);
+      case YamlNode::Kind::sequence:
+        return set_in_list(node, rest, name);
+      case YamlNode::Kind::scalar:
+      case YamlNode::Kind::null:
+        refuse(fmt::format("{} is {}; nothing is below it", name, name_of(node.kind)),
+               fmt::format("--set {}=value", name));
+    }
+  }
+
+  // Keys may contain dots themselves (wiring.2.CNT01): the longest that fits is meant.
+  void set_in_map(YamlNode& map, std::string_view rest, const std::string& name) {
+    YamlNode::Entry* best = nullptr;
+    for (auto& entry : map.entries) {
+      const auto& key = entry.key.text;
+      const bool fits = rest == key || (rest.starts_with(key) && rest.substr(key.size()).starts_with('.'));
+      if (fits && (best == nullptr || key.size() > best->key.text.size())) best = &entry;
+    }
+    if (best == nullptr) return add(map, rest, name);
+    const auto full = name.empty() ? best->key.text : name + "." + best->key.text;
+    if (rest == best->key.text) {
+      best->value = value_;
+    } else {
+      // A section that stands without a value is as good as absent.
+      if (name.empty() && best->value.kind == YamlNode::Kind::null) best->value.kind = YamlNode::Kind::map;
+      set(best->value, rest.substr(best->key.text.size() + 1), full);
+    }
+  }
+
+  // A key that the file leaves at its default. The readers refuse what they do not know; here only the way
+  // to it must exist.
+  void add(YamlNode& map, std::string_view rest, const std::string& name) {
+    const auto dot = rest.find('.');
+    const std::string first(rest.substr(0, dot));
+    const auto& sections = section_names();
+    if (dot == std::string_view::npos || takes_dotted_keys(name)) {
+      map.entries.push_back({Text{std::string(rest), place_}, value_});
+    } else if (name.empty() && std::find(sections.begin(), sections.end(), first) != sections.end()) {
+      map.entries.push_back({Text{first, place_}, YamlNode{YamlNode::Kind::map, {"", place_}}});
+      set(map.entries.back().value, rest.substr(dot + 1), first);
+    } else {
+      std::vector<std::string> keys = name.empty() ? sections : std::vector<std::string>();
+      for (const auto& entry : map.entries) keys.push_back(entry.key.text);
+      refuse(fmt::format("there is no '{}' in {}", first, name.empty() ? "the scenario" : name),
+             did_you_mean(first, keys));
+    }
+  }
+
+  // Parameters of a plant (servo.rated_torque) and names of terminals, targets and variables.
+  static bool takes_dotted_keys(const std::string& name) {
+    return name.starts_with("plants.") || name == "wiring" || name == "controller.qmove.set" ||
+           (name.starts_with("timeline.") && (name.ends_with(".set") || name.ends_with(".ramp")));
+  }
+
+  void set_in_list(YamlNode& list, std::string_view rest, const std::string& name) {
+    const auto part = rest.substr(0, rest.find('.'));
+    std::size_t index = 0;
+    const auto read = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (read.ec != std::errc() || read.ptr != part.data() + part.size() || index >= list.items.size()) {
+      const auto remedy =
+          list.items.empty() ? std::string("it is empty") : fmt::format("0 to {}", list.items.size() - 1);
+      return refuse(fmt::format("'{}' is no entry of the list {}", part, name), remedy);
+    }
+    auto& item = list.items[index];
+    if (part.size() == rest.size()) {
+      item = value_;
+    } else {
+      set(item, rest.substr(part.size() + 1), fmt::format("{}.{}", name, index));
+    }
+  }
+
+  void refuse(std::string what, std::string remedy) {
+    findings_.add(place_, std::move(what), std::move(remedy));
+  }
+
+  const Override& override_;
+  Place place_;
+  Findings& findings_;
+  YamlNode value_;
+};
+
+}  // namespace
+
+void apply_override(YamlNode& root, const Override& override, int source, Findings& findings) {
+  OverrideSetter(override, source, findings).apply(root);
+}
+
+}  // namespace drycut::sim

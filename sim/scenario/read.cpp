@@ -1,0 +1,289 @@
+// The scenario as a whole: text, overrides, sections, and what must fit together.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "sim/file.hpp"
+#include "sim/scenario/format.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim/scenario/sections.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr std::size_t largest_text = std::size_t{1} << 20U;  // [bytes]; yaml-cpp takes half a second for it
+
+// Bytes of the well-formed UTF-8 character at the start of `text`, 0 if there is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  if (first < 0x20 && first != '\t' && first != '\n' && first != '\r') return 0;
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+// Binary files and other encodings end here, with the place of the first byte that is no text.
+bool is_text(std::string_view text, Findings& findings) {
+  Place place{1, 1};
+  while (!text.empty()) {
+    const auto length = utf8_length(text);
+    if (length == 0) {
+      findings.add(place, fmt::format("byte 0x{:02x} is no text", static_cast<unsigned char>(text[0])),
+                   "a scenario is a YAML text in UTF-8");
+      return false;
+    }
+    ++place.column;
+    if (text[0] == '\n') place = {place.line + 1, 1};
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+void read_seed(const Text& text, std::uint64_t& seed, Findings& findings) {
+  const char* const end = text.text.data() + text.text.size();
+  const auto read = std::from_chars(text.text.data(), end, seed);
+  if (read.ec == std::errc() && read.ptr == end) return;
+  findings.add(text.place, fmt::format("scene.seed: '{}' is not a whole number", text.text),
+               "0 to 18446744073709551615");
+}
+
+SceneSection read_scene(const YamlNode& node, Findings& findings) {
+  SceneSection scene;
+  MapReader reader(node, "scene", findings);
+  reader.text("title", scene.title);
+  reader.time("step", scene.step, Sign::positive);
+  if (const auto* step = reader.scalar("step")) scene.step_place = step->place;
+  reader.time("duration", scene.duration, Sign::positive);
+  if (const auto* seed = reader.scalar("seed")) read_seed(*seed, scene.seed, findings);
+  reader.finish();
+  return scene;
+}
+
+QmoveSection read_qmove(const YamlNode& node, const Place& place, Findings& findings) {
+  QmoveSection qmove;
+  qmove.place = place;
+  MapReader reader(node, "controller.qmove", findings);
+  reader.text("configuration", qmove.configuration);
+  reader.texts("tasks", qmove.tasks);
+  reader.time("cycle", qmove.cycle, Sign::positive);
+  reader.text("retentive", qmove.retentive);
+  if (const auto* set = reader.map("set")) {
+    refuse_duplicates(*set, "controller.qmove.set", findings);
+    for (const auto& entry : set->entries) {
+      const auto name = "controller.qmove.set." + entry.key.text;
+      if (entry.value.kind != YamlNode::Kind::scalar) {
+        refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
+      } else if (const auto number = read_si(entry.value.text, name, "", findings)) {
+        qmove.set.emplace_back(entry.key, *number);
+      }
+    }
+  }
+  reader.finish();
+  if (!reader.has("configuration")) {
+    reader.missing("configuration", "add configuration: programs/line.cnf");
+  }
+  return qmove;
+}
+
+ControllerSection read_controller(const YamlNode& node, Findings& findings) {
+  refuse_duplicates(node, "controller", findings);
+  ControllerSection section;
+  for (const auto& entry : node.entries) {
+    if (entry.key.text != "qmove") {
+      findings.add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text), "known: qmove");
+    } else if (!is_repeated(node, entry)) {
+      section = read_qmove(entry.value, entry.key.place, findings);
+    }
+  }
+  if (node.entries.empty()) {
+    findings.add(node.text.place, "controller names none", "write controller: {qmove: {configuration: ...}}");
+  }
+  return section;
+}
+
+std::vector<Wire> read_wiring(const YamlNode& node, Findings& findings) {
+  std::vector<Wire> wiring;
+  refuse_duplicates(node, "wiring", findings);
+  for (const auto& entry : node.entries) {
+    const auto name = "wiring." + entry.key.text;
+    if (is_repeated(node, entry)) continue;
+    if (entry.value.kind == YamlNode::Kind::scalar) {
+      wiring.push_back({entry.key, entry.value.text});
+    } else if (entry.value.kind == YamlNode::Kind::null) {
+      findings.add(entry.key.place, fmt::format("{} leads to nothing", name),
+                   "write terminal: plant.plug, or terminal: panel.switch");
+    } else {
+      refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
+    }
+  }
+  return wiring;
+}
+
+RecordSection read_record(const YamlNode& node, Findings& findings) {
+  RecordSection record;
+  record.place = node.text.place;
+  MapReader reader(node, "record", findings);
+  reader.time("every", record.every, Sign::positive);
+  reader.texts("channels", record.channels);
+  reader.finish();
+  for (std::size_t i = 0; i < record.channels.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (record.channels[i].text != record.channels[j].text) continue;
+      findings.add(record.channels[i].place,
+                   fmt::format("channel {} is recorded twice", record.channels[i].text), "keep one");
+      break;
+    }
+  }
+  return record;
+}
+
+// Where the value at `path` stands: the place of what makes two numbers not fit.
+Place place_at(const YamlNode& root, std::initializer_list<std::string_view> path) {
+  const YamlNode* node = &root;
+  for (const auto& key : path) {
+    const auto found = std::find_if(node->entries.begin(), node->entries.end(),
+                                    [&](const YamlNode::Entry& entry) { return entry.key.text == key; });
+    if (found == node->entries.end()) return node->text.place;
+    node = &found->value;
+  }
+  return node->text.place;
+}
+
+// Every period is a whole multiple of the physics step.
+void require_multiple(const YamlNode& root, std::initializer_list<std::string_view> path, Time period,
+                      Time step, Findings& findings) {
+  if (period % step == 0) return;
+  const Time below = period / step * step;
+  const auto name = fmt::format("{}", fmt::join(path, "."));
+  findings.add(place_at(root, path),
+               fmt::format("{} {} is not a whole multiple of scene.step {}", name, format_time(period),
+                           format_time(step)),
+               below == 0
+                   ? fmt::format("for example {}", format_time(step))
+                   : fmt::format("for example {} or {}", format_time(below), format_time(below + step)));
+}
+
+void check_together(const Scenario& scenario, const YamlNode& root, Findings& findings) {
+  const Time step = scenario.scene.step;
+  require_multiple(root, {"record", "every"}, scenario.record.every, step, findings);
+  if (scenario.pictures.frames) {
+    require_multiple(root, {"pictures", "frames", "every"}, scenario.pictures.every, step, findings);
+  }
+  if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) {
+    require_multiple(root, {"controller", "qmove", "cycle"}, qmove->cycle, step, findings);
+  }
+  if (scenario.scene.duration < step) {
+    findings.add(place_at(root, {"scene", "duration"}),
+                 fmt::format("scene.duration {} is shorter than scene.step {}",
+                             format_time(scenario.scene.duration), format_time(step)),
+                 "let it last at least one step");
+  }
+}
+
+void read_sections(const YamlNode& root, std::span<const plants::PlantType> types, Scenario& scenario,
+                   Findings& findings) {
+  MapReader reader(root, "", findings);
+  if (const auto* node = reader.map("scene")) scenario.scene = read_scene(*node, findings);
+  const auto before = findings.count();
+  if (const auto* node = reader.map("plants")) scenario.plants = read_plants(*node, types, findings);
+  if (const auto* node = reader.map("controller")) {
+    scenario.controller = read_controller(*node, findings);
+  }
+  const bool machine_sound = findings.count() == before;
+  if (const auto* node = reader.map("wiring")) scenario.wiring = read_wiring(*node, findings);
+  if (const auto* node = reader.list("timeline")) scenario.timeline = read_timeline(*node, findings);
+  if (const auto* node = reader.map("record")) scenario.record = read_record(*node, findings);
+  if (const auto* node = reader.list("checks")) scenario.checks = read_checks(*node, findings);
+  if (const auto* node = reader.map("pictures")) scenario.pictures = read_pictures(*node, findings);
+  reader.finish();
+  const auto singly = findings.count();
+  check_together(scenario, root, findings);
+  scenario.buildable = machine_sound && findings.count() == singly;
+}
+
+// The tree of the file, or a map without entries where nothing can be read.
+YamlNode parse(std::string_view text, Findings& findings) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.size() > largest_text) {
+    findings.add({1, 1}, fmt::format("the text has {} bytes", text.size()),
+                 fmt::format("a scenario has at most {}", largest_text));
+    return {};
+  }
+  if (!is_text(text, findings)) return {};
+  return parse_yaml(text, 0, findings);
+}
+
+}  // namespace
+
+Place Text::at(std::size_t offset) const {
+  Place base = place;
+  std::size_t from = 0;
+  for (const auto& next : breaks) {
+    if (next.offset > offset) break;
+    base = next.place;
+    from = next.offset;
+  }
+  base.column += static_cast<int>(offset - from);
+  return base;
+}
+
+devices::Problem problem_at(const Scenario& scenario, const Place& place, std::string what,
+                            std::string remedy) {
+  const auto source = static_cast<std::size_t>(place.source);
+  const auto name = source < scenario.sources.size() ? scenario.sources[source] : scenario.file.string();
+  return {name, place.line, place.column, std::move(what), std::move(remedy)};
+}
+
+const std::vector<std::string>& section_names() {
+  static const std::vector<std::string> names = {"scene",    "plants", "controller", "wiring",
+                                                 "timeline", "record", "checks",     "pictures"};
+  return names;
+}
+
+Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides, devices::Problems& problems,
+                            std::span<const plants::PlantType> types) {
+  Scenario scenario;
+  scenario.file = file;
+  scenario.sources = {file.string()};
+  for (const auto& override : overrides) scenario.sources.push_back("--set " + override.path);
+  Findings findings(scenario.sources);
+  auto root = parse(text, findings);
+  if (findings.empty() && root.kind == YamlNode::Kind::null) {
+    findings.add({1, 1}, "the scenario is empty",
+                 fmt::format("its sections are: {}", fmt::join(section_names(), ", ")));
+  } else if (root.kind != YamlNode::Kind::null) {
+    for (std::size_t i = 0; i < overrides.size(); ++i) {
+      apply_override(root, overrides[i], static_cast<int>(i) + 1, findings);
+    }
+    if (root.kind == YamlNode::Kind::map) {
+      read_sections(root, types, scenario, findings);
+    } else {
+      refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);
+    }
+  }
+  for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
+  return scenario;
+}
+
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                       devices::Problems& problems, std::span<const plants::PlantType> types) {
+  const auto text = read_file(file, problems);
+  if (!text) {
+    Scenario scenario;
+    scenario.file = file;
+    return scenario;
+  }
+  return read_scenario_text(*text, file, overrides, problems, types);
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,26 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "sim/scenario/scenario.hpp"
+#include "sim/scenario/yaml_node.hpp"
+
+namespace drycut::sim {
+
+// The readers of the sections, one a section; used by read_scenario only. Each takes the section's value.
+
+/// Plants with their parameters, each after the plants that it refers to.
+std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types,
+                                    Findings& findings);
+std::vector<Stimulus> read_timeline(const YamlNode& node, Findings& findings);
+std::vector<Check> read_checks(const YamlNode& node, Findings& findings);
+PicturesSection read_pictures(const YamlNode& node, Findings& findings);
+
+/// Puts override number `source` (of Findings::sources) into the tree before it is read: lists by index,
+/// missing keys added where a default stands.
+void apply_override(YamlNode& root, const Override& override, int source, Findings& findings);
+
+/// The sections of a scenario, in the order in which they are written.
+const std::vector<std::string>& section_names();
+
+}  // namespace drycut::sim

@@ -1,0 +1,154 @@
+// The readers of single values: quantities, durations, numbers, words, expressions.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "sim/scenario/expression.hpp"
+#include "sim/scenario/format.hpp"
+#include "sim/scenario/units.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+const std::vector<std::string> common_units = {
+    "mm",    "um",    "cm",      "m",         "s",      "ms",     "us",     "min",   "m/min", "mm/min",
+    "m/s",   "mm/s",  "m/s^2",   "rpm",       "rad/s",  "deg/s",  "deg",    "rad",   "turn",  "rev",
+    "N",     "kN",    "N m",     "kg",        "g",      "kg m^2", "kg/m^3", "N/m",   "N/mm",  "N m/rad",
+    "N s/m", "V",     "mV",      "V/s",       "A",      "bar",    "Hz",     "1/min", "%",     "W",
+    "kW",    "count", "count/s", "N m s/rad", "kg/m^2", "rad/s^2"};
+
+std::string unit_remedy(const std::string& unit) {
+  const auto near = devices::nearest(unit, common_units);
+  return near.empty() ? "units are written like mm, m/min, N m, kg m^2, rpm, deg, %"
+                      : fmt::format("did you mean {}?", near);
+}
+
+std::string example(std::string_view unit) { return fmt::format("for example 1 {}", unit); }
+
+// A number without unit is understood where one is one: counts, codes, ratios; not %, mm or deg.
+bool needs_unit(std::string_view unit) {
+  return !unit.empty() && (!same_dimension(unit, "") || to_si(1, unit) != 1);
+}
+
+}  // namespace
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  if (const auto near = devices::nearest(word, candidates); !near.empty()) {
+    return fmt::format("did you mean {}?", near);
+  }
+  return candidates.empty() ? "nothing can stand here"
+                            : fmt::format("known: {}", fmt::join(candidates, ", "));
+}
+
+std::optional<Quantity> read_quantity(const Text& text, const std::string& name, Findings& findings) {
+  const auto parsed = parse_quantity(text.text);
+  if (!parsed) {
+    findings.add(text.place, fmt::format("{}: '{}' is not a number", name, text.text),
+                 "write a number, with its unit if it has one: 0.5, 60 m/min");
+    return {};
+  }
+  if (!is_unit(parsed->unit)) {
+    findings.add(text.at(parsed->unit_offset), fmt::format("{}: unknown unit '{}'", name, parsed->unit),
+                 unit_remedy(parsed->unit));
+    return {};
+  }
+  return Quantity{parsed->number, parsed->unit, text.place};
+}
+
+std::optional<double> read_si(const Text& text, const std::string& name, std::string_view unit,
+                              Findings& findings) {
+  const auto quantity = read_quantity(text, name, findings);
+  if (!quantity) return {};
+  if (quantity->unit.empty()) {
+    if (!needs_unit(unit)) return quantity->number;
+    findings.add(text.place,
+                 fmt::format("{}: '{}' has no unit, but this is {}", name, text.text, dimension_name(unit)),
+                 fmt::format("write {} {} if that is meant", text.text, unit));
+    return {};
+  }
+  if (!same_dimension(quantity->unit, unit)) {
+    findings.add(text.at(parse_quantity(text.text)->unit_offset),
+                 fmt::format("{} is {}, not {} ({})", name, dimension_name(unit),
+                             dimension_name(quantity->unit), quantity->unit),
+                 unit.empty() ? "write a number without unit" : example(unit));
+    return {};
+  }
+  return to_si(quantity->number, quantity->unit);
+}
+
+std::optional<Time> read_time(const Text& text, const std::string& name, Sign sign, Findings& findings) {
+  const auto value = read_si(text, name, "s", findings);
+  if (!value) return {};
+  const double exact = *value * 1e9;
+  const double whole = std::round(exact);
+  if (sign == Sign::positive && *value <= 0) {
+    findings.add(text.place, fmt::format("{} is {}; it must be longer than 0", name, text.text),
+                 "for example 2 ms");
+    return {};
+  }
+  if (*value < 0) {
+    findings.add(text.place, fmt::format("{} is {}; it must not be negative", name, text.text),
+                 "for example 0 s");
+    return {};
+  }
+  if (*value > 1e9) {
+    findings.add(text.place, fmt::format("{} is {}; the clock ends at 1e9 s", name, text.text),
+                 "give a shorter time");
+    return {};
+  }
+  if (std::abs(exact - whole) > 1e-6 + 1e-15 * exact) {
+    const auto next = static_cast<Time>(std::max(1.0, whole));
+    findings.add(text.place, fmt::format("{}: {} is no whole number of nanoseconds", name, text.text),
+                 fmt::format("the nearest is {}", format_time(next)));
+    return {};
+  }
+  return static_cast<Time>(whole);
+}
+
+std::optional<long long> read_integer(const Text& text, const std::string& name, long long min, long long max,
+                                      Findings& findings) {
+  long long number = 0;
+  const char* const end = text.text.data() + text.text.size();
+  const auto read = std::from_chars(text.text.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end) {
+    findings.add(text.place, fmt::format("{}: '{}' is not a whole number", name, text.text),
+                 fmt::format("{} to {}", min, max));
+    return {};
+  }
+  if (number < min || number > max) {
+    findings.add(text.place, fmt::format("{} is {}, out of range", name, number),
+                 fmt::format("{} to {}", min, max));
+    return {};
+  }
+  return number;
+}
+
+std::optional<bool> read_switch(const Text& text, const std::string& name, Findings& findings) {
+  if (text.text == "on" || text.text == "true") return true;
+  if (text.text == "off" || text.text == "false") return false;
+  findings.add(text.place, fmt::format("{}: '{}' is not a switch position", name, text.text),
+               "write on or off (or true, false)");
+  return {};
+}
+
+bool read_choice(const Text& text, const std::string& name, const std::vector<std::string>& choices,
+                 Findings& findings) {
+  if (std::find(choices.begin(), choices.end(), text.text) != choices.end()) return true;
+  findings.add(text.place, fmt::format("{}: unknown choice '{}'", name, text.text),
+               did_you_mean(text.text, choices));
+  return false;
+}
+
+void check_expression(const Text& text, Findings& findings) {
+  static constexpr double any = 1;
+  std::vector<ExpressionFault> faults;
+  Expression::compile(
+      text.text, [](const std::string&) { return &any; }, {}, faults);
+  for (const auto& fault : faults) findings.add(text.at(fault.offset), fault.what, fault.remedy);
+}
+
+}  // namespace drycut::sim
