@@ -112,6 +112,14 @@ TEST(AxisFrequencyMeter, MeasuresOverItsWindow) {
   EXPECT_FALSE(meter.sample(0, 2, frequency_window_ms(2)));
 }
 
+TEST(AxisFrequencyMeter, TakesItsRateOverTheSamplesThatItReallyHad) {
+  FrequencyMeter meter;  // 24 ms of 5 ms samples are 25 ms, each time
+  for (int i = 1; i <= 50; ++i) {
+    EXPECT_EQ(meter.sample(20, 5, 24), i % 5 == 0) << i;
+    EXPECT_DOUBLE_EQ(meter.bits_per_second(), i < 5 ? 0 : 4000) << i;
+  }
+}
+
 TEST(AxisFrequencyMeter, KnowsFourWindows) {
   EXPECT_EQ(frequency_window_ms(1), 480);
   EXPECT_EQ(frequency_window_ms(2), 24);

@@ -19,8 +19,7 @@ class Camming4Test : public testing::Test {
   static constexpr double full_speed = 50000;  ///< of the ideal axis [bits/s]
   static constexpr int period = 2;             ///< [ms]
 
-  explicit Camming4Test(const char* slave = "2.CNT01", const char* master = "2.CNT02",
-                        int period_ms = period)
+  explicit Camming4Test(const char* slave = "2.CNT01", const char* master = "2.CNT02", int period_ms = period)
       : slave_address(*parse_address(slave)),
         master_address(*parse_address(master)),
         device({{period_ms, {}},
@@ -84,7 +83,7 @@ class Camming4Test : public testing::Test {
     command("LOOPON");
     ASSERT_EQ(get("st_loopon"), 1);
   }
-  void row(int number, std::initializer_list<std::int32_t> values) {
+  void row(int number, const std::vector<std::int32_t>& values) {
     static constexpr const char* columns[] = {"codeG", "codeQm", "codeQs", "codeQma", "codeQsa", "codeM"};
     int column = 0;
     for (const std::int32_t value : values) write(columns[column++] + std::to_string(number), value);

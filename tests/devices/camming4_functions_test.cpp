@@ -216,7 +216,7 @@ using Camming4Delay = Camming4Test;
 TEST_F(Camming4Delay, EachParameterTakesTheSamplesOfTheManual) {
   struct Delay {
     int samples;
-    std::initializer_list<const char*> names;
+    std::vector<const char*> names;
   };
   // 000 1.4
   const Delay delays[] = {

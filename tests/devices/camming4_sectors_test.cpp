@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include "camming4_covers.hpp"
 #include "camming4_fixture.hpp"
@@ -65,7 +66,7 @@ struct Piece {
 };
 
 struct SectorCase {
-  std::initializer_list<std::int32_t> row;
+  std::vector<std::int32_t> row;
   int entry;  ///< hundredths of the master's speed
   double master;
   std::function<double(double)> slave;
@@ -119,7 +120,7 @@ std::vector<SectorCase> sector_cases() {
 
 TEST_F(Camming4Sectors, MovementsFollowTheirClosedForms) {
   for (const SectorCase& expected : sector_cases()) {
-    const int code = *expected.row.begin();
+    const int code = expected.row.front();
     SCOPED_TRACE(code);
     prepare();
     row(1, {154, 100, expected.entry, 0, 0});
@@ -281,9 +282,7 @@ TEST_F(Camming4Sectors, TablesThatWarnGoOn) {
     int number = 1;
     for (const auto& values : expected.rows) {
       row(number, {0, 0, 0, 0, 0});
-      static constexpr const char* columns[] = {"codeG", "codeQm", "codeQs", "codeQma"};
-      for (std::size_t i = 0; i < values.size(); ++i) write(columns[i] + std::to_string(number), values[i]);
-      ++number;
+      row(number++, values);
     }
     command("STARTCAM");
     master_to(150);
