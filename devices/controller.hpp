@@ -39,6 +39,12 @@ class Controller {
     std::int64_t ns;
   };
   [[nodiscard]] virtual std::vector<Period> periods() const = 0;
+  /// Sampling time of the device whose output `analogue` is, the shortest if devices share it [ns]; 0 if
+  /// none.
+  [[nodiscard]] virtual std::int64_t output_period(const Address& analogue) const {
+    (void)analogue;
+    return 0;
+  }
 
   /// Samples the devices whose period ends at `time_ns`.
   virtual void run_devices(std::int64_t time_ns) = 0;

@@ -13,8 +13,8 @@ constexpr double millimetres = 1000;
 constexpr double standard_gravity = 9.80665;  // [m/s2]
 constexpr double beyond = 1000;               // width of a limit switch's target: longer than any axis [m]
 
-PositionSwitchData limit_switch(double edge, double side) {
-  return {edge + side * beyond / 2, beyond, 0.5e-3, 0.5e-3};
+PositionSwitchData limit_switch(double edge, double side, double delay) {
+  return {edge + side * beyond / 2, beyond, 0.5e-3, delay};
 }
 
 }  // namespace
@@ -40,8 +40,8 @@ LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxi
       encoder_(data.encoder, rotor_.revolutions(), world.random("linear axis encoder")),
       scale_(world.random("linear axis scale")),
       home_(data.home, 0, data.start),
-      limit_min_(limit_switch(data.limit_min, -1), 0, data.start),
-      limit_max_(limit_switch(data.limit_max, 1), 0, data.start) {}
+      limit_min_(limit_switch(data.limit_min, -1, data.limit_delay), 0, data.start),
+      limit_max_(limit_switch(data.limit_max, 1, data.limit_delay), 0, data.start) {}
 
 void LinearAxis::drive(double h) {
   servo_.drive(rotor_, h);
@@ -106,6 +106,9 @@ std::vector<Channel> LinearAxis::channels() {
   return {
       {"position", "mm", [this] { return carriage_.position * millimetres; }, "position of the carriage"},
       {"speed", "mm/s", [this] { return carriage_.speed * millimetres; }, "speed of the carriage"},
+      {"motor.position", "mm",
+       [this] { return (carriage_.position + twist_ / screw_per_metre_) * millimetres; },
+       "where the motor would have the carriage without play and twist"},
       {"motor.speed", "rpm", [this] { return rotor_.speed * rpm; }, "speed of the motor"},
       {"motor.torque", "N m", [this] { return servo_.torque(); }, "torque of the motor"},
       {"motor.utilisation", "%", [this] { return servo_.utilisation() * 100; },
@@ -117,6 +120,8 @@ std::vector<Channel> LinearAxis::channels() {
       {"servo.saturated", "", [this] { return servo_.saturated() ? 1.0 : 0.0; },
        "1 while the torque limit acts"},
       {"gear.force", "N", [this] { return drive_force_; }, "force of screw or belt on the carriage"},
+      {"gear.ahead", "mm", [this] { return twist_ / screw_per_metre_ * millimetres; },
+       "motor.position less position: play and twist taken up"},
       {"gear.twist", "deg", [this] { return twist_ * degrees; },
        "turn of the screw or pulley ahead of the carriage"},
       {"stop.force", "N", [this] { return stop_min_.force() + stop_max_.force(); },

@@ -35,6 +35,7 @@ struct LinearAxisData {
   PositionSwitchData home = {0, 0.02, 0.5e-3, 0.5e-3};  ///< [m]
   double limit_min = -0.03;                             ///< the limit switches are on beyond these [m]
   double limit_max = 1.03;
+  double limit_delay = 0.5e-3;  ///< of the limit switches' filter [s]
 
   // Pictures only.
   double heading = 0;  ///< direction of the axis in plan, 0 = with the line [rad]

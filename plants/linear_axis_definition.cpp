@@ -81,6 +81,8 @@ Parameters transducers(LinearAxisData& data) {
           "20 mm before the stop"),
       row("limit_max", "mm", "the upper limit switch is on above this", data.limit_max, -1e6, 1e6,
           "20 mm before the stop"),
+      row("limit_delay", "ms", "delay of the limit switches", data.limit_delay, 0, 100,
+          "estimate: proximity switch of 1 kHz"),
   };
 }
 

@@ -1,3 +1,4 @@
+#include "plants/backlash_axis.hpp"
 #include "plants/bench.hpp"
 #include "plants/ideal_axis.hpp"
 #include "plants/linear_axis.hpp"
@@ -16,6 +17,8 @@ std::unique_ptr<PlantDefinition> define() {
 
 const std::vector<PlantType>& plant_types() {
   static const std::vector<PlantType> types = {
+      {"backlash_axis", "a linear axis with play between motor and load, encoders on either side",
+       define<BacklashAxisDefinition>},
       {"bench", "counters, switches and meters without physics, turned by the timeline",
        define<BenchDefinition>},
       {"ideal_axis", "an axis without mass: voltage is speed, exactly", define<IdealAxisDefinition>},

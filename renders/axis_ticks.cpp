@@ -45,4 +45,18 @@ std::vector<Tick> axis_ticks(double low, double high, int wanted, double least_s
   return ticks;
 }
 
+std::vector<Tick> decade_ticks(double low, double high) {
+  constexpr double close = 1e-9;
+  const bool all = high - low <= 6;
+  std::vector<Tick> ticks;
+  for (double decade = std::floor(low); decade <= high + close; ++decade) {
+    for (const double step : {1.0, 2.0, 5.0}) {
+      const double value = decade + std::log10(step);
+      if (value < low - close || value > high + close || (step != 1 && !all)) continue;
+      ticks.push_back({value, fmt::format("{:.10g}", step * std::pow(10.0, decade))});
+    }
+  }
+  return ticks;
+}
+
 }  // namespace drycut::renders

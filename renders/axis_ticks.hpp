@@ -15,4 +15,8 @@ struct Tick {
 /// apart.
 std::vector<Tick> axis_ticks(double low, double high, int wanted, double least_step = 0);
 
+/// Marks of a logarithmic axis from 10^`low` to 10^`high`: at 1, 2 and 5 times the powers of ten, at the
+/// powers alone where there are many. Values are logarithms, labels the numbers.
+std::vector<Tick> decade_ticks(double low, double high);
+
 }  // namespace drycut::renders

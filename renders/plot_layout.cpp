@@ -229,10 +229,11 @@ PlotLayout laid_out(const Plot& plot) {
     equalise(plot, layout, layout.right - layout.left, axes_height);
     for (PanelLayout& here : layout.panels)
       here.y_ticks = axis_ticks(here.y_range.first, here.y_range.second, y_ticks);
-  } else {
+  } else if (!plot.log_x) {
     layout.x_range = up_to_marks(layout.x_range, x_ticks);
   }
-  layout.x_ticks = axis_ticks(layout.x_range.first, layout.x_range.second, x_ticks);
+  layout.x_ticks = plot.log_x ? decade_ticks(layout.x_range.first, layout.x_range.second)
+                              : axis_ticks(layout.x_range.first, layout.x_range.second, x_ticks);
 
   const double strip = lay_marks(plot, layout);
   double y = plot.title.empty() ? 10 : kTitleHeight;

@@ -61,7 +61,8 @@ inline constexpr double kLegendGap = 7;
 /// Between a label that stands across and the first panel: room for the line that leads to its mark.
 inline constexpr double kMarkLeader = 14;
 
-/// Ranges, ticks, margins and legends. Axes without points go from 0 to 1.
+/// Ranges, ticks, margins and legends. With log_x the plot's x are logarithms already. Axes without points go
+/// from 0 to 1.
 PlotLayout laid_out(const Plot& plot);
 
 }  // namespace drycut::renders

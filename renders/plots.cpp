@@ -253,7 +253,19 @@ void write_panel(Script& script, const Plot& plot, const PlotLayout& layout, std
   script.line("plot {}", curves.empty() ? "NaN" : curves);
 }
 
-std::string script_for(const Plot& plot) {
+/// The plot over log10(x), for an axis in decades.
+Plot in_decades(Plot plot) {
+  const auto shrink = [](double& x) { x = std::log10(x); };
+  for (Panel& panel : plot.panels) {
+    for (Curve& curve : panel.curves) std::for_each(curve.x.begin(), curve.x.end(), shrink);
+    for (NamedPoint& point : panel.points) shrink(point.x);
+  }
+  for (Mark& mark : plot.marks) shrink(mark.x);
+  return plot;
+}
+
+std::string script_for(const Plot& given) {
+  const Plot plot = given.log_x ? in_decades(given) : given;
   const PlotLayout layout = laid_out(plot);
   Script script(layout);
   script.line("set encoding utf8");
@@ -287,8 +299,11 @@ void require_drawable(const Plot& plot) {
         fmt::format("width {} and panel height {} cannot be drawn; 400 to 10000 and 120 to 5000 pixels can",
                     plot.width, plot.panel_height));
   }
+  const auto above_zero = [](double x) { return x > 0; };
   for (const Panel& panel : plot.panels) {
     for (const Curve& curve : panel.curves) {
+      if (plot.log_x && !std::all_of(curve.x.begin(), curve.x.end(), above_zero))
+        refuse(fmt::format("curve '{}' has x that a logarithmic axis cannot show", one_line(curve.label)));
       if (curve.x.size() == curve.y.size()) continue;
       refuse(fmt::format("curve '{}' has {} x and {} y values", one_line(curve.label), curve.x.size(),
                          curve.y.size()));

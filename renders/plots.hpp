@@ -55,6 +55,7 @@ struct Plot {
   int width = 1200;              ///< pixels
   int panel_height = 300;        ///< pixels
   std::vector<Mark> marks = {};  ///< in ascending order of x
+  bool log_x = false;            ///< decades of x are as wide as each other; all x above 0
 };
 
 /// Draws the plots into `directory` as <name>.png and returns the paths. Throws std::runtime_error with the

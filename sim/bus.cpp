@@ -179,8 +179,8 @@ class Connector {
         break;
       case Kind::analogue:
         if (sole_driver(address, wire)) {
-          bus_.analogue_outputs_.push_back(
-              {&cards.analogue_outputs.at(address), std::get<plants::ReferencePort*>(port.plug)});
+          bus_.analogue_outputs_.push_back({address, wire.plug.text, &cards.analogue_outputs.at(address),
+                                            std::get<plants::ReferencePort*>(port.plug)});
         }
         break;
     }
@@ -247,11 +247,28 @@ void Bus::connect(const Scenario& scenario, devices::Controller& controller,
   for (const auto& wire : scenario.wiring) connector.connect(wire);
 }
 
+std::vector<std::string> Bus::unwired() const {
+  std::vector<std::string> names;
+  const auto collect = [&](auto& terminals, const auto& wires, auto end_of) {
+    for (auto& [address, terminal] : terminals) {
+      if (address.kind == Kind::counter && address.slot == 1) continue;
+      const bool wired = std::any_of(wires.begin(), wires.end(),
+                                     [&](const auto& wire) { return end_of(wire) == &terminal; });
+      if (!wired) names.push_back(to_string(address));
+    }
+  };
+  if (controller_ == nullptr) return names;
+  auto& cards = controller_->cards();
+  collect(cards.counters, counters_, [](const auto& wire) { return wire.to; });
+  collect(cards.inputs, inputs_, [](const auto& wire) { return wire.to; });
+  collect(cards.outputs, outputs_, [](const auto& wire) { return wire.from; });
+  collect(cards.analogue_outputs, analogue_outputs_, [](const auto& wire) { return wire.from; });
+  return names;
+}
+
 void Bus::outputs_to_plants() const {
   for (const auto& wire : outputs_) wire.to->level = wire.from->level;
-  for (const auto& wire : analogue_outputs_) {
-    wire.to->volts = wire.from->word * (devices::dac_full_scale_volts / devices::dac_full_scale);
-  }
+  for (const auto& wire : analogue_outputs_) wire.to->volts = wire.output() + wire.added;
 }
 
 void Bus::plants_to_inputs() {

@@ -36,11 +36,28 @@ class Bus {
   void connect(const Scenario& scenario, devices::Controller& controller,
                const std::vector<NamedPlant>& plants, devices::Problems& problems);
 
+  /// Counters, inputs and outputs that the controller uses and nothing is wired to, simulated counters apart.
+  [[nodiscard]] std::vector<std::string> unwired() const;
+
   /// Controller outputs to plant commands and references.
   void outputs_to_plants() const;
   /// Transducers and sensors to the controller; interrupt edges latch the counters and are passed on in order
   /// of their time inside the step.
   void plants_to_inputs();
+
+  /// The wire of an analogue output. A measurement may add volts to it on the way, as a generator in series
+  /// would.
+  struct AnalogueWire {
+    devices::Address terminal;
+    std::string plug;
+    const devices::AnalogueOutput* from;
+    plants::ReferencePort* to;
+    double added = 0;                      ///< [V]
+    [[nodiscard]] double output() const {  ///< of the controller [V]
+      return from->word * (devices::dac_full_scale_volts / devices::dac_full_scale);
+    }
+  };
+  [[nodiscard]] std::vector<AnalogueWire>& analogue_wires() { return analogue_outputs_; }
 
   [[nodiscard]] Panel& panel() { return panel_; }
   [[nodiscard]] const Panel& panel() const { return panel_; }
@@ -62,10 +79,6 @@ class Bus {
   struct OutputWire {
     const devices::DigitalOutput* from;
     plants::CommandPort* to;
-  };
-  struct AnalogueWire {
-    const devices::AnalogueOutput* from;
-    plants::ReferencePort* to;
   };
 
   void deliver_interrupts();

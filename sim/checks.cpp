@@ -12,6 +12,8 @@ namespace drycut::sim {
 
 namespace {
 
+constexpr int shown_digits = 6;
+
 /// "cut" names the event of any source, "knife.cut" that of one.
 bool matches(const std::string& wanted, const std::string& source, const std::string& event) {
   return wanted == event || wanted == source + "." + event;
@@ -160,7 +162,7 @@ void Checks::happened(const RecordedEvent& event) {
         for (auto& slot : state.slots) {
           if (const auto* value = event.find(slot.name)) slot.number = value->number;
         }
-        evaluate(state, event.at_seconds(), values_text(event));
+        evaluate(state, event.at_seconds(), values_text(event, shown_digits));
         break;
       case Check::Kind::all:
         ++state.count;
@@ -171,7 +173,7 @@ void Checks::happened(const RecordedEvent& event) {
       case Check::Kind::never:
         if (state.count++ == 0) {
           state.worst_at = event.at_seconds();
-          state.worst_values = values_text(event);
+          state.worst_values = values_text(event, shown_digits);
         }
         break;
       case Check::Kind::always:
@@ -215,7 +217,7 @@ CheckResult Checks::result(State& state, Time end) {
   CheckResult result{check.name.text, expectation_text(check), false, {}, state.unit, {}, ""};
   const bool by_event = check.kind == Check::Kind::each || check.kind == Check::Kind::all;
   if (by_event && state.count < check.at_least) {
-    result.detail = fmt::format("only {} {} in the time looked at, at least {} expected", state.count,
+    result.detail = fmt::format("only {} {} events in the time looked at, at least {} expected", state.count,
                                 check.event.text, check.at_least);
     return result;
   }

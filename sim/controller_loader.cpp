@@ -44,6 +44,8 @@ std::unique_ptr<devices::Controller> load_qmove(const QmoveSection& section, con
   if (!text) return nullptr;
   const auto file = (folder / section.configuration.text).string();
   auto configuration = qmove::parse_configuration(*text, file, devices::catalogue(), problems);
+  // Modules are not judged by a configuration that is not sound.
+  if (problems.size() != before) return nullptr;
   std::vector<qmove::Program> programs;
   for (const auto& task : section.tasks) {
     const auto module = read(task);

@@ -29,7 +29,8 @@ std::optional<std::string> read_file(const std::filesystem::path& file, devices:
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
     return problem(fmt::format("there is no file {}", file.string()),
-                   "check the path; it is relative to the file that names it");
+                   where.file == file.string() ? "check the path"
+                                               : "check the path; it is relative to the file that names it");
   }
   if (!std::filesystem::is_regular_file(status)) {
     return problem(fmt::format("{} is not a regular file", file.string()), "name a text file");

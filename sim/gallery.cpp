@@ -183,9 +183,22 @@ renders::ReportTable parameter_table(const PlantEntry& entry) {
                              {"parameter", "value", "meaning", "from"},
                              {},
                              true};
+  const auto given = [&](const std::string& name) {
+    return std::any_of(entry.places.begin(), entry.places.end(),
+                       [&](const auto& p) { return p.first == name; });
+  };
   for (const auto& parameter : entry.definition->parameters()) {
     table.rows.push_back({{parameter.name, value_text(parameter), std::string(parameter.meaning),
-                           std::string(parameter.source)}});
+                           given(parameter.name) ? "the scenario" : std::string(parameter.source)}});
+  }
+  return table;
+}
+
+/// What the controller holds at the end: device parameters, states, program variables.
+renders::ReportTable controller_table(Simulation& simulation) {
+  renders::ReportTable table{"Controller at the end of the run", {"value", "", "unit"}, {}, true};
+  for (const auto& reading : simulation.controller_values()) {
+    table.rows.push_back({{reading.name, fmt::format("{:.10g}", reading.read()), reading.unit}});
   }
   return table;
 }
@@ -287,7 +300,7 @@ std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& r
   return plots;
 }
 
-renders::Report report_of(const Scenario& scenario, const Simulation& simulation, const Outcome& outcome,
+renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
                           const std::vector<std::filesystem::path>& frames,
                           const std::vector<std::filesystem::path>& plots) {
   renders::Report report;
@@ -299,6 +312,10 @@ renders::Report report_of(const Scenario& scenario, const Simulation& simulation
                   {{"physics step", fmt::format("{:g} us", static_cast<double>(scenario.scene.step) / 1e3)}},
                   {{"seed", fmt::format("{}", scenario.scene.seed)}},
                   {{"drycut", DRYCUT_VERSION}}};
+  for (const auto& override : scenario.overrides) {
+    report.facts.push_back({{"--set", fmt::format("{} = {}", override.path, override.value)}});
+  }
+  for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
   for (const auto& check : outcome.checks) {
     report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
   }
@@ -323,6 +340,8 @@ renders::Report report_of(const Scenario& scenario, const Simulation& simulation
         {{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, values_text(event)}});
   }
   if (!others.rows.empty()) report.tables.push_back(std::move(others));
+  if (auto table = controller_table(simulation); !table.rows.empty())
+    report.tables.push_back(std::move(table));
   for (const auto& entry : scenario.plants) report.tables.push_back(parameter_table(entry));
   report.scenario_expanded = expand(scenario);
   return report;

@@ -18,7 +18,7 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation);
 std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& recording);
 
 /// The report of a run; `frames` and `plots` are the picture files made for it.
-renders::Report report_of(const Scenario& scenario, const Simulation& simulation, const Outcome& outcome,
+renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
                           const std::vector<std::filesystem::path>& frames,
                           const std::vector<std::filesystem::path>& plots);
 

@@ -40,6 +40,75 @@ void add_cam(CLI::App& app, CamOptions& options, int& status) {
   cam->callback([&] { status = validate_cam(options); });
 }
 
+void add_bode(CLI::App& app, BodeOptions& options, int& status) {
+  auto* bode = app.add_subcommand(
+      "bode",
+      "Frequency response of a closed position loop: a sine is added to the analogue reference.\n"
+      "Exit status: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the\n"
+      "simulation failed");
+  bode->add_option("scenario", options.scenario, "Scenario (.yaml)")->required();
+  bode->add_option("--wire", options.wire, "Analogue reference, as knife.servo.reference");
+  bode->add_option("--speed", options.speed, "Channel of the motor's speed, for the speed loop");
+  bode->add_option("--at", options.at, "The scenario runs undisturbed until then [s]; else to its end");
+  bode->add_option("--from", options.from, "Lowest frequency [Hz]; else 1");
+  bode->add_option("--to", options.to, "Highest frequency [Hz]; else half the sampling frequency");
+  bode->add_option("--points", options.points, "Frequencies between them, evenly in decades")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  bode->add_option("--amplitude", options.amplitude, "Of the sine [V]")->capture_default_str();
+  bode->add_option("--settle", options.settle, "Before each measurement [s]")->capture_default_str();
+  bode->add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
+  bode->add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
+  bode->add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
+  bode->add_option("--png", options.png, "Draw gain and phase");
+  bode->add_option("--set", options.set, "Override a value of the scenario: path=value, may be repeated")
+      ->allow_extra_args(false);
+  bode->callback([&] { status = measure_bode(options); });
+}
+
+void add_tune(CLI::App& app, TuneOptions& options, int& status) {
+  auto* tune = app.add_subcommand(
+      "tune",
+      "Find the values of device or drive parameters with the least metric, on one or several scenarios.\n"
+      "Terms of a metric: max, min, mean, rms, sd, count (CH or EVENT.VALUE), settling(CH, band).\n"
+      "Exit status: 0 the tuned values keep all limits, 1 none were found that do, 2 bad input");
+  tune->add_option("scenarios", options.scenarios, "Scenario files (.yaml); the worst one counts")
+      ->required();
+  tune->add_option("--vary", options.vary,
+                   "PATH=LO..HI[:integer], such as controller.qmove.set.AxisX.pgain=1..100 or "
+                   "\"plants.knife.servo.speed_gain=100..400 rad/s\"; may be repeated")
+      ->required()
+      ->allow_extra_args(false);
+  tune->add_option("--minimise", options.minimise, "Metric, such as rms(AxisX.follerr) or sd(cut.length)")
+      ->required();
+  tune->add_option("--constraint", options.constraints,
+                   "Limit, such as \"max(abs(knife.motor.torque)) <= 20\"; may be repeated")
+      ->allow_extra_args(false);
+  tune->add_option("--from", options.from, "Metric and constraints look from this time on")
+      ->capture_default_str();
+  tune->add_flag("--ignore-checks", options.ignore_checks, "The scenarios' failed checks do not count");
+  tune->add_option("--budget", options.budget,
+                   "Simulated runs of the search; the surroundings of the optimum come on top")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  tune->add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  tune->add_option("--seed", options.seed, "Seed of the search and the spread")->capture_default_str();
+  tune->add_option("--spread", options.spread,
+                   "PATH=±30% or PATH=LO..HI: try the tuned values on machines that differ; may be repeated")
+      ->allow_extra_args(false);
+  tune->add_option("--spread-runs", options.spread_runs, "How many such machines")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  tune->add_option("--set", options.set, "Override a value of the scenarios: path=value, may be repeated")
+      ->allow_extra_args(false);
+  tune->add_option("--out", options.out, "Directory for the results; evaluations in it are used again")
+      ->capture_default_str();
+  tune->add_flag("!--no-pictures", options.pictures, "No plots and no report");
+  tune->callback([&] { status = tune_scenarios(options); });
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
   app.require_subcommand(1);
@@ -80,6 +149,12 @@ int run(int argc, char** argv) {
 
   CamOptions cam_options;
   add_cam(app, cam_options, status);
+
+  TuneOptions tune_options;
+  add_tune(app, tune_options, status);
+
+  BodeOptions bode_options;
+  add_bode(app, bode_options, status);
 
   std::string name;
   bool json = false;

@@ -37,6 +37,7 @@ std::optional<Reading> Names::reading(const std::string& name) {
   if (const auto found = channels_.find(name); found != channels_.end()) {
     return Reading{name, found->second.unit, found->second.read};
   }
+  if (assumed_ && of_controller(name)) return Reading{name, "", [] { return 0.0; }};
   if (name.starts_with(panel_prefix)) {
     const auto plug = name.substr(panel_prefix.size());
     if (const auto found = panel_.switches.find(plug); found != panel_.switches.end()) {
@@ -47,7 +48,6 @@ std::optional<Reading> Names::reading(const std::string& name) {
     }
     return {};
   }
-  if (assumed_ && of_controller(name)) return Reading{name, "", [] { return 0.0; }};
   if (controller_ != nullptr) {
     if (auto value = controller_->find(name)) return Reading{name, value->unit, value->read};
   }
@@ -59,13 +59,13 @@ std::optional<Target> Names::target(const std::string& name) {
     const auto& setting = found->second;
     return Target{name, setting.unit, setting.write, setting.read};
   }
+  if (assumed_ && of_controller(name)) return Target{name, "", [](double) {}, [] { return 0.0; }};
   if (name.starts_with(panel_prefix)) {
     const auto plug = name.substr(panel_prefix.size());
     if (!panel_.switches.contains(plug)) return {};
     return Target{name, "", [this, plug](double on) { panel_.set(plug, on != 0); },
                   [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; }};
   }
-  if (assumed_ && of_controller(name)) return Target{name, "", [](double) {}, [] { return 0.0; }};
   if (controller_ != nullptr) {
     if (auto value = controller_->find(name); value && value->write)
       return Target{name, "", value->write, value->read};

@@ -46,11 +46,12 @@ std::string seconds_text(Time time) {
   return text;
 }
 
-std::string values_text(const RecordedEvent& event) {
+std::string values_text(const RecordedEvent& event, int digits) {
   std::string text;
   for (const auto& value : event.values) {
     if (!text.empty()) text += "; ";
-    text += fmt::format("{}={:.9g}{}{}", value.name, value.number, value.unit.empty() ? "" : " ", value.unit);
+    text += fmt::format("{}={:.{}g}{}{}", value.name, value.number, digits, value.unit.empty() ? "" : " ",
+                        value.unit);
   }
   if (!event.text.empty()) text += (text.empty() ? "" : "; ") + event.text;
   return text;

@@ -57,7 +57,7 @@ class Recording {
 /// "12.0004": a time in seconds, exact.
 std::string seconds_text(Time time);
 /// `name=number unit; ...` or the event's text, as events.csv and the report show it.
-std::string values_text(const RecordedEvent& event);
+std::string values_text(const RecordedEvent& event, int digits = 9);
 
 /// trace.csv and events.csv (design §6). Throw std::runtime_error if the file cannot be written.
 void write_trace(const Recording& recording, const std::filesystem::path& file);

@@ -82,6 +82,28 @@ void Simulation::bind_recording(devices::Problems& problems) {
   recording_.reserve(static_cast<std::size_t>(scenario_.scene.duration / scenario_.record.every) + 2);
 }
 
+void Simulation::check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const {
+  if (panel.event.text.empty()) return;
+  const auto of = [&](const KnownEvent& known) {
+    return panel.event.text == known.name || panel.event.text == known.source + "." + known.name;
+  };
+  const auto known = std::find_if(known_events_.begin(), known_events_.end(), of);
+  if (known == known_events_.end()) {
+    problems.push_back(problem_at(scenario_, panel.event.place,
+                                  fmt::format("nothing here reports an event '{}'", panel.event.text),
+                                  "events of plants are listed by drycut plants"));
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, unit] : known->values) names.push_back(name);
+  for (const auto& value : panel.values) {
+    if (std::find(names.begin(), names.end(), value.text) != names.end()) continue;
+    problems.push_back(problem_at(scenario_, value.place,
+                                  fmt::format("event '{}' has no value '{}'", panel.event.text, value.text),
+                                  fmt::format("it has: {}", fmt::join(names, ", "))));
+  }
+}
+
 void Simulation::bind_pictures(devices::Problems& problems) {
   const auto& camera = scenario_.pictures.camera;
   std::vector<std::string> cameras = {"operator"};
@@ -93,6 +115,7 @@ void Simulation::bind_pictures(devices::Problems& problems) {
   }
   for (const auto& plot : scenario_.pictures.plots) {
     for (const auto& panel : plot.panels) {
+      check_plot_event(panel, problems);
       for (const auto& name : panel.channels) add_channel(name, problems);
       for (const auto* name : {&panel.x, &panel.y, &panel.split})
         if (!name->text.empty()) add_channel(*name, problems);
@@ -146,6 +169,9 @@ void Simulation::collect_events() {
   }
   if (controller_ && controller_->has_events()) {
     for (auto& event : controller_->take_events()) {
+      if (event.event == "error" && program_error_.empty()) {
+        program_error_ = fmt::format("{}, at {} s", event.text, seconds_text(time_));
+      }
       recording_.happened(
           {time_, 0, std::move(event.source), std::move(event.event), {}, std::move(event.text)});
     }
@@ -184,6 +210,36 @@ void Simulation::snapshot() {
   for (const auto* slot : caption_) shot.caption.push_back(*slot);
 }
 
+std::vector<std::string> Simulation::notes() const {
+  constexpr std::size_t shown = 5;
+  std::vector<std::string> notes;
+  if (const auto open = bus_.unwired(); !open.empty())
+    notes.push_back(fmt::format("not wired: {}", fmt::join(open, ", ")));
+  std::size_t remarks = 0;
+  for (const auto& event : recording_.events()) {
+    if (event.text.empty() || event.source == "timeline") continue;
+    if (++remarks <= shown) {
+      notes.push_back(
+          fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event, event.text));
+    }
+  }
+  if (remarks > shown) notes.push_back(fmt::format("and {} more remarks, see events.csv", remarks - shown));
+  return notes;
+}
+
+std::vector<Reading> Simulation::controller_values() {
+  std::vector<Reading> values;
+  if (!controller_) return values;
+  for (const auto& name : controller_->names()) {
+    auto value = controller_->find(name);
+    if (!value) continue;
+    const bool cam_row = name.find(".code") != std::string::npos;
+    if (cam_row && value->read() == 0) continue;
+    values.push_back({name, value->unit, value->read});
+  }
+  return values;
+}
+
 Outcome Simulation::run(const std::function<void(Time)>& progress) {
   constexpr int steps_between_reports = 2000;
   record();
@@ -200,6 +256,15 @@ Outcome Simulation::run(const std::function<void(Time)>& progress) {
   outcome.end = time_;
   outcome.failure = failure_;
   outcome.checks = checks_->results(time_);
+  if (controller_) {
+    outcome.checks.push_back({"the program runs",
+                              "no run-time error stops the tasks",
+                              program_error_.empty(),
+                              {},
+                              "",
+                              {},
+                              program_error_.empty() ? "no error" : program_error_});
+  }
   return outcome;
 }
 

@@ -47,6 +47,27 @@ class Simulation {
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
   Outcome run(const std::function<void(Time)>& progress = {});
 
+  // For measurements that work at the machine while it runs, in place of run().
+  /// One step; false if the simulation itself failed, now or before.
+  bool advance() {
+    if (failure_.empty()) step();
+    return failure_.empty();
+  }
+  [[nodiscard]] Time time() const { return time_; }
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  [[nodiscard]] Bus& bus() { return bus_; }
+  [[nodiscard]] Names& names() { return *names_; }
+  /// Sampling time of what drives the analogue output; 0 if nothing does.
+  [[nodiscard]] Time output_period(const devices::Address& analogue) const {
+    return controller_ ? controller_->output_period(analogue) : 0;
+  }
+
+  /// What a reader should know that is no fault: terminals without a wire, remarks of the controller during
+  /// the run.
+  [[nodiscard]] std::vector<std::string> notes() const;
+  /// The controller's values as they are now, by name, with units; rows of cam tables only where they are not
+  /// 0.
+  [[nodiscard]] std::vector<Reading> controller_values();
   /// The controller's retentive values as they are now, as text.
   [[nodiscard]] std::string retentive_state() const {
     return controller_ ? controller_->retentive_state() : "";
@@ -65,6 +86,7 @@ class Simulation {
   void check_periods(devices::Problems& problems) const;
   void bind_recording(devices::Problems& problems);
   void bind_pictures(devices::Problems& problems);
+  void check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const;
   void add_channel(const Text& name, devices::Problems& problems);
 
   void step();
@@ -95,6 +117,7 @@ class Simulation {
   std::vector<std::string> caption_units_;
   std::vector<KnownEvent> known_events_;
   std::string failure_;
+  std::string program_error_;  ///< first run-time error of the controller's program
 };
 
 }  // namespace drycut::sim

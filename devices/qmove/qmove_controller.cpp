@@ -90,6 +90,17 @@ std::vector<Controller::Period> QmoveController::periods() const {
   return periods;
 }
 
+std::int64_t QmoveController::output_period(const Address& analogue) const {
+  std::int64_t shortest = 0;
+  for (std::size_t i = 0; i < device_due_.size(); ++i) {
+    const auto& resources = configuration_.devices[i].resources;
+    const bool drives = std::any_of(resources.begin(), resources.end(),
+                                    [&](const Resource& resource) { return resource.address == analogue; });
+    if (drives && (shortest == 0 || device_due_[i].period_ns < shortest)) shortest = device_due_[i].period_ns;
+  }
+  return shortest;
+}
+
 // Called every step of the simulation: most calls end at the first line.
 void QmoveController::run_devices(std::int64_t time_ns) {
   if (time_ns < next_device_ns_) return;

@@ -37,6 +37,7 @@ class QmoveController : public Controller {
 
   Cards& cards() override { return cards_; }
   [[nodiscard]] std::vector<Period> periods() const override;
+  [[nodiscard]] std::int64_t output_period(const Address& analogue) const override;
   void run_devices(std::int64_t time_ns) override;
   void run_tasks(std::int64_t time_ns) override;
   void interrupt(int line, bool rising) override;

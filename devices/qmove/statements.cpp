@@ -251,6 +251,10 @@ void Compiler::unknown_statement() {
         after(1), fmt::format("expected '=' after {}, found {}", quoted(token().text), found(after(1))),
         thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter = value", token().text)
                                                 : "write: name = value");
+  else if (std::any_of(commands.begin(), commands.end(),
+                       [&](const std::string& command) { return same_word(command, token().text); }))
+    syntax_error(token(), fmt::format("{} needs a device", quoted(token().text)),
+                 fmt::format("write {} Device", token().text));
   else
     syntax_error(token(), "unknown statement " + quoted(token().text),
                  suggestion(token().text, words, usual));

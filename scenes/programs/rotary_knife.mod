@@ -15,7 +15,7 @@ AxisX:setvel   = 30000
 AxisX:prsvel   = 20000
 AxisX:sprsvel  = 2000
 AxisX:tacc     = 100              ; 1 s from 0 to maxvel
-AxisX:tdec     = 100
+AxisX:tdec     = 25               ; 0.25 s from maxvel to 0: STOPCAM must end before the next cut
 AxisX:taccmax  = 50
 AxisX:tdecmax  = 50
 AxisX:minpos   = - 999999
@@ -65,7 +65,8 @@ IF gbPhase EQ 2 AND ifStart
     ofCutting = 1
     gbPhase = 3
 ENDIF
-IF gbPhase EQ 3 AND NOT ifStart
+; Stop: only while the blade is on its way over the top, so that it never brakes inside the web
+IF gbPhase EQ 3 AND NOT ifStart AND (AxisX:rowex EQ 4 OR AxisX:rowex EQ 5) AND AxisX:posit LT cCircum
     STOPCAM AxisX
     WAIT AxisX:st_still AND NOT AxisX:st_camex
     ofCutting = 0
@@ -75,11 +76,12 @@ IF gbPhase EQ 3 AND NOT AxisX:st_camex
     ofCutting = 0                 ; the device left the cam by itself (error)
     gbPhase = 0
 ENDIF
-IF gbPhase EQ 4                   ; forward to the next top
-    AxisX:setpos = (AxisX:posit / cCircum + 1) * cCircum
+IF gbPhase EQ 4                   ; back on top
+    AxisX:setvel = 30000
+    AxisX:setpos = cCircum
     START AxisX
     WAIT AxisX:st_toll AND AxisX:st_still
-    AxisX:posit = AxisX:posit - AxisX:setpos
+    AxisX:posit = AxisX:posit - cCircum
     gbPhase = 2
 ENDIF
 WAIT 1

@@ -52,12 +52,17 @@ class Checker {
 
   void check_configuration(const std::filesystem::path& file) {
     configuration_.reset();
+    configuration_given_ = true;
+    const auto before = problems_.size();
     if (const auto text = read_file(file, problems_)) {
       configuration_ = qmove::parse_configuration(*text, file.string(), devices::catalogue(), problems_);
     }
+    if (problems_.size() != before) configuration_.reset();
   }
 
   void check_module(const std::filesystem::path& file) {
+    // Modules are not judged by a configuration that is not sound.
+    if (!configuration_ && configuration_given_) return;
     if (!configuration_) {
       problems_.push_back({file.string(), 1, 1, "a QCL module needs a configuration to be checked against",
                            "name its .cnf file before it"});
@@ -71,6 +76,7 @@ class Checker {
   bool expand_;
   devices::Problems problems_;
   std::optional<qmove::Configuration> configuration_;
+  bool configuration_given_ = false;
 };
 
 }  // namespace

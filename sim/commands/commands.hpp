@@ -50,6 +50,46 @@ struct CamOptions {
 /// drycut cam: 0 sound, 1 an error or a violated limit, 2 bad input
 int validate_cam(const CamOptions& options);
 
+struct BodeOptions {
+  std::filesystem::path scenario;
+  std::string wire;            ///< plug of the analogue reference, "" = the only one
+  std::string speed;           ///< channel of the motor's speed, "" = motor.speed or speed of the plant
+  std::optional<double> at;    ///< [s], absent = the end of the scenario
+  std::optional<double> from;  ///< [Hz], absent = 1, or a hundredth of `to` if that is less
+  std::optional<double> to;    ///< [Hz], absent = half the sampling frequency
+  int points = 40;
+  double amplitude = 0.1;                  ///< [V]
+  double settle = 0.5;                     ///< [s]
+  std::optional<double> min_phase_margin;  ///< [deg], less fails
+  std::optional<double> min_gain_margin;   ///< [dB], less fails
+  std::string csv;                         ///< "" = none, "-" = standard output
+  std::string png;                         ///< "" = none
+  std::vector<std::string> set;            ///< overrides of the scenario: path=value
+};
+/// drycut bode: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the
+/// simulation failed
+int measure_bode(const BodeOptions& options);
+
+struct TuneOptions {
+  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::string> vary;         ///< "controller.qmove.set.AxisX.pgain=1..100"
+  std::string minimise;                  ///< "rms(AxisX.follerr)"
+  std::vector<std::string> constraints;  ///< "max(abs(knife.motor.torque)) <= 20"
+  std::string from = "0 s";              ///< metric and constraints look from here on
+  bool ignore_checks = false;            ///< failed checks of the scenarios do not count
+  int budget = 100;                      ///< simulated runs of the search
+  int jobs = 1;                          ///< runs at the same time; the result is the same
+  std::uint64_t seed = 1;                ///< of the search and the spread
+  std::vector<std::string> spread;       ///< "plants.knife.inertia=±30%"
+  int spread_runs = 20;
+  std::vector<std::string> set;  ///< "plants.web.speed=80 m/min", before everything else
+  std::filesystem::path out = "out/tune";
+  bool pictures = true;
+};
+/// drycut tune: 0 the tuned values keep all limits, 1 no values were found that do, 2 bad input, 3 nothing
+/// could be simulated or written
+int tune_scenarios(const TuneOptions& options);
+
 /// drycut devices, drycut plants: the tables; of one type if `name` is given.
 int list_devices(const std::string& name, bool json);
 int list_plants(const std::string& name, bool json);

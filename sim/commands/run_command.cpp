@@ -153,6 +153,7 @@ void print_result(const Job& job) {
     fmt::print("  {} {}: {}{}{}\n", check.passed ? "ok  " : "FAIL", check.name, check.detail,
                margin.empty() ? "" : "; ", margin);
   }
+  for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", note);
   if (!job.trouble.empty()) fmt::print("  {}\n", job.trouble);
   fmt::print("  {}: {}\n", result.has_report ? "report" : "results",
              (result.has_report ? result.directory / "report.html" : result.directory).string());
@@ -176,6 +177,19 @@ void print_problems(const devices::Problems& problems) {
 int run_scenarios(const RunOptions& options) {
   devices::Problems problems;
   auto jobs = prepare(options, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  for (const auto& job : jobs) {
+    std::error_code error;
+    std::filesystem::create_directories(job->result.directory, error);
+    if (!error && std::filesystem::is_directory(job->result.directory)) continue;
+    problems.push_back({"--out", 1, 1,
+                        fmt::format("the directory {} cannot be made{}{}", job->result.directory.string(),
+                                    error ? ": " : "", error ? error.message() : ""),
+                        "name one that can be written"});
+  }
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;

@@ -255,6 +255,7 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
   Scenario scenario;
   scenario.file = file;
   scenario.sources = {file.string()};
+  scenario.overrides = overrides;
   for (const auto& override : overrides) scenario.sources.push_back("--set " + override.path);
   Findings findings(scenario.sources);
   auto root = parse(text, findings);

@@ -163,6 +163,12 @@ struct PicturesSection {
   Place camera_place;
 };
 
+/// An override from the command line: `--set plants.web.speed="80 m/min"`.
+struct Override {
+  std::string path;
+  std::string value;
+};
+
 struct Scenario {
   std::filesystem::path file;
   SceneSection scene;
@@ -176,18 +182,13 @@ struct Scenario {
   /// True if the machine can be built: plants and controller have no problem and all periods are multiples
   /// of the step. Problems elsewhere do not stop a check of the names.
   bool buildable = false;
+  std::vector<Override> overrides;   ///< that were applied
   std::vector<std::string> sources;  ///< names for messages: the file, then "--set PATH" of each override
 };
 
 /// A problem at a place of the scenario, with the right file name.
 devices::Problem problem_at(const Scenario& scenario, const Place& place, std::string what,
                             std::string remedy);
-
-/// An override from the command line: `--set plants.web.speed="80 m/min"`.
-struct Override {
-  std::string path;
-  std::string value;
-};
 
 /// Reads a scenario. Syntax, unknown and duplicate keys, kinds, units, dimensions and ranges are checked and
 /// reported with their place in `problems`, all of the file in one run. The scenario is usable only if no

@@ -208,21 +208,22 @@ TEST(PlantTypes, TablesAreCompleteAndTheirDefaultsLegal) {
       }
     }
   }
-  EXPECT_THAT(names, testing::ElementsAre("bench", "ideal_axis", "linear_axis", "rotary_knife", "web"));
+  EXPECT_THAT(names, testing::ElementsAre("backlash_axis", "bench", "ideal_axis", "linear_axis",
+                                          "rotary_knife", "web"));
 }
 
 TEST(PlantTypes, EveryPlantOffersNamesOnceWithMeanings) {
   World world;
   std::vector<std::unique_ptr<Plant>> plants;
   std::map<std::string, Plant*> by_name;
-  for (const char* name : {"bench", "ideal_axis", "linear_axis", "web", "rotary_knife"})
+  for (const char* name : {"backlash_axis", "bench", "ideal_axis", "linear_axis", "web", "rotary_knife"})
     for (const PlantType& type : plant_types())
       if (type.name == name) {
         plants.push_back(type.define()->build(
             world, [&](std::string_view wanted) { return by_name.at(std::string(wanted)); }));
         by_name[name] = plants.back().get();
       }
-  ASSERT_EQ(plants.size(), 5U);
+  ASSERT_EQ(plants.size(), 6U);
   for (const auto& plant : plants) {
     std::set<std::string> names;
     for (const Channel& c : plant->channels()) {

@@ -163,7 +163,7 @@ TEST(RotaryKnife, EncoderCountsTheMotorAndItsIndexComesFiveTimesADrumTurn) {
     EXPECT_EQ((encoder.count_at(index.edges[0].fraction) - 4096) % 8192, 0);
   }
   EXPECT_EQ(encoder.count,
-            static_cast<std::int64_t>(std::floor((line.drum().rotor().revolutions() - 2.5) * 8192)));
+            static_cast<std::int64_t>(std::floor((line.drum().rotor().revolutions() - 2.5) * 8192 + 0.5)));
   EXPECT_EQ(pulses, static_cast<int>(std::floor(line.drum().rotor().revolutions())) - 2);
   EXPECT_GT(pulses, 10);
 }
@@ -175,7 +175,7 @@ TEST(RotaryKnife, EncoderMayBeOnTheDrum) {
   line.reference().volts = 2.5;
   line.run(2);
   EXPECT_EQ(plug<EncoderPort>(*line.knife, "encoder").count,
-            static_cast<std::int64_t>(std::floor((line.drum().drum().revolutions() - 0.5) * 8192)));
+            static_cast<std::int64_t>(std::floor((line.drum().drum().revolutions() - 0.5) * 8192 + 0.5)));
 }
 
 TEST(RotaryKnife, HomeSwitchIsOnAroundItsAngle) {

@@ -61,15 +61,15 @@ TEST(Encoder, CountsExactlyOverAMillionTurnsBothWays) {
   run(-0.12, steps);
   EXPECT_NEAR(t.encoder.pulses.port.now, 0, 1e-3);
   run(-0.12, steps);
-  EXPECT_EQ(t.count(), -10004008004);
+  EXPECT_EQ(t.count(), -10004008003);
   EXPECT_EQ(indexes, 3000001);  // a million each way and back, and the one at zero
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(Encoder, CountIsTheFloorOfTheExactPosition) {
+TEST(Encoder, CountIsTheNearestToTheExactPosition) {
   Turning t({.lines = 2});
   const double turns[] = {0.05, 0.05, 0.05, 0.05, -0.05, -0.05, -0.05, -0.05, -0.05};
-  const std::int64_t counts[] = {0, 0, 1, 1, 1, 0, 0, 0, -1};  // 8 a turn
+  const std::int64_t counts[] = {0, 1, 1, 2, 1, 1, 0, 0, 0};  // 8 a turn
   for (int i = 0; i < 9; ++i) {
     t.run(turns[i], 1);
     EXPECT_EQ(t.count(), counts[i]) << i;
@@ -105,7 +105,7 @@ TEST(Encoder, IndexIsTheSameCountFromBothSides) {
     if (u.encoder.index.edge_count > 0)
       backwards = u.encoder.pulses.port.count_at(u.encoder.index.edges[0].fraction);
   }
-  EXPECT_EQ(forwards, static_cast<std::int64_t>(std::floor(0.07 * 4096 + 1e-7)));
+  EXPECT_EQ(forwards, static_cast<std::int64_t>(std::floor(0.07 * 4096 + 0.5)));
   EXPECT_EQ(backwards, forwards);
 }
 

@@ -49,7 +49,7 @@ struct ProgramTest : testing::Test {
 TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   const auto result = call("run " + scenes + "rotary_knife_short.yaml --set scene.duration='5 s'" + to());
   EXPECT_EQ(result.status, 0) << result.text;
-  EXPECT_THAT(result.text, testing::HasSubstr("rotary_knife_short: passed, all 8 checks passed"));
+  EXPECT_THAT(result.text, testing::HasSubstr("rotary_knife_short: passed, all 9 checks passed"));
   const auto folder = out / "rotary_knife_short";
   for (const auto* name : {"trace.csv", "events.csv", "checks.json", "report.html", "plots/motion.png",
                            "frames/frame_00000.png"}) {
@@ -57,7 +57,7 @@ TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   }
   EXPECT_THAT(
       contents(out / "junit.xml"),
-      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"8\" failures=\"0\" errors=\"0\">"));
+      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"9\" failures=\"0\" errors=\"0\">"));
   EXPECT_THAT(contents(folder / "trace.csv"), testing::StartsWith("time [s],AxisX.posit [Um],"));
   EXPECT_THAT(contents(folder / "events.csv"), testing::HasSubstr(",knife,cut,length=500"));
 }
@@ -109,11 +109,28 @@ TEST_F(ProgramTest, DivergedSimulationIsStatusThreeAndKeepsWhatItHas) {
   EXPECT_THAT(contents(out / "junit.xml"), testing::HasSubstr("<error message="));
 }
 
-TEST_F(ProgramTest, UnwritableResultIsStatusThree) {
+TEST_F(ProgramTest, UnwritableDirectoryIsToldBeforeAnythingRuns) {
   fs::create_directories(out);
   std::ofstream(out / "rotary_knife_short") << "a file where a directory must be";
   const auto result = call("run " + scenes + "rotary_knife_short.yaml --no-pictures" + to());
-  EXPECT_EQ(result.status, 3) << result.text;
+  EXPECT_EQ(result.status, 2) << result.text;
+  EXPECT_THAT(result.text, testing::HasSubstr("--out:1:1: the directory " +
+                                              (out / "rotary_knife_short").string() + " cannot be made"));
+}
+
+TEST_F(ProgramTest, AProgramThatDiesFailsTheRunAndSaysWhere) {
+  fs::create_directories(out);
+  std::ofstream(out / "dies.cnf") << "GLOBAL\nglN L\nEND\n";
+  std::ofstream(out / "dies.mod") << "WAIT 1\nglN = 5 / glN\nEND\n";
+  std::ofstream(out / "dies.yaml") << "scene: {duration: 100 ms}\nplants: {}\n"
+                                      "controller: {qmove: {configuration: dies.cnf, tasks: [dies.mod]}}\n"
+                                      "record: {every: 2 ms, channels: [glN]}\n";
+  const auto result =
+      call("run " + (out / "dies.yaml").string() + " --no-pictures --out " + (out / "results").string());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.text,
+              testing::AllOf(testing::HasSubstr("FAIL the program runs: "), testing::HasSubstr("dies.mod:2"),
+                             testing::HasSubstr("division by zero")));
 }
 
 TEST_F(ProgramTest, ScenariosWithOneNameAreRefused) {

@@ -84,7 +84,7 @@ TEST_F(ChecksTest, EachWithoutAnEventFails) {
   add(Check::Kind::each, "cut", "length > 0");
   start();
   EXPECT_FALSE(result().passed);
-  EXPECT_EQ(result().detail, "only 0 cut in the time looked at, at least 1 expected");
+  EXPECT_EQ(result().detail, "only 0 cut events in the time looked at, at least 1 expected");
 }
 
 TEST_F(ChecksTest, AllLooksAtStatistics) {

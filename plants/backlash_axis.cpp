@@ -1,0 +1,108 @@
+#include "plants/backlash_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// Rows of the linear axis that the flanks replace, and the carrier: this axis stands on the floor.
+bool replaced(std::string_view name) {
+  return name == "gear.stiffness" || name == "gear.damping" || name == "gear.backlash" || name == "carrier";
+}
+
+void name_sources(Parameters& table) {
+  for (Parameter& p : table) {
+    if (p.name == "mass") p.source = "a worn machine's heavy slide";
+    if (p.name == "carriage_friction.coulomb") p.source = "estimate: plain guides, 0.15 of the weight";
+    if (p.name == "carriage_friction.breakaway") p.source = "estimate: plain guides stick";
+    if (p.name == "servo.inertia_ratio") p.source = "the default screw and load on the motor";
+    if (p.name == "stop.damping") p.source = "estimate: 7 % of critical for 100 kg";
+  }
+}
+
+}  // namespace
+
+// With m the reduced inertia and time in units of the root of m/k, the flank pushes with x + min(x, 2 zeta
+// v). While the damper is held to the spring's force the motion is a sine of frequency root 2; it ends where
+// x = 2 zeta v. From there on it is the damped oscillation, until x = -2 zeta v: the flanks part without
+// pulling. The speeds at both ends of the second part differ by what the first has taken, and what is left is
+// the decay over the angle between the two points.
+double restitution_of(double zeta) {
+  const double wd = std::sqrt(1 - zeta * zeta);
+  const double in = std::atan2(1 + 2 * zeta * zeta, 2 * zeta * wd);
+  const double out = std::atan2(1 - 2 * zeta * zeta, 2 * zeta * wd);
+  return std::exp(-zeta / wd * (in + out));
+}
+
+double damping_ratio_for(double restitution) {
+  double low = 0;
+  double high = 0.999;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (restitution_of(middle) > restitution ? low : high) = middle;
+  }
+  return restitution >= 1 ? 0 : low;
+}
+
+BacklashAxisDefinition::BacklashAxisDefinition() {
+  axis.data.mass = 100;
+  axis.data.carriage_friction = {150, 100, 50, 0.01};
+  axis.data.servo.inertia_ratio = 0.25;
+  apply_flanks();
+}
+
+void BacklashAxisDefinition::apply_flanks() {
+  TransmissionData& gear = axis.data.gear;
+  const double metre = axis.data.lead / turn;  // of travel for a radian of the screw
+  const double screw = axis.data.servo.rotor_inertia * gear.ratio * gear.ratio + axis.data.screw_inertia;
+  const double motor_mass = screw / (metre * metre);
+  const double reduced = axis.data.mass * motor_mass / (axis.data.mass + motor_mass);
+  const double damping = 2 * damping_ratio_for(flanks.restitution) * std::sqrt(flanks.stiffness * reduced);
+  gear.stiffness = flanks.stiffness * metre * metre;
+  gear.damping = damping * metre * metre;
+  gear.backlash = flanks.gap / metre;
+}
+
+Parameters BacklashAxisDefinition::parameters() {
+  Parameters table = axis.parameters();
+  std::erase_if(table, [](const Parameter& p) { return replaced(p.name); });
+  name_sources(table);
+  const auto row = [](const char* name, std::string_view unit, std::string_view meaning, double& value,
+                      double min, double max, std::string_view source) {
+    return Parameter{name, unit, meaning, &value, min, max, {}, {}, source};
+  };
+  table.insert(
+      table.begin(),
+      {row("gap", "mm", "whole play between motor and load, as travel of the load", flanks.gap, 1e-3, 100,
+           "a worn nut; new ones have 0.05"),
+       row("contact.stiffness", "N/m", "stiffness behind a flank: nut, screw and bearings", flanks.stiffness,
+           1e3, 1e10, "estimate: ball screw 25 x 20"),
+       row("contact.restitution", "", "speed of parting over speed of meeting at a flank, no drive acting",
+           flanks.restitution, 0.3, 1, "estimate: greased steel flanks")});
+  return table;
+}
+
+std::vector<PlantDefinition::Objection> BacklashAxisDefinition::objections() {
+  apply_flanks();
+  std::vector<Objection> found = axis.objections();
+  for (Objection& objection : found)
+    if (objection.parameter == "gear.stiffness") {
+      objection.parameter = "contact.stiffness";
+      objection.remedy = "a softer contact or more mass";
+    }
+  return found;
+}
+
+std::unique_ptr<Plant> BacklashAxisDefinition::build(World& world,
+                                                     const std::function<Plant*(std::string_view)>& find) {
+  apply_flanks();
+  return axis.build(world, find);
+}
+
+}  // namespace drycut::plants

@@ -1,0 +1,156 @@
+#include "sim/bode/sweep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace drycut::sim {
+
+namespace {
+
+/// The two runs of a scenario in step, and what they differ by at the wire.
+class Twins {
+ public:
+  Twins(Simulation& excited, Simulation& still, const SweepPlan& plan)
+      : excited_(excited),
+        still_(still),
+        wire_(excited.bus().analogue_wires().at(plan.wire)),
+        still_wire_(still.bus().analogue_wires().at(plan.wire)) {
+    if (plan.speed.empty()) return;
+    speed_ = excited.names().reading(plan.speed)->read;
+    still_speed_ = still.names().reading(plan.speed)->read;
+  }
+
+  /// One step with `volts` added to the wire of the excited one.
+  bool advance(double volts) {
+    wire_.added = volts;
+    const bool whole = excited_.advance();
+    return still_.advance() && whole;
+  }
+  [[nodiscard]] Time time() const { return excited_.time(); }
+  [[nodiscard]] double output() const { return wire_.output() - still_wire_.output(); }   ///< [V]
+  [[nodiscard]] double total() const { return wire_.to->volts - still_wire_.to->volts; }  ///< [V]
+  [[nodiscard]] bool has_speed() const { return static_cast<bool>(speed_); }
+  [[nodiscard]] double speed() const { return speed_() - still_speed_(); }
+  [[nodiscard]] bool saturated() const { return std::abs(wire_.from->word) >= devices::dac_full_scale; }
+  [[nodiscard]] std::string failure() const {
+    return excited_.failure().empty() ? still_.failure() : excited_.failure();
+  }
+
+ private:
+  Simulation& excited_;
+  Simulation& still_;
+  Bus::AnalogueWire& wire_;
+  Bus::AnalogueWire& still_wire_;
+  std::function<double()> speed_;
+  std::function<double()> still_speed_;
+};
+
+/// Pushes the drive for a moment and looks whether the loop comes to rest.
+Sweep::Loop push(Twins& twins, const SweepPlan& plan) {
+  constexpr int push_samples = 10;
+  const Time start = twins.time();
+  while (twins.time() < start + push_samples * plan.sampling)
+    if (!twins.advance(plan.amplitude)) return Sweep::Loop::closed;
+  constexpr int parts = 4;
+  const auto part = static_cast<Time>(std::max(plan.settle, 1.0) * 1e9) / parts;
+  std::array<double, parts> low{};
+  std::array<double, parts> high{};
+  for (int i = 0; i < parts; ++i) {
+    for (const Time begin = twins.time(); twins.time() < begin + part;) {
+      if (!twins.advance(0)) return Sweep::Loop::closed;
+      low[i] = std::min(low[i], twins.output());
+      high[i] = std::max(high[i], twins.output());
+    }
+  }
+  const double first = std::max(high.front(), -low.front());
+  const double last = std::max(high.back(), -low.back());
+  if (first == 0 && last == 0) return Sweep::Loop::open;
+  const double half = first / 2;
+  const bool swings_on = last > 0.9 * first && high.back() > half && low.back() < -half;
+  const bool runs_away = last > 1.1 * first;
+  return swings_on || runs_away ? Sweep::Loop::unstable : Sweep::Loop::closed;
+}
+
+/// Comes to rest with the tone, then measures it over its samples. False if the simulation failed.
+bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoint& point) {
+  const std::int64_t steps = plan.sampling / plan.step;  // in a sampling
+  const double period = static_cast<double>(tone.samples) / static_cast<double>(tone.cycles);
+  const auto settle =
+      static_cast<std::int64_t>(std::ceil(std::max(plan.settle / seconds(plan.sampling), 2 * period)));
+  Correlator output(tone.cycles, tone.samples);
+  Correlator total(tone.cycles, tone.samples);
+  Correlator drive(tone.cycles, tone.samples * steps);
+  Correlator speed(tone.cycles, tone.samples * steps);
+  // The tone's phase counts on from the settling, whose length is of no account then.
+  const std::int64_t lead = tone.samples - settle % tone.samples;
+  for (std::int64_t k = 0; k < settle + tone.samples; ++k) {
+    const double volts = plan.amplitude * cosine_at(tone.cycles, tone.samples, lead + k);
+    for (std::int64_t i = 0; i < steps; ++i) {
+      if (!twins.advance(volts)) return false;
+      if (k < settle) continue;
+      if (i == 0) {
+        output.add(twins.output());
+        total.add(twins.total());
+        point.saturated = point.saturated || twins.saturated();
+      }
+      if (!twins.has_speed()) continue;
+      drive.add(twins.total());
+      speed.add(twins.speed());
+    }
+  }
+  point.frequency = tone.frequency(plan.sampling);
+  point.open_loop = -output.tone() / total.tone();
+  point.error = std::hypot(output.error(), total.error());
+  if (twins.has_speed()) point.speed = speed.tone() / drive.tone();
+  return true;
+}
+
+}  // namespace
+
+std::vector<Tone> plan_tones(double from, double to, int points, Time sampling, double window) {
+  constexpr double least_periods = 4;
+  const double rate = 1 / seconds(sampling);
+  std::vector<Tone> tones;
+  for (int i = 0; i < points; ++i) {
+    const double share = points > 1 ? static_cast<double>(i) / (points - 1) : 0;
+    const double wanted = from * std::pow(to / from, share);
+    Tone tone;
+    tone.cycles = std::llround(std::ceil(std::max(least_periods, wanted * window)));
+    tone.samples = std::max<std::int64_t>(std::llround(static_cast<double>(tone.cycles) * rate / wanted),
+                                          2 * tone.cycles);
+    // Samples that fall on ever new phases average the rounding of counts and DAC: no common factor.
+    if (tone.samples > 2 * tone.cycles)
+      while (std::gcd(tone.cycles, tone.samples) > 1) ++tone.samples;
+    const bool same = !tones.empty() && tone.frequency(sampling) <= tones.back().frequency(sampling);
+    if (!same) tones.push_back(tone);
+  }
+  return tones;
+}
+
+Sweep measure(Simulation& excited, Simulation& still, const SweepPlan& plan,
+              const std::function<void(double)>& progress) {
+  Sweep sweep;
+  Twins twins(excited, still, plan);
+  // Everything begins at a sampling instant, so that the sine changes when the controller's output does.
+  const auto wait_for_sampling = [&](Time from) {
+    while (twins.failure().empty() && (twins.time() < from || twins.time() % plan.sampling != 0))
+      (void)twins.advance(0);
+  };
+  wait_for_sampling(plan.at);
+  if (twins.failure().empty()) sweep.loop = push(twins, plan);
+  wait_for_sampling(0);
+  sweep.failure = twins.failure();
+  if (!sweep.failure.empty() || sweep.loop != Sweep::Loop::closed) return sweep;
+  for (const auto& tone : plan.tones) {
+    BodePoint point;
+    if (!measure_tone(twins, plan, tone, point)) break;
+    sweep.points.push_back(point);
+    if (progress) progress(static_cast<double>(sweep.points.size()) / static_cast<double>(plan.tones.size()));
+  }
+  sweep.failure = twins.failure();
+  return sweep;
+}
+
+}  // namespace drycut::sim

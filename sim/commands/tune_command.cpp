@@ -1,0 +1,226 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "sim/commands/commands.hpp"
+#include "sim/commands/progress.hpp"
+#include "sim/file.hpp"
+#include "sim/scenario/units.hpp"
+#include "sim/tune/report.hpp"
+#include "sim/tune/search.hpp"
+#include "sim/tune/study.hpp"
+#include "sim/tune/trials.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// The command line, read and found sound.
+struct Plan {
+  Study study;
+  TunedParameters vary;
+  TunedParameters spread;
+  std::vector<std::optional<double>> present;
+};
+
+void read_cases(const TuneOptions& options, Study& study, devices::Problems& problems) {
+  for (const auto& file : options.scenarios)
+    if (auto text = read_file(file, problems)) study.cases.push_back({file, std::move(*text), {}});
+}
+
+void read_settings(const TuneOptions& options, Study& study, devices::Problems& problems) {
+  for (const auto& text : options.set) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      problems.push_back({"--set", 1, 1, fmt::format("'{}' is not an assignment", text),
+                          "write path=value, such as plants.web.speed=80 m/min"});
+    } else {
+      study.set.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+  }
+  const auto from = parse_quantity(options.from);
+  if (!from || !(from->number >= 0) || !is_unit(from->unit) || !same_dimension(from->unit, "s") ||
+      to_si(from->number, from->unit) > 1e9) {
+    problems.push_back({"--from", 1, 1, fmt::format("'{}' is no time", options.from), "such as 3 s"});
+  } else {
+    study.from = static_cast<Time>(to_si(from->number, from->unit) * 1e9 + 0.5);
+  }
+}
+
+void read_parameters(const std::vector<std::string>& texts, const std::string& option, bool relative,
+                     TunedParameters& parameters, devices::Problems& problems) {
+  for (const auto& text : texts) {
+    auto parameter = parse_parameter(text, option, relative, problems);
+    if (!parameter) continue;
+    const bool twice = std::any_of(parameters.begin(), parameters.end(),
+                                   [&](const TunedParameter& p) { return p.path == parameter->path; });
+    if (twice) {
+      problems.push_back({option, 1, 1, parameter->path + " is given twice", "keep one"});
+    } else {
+      parameters.push_back(std::move(*parameter));
+    }
+  }
+}
+
+/// --spread PATH=±30% around what the scenario says.
+bool place_relative(TunedParameter& parameter, std::optional<double> present, devices::Problems& problems) {
+  if (!parameter.relative) return true;
+  if (!present || *present == 0) {
+    problems.push_back({parameter.option, 1, parameter.low_column,
+                        fmt::format("{} has no value to spread around", parameter.path),
+                        "give a range LO..HI, or a quantity that is not 0"});
+    return false;
+  }
+  const double size = std::abs(*present) * *parameter.relative;
+  parameter.low = *present - size;
+  parameter.high = *present + size;
+  if (parameter.integer) {
+    parameter.low = std::rint(parameter.low);
+    parameter.high = std::rint(parameter.high);
+  }
+  return true;
+}
+
+/// Both ends of the range must be values that the scenario takes.
+void try_bounds(const TunedParameter& parameter, const Study& study, const Study::Case& entry,
+                devices::Problems& problems) {
+  for (const bool upper : {false, true}) {
+    auto overrides = study.set;
+    overrides.push_back({parameter.path, value_text(parameter, upper ? parameter.high : parameter.low)});
+    devices::Problems own;
+    const auto scenario = read_scenario_text(entry.text, entry.file, overrides, own);
+    if (own.empty()) const Simulation probe(scenario, own);
+    for (auto& problem : own) {
+      problem.file = parameter.option;
+      problem.line = 1;
+      problem.column = upper ? parameter.high_column : parameter.low_column;
+      problem.what = parameter.path + ": " + problem.what;
+      const bool told = std::any_of(problems.begin(), problems.end(), [&](const devices::Problem& other) {
+        return other.what == problem.what && other.file == problem.file;
+      });
+      if (!told) problems.push_back(std::move(problem));
+    }
+  }
+}
+
+void check_parameter(TunedParameter& parameter, const Study& study, std::optional<double>& present,
+                     devices::Problems& problems) {
+  const auto told = problems.size();
+  for (const auto& entry : study.cases) {
+    const auto before = problems.size();
+    devices::Problems ignored;
+    const auto scenario = read_scenario_text(entry.text, entry.file, study.set, ignored);
+    if (!ignored.empty()) return;
+    const auto value = present_value(parameter, scenario);
+    if (&entry == &study.cases.front()) present = value;
+    if (!place_relative(parameter, value, problems)) return;
+    try_bounds(parameter, study, entry, problems);
+    if (problems.size() == before) check_against_controller(parameter, scenario, problems);
+  }
+  if (problems.size() == told && parameter.integer &&
+      (parameter.low != std::rint(parameter.low) || parameter.high != std::rint(parameter.high)))
+    problems.push_back({parameter.option, 1, parameter.low_column, parameter.path + " is a whole number",
+                        "end the range at whole numbers"});
+}
+
+Plan make_plan(const TuneOptions& options, devices::Problems& problems) {
+  Plan plan;
+  read_cases(options, plan.study, problems);
+  read_settings(options, plan.study, problems);
+  plan.study.minimise = options.minimise;
+  plan.study.constraints = options.constraints;
+  plan.study.ignore_checks = options.ignore_checks;
+  prepare(plan.study, problems);
+  read_parameters(options.vary, "--vary", false, plan.vary, problems);
+  read_parameters(options.spread, "--spread", true, plan.spread, problems);
+  for (const auto& parameter : plan.spread)
+    for (const auto& varied : plan.vary)
+      if (varied.path == parameter.path)
+        problems.push_back(
+            {"--spread", 1, 1, parameter.path + " is what --vary tunes", "spread something else"});
+  for (auto& parameter : plan.vary)
+    check_parameter(parameter, plan.study, plan.present.emplace_back(), problems);
+  for (auto& parameter : plan.spread) {
+    std::optional<double> ignored;
+    check_parameter(parameter, plan.study, ignored, problems);
+  }
+  return plan;
+}
+
+/// The scenario's own values as a place to start, where it says them all and they lie in the ranges.
+std::optional<Point> start_of(const Plan& plan) {
+  Point point;
+  for (std::size_t i = 0; i < plan.vary.size(); ++i) {
+    const auto& value = plan.present[i];
+    const auto& p = plan.vary[i];
+    if (!value || *value < p.low || *value > p.high || (p.integer && *value != std::rint(*value))) return {};
+    point.push_back(*value);
+  }
+  return point;
+}
+
+int tune(const TuneOptions& options, const Plan& plan) {
+  std::filesystem::create_directories(options.out);
+  for (const auto* old : {"plots", "report.html", "patch.txt"})
+    std::filesystem::remove_all(options.out / old);
+  const auto& study = plan.study;
+  Progress bar;
+  Trials trials(study, plan.vary, {}, options.out / "evaluations.csv", options.jobs, [&](int done) {
+    bar.show("tuning", std::min(1.0, static_cast<double>(done) / options.budget));
+  });
+  const int sets = std::max(1, options.budget / static_cast<int>(study.cases.size()));
+  Tuning tuning{study, trials, plan.present, measure(study, {}), 0, {}, nullptr, {}, {}};
+  tuning.best = search(trials, start_of(plan), sets, options.seed);
+  tuning.slices = look_around(trials, tuning.best);
+
+  const auto tuned = overrides_of(plan.vary, trials.at(tuning.best).point);
+  std::optional<Trials> spread;
+  if (!plan.spread.empty()) {
+    spread.emplace(study, plan.spread, tuned, options.out / "spread.csv", options.jobs, [&](int done) {
+      bar.show("spreading", std::min(1.0, static_cast<double>(done) / options.spread_runs));
+    });
+    spread->run("spread", latin_hypercube(plan.spread, options.spread_runs,
+                                          plants::Random(options.seed, "drycut tune spread")));
+    tuning.spread = &*spread;
+  }
+  bar.clear();
+  OutputFile patch(options.out / "patch.txt");
+  patch.write(patch_text(tuning));
+  patch.finish();
+  fmt::print("{}", summary_text(tuning));
+  const auto runs = trials.simulated() + (spread ? spread->simulated() : 0);
+  fmt::print("\n{} sets of values tried, {} simulated now; {}\n", trials.trials().size(), runs,
+             (options.out / "evaluations.csv").string());
+  if (options.pictures && !trials.at(tuning.best).verdict.stopped) {
+    for (const auto& entry : study.cases) {
+      tuning.runs_before.push_back(keep_run(study, entry, {}));
+      tuning.runs_after.push_back(keep_run(study, entry, tuned));
+    }
+    write_tuning_report(tuning, options.out);
+    fmt::print("report: {}\n", (options.out / "report.html").string());
+  }
+  const auto& best = trials.at(tuning.best).verdict;
+  if (best.stopped) return simulation_failed;
+  return best.feasible() ? all_passed : check_failed;
+}
+
+}  // namespace
+
+int tune_scenarios(const TuneOptions& options) {
+  devices::Problems problems;
+  const auto plan = make_plan(options, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  try {
+    return tune(options, plan);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return simulation_failed;
+  }
+}
+
+}  // namespace drycut::sim

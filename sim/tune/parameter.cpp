@@ -1,0 +1,237 @@
+#include "sim/tune/parameter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <variant>
+
+#include "plants/plant.hpp"
+#include "sim/controller_loader.hpp"
+#include "sim/scenario/units.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr std::string_view controller_set = "controller.qmove.set.";
+constexpr std::string_view integer_suffix = ":integer";
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+class Reader {
+ public:
+  Reader(const std::string& text, const std::string& option, devices::Problems& problems)
+      : text_(text), option_(option), problems_(problems) {}
+
+  std::optional<TunedParameter> run(bool relative) {
+    const auto equals = text_.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return refuse(0, fmt::format("'{}' gives no range to a path", text_),
+                    "write PATH=LO..HI, such as controller.qmove.set.AxisX.pgain=1..100");
+    }
+    TunedParameter made;
+    made.option = option_;
+    made.path = trimmed(std::string_view(text_).substr(0, equals));
+    std::string_view range = std::string_view(text_).substr(equals + 1);
+    if (range.ends_with(integer_suffix)) {
+      made.integer = true;
+      range.remove_suffix(integer_suffix.size());
+    }
+    if (relative && range.find("..") == std::string_view::npos) return percent(made, range, equals + 1);
+    return bounds(made, range, equals + 1, relative);
+  }
+
+ private:
+  std::nullopt_t refuse(std::size_t offset, std::string what, std::string remedy) {
+    problems_.push_back({option_, 1, static_cast<int>(offset) + 1, std::move(what), std::move(remedy)});
+    return std::nullopt;
+  }
+
+  std::optional<TunedParameter> percent(TunedParameter made, std::string_view range, std::size_t offset) {
+    auto rest = trimmed(range);
+    for (const std::string_view sign : {"±", "+/-", "+-"}) {
+      if (!rest.starts_with(sign)) continue;
+      rest.remove_prefix(sign.size());
+      break;
+    }
+    const bool is_percent = rest.ends_with('%');
+    if (is_percent) rest.remove_suffix(1);
+    const auto number = parse_quantity(rest);
+    if (!is_percent || !number || !number->unit.empty() || !(number->number > 0) ||
+        !std::isfinite(number->number)) {
+      return refuse(offset, fmt::format("'{}' is no spread", range), "write ±30% or LO..HI");
+    }
+    made.relative = number->number / 100;
+    made.low_column = made.high_column = static_cast<int>(offset) + 1;
+    return made;
+  }
+
+  std::optional<TunedParameter> bounds(TunedParameter made, std::string_view range, std::size_t offset,
+                                       bool relative) {
+    const auto dots = range.find("..");
+    if (dots == std::string_view::npos) {
+      return refuse(offset, fmt::format("'{}' is no range", range),
+                    relative ? "write ±30% or LO..HI" : "write LO..HI, such as 1..100 or 100..400 rad/s");
+    }
+    const auto high_at = offset + dots + 2;
+    const auto low = parse_quantity(trimmed(range.substr(0, dots)));
+    const auto high = parse_quantity(trimmed(range.substr(dots + 2)));
+    if (!low || !std::isfinite(low->number))
+      return refuse(offset, fmt::format("'{}' is no number", range.substr(0, dots)), "such as 1 or 0.5");
+    if (!high || !std::isfinite(high->number))
+      return refuse(high_at, fmt::format("'{}' is no number", range.substr(dots + 2)),
+                    "such as 100 or 400 rad/s");
+    made.unit = high->unit.empty() ? low->unit : high->unit;
+    if (!low->unit.empty() && low->unit != made.unit)
+      return refuse(offset, fmt::format("the ends are in {} and {}", low->unit, made.unit),
+                    "give both ends in one unit");
+    if (!(low->number < high->number))
+      return refuse(offset, fmt::format("the range {} is empty", range), "the lower end comes first");
+    const bool whole = low->number == std::rint(low->number) && high->number == std::rint(high->number);
+    if (made.integer && !whole)
+      return refuse(offset, fmt::format("{} does not end at whole numbers", range), "it is an integer");
+    made.low = low->number;
+    made.high = high->number;
+    made.low_column = static_cast<int>(offset) + 1;
+    made.high_column = static_cast<int>(high_at) + 1;
+    return made;
+  }
+
+  const std::string& text_;
+  const std::string& option_;
+  devices::Problems& problems_;
+};
+
+/// The row of a plant's table that a path names, and the value it holds, in SI.
+struct PlantValue {
+  plants::Parameter row;
+  double si = 0;
+  bool integer = false;
+};
+std::optional<PlantValue> plant_value(const std::string& path, const Scenario& scenario) {
+  for (const auto& plant : scenario.plants) {
+    const auto prefix = "plants." + plant.name.text + ".";
+    if (!path.starts_with(prefix)) continue;
+    for (const auto& row : plant.definition->parameters()) {
+      if (row.name != path.substr(prefix.size())) continue;
+      if (const auto* number = std::get_if<double*>(&row.value)) return PlantValue{row, **number, false};
+      if (const auto* number = std::get_if<int*>(&row.value))
+        return PlantValue{row, to_si(static_cast<double>(**number), row.unit), true};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
+                                              bool relative, devices::Problems& problems) {
+  return Reader(text, option, problems).run(relative);
+}
+
+std::string value_text(const TunedParameter& parameter, double value) {
+  return parameter.unit.empty() ? fmt::format("{}", value) : fmt::format("{} {}", value, parameter.unit);
+}
+
+std::vector<Override> overrides_of(const TunedParameters& parameters, const Point& point) {
+  std::vector<Override> overrides;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    overrides.push_back({parameters[i].path, value_text(parameters[i], point[i])});
+  return overrides;
+}
+
+std::string short_name(const TunedParameter& parameter) {
+  for (const std::string_view section : {controller_set, std::string_view("plants.")})
+    if (parameter.path.starts_with(section)) return parameter.path.substr(section.size());
+  return parameter.path;
+}
+
+std::optional<double> present_value(TunedParameter& parameter, const Scenario& scenario) {
+  if (const auto found = plant_value(parameter.path, scenario)) {
+    if (found->integer) parameter.integer = true;
+    if (parameter.unit.empty()) parameter.unit = found->row.unit;
+    if (!is_unit(parameter.unit) || !same_dimension(parameter.unit, found->row.unit)) return {};
+    return from_si(found->si, parameter.unit);
+  }
+  if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) {
+    for (const auto& [name, number] : qmove->set)
+      if (std::string(controller_set) + name.text == parameter.path) return number;
+  }
+  return {};
+}
+
+void check_against_controller(TunedParameter& parameter, const Scenario& scenario,
+                              devices::Problems& problems) {
+  if (!parameter.path.starts_with(controller_set)) return;
+  devices::Problems ignored;  // the scenario's own problems have been told
+  const auto controller = load_controller(scenario, ignored);
+  const auto value =
+      controller ? controller->find(parameter.path.substr(controller_set.size())) : std::nullopt;
+  if (!value || !value->write) return;
+  constexpr double between = 0.5;  // what no integer variable keeps
+  value->write(between);
+  if (value->read() != between) parameter.integer = true;
+  for (const bool upper : {false, true}) {
+    const double bound = upper ? parameter.high : parameter.low;
+    const int column = upper ? parameter.high_column : parameter.low_column;
+    if (parameter.integer && bound != std::rint(bound)) {
+      problems.push_back({parameter.option, 1, column,
+                          fmt::format("{} holds whole numbers, not {}", value->name, bound),
+                          "end the range at whole numbers"});
+      continue;
+    }
+    (void)controller->take_events();
+    value->write(bound);
+    const auto events = controller->take_events();
+    const auto refused = std::find_if(events.begin(), events.end(),
+                                      [](const auto& event) { return event.event == "out_of_range"; });
+    if (refused != events.end()) {
+      problems.push_back({parameter.option, 1, column, refused->text, "stay within the range"});
+    } else if (value->read() != bound) {
+      problems.push_back({parameter.option, 1, column, fmt::format("{} cannot hold {}", value->name, bound),
+                          fmt::format("it became {}; stay within its size", value->read())});
+    }
+  }
+}
+
+Point from_unit(const TunedParameters& parameters, const std::vector<double>& unit) {
+  Point point;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    const double x = p.low + std::clamp(unit[i], 0.0, 1.0) * (p.high - p.low);
+    point.push_back(p.integer ? std::rint(x) : std::clamp(x, p.low, p.high));
+  }
+  return point;
+}
+
+std::vector<double> to_unit(const TunedParameters& parameters, const Point& point) {
+  std::vector<double> unit;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    unit.push_back((point[i] - parameters[i].low) / (parameters[i].high - parameters[i].low));
+  return unit;
+}
+
+std::vector<Point> latin_hypercube(const TunedParameters& parameters, int count, plants::Random random) {
+  const auto n = static_cast<std::size_t>(count);
+  std::vector<std::vector<double>> units(n, std::vector<double>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    std::vector<std::size_t> parts(n);
+    std::iota(parts.begin(), parts.end(), 0);
+    // Not std::shuffle: it is not the same in every library.
+    for (std::size_t k = n; k > 1; --k)
+      std::swap(parts[k - 1], parts[static_cast<std::size_t>(random.uniform() * static_cast<double>(k))]);
+    for (std::size_t k = 0; k < n; ++k)
+      units[k][i] = (static_cast<double>(parts[k]) + random.uniform()) / static_cast<double>(n);
+  }
+  std::vector<Point> points;
+  for (const auto& unit : units) points.push_back(from_unit(parameters, unit));
+  return points;
+}
+
+}  // namespace drycut::sim

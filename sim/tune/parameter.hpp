@@ -1,0 +1,56 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/problem.hpp"
+#include "plants/random.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+/// A value of the scenario that the tuning may change, by its override path.
+struct TunedParameter {
+  std::string path;  ///< "controller.qmove.set.AxisX.pgain", "plants.knife.servo.speed_gain"
+  double low = 0;    ///< in `unit`
+  double high = 0;
+  std::string unit = {};  ///< as given, "" = pure number or the parameter's own
+  bool integer = false;
+  std::string option = {};  ///< where it was given, for messages: "--vary"
+  int low_column = 1;       ///< of the argument
+  int high_column = 1;
+  std::optional<double> relative =
+      {};  ///< --spread PATH=±30%: the fraction; low and high follow from the scenario
+};
+using TunedParameters = std::vector<TunedParameter>;
+/// A value for each parameter, in its unit.
+using Point = std::vector<double>;
+
+/// Reads PATH=LO..HI with an optional unit and `:integer`; with `relative`, also PATH=±30%. What is wrong
+/// goes to `problems` by option and column.
+std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
+                                              bool relative, devices::Problems& problems);
+
+/// "87", "250 rad/s": as `--set` and the scenario take it.
+std::string value_text(const TunedParameter& parameter, double value);
+/// `point` as overrides of the scenario.
+std::vector<Override> overrides_of(const TunedParameters& parameters, const Point& point);
+/// The name below its section: "AxisX.pgain", "knife.servo.speed_gain".
+std::string short_name(const TunedParameter& parameter);
+
+/// The parameter's value in the scenario as it stands, in its unit (which is filled in from the plant's table
+/// if none was given); nullopt if the scenario does not say it (a gain that the program sets). Also makes an
+/// integer of a parameter that is one.
+std::optional<double> present_value(TunedParameter& parameter, const Scenario& scenario);
+/// Tells bounds that the controller's variable does not take: its range, its size, read-only.
+void check_against_controller(TunedParameter& parameter, const Scenario& scenario,
+                              devices::Problems& problems);
+
+/// Point of the unit cube to values, integers rounded.
+Point from_unit(const TunedParameters& parameters, const std::vector<double>& unit);
+std::vector<double> to_unit(const TunedParameters& parameters, const Point& point);
+/// `count` points of a Latin hypercube over the ranges: every parameter's range is cut into `count` equal
+/// parts, and each part is met once.
+std::vector<Point> latin_hypercube(const TunedParameters& parameters, int count, plants::Random random);
+
+}  // namespace drycut::sim

@@ -1,0 +1,164 @@
+#include "sim/tune/plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drycut::sim {
+
+namespace {
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+renders::Curve curve_of(const Recording& recording, const MetricName& name, Time from, std::string label,
+                        std::string& unit) {
+  renders::Curve curve;
+  curve.label = std::move(label);
+  if (!name.event.empty()) {
+    curve.style = renders::Curve::Style::points;
+    for (const auto& [time, number] : event_numbers(recording, name, from)) {
+      curve.x.push_back(time);
+      curve.y.push_back(number);
+    }
+    for (const auto& happened : recording.events())
+      if (happened.event == name.event)
+        if (const auto* value = happened.find(name.value)) unit = value->unit;
+    return curve;
+  }
+  const auto* column = recording.column(name.text);
+  if (column == nullptr) return curve;
+  unit = column->unit;
+  for (std::size_t row = 0; row < recording.times().size(); ++row) {
+    if (recording.times()[row] < from) continue;
+    curve.x.push_back(seconds(recording.times()[row]));
+    curve.y.push_back(column->values[row]);
+  }
+  return curve;
+}
+
+renders::Plot before_after(const Tuning& tuning, std::size_t index) {
+  const auto& entry = tuning.study.cases[index];
+  renders::Plot plot;
+  const auto stem = entry.file.stem().string();
+  plot.name =
+      tuning.study.cases.size() == 1 ? "before_after" : fmt::format("before_after_{}_{}", index + 1, stem);
+  plot.title = fmt::format("Before and after: {}", stem);
+  plot.x_label = "time [s]";
+  for (const auto& name : names_of(tuning.study, entry)) {
+    renders::Panel panel;
+    std::string unit;
+    for (const bool after : {false, true}) {
+      const auto& runs = after ? tuning.runs_after : tuning.runs_before;
+      auto curve = curve_of(runs[index].recording, name, tuning.study.from, after ? "after" : "before", unit);
+      if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+    }
+    panel.title = name.text;
+    panel.y_label = with_unit(name.text, unit);
+    if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  }
+  return plot;
+}
+
+renders::Plot way(const Tuning& tuning) {
+  renders::Curve all{"kept all limits", {}, {}, renders::Curve::Style::points};
+  renders::Curve refused{"beyond a limit", {}, {}, renders::Curve::Style::points};
+  renders::Curve least{"best so far", {}, {}, renders::Curve::Style::steps};
+  double best = std::numeric_limits<double>::infinity();
+  double number = 0;
+  for (const auto& trial : tuning.trials.trials()) {
+    ++number;
+    if (trial.verdict.stopped) continue;
+    auto& curve = trial.verdict.feasible() ? all : refused;
+    curve.x.push_back(number);
+    curve.y.push_back(trial.verdict.metric);
+    if (!trial.verdict.feasible()) continue;
+    best = std::min(best, trial.verdict.metric);
+    least.x.push_back(number);
+    least.y.push_back(best);
+  }
+  renders::Panel panel;
+  panel.title = tuning.study.minimise;
+  panel.y_label = tuning.study.minimise;
+  for (const auto* curve : {&least, &all, &refused})
+    if (!curve->x.empty()) panel.curves.push_back(*curve);
+  // A start far off would press the rest flat.
+  if (!all.y.empty() && panel.curves.size() > 2) {
+    const auto [low, high] = std::minmax_element(all.y.begin(), all.y.end());
+    const double room = (*high - *low) / 10;
+    if (room > 0) panel.y_range = {*low - room, *high + room};
+  }
+  renders::Plot plot{"search", "The way to the optimum", "trial", {}};
+  if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+renders::Plot surroundings(const Tuning& tuning) {
+  renders::Plot plot{"around",
+                     "Around the optimum, one parameter at a time",
+                     "change of the parameter [% of its range]",
+                     {}};
+  renders::Panel panel;
+  panel.title = panel.y_label = tuning.study.minimise;
+  const auto& optimum = tuning.trials.at(tuning.best);
+  for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
+    const auto& parameter = tuning.trials.parameters()[i];
+    std::vector<std::pair<double, double>> places = {{0, optimum.verdict.metric}};
+    for (const auto& slice : tuning.slices) {
+      const auto& trial = tuning.trials.at(slice.trial);
+      if (slice.parameter != i || trial.verdict.stopped) continue;
+      const double moved = (trial.point[i] - optimum.point[i]) / (parameter.high - parameter.low);
+      places.emplace_back(moved * 100, trial.verdict.metric);
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    renders::Curve curve{short_name(parameter), {}, {}};
+    for (const auto& [x, y] : places) {
+      curve.x.push_back(x);
+      curve.y.push_back(y);
+    }
+    if (places.size() > 1) panel.curves.push_back(std::move(curve));
+  }
+  if (!optimum.verdict.stopped && !panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+renders::Plot spread(const Tuning& tuning) {
+  renders::Plot plot{
+      "spread", "The tuned values over the spread of the machine", "sample, best to worst", {}};
+  std::vector<double> kept;
+  std::vector<double> refused;
+  for (const auto& trial : tuning.spread->trials())
+    if (!trial.verdict.stopped) (trial.verdict.feasible() ? kept : refused).push_back(trial.verdict.metric);
+  renders::Panel panel;
+  panel.title = panel.y_label = tuning.study.minimise;
+  double number = 0;
+  for (auto* numbers : {&kept, &refused}) {
+    std::sort(numbers->begin(), numbers->end());
+    renders::Curve curve{
+        numbers == &kept ? "kept all limits" : "beyond a limit", {}, *numbers, renders::Curve::Style::points};
+    for (std::size_t i = 0; i < numbers->size(); ++i) curve.x.push_back(++number);
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+  const auto& tuned = tuning.trials.at(tuning.best).verdict;
+  if (!tuned.stopped) panel.bands.push_back({"tuned, nominal", tuned.metric, tuned.metric});
+  if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+}  // namespace
+
+std::vector<renders::Plot> tuning_plots(const Tuning& tuning) {
+  std::vector<renders::Plot> plots;
+  for (std::size_t i = 0; i < tuning.runs_after.size(); ++i) plots.push_back(before_after(tuning, i));
+  plots.push_back(way(tuning));
+  plots.push_back(surroundings(tuning));
+  if (tuning.spread != nullptr) plots.push_back(spread(tuning));
+  std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
+  return plots;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,247 @@
+#include "sim/tune/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renders/report.hpp"
+#include "sim/results.hpp"
+#include "sim/tune/plots.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+using renders::ReportTable;
+constexpr std::string_view controller_set = "controller.qmove.set.";
+
+std::string metric_text(const Verdict& verdict) {
+  return std::isfinite(verdict.metric) ? fmt::format("{:.6g}", verdict.metric) : "none";
+}
+
+std::string room_text(double room) {
+  if (!std::isfinite(room)) return "unknown";
+  return room >= 0 ? fmt::format("{:.4g} left", room) : fmt::format("{:.4g} too far", -room);
+}
+
+std::string limits_text(const Verdict& verdict) {
+  if (verdict.feasible()) return "kept";
+  return verdict.note.empty() ? "not kept" : verdict.note;
+}
+
+ReportTable before_after(const Tuning& tuning) {
+  const auto& after = tuning.trials.at(tuning.best).verdict;
+  ReportTable table{"Before and after", {"", "before", "after"}, {}};
+  table.rows.push_back({{tuning.study.minimise, metric_text(tuning.before), metric_text(after)}});
+  for (std::size_t i = 0; i < tuning.study.constraints.size(); ++i)
+    table.rows.push_back(
+        {{tuning.study.constraints[i], room_text(tuning.before.room[i]), room_text(after.room[i])}});
+  if (!tuning.study.ignore_checks)
+    table.rows.push_back({{"failed checks", fmt::format("{}", tuning.before.failed_checks),
+                           fmt::format("{}", after.failed_checks)}});
+  table.rows.push_back({{"limits", limits_text(tuning.before), limits_text(after)}});
+  return table;
+}
+
+ReportTable values(const Tuning& tuning) {
+  ReportTable table{"Values", {"parameter", "range", "before", "after"}, {}};
+  const auto& parameters = tuning.trials.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& p = parameters[i];
+    table.rows.push_back({{p.path, fmt::format("{}..{}", p.low, value_text(p, p.high)),
+                           tuning.present[i] ? value_text(p, *tuning.present[i]) : "as the program sets it",
+                           value_text(p, tuning.trials.at(tuning.best).point[i])}});
+  }
+  return table;
+}
+
+/// A row a parameter: the cost at each share of the range, and the most it rises: the parameter that matters.
+ReportTable around(const Tuning& tuning) {
+  ReportTable table{"Around the optimum: " + tuning.study.minimise + ", one parameter at a time",
+                    {"parameter", "least", "most", "worst change"},
+                    {}};
+  const double least_metric = tuning.trials.at(tuning.best).verdict.metric;
+  const auto& parameters = tuning.trials.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    double least = least_metric;
+    double most = least_metric;
+    int beyond = 0;
+    for (const auto& slice : tuning.slices) {
+      const auto& verdict = tuning.trials.at(slice.trial).verdict;
+      if (slice.parameter != i) continue;
+      if (!verdict.feasible()) ++beyond;
+      if (verdict.stopped) continue;
+      least = std::min(least, verdict.metric);
+      most = std::max(most, verdict.metric);
+    }
+    auto change = least_metric != 0
+                      ? fmt::format("{:+.1f} %", (most - least_metric) / std::abs(least_metric) * 100)
+                      : fmt::format("{:+.4g}", most - least_metric);
+    if (beyond > 0) change += fmt::format("; {} beyond a limit", beyond);
+    table.rows.push_back(
+        {{short_name(parameters[i]), fmt::format("{:.6g}", least), fmt::format("{:.6g}", most), change}});
+  }
+  return table;
+}
+
+ReportTable spread_table(const Tuning& tuning) {
+  const auto& trials = tuning.spread->trials();
+  ReportTable table{"Spread of the machine, worst first", {}, {}};
+  for (const auto& p : tuning.spread->parameters())
+    table.headings.push_back(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
+  table.headings.push_back(tuning.study.minimise);
+  table.headings.emplace_back("limits");
+  std::vector<std::size_t> order(trials.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return trials[a].verdict.rank() > trials[b].verdict.rank();
+  });
+  for (const auto index : order) {
+    renders::ReportRow row;
+    for (const double value : trials[index].point) row.cells.push_back(fmt::format("{:.6g}", value));
+    row.cells.push_back(metric_text(trials[index].verdict));
+    row.cells.push_back(limits_text(trials[index].verdict));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable trials_table(const Tuning& tuning) {
+  ReportTable table{"All trials", {"trial", "phase"}, {}, true};
+  for (const auto& p : tuning.trials.parameters()) table.headings.push_back(short_name(p));
+  table.headings.push_back(tuning.study.minimise);
+  table.headings.emplace_back("limits");
+  std::size_t number = 0;
+  for (const auto& trial : tuning.trials.trials()) {
+    renders::ReportRow row{{fmt::format("{}", ++number), trial.phase}};
+    for (const double value : trial.point) row.cells.push_back(fmt::format("{:.6g}", value));
+    row.cells.push_back(metric_text(trial.verdict));
+    row.cells.push_back(limits_text(trial.verdict));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable patch_table(const Tuning& tuning) {
+  ReportTable table{"To paste (also in patch.txt)", {"line"}, {}};
+  const auto text = patch_text(tuning);
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = text.find('\n', at);
+    table.rows.push_back({{text.substr(at, end - at)}});
+    at = end + 1;
+  }
+  return table;
+}
+
+std::string as_text(const ReportTable& table) {
+  std::vector<std::size_t> widths;
+  const auto measure_row = [&](const std::vector<std::string>& cells) {
+    widths.resize(std::max(widths.size(), cells.size()));
+    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
+  };
+  measure_row(table.headings);
+  for (const auto& row : table.rows) measure_row(row.cells);
+  std::string text = table.title + "\n";
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string made = " ";
+    for (std::size_t i = 0; i < cells.size(); ++i) made += fmt::format(" {:<{}} ", cells[i], widths[i]);
+    made.erase(made.find_last_not_of(' ') + 1);
+    text += made + "\n";
+  };
+  line(table.headings);
+  for (const auto& row : table.rows) line(row.cells);
+  return text;
+}
+
+std::string qcl_line(std::string name, double value) {
+  if (const auto dot = name.find('.'); dot != std::string::npos) name[dot] = ':';
+  return fmt::format("{} = {}{}\n", name, value < 0 ? "- " : "", std::abs(value));
+}
+
+}  // namespace
+
+std::size_t worst_of(const Trials& spread) {
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < spread.trials().size(); ++i)
+    if (spread.at(i).verdict.rank() > spread.at(worst).verdict.rank()) worst = i;
+  return worst;
+}
+
+std::string patch_text(const Tuning& tuning) {
+  const auto& parameters = tuning.trials.parameters();
+  const auto& point = tuning.trials.at(tuning.best).point;
+  std::string qcl;
+  std::string set;
+  std::string others;
+  std::string arguments;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& path = parameters[i].path;
+    const auto value = value_text(parameters[i], point[i]);
+    if (path.starts_with(controller_set)) {
+      const auto name = path.substr(controller_set.size());
+      qcl += qcl_line(name, point[i]);
+      set += fmt::format("{}{}: {}", set.empty() ? "" : ", ", name, value);
+    } else {
+      others += fmt::format("# {}: {}\n", path, value);
+    }
+    arguments += fmt::format(" --set \"{}={}\"", path, value);
+  }
+  std::string text;
+  if (!qcl.empty()) text += "; QCL, in the set-up of the axis\n" + qcl;
+  if (!set.empty()) text += "# scenario, below controller: qmove:\n    set: {" + set + "}\n";
+  if (!others.empty()) text += "# scenario, at these paths\n" + others;
+  return text + "# drycut run\n" + arguments.substr(1) + "\n";
+}
+
+std::string summary_text(const Tuning& tuning) {
+  auto text = as_text(before_after(tuning)) + "\n" + as_text(values(tuning)) + "\n" + as_text(around(tuning));
+  if (tuning.spread != nullptr && !tuning.spread->trials().empty()) {
+    const auto& worst = tuning.spread->at(worst_of(*tuning.spread));
+    const auto& all = tuning.spread->trials();
+    const auto beyond =
+        std::count_if(all.begin(), all.end(), [](const auto& trial) { return !trial.verdict.feasible(); });
+    text += fmt::format("\nSpread of the machine: {} samples, {} beyond a limit; worst {} = {} ({})\n",
+                        all.size(), beyond, tuning.study.minimise, metric_text(worst.verdict),
+                        limits_text(worst.verdict));
+    for (std::size_t i = 0; i < worst.point.size(); ++i)
+      text += fmt::format("  at {} = {}\n", tuning.spread->parameters()[i].path,
+                          value_text(tuning.spread->parameters()[i], worst.point[i]));
+  }
+  for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
+    const auto& p = tuning.trials.parameters()[i];
+    const double value = tuning.trials.at(tuning.best).point[i];
+    if (value == p.low || value == p.high)
+      text += fmt::format("\n{} lies at an end of its range: beyond it may be better\n", p.path);
+  }
+  return text + "\n" + patch_text(tuning);
+}
+
+void write_tuning_report(const Tuning& tuning, const std::filesystem::path& folder) {
+  const auto pictures = renders::draw_plots(tuning_plots(tuning), folder / "plots");
+  const auto& after = tuning.trials.at(tuning.best).verdict;
+  renders::Report report;
+  report.title = "Tuning: " + tuning.study.minimise;
+  for (const auto& entry : tuning.study.cases)
+    report.scenario += (report.scenario.empty() ? "" : ", ") + entry.file.filename().string();
+  report.passed = after.feasible();
+  report.verdict = fmt::format("{} from {} to {}; limits: {}", tuning.study.minimise,
+                               metric_text(tuning.before), metric_text(after), limits_text(after));
+  report.facts = {{{"trials", fmt::format("{}", tuning.trials.trials().size())}},
+                  {{"measured from", fmt::format("{} s", seconds_text(tuning.study.from))}},
+                  {{"drycut", DRYCUT_VERSION}}};
+  for (const auto& run : tuning.runs_after) {
+    for (const auto& check : run.outcome.checks)
+      report.checks.push_back(
+          {check.name, check.expectation, check.passed, margin_text(check), check.detail});
+    report.scenario_expanded += run.expanded;
+  }
+  for (const auto& picture : pictures)
+    report.plots.push_back({picture, "plots/" + picture.filename().string()});
+  report.tables = {before_after(tuning), values(tuning), patch_table(tuning), around(tuning)};
+  if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
+  report.tables.push_back(trials_table(tuning));
+  renders::write_report(report, folder / "report.html");
+}
+
+}  // namespace drycut::sim

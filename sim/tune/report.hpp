@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/tune/search.hpp"
+#include "sim/tune/study.hpp"
+#include "sim/tune/trials.hpp"
+
+namespace drycut::sim {
+
+/// All that a tuning found out.
+struct Tuning {
+  const Study& study;
+  const Trials& trials;
+  std::vector<std::optional<double>> present;  ///< values before, where the scenario says them
+  Verdict before;
+  std::size_t best = 0;
+  std::vector<Slice> slices;
+  const Trials* spread = nullptr;    ///< trials of the tuned values over spread parameters
+  std::vector<KeptRun> runs_before;  ///< one a scenario
+  std::vector<KeptRun> runs_after;
+};
+
+/// What to paste: QCL lines, scenario lines, `--set` arguments.
+std::string patch_text(const Tuning& tuning);
+/// Before and after, the values, the surroundings, the spread: for the terminal.
+std::string summary_text(const Tuning& tuning);
+/// Draws the plots into `folder`/plots and
+/// writes `folder`/report.html. Throws std::runtime_error if something cannot be written.
+void write_tuning_report(const Tuning& tuning, const std::filesystem::path& folder);
+
+/// Index of the worst trial of the spread.
+std::size_t worst_of(const Trials& spread);
+
+}  // namespace drycut::sim

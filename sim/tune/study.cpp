@@ -1,0 +1,169 @@
+#include "sim/tune/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace drycut::sim {
+
+namespace {
+
+struct Gauge {
+  std::string option;  ///< "--minimise", "--constraint"
+  std::string text;
+  Metric metric;
+};
+
+/// Metric first, then the constraints.
+std::vector<Gauge> gauges(const Study& study, const Study::Case& scenario, devices::Problems& problems) {
+  std::vector<Gauge> made;
+  const auto add = [&](const std::string& option, const std::string& text, Metric::Kind kind) {
+    std::vector<ExpressionFault> faults;
+    auto metric = Metric::compile(text, kind, scenario.events, faults);
+    for (auto& fault : faults)
+      problems.push_back({option, 1, static_cast<int>(fault.offset) + 1, fault.what, fault.remedy});
+    if (metric) made.push_back({option, text, std::move(*metric)});
+  };
+  add("--minimise", study.minimise, Metric::Kind::number);
+  for (const auto& text : study.constraints) add("--constraint", text, Metric::Kind::limit);
+  return made;
+}
+
+/// Records what the gauges look at; a channel that does not exist is told at its place in the gauge.
+void record_names(Scenario& scenario, const std::vector<Gauge>& all) {
+  for (const auto& gauge : all) {
+    const auto source = static_cast<int>(scenario.sources.size());
+    scenario.sources.push_back(gauge.option);
+    for (const auto& name : gauge.metric.names()) {
+      if (!name.event.empty()) continue;
+      const Place place{1, static_cast<int>(name.offset) + 1, source};
+      scenario.record.channels.push_back({name.text, place});
+    }
+  }
+}
+
+/// A scenario of the study, ready to run: only what is measured is recorded, nothing is drawn.
+Scenario read_case(const Study& study, const Study::Case& scenario, const std::vector<Override>& overrides,
+                   devices::Problems& problems) {
+  auto all = study.set;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  auto read = read_scenario_text(scenario.text, scenario.file, all, problems);
+  read.pictures = {};
+  read.record.channels.clear();
+  return read;
+}
+
+/// How far beyond, between 0 and 1: units differ from limit to limit.
+double beyond(double room) { return room < 0 ? -room / (1 - room) : 0; }
+
+void stop(Verdict& verdict, std::string why) {
+  verdict.stopped = true;
+  if (verdict.note.empty()) verdict.note = std::move(why);
+}
+
+void judge_checks(const Outcome& outcome, Verdict& verdict) {
+  for (const auto& check : outcome.checks) {
+    if (check.passed) continue;
+    ++verdict.failed_checks;
+    verdict.violation += 1 + beyond(check.margin.value_or(-1));
+    if (verdict.note.empty()) verdict.note = "check failed: " + check.name;
+  }
+}
+
+void measure_case(const Study& study, const Study::Case& entry, const std::vector<Override>& overrides,
+                  Verdict& verdict) {
+  devices::Problems problems;
+  auto scenario = read_case(study, entry, overrides, problems);
+  auto all = gauges(study, entry, problems);
+  record_names(scenario, all);
+  if (!scenario.buildable || !problems.empty())
+    return stop(verdict, problems.empty() ? "cannot be built" : to_string(problems.front()));
+  Simulation simulation(scenario, problems);
+  if (!problems.empty()) return stop(verdict, to_string(problems.front()));
+  const auto outcome = simulation.run();
+  if (!outcome.failure.empty()) return stop(verdict, outcome.failure);
+  const double metric = all[0].metric.value(simulation.recording(), study.from);
+  if (!std::isfinite(metric)) return stop(verdict, fmt::format("no number for {}", study.minimise));
+  verdict.metric = std::isnan(verdict.metric) ? metric : std::max(verdict.metric, metric);
+  for (std::size_t i = 0; i < verdict.room.size(); ++i) {
+    const double room = all[i + 1].metric.value(simulation.recording(), study.from);
+    if (std::isnan(room)) return stop(verdict, fmt::format("no number for {}", all[i + 1].text));
+    verdict.room[i] = std::min(verdict.room[i], room);
+    if (room < 0) {
+      verdict.violation += 1 + beyond(room);
+      if (verdict.note.empty()) verdict.note = "beyond " + all[i + 1].text;
+    }
+  }
+  if (!study.ignore_checks) judge_checks(outcome, verdict);
+}
+
+}  // namespace
+
+double Verdict::rank() const {
+  if (stopped) return std::numeric_limits<double>::max();
+  if (violation > 0) return 2 + violation;
+  return metric / (1 + std::abs(metric));  // monotone, in (-1, 1)
+}
+
+Verdict measure(const Study& study, const std::vector<Override>& overrides) {
+  Verdict verdict;
+  verdict.metric = std::numeric_limits<double>::quiet_NaN();
+  verdict.room.assign(study.constraints.size(), std::numeric_limits<double>::infinity());
+  for (const auto& scenario : study.cases) measure_case(study, scenario, overrides, verdict);
+  return verdict;
+}
+
+KeptRun keep_run(const Study& study, const Study::Case& entry, const std::vector<Override>& overrides) {
+  devices::Problems problems;
+  auto scenario = read_case(study, entry, overrides, problems);
+  record_names(scenario, gauges(study, entry, problems));
+  if (!problems.empty() || !scenario.buildable)
+    throw std::runtime_error(problems.empty() ? "cannot be built" : to_string(problems.front()));
+  Simulation simulation(scenario, problems);
+  if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
+  KeptRun kept;
+  kept.outcome = simulation.run();
+  kept.recording = simulation.recording();
+  kept.expanded = expand(scenario);
+  return kept;
+}
+
+std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario) {
+  devices::Problems ignored;
+  std::vector<MetricName> names;
+  for (const auto& gauge : gauges(study, scenario, ignored))
+    for (const auto& name : gauge.metric.names())
+      if (std::none_of(names.begin(), names.end(), [&](const MetricName& n) { return n.text == name.text; }))
+        names.push_back(name);
+  return names;
+}
+
+void prepare(Study& study, devices::Problems& problems) {
+  for (auto& entry : study.cases) {
+    // As it stands first: everything that is wrong with the scenario itself.
+    const auto before = problems.size();
+    const auto scenario = read_scenario_text(entry.text, entry.file, study.set, problems);
+    if (!scenario.buildable) continue;
+    const Simulation simulation(scenario, problems);
+    entry.events = simulation.known_events();
+    if (problems.size() != before) continue;
+    if (study.from >= scenario.scene.duration)
+      problems.push_back(
+          {"--from", 1, 1,
+           fmt::format("{} s is not before the end of {}", seconds(study.from), entry.file.string()),
+           fmt::format("the scenario lasts {} s", seconds(scenario.scene.duration))});
+    auto measured = read_case(study, entry, {}, problems);
+    devices::Problems of_gauges;
+    record_names(measured, gauges(study, entry, of_gauges));
+    const Simulation probe(measured, of_gauges);
+    for (auto& problem : of_gauges)
+      if (std::none_of(problems.begin(), problems.end(),
+                       [&](const auto& told) { return to_string(told) == to_string(problem); }))
+        problems.push_back(std::move(problem));
+  }
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,234 @@
+#include "sim/tune/trials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "sim/file.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool inside = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && inside && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += c;
+      ++i;
+    } else if (c == '"') {
+      inside = !inside;
+    } else if (c == ',' && !inside) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+std::optional<double> number_in(const std::string& cell) {
+  double number = 0;
+  const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (read.ec != std::errc() || read.ptr != cell.data() + cell.size()) return {};
+  return number;
+}
+
+/// FNV-1a: the same on every machine.
+class Hash {
+ public:
+  void add(std::string_view text) {
+    for (const char c : text) byte(static_cast<unsigned char>(c));
+    byte(0);
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  void byte(unsigned char c) {
+    constexpr std::uint64_t prime = 1099511628211ULL;
+    value_ = (value_ ^ c) * prime;
+  }
+  std::uint64_t value_ = 14695981039346656037ULL;
+};
+
+std::string row_of(std::size_t number, const Trials::Trial& trial) {
+  std::string row = fmt::format("{},{}", number, trial.phase);
+  for (const double value : trial.point) row += fmt::format(",{}", value);
+  const auto& verdict = trial.verdict;
+  row += fmt::format(",{}", verdict.metric);
+  for (const double room : verdict.room) row += fmt::format(",{}", room);
+  return row + fmt::format(",{},{},{},{}\n", verdict.failed_checks, verdict.violation,
+                           verdict.stopped ? 1 : 0, quoted(verdict.note));
+}
+
+}  // namespace
+
+Trials::Trials(const Study& study, TunedParameters parameters, std::vector<Override> fixed,
+               std::filesystem::path file, int jobs, std::function<void(int)> progress)
+    : study_(study),
+      parameters_(std::move(parameters)),
+      fixed_(std::move(fixed)),
+      file_(std::move(file)),
+      jobs_(std::max(1, jobs)),
+      progress_(std::move(progress)) {
+  load();
+  stream_.exceptions(std::ios::failbit | std::ios::badbit);
+  stream_.open(file_, std::ios::binary | std::ios::app);
+}
+
+std::string Trials::fingerprint() const {
+  Hash hash;
+  hash.add(DRYCUT_VERSION);
+  hash.add(study_.minimise);
+  for (const auto& text : study_.constraints) hash.add(text);
+  hash.add(fmt::format("{} {}", study_.from, study_.ignore_checks));
+  for (const auto& override : fixed_) hash.add(override.path + "=" + override.value);
+  for (const auto& entry : study_.cases) {
+    devices::Problems problems;
+    const auto scenario = read_scenario_text(entry.text, entry.file, study_.set, problems);
+    hash.add(expand(scenario));
+    const auto* qmove = std::get_if<QmoveSection>(&scenario.controller);
+    if (qmove == nullptr) continue;
+    auto files = qmove->tasks;
+    files.push_back(qmove->configuration);
+    if (!qmove->retentive.text.empty()) files.push_back(qmove->retentive);
+    for (const auto& name : files) {
+      const auto text = read_file(entry.file.parent_path() / name.text, problems);
+      hash.add(text ? *text : "");
+    }
+  }
+  return fmt::format("# drycut tune, study {:016x}", hash.value());
+}
+
+std::string Trials::heading() const {
+  std::string line = "trial,phase";
+  for (const auto& p : parameters_)
+    line += "," + quoted(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
+  line += "," + quoted(study_.minimise);
+  for (const auto& text : study_.constraints) line += "," + quoted("room of " + text);
+  return line + ",failed_checks,violation,stopped,note";
+}
+
+// Takes what an earlier run of the same study left; a line cut short ends it.
+void Trials::load() {
+  const auto first = fingerprint() + "\n" + heading() + "\n";
+  std::string text = first;
+  std::ifstream old(file_, std::ios::binary);
+  std::ostringstream content;
+  content << old.rdbuf();
+  const std::string all = old ? content.str() : "";
+  if (all.starts_with(first)) {
+    const std::size_t columns = 2 + parameters_.size() + 1 + study_.constraints.size() + 4;
+    for (std::size_t at = first.size(); at < all.size();) {
+      const auto end = all.find('\n', at);
+      if (end == std::string::npos) break;
+      const auto cells = cells_of(all.substr(at, end - at));
+      if (cells.size() != columns) break;
+      std::vector<double> numbers;
+      for (std::size_t i = 2; i + 1 < columns; ++i) {
+        const auto number = number_in(cells[i]);
+        if (!number) break;
+        numbers.push_back(*number);
+      }
+      if (numbers.size() != columns - 3) break;
+      const auto split = numbers.begin() + static_cast<std::ptrdiff_t>(parameters_.size());
+      Verdict verdict;
+      verdict.metric = *split;
+      verdict.room.assign(split + 1, numbers.end() - 3);
+      verdict.failed_checks = static_cast<int>(numbers.end()[-3]);
+      verdict.violation = numbers.end()[-2];
+      verdict.stopped = numbers.end()[-1] != 0;
+      verdict.note = cells.back();
+      kept_.emplace(Point(numbers.begin(), split), verdict);
+      text += all.substr(at, end + 1 - at);
+      ++rows_;
+      at = end + 1;
+    }
+  }
+  OutputFile out(file_);
+  out.write(text);
+  out.finish();
+}
+
+void Trials::append(const Trial& trial) {
+  stream_ << row_of(++rows_, trial) << std::flush;
+  ++simulated_;
+}
+
+std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector<Point>& points) {
+  std::vector<std::size_t> indices;
+  std::vector<std::size_t> open;
+  for (const auto& point : points) {
+    const auto [entry, fresh] = index_.emplace(point, trials_.size());
+    indices.push_back(entry->second);
+    if (!fresh) continue;
+    trials_.push_back({phase, point, {}});
+    const auto kept = kept_.find(point);
+    if (kept == kept_.end()) {
+      open.push_back(entry->second);
+    } else {
+      trials_.back().verdict = kept->second;
+    }
+  }
+  // Rows go into the file in order, whoever finishes first.
+  std::vector<bool> done(open.size());
+  std::size_t written = 0;
+  std::mutex mutex;
+  std::exception_ptr trouble;
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (auto i = next++; i < open.size(); i = next++) {
+      try {
+        auto& trial = trials_[open[i]];
+        auto overrides = fixed_;
+        for (auto& override : overrides_of(parameters_, trial.point))
+          overrides.push_back(std::move(override));
+        trial.verdict = measure(study_, overrides);
+        const std::lock_guard lock(mutex);
+        done[i] = true;
+        while (written < open.size() && done[written]) append(trials_[open[written++]]);
+        if (progress_) progress_(static_cast<int>(trials_.size() - open.size() + written));
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!trouble) trouble = std::current_exception();
+        next = open.size();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 1; i < std::min<std::size_t>(static_cast<std::size_t>(jobs_), open.size()); ++i)
+      threads.emplace_back(work);
+    work();
+  }
+  if (trouble) std::rethrow_exception(trouble);
+  return indices;
+}
+
+std::size_t Trials::best() const {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < trials_.size(); ++i)
+    if (trials_[i].verdict.rank() < trials_[best].verdict.rank()) best = i;
+  return best;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,239 @@
+#include "plants/backlash_axis.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/plants/plants_lookup.hpp"
+
+namespace drycut::plants {
+namespace {
+
+constexpr double h = 1e-4;
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double g = 9.80665;
+
+struct Unit {
+  World world;
+  std::unique_ptr<Plant> plant;
+  std::vector<Event> events;
+  int steps = 0;
+  explicit Unit(const BacklashAxisDefinition& definition, bool enabled = false) {
+    BacklashAxisDefinition mine = definition;
+    plant = mine.build(world, nullptr);
+    plug<CommandPort>(*plant, "servo.enable").level = enabled;
+  }
+  LinearAxis& axis() { return static_cast<LinearAxis&>(*plant); }
+  Slide& load() { return axis().carriage(); }
+  Shaft& motor() { return axis().rotor(); }
+  /// How far the motor is ahead of the load [m].
+  double lead_off() { return axis().twist() * 0.02 / turn; }
+  /// Speed of the load relative to the motor [m/s].
+  double apart() { return load().speed - motor().speed * 0.02 / turn; }
+  void step(double dt = h) {
+    plant->drive(dt);
+    world.step(dt);
+    plant->sense(dt);
+    for (Event& event : plant->take_events()) events.push_back(std::move(event));
+    ++steps;
+  }
+  void run(double seconds) {
+    const auto count = std::lround(seconds / h);
+    for (long i = 0; i < count; ++i) step();
+    ASSERT_EQ(world.failure(), "");
+  }
+};
+
+BacklashAxisDefinition frictionless() {
+  BacklashAxisDefinition definition;
+  definition.axis.data.motor_friction = {};
+  definition.axis.data.carriage_friction = {};
+  return definition;
+}
+
+TEST(BacklashAxis, DampingRatioAndRestitutionAreInverse) {
+  EXPECT_DOUBLE_EQ(restitution_of(0), 1);
+  EXPECT_EQ(damping_ratio_for(1), 0);
+  for (const double e : {0.3, 0.4, 0.5, 0.7, 0.9, 0.99})
+    EXPECT_NEAR(restitution_of(damping_ratio_for(e)), e, 1e-12);
+  // A light damper takes pi zeta, as in any free oscillation over half a period.
+  EXPECT_NEAR(restitution_of(1e-4), 1 - std::numbers::pi * 1e-4, 1e-6);
+  for (double zeta = 0.01; zeta < 0.95; zeta += 0.01)
+    EXPECT_LT(restitution_of(zeta + 0.01), restitution_of(zeta));
+}
+
+TEST(BacklashAxis, TheLoadIsFreeWithinTheGap) {
+  const auto definition = frictionless();
+  for (const double speed : {-0.05, 0.05}) {
+    Unit unit(definition);
+    unit.load().speed = speed;
+    // It starts in the middle: half a millimetre at 50 mm/s.
+    const int free = 100;
+    for (int i = 0; i < free; ++i) {
+      unit.step();
+      EXPECT_EQ(unit.load().speed, speed) << i;
+      EXPECT_EQ(unit.motor().speed, 0) << i;
+    }
+    for (int i = 0; i < 5; ++i) unit.step();
+    EXPECT_LT(std::abs(unit.load().speed), std::abs(speed));
+    EXPECT_GT(unit.motor().speed * speed, 0);
+  }
+}
+
+TEST(BacklashAxis, TheImpactHasItsRestitutionAndKeepsTheMomentum) {
+  for (const double restitution : {0.3, 0.5, 0.8, 1.0})
+    for (const double speed : {0.01, 0.2}) {
+      auto definition = frictionless();
+      definition.flanks.restitution = restitution;
+      definition.flanks.stiffness = 1e6;  // a light contact, many steps long
+      Unit unit(definition);
+      unit.load().speed = speed;
+      const double motor_mass = unit.motor().inertia * std::pow(turn / 0.02, 2);
+      double before = 0;
+      for (int i = 0; i < 5000 && unit.apart() >= 0; ++i) {
+        before = std::max(before, unit.apart());
+        unit.step();
+      }
+      while (unit.lead_off() < -0.5e-3) unit.step();
+      EXPECT_EQ(before, speed);
+      EXPECT_NEAR(-unit.apart() / before / restitution, 1, 0.01) << restitution << " at " << speed;
+      const double momentum = 100 * unit.load().speed + motor_mass * unit.motor().speed * 0.02 / turn;
+      EXPECT_NEAR(momentum / (100 * speed), 1, 1e-9);
+    }
+}
+
+TEST(BacklashAxis, TheDefaultContactKeepsItsRestitutionInStepsOf100us) {
+  Unit unit(frictionless());
+  unit.load().speed = 0.05;
+  while (unit.apart() >= 0 && unit.steps < 1000) unit.step();
+  while (unit.lead_off() < -0.5e-3 && unit.steps < 1000) unit.step();
+  EXPECT_NEAR(-unit.apart() / 0.05, 0.5, 0.005);
+}
+
+TEST(BacklashAxis, StictionHoldsUpToTheBreakawayForceAndMotionNeedsLess) {
+  BacklashAxisDefinition definition;  // 150 N in motion, 50 N more from rest
+  definition.flanks.gap = 0.1;        // the motor is far away
+  Unit unit(definition);
+  set(*unit.plant, "force", 199.9);
+  unit.run(0.2);
+  EXPECT_EQ(unit.load().position, 0.1);
+  EXPECT_EQ(unit.load().speed, 0);
+  set(*unit.plant, "force", 200.1);
+  unit.step();
+  EXPECT_NEAR(unit.load().speed, 0.1 / 100 * h, 1e-15);
+
+  unit.load().speed = 0.03;  // three times the Stribeck speed
+  set(*unit.plant, "force", 160);
+  unit.step();
+  EXPECT_NEAR((unit.load().speed - 0.03) / h, (160 - 150 - 50 * std::exp(-9.0) - 100 * 0.03) / 100, 1e-9);
+  set(*unit.plant, "force", 0);
+  unit.run(0.1);
+  EXPECT_EQ(unit.load().speed, 0);
+}
+
+TEST(BacklashAxis, TheLoadCreepsThroughTheGapOnASlope) {
+  auto definition = frictionless();
+  definition.axis.data.inclination = std::numbers::pi / 6;
+  definition.flanks.gap = 0.02;
+  definition.axis.data.motor_friction.coulomb = 20;  // holds the motor
+  Unit unit(definition);
+  const double seconds = 0.05;
+  unit.run(seconds);
+  const double a = -g / 2;
+  EXPECT_NEAR(unit.load().speed, a * seconds, 1e-9);
+  EXPECT_NEAR(unit.load().position - 0.1, a * seconds * (seconds + h) / 2, 1e-9);
+  unit.run(2);  // then it lies on the lower flank, pressed by its weight
+  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 100 * g / 2, 1);
+  EXPECT_NEAR(channel(*unit.plant, "motor.position") - channel(*unit.plant, "position"), 10, 0.01);
+}
+
+TEST(BacklashAxis, TheEndStopStopsTheLoadAndNotTheMotorAtOnce) {
+  auto definition = frictionless();
+  definition.axis.data.start = 1.049;
+  definition.flanks.gap = 0.2;
+  definition.axis.data.stop.damping = 0;
+  Unit unit(definition);
+  unit.load().speed = 0.5;
+  unit.motor().speed = 0.5 * turn / 0.02;
+  while (unit.events.empty() && unit.steps < 2000) unit.step();
+  ASSERT_EQ(unit.events.size(), 1U);
+  EXPECT_EQ(value(unit.events[0], "side"), 1);
+  EXPECT_NEAR(value(unit.events[0], "impulse"), 100 * 0.5, 0.01);  // of the load alone
+  EXPECT_EQ(unit.motor().speed, 0.5 * turn / 0.02);
+  // The motor crosses the gap and presses the load into the stop again; it never gets far.
+  double deepest = 0;
+  for (int i = 0; i < 20000; ++i) {
+    unit.step();
+    deepest = std::max(deepest, unit.load().position - 1.05);
+  }
+  const double motor_mass = unit.motor().inertia * std::pow(turn / 0.02, 2);
+  EXPECT_LT(deepest, std::sqrt((100 + motor_mass) / 2e6));  // all its energy at 1 m/s in the spring
+  EXPECT_LT(unit.load().speed, 0);                          // thrown back
+}
+
+TEST(BacklashAxis, TheEncoderOnTheMotorSeesTheGapTheScaleDoesNot) {
+  for (const double gap : {0.2e-3, 1e-3, 3e-3}) {
+    BacklashAxisDefinition definition;
+    definition.flanks.gap = gap;
+    Unit unit(definition, true);
+    auto& volts = plug<ReferencePort>(*unit.plant, "servo.reference").volts;
+    // Epicycloidal ramps of 60 mm/s in 0.3 s: at most 0.4 m/s2, less than the friction's 1.5, so that the
+    // load stays on its flank; a corner in the reference would let the motor swing back.
+    const auto ramp = [](double p) { return p - std::sin(turn * p) / turn; };
+    const auto stop_after = [&](double reference) {
+      for (int i = 0; i < 3000; ++i) volts = reference * ramp(i / 3000.0), unit.step();
+      for (int i = 0; i < 3000; ++i) volts = reference * ramp(1 - i / 3000.0), unit.step();
+      volts = 0;
+      unit.run(0.3);
+      return channel(*unit.plant, "encoder.count") * 0.002 - channel(*unit.plant, "scale.count") * 0.001;
+    };
+    const double upward = stop_after(0.9);
+    const double downward = stop_after(-0.9);
+    // The flanks give way by 1.5 um under the friction; a count of the encoder is 2 um.
+    EXPECT_NEAR(upward - downward, gap * 1000, std::max(0.01 * gap * 1000, 0.006));
+    EXPECT_NEAR(channel(*unit.plant, "motor.position") - channel(*unit.plant, "position"), -gap * 500, 0.003);
+  }
+}
+
+TEST(BacklashAxis, SwitchesSeeTheLoadAfterTheirDelay) {
+  auto definition = frictionless();
+  definition.flanks.gap = 0.1;  // the motor does not follow
+  definition.axis.data.home.delay = 20e-3;
+  definition.axis.data.limit_delay = 10e-3;
+  for (const bool upward : {false, true}) {
+    definition.axis.data.start = upward ? 1.0 : 0.04;
+    Unit unit(definition);
+    unit.load().speed = upward ? 0.1 : -0.1;
+    const auto& signal = plug<SignalPort>(*unit.plant, upward ? "limit_max" : "home");
+    while (!signal.level && unit.steps < 10000) unit.step();
+    // The upper limit at 1030 mm, the home switch's target up to 10 mm: 0.3 s on the way.
+    EXPECT_NEAR(unit.steps * h, upward ? 0.31 : 0.32, 1.5 * h);
+    EXPECT_EQ(unit.motor().speed, 0);
+  }
+}
+
+TEST(BacklashAxis, TheTableSpeaksOfTheGapAndNotOfTheGear) {
+  BacklashAxisDefinition definition;
+  std::vector<std::string> names;
+  for (const Parameter& p : definition.parameters()) names.push_back(p.name);
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"gap", "contact.stiffness", "contact.restitution", "mass",
+                                              "gear.ratio", "inclination", "home.delay"}));
+  for (const char* gone : {"gear.stiffness", "gear.damping", "gear.backlash", "carrier"})
+    EXPECT_THAT(names, ::testing::Not(::testing::Contains(gone)));
+}
+
+TEST(BacklashAxis, WhatCannotBeBuiltIsRefused) {
+  BacklashAxisDefinition definition;
+  EXPECT_TRUE(definition.objections().empty());
+  definition.flanks.stiffness = 1e11;
+  const auto objections = definition.objections();
+  ASSERT_EQ(objections.size(), 1U);
+  EXPECT_EQ(objections[0].parameter, "contact.stiffness");
+  EXPECT_THAT(objections[0].what, ::testing::HasSubstr("oscillate at"));
+  EXPECT_EQ(objections[0].remedy, "a softer contact or more mass");
+}
+
+}  // namespace
+}  // namespace drycut::plants

@@ -1,0 +1,71 @@
+#pragma once
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace drycut::sim::bode_axis {
+
+namespace fs = std::filesystem;
+
+/// EPICPOS with its loop closed round an ideal axis: 1 m/s at 10 V and at maxvel, 10 um a count, TCamp 4 ms.
+/// The loop is then L(z) = pgain / 1000 / (z - 1): speed is voltage, and the count of a sampling instant
+/// makes the voltage of the same instant.
+struct Folder {
+  Folder() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    path = fs::temp_directory_path() / (std::string("drycut_bode_") + info->test_suite_name() + "_" +
+                                        info->name() + "_" + std::to_string(getpid()));
+    fs::remove_all(path);
+    fs::create_directories(path);
+    write("axis.cnf",
+          "BUS\n1 1CPUB 02\n2 1MIXA 00\n\nINTDEVICE\nAxis EPICPOS 4 2.CNT01 X X.X 2.AN01\n\nEND\n");
+    write("axis.mod", program("LOOPON Axis\n"));
+    write("axis.yaml", scenario(""));
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  /// Writes a file of the folder.
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name) << text;
+    return path / name;
+  }
+  static std::string program(const std::string& loop) {
+    return "Axis:cntratio = 100000\nAxis:maxpos = 999999\nAxis:minpos = -999999\n"
+           "Axis:maxfollerr = 900000\nAxis:unitvel = 1\nAxis:decpt = 0\nAxis:taccdec = 100\nAxis:toll = 5\n"
+           "Axis:feedfw = 0\nAxis:integt = 0\nAxis:derivt = 0\nINIT Axis\nWAIT Axis:st_init\nCNTUNLOCK Axis\n"
+           "CNTDIR Axis\nREGON Axis\nRESUME Axis\nWAIT NOT Axis:st_emrg\n" +
+           loop + "MAIN:\nWAIT 1\nJUMP MAIN\nEND\n";
+  }
+  /// The same loop round a servo motor with a ball screw: 2 um a count, 10 V is maxvel.
+  static std::string screw() {
+    return "scene: {step: 100 us, duration: 500 ms}\n"
+           "plants:\n  axis: {type: linear_axis}\n"
+           "controller:\n  qmove:\n    configuration: axis.cnf\n    tasks: [axis.mod]\n"
+           "    set: {Axis.pgain: 200, Axis.maxvel: 83333}\n"
+           "wiring: {2.CNT01: axis.encoder, 2.AN01: axis.servo.reference}\nrecord: {channels: "
+           "[Axis.posit]}\n";
+  }
+  /// The scenario with `more` sections.
+  static std::string scenario(const std::string& more) {
+    return "scene: {step: 500 us, duration: 500 ms}\n"
+           "plants:\n  axis: {type: ideal_axis, speed_at_10v: 1000 mm/s, resolution: 0.01 mm}\n"
+           "controller:\n  qmove:\n    configuration: axis.cnf\n    tasks: [axis.mod]\n"
+           "    set: {Axis.pgain: 100, Axis.maxvel: 25000}\n"
+           "wiring: {2.CNT01: axis.encoder, 2.AN01: axis.reference}\n"
+           "record: {channels: [Axis.posit]}\n" +
+           more;
+  }
+
+  fs::path path;
+};
+
+}  // namespace drycut::sim::bode_axis

@@ -1,0 +1,179 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "sim/commands/commands.hpp"
+#include "tests/sim/bode_axis.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+struct BodeCommand : testing::Test {
+  BodeCommand() {
+    options.scenario = folder.path / "axis.yaml";
+    options.points = 12;
+    options.amplitude = 1;
+  }
+  int run() {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int status = measure_bode(options);
+    out = testing::internal::GetCapturedStdout();
+    err = testing::internal::GetCapturedStderr();
+    return status;
+  }
+  /// Expects bad input told by `message`, and nothing else.
+  void refuses(const std::string& message) {
+    EXPECT_EQ(run(), bad_input);
+    EXPECT_EQ(err, message + "\n");
+    EXPECT_THAT(out, IsEmpty());
+  }
+  static std::string content(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+  bode_axis::Folder folder;
+  BodeOptions options;
+  std::string out;
+  std::string err;
+};
+
+TEST_F(BodeCommand, JudgesTheLoop) {
+  options.min_phase_margin = 60;
+  options.min_gain_margin = 12;
+  EXPECT_EQ(run(), all_passed) << err;
+  EXPECT_THAT(
+      out,
+      StartsWith("axis: axis.reference from 2.AN01, sampled every 4 ms; a sine of 1 V added from 0.5 s"));
+  EXPECT_THAT(out, HasSubstr("phase margin            87.1 deg at the crossover of 3.9"));
+  EXPECT_THAT(out, HasSubstr("gain margin"));
+  EXPECT_THAT(out, HasSubstr("axis.speed"));
+  EXPECT_THAT(err, IsEmpty());
+}
+
+TEST_F(BodeCommand, FailsBelowALimit) {
+  options.min_phase_margin = 89;
+  options.min_gain_margin = 30;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("FAIL: the phase margin of 87.09 deg is below 89 deg"));
+  EXPECT_THAT(out, HasSubstr("FAIL: the gain margin of 26.04 dB is below 30 dB"));
+}
+
+TEST_F(BodeCommand, FailsOnAMarginThatItCannotKnow) {
+  options.to = 20;
+  options.min_gain_margin = 6;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("FAIL: the gain margin is not known: it lies outside these frequencies"));
+}
+
+TEST_F(BodeCommand, FailsOnAnUnstableLoop) {
+  options.set = {"controller.qmove.set.Axis.pgain=2500"};
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("the loop is not stable"));
+}
+
+TEST_F(BodeCommand, FailsOnAnOpenLoop) {
+  options.at = 0.001;
+  folder.write("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("2.AN01 does not answer: the loop is open at 0.001 s"));
+}
+
+TEST_F(BodeCommand, WritesTableAndPicture) {
+  options.csv = folder.path / "bode.csv";
+  options.png = folder.path / "bode.png";
+  EXPECT_EQ(run(), all_passed);
+  const auto csv = content(options.csv);
+  EXPECT_THAT(csv,
+              StartsWith("frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],"
+                         "closed_loop.phase [deg],sensitivity.gain [dB],error,axis.speed.gain [mm/s/V],"
+                         "axis.speed.phase [deg]\n"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
+  EXPECT_THAT(content(options.png), StartsWith("\x89PNG"));
+  const auto first = csv;
+  EXPECT_EQ(run(), all_passed);
+  EXPECT_EQ(content(options.csv), first);
+}
+
+TEST_F(BodeCommand, PrintsTheTableForAProgram) {
+  options.csv = "-";
+  EXPECT_EQ(run(), all_passed);
+  EXPECT_THAT(out, StartsWith("frequency [Hz],"));
+  EXPECT_THAT(err, HasSubstr("phase margin"));
+}
+
+TEST_F(BodeCommand, RefusesNumbersOutOfRange) {
+  options.amplitude = 11;
+  options.settle = -1;
+  options.points = 1;
+  options.min_phase_margin = 200;
+  refuses(
+      "--settle:1:1: -1 is out of range; give 0 to 1000 s\n"
+      "--amplitude:1:1: 11 is out of range; give 0.001 to 10 V\n"
+      "--min-phase-margin:1:1: 200 is out of range; give 0 to 180 deg\n"
+      "--points:1:1: 1 is out of range; give 2 to 1000");
+}
+
+TEST_F(BodeCommand, RefusesFrequenciesThatTheControllerCannotSee) {
+  options.to = 200;
+  refuses("--to:1:1: 200 Hz is above half the sampling frequency of 4 ms; give at most 125 Hz");
+}
+
+TEST_F(BodeCommand, RefusesARangeUpsideDown) {
+  options.from = 50;
+  options.to = 20;
+  refuses("--from:1:1: 50 Hz is not below --to, 20 Hz; give a lower frequency");
+}
+
+TEST_F(BodeCommand, RefusesAnUnknownWire) {
+  options.wire = "axis.servo";
+  refuses("--wire:1:1: there is no analogue reference 'axis.servo'; give one of: axis.reference");
+}
+
+TEST_F(BodeCommand, RefusesAnUnknownSpeed) {
+  options.speed = "axis.sped";
+  refuses("--speed:1:1: there is no channel 'axis.sped'; did you mean axis.speed?");
+}
+
+TEST_F(BodeCommand, RefusesFilesThatItMustNotWrite) {
+  options.csv = options.scenario;
+  options.png = folder.path / "none" / "x.jpg";
+  refuses("--csv:1:1: " + options.scenario.string() +
+          " is the scenario itself; name another file\n--png:1:1: there is no directory " +
+          (folder.path / "none").string() + "; make it first or name another\n--png:1:1: " + options.png +
+          " does not end in .png; name it x.png");
+}
+
+TEST_F(BodeCommand, RefusesAnOverrideThatIsNone) {
+  options.set = {"pgain"};
+  refuses(
+      "--set:1:1: 'pgain' is not an assignment; write path=value, such as "
+      "controller.qmove.set.AxisX.pgain=50");
+}
+
+TEST_F(BodeCommand, RefusesAScenarioWithoutAnalogueOutput) {
+  auto text = bode_axis::Folder::scenario("");
+  text.replace(text.find(", 2.AN01: axis.reference"), 24, "");
+  folder.write("axis.yaml", text);
+  refuses(
+      options.scenario.string() +
+      ":1:1: no analogue output is wired; a position loop needs one, such as 2.AN01: knife.servo.reference");
+}
+
+TEST_F(BodeCommand, TellsProblemsOfTheScenario) {
+  folder.write("axis.yaml", bode_axis::Folder::scenario("cheks: []\n"));
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, HasSubstr("axis.yaml:11:1: unknown key 'cheks'"));
+}
+
+}  // namespace
+}  // namespace drycut::sim

@@ -1,0 +1,174 @@
+// drycut tune: the answer, that it is the same however it is found, what it writes, what it refuses.
+#include <gmock/gmock.h>
+
+#include "tests/sim/tune_bench.hpp"
+
+namespace drycut::sim::tuning {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct TuneCommand : Bench {
+  /// The axis has come to rest: what feed-forward alone left behind is the way times 1 - feedfw / 1000.
+  /// In motion the sampling time adds a lag, which a little more feed-forward hides.
+  void at_rest() {
+    options.minimise = "max(abs(AxisX.follerr))";
+    options.from = "900 ms";
+  }
+};
+
+TEST_F(TuneCommand, FindsTheFeedForwardThatTheLawGives) {
+  at_rest();
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 1000\n"));
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("set: {AxisX.feedfw: 1000}"));
+}
+
+TEST_F(TuneCommand, TunesThePlantAsWell) {
+  options.set = {feedfw + "=1000"};
+  options.vary = {"plants.axis.speed_at_10v=0.5..1.6 m/s"};
+  options.budget = 60;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  const auto patch = content(folder / "out/patch.txt");
+  const auto at = patch.find("speed_at_10v: ");
+  ASSERT_NE(at, std::string::npos) << patch;
+  EXPECT_NEAR(std::stod(patch.substr(at + 14)), 1.0, 0.002);
+}
+
+TEST_F(TuneCommand, TheNumberOfJobsChangesNothing) {
+  options.vary.push_back(pgain + "=0..20");
+  ASSERT_EQ(run(), all_passed) << out << err;
+  const auto one = content(folder / "out/evaluations.csv") + content(folder / "out/patch.txt");
+  options.jobs = 3;
+  options.out = folder / "out3";
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_EQ(content(folder / "out3/evaluations.csv") + content(folder / "out3/patch.txt"), one);
+  options.seed = 2;
+  options.out = folder / "other";
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_NE(content(folder / "other/evaluations.csv") + content(folder / "other/patch.txt"), one);
+}
+
+TEST_F(TuneCommand, GoesOnWhereItWasInterrupted) {
+  ASSERT_EQ(run(), all_passed) << out << err;
+  const auto file = folder / "out/evaluations.csv";
+  const auto whole = content(file);
+  const auto cut = whole.size() / 2 + 3;  // within a line
+  std::ofstream(file, std::ios::binary) << whole.substr(0, cut);
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_EQ(content(file), whole);
+  EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(out, HasSubstr(" 0 simulated now"));
+  EXPECT_EQ(content(file), whole);
+}
+
+TEST_F(TuneCommand, AnotherProgramIsAnotherStudy) {
+  ASSERT_EQ(run(), all_passed) << out << err;
+  std::string slower = program;
+  slower.replace(slower.find("setvel = 30000"), 14, "setvel = 20000");
+  std::ofstream(folder / "axis.mod") << slower;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
+}
+
+TEST_F(TuneCommand, AConstraintMovesTheOptimum) {
+  // At setvel half of maxvel the speed is feedfw / 2 mm/s.
+  options.constraints = {"max(axis.speed) <= 450.2"};
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
+  options.constraints = {"max(axis.speed) <= 10"};
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("beyond max(axis.speed) <= 10"));
+}
+
+TEST_F(TuneCommand, FailedChecksOfTheScenarioCount) {
+  at_rest();
+  std::ofstream(folder / "axis.yaml", std::ios::app)
+      << "checks: [{name: slow, always: axis.speed <= 450.2}]\n";
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
+  options.ignore_checks = true;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 1000\n"));
+}
+
+TEST_F(TuneCommand, TheWorstOfSeveralScenariosCounts) {
+  std::string fast = scenario;
+  fast.replace(fast.find("1000 mm/s"), 9, "1250 mm/s");  // its own optimum: 800
+  std::ofstream(folder / "fast.yaml") << fast;
+  options.scenarios.push_back(folder / "fast.yaml");
+  options.budget = 100;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  const auto patch = content(folder / "out/patch.txt");
+  const double tuned = std::stod(patch.substr(patch.find("feedfw = ") + 9));
+  // The errors 1000 - f and 1.25 f - 1000 are equal at 888.9.
+  EXPECT_NEAR(tuned, 889, 3);
+}
+
+TEST_F(TuneCommand, SpreadsTheMachineAndTellsTheWorst) {
+  options.spread = {"plants.axis.speed_at_10v=±20%"};
+  options.spread_runs = 8;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(out, HasSubstr("Spread of the machine: 8 samples, 0 beyond a limit; worst rms(AxisX.follerr)"));
+  const auto csv = content(folder / "out/spread.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 10);
+}
+
+TEST_F(TuneCommand, WritesAReportWithPlots) {
+  at_rest();
+  options.pictures = true;
+  options.spread = {"plants.axis.speed_at_10v=0.9..1.1 m/s"};
+  options.spread_runs = 4;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  for (const auto* name : {"before_after", "search", "around", "spread"})
+    EXPECT_GT(fs::file_size(folder / "out/plots" / (std::string(name) + ".png")), 1000u) << name;
+  EXPECT_THAT(content(folder / "out/report.html"), HasSubstr("AxisX:feedfw = 1000"));
+}
+
+TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
+  options.vary = {feedfw + "=9..3",
+                  "nothing",
+                  "controller.qmove.set.AxisX.feedfv=1..2",
+                  pgain + "=0.5..3",
+                  "plants.axis.resolution=1..2 kg",
+                  pgain + "=1..70000",
+                  feedfw + "=1..x",
+                  feedfw + "=1m..2s"};
+  options.minimise = "rms(AxisX.foller)";
+  options.constraints = {"max(axis.speed)"};
+  options.from = "3 kg";
+  options.set = {"x"};
+  options.spread = {feedfw + "=30"};
+  EXPECT_EQ(run(), bad_input);
+  for (const auto* told :
+       {"--vary:1:35: the range 9..3 is empty; the lower end comes first",
+        "--vary:1:1: 'nothing' gives no range to a path; write PATH=LO..HI",
+        "--vary:1:35: controller.qmove.set.AxisX.feedfv: the controller has nothing called 'AxisX.feedfv'; "
+        "did "
+        "you mean AxisX.feedfw?",
+        "--vary:1:34: AxisX.pgain holds whole numbers, not 0.5",
+        "--vary:1:24: plants.axis.resolution: ", "is given twice; keep one", "--vary:1:38: 'x' is no number",
+        "the ends are in m and s; give both ends in one unit",
+        "--minimise:1:5: there is no channel 'AxisX.foller'; did you mean AxisX.follerr?",
+        "--constraint:1:1: a constraint compares by < <= > >=", "--from:1:1: '3 kg' is no time; such as 3 s",
+        "--set:1:1: 'x' is not an assignment", "--spread:1:35: '30' is no spread; write ±30% or LO..HI"})
+    EXPECT_THAT(err, HasSubstr(told));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(TuneCommand, RefusesWhatTheVariableCannotHold) {
+  options.vary = {pgain + "=1..70000"};
+  options.from = "1 s";
+  options.spread = {pgain + "=±10%"};
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, HasSubstr("--vary:1:37: AxisX.pgain cannot hold 70000"));
+  EXPECT_THAT(err, HasSubstr("--from:1:1: 1 s is not before the end of"));
+  EXPECT_THAT(err, HasSubstr("--spread:1:1: controller.qmove.set.AxisX.pgain is what --vary tunes"));
+  EXPECT_THAT(err, HasSubstr("has no value to spread around"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace drycut::sim::tuning
