@@ -24,7 +24,7 @@ struct Address {
   Kind kind = Kind::counter;
   int slot = 0;
   int number = 0;
-  auto operator<=>(const Address&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 sees one here
+  auto operator<=>(const Address&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Reads an address, any case; nullopt if `text` is none.

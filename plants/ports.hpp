@@ -13,8 +13,9 @@ struct EncoderPort {
   std::int64_t count = 0;  ///< bits x4 since the start
   double before = 0;       ///< exact position at the start of the last step [bits x4]
   double now = 0;          ///< exact position at its end [bits x4]
-  /// The count at a fraction 0..1 of the last step. Edges lie half-way between whole positions, so that a machine
-  /// that stands on a whole position, an index pulse for one, counts the same whatever the last digit says.
+  /// The count at a fraction 0..1 of the last step. Edges lie half-way between whole positions, so that a
+  /// machine that stands on a whole position, an index pulse for one, counts the same whatever the last digit
+  /// says.
   [[nodiscard]] std::int64_t count_at(double fraction) const {
     return static_cast<std::int64_t>(std::floor(before + (now - before) * fraction + 0.5));
   }

@@ -10,8 +10,8 @@
 #include "devices/catalogue.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
-// The manuals' programs, in the folder that the environment variable DRYCUT_EXAMPLES names, else beside the checkout.
-// They are not part of the product: where they are absent these tests skip.
+// The manuals' programs, in the folder that the environment variable DRYCUT_EXAMPLES names, else beside the
+// checkout. They are not part of the product: where they are absent these tests skip.
 namespace drycut::devices::qmove {
 namespace {
 
