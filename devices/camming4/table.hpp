@@ -6,12 +6,9 @@
 
 #include "devices/device.hpp"
 
-namespace drycut::devices::camming4 {
-
 // The public face of CAMMING4 (000 1.9; spec qem.md 8.1-8.3, with the print's slips corrected as D16 and D19
 // say).
-
-namespace table {
+namespace drycut::devices::camming4::table {
 
 using R = Retention;
 using enum Access;
@@ -302,5 +299,4 @@ inline constexpr std::array fields = {
     Field{"Out", Field::Kind::output, 0, 0, "output, function funOut"},
 };
 
-}  // namespace table
-}  // namespace drycut::devices::camming4
+}  // namespace drycut::devices::camming4::table

@@ -230,6 +230,7 @@ std::vector<Point> latin_hypercube(const TunedParameters& parameters, int count,
       units[k][i] = (static_cast<double>(parts[k]) + random.uniform()) / static_cast<double>(n);
   }
   std::vector<Point> points;
+  points.reserve(n);
   for (const auto& unit : units) points.push_back(from_unit(parameters, unit));
   return points;
 }
