@@ -18,7 +18,7 @@ class World;
 /// A plug of a plant: its name within the plant ("encoder", "servo.reference") and where it is.
 struct Port {
   std::string name;
-  std::variant<EncoderPort*, SignalPort*, CommandPort*, ReferencePort*> plug;
+  std::variant<EncoderPort*, SignalPort*, CommandPort*, ReferencePort*, PulsePort*> plug;
   std::string meaning;
 };
 

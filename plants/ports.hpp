@@ -45,4 +45,10 @@ struct ReferencePort {
   double volts = 0;
 };
 
+/// A pulse train that the plant takes: pulses since the start, each one counted whatever its direction, which
+/// is a signal of its own as on the cable. Never decreases; the pulses of a step come evenly within it.
+struct PulsePort {
+  std::int64_t pulses = 0;
+};
+
 }  // namespace drycut::plants

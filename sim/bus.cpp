@@ -16,7 +16,8 @@ constexpr std::string_view panel_name = "panel";
 
 /// "an encoder", ... what a plug of a plant is, in the order of plants::Port::plug.
 std::string_view kind_of(const plants::Port& port) {
-  constexpr std::string_view names[] = {"an encoder", "a signal", "a command", "a reference"};
+  constexpr std::string_view names[] = {"an encoder", "a signal", "a command", "a reference",
+                                        "a pulse train"};
   return names[port.plug.index()];
 }
 

@@ -176,7 +176,8 @@ struct Specimen {
 
 std::string_view plug_text(const plants::Port& port) {
   constexpr std::string_view names[] = {"encoder (to a counter)", "signal (to an input or interrupt line)",
-                                        "command (from an output)", "reference (from an analogue output)"};
+                                        "command (from an output)", "reference (from an analogue output)",
+                                        "pulse train (from a pulse output)"};
   return names[port.plug.index()];
 }
 
