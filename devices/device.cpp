@@ -168,10 +168,17 @@ std::vector<Diagnostic> Device::take_diagnostics() { return std::exchange(diagno
 bool Device::may_write(Symbol, std::int32_t) { return true; }
 void Device::written(Symbol symbol, std::int32_t new_value) { value(symbol.index, symbol.row) = new_value; }
 bool Device::may_execute(int) { return true; }
-bool Device::already_true(int) const { return false; }
 void Device::refused(int) {}
 
 void Device::report(Diagnostic diagnostic) { diagnostics_.push_back(std::move(diagnostic)); }
+
+void Device::report_outside(int variable, std::int32_t low, int high) {
+  const std::int32_t current = value(variable);
+  if (current >= low && current <= value(high)) return;
+  report({Diagnostic::Kind::out_of_range, std::string(type_.variables[variable].name),
+          fmt::format("{} is outside {}..{} ({}), taken anyway", current, low, value(high),
+                      type_.variables[high].name)});
+}
 
 void Device::apply(const PendingWrite& pending) {
   const Symbol symbol = pending.symbol;
@@ -203,7 +210,8 @@ void Device::apply(const PendingWrite& pending) {
 
 void Device::run(int command) {
   const Command& entry = type_.commands[command];
-  if (state(init_state) && already_true(command)) return;
+  const Effect& effect = entry.effect;
+  if (state(init_state) && effect.quiet && state(effect.state) == effect.on) return;
   std::string failed = unmet(entry.condition);
   if (failed.empty() && !may_execute(command)) failed = fmt::format("needs {}", entry.condition.also);
   if (!failed.empty()) {
@@ -216,6 +224,7 @@ void Device::run(int command) {
     set_state(init_state, true);
     initialise();
   } else {
+    if (effect.state >= 0) set_state(effect.state, effect.on);
     execute(command);
   }
 }

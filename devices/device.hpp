@@ -52,12 +52,20 @@ struct State {
   std::string_view section = {};
 };
 
+/// What a command does to one state as soon as it is taken; whatever else it does is the device's.
+struct Effect {
+  int state = -1;      ///< row of the state table; -1 = no such effect
+  bool on = false;     ///< the value that it gets
+  bool quiet = false;  ///< where the state has the value already, the command is a silent no-op, no refusal
+};
+
 /// One command. Row order is execution order among commands of the same sample (priority).
 struct Command {
   std::string_view name;
   Condition condition = {};
   std::string_view meaning = {};
   std::string_view section = {};
+  Effect effect = {};
 };
 
 /// One field of the device's INTDEVICE record in the .CNF, after name and type.
@@ -161,13 +169,12 @@ class Device {
   // What a device type supplies.
   virtual void latch() = 0;               ///< read counters and inputs
   virtual void initialise() = 0;          ///< the INIT command; the base has reset variables and states
-  virtual void execute(int command) = 0;  ///< a command whose condition holds (never INIT)
+  virtual void execute(int command) = 0;  ///< beyond its effect, a command whose condition holds; never INIT
   virtual void step() = 0;  ///< motion, regulation, outputs, states; only called when initialised
   virtual bool may_write(Symbol symbol, std::int32_t value);  ///< requirements beyond the condition
   virtual void written(Symbol symbol, std::int32_t value);    ///< default stores the value
   virtual bool may_execute(int command);                      ///< requirements beyond the condition
-  virtual bool already_true(int command) const;  ///< the command's effect already holds: silent no-op
-  virtual void refused(int command);             ///< a command whose condition did not hold
+  virtual void refused(int command);                          ///< a command whose condition did not hold
 
   [[nodiscard]] bool state(int index) const { return (states_ >> index & 1) != 0; }
   void set_state(int index, bool on) {
@@ -182,6 +189,8 @@ class Device {
     return ((states_ ^ condition.value) & condition.mask) == 0;
   }
   void report(Diagnostic diagnostic);
+  /// Reports `variable` if its value is outside low..value(`high`), a range that another variable ends.
+  void report_outside(int variable, std::int32_t low, int high);
 
  private:
   struct PendingWrite {

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "devices/cards.hpp"
+#include "devices/turn.hpp"
 
 namespace drycut::devices::axis {
 
@@ -19,26 +20,19 @@ inline DacOutput to_dac(double bits) {
   return {static_cast<std::int16_t>(bits < 0 ? bits - 0.5 : bits + 0.5), 0};
 }
 
-/// A device's part in a DAC that several devices may name: they take turns with REGON and REGOFF and must
-/// never regulate on it at once (002 1.3.1).
+/// A device's turn on a DAC that several devices may name.
 class DacTurn {
  public:
-  /// Puts a word out. True once if another device regulates on the DAC too: in two samples on end, since a
-  /// turn that changes hands within one is in order.
+  /// Puts a word out. True once if another device regulates on the DAC too.
   bool put(AnalogueOutput& dac, std::int16_t word) {
     dac.word = word;
-    if (dac.driver == nullptr) dac.driver = this;
-    contested_ = dac.driver == this ? 0 : contested_ + 1;
-    return contested_ == 2;
+    return turn_.take(dac.driver);
   }
   /// Leaves the DAC, as it stands, to the others.
-  void release(AnalogueOutput& dac) {
-    if (dac.driver == this) dac.driver = nullptr;
-    contested_ = 0;
-  }
+  void release(AnalogueOutput& dac) { turn_.release(dac.driver); }
 
  private:
-  std::int64_t contested_ = 0;  ///< samples on end in which another device was there too
+  Turn turn_;
 };
 
 /// What a device says when DacTurn::put finds another one on its DAC.

@@ -6,6 +6,7 @@
 
 #include "devices/axis/speed.hpp"
 #include "devices/camming4/rows.hpp"
+#include "devices/terminals.hpp"
 
 namespace drycut::devices::camming4 {
 
@@ -24,14 +25,6 @@ std::unique_ptr<Device> make_camming4(const Resources& resources, Cards& cards) 
 }
 
 namespace {
-
-/// The terminal at `address` in `terminals`, added if it is not there; nullptr if the field is unused.
-template <typename Terminal>
-Terminal* connect(std::map<Address, Terminal>& terminals, const Resource& resource) {
-  return resource.address ? &terminals[*resource.address] : nullptr;
-}
-
-std::int64_t count_of(const Counter* counter) { return counter ? counter->count : 0; }
 
 /// Makes a quota fit what retentive memory shows of it: the count, as far as it agrees with the position.
 void resume_quota(axis::Quota& quota, axis::Resolution resolution, std::int32_t um, std::int32_t bits) {

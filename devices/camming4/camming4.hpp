@@ -33,7 +33,6 @@ class Camming4 final : public Device {
   bool may_write(Symbol symbol, std::int32_t value) override;
   void written(Symbol symbol, std::int32_t value) override;
   bool may_execute(int command) override;
-  [[nodiscard]] bool already_true(int command) const override;
   void refused(int command) override;
 
  private:
@@ -66,12 +65,11 @@ class Camming4 final : public Device {
   void write_row(Symbol symbol, std::int32_t value);
   void write_position(int variable, std::int32_t value);
   void write_motion(int variable);
-  void check_dependent_range(int variable, std::int32_t value);
+  void check_dependent_range(int variable);
   void check_resolution(std::string_view measure, axis::Resolution resolution);
 
   // Commands (camming4_commands.cpp).
   void execute_motion(int command);
-  void execute_switch(int command);
   void start_placement();
   void start_manual(bool backward);
   void preset();

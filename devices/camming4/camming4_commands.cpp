@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "devices/axis/limits.hpp"
 #include "devices/camming4/camming4.hpp"
 #include "devices/camming4/messages.hpp"
 #include "devices/camming4/rows.hpp"
@@ -23,31 +24,6 @@ bool Camming4::may_execute(int command) {
   }
 }
 
-bool Camming4::already_true(int command) const {
-  switch (command) {
-    case c_RESUME:
-      return !state(st_emrg);
-    case c_LOOPON:
-      return state(st_loopon);
-    case c_LOOPOFF:
-      return !state(st_loopon);
-    case c_CALON:
-      return state(st_cal);
-    case c_CALOFF:
-      return !state(st_cal);
-    case c_REGOFF:
-      return state(st_regoff);
-    case c_REGON:
-      return !state(st_regoff);
-    case c_RSCAPT:
-      return !state(st_capt);
-    case c_RSINTCAPT:
-      return !state(st_intcapt);
-    default:
-      return false;  // the others do no harm when repeated
-  }
-}
-
 void Camming4::refused(int) { warn(11, value(v_rowex)); }
 
 void Camming4::execute(int command) {
@@ -56,7 +32,8 @@ void Camming4::execute(int command) {
       emergency();
       break;
     case c_RESUME:
-      set_state(st_emrg, false);
+    case c_CALOFF:
+    case c_REGON:
       axis_.settle();
       break;
     case c_PRESETM:
@@ -68,15 +45,10 @@ void Camming4::execute(int command) {
     case c_RSPRSM:
       set_state(state(st_prsonm) ? st_prsonm : st_prsokm, false);
       break;
-    case c_RSPRSOK:
-      set_state(st_prsok, false);
-      break;
     case c_RSERR:
-      set_state(st_error, false);
       value(v_errcode) = value(v_errvalue) = 0;
       break;
     case c_RSWRN:
-      set_state(st_warning, false);
       value(v_wrncode) = value(v_wrnvalue) = 0;
       break;
     case c_DELCNT:
@@ -85,17 +57,20 @@ void Camming4::execute(int command) {
     case c_DELCNTM:
       master_quota_.add_um(value(v_delta2), master_resolution_);
       break;
-    case c_STOP:
-    case c_START:
-    case c_PRESET:
-    case c_MANFW:
-    case c_MANBW:
-    case c_STARTCAM:
-    case c_STOPCAM:
-      execute_motion(command);
+    case c_LOOPON:
+      // In a cam the table goes on from where the axis is; else the axis would jump after it.
+      slip_due_ = state(st_camex);
+      if (!slip_due_) axis_.settle();
+      break;
+    case c_CALON:
+      rest();
+      value(v_vout) = 0;  // it showed the running output: calibration begins at 0 V
+      break;
+    case c_INTDSBL:
+      capture_.reset();
       break;
     default:
-      execute_switch(command);
+      execute_motion(command);
       break;
   }
 }
@@ -130,101 +105,22 @@ void Camming4::execute_motion(int command) {
   }
 }
 
-void Camming4::execute_switch(int command) {
-  switch (command) {
-    case c_LOOPON:
-      set_state(st_loopon, true);
-      // In a cam the table goes on from where the axis is; else the axis would jump after it.
-      slip_due_ = state(st_camex);
-      if (!slip_due_) axis_.settle();
-      break;
-    case c_LOOPOFF:
-      set_state(st_loopon, false);
-      break;
-    case c_CALON:
-      rest();
-      set_state(st_cal, true);
-      value(v_vout) = 0;  // it showed the running output: calibration begins at 0 V
-      break;
-    case c_CALOFF:
-      set_state(st_cal, false);
-      axis_.settle();
-      break;
-    case c_REGOFF:
-      set_state(st_regoff, true);
-      break;
-    case c_REGON:
-      set_state(st_regoff, false);
-      axis_.settle();
-      break;
-    case c_CNTLOCK:
-      set_state(st_cntlock, true);
-      break;
-    case c_CNTUNLOCK:
-      set_state(st_cntlock, false);
-      break;
-    case c_CNTREV:
-      set_state(st_cntrev, true);
-      break;
-    case c_CNTDIR:
-      set_state(st_cntrev, false);
-      break;
-    case c_CNTLOCKM:
-      set_state(st_cntlockm, true);
-      break;
-    case c_CNTUNLOCKM:
-      set_state(st_cntlockm, false);
-      break;
-    case c_CNTREVM:
-      set_state(st_cntrevm, true);
-      break;
-    case c_CNTDIRM:
-      set_state(st_cntrevm, false);
-      break;
-    case c_ENBL:
-      set_state(st_enbl, true);
-      break;
-    case c_DSBL:
-      set_state(st_enbl, false);
-      break;
-    case c_INTENBL:
-      set_state(st_intenbl, true);
-      break;
-    case c_INTDSBL:
-      set_state(st_intenbl, false);
-      capture_.reset();
-      break;
-    case c_RSCAPT:
-      set_state(st_capt, false);
-      break;
-    case c_RSINTCAPT:
-      set_state(st_intcapt, false);
-      break;
-    default:
-      break;
-  }
-}
-
 std::int32_t Camming4::clamped(std::int32_t quota) const {
-  return std::max(value(v_minpos), std::min(quota, value(v_maxpos)));
+  return axis::held(quota, value(v_minpos), value(v_maxpos));
 }
 
 void Camming4::start_placement() {
-  const std::int32_t target = clamped(value(v_setpos));
-  if (target != value(v_setpos))
-    report(
-        {Diagnostic::Kind::note, "START",
-         fmt::format("setpos {} is outside minpos..maxpos, the axis goes to {}", value(v_setpos), target)});
+  const std::int32_t wanted = value(v_setpos);
+  const std::int32_t target = clamped(wanted);
+  if (target != wanted) report(axis::outside_limits(wanted, target));
   set_state(st_still, false);
   axis_.place(target, value(v_setvel));
 }
 
 void Camming4::start_manual(bool backward) {
   const std::int32_t limit = value(backward ? v_minpos : v_maxpos);
-  if (backward ? value(v_posit) <= limit : value(v_posit) >= limit) {
-    report(
-        {Diagnostic::Kind::note, backward ? "MANBW" : "MANFW",
-         fmt::format("posit {} is already at {} {}", value(v_posit), backward ? "minpos" : "maxpos", limit)});
+  if (axis::at_limit(backward, value(v_posit), limit)) {
+    report(axis::no_way_left(backward, value(v_posit), limit));
     return;
   }
   set_state(st_still, false);

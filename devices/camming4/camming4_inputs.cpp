@@ -4,6 +4,7 @@
 
 #include "devices/camming4/camming4.hpp"
 #include "devices/camming4/rows.hpp"
+#include "devices/terminals.hpp"
 
 namespace drycut::devices::camming4 {
 namespace {
@@ -13,8 +14,6 @@ constexpr int rising_edge = 2;
 constexpr int stop_inhibited_ms = 25;
 
 std::int32_t incremented(std::int32_t value) { return wrap(Size::L, std::int64_t{value} + 1); }
-
-bool is_level(const DigitalInput* input) { return input && input->level; }
 
 }  // namespace
 
@@ -39,7 +38,7 @@ void Camming4::interrupt(int line, bool rising) {
 
 void Camming4::sample_inputs() {
   const Capture now{axis_.transducer().total(), master_.total(), master_.total(), false};
-  const bool level = is_level(terminals_.input);
+  const bool level = is_on(terminals_.input);
   const bool edge = level != input_was_ && value(v_inpcapt) == (level ? rising_edge : falling);
   input_was_ = level;
   if (edge && state(st_enbl) && value(v_funInp) != 0) {
@@ -153,11 +152,11 @@ void Camming4::preset() {
   set_state(st_prson, true);
   set_state(st_prsok, false);
   set_state(st_still, false);
-  search_.start(settings, is_level(terminals_.enable), axis_);
+  search_.start(settings, is_on(terminals_.enable), axis_);
 }
 
 void Camming4::sample_presets() {
-  const bool enable = is_level(terminals_.enable);
+  const bool enable = is_on(terminals_.enable);
   const auto zero = std::exchange(zero_, std::nullopt);
   if (search_.searching()) {
     const axis::PresetSettings settings{value(v_prsmode), value(v_prsdir) == 1, value(v_prspos),
@@ -175,7 +174,7 @@ void Camming4::sample_presets() {
 }
 
 void Camming4::sample_master_preset() {
-  const bool enable = is_level(terminals_.enable_master);
+  const bool enable = is_on(terminals_.enable_master);
   const bool released = enable_master_was_ && !enable;
   const bool met = enable && !enable_master_was_;
   enable_master_was_ = enable;

@@ -91,7 +91,7 @@ void Camming4::written(Symbol symbol, std::int32_t new_value) {
     return;
   }
   value(variable) = new_value;
-  check_dependent_range(variable, new_value);
+  check_dependent_range(variable);
   if (variable == v_posit || variable == v_encoder || variable == v_positm || variable == v_encoderm) {
     write_position(variable, new_value);
     return;
@@ -173,18 +173,10 @@ void Camming4::recompute() {
   cam_.set(limits);
 }
 
-void Camming4::check_dependent_range(int variable, std::int32_t new_value) {
-  const auto check = [&](int low, int high) {
-    const std::int32_t min = low < 0 ? 0 : value(low);
-    const std::int32_t max = value(high);
-    if (new_value >= min && new_value <= max) return;
-    report({Diagnostic::Kind::out_of_range, std::string(type().variables[variable].name),
-            fmt::format("{} is outside {}..{} ({}), taken anyway", new_value, min, max,
-                        type().variables[high].name)});
-  };
-  if (variable == v_setvel || variable == v_prsvel) check(-1, v_maxvel);
-  if (variable == v_sprsvel) check(-1, v_prsvel);
-  if (variable == v_setpos || variable == v_prspos) check(v_minpos, v_maxpos);
+void Camming4::check_dependent_range(int variable) {
+  if (variable == v_setvel || variable == v_prsvel) report_outside(variable, 0, v_maxvel);
+  if (variable == v_sprsvel) report_outside(variable, 0, v_prsvel);
+  if (variable == v_setpos || variable == v_prspos) report_outside(variable, value(v_minpos), v_maxpos);
 }
 
 void Camming4::check_resolution(std::string_view measure, axis::Resolution resolution) {

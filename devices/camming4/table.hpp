@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "devices/device.hpp"
+#include "devices/table.hpp"
 
 // The public face of CAMMING4 (000 1.9; spec qem.md 8.1-8.3, with the print's slips corrected as D16 and D19
 // say).
@@ -12,14 +12,7 @@ namespace drycut::devices::camming4::table {
 
 using R = Retention;
 using enum Access;
-
-/// Number of the row called `name`; a name that is not in the table does not compile.
-template <typename Rows>
-consteval int row_of(const Rows& rows, std::string_view name) {
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].name == name) return static_cast<int>(i);
-  throw "no such row";
-}
+using devices::row_of;
 
 inline constexpr std::array states = {
     State{"st_init", R::zero, "the device is initialised and runs", "000 1.9.6"},
@@ -57,15 +50,12 @@ inline constexpr std::array states = {
 
 /// The condition that these states are 1, or 0 where the name begins with '!'.
 consteval Condition needs(std::initializer_list<std::string_view> names, std::string_view also = {}) {
-  Condition condition{0, 0, also};
-  for (std::string_view name : names) {
-    const bool off = name.starts_with('!');
-    const std::uint64_t bit = std::uint64_t{1} << row_of(states, off ? name.substr(1) : name);
-    condition.mask |= bit;
-    if (!off) condition.value |= bit;
-  }
-  return condition;
+  return condition_of(states, names, also);
 }
+/// The effect that this state becomes 1, or 0 where the name begins with '!'.
+consteval Effect turns(std::string_view name) { return effect_of(states, name, false); }
+/// The same; where it holds already the command is a silent no-op.
+consteval Effect turns_quietly(std::string_view name) { return effect_of(states, name, true); }
 
 inline constexpr Condition any = {};
 /// Resolution and speed scale may change while nothing moves.
@@ -74,9 +64,9 @@ inline constexpr Condition at_rest = needs({"st_still", "!st_camex", "!st_prson"
 inline constexpr std::array commands = {
     Command{"INIT", needs({"!st_init"}), "computes the parameters and starts the device", "000 1.9.5"},
     Command{"EMRG", needs({"st_init"}), "stops everything without ramp, opens the reaction, output 0 V",
-            "000 1.9.5"},
+            "000 1.9.5", turns("st_emrg")},
     Command{"RESUME", needs({"st_init", "st_emrg"}), "ends the emergency; the axis reacts where it stands",
-            "000 1.9.5"},
+            "000 1.9.5", turns_quietly("!st_emrg")},
     Command{"STOP", needs({"st_init", "!st_regoff", "!st_emrg", "!st_cal", "!st_still", "!st_camex"}),
             "ends a positioning movement with the ramp tdec", "000 1.9.5"},
     Command{"START",
@@ -86,18 +76,20 @@ inline constexpr std::array commands = {
         "PRESET",
         needs({"st_init", "!st_regoff", "!st_emrg", "!st_cal", "!st_camex"}, "st_still = 1 or st_prson = 1"),
         "starts the slave's preset search; while it runs, turns its direction", "000 1.9.5"},
-    Command{"RSPRSOK", needs({"st_init", "!st_prson"}), "clears st_prsok", "000 1.9.5"},
+    Command{"RSPRSOK", needs({"st_init", "!st_prson"}), "clears st_prsok", "000 1.9.5", turns("!st_prsok")},
     Command{"PRESETM", needs({"st_init", "!st_camex", "!st_prsonm"}), "starts the master's preset search",
             "000 1.9.5"},
     Command{"RSPRSM", needs({"st_init"}), "clears st_prsokm, or ends the master's preset search",
             "000 1.9.5"},
     Command{"RSERR", needs({"st_init"}), "clears st_error, errcode, errvalue; the emergency stays",
-            "000 1.9.5"},
-    Command{"RSWRN", needs({"st_init"}), "clears st_warning, wrncode, wrnvalue", "000 1.9.5"},
+            "000 1.9.5", turns("!st_error")},
+    Command{"RSWRN", needs({"st_init"}), "clears st_warning, wrncode, wrnvalue", "000 1.9.5",
+            turns("!st_warning")},
     Command{"LOOPON", needs({"st_init", "!st_loopon"}),
-            "closes the position loop; the following error becomes 0", "000 1.9.5"},
+            "closes the position loop; the following error becomes 0", "000 1.9.5",
+            turns_quietly("st_loopon")},
     Command{"LOOPOFF", needs({"st_init", "st_loopon"}), "opens the position loop without stopping the axis",
-            "000 1.9.5"},
+            "000 1.9.5", turns_quietly("!st_loopon")},
     Command{"MANFW",
             needs({"st_init", "!st_regoff", "!st_prson", "!st_camex", "!st_cal", "st_still", "!st_emrg"}),
             "runs forward at setvel until STOP, at most to maxpos", "000 1.9.5"},
@@ -105,17 +97,25 @@ inline constexpr std::array commands = {
             needs({"st_init", "!st_regoff", "!st_prson", "!st_camex", "!st_cal", "st_still", "!st_emrg"}),
             "runs backward at setvel until STOP, at most to minpos", "000 1.9.5"},
     Command{"CALON", needs({"st_init"}), "makes the output a voltage source set by vout; ends any movement",
-            "000 1.9.5"},
+            "000 1.9.5", turns_quietly("st_cal")},
     Command{"CALOFF", needs({"st_init", "st_cal"}), "ends calibration; the axis reacts where it stands",
-            "000 1.9.5"},
-    Command{"CNTLOCK", needs({"st_init"}), "stops counting the slave's transducer", "000 1.9.5"},
-    Command{"CNTUNLOCK", needs({"st_init"}), "counts the slave's transducer again", "000 1.9.5"},
-    Command{"CNTREV", needs({"st_init"}), "reverses the slave's counting direction", "000 1.9.5"},
-    Command{"CNTDIR", needs({"st_init"}), "restores the slave's counting direction", "000 1.9.5"},
-    Command{"CNTLOCKM", needs({"st_init"}), "stops counting the master's transducer", "000 1.9.5"},
-    Command{"CNTUNLOCKM", needs({"st_init"}), "counts the master's transducer again", "000 1.9.5"},
-    Command{"CNTREVM", needs({"st_init"}), "reverses the master's counting direction", "000 1.9.5"},
-    Command{"CNTDIRM", needs({"st_init"}), "restores the master's counting direction", "000 1.9.5"},
+            "000 1.9.5", turns_quietly("!st_cal")},
+    Command{"CNTLOCK", needs({"st_init"}), "stops counting the slave's transducer", "000 1.9.5",
+            turns("st_cntlock")},
+    Command{"CNTUNLOCK", needs({"st_init"}), "counts the slave's transducer again", "000 1.9.5",
+            turns("!st_cntlock")},
+    Command{"CNTREV", needs({"st_init"}), "reverses the slave's counting direction", "000 1.9.5",
+            turns("st_cntrev")},
+    Command{"CNTDIR", needs({"st_init"}), "restores the slave's counting direction", "000 1.9.5",
+            turns("!st_cntrev")},
+    Command{"CNTLOCKM", needs({"st_init"}), "stops counting the master's transducer", "000 1.9.5",
+            turns("st_cntlockm")},
+    Command{"CNTUNLOCKM", needs({"st_init"}), "counts the master's transducer again", "000 1.9.5",
+            turns("!st_cntlockm")},
+    Command{"CNTREVM", needs({"st_init"}), "reverses the master's counting direction", "000 1.9.5",
+            turns("st_cntrevm")},
+    Command{"CNTDIRM", needs({"st_init"}), "restores the master's counting direction", "000 1.9.5",
+            turns("!st_cntrevm")},
     Command{"STOPCAM", needs({"st_init", "st_camex"}, "25 ms since a start by input function 11 or 12"),
             "leaves the master at once and stops with the ramp tdec", "000 1.9.5"},
     Command{"STARTCAM",
@@ -123,16 +123,21 @@ inline constexpr std::array commands = {
                    "!st_cal"}),
             "starts the cam at row 1, origin where master and slave are", "000 1.9.5"},
     Command{"REGOFF", needs({"st_init", "st_still", "!st_camex", "!st_prson"}),
-            "turns regulation off: the DAC keeps its word", "000 1.9.5"},
+            "turns regulation off: the DAC keeps its word", "000 1.9.5", turns_quietly("st_regoff")},
     Command{"REGON", needs({"st_init", "st_still", "st_regoff", "!st_emrg"}),
-            "turns regulation on; the axis reacts where it stands", "000 1.9.5"},
-    Command{"ENBL", needs({"st_init"}, "inpcapt > 0"), "arms the function of the normal input", "000 1.9.5"},
+            "turns regulation on; the axis reacts where it stands", "000 1.9.5", turns_quietly("!st_regoff")},
+    Command{"ENBL", needs({"st_init"}, "inpcapt > 0"), "arms the function of the normal input", "000 1.9.5",
+            turns("st_enbl")},
     Command{"INTENBL", needs({"st_init"}, "intcapt > 0"), "arms the function of the interrupt input",
-            "000 1.9.5"},
-    Command{"DSBL", needs({"st_init"}), "disarms the function of the normal input", "000 1.9.5"},
-    Command{"INTDSBL", needs({"st_init"}), "disarms the function of the interrupt input", "000 1.9.5"},
-    Command{"RSCAPT", needs({"st_init", "st_capt"}), "clears st_capt", "000 1.9.5"},
-    Command{"RSINTCAPT", needs({"st_init", "st_intcapt"}), "clears st_intcapt", "000 1.9.5"},
+            "000 1.9.5", turns("st_intenbl")},
+    Command{"DSBL", needs({"st_init"}), "disarms the function of the normal input", "000 1.9.5",
+            turns("!st_enbl")},
+    Command{"INTDSBL", needs({"st_init"}), "disarms the function of the interrupt input", "000 1.9.5",
+            turns("!st_intenbl")},
+    Command{"RSCAPT", needs({"st_init", "st_capt"}), "clears st_capt", "000 1.9.5",
+            turns_quietly("!st_capt")},
+    Command{"RSINTCAPT", needs({"st_init", "st_intcapt"}), "clears st_intcapt", "000 1.9.5",
+            turns_quietly("!st_intcapt")},
     Command{"DELCNT", needs({"st_init", "st_still", "!st_camex", "!st_prson", "!st_cal", "!st_regoff"}),
             "adds delta1 [Um] to posit, remainder kept", "000 1.9.5"},
     Command{"DELCNTM", needs({"st_init", "!st_prsonm", "!st_camex"}),

@@ -6,28 +6,25 @@
 
 #include "devices/axis/speed.hpp"
 #include "devices/epicpos/rows.hpp"
+#include "devices/terminals.hpp"
 
 namespace drycut::devices::epicpos {
 namespace {
 
 constexpr int cpu_slot = 1;  // its counters have no wires: a device moves them
 
-std::int64_t count_of(const Counter* counter) { return counter ? counter->count : 0; }
-
 }  // namespace
 
 Positioner::Positioner(const DeviceType& type, Model model, const Resources& resources, Cards& cards)
     : Device(type), model_(model), period_ms_(std::max(resources[f_TCamp].number, 1)) {
-  if (const auto& address = resources[f_ICont].address) {
-    Counter& counter = cards.counters[*address];
-    terminals_.counter = &counter;
-    if (address->slot == cpu_slot) {
-      terminals_.simulated = &counter;
-      ++counter.movers;
-    }
+  Counter* counter = connect(cards.counters, resources[f_ICont]);
+  terminals_.counter = counter;
+  if (counter && resources[f_ICont].address->slot == cpu_slot) {
+    terminals_.simulated = counter;
+    ++counter->movers;
   }
-  if (const auto& address = resources[f_IAZero].address) terminals_.enable = &cards.inputs[*address];
-  if (const auto& address = resources[f_IOutA].address) terminals_.dac = &cards.analogue_outputs[*address];
+  terminals_.enable = connect(cards.inputs, resources[f_IAZero]);
+  terminals_.dac = connect(cards.analogue_outputs, resources[f_IOutA]);
   terminals_.zero_line = resources[f_IntL].number;
   rescale();
   recompute();
@@ -83,7 +80,7 @@ void Positioner::step() {
 }
 
 void Positioner::sample_preset() {
-  const bool enable = terminals_.enable && terminals_.enable->level;
+  const bool enable = is_on(terminals_.enable);
   const auto zero = std::exchange(zero_, std::nullopt);
   if (!enable) enable_released_ = true;
   if (search_.searching()) {

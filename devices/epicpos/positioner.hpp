@@ -35,7 +35,6 @@ class Positioner final : public Device {
   bool may_write(Symbol symbol, std::int32_t value) override;
   void written(Symbol symbol, std::int32_t value) override;
   bool may_execute(int command) override;
-  [[nodiscard]] bool already_true(int command) const override;
 
  private:
   /// The terminals of the record; nullptr or line 0 where the .CNF says X.X or X.
@@ -51,10 +50,9 @@ class Positioner final : public Device {
   void rescale();
   void recompute();
   void write_motion(int variable, bool ramps_changed);
-  void check_dependent_range(int variable, std::int32_t value);
+  void check_dependent_range(int variable);
 
   // Commands (positioner_commands.cpp).
-  void execute_switch(int command);
   void start_placement();
   void start_manual(bool backward);
   void preset();

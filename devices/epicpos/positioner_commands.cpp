@@ -1,9 +1,7 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-
+#include "devices/axis/limits.hpp"
 #include "devices/epicpos/positioner.hpp"
 #include "devices/epicpos/rows.hpp"
+#include "devices/terminals.hpp"
 
 namespace drycut::devices::epicpos {
 
@@ -11,32 +9,16 @@ bool Positioner::may_execute(int command) {
   return command != c_PRESET || state(st_still) || state(st_prson);
 }
 
-// The manual's programs give these whatever the state is: what holds already is no refusal.
-bool Positioner::already_true(int command) const {
-  switch (command) {
-    case c_RESUME:
-      return !state(st_emrg);
-    case c_CALON:
-      return state(st_cal);
-    case c_CALOFF:
-      return !state(st_cal);
-    case c_REGOFF:
-      return state(st_regoff);
-    case c_REGON:
-      return !state(st_regoff);
-    default:
-      return false;  // the others do no harm when repeated
-  }
-}
-
 void Positioner::execute(int command) {
   switch (command) {
     case c_EMRG:
+    case c_CALON:
       rest();
-      set_state(st_emrg, true);
       break;
     case c_RESUME:
-      set_state(st_emrg, false);
+    case c_LOOPON:
+    case c_CALOFF:
+    case c_REGON:
       axis_.settle();
       break;
     case c_START:
@@ -60,54 +42,12 @@ void Positioner::execute(int command) {
       axis_.quota.add_um(value(v_delta), axis_.settings.resolution);
       break;
     default:
-      execute_switch(command);
-      break;
-  }
-}
-
-void Positioner::execute_switch(int command) {
-  switch (command) {
-    case c_LOOPON:
-      set_state(st_loopon, true);
-      axis_.settle();
-      break;
-    case c_LOOPOFF:
-      set_state(st_loopon, false);
-      break;
-    case c_CNTLOCK:
-      set_state(st_cntlock, true);
-      break;
-    case c_CNTUNLOCK:
-      set_state(st_cntlock, false);
-      break;
-    case c_CNTREV:
-      set_state(st_cntrev, true);
-      break;
-    case c_CNTDIR:
-      set_state(st_cntrev, false);
-      break;
-    case c_CALON:
-      rest();
-      set_state(st_cal, true);
-      break;
-    case c_CALOFF:
-      set_state(st_cal, false);
-      axis_.settle();
-      break;
-    case c_REGOFF:
-      set_state(st_regoff, true);
-      break;
-    case c_REGON:
-      set_state(st_regoff, false);
-      axis_.settle();
-      break;
-    default:
       break;
   }
 }
 
 std::int32_t Positioner::clamped(std::int32_t quota) const {
-  return std::max(value(v_minpos), std::min(quota, value(v_maxpos)));
+  return axis::held(quota, value(v_minpos), value(v_maxpos));
 }
 
 // With the loop open the axis may have been moved by hand: a movement begins where it stands. A simulated
@@ -120,19 +60,15 @@ void Positioner::ready_to_move() {
 void Positioner::start_placement() {
   const std::int32_t wanted = value(v_setpos);
   const std::int32_t target = clamped(wanted);
-  if (target != wanted)
-    report({Diagnostic::Kind::note, "START",
-            fmt::format("setpos {} is outside minpos..maxpos, the axis goes to {}", wanted, target)});
+  if (target != wanted) report(axis::outside_limits(wanted, target));
   ready_to_move();
   axis_.place(target, value(v_setvel));
 }
 
 void Positioner::start_manual(bool backward) {
   const std::int32_t limit = value(backward ? v_minpos : v_maxpos);
-  if (backward ? value(v_posit) <= limit : value(v_posit) >= limit) {
-    report(
-        {Diagnostic::Kind::note, backward ? "MANBW" : "MANFW",
-         fmt::format("posit {} is already at {} {}", value(v_posit), backward ? "minpos" : "maxpos", limit)});
+  if (axis::at_limit(backward, value(v_posit), limit)) {
+    report(axis::no_way_left(backward, value(v_posit), limit));
     return;
   }
   ready_to_move();
@@ -150,7 +86,7 @@ void Positioner::preset() {
   set_state(st_prson, true);
   set_state(st_prsok, false);
   ready_to_move();
-  search_.start(search_settings_, terminals_.enable && terminals_.enable->level, axis_);
+  search_.start(search_settings_, is_on(terminals_.enable), axis_);
 }
 
 void Positioner::rest() {

@@ -33,7 +33,7 @@ void Positioner::written(Symbol symbol, std::int32_t new_value) {
   const int variable = symbol.index;
   const bool changed = value(variable) != new_value;
   value(variable) = new_value;
-  check_dependent_range(variable, new_value);
+  check_dependent_range(variable);
   if (variable == v_posit) {
     axis_.quota.set_um(new_value, axis_.settings.resolution);
     axis_.requota();
@@ -91,17 +91,10 @@ void Positioner::recompute() {
   settings.max_following_error = value(v_maxfollerr);
 }
 
-void Positioner::check_dependent_range(int variable, std::int32_t new_value) {
-  const auto check = [&](std::int32_t min, int high) {
-    const std::int32_t max = value(high);
-    if (new_value >= min && new_value <= max) return;
-    report({Diagnostic::Kind::out_of_range, std::string(type().variables[variable].name),
-            fmt::format("{} is outside {}..{} ({}), taken anyway", new_value, min, max,
-                        type().variables[high].name)});
-  };
-  if (variable == v_setvel || variable == v_prsvel) check(0, v_maxvel);
-  if (variable == v_sprsvel) check(0, v_prsvel);
-  if (variable == v_setpos || variable == v_prspos) check(value(v_minpos), v_maxpos);
+void Positioner::check_dependent_range(int variable) {
+  if (variable == v_setvel || variable == v_prsvel) report_outside(variable, 0, v_maxvel);
+  if (variable == v_sprsvel) report_outside(variable, 0, v_prsvel);
+  if (variable == v_setpos || variable == v_prspos) report_outside(variable, value(v_minpos), v_maxpos);
 }
 
 }  // namespace drycut::devices::epicpos

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "devices/device.hpp"
+#include "devices/table.hpp"
 
 // The public face of EPICPOS (002 1.4; spec qem.md 6, with the print's slips corrected as D1 and D16 say).
 // EANPOS has the same rows but for the last ones (spec qem.md 7, D17).
@@ -13,23 +13,8 @@ namespace drycut::devices::epicpos::table {
 
 using R = Retention;
 using enum Access;
-
-/// Number of the row called `name`; a name that is not in the table does not compile.
-template <typename Rows>
-consteval int row_of(const Rows& rows, std::string_view name) {
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].name == name) return static_cast<int>(i);
-  throw "no such row";
-}
-
-/// The rows of `first`, then those of `then`.
-template <typename Row, std::size_t N, std::size_t M>
-consteval std::array<Row, N + M> joined(const std::array<Row, N>& first, const std::array<Row, M>& then) {
-  std::array<Row, N + M> rows{};
-  for (std::size_t i = 0; i < N; ++i) rows[i] = first[i];
-  for (std::size_t i = 0; i < M; ++i) rows[N + i] = then[i];
-  return rows;
-}
+using devices::joined;
+using devices::row_of;
 
 inline constexpr std::array states = {
     State{"st_init", R::zero, "the device is initialised and runs", "002 1.4.4"},
@@ -51,15 +36,12 @@ inline constexpr std::array states = {
 
 /// The condition that these states are 1, or 0 where the name begins with '!'.
 consteval Condition needs(std::initializer_list<std::string_view> names, std::string_view also = {}) {
-  Condition condition{0, 0, also};
-  for (std::string_view name : names) {
-    const bool off = name.starts_with('!');
-    const std::uint64_t bit = std::uint64_t{1} << row_of(states, off ? name.substr(1) : name);
-    condition.mask |= bit;
-    if (!off) condition.value |= bit;
-  }
-  return condition;
+  return condition_of(states, names, also);
 }
+/// The effect that this state becomes 1, or 0 where the name begins with '!'.
+consteval Effect turns(std::string_view name) { return effect_of(states, name, false); }
+/// The same; where it holds already the command is a silent no-op.
+consteval Effect turns_quietly(std::string_view name) { return effect_of(states, name, true); }
 
 inline constexpr Condition any = {};
 inline constexpr Condition still = needs({"st_still"});
@@ -68,33 +50,38 @@ inline constexpr Condition can_move = needs({"st_init", "!st_regoff", "!st_emrg"
 inline constexpr std::array commands = {
     Command{"INIT", needs({"!st_init"}), "computes the parameters and starts the device", "002 1.4.2"},
     Command{"EMRG", needs({"st_init"}), "stops everything without ramp, opens the reaction, output 0 V",
-            "002 1.4.2"},
+            "002 1.4.2", turns("st_emrg")},
     Command{"RESUME", needs({"st_init", "st_emrg"}), "ends the emergency; the axis reacts where it stands",
-            "002 1.4.2"},
+            "002 1.4.2", turns_quietly("!st_emrg")},
     Command{"START", can_move, "places the axis at setpos with setvel", "002 1.4.2"},
     Command{"STOP", needs({"st_init", "!st_regoff", "!st_emrg", "!st_cal", "!st_still"}),
             "ends a movement with the deceleration ramp", "002 1.4.2"},
     Command{"LOOPON", needs({"st_init"}), "closes the position loop; the following error becomes 0",
-            "002 1.4.2"},
-    Command{"LOOPOFF", needs({"st_init"}), "opens the position loop without stopping the axis", "002 1.4.2"},
-    Command{"CNTLOCK", needs({"st_init"}), "stops counting the transducer; no preset is loaded", "002 1.4.2"},
-    Command{"CNTUNLOCK", needs({"st_init"}), "counts the transducer again", "002 1.4.2"},
-    Command{"CNTREV", needs({"st_init"}), "reverses the counting direction", "002 1.4.2"},
-    Command{"CNTDIR", needs({"st_init"}), "restores the counting direction", "002 1.4.2"},
+            "002 1.4.2", turns("st_loopon")},
+    Command{"LOOPOFF", needs({"st_init"}), "opens the position loop without stopping the axis", "002 1.4.2",
+            turns("!st_loopon")},
+    Command{"CNTLOCK", needs({"st_init"}), "stops counting the transducer; no preset is loaded", "002 1.4.2",
+            turns("st_cntlock")},
+    Command{"CNTUNLOCK", needs({"st_init"}), "counts the transducer again", "002 1.4.2",
+            turns("!st_cntlock")},
+    Command{"CNTREV", needs({"st_init"}), "reverses the counting direction", "002 1.4.2", turns("st_cntrev")},
+    Command{"CNTDIR", needs({"st_init"}), "restores the counting direction", "002 1.4.2",
+            turns("!st_cntrev")},
     Command{"PRESET", needs({"st_init", "!st_regoff", "!st_emrg", "!st_cal"}, "st_still = 1 or st_prson = 1"),
             "starts the preset search; while it runs, turns its direction", "002 1.4.2"},
     Command{"CALON", needs({"st_init"}), "makes the output a voltage source set by vout; ends any movement",
-            "002 1.4.2"},
+            "002 1.4.2", turns_quietly("st_cal")},
     Command{"CALOFF", needs({"st_init", "st_cal"}), "ends calibration; the axis reacts where it stands",
-            "002 1.4.2"},
+            "002 1.4.2", turns_quietly("!st_cal")},
     Command{"MANFW", needs({"st_init", "!st_regoff", "!st_prson", "st_still", "!st_emrg", "!st_cal"}),
             "runs forward at setvel until STOP, at most to maxpos", "002 1.4.2"},
     Command{"MANBW", needs({"st_init", "!st_regoff", "!st_prson", "st_still", "!st_emrg", "!st_cal"}),
             "runs backward at setvel until STOP, at most to minpos", "002 1.4.2"},
     Command{"REGOFF", needs({"st_init", "st_still"}),
-            "turns regulation off: the DAC stays as it stands, free for another device", "002 1.4.2"},
+            "turns regulation off: the DAC stays as it stands, free for another device", "002 1.4.2",
+            turns_quietly("st_regoff")},
     Command{"REGON", needs({"st_init", "st_regoff"}), "turns regulation on; the axis reacts where it stands",
-            "002 1.4.2"},
+            "002 1.4.2", turns_quietly("!st_regoff")},
     Command{"DELCNT", needs({"st_init", "st_still"}), "adds delta to posit, remainder kept", "002 1.4.2"},
 };
 

@@ -35,7 +35,7 @@ constexpr std::array states = {devices::State{"st_init"}, devices::State{"st_bus
                                devices::State{"st_kept", Retention::retentive}};
 constexpr std::array commands = {devices::Command{"INIT", {0b1, 0}}, devices::Command{"FIRST", {0b11, 0b01}},
                                  devices::Command{"SECOND", {0b11, 0b11}},
-                                 devices::Command{"QUIET", {0b11, 0b11}}};
+                                 devices::Command{"QUIET", {0b11, 0b11}, "", "", {st_kept, true, true}}};
 constexpr std::array aliases = {Alias{"lvl", "level"}, Alias{"lost", "nothing"}};
 const DeviceType fake_type = {"FAKE", "", variables, states, commands, {}, aliases};
 
@@ -45,7 +45,6 @@ class Fake : public Device {
   Fake() : Device(fake_type) {}
   std::vector<std::string> log;
   int blocked_row = -1;
-  bool quiet = false;
 
   [[nodiscard]] int period_ms() const override { return 1; }
 
@@ -61,7 +60,6 @@ class Fake : public Device {
   bool may_write(Symbol symbol, std::int32_t) override {
     return symbol.index != table || symbol.row != blocked_row;
   }
-  [[nodiscard]] bool already_true(int command) const override { return command == c_QUIET && quiet; }
   void refused(int command) override {
     log.push_back("refused " + std::string(fake_type.commands[command].name));
   }
@@ -177,7 +175,16 @@ TEST(DeviceConditions, AFailedConditionIsNamed) {
 TEST(DeviceConditions, ACommandWhoseEffectHoldsIsSilent) {
   Fake fake;
   initialise(fake);
-  fake.quiet = true;
+  fake.command(c_QUIET);
+  fake.sample();
+  EXPECT_THAT(texts(fake), ElementsAre("QUIET: st_busy is 0, must be 1"));
+  EXPECT_EQ(fake.read(flag_of(st_kept)), 0);
+  fake.command(c_FIRST);
+  fake.command(c_QUIET);
+  fake.sample();
+  EXPECT_THAT(fake.log, ElementsAre("latch", "refused QUIET", "step", "latch", "FIRST", "QUIET", "step"));
+  EXPECT_EQ(fake.read(flag_of(st_kept)), 1);
+  fake.log.clear();
   fake.command(c_QUIET);
   fake.sample();
   EXPECT_THAT(fake.log, ElementsAre("latch", "step"));

@@ -1,137 +1,21 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "tests/devices/qmove_support.hpp"
 
-// The controller as the simulation sees it: schedule, barrier, errors, power, values, events.
+// The controller as the simulation sees it: run-time errors, power, interrupts, events.
 namespace drycut::devices::qmove {
 namespace {
 
 using testing::Bench;
 using ::testing::Contains;
+using testing::events;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
+using testing::powered_module;
 using testing::text_of;
-using testing::usual_cnf;
-
-std::vector<std::string> events(const Bench& bench) {
-  std::vector<std::string> texts;
-  for (const ControllerEvent& event : bench.controller->take_events())
-    texts.push_back(event.source + " " + event.event + " " + event.text);
-  return texts;
-}
-
-// --- schedule (spec D9) ---
-
-TEST(QmoveSchedule, WaitYieldsOnceAndEachTaskHasOneTurnARound) {
-  Bench bench({"MAIN:\nglI = glI * 10 + 1\nWAIT 1\nJUMP MAIN\nEND\n",
-               "MAIN:\nglI = glI * 10 + 2\nWAIT 1\nJUMP MAIN\nEND\n"});
-  bench.run(3);
-  EXPECT_EQ(bench["glI"], 121212);
-}
-
-TEST(QmoveSchedule, RoundsBeginEveryCycle) {
-  Bench bench({"MAIN:\nglI = glI + 1\nWAIT 1\nJUMP MAIN\nEND\n"}, 4);
-  bench.run(1);
-  EXPECT_EQ(bench["glI"], 1);  // at 0 ms
-  bench.run(3);
-  EXPECT_EQ(bench["glI"], 1);
-  bench.run(1);  // at 4 ms
-  EXPECT_EQ(bench["glI"], 2);
-}
-
-TEST(QmoveSchedule, WaitIsEvaluatedAtTheNextTurnFirst) {
-  Bench bench({"gfDone = 1\nWAIT gfDone\nslR = 1\nEND\n", "gfDone = 0\nEND\n"});
-  bench.run(5);
-  EXPECT_EQ(bench["slR"], 0);  // true when the task came to it, but no longer at its next turn
-  bench.set("gfDone", 1);
-  bench.run(1);
-  EXPECT_EQ(bench["slR"], 1);
-}
-
-TEST(QmoveSchedule, DevicesAreSampledAtMultiplesOfTheirPeriod) {
-  std::string cnf(usual_cnf);
-  cnf.insert(cnf.find("END\n", cnf.find("INTDEVICE")), "Slow PUPPET 6 2.CNT01 X X.X X.X X.X\n");
-  Bench bench({"END\n"}, 1, cnf);
-  ASSERT_TRUE(bench.controller) << text_of(bench.problems);
-  for (int ms = 0; ms < 24; ++ms) {
-    bench.controller->cards().counters.at({Kind::counter, 2, 1}).count = 100 + ms;
-    bench.step();
-    EXPECT_EQ(bench["Axis.reading"], 100 + ms / 4 * 4) << ms;
-    EXPECT_EQ(bench["Slow.reading"], 100 + ms / 6 * 6) << ms;
-  }
-}
-
-TEST(QmoveSchedule, PeriodsAreNamed) {
-  const Bench bench({"END\n"}, 2);
-  const auto periods = bench.controller->periods();
-  ASSERT_EQ(periods.size(), 2U);
-  EXPECT_EQ(periods[0].name, "Axis TCamp");
-  EXPECT_EQ(periods[0].ns, 4'000'000);
-  EXPECT_EQ(periods[1].name, "task cycle");
-  EXPECT_EQ(periods[1].ns, 2'000'000);
-}
-
-// --- barrier (spec §2, D2) ---
-
-const std::string to_1000 = "INIT Axis\nWAIT Axis:st_init\nAxis:posit = 1000\nAxis:delta = - 100\n";
-
-// Two identical commands between samples are one.
-TEST(QmoveBarrier, DelcntTwiceInOneSampleIsOne) {
-  Bench bench({to_1000 + "DELCNT Axis\nDELCNT Axis\nEND\n"});
-  bench.run(20);
-  EXPECT_EQ(bench["Axis.posit"], 900);
-}
-
-TEST(QmoveBarrier, AReadBetweenMakesThemTwoWhateverThePeriods) {
-  for (const int cycle : {1, 2, 3, 4, 7, 9}) {
-    Bench bench({to_1000 + "DELCNT Axis\nWAIT Axis:st_init\nslA = Axis:posit\nDELCNT Axis\nWAIT "
-                           "Axis:st_init\nslB = Axis:posit\nEND\n"},
-                cycle);
-    bench.run(100);
-    EXPECT_EQ(bench["slA"], 900) << cycle;
-    EXPECT_EQ(bench["slB"], 800) << cycle;
-  }
-}
-
-// A plain read waits as WAIT does, and its statement then runs as a whole.
-TEST(QmoveBarrier, AnyReadSuspendsItsStatement) {
-  Bench bench({to_1000 + "DELCNT Axis\nslR = Axis:posit\nslA = 1\nEND\n",
-               "MAIN:\nslB = slB + 1\nWAIT 1\nJUMP MAIN\nEND\n"});
-  bench.run(2);  // 0: INIT is given, 1: not yet initialised
-  EXPECT_EQ(bench["slA"], 0);
-  bench.run(5);  // the sample at 4 ms executes INIT, the turn at 4 ms goes on to the read
-  EXPECT_EQ(bench["slA"], 0);
-  EXPECT_EQ(bench["slR"], 0);
-  bench.run(2);  // the sample at 8 ms settles the device
-  EXPECT_EQ(bench["slR"], 900);
-  EXPECT_EQ(bench["slA"], 1);
-  EXPECT_EQ(bench["slB"], 9);  // the other task never waited
-}
-
-TEST(QmoveBarrier, AnUninitialisedDeviceIsReadAtOnce) {
-  Bench bench({"Axis:gain = 321\nslR = Axis:gain\nEND\n"});
-  bench.run(1);
-  EXPECT_EQ(bench["slR"], 321);
-}
-
-TEST(QmoveBarrier, IfWhileForAndIndexesWaitToo) {
-  for (const std::string& statement :
-       {std::string("IF Axis:posit EQ 900\nslR = 1\nENDIF\n"),
-        std::string("WHILE Axis:posit EQ 900 AND slR EQ 0\nslR = 1\nENDWHILE\n"),
-        std::string("FOR (glI = Axis:posit, glI EQ 900, 1)\nslR = 1\nNEXT\n"),
-        std::string("asKept[Axis:posit - 898] = 1\nslR = asKept[2]\n")}) {
-    Bench bench({to_1000 + "DELCNT Axis\n" + statement + "END\n"});
-    bench.run(30);
-    EXPECT_EQ(bench["slR"], 1) << statement;
-    EXPECT_EQ(bench["QMOS.oserr"], 0) << statement;
-  }
-}
 
 // --- run-time errors (spec 4.5) ---
 
@@ -208,12 +92,6 @@ TEST(QmoveRunTime, DevicesGoOnAndOutputsStay) {
 
 // --- power ---
 
-const std::string powered_module =
-    "glI = glI + 1\nslA = slA + 1\nagTemp[1] = agTemp[1] + 1\nasKept[1] = asKept[1] + 1\n"
-    "ddbCode[1, 1] = ddbCode[1, 1] + 1\ntmWait = 10000\nSETOUT ofLamp\nINIT Axis\nWAIT Axis:st_init\n"
-    "Axis:posit = 5\nAxis:kept = Axis:kept + 7\nLOCK Axis\nAxis:word = 3000\nWAIT 1\nslR = slR + 1\nWAIT "
-    "0\nEND\n";
-
 TEST(QmovePower, OffSwitchesOutputsOffAndStopsEverything) {
   Bench bench({powered_module});
   bench.run(20);
@@ -285,120 +163,6 @@ TEST(QmoveInterrupt, ReachesDevicesAndTheLine) {
   EXPECT_EQ(bench["Axis.st_int"], 0);
 }
 
-// --- values ---
-
-TEST(QmoveValues, AreFoundByNameInAnyCase) {
-  Bench bench({"END\n"});
-  for (const std::string name :
-       {"SLR",           "glI",        "gfdone",       "agtemp[5]",  "asKept [ 3 ]", "ddlHead[2]",
-        "ddbcode[2, 3]", "tmWait",     "ifStart",      "ofLamp",     "axis.POSIT",   "Axis:posit",
-        "Axis.quota",    "Axis.code4", "Axis.st_init", "2.CNT01",    "2.inp1",       "2.INP08",
-        "2.OUT08",       "2.AN01",     "INT5",         "qmos.oserr", "QMOS.osmode"})
-    EXPECT_TRUE(bench.controller->find(name)) << name;
-  for (const std::string name : {"",
-                                 "slX",
-                                 "agTemp",
-                                 "agTemp[0]",
-                                 "agTemp[6]",
-                                 "agTemp[1,1]",
-                                 "agTemp[",
-                                 "agTemp[]",
-                                 "agTemp[1",
-                                 "agTemp[x]",
-                                 "slR[1]",
-                                 "ddbCode[1]",
-                                 "ddbCode[3,1]",
-                                 "ddbCode[1,4]",
-                                 "ddlHead[1,1]",
-                                 "dgCam",
-                                 "cTen",
-                                 "Axis",
-                                 "Axis.",
-                                 ".posit",
-                                 "Axis.nope",
-                                 "Axis.code5",
-                                 "slR.posit",
-                                 "QMOS.taskmedtime",
-                                 "2.AN02",
-                                 "INT4",
-                                 "[1]"})
-    EXPECT_FALSE(bench.controller->find(name)) << name;
-}
-
-TEST(QmoveValues, HaveTheDeclaredNameAndTheUnitOfTheTable) {
-  Bench bench({"END\n"});
-  EXPECT_EQ(bench.controller->find("AXIS:QUOTA")->name, "Axis.posit");
-  EXPECT_EQ(bench.controller->find("axis.code3")->name, "Axis.code3");
-  EXPECT_EQ(bench.controller->find("AGTEMP[ 2 ]")->name, "agTemp[2]");
-  EXPECT_EQ(bench.controller->find("Axis.posit")->unit, "Um");
-  EXPECT_EQ(bench.controller->find("2.AN01")->unit, "V");
-  EXPECT_EQ(bench.controller->find("2.CNT01")->unit, "counts");
-}
-
-TEST(QmoveValues, AreReadOnlyWhereProgramsOnlyRead) {
-  Bench bench({"END\n"});
-  for (const std::string name :
-       {"ifStart", "ofLamp", "Axis.reading", "Axis.st_still", "2.AN01", "2.CNT01", "2.OUT01", "QMOS.oserr"})
-    EXPECT_FALSE(bench.controller->find(name)->write) << name;
-}
-
-TEST(QmoveValues, AreWrittenAsProgramsStore) {
-  Bench bench({"END\n"});
-  bench.set("sbKept", 132);
-  EXPECT_EQ(bench["sbKept"], -124);
-  bench.set("gfDone", 0.5);
-  EXPECT_EQ(bench["gfDone"], 1);
-  bench.set("slR", 12.9);
-  EXPECT_EQ(bench["slR"], 12);
-  bench.set("slR", 16777217);  // a long that no single holds
-  EXPECT_EQ(bench["slR"], 16777217);
-  bench.set("ssR", 0.25);
-  EXPECT_EQ(bench["ssR"], 0.25);
-  bench.set("slR", 1e300);
-  bench.set("ssR", 1e300);
-  EXPECT_TRUE(std::isfinite(bench["ssR"]));
-  bench.set("ddbCode[2,3]", 7);
-  EXPECT_EQ(bench["ddbCode[2,3]"], 7);
-  EXPECT_EQ(bench["ddbCode[2,2]"], 0);
-}
-
-TEST(QmoveValues, DeviceWritesGoThroughTheMailbox) {
-  Bench bench({"INIT Axis\nEND\n"});
-  bench.run(6);  // initialised at 4 ms
-  bench.set("Axis.gain", 5);
-  EXPECT_EQ(bench["Axis.gain"], 0);
-  bench.run(3);  // the sample at 8 ms
-  EXPECT_EQ(bench["Axis.gain"], 5);
-}
-
-TEST(QmoveValues, AnalogueOutputsReadInVolts) {
-  Bench bench({"END\n"});
-  bench.controller->cards().analogue_outputs.at({Kind::analogue, 2, 1}).word = -32767;
-  EXPECT_EQ(bench["2.AN01"], -10);
-}
-
-TEST(QmoveValues, NamesAreThoseThatAreFound) {
-  Bench bench({"END\n"});
-  const std::vector<std::string> names = bench.controller->names();
-  for (const std::string& name : names) EXPECT_TRUE(bench.controller->find(name)) << name;
-  for (const std::string name : {"slR", "agTemp[1]", "ddbCode[1,1]", "Axis.posit", "Axis.st_init", "2.AN01",
-                                 "INT5", "ifStop", "QMOS.oserr"})
-    EXPECT_THAT(names, Contains(name));
-  EXPECT_THAT(names, Not(Contains("cTen")));
-}
-
-TEST(QmoveCards, HoldEveryTerminalOfTheConfiguration) {
-  const Bench bench({"END\n"});
-  const Cards& cards = bench.controller->cards();
-  EXPECT_TRUE(cards.counters.contains({Kind::counter, 2, 1}));
-  EXPECT_TRUE(cards.inputs.contains({Kind::input, 2, 1}));
-  EXPECT_TRUE(cards.inputs.contains({Kind::input, 2, 8}));
-  EXPECT_TRUE(cards.outputs.contains({Kind::output, 2, 2}));
-  EXPECT_TRUE(cards.outputs.contains({Kind::output, 2, 8}));
-  EXPECT_TRUE(cards.analogue_outputs.contains({Kind::analogue, 2, 1}));
-  EXPECT_TRUE(cards.interrupt_lines.contains(5));
-}
-
 // --- events ---
 
 TEST(QmoveEvents, RefusalsAreSaidOnceAPowerUp) {
@@ -417,80 +181,6 @@ TEST(QmoveEvents, RefusalsAreSaidOnceAPowerUp) {
   bench.controller->power(true);
   bench.run(100);
   EXPECT_EQ(events(bench).size(), 2U);
-}
-
-// --- retentive state ---
-
-TEST(QmoveRetentive, SurvivesARoundTrip) {
-  Bench bench({powered_module});
-  bench.set("ssR", 0.1);
-  bench.set("asReal[2]", -1e30);
-  bench.set("ddsReal[2,3]", 1.5);
-  bench.set("ddlHead[2]", -7);
-  bench.set("sbKept", -128);
-  bench.set("slB", -2147483648.0);
-  bench.run(30);
-  const std::string kept = bench.controller->retentive_state();
-
-  Bench fresh({powered_module});
-  fresh.set("asKept[3]", 99);  // not in the text: becomes 0
-  Problems problems;
-  ASSERT_TRUE(fresh.controller->restore(kept, problems)) << text_of(problems);
-  EXPECT_EQ(fresh.controller->retentive_state(), kept);
-  EXPECT_EQ(static_cast<float>(fresh["ssR"]), 0.1F);
-  EXPECT_EQ(fresh["slA"], 1);
-  EXPECT_EQ(fresh["asKept[3]"], 0);
-  EXPECT_EQ(fresh["ddlHead[2]"], -7);
-  EXPECT_EQ(fresh["Axis.kept"], 7);
-  EXPECT_EQ(fresh["Axis.st_locked"], 1);
-  EXPECT_EQ(fresh["glI"], 0);
-}
-
-TEST(QmoveRetentive, TextIsReadable) {
-  Bench bench({"END\n"});
-  bench.set("slA", 12);
-  bench.set("ddbCode[2,1]", -124);
-  const std::string text = bench.controller->retentive_state();
-  EXPECT_THAT(text, HasSubstr("\nslA = 12\n"));
-  EXPECT_THAT(text, HasSubstr("\nddbCode[2,1] = -124\n"));
-  EXPECT_THAT(text, HasSubstr("\nAxis:kept = 0\n"));
-  EXPECT_THAT(text, Not(HasSubstr("glI")));
-  EXPECT_THAT(text, Not(HasSubstr("posit")));
-}
-
-TEST(QmoveRetentive, FaultsOfTheTextChangeNothing) {
-  Bench bench({"END\n"});
-  bench.set("slA", 3);
-  Problems problems;
-  EXPECT_FALSE(bench.controller->restore(
-      "; comment\nslA = 5 ; fine\n slRR = 1\nglI = 2\nslB 4\nslB =\nsbKept = 132\nslB = 1.5\nslB = x\n"
-      "slA = 6\nAxis:posit = 1\nddbCode[3,1] = 1\nAxis.st_locked = 2147483648\nssR = 1e999\n",
-      problems, "kept.txt"));
-  EXPECT_EQ(
-      text_of(problems),
-      "kept.txt:3:2: unknown name 'slRR'; did you mean 'slR'?\n"
-      "kept.txt:4:1: 'glI' is not retentive; remove the line, it is set at each start\n"
-      "kept.txt:5:1: no '=' in 'slB 4'; write: name = value\n"
-      "kept.txt:6:1: a name or value is missing; write: name = value\n"
-      "kept.txt:7:10: 'sbKept' cannot be '132'; write a whole number from -128 to 127\n"
-      "kept.txt:8:7: 'slB' cannot be '1.5'; write a whole number from -2147483648 to 2147483647\n"
-      "kept.txt:9:1: 'slB' is given twice; remove one of the lines\n"
-      "kept.txt:10:1: 'slA' is given twice; remove one of the lines\n"
-      "kept.txt:11:1: 'Axis:posit' is not retentive; remove the line, it is set at each start\n"
-      "kept.txt:12:1: unknown name 'ddbCode[3,1]'; did you mean 'ddbCode[1,1]'?\n"
-      "kept.txt:13:18: 'Axis.st_locked' cannot be '2147483648'; write a whole number from -2147483648 to "
-      "2147483647\n"
-      "kept.txt:14:7: 'ssR' cannot be '1e999'; write a number from -3.402823466e+38 to 3.402823466e+38\n");
-  EXPECT_EQ(bench["slA"], 3);
-}
-
-TEST(QmoveRetentive, IsRefusedOnceADeviceIsInitialised) {
-  Bench bench({"INIT Axis\nEND\n"});
-  bench.run(10);
-  Problems problems;
-  EXPECT_FALSE(bench.controller->restore("Axis:kept = 1\n", problems));
-  EXPECT_THAT(text_of(problems),
-              HasSubstr("retentive state:1:1: the device of 'Axis:kept' is initialised already"));
 }
 
 TEST(QmoveController, RunsTheSameWayTwice) {

@@ -167,4 +167,19 @@ struct Bench {
   void set(const std::string& name, double value) const { controller->find(name).value().write(value); }
 };
 
+/// What the controller had to say since it was last asked.
+inline std::vector<std::string> events(const Bench& bench) {
+  std::vector<std::string> texts;
+  for (const ControllerEvent& event : bench.controller->take_events())
+    texts.push_back(event.source + " " + event.event + " " + event.text);
+  return texts;
+}
+
+/// A program that leaves something behind wherever something can be kept.
+inline const std::string powered_module =
+    "glI = glI + 1\nslA = slA + 1\nagTemp[1] = agTemp[1] + 1\nasKept[1] = asKept[1] + 1\n"
+    "ddbCode[1, 1] = ddbCode[1, 1] + 1\ntmWait = 10000\nSETOUT ofLamp\nINIT Axis\nWAIT Axis:st_init\n"
+    "Axis:posit = 5\nAxis:kept = Axis:kept + 7\nLOCK Axis\nAxis:word = 3000\nWAIT 1\nslR = slR + 1\nWAIT "
+    "0\nEND\n";
+
 }  // namespace drycut::devices::qmove::testing

@@ -1,0 +1,161 @@
+#include "devices/oopos2/movement.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace drycut::devices::oopos2 {
+
+void Movement::tick(int ms) {
+  timer_ms_ = std::max(timer_ms_ - ms, 0);
+  if (!running()) off_ms_ = std::min(off_ms_ + ms, long_ago_ms);
+}
+
+void Movement::run(const Leg& leg) {
+  placing_ = false;
+  last_.reset();
+  begin(leg);
+}
+
+void Movement::place(const std::optional<Leg>& overshoot, const Leg& last) {
+  assert(phase_ == Phase::still);
+  placing_ = true;
+  last_.reset();
+  if (overshoot) last_ = last;
+  begin(overshoot ? *overshoot : last);
+}
+
+void Movement::begin(const Leg& leg) {
+  const bool goes_on = running() && leg.backward == last_backward_;
+  leg_ = leg;
+  driven_ = goes_on;
+  if (phase_ == Phase::still) {
+    enter(Phase::release, times.brake);
+  } else if (goes_on) {
+    enter(leg.slow ? Phase::slow : Phase::fast);
+  } else if (phase_ != Phase::release) {  // else tbrake runs on
+    switch_off();
+    invert();
+  }
+}
+
+void Movement::stop() {
+  placing_ = false;
+  last_.reset();
+  if (phase_ == Phase::still || phase_ == Phase::tolerance) return;
+  switch_off();
+  enter(Phase::tolerance, times.tolerance);
+}
+
+void Movement::abort() {
+  const Times kept = times;
+  *this = {};
+  times = kept;
+}
+
+bool Movement::step(Parts position, Parts slow_range) {
+  const bool moving = phase_ != Phase::still;
+  while (advance(position, slow_range)) {
+  }
+  return moving && phase_ == Phase::still;
+}
+
+bool Movement::advance(Parts position, Parts slow_range) {
+  switch (phase_) {
+    case Phase::still:
+      return false;
+    case Phase::release:
+      if (timer_ms_ > 0) return false;
+      invert();
+      return true;
+    case Phase::inversion:
+      if (timer_ms_ > 0) return false;
+      if (reached(position, leg_.inertia)) {
+        arrive();
+        return true;
+      }
+      last_backward_ = leg_.backward;
+      driven_ = true;
+      enter(leg_.slow || (leg_.slows && reached(position, slow_range)) ? Phase::slow : Phase::fast);
+      return false;
+    case Phase::fast:
+      if (reached(position, leg_.inertia)) {
+        arrive();
+        return true;
+      }
+      if (!leg_.slows || !reached(position, slow_range)) return false;
+      slowdown_ms_ = times.slowdown;
+      if (slowdown_ms_ > 0) switch_off();
+      enter(Phase::slowdown, slowdown_ms_);
+      return true;
+    case Phase::slowdown:
+    case Phase::slow:
+      if (reached(position, leg_.inertia)) {
+        arrive();
+        return true;
+      }
+      if (phase_ == Phase::slow || timer_ms_ > 0) return false;
+      enter(Phase::slow);
+      return false;
+    case Phase::tolerance:
+      if (timer_ms_ > 0) return false;
+      enter(Phase::still);
+      return false;
+  }
+  return false;
+}
+
+void Movement::enter(Phase phase, int ms) {
+  phase_ = phase;
+  timer_ms_ = ms;
+}
+
+void Movement::switch_off() {
+  if (running()) off_ms_ = 0;
+}
+
+void Movement::invert() {
+  const bool turns = leg_.backward != last_backward_;
+  enter(Phase::inversion, turns ? std::max(times.inversion - off_ms_, 0) : 0);
+}
+
+void Movement::arrive() {
+  switch_off();
+  if (!last_) {
+    enter(Phase::tolerance, times.tolerance);
+    return;
+  }
+  leg_ = *last_;
+  last_.reset();
+  driven_ = false;
+  invert();
+}
+
+bool Movement::retarget(Parts position, const std::optional<Leg>& overshoot, const Leg& last) {
+  const bool over = last_ && overshoot;
+  const Leg& next = over ? *overshoot : last;
+  if (!changeable() || !ahead(next, position) || next.backward != leg_.backward) return false;
+  leg_ = next;
+  if (over) last_ = last;
+  return true;
+}
+
+bool Movement::changeable() const {
+  return placing_ && (phase_ == Phase::release || phase_ == Phase::inversion || phase_ == Phase::fast);
+}
+
+bool Movement::reached(Parts position, Parts before) const {
+  if (!leg_.goal) return false;
+  return leg_.backward ? position <= *leg_.goal + before : position >= *leg_.goal - before;
+}
+
+bool Movement::ahead(const Leg& leg, Parts position) {
+  return leg.backward ? position > *leg.goal : position < *leg.goal;
+}
+
+Outputs Movement::outputs() const {
+  const bool backward = running() && leg_.backward;
+  const bool slow = phase_ == Phase::slow || (phase_ == Phase::slowdown && 2 * timer_ms_ <= slowdown_ms_);
+  return {running() && !backward, backward, slow, phase_ == Phase::still};
+}
+
+}  // namespace drycut::devices::oopos2

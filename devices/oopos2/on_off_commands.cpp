@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "devices/oopos2/on_off_positioner.hpp"
+#include "devices/oopos2/rows.hpp"
+
+namespace drycut::devices::oopos2 {
+
+bool OnOffPositioner::may_execute(int command) {
+  switch (command) {
+    case c_MANSFW:
+    case c_MANFFW:
+      return value(v_posit) < value(v_maxpos);
+    case c_MANSBW:
+    case c_MANFBW:
+      return value(v_posit) > value(v_minpos);
+    default:
+      return true;
+  }
+}
+
+void OnOffPositioner::execute(int command) {
+  switch (command) {
+    case c_STOP:
+    case c_REGOFF:
+      end_search();
+      movement_.stop();
+      break;
+    case c_START:
+      start();
+      break;
+    case c_PRESET:
+      preset();
+      break;
+    case c_MANSFW:
+    case c_MANFFW:
+      run(false, command == c_MANSFW);
+      break;
+    case c_MANSBW:
+    case c_MANFBW:
+      run(true, command == c_MANSBW);
+      break;
+    case c_DELCNT:
+      quota_.add_um(value(v_delta), resolution_);
+      break;
+    default:
+      break;
+  }
+}
+
+/// A target [Um/10] held between minpos and maxpos; `quota` is the parameter that it comes from.
+std::int64_t OnOffPositioner::clamped(std::int64_t tenths, std::string_view subject, std::int32_t quota) {
+  const std::int64_t held =
+      std::max(std::int64_t{value(v_minpos)} * 10, std::min(tenths, std::int64_t{value(v_maxpos)} * 10));
+  if (held != tenths)
+    report({Diagnostic::Kind::note, std::string(subject),
+            fmt::format("setpos {} plus tool is outside minpos..maxpos, the axis goes to {}", quota,
+                        held / 10)});
+  return held;
+}
+
+/// What a movement command forgets of the placement before it.
+void OnOffPositioner::leave_quota() {
+  set_state(st_toll, false);
+  set_state(st_sttoll, false);
+}
+
+void OnOffPositioner::start() {
+  leave_quota();
+  tool_ = value(v_tool);
+  wanted_ = value(v_setpos);
+  const std::int64_t tenths = clamped(std::int64_t{wanted_} * 10 + tool_, "START", wanted_);
+  if (value(v_enstol) != 1 && within_tolerance(tenths)) {
+    target_ = tenths;
+    set_state(st_sttoll, true);
+    set_state(st_toll, true);
+    return;
+  }
+  place(tenths);
+}
+
+/// Starts a placement at a quota [Um/10].
+void OnOffPositioner::place(std::int64_t tenths) {
+  target_ = tenths;
+  const Parts way = tenths * parts_per_tenth - position();
+  const std::int32_t mode = value(v_bklashmode);
+  const bool recovers = mode >= 1 && mode <= 4 && value(v_overpos) > 0;
+  const bool ends_backward = mode == 2 || mode == 4;
+  const bool overshoots = recovers && (way == 0 || (way < 0) != ends_backward);
+  const bool backward = overshoots ? !ends_backward : way < 0;
+  const Legs legs = legs_to(tenths, backward, overshoots);
+  value(v_actiner) = inertia_band(tenths, value(v_minpos), value(v_maxpos), value(v_ninert));
+  set_state(st_still, false);
+  movement_.place(legs.overshoot, legs.last);
+}
+
+/// A manual movement, at most to the limit of its direction.
+void OnOffPositioner::run(bool backward, bool slow) {
+  leave_quota();
+  end_search();
+  set_state(st_still, false);
+  const std::int32_t limit = value(backward ? v_minpos : v_maxpos);
+  movement_.run({backward, slow, false, limit * parts_per_um, 0});
+}
+
+}  // namespace drycut::devices::oopos2
