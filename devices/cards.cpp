@@ -22,15 +22,25 @@ constexpr std::array<Spelling, 6> spellings{{{"CNT", Kind::counter},
                                              {"AN", Kind::analogue},
                                              {"INT", Kind::interrupt}}};
 
+// Terminals of a base unit, which have no slot; numbers from 0.
+struct BaseSpelling {
+  std::string_view text;
+  Kind kind;
+  int base;
+  int last;
+};
+constexpr std::array<BaseSpelling, 3> base_spellings{
+    {{"X", Kind::input, 8, 0377}, {"Y", Kind::output, 8, 0377}, {"C", Kind::counter, 10, 255}}};
+
 constexpr int max_number = 999;
 constexpr int interrupt_lines = 8;
 
-// Takes the decimal number at the start of `text`; nullopt if there is none or it is too large to be one.
-std::optional<int> take_number(std::string_view& text) {
+// Takes the number at the start of `text`; nullopt if there is none or it is too large to be one.
+std::optional<int> take_number(std::string_view& text, int base = 10) {
   int number = 0;
   std::size_t length = 0;
-  while (length < text.size() && std::isdigit(static_cast<unsigned char>(text[length])) != 0) {
-    number = number * 10 + (text[length] - '0');
+  while (length < text.size() && text[length] >= '0' && text[length] < '0' + base) {
+    number = number * base + (text[length] - '0');
     if (number > max_number) return std::nullopt;
     ++length;
   }
@@ -76,8 +86,23 @@ std::optional<Address> parse_address(std::string_view text) {
   return address;
 }
 
+std::optional<Address> parse_base_terminal(std::string_view text) {
+  const std::string letters = take_letters(text);
+  for (const BaseSpelling& spelling : base_spellings) {
+    if (spelling.text != letters) continue;
+    const std::optional<int> number = take_number(text, spelling.base);
+    if (!number || *number > spelling.last || !text.empty()) return std::nullopt;
+    return Address{spelling.kind, 0, *number};
+  }
+  return std::nullopt;
+}
+
 std::string to_string(const Address& address) {
   if (address.kind == Kind::interrupt) return fmt::format("INT{}", address.number);
+  for (const BaseSpelling& spelling : base_spellings)
+    if (address.slot == 0 && spelling.kind == address.kind)
+      return spelling.base == 8 ? fmt::format("{}{:o}", spelling.text, address.number)
+                                : fmt::format("{}{}", spelling.text, address.number);
   for (const Spelling& spelling : spellings)
     if (spelling.kind == address.kind)
       return fmt::format("{}.{}{:02}", address.slot, spelling.text, address.number);

@@ -20,6 +20,8 @@ enum class Kind : std::uint8_t {
 /// A terminal: `2.CNT01` is counter 1 of the card in slot 2; interrupt lines belong to no slot and are
 /// written `INT5`. Slot 1 is the CPU: its counters are simulated, nothing is wired to them.
 /// (spec qem.md §3; `2.IN01` and `2.OUT3` are accepted spellings.)
+/// Slot 0 is the base unit of an LX3VP: inputs `X0`..`X377` and outputs `Y0`..`Y377`, octal as printed on it
+/// (X10 is number 8), and the terminals of the high-speed counters together, by the counter: `C235`..`C255`.
 struct Address {
   Kind kind = Kind::counter;
   int slot = 0;
@@ -27,8 +29,10 @@ struct Address {
   auto operator<=>(const Address&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// Reads an address, any case; nullopt if `text` is none.
+/// Reads the address of a terminal in a slot or of an interrupt line, any case; nullopt if `text` is none.
 std::optional<Address> parse_address(std::string_view text);
+/// Reads a terminal of a base unit, any case; nullopt if `text` is none.
+std::optional<Address> parse_base_terminal(std::string_view text);
 std::string to_string(const Address& address);
 /// "counter", "digital input", ... for messages.
 std::string_view name_of(Kind kind);
@@ -43,10 +47,16 @@ struct DigitalInput {
 };
 struct DigitalOutput {
   bool level = false;
+  const void* driver = nullptr;  ///< what moves an axis with it: devices that share an output take turns
 };
 struct AnalogueOutput {
   std::int16_t word = 0;         ///< -32767..32767 = -10..+10 V
   const void* driver = nullptr;  ///< what regulates on it: devices that share a DAC take turns
+};
+
+/// A pulse train. Its direction is an output of its own.
+struct PulseTrain {
+  std::int64_t count = 0;  ///< pulses since the start, each one counted whatever its direction
 };
 
 /// The terminals of the controller that something uses. References stay valid while terminals are added.
@@ -57,6 +67,7 @@ struct Cards {
   std::map<Address, DigitalInput> inputs;
   std::map<Address, DigitalOutput> outputs;
   std::map<Address, AnalogueOutput> analogue_outputs;
+  std::map<Address, PulseTrain> pulse_outputs;  ///< outputs of a base unit that give pulses
   std::map<int, DigitalInput> interrupt_lines;  ///< by line number 1..8, present level
 };
 

@@ -3,6 +3,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "devices/cards.hpp"
@@ -15,6 +17,7 @@ struct ControllerValue {
   std::string unit;
   std::function<double()> read;
   std::function<void(double)> write;  ///< empty if read-only; acts as a program's store does (device mailbox)
+  std::optional<std::pair<double, double>> range = {};  ///< that the manual gives, of a device's parameter
 };
 
 /// Something that happened inside the controller: a refused command, a run-time error, a device warning.
@@ -33,6 +36,15 @@ class Controller {
   Controller& operator=(const Controller&) = delete;
 
   virtual Cards& cards() = 0;
+  /// A wire wants a terminal that nothing inside uses yet: true if the controller has it; it is in cards()
+  /// then.
+  virtual bool offer(const Address& address) {
+    (void)address;
+    return false;
+  }
+  /// How the terminals of a controller that has them built in are written, for messages; "" if a
+  /// configuration names them.
+  [[nodiscard]] virtual std::string_view base_terminals() const { return {}; }
   /// Every period that something inside runs at [ns], with its name for messages ("AxisX TCamp").
   struct Period {
     std::string name;

@@ -1,0 +1,140 @@
+#include "devices/lx3vp/block.hpp"
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+using Access = BlockWord::Access;
+
+// Words 9 to 12: the manual's table names "high" and "low" crosswise and its example writes words 10 and 12;
+// 9/10 low and 11/12 high is the only reading in which each threshold has both of its words.
+constexpr BlockWord words[] = {
+    {0, 1, "version", "u16", "", 1, Access::read, "", "version of the block's layout"},
+    {1, 1, "status", "flags", "", 0, Access::write, "always",
+     "state of the cam; bits 0, 1 and 9 may be reset"},
+    {2, 1, "error", "u16", "", 0, Access::read, "", "the error code; of a table error the number of the row"},
+    {3, 1, "function", "flags", "", 0, Access::write, "start", "how the cam starts and scales"},
+    {4, 1, "live", "flags", "", 0, Access::write, "always", "what may be changed while it runs"},
+    {5, 1, "start", "u16", "0..2", 0, Access::write, "always",
+     "1 cyclic, 2 non-cyclic, else stop at once; a new start needs 0 for more than 100 us before"},
+    {6, 2, "max frequency", "i32", "0..200000", 200000, Access::write, "always",
+     "of the output [Hz]; beyond the range 200000, with 0 nothing comes out"},
+    {8, 1, "sync output", "u16", "0..255", 0, Access::write, "always",
+     "plain number of the synchronous output Y: 8 is Y10"},
+    {9, 2, "sync low", "u32", "", 0, Access::write, "always",
+     "first master position at which the synchronous output is on"},
+    {11, 2, "sync high", "u32", "", 0, Access::write, "always",
+     "last master position at which the synchronous output is on"},
+    {13, 1, "reserved", "u16", "", 0, Access::reserved, "", "remaining master pulses"},
+    {14, 1, "repeats", "u16", "", 0, Access::write, "start",
+     "non-cyclic: n makes n + 1 cycles a start signal, 65535 makes them endless"},
+    {15, 2, "delay", "u32", "", 0, Access::write, "start",
+     "non-cyclic, with function bit 0: master counts from the start signal to the start of the cam"},
+    {17, 2, "start position", "u32", "", 0, Access::write, "start",
+     "non-cyclic, with function bit 1: master position of the table at which the cam starts"},
+    {19, 2, "slave pulses", "i32", "", 0, Access::write, "start",
+     "output pulses of the present cycle; function bit 6 starts from here"},
+    {21, 2, "slave position", "i32", "", 0, Access::read, "", "slave position in the table, before the zoom"},
+    {23, 1, "slave denominator", "u16", "1..65535", 1, Access::write, "start", "of the slave's zoom"},
+    {24, 1, "slave numerator", "u16", "1..65535", 1, Access::write, "start", "of the slave's zoom"},
+    {25, 2, "master position", "u32", "", 0, Access::read, "",
+     "master position in the table, after the zoom"},
+    {27, 2, "master counts", "i32", "", 0, Access::write, "start",
+     "master counts since the start, before the zoom; function bit 6 starts from here"},
+    {29, 1, "master denominator", "u16", "1..65535", 1, Access::write, "start", "of the master's zoom"},
+    {30, 1, "master numerator", "u16", "1..65535", 1, Access::write, "start", "of the master's zoom"},
+    {31, 7, "reserved", "u16", "", 0, Access::reserved, "", ""},
+    {38, 1, "rows", "u16", "2..512", 0, Access::write, "start", "number of rows of the table"},
+    {39, 1, "table offset", "u16", "40", 40, Access::write, "start", "where the table begins"},
+    {40, 2, "row master", "i32", "0..", 0, Access::write, "start",
+     "master position of row 0; row i at 40 + 4 i, ascending"},
+    {42, 2, "row slave", "i32", "", 0, Access::write, "start", "slave position of row 0; row i at 42 + 4 i"},
+};
+
+// Word 4: the manual's table says bits 1 and 2, its text and its example bits 0 and 1.
+constexpr BlockFlag flags[] = {
+    {1, 0, "initialised", "reset", "ready to run; off again when a non-cyclic cam has run, and when stopped"},
+    {1, 1, "completed", "reset", "a cycle, or a non-cyclic cam with all its repeats, has ended"},
+    {1, 2, "delayed", "read", "the frequency limit held pulses back since the start; they come later"},
+    {1, 3, "stopped", "read", "an error has stopped the cam"},
+    {1, 4, "parameter error", "read", "6781, the code is in word 2"},
+    {1, 5, "table error", "read", "6782, the row is in word 2"},
+    {1, 6, "cyclic", "read", "a cyclic cam is active"},
+    {1, 7, "non-cyclic", "read", "a non-cyclic cam is active"},
+    {1, 9, "cycle completed", "reset", "a cycle has ended, each repeat too"},
+    {1, 10, "in window", "read", "the synchronous output is on"},
+    {1, 11, "time axis", "read", "the master is the time"},
+    {3, 0, "delayed start", "write", "non-cyclic: the cam starts `delay` counts after the start signal"},
+    {3, 1, "start position", "write", "non-cyclic: the master begins at `start position`"},
+    {3, 2, "master zoom", "write", "master positions are counts x numerator / denominator"},
+    {3, 3, "slave zoom", "write", "output pulses are table positions x numerator / denominator"},
+    {3, 5, "external start", "write", "the rising edge of S3 starts the cam"},
+    {3, 6, "resume", "write", "the cam goes on at `master counts` and `slave pulses`"},
+    {4, 0, "sync output", "write", "the synchronous output works"},
+    {4, 1, "stop after cycle", "write", "the cam stops exactly at the end of the present cycle"},
+};
+
+constexpr SpecialRegister specials[] = {
+    {"M8000", "bit", "read", "on while the program runs"},
+    {"M8001", "bit", "read", "off while the program runs"},
+    {"M8002", "bit", "read", "on in the first scan"},
+    {"M8003", "bit", "read", "off in the first scan"},
+    {"M8004", "bit", "read", "an error has happened"},
+    {"M8011", "bit", "read", "clock of 10 ms"},
+    {"M8012", "bit", "read", "clock of 100 ms"},
+    {"M8013", "bit", "read", "clock of 1 s"},
+    {"M8014", "bit", "read", "clock of 1 min"},
+    {"M8029", "bit", "read", "DDRVI or DDRVA has arrived"},
+    {"M8067", "bit", "read", "an instruction failed; the code is in D8067"},
+    {"M8145", "bit", "write", "stops the pulses of Y0 at once"},
+    {"M8146", "bit", "write", "stops the pulses of Y1 at once"},
+    {"M8147", "bit", "read", "Y0 is in use"},
+    {"M8148", "bit", "read", "Y1 is in use"},
+    {"M8149", "bit", "read", "Y2 is in use"},
+    {"M8150", "bit", "read", "Y3 is in use"},
+    {"M8152", "bit", "write", "stops the pulses of Y2 at once"},
+    {"M8153", "bit", "write", "stops the pulses of Y3 at once"},
+    {"M8235", "bit", "write", "C235 counts down; so on to M8245"},
+    {"M8246", "bit", "read", "C246 is counting down; so on to M8255"},
+    {"D8010", "u16", "read", "time of a scan [0.1 ms]"},
+    {"D8067", "u16", "read", "code of the last instruction error"},
+    {"D8069", "u16", "read", "step of the last instruction error"},
+    {"D8140", "i32", "write", "pulses of Y0, less those backwards"},
+    {"D8142", "i32", "write", "pulses of Y1, less those backwards"},
+    {"D8145", "u16", "write", "bias speed of DDRVI and DDRVA [Hz]"},
+    {"D8146", "i32", "write", "top speed of DDRVI and DDRVA [Hz]"},
+    {"D8148", "u16", "write", "ramp of DDRVI and DDRVA from bias to top speed [ms]"},
+    {"D8150", "i32", "write", "pulses of Y2, less those backwards"},
+    {"D8152", "i32", "write", "pulses of Y3, less those backwards"},
+};
+
+// The engine's offsets are those of the table.
+consteval bool in_table(int offset, std::string_view name) {
+  for (const BlockWord& entry : words)
+    if (entry.name == name) return entry.offset == offset;
+  return false;
+}
+static_assert(in_table(word::version, "version") && in_table(word::status, "status") &&
+              in_table(word::error, "error") && in_table(word::function, "function") &&
+              in_table(word::live, "live") && in_table(word::start, "start") &&
+              in_table(word::max_frequency, "max frequency") && in_table(word::sync_output, "sync output") &&
+              in_table(word::sync_low, "sync low") && in_table(word::sync_high, "sync high") &&
+              in_table(word::repeats, "repeats") && in_table(word::delay, "delay") &&
+              in_table(word::start_position, "start position") &&
+              in_table(word::slave_pulses, "slave pulses") &&
+              in_table(word::slave_position, "slave position") &&
+              in_table(word::slave_denominator, "slave denominator") &&
+              in_table(word::slave_numerator, "slave numerator") &&
+              in_table(word::master_position, "master position") &&
+              in_table(word::master_counts, "master counts") &&
+              in_table(word::master_denominator, "master denominator") &&
+              in_table(word::master_numerator, "master numerator") && in_table(word::rows, "rows") &&
+              in_table(word::table_offset, "table offset") && in_table(word::table, "row master"));
+
+}  // namespace
+
+std::span<const BlockWord> block_words() { return words; }
+std::span<const BlockFlag> block_flags() { return flags; }
+std::span<const SpecialRegister> special_registers() { return specials; }
+
+}  // namespace drycut::devices::lx3vp

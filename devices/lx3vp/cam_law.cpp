@@ -1,0 +1,77 @@
+#include "devices/lx3vp/cam_law.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+Wide floor_of(Wide numerator, Wide denominator) {
+  const Wide quotient = numerator / denominator;
+  return quotient * denominator > numerator ? quotient - 1 : quotient;
+}
+Wide nearest_to(Wide numerator, Wide denominator) {
+  return floor_of(2 * numerator + denominator, 2 * denominator);
+}
+// Far beyond what an output can ever give.
+std::int64_t limited(Wide value) {
+  constexpr Wide most = std::numeric_limits<std::int64_t>::max() / 4;
+  return static_cast<std::int64_t>(std::clamp(value, -most, most));
+}
+
+}  // namespace
+
+CamLaw::CamLaw(std::vector<Row> rows, Zoom master, Zoom slave)
+    : rows_(std::move(rows)), master_(master), slave_(slave) {
+  assert(rows_.size() >= 2);
+}
+
+Wide CamLaw::length() const {
+  return (Wide{rows_.back().master} - rows_.front().master) * master_.denominator;
+}
+
+CamLaw::Place CamLaw::place(std::int64_t counts, std::int64_t first) const {
+  // The limit keeps all products below 128 bit; a counter takes years to reach it.
+  constexpr Wide most = Wide{1} << 61;
+  const Wide travelled = std::clamp(Wide{first} * master_.denominator + Wide{counts} * master_.numerator,
+                                    -most * master_.denominator, most * master_.denominator);
+  // Floor, not truncation: a master that runs backwards leaves cycle 0 for cycle -1 at its end.
+  const Wide cycle = floor_of(travelled, length());
+  return {limited(cycle), travelled - cycle * length()};
+}
+
+CamLaw::Fraction CamLaw::slave(Wide part) const {
+  const Wide unit = master_.denominator;
+  const std::int64_t first = rows_.front().master;
+  auto next = std::upper_bound(rows_.begin(), rows_.end(), part, [&](Wide at, const Row& row) {
+    return at < (Wide{row.master} - first) * unit;
+  });
+  if (next == rows_.end()) --next;  // the end of the last piece
+  const Row& to = *next;
+  const Row& from = *(next - 1);
+  const Wide length = Wide{to.master} - from.master;
+  const Wide rise = Wide{to.slave} - from.slave;
+  const Wide base = Wide{from.slave} - rows_.front().slave;
+  return {base * length * unit + rise * (part - (Wide{from.master} - first) * unit), length * unit};
+}
+
+std::int64_t CamLaw::pulses(const Place& place) const {
+  const Fraction in_cycle = slave(place.part);
+  const Wide a_cycle = Wide{rows_.back().slave} - rows_.front().slave;
+  const Wide total = place.cycle * a_cycle * in_cycle.denominator + in_cycle.numerator;
+  return limited(nearest_to(total * slave_.numerator, in_cycle.denominator * slave_.denominator));
+}
+
+std::int64_t CamLaw::master_position(const Place& place) const {
+  return rows_.front().master + static_cast<std::int64_t>(floor_of(place.part, master_.denominator));
+}
+
+std::int64_t CamLaw::slave_position(const Place& place) const {
+  const Fraction in_cycle = slave(place.part);
+  return rows_.front().slave +
+         static_cast<std::int64_t>(nearest_to(in_cycle.numerator, in_cycle.denominator));
+}
+
+}  // namespace drycut::devices::lx3vp

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "devices/lx3vp/ecamtbx.hpp"
+
+namespace drycut::devices::lx3vp {
+
+/// Integers of 128 bit: positions of the cam are fractions whose terms do not fit 64.
+__extension__ using Wide = __int128;
+
+/// A ratio of the block, 1..65535 each.
+struct Zoom {
+  std::uint16_t numerator = 1;
+  std::uint16_t denominator = 1;
+};
+
+/// The cam's law in whole numbers: straight lines between the rows of a table, repeated from cycle to cycle,
+/// with the zooms of master and slave. There is one rounding, of the pulses at the end, so that nothing
+/// drifts however long the cam runs.
+class CamLaw {
+ public:
+  using Row = CamTableRow;
+  CamLaw() = default;
+  /// At least two rows; masters not negative and ascending.
+  CamLaw(std::vector<Row> rows, Zoom master, Zoom slave);
+
+  /// Where the master is: cycle `cycle` and, in it, `part` / master zoom's denominator table units after the
+  /// first row. `part` is 0..length(); length() itself is the end of a cycle that goes no further.
+  struct Place {
+    std::int64_t cycle = 0;
+    Wide part = 0;
+  };
+  /// Of a master that has come `counts` from table position `first` (0 = the first row).
+  [[nodiscard]] Place place(std::int64_t counts, std::int64_t first = 0) const;
+  /// Length of a cycle, in units of Place::part.
+  [[nodiscard]] Wide length() const;
+
+  /// Pulses from the start of cycle 0, to the nearest, halves upwards.
+  [[nodiscard]] std::int64_t pulses(const Place& place) const;
+  /// Pulses up to the start of the place's cycle.
+  [[nodiscard]] std::int64_t pulses_before(std::int64_t cycle) const { return pulses({cycle, 0}); }
+  /// Master position in table units, downwards to a whole one.
+  [[nodiscard]] std::int64_t master_position(const Place& place) const;
+  /// Slave position in table units, to the nearest.
+  [[nodiscard]] std::int64_t slave_position(const Place& place) const;
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  struct Fraction {
+    Wide numerator;
+    Wide denominator;  ///< above 0
+  };
+  [[nodiscard]] Fraction slave(Wide part) const;
+
+  std::vector<Row> rows_;
+  Zoom master_;
+  Zoom slave_;
+};
+
+}  // namespace drycut::devices::lx3vp

@@ -1,0 +1,278 @@
+#include "devices/lx3vp/decam.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+constexpr int ticks_between_runs = 50;  // 5 ms (003 4.2.1)
+constexpr int ticks_of_zero = 2;        // more than 100 us (003 4.1.2)
+constexpr unsigned shared_bits = status::initialised | status::completed | status::cycle_completed;
+
+}  // namespace
+
+void CamMaster::begin(const CamPort& port) {
+  last_ = value(port);
+  ticks_ = 0;
+}
+
+std::int64_t CamMaster::value(const CamPort& port) const {
+  if (source_.kind == MasterSource::Kind::time) return 0;
+  if (source_.kind == MasterSource::Kind::word) return port.registers.i32(source_.number);
+  return source_.number >= first_high_speed_counter
+             ? port.high_speed[static_cast<std::size_t>(source_.number)]
+             : port.registers.c[static_cast<std::size_t>(source_.number)].value;
+}
+
+std::int64_t CamMaster::advance(const CamPort& port) {
+  if (source_.kind == MasterSource::Kind::time) {
+    if (++ticks_ < source_.number) return 0;
+    ticks_ = 0;
+    return 1;
+  }
+  const std::int64_t now = value(port);
+  const std::int64_t counts = now - std::exchange(last_, now);
+  // A register passes from 2147483647 to -2147483648 as a counter does.
+  const bool hardware =
+      source_.kind == MasterSource::Kind::counter && source_.number >= first_high_speed_counter;
+  return hardware ? counts : static_cast<std::int32_t>(static_cast<std::uint32_t>(counts));
+}
+
+std::uint16_t& Decam::block(CamPort& port, int word) const {
+  return port.registers.d[static_cast<std::size_t>(operands_.block + word)];
+}
+
+void Decam::raise(CamPort& port, unsigned bits) const {
+  block(port, word::status) |= static_cast<std::uint16_t>(bits);
+}
+void Decam::lower(CamPort& port, unsigned bits) const {
+  block(port, word::status) &= static_cast<std::uint16_t>(~bits);
+}
+
+bool Decam::start_level(const CamPort& port) const {
+  const auto number = static_cast<std::size_t>(operands_.start.number);
+  return operands_.start.is_input ? port.inputs[number] : port.registers.m[number];
+}
+
+void Decam::enable(const DecamOperands& operands, CamPort& port, const std::optional<CamFault>& fault) {
+  operands_ = operands;
+  enabled_ = true;
+  state_ = State::idle;
+  status_ = 0;
+  zero_ticks_ = ticks_of_zero;
+  has_block_ = operands.block >= 0 && operands.block + block_length - 1 <= last_block_word;
+  refusal_ = fault ? fault : wrong_operand();
+  if (has_block_) {
+    lower(port, status::initialised);
+    block(port, word::version) = 1;
+  }
+  if (refusal_) fail(port, *refusal_);
+  if (has_block_) show_status(port);
+}
+
+void Decam::disable(CamPort& port) {
+  enabled_ = false;
+  state_ = State::idle;
+  if (!has_block_) return;
+  drive_sync_output(port);
+  lower(port, status::initialised);
+  status_ &= status::stopped | status::parameter_error | status::table_error | status::delayed;
+  block(port, word::status) = static_cast<std::uint16_t>((block(port, word::status) & shared_bits) | status_);
+}
+
+void Decam::fail(CamPort& port, CamFault fault) {
+  state_ = State::idle;
+  if (has_block_) {
+    status_ |= status::stopped;
+    if (fault.code == 6781) status_ |= status::parameter_error;
+    if (fault.code == 6782) status_ |= status::table_error;
+    block(port, word::error) = static_cast<std::uint16_t>(fault.code == 6782 ? fault.row : fault.code);
+  }
+  fault_ = std::move(fault);
+}
+
+std::optional<CamFault> Decam::take_fault() { return std::exchange(fault_, std::nullopt); }
+bool Decam::take_delayed() { return std::exchange(newly_delayed_, false); }
+
+PulseTick Decam::tick(CamPort& port, PulseOutput& output, bool stop, bool taken) {
+  if (!enabled_ || !has_block_) return {0, output.forwards(), false};
+  const bool level = start_level(port);
+  const bool edge = !std::exchange(last_signal_, level) && level;
+  bool may_start = state_ == State::armed;  // from the tick after bit 0 has gone on
+  obey_start_word(port, output, stop, taken);
+  if (state_ == State::pause && --pause_ticks_ == 0) {
+    raise(port, status::initialised);
+    state_ = State::armed;
+    may_start = true;
+  }
+  if (state_ == State::armed) {
+    if (may_start) wait_for_start(port, edge);
+  } else if (state_ == State::delay) {
+    count_delay(port);
+  } else if (state_ == State::run) {
+    run(port, master_.advance(port));
+  }
+  PulseTick tick{0, output.forwards(), false};
+  if (state_ != State::idle) {
+    const std::int32_t most = port.registers.i32(operands_.block + word::max_frequency);
+    tick = output.follow(target_, most < 0 || most > max_frequency_hz ? max_frequency_hz : most);
+    if (tick.late) {
+      status_ |= status::delayed;
+      newly_delayed_ = newly_delayed_ || !std::exchange(told_delayed_, true);
+    }
+    if (state_ != State::init && state_ != State::armed)
+      show_positions(port, place_, output.position() - base_ - law_.pulses_before(place_.cycle));
+  }
+  drive_sync_output(port);
+  show_status(port);
+  return tick;
+}
+
+// Word 5 starts and stops; the flag of the output stops too, and lasts until word 5 starts anew.
+void Decam::obey_start_word(CamPort& port, PulseOutput& output, bool stop_pulses, bool taken) {
+  const int command = block(port, word::start);
+  const bool start = command == 1 || command == 2;
+  if (state_ == State::init) {
+    raise(port, status::initialised);
+    state_ = State::armed;
+    last_signal_ = start_level(port);
+    if (start && !stop_pulses) return;  // the start comes with the next tick
+  }
+  if (!start || stop_pulses) {
+    if (state_ != State::idle) stop(port, output);
+    zero_ticks_ = start ? 0 : std::min(zero_ticks_ + 1, ticks_of_zero);
+    return;
+  }
+  if (state_ == State::idle && zero_ticks_ >= ticks_of_zero && !refusal_) begin(port, output, taken);
+  zero_ticks_ = 0;
+}
+
+void Decam::begin(CamPort& port, PulseOutput& output, bool taken) {
+  status_ = 0;
+  block(port, word::error) = 0;
+  if (auto fault = take_block(port, taken)) {
+    fail(port, std::move(*fault));
+    return;
+  }
+  state_ = State::init;
+  told_delayed_ = false;
+  target_ = output.position();
+  output.halt();
+  output.face(true);
+  master_ = CamMaster(operands_.master);
+}
+
+void Decam::stop(CamPort& port, PulseOutput& output) {
+  state_ = State::idle;
+  target_ = output.position();
+  output.halt();
+  lower(port, status::initialised);
+}
+
+void Decam::wait_for_start(CamPort& port, bool edge) {
+  if ((function_ & function::external_start) != 0 && !edge) return;
+  start(port);
+}
+
+// The master counts from here; the slave stays where it is, at the place of the table where the run begins.
+void Decam::start(CamPort& port) {
+  master_.begin(port);
+  const std::uint32_t registered = port.registers.u32(operands_.block + word::master_counts);
+  const bool went_on = !ended_ || registered != static_cast<std::uint32_t>(counts_);
+  const bool resumed = std::exchange(resume_, false) && went_on;
+  // The registers hold 32 bit of a longer count: the nearest such count is meant.
+  counts_ =
+      resumed ? counts_ + static_cast<std::int32_t>(registered - static_cast<std::uint32_t>(counts_)) : 0;
+  ended_ = false;
+  place_ = law_.place(counts_, first_);
+  limit(port, place_);
+  cycle_ = place_.cycle;
+  const std::int64_t in_cycle = resumed ? port.registers.i32(operands_.block + word::slave_pulses)
+                                        : law_.pulses(place_) - law_.pulses_before(cycle_);
+  base_ = target_ - in_cycle - law_.pulses_before(cycle_);
+  delayed_ = 0;
+  state_ = !cyclic_ && (function_ & function::delayed_start) != 0 && delay_ > 0 ? State::delay : State::run;
+}
+
+void Decam::count_delay(CamPort& port) {
+  delayed_ += master_.advance(port);
+  if (delayed_ < delay_) return;
+  state_ = State::run;
+  run(port, delayed_ - delay_);
+}
+
+void Decam::run(CamPort& port, std::int64_t counts) {
+  counts_ += counts;
+  place_ = law_.place(counts_, first_);
+  const bool at_end = limit(port, place_);
+  target_ = base_ + law_.pulses(place_);
+  const bool repeating = cyclic_ || cycles_ == 0;
+  if (place_.cycle > cycle_)
+    raise(port, repeating ? status::completed | status::cycle_completed : status::cycle_completed);
+  cycle_ = place_.cycle;
+  if (at_end) finish(port);
+}
+
+bool Decam::limit(CamPort& port, CamLaw::Place& place) const {
+  // A non-cyclic cam has nothing before its first row.
+  if (!cyclic_ && place.cycle < 0) place = {0, 0};
+  const bool last_cycle = (block(port, word::live) & live::stop_after_cycle) != 0;
+  if (last_cycle && state_ == State::run && place.cycle != cycle_) {
+    place = {cycle_, place.cycle > cycle_ ? law_.length() : Wide{0}};
+    return true;
+  }
+  if (cyclic_ || cycles_ == 0 || place.cycle < cycles_) return false;
+  place = {cycles_ - 1, law_.length()};
+  return true;
+}
+
+void Decam::finish(CamPort& port) {
+  raise(port, status::completed | status::cycle_completed);
+  lower(port, status::initialised);
+  ended_ = true;
+  const bool stop = (block(port, word::live) & live::stop_after_cycle) != 0;
+  const bool again = !cyclic_ && !stop && (function_ & function::external_start) != 0;
+  state_ = again ? State::pause : State::done;
+  pause_ticks_ = ticks_between_runs;
+}
+
+void Decam::show_positions(CamPort& port, const CamLaw::Place& place, std::int64_t pulses) const {
+  Registers& registers = port.registers;
+  const int at = operands_.block;
+  registers.set_u32(at + word::slave_pulses, static_cast<std::uint32_t>(pulses));
+  registers.set_u32(at + word::slave_position, static_cast<std::uint32_t>(law_.slave_position(place)));
+  registers.set_u32(at + word::master_position, static_cast<std::uint32_t>(law_.master_position(place)));
+  registers.set_u32(at + word::master_counts, static_cast<std::uint32_t>(counts_));
+}
+
+void Decam::show_status(CamPort& port) {
+  status_ &= ~(status::cyclic | status::non_cyclic | status::in_window | status::time_axis);
+  const bool active = state_ != State::idle && state_ != State::done;
+  if (active) status_ |= cyclic_ ? status::cyclic : status::non_cyclic;
+  if (sync_output_ && port.outputs[static_cast<std::size_t>(*sync_output_)]) status_ |= status::in_window;
+  if (operands_.master.kind == MasterSource::Kind::time) status_ |= status::time_axis;
+  block(port, word::status) = static_cast<std::uint16_t>((block(port, word::status) & shared_bits) | status_);
+}
+
+// The output is the cam's while it runs with the synchronous output enabled; else the program's.
+void Decam::drive_sync_output(CamPort& port) {
+  const int number = block(port, word::sync_output);
+  const bool works =
+      state_ == State::run && (block(port, word::live) & live::sync_output) != 0 && number < terminals;
+  const auto give = [&](int output, bool level) {
+    port.outputs[static_cast<std::size_t>(output)] = level;
+    port.registers.y[static_cast<std::size_t>(output)] = level;
+  };
+  if (sync_output_ && (!works || *sync_output_ != number)) give(*sync_output_, false);
+  sync_output_.reset();
+  if (!works) return;
+  sync_output_ = number;
+  const std::int64_t position = law_.master_position(place_);
+  const std::int64_t low = port.registers.u32(operands_.block + word::sync_low);
+  const std::int64_t high = port.registers.u32(operands_.block + word::sync_high);
+  give(number, low <= position && position <= high);
+}
+
+}  // namespace drycut::devices::lx3vp

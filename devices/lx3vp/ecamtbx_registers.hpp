@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+
+#include "devices/lx3vp/ecamtbx.hpp"
+#include "devices/lx3vp/registers.hpp"
+
+namespace drycut::devices::lx3vp {
+
+/// Words of a parameter list, and of a cam's block before its rows (003 5, appendix).
+inline constexpr int ecamtbx_parameters = 20;
+inline constexpr int cam_block_words = 40;
+
+/// The lists at D`first`, 32-bit values and floats low word first.
+SawParameters read_saw_parameters(const Registers& registers, int first);
+SCurveParameters read_s_curve_parameters(const Registers& registers, int first);
+
+/// ECAMTBX S0 S1 D0 D1: makes the table of type `type` from the list at D`list` and writes it to the cam's
+/// block at D`block`: the rows from word 40 on, their number in word 38, 40 in word 39; with word 4 bit 0
+/// (sync output enabled) a saw's synchronous zone in words 9 to 12. The result goes to D`result` as 32 bit,
+/// its low word alone tells it too. With an error the block is left as it is. K0 and K1 report in
+/// words 10..17 and 19 of their list.
+void run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result);
+
+}  // namespace drycut::devices::lx3vp

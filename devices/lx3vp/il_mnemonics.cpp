@@ -1,0 +1,196 @@
+#include "devices/lx3vp/il_mnemonics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace drycut::devices::lx3vp::il {
+
+namespace {
+
+constexpr std::uint8_t n = Mnemonic::narrow;
+constexpr std::uint8_t w = Mnemonic::wide;
+constexpr std::uint8_t nw = n | w;
+constexpr std::uint8_t nwp = n | w | Mnemonic::pulse;
+constexpr std::uint8_t np = n | Mnemonic::pulse;
+constexpr std::uint8_t wp = w | Mnemonic::pulse;
+
+constexpr std::array table = {
+    Mnemonic{"LD", Op::ld, "b", n, 1, 0, "begins with a contact: ON if the device is ON"},
+    Mnemonic{"LDI", Op::ldi, "b", n, 1, 0, "begins with a contact: ON if the device is OFF"},
+    Mnemonic{"LDP", Op::ldp, "b", n, 2, 0, "begins with a contact: ON for one scan as the device goes ON"},
+    Mnemonic{"LDF", Op::ldf, "b", n, 2, 0, "begins with a contact: ON for one scan as the device goes OFF"},
+    Mnemonic{"AND", Op::and_, "b", n, 1, 0, "contact in series, ON if the device is ON"},
+    Mnemonic{"ANI", Op::ani, "b", n, 1, 0, "contact in series, ON if the device is OFF"},
+    Mnemonic{"ANDP", Op::andp, "b", n, 2, 0, "contact in series, ON for one scan as the device goes ON"},
+    Mnemonic{"ANDF", Op::andf, "b", n, 2, 0, "contact in series, ON for one scan as the device goes OFF"},
+    Mnemonic{"OR", Op::or_, "b", n, 1, 0, "contact in parallel, ON if the device is ON"},
+    Mnemonic{"ORI", Op::ori, "b", n, 1, 0, "contact in parallel, ON if the device is OFF"},
+    Mnemonic{"ORP", Op::orp, "b", n, 2, 0, "contact in parallel, ON for one scan as the device goes ON"},
+    Mnemonic{"ORF", Op::orf, "b", n, 2, 0, "contact in parallel, ON for one scan as the device goes OFF"},
+    Mnemonic{"LD=", Op::ld_equal, "nn", nw, 5, 9, "begins with a comparison: equal"},
+    Mnemonic{"LD>", Op::ld_gt, "nn", nw, 5, 9, "begins with a comparison: greater"},
+    Mnemonic{"LD<", Op::ld_lt, "nn", nw, 5, 9, "begins with a comparison: less"},
+    Mnemonic{"LD<>", Op::ld_unequal, "nn", nw, 5, 9, "begins with a comparison: not equal"},
+    Mnemonic{"LD<=", Op::ld_le, "nn", nw, 5, 9, "begins with a comparison: less or equal"},
+    Mnemonic{"LD>=", Op::ld_ge, "nn", nw, 5, 9, "begins with a comparison: greater or equal"},
+    Mnemonic{"AND=", Op::and_equal, "nn", nw, 5, 9, "comparison in series: equal"},
+    Mnemonic{"AND>", Op::and_gt, "nn", nw, 5, 9, "comparison in series: greater"},
+    Mnemonic{"AND<", Op::and_lt, "nn", nw, 5, 9, "comparison in series: less"},
+    Mnemonic{"AND<>", Op::and_unequal, "nn", nw, 5, 9, "comparison in series: not equal"},
+    Mnemonic{"AND<=", Op::and_le, "nn", nw, 5, 9, "comparison in series: less or equal"},
+    Mnemonic{"AND>=", Op::and_ge, "nn", nw, 5, 9, "comparison in series: greater or equal"},
+    Mnemonic{"OR=", Op::or_equal, "nn", nw, 5, 9, "comparison in parallel: equal"},
+    Mnemonic{"OR>", Op::or_gt, "nn", nw, 5, 9, "comparison in parallel: greater"},
+    Mnemonic{"OR<", Op::or_lt, "nn", nw, 5, 9, "comparison in parallel: less"},
+    Mnemonic{"OR<>", Op::or_unequal, "nn", nw, 5, 9, "comparison in parallel: not equal"},
+    Mnemonic{"OR<=", Op::or_le, "nn", nw, 5, 9, "comparison in parallel: less or equal"},
+    Mnemonic{"OR>=", Op::or_ge, "nn", nw, 5, 9, "comparison in parallel: greater or equal"},
+    Mnemonic{"ANB", Op::anb, "", n, 1, 0, "joins the last two blocks in series"},
+    Mnemonic{"ORB", Op::orb, "", n, 1, 0, "joins the last two blocks in parallel"},
+    Mnemonic{"MPS", Op::mps, "", n, 1, 0, "keeps the result for a branch"},
+    Mnemonic{"MRD", Op::mrd, "", n, 1, 0, "takes the kept result up again"},
+    Mnemonic{"MPP", Op::mpp, "", n, 1, 0, "takes the kept result up for the last time"},
+    Mnemonic{"INV", Op::inv, "", n, 1, 0, "inverts the result"},
+    Mnemonic{"OUT", Op::out, "o", n, 1, 0, "coil; of a timer or counter with its set value after it"},
+    Mnemonic{"SET", Op::set, "s", n, 1, 0, "switches ON and leaves ON"},
+    Mnemonic{"RST", Op::rst, "r", n, 1, 0, "switches OFF; a timer, a counter or a register to 0"},
+    Mnemonic{"PLS", Op::pls, "e", n, 2, 0, "ON for one scan as the result goes ON"},
+    Mnemonic{"PLF", Op::plf, "e", n, 2, 0, "ON for one scan as the result goes OFF"},
+    Mnemonic{"ZRST", Op::zrst, "ll", np, 5, 0, "resets all devices from the one to the other"},
+    Mnemonic{"ALT", Op::alt, "s", np, 3, 0, "inverts a device"},
+    Mnemonic{"MOV", Op::mov, "nw", nwp, 5, 9, "D = S"},
+    Mnemonic{"CML", Op::cml, "nw", nwp, 5, 9, "D = S with every bit inverted"},
+    Mnemonic{"BMOV", Op::bmov, "iik", np, 7, 0, "moves n words from S on to D on"},
+    Mnemonic{"FMOV", Op::fmov, "nik", nwp, 7, 13, "writes S into n words (values) from D on"},
+    Mnemonic{"XCH", Op::xch, "ww", nwp, 5, 9, "exchanges two values"},
+    Mnemonic{"ADD", Op::add, "nnw", nwp, 7, 13, "D = S1 + S2"},
+    Mnemonic{"SUB", Op::sub, "nnw", nwp, 7, 13, "D = S1 - S2"},
+    Mnemonic{"MUL", Op::mul, "nnq", nwp, 7, 13, "D = S1 * S2, in twice as many words"},
+    Mnemonic{"DIV", Op::div, "nnq", nwp, 7, 13, "D = S1 / S2, the remainder behind it"},
+    Mnemonic{"INC", Op::inc, "w", nwp, 3, 5, "adds 1, from the largest to the smallest"},
+    Mnemonic{"DEC", Op::dec, "w", nwp, 3, 5, "takes off 1, from the smallest to the largest"},
+    Mnemonic{"NEG", Op::neg, "w", nwp, 3, 5, "changes the sign"},
+    Mnemonic{"WAND", Op::wand, "nnw", nwp, 7, 13, "D = S1 and S2, bit by bit (32 bit: DAND)"},
+    Mnemonic{"WOR", Op::wor, "nnw", nwp, 7, 13, "D = S1 or S2, bit by bit (32 bit: DOR)"},
+    Mnemonic{"WXOR", Op::wxor, "nnw", nwp, 7, 13, "D = S1 exclusive or S2, bit by bit (32 bit: DXOR)"},
+    Mnemonic{"CMP", Op::cmp, "nnB", nwp, 7, 13, "three devices from D on: S1 > S2, S1 = S2, S1 < S2"},
+    Mnemonic{"ZCP", Op::zcp, "nnnB", nwp, 9, 17, "three devices from D on: S below, within, above S1..S2"},
+    Mnemonic{"FLT", Op::flt, "iF", nwp, 5, 9, "D = S as a floating-point number"},
+    Mnemonic{"INT", Op::int_, "Fi", nwp, 5, 9, "D = S without its decimals"},
+    Mnemonic{"EMOV", Op::emov, "fF", wp, 9, 9, "D = S, floating point"},
+    Mnemonic{"EADD", Op::eadd, "ffF", wp, 13, 13, "D = S1 + S2, floating point"},
+    Mnemonic{"ESUB", Op::esub, "ffF", wp, 13, 13, "D = S1 - S2, floating point"},
+    Mnemonic{"EMUL", Op::emul, "ffF", wp, 13, 13, "D = S1 * S2, floating point"},
+    Mnemonic{"EDIV", Op::ediv, "ffF", wp, 13, 13, "D = S1 / S2, floating point"},
+    Mnemonic{"ECMP", Op::ecmp, "ffB", wp, 13, 13, "CMP of floating-point numbers"},
+    Mnemonic{"EZCP", Op::ezcp, "fffB", wp, 17, 17, "ZCP of floating-point numbers"},
+    Mnemonic{"PLSV", Op::plsv, "npy", nw, 9, 17, "pulses at S Hz from D1, direction on D2 (ON: S above 0)"},
+    Mnemonic{"DRVI", Op::drvi, "nnpy", nw, 9, 17, "S1 pulses at S2 Hz from D1, direction on D2"},
+    Mnemonic{"DRVA", Op::drva, "nnpy", nw, 9, 17, "pulses to position S1 at S2 Hz from D1, direction on D2"},
+    Mnemonic{"DECAM", Op::decam, "mdxpy", n, 21, 0,
+             "electronic cam: master, block, start, pulses, direction"},
+    Mnemonic{"ECAMTBX", Op::ecamtbx, "atdD", n, 17, 0, "makes a cam table: parameters, type, block, result"},
+    Mnemonic{"CJ", Op::cj, "P", np, 3, 0, "goes on at a label"},
+    Mnemonic{"NOP", Op::nop, "", n, 1, 0, "does nothing"},
+    Mnemonic{"FEND", Op::fend, "", n, 1, 0, "ends the scan before the end of the text"},
+    Mnemonic{"END", Op::end, "", n, 1, 0, "ends the program"},
+};
+
+bool is_comparison(Op op) { return op >= Op::ld_equal && op <= Op::or_ge; }
+
+/// The 32-bit form's name: DMOV, but LDD= and DAND.
+std::string wide_name(const Mnemonic& m) {
+  const std::string name(m.name);
+  if (is_comparison(m.op)) {
+    const auto sign = name.find_first_of("<=>");
+    return name.substr(0, sign) + "D" + name.substr(sign);
+  }
+  if (m.op == Op::wand || m.op == Op::wor || m.op == Op::wxor) return "D" + name.substr(1);
+  return "D" + name;
+}
+
+std::vector<Spelling> all_spellings() {
+  std::vector<Spelling> all;
+  for (const auto& m : table) {
+    for (const bool wide : {false, true}) {
+      if (!m.has(wide ? Mnemonic::wide : Mnemonic::narrow)) continue;
+      const auto name = wide ? wide_name(m) : std::string(m.name);
+      all.push_back({name, &m, wide, false});
+      if (m.has(Mnemonic::pulse)) all.push_back({name + "P", &m, wide, true});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::span<const Mnemonic> mnemonics() { return table; }
+
+const std::vector<Spelling>& spellings() {
+  static const std::vector<Spelling> all = all_spellings();
+  return all;
+}
+
+const Spelling* find_spelling(std::string_view text) {
+  static const auto by_name = [] {
+    std::map<std::string, const Spelling*, std::less<>> names;
+    for (const auto& spelling : spellings()) names.emplace(spelling.text, &spelling);
+    return names;
+  }();
+  std::string upper(text);
+  for (auto& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const auto found = by_name.find(upper);
+  return found == by_name.end() ? nullptr : found->second;
+}
+
+std::string_view operand_text(char kind) {
+  switch (kind) {
+    case 'b':
+      return "X, Y, M, S, T, C or a bit of D (D10.F)";
+    case 'o':
+      return "Y, M, S, T, C or a bit of D (D10.F)";
+    case 's':
+      return "Y, M, S or a bit of D (D10.F)";
+    case 'r':
+      return "Y, M, S, T, C, D or a bit of D (D10.F)";
+    case 'e':
+      return "Y or M";
+    case 'l':
+      return "Y, M, S, T, C or D";
+    case 'n':
+      return "K, H, D, T, C or bits (K4M0) of X, Y, M or S";
+    case 'w':
+      return "D, T, C or bits (K4M0) of Y, M or S";
+    case 'q':
+    case 'i':
+    case 'a':
+    case 'd':
+    case 'D':
+    case 'F':
+      return "D";
+    case 'f':
+      return "E (E1.5), K, H or D";
+    case 'k':
+    case 't':
+      return "K, H or D";
+    case 'v':
+      return "K or D";
+    case 'B':
+      return "Y, M or S";
+    case 'm':
+      return "C, D or K";
+    case 'x':
+      return "X or M";
+    case 'p':
+      return "Y0 to Y3";
+    case 'y':
+      return "Y";
+    case 'P':
+      return "a label, P0 to P127";
+    default:
+      return "";
+  }
+}
+
+}  // namespace drycut::devices::lx3vp::il

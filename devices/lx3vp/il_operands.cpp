@@ -1,0 +1,307 @@
+#include "devices/lx3vp/il_operands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace drycut::devices::lx3vp::il {
+
+namespace {
+
+/// The devices of a kind: the letter, whether numbers are octal, and the ranges that exist.
+struct Range {
+  int first = 0;
+  int last = 0;
+};
+struct Family {
+  char letter;
+  Kind kind;
+  bool octal;
+  Range ranges[2];
+};
+constexpr Family families[] = {
+    {'X', Kind::X, true, {{0, 0377}, {0, -1}}},       {'Y', Kind::Y, true, {{0, 0377}, {0, -1}}},
+    {'M', Kind::M, false, {{0, 3071}, {8000, 8255}}}, {'S', Kind::S, false, {{0, 999}, {0, -1}}},
+    {'T', Kind::T, false, {{0, 255}, {0, -1}}},       {'C', Kind::C, false, {{0, 255}, {0, -1}}},
+    {'D', Kind::D, false, {{0, 8255}, {0, -1}}},      {'P', Kind::label, false, {{0, 127}, {0, -1}}},
+};
+constexpr int first_wide_counter = 200;
+constexpr int parameter_words = 20;  // of ECAMTBX
+constexpr int block_words = 40;      // of DECAM, before its table
+constexpr int first_special_word = 8000;
+
+const Family* family_of(Kind kind) {
+  for (const auto& family : families)
+    if (family.kind == kind) return &family;
+  return nullptr;
+}
+const Family* family_of(char letter) {
+  for (const auto& family : families)
+    if (family.letter == letter) return &family;
+  return nullptr;
+}
+
+std::string number_text(const Family& family, int number) {
+  return family.octal ? fmt::format("{}{:o}", family.letter, number)
+                      : fmt::format("{}{}", family.letter, number);
+}
+std::string range_text(const Family& family) {
+  auto text = fmt::format("{} to {}", number_text(family, family.ranges[0].first),
+                          number_text(family, family.ranges[0].last));
+  if (family.ranges[1].last >= 0)
+    text += fmt::format(" and {} to {}", number_text(family, family.ranges[1].first),
+                        number_text(family, family.ranges[1].last));
+  return text;
+}
+bool exists(const Family& family, int first, int count = 1) {
+  return std::any_of(std::begin(family.ranges), std::end(family.ranges), [&](const Range& range) {
+    return first >= range.first && first + count - 1 <= range.last;
+  });
+}
+
+template <typename Number>
+bool read_whole(std::string_view text, Number& number, int base = 10) {
+  if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+  return !text.empty() && error == std::errc{} && end == text.data() + text.size();
+}
+
+class Reader {
+ public:
+  Reader(std::string_view text, OperandFault& fault) : fault_(fault) {
+    for (const char c : text) text_ += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+
+  std::optional<Operand> read() {
+    const char letter = text_.empty() ? ' ' : text_.front();
+    const auto rest = std::string_view(text_).substr(std::min<std::size_t>(1, text_.size()));
+    if (letter == 'K') return read_constant(rest);
+    if (letter == 'H') return read_hexadecimal(rest);
+    if (letter == 'E') return read_real(rest);
+    const auto* family = family_of(letter);
+    if (family == nullptr || rest.empty() || rest.front() < '0' || rest.front() > '9')
+      return refuse("is no operand", "write a device (X0, D100), K10, H1F or E1.5");
+    return read_device(*family, rest);
+  }
+
+ private:
+  std::nullopt_t refuse(std::string_view what, std::string remedy) {
+    constexpr std::size_t most = 24;
+    std::string shown;
+    for (const char c : text_.substr(0, most)) shown += c >= ' ' && c <= '~' ? c : '?';
+    fault_ = {fmt::format("'{}{}' {}", shown, text_.size() > most ? "..." : "", what), std::move(remedy)};
+    return std::nullopt;
+  }
+
+  std::optional<Operand> read_constant(std::string_view digits) {
+    for (std::size_t i = 1; i < digits.size(); ++i)
+      if (family_of(digits[i]) != nullptr)
+        return read_bits(digits.substr(0, i), digits[i], digits.substr(i + 1));
+    Operand operand;
+    if (!read_whole(digits, operand.value))
+      return refuse("is no 32-bit number", "write K-2147483648 to K2147483647");
+    return operand;
+  }
+
+  std::optional<Operand> read_bits(std::string_view groups, char letter, std::string_view digits) {
+    Operand operand;
+    operand.kind = Kind::bits;
+    const auto& family = *family_of(letter);
+    operand.of = family.kind;
+    if (letter == 'T' || letter == 'C' || letter == 'D' || letter == 'P')
+      return refuse("groups no bits", "bits are grouped of X, Y, M or S: K4M0");
+    if (!read_whole(groups, operand.count) || operand.count < 1 || operand.count > 8)
+      return refuse("has no such groups of bits", "group K1 (4 bits) to K8 (32 bits)");
+    if (!read_number(family, digits, operand.number)) return std::nullopt;
+    if (!exists(family, operand.number, 4 * operand.count))
+      return refuse("goes beyond the devices", fmt::format("there are {}", range_text(family)));
+    return operand;
+  }
+
+  std::optional<Operand> read_hexadecimal(std::string_view digits) {
+    std::uint32_t value = 0;
+    if (!read_whole(digits, value, 16)) return refuse("is no 32-bit number", "write H0 to HFFFFFFFF");
+    Operand operand;
+    operand.value = static_cast<std::int32_t>(value);
+    operand.hexadecimal = true;
+    return operand;
+  }
+
+  std::optional<Operand> read_real(std::string_view digits) {
+    Operand operand;
+    operand.kind = Kind::real;
+    if (digits.starts_with('+') && digits.size() > 1 && digits[1] != '-') digits.remove_prefix(1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), operand.real);
+    if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size() ||
+        !std::isfinite(operand.real))
+      return refuse("is no 32-bit floating-point number", "write E1.5 or E-3.2E4");
+    return operand;
+  }
+
+  std::optional<Operand> read_device(const Family& family, std::string_view digits) {
+    Operand operand;
+    operand.kind = family.kind;
+    const auto dot = digits.find('.');
+    if (family.kind == Kind::D && dot != std::string_view::npos) {
+      operand.kind = Kind::word_bit;
+      if (!read_whole(digits.substr(dot + 1), operand.count, 16) || operand.count < 0 || operand.count > 15)
+        return refuse("has no such bit", "a word has the bits 0 to F: D10.F");
+      digits = digits.substr(0, dot);
+    }
+    if (!read_number(family, digits, operand.number)) return std::nullopt;
+    return operand;
+  }
+
+  bool read_number(const Family& family, std::string_view digits, int& number) {
+    if (read_whole(digits, number, family.octal ? 8 : 10) && exists(family, number)) return true;
+    const bool decimal = family.octal && digits.find_first_of("89") != std::string_view::npos;
+    refuse(decimal ? "is not octal" : "does not exist",
+           decimal ? fmt::format("{0} count {0}0 to {0}7, {0}10 to {0}17 and on", family.letter)
+                   : fmt::format("there are {}", range_text(family)));
+    return false;
+  }
+
+  std::string text_;
+  OperandFault& fault_;
+};
+
+/// Whether a kind of operand takes what the text named.
+bool takes(char kind, const Operand& operand) {
+  const auto any = [&](std::initializer_list<Kind> kinds) {
+    return std::find(kinds.begin(), kinds.end(), operand.kind) != kinds.end();
+  };
+  switch (kind) {
+    case 'b':
+      return any({Kind::X, Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::word_bit});
+    case 'o':
+      return any({Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::word_bit});
+    case 's':
+      return any({Kind::Y, Kind::M, Kind::S, Kind::word_bit});
+    case 'r':
+      return any({Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::D, Kind::word_bit});
+    case 'e':
+      return any({Kind::Y, Kind::M});
+    case 'l':
+      return any({Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::D});
+    case 'n':
+      return any({Kind::constant, Kind::D, Kind::T, Kind::C, Kind::bits});
+    case 'w':
+      return any({Kind::D, Kind::T, Kind::C}) || (operand.kind == Kind::bits && operand.of != Kind::X);
+    case 'f':
+      return any({Kind::real, Kind::constant, Kind::D});
+    case 'k':
+    case 't':
+    case 'v':
+      return any({Kind::constant, Kind::D});
+    case 'B':
+      return any({Kind::Y, Kind::M, Kind::S});
+    case 'm':
+      return any({Kind::C, Kind::D, Kind::constant});
+    case 'x':
+      return any({Kind::X, Kind::M});
+    case 'p':
+      return operand.kind == Kind::Y && operand.number <= 3;
+    case 'y':
+      return operand.kind == Kind::Y;
+    case 'P':
+      return operand.kind == Kind::label;
+    default:
+      return operand.kind == Kind::D;
+  }
+}
+
+bool is_word(char kind) { return kind == 'n' || kind == 'w'; }
+
+std::optional<OperandFault> misfit_of_constant(const Operand& operand, char kind, const Spelling& spelling) {
+  if (kind == 'm') {
+    if (operand.value >= 1) return {};
+    return OperandFault{fmt::format("{} is no time axis", to_string(operand)),
+                        "K1 counts every 100 us, K10 every ms"};
+  }
+  const bool narrow = (is_word(kind) && !spelling.wide) || kind == 'k';
+  const bool fits = operand.hexadecimal ? static_cast<std::uint32_t>(operand.value) <= 0xFFFF
+                                        : operand.value >= std::numeric_limits<std::int16_t>::min() &&
+                                              operand.value <= std::numeric_limits<std::int16_t>::max();
+  if (!narrow || fits) return {};
+  return OperandFault{
+      fmt::format("{} is wider than 16 bits", to_string(operand)),
+      spelling.mnemonic->has(Mnemonic::wide) ? "use the 32-bit instruction" : "write K-32768 to K32767"};
+}
+
+}  // namespace
+
+std::optional<Operand> read_operand(std::string_view text, OperandFault& fault) {
+  return Reader(text, fault).read();
+}
+
+int extent(char kind, const Spelling& spelling) {
+  switch (kind) {
+    case 'n':
+    case 'w':
+    case 'i':
+      return spelling.wide ? 2 : 1;
+    case 'q':
+      return spelling.wide ? 4 : 2;
+    case 'f':
+    case 'F':
+    case 'D':
+      return 2;
+    case 'B':
+      return 3;
+    case 'a':
+      return parameter_words;
+    case 'd':
+      return block_words;
+    default:
+      return 1;
+  }
+}
+
+std::optional<OperandFault> misfit(const Operand& operand, char kind, const Spelling& spelling) {
+  if (!takes(kind, operand))
+    return OperandFault{fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
+                        fmt::format("it takes {}", operand_text(kind))};
+  if (operand.kind == Kind::constant) return misfit_of_constant(operand, kind, spelling);
+  if (operand.kind == Kind::bits) {
+    if (spelling.wide || operand.count <= 4) return {};
+    return OperandFault{fmt::format("{} is wider than 16 bits", to_string(operand)),
+                        "group K1 to K4, or use the 32-bit instruction"};
+  }
+  const auto* family = family_of(operand.kind);
+  if (family == nullptr) return {};
+  if (operand.kind == Kind::C && operand.number >= first_wide_counter && is_word(kind)) {
+    if (spelling.wide) return {};
+    return OperandFault{fmt::format("{} is 32 bits wide", to_string(operand)), "use the 32-bit instruction"};
+  }
+  int count = extent(kind, spelling);
+  if (operand.kind == Kind::C && is_word(kind) && operand.number + count > first_wide_counter)
+    return OperandFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
+                        "the 16-bit counters end at C199"};
+  if ((kind == 'a' || kind == 'd') && operand.number + count > first_special_word)
+    return OperandFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
+                        "the block has to end at D7999"};
+  if (exists(*family, operand.number, count)) return {};
+  return OperandFault{fmt::format("{} takes {} devices from {} on", spelling.text, count, to_string(operand)),
+                      fmt::format("there are {}", range_text(*family))};
+}
+
+std::string to_string(const Operand& operand) {
+  switch (operand.kind) {
+    case Kind::constant:
+      return operand.hexadecimal ? fmt::format("H{:X}", static_cast<std::uint32_t>(operand.value))
+                                 : fmt::format("K{}", operand.value);
+    case Kind::real:
+      return fmt::format("E{}", operand.real);
+    case Kind::bits:
+      return fmt::format("K{}{}", operand.count, number_text(*family_of(operand.of), operand.number));
+    case Kind::word_bit:
+      return fmt::format("D{}.{:X}", operand.number, operand.count);
+    default:
+      return number_text(*family_of(operand.kind), operand.number);
+  }
+}
+
+}  // namespace drycut::devices::lx3vp::il

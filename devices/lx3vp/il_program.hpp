@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/lx3vp/il_mnemonics.hpp"
+#include "devices/problem.hpp"
+
+namespace drycut::devices::lx3vp::il {
+
+// A controller program as a text of instructions, with the mnemonics of the FX family that the LX3V has: one
+// instruction a line, operands behind it, comments behind ; or //. `LD X0`, `OUT T0 K10`, `DMOV K50000
+// D2044`.
+
+/// What an operand names.
+enum class Kind : std::uint8_t { X, Y, M, S, T, C, D, constant, real, bits, word_bit, label };
+
+/// A checked operand.
+struct Operand {
+  Kind kind = Kind::constant;
+  Kind of = Kind::M;         ///< bits: of which devices
+  int number = 0;            ///< of the device (X and Y: decimal), first of the bits, of the label
+  int count = 0;             ///< bits: groups of four, 1..8; word_bit: the bit, 0..15
+  std::int32_t value = 0;    ///< constant
+  bool hexadecimal = false;  ///< constant: a pattern of bits, H
+  float real = 0;            ///< real
+  int column = 1;            ///< in its line
+};
+
+/// One instruction.
+struct Step {
+  const Spelling* spelling = nullptr;  ///< nullptr: a label
+  std::vector<Operand> operands;
+  int line = 0;
+  int column = 1;
+  int memory = -1;           ///< place among the program's edge memories, -1 = needs none
+  int target = 0;            ///< of a jump: place of its label
+  int number = 0;            ///< of the first step of program memory, as D8069 tells it
+  bool opens_block = false;  ///< LD and its kind: keeps the block before it for ANB, ORB
+
+  [[nodiscard]] Op op() const { return spelling == nullptr ? Op::label : spelling->mnemonic->op; }
+  [[nodiscard]] bool wide() const { return spelling != nullptr && spelling->wide; }
+};
+
+/// A compiled program: runs by `Scanner` (il_scan.hpp).
+struct Program {
+  std::string file;
+  std::vector<Step> steps;
+  int memories = 0;  ///< edge memories
+  int size = 0;      ///< steps of program memory
+};
+
+/// Compiles a text. Every fault becomes a problem; the program is only to be run if there was none.
+Program compile(std::string_view text, const std::string& file, Problems& problems);
+
+/// "D100", "X17", "K4M0", "H1F"; as the text would have it.
+std::string to_string(const Operand& operand);
+
+}  // namespace drycut::devices::lx3vp::il

@@ -1,0 +1,131 @@
+#include "devices/lx3vp/il_rungs.hpp"
+
+#include <fmt/format.h>
+
+namespace drycut::devices::lx3vp::il {
+
+namespace {
+
+constexpr int most_blocks = 8;     // FX: LD without ANB or ORB
+constexpr int most_branches = 11;  // FX: MPS without MPP
+
+/// Where an instruction may stand in a rung.
+enum class Place { opens, contact, joins, branch, output, free };
+
+Place place_of(Op op) {
+  switch (op) {
+    case Op::ld:
+    case Op::ldi:
+    case Op::ldp:
+    case Op::ldf:
+    case Op::ld_equal:
+    case Op::ld_gt:
+    case Op::ld_lt:
+    case Op::ld_unequal:
+    case Op::ld_le:
+    case Op::ld_ge:
+      return Place::opens;
+    case Op::anb:
+    case Op::orb:
+      return Place::joins;
+    case Op::mps:
+    case Op::mrd:
+    case Op::mpp:
+      return Place::branch;
+    case Op::label:
+    case Op::nop:
+    case Op::fend:
+    case Op::end:
+      return Place::free;
+    default:
+      return op <= Op::or_ge || op == Op::inv ? Place::contact : Place::output;
+  }
+}
+
+}  // namespace
+
+void Rungs::add(Step& step) {
+  switch (place_of(step.op())) {
+    case Place::opens:
+      open(step);
+      break;
+    case Place::contact:
+      need_contact(step);
+      after_output_ = false;
+      break;
+    case Place::joins:
+      if (blocks_ < 2)
+        tell_(step.column, fmt::format("{} has no two blocks to join", step.spelling->text),
+              "begin each block with LD");
+      else
+        --blocks_;
+      after_output_ = false;
+      break;
+    case Place::branch:
+      branch(step);
+      break;
+    case Place::output:
+      need_contact(step);
+      need_one_block(step);
+      after_output_ = true;
+      break;
+    case Place::free:
+      if (step.op() != Op::nop) end_rung(step.column);
+      break;
+  }
+}
+
+void Rungs::open(Step& step) {
+  const bool new_rung = blocks_ == 0 || (after_output_ && branches_ == 0);
+  if (new_rung) {
+    blocks_ = 1;
+  } else {
+    step.opens_block = true;
+    if (++blocks_ > most_blocks)
+      tell_(step.column, fmt::format("more than {} blocks wait for ANB or ORB", most_blocks),
+            "join blocks as you go");
+    if (after_output_)
+      tell_(step.column, "a branch goes on behind a coil with LD", "take it up with MRD or MPP before");
+  }
+  after_output_ = false;
+}
+
+void Rungs::branch(const Step& step) {
+  need_contact(step);
+  need_one_block(step);
+  if (step.op() == Op::mps) {
+    if (++branches_ > most_branches)
+      tell_(step.column, fmt::format("more than {} branches wait for MPP", most_branches),
+            "end branches with MPP");
+  } else if (branches_ == 0) {
+    tell_(step.column, fmt::format("{} has no branch to take up", step.spelling->text),
+          "keep the result with MPS before");
+  } else if (step.op() == Op::mpp) {
+    --branches_;
+  }
+  after_output_ = false;
+}
+
+void Rungs::need_contact(const Step& step) {
+  if (blocks_ > 0) return;
+  tell_(step.column, fmt::format("{} has no contact before it", step.spelling->text),
+        "begin with LD; LD M8000 is always ON");
+  blocks_ = 1;
+}
+
+void Rungs::need_one_block(const Step& step) {
+  if (blocks_ <= 1) return;
+  tell_(step.column, fmt::format("{} blocks are not joined at {}", blocks_, step.spelling->text),
+        "join them with ANB or ORB");
+  blocks_ = 1;
+}
+
+void Rungs::end_rung(int column) {
+  if (blocks_ > 0 && !after_output_)
+    tell_(column, "the contacts before it lead to no coil", "end them with OUT or another instruction");
+  if (branches_ > 0) tell_(column, "a branch is not ended", "take it up for the last time with MPP");
+  blocks_ = branches_ = 0;
+  after_output_ = false;
+}
+
+}  // namespace drycut::devices::lx3vp::il

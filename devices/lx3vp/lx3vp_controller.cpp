@@ -1,0 +1,221 @@
+#include "devices/lx3vp/lx3vp_controller.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+constexpr std::int64_t ns_per_ms = 1'000'000;
+
+// The first multiple of `period` after `time`.
+std::int64_t next_multiple(std::int64_t time, std::int64_t period) { return (time / period + 1) * period; }
+
+// What an instruction error leaves (FX: M8004, M8067, D8067, D8069).
+constexpr int error_relay = 8004;
+constexpr int instruction_error_relay = 8067;
+constexpr int instruction_error_register = 8067;
+constexpr int error_step_register = 8069;
+
+constexpr std::uint16_t default_ramp_ms = 100;       // D8148
+constexpr std::int32_t default_top_speed = 100'000;  // D8146 [Hz]
+
+bool is_pulse_output(const Address& address) {
+  return address.kind == Kind::output && address.slot == 0 && address.number < pulse_outputs;
+}
+
+}  // namespace
+
+Lx3vpController::Lx3vpController(il::Program program, std::int64_t scan_ns)
+    : program_(std::move(program)), scanner_(program_), scan_ns_(scan_ns) {
+  assert(scan_ns > 0);
+  add_used_terminals();
+  add_names();
+  reset_registers();
+}
+
+bool Lx3vpController::offer(const Address& address) {
+  if (address.slot != 0) return false;
+  switch (address.kind) {
+    case Kind::input:
+      cards_.inputs.try_emplace(address);
+      return true;
+    case Kind::output:
+      cards_.outputs.try_emplace(address);
+      if (is_pulse_output(address)) cards_.pulse_outputs.try_emplace(address);
+      return true;
+    case Kind::counter:
+      if (address.number < first_high_speed_counter) return false;
+      cards_.counters.try_emplace(address);
+      return true;
+    case Kind::analogue:
+    case Kind::interrupt:
+      return false;
+  }
+  return false;
+}
+
+std::string_view Lx3vpController::base_terminals() const {
+  return "write X0 to X377, Y0 to Y377 (octal), or C235 to C255 for a high-speed counter";
+}
+
+std::vector<Controller::Period> Lx3vpController::periods() const {
+  return {{"E-CAM tick", tick_ns}, {"scan", scan_ns_}};
+}
+
+// Called every step of the simulation: most calls end at the first line.
+void Lx3vpController::run_devices(std::int64_t time_ns) {
+  if (time_ns < next_tick_ns_) return;
+  next_tick_ns_ = next_multiple(time_ns, tick_ns);
+  if (!powered_) return;
+  if (std::exchange(power_up_due_, false)) power_up_ns_ = time_ns;
+  take_inputs();
+  for (const auto& [address, counter] : cards_.counters)
+    counters_.count(address.number, counter.count, registers_);
+  CamPort cams = port();
+  pulses_.tick(cams);
+  if (pulses_.has_notes()) tell_notes();
+  give_outputs();
+}
+
+void Lx3vpController::run_tasks(std::int64_t time_ns) {
+  if (time_ns < next_scan_ns_) return;
+  next_scan_ns_ = next_multiple(time_ns, scan_ns_);
+  if (!powered_) return;
+  registers_.time_ns = time_ns - power_up_ns_;
+  take_inputs();
+  registers_.x = inputs_;
+  set_system_relays(registers_.time_ns);
+  scanner_.scan(registers_, *this);
+  first_scan_ = false;
+  // What works tick by tick has its own level; the image shows it.
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (pulses_.holds(static_cast<int>(i)))
+      registers_.y[i] = outputs_[i];
+    else
+      outputs_[i] = registers_.y[i];
+  }
+  if (pulses_.has_notes()) tell_notes();
+  give_outputs();
+}
+
+void Lx3vpController::interrupt(int line, bool rising) {
+  (void)line;  // no terminal of it is an interrupt line: none can be wired
+  (void)rising;
+}
+
+void Lx3vpController::power(bool on) {
+  if (on == powered_) return;
+  powered_ = on;
+  if (!on) {
+    for (int i = 0; i < pulse_outputs; ++i) pulses_before_[static_cast<std::size_t>(i)] += pulses_.pulses(i);
+    pulses_ = {};
+    outputs_.fill(false);
+    give_outputs();
+    return;
+  }
+  reset_registers();
+  counters_ = {};
+  for (const auto& [address, counter] : cards_.counters) counters_.restart(address.number, counter.count);
+  scanner_.restart();
+  first_scan_ = true;
+  power_up_due_ = true;
+  said_.clear();
+}
+
+// What power-up leaves of the registers.
+void Lx3vpController::reset_registers() {
+  const auto clear = [](auto& registers, int first, int end) {
+    std::fill(registers.begin() + first, registers.begin() + end,
+              typename std::decay_t<decltype(registers)>::value_type{});
+  };
+  clear(registers_.d, 0, first_retentive_word);
+  clear(registers_.d, first_special, data_words);
+  clear(registers_.m, 0, first_retentive_relay);
+  clear(registers_.m, first_special, relays);
+  clear(registers_.s, 0, first_retentive_state);
+  clear(registers_.t, 0, first_retentive_timer);
+  clear(registers_.c, 0, first_retentive_counter);
+  clear(registers_.c, first_wide_counter, first_retentive_wide);
+  registers_.x.fill(false);
+  registers_.y.fill(false);
+  registers_.set_i32(8146, default_top_speed);
+  registers_.d[8148] = default_ramp_ms;
+}
+
+void Lx3vpController::take_inputs() {
+  for (const auto& [address, input] : cards_.inputs)
+    inputs_[static_cast<std::size_t>(address.number)] = input.level;
+}
+
+void Lx3vpController::give_outputs() {
+  for (auto& [address, output] : cards_.outputs)
+    output.level = outputs_[static_cast<std::size_t>(address.number)];
+  for (auto& [address, output] : cards_.pulse_outputs)
+    output.count = pulses_before_[static_cast<std::size_t>(address.number)] + pulses_.pulses(address.number);
+}
+
+void Lx3vpController::set_system_relays(std::int64_t time_ns) {
+  auto& m = registers_.m;
+  m[8000] = true;
+  m[8001] = false;
+  m[8002] = first_scan_;
+  m[8003] = !first_scan_;
+  // Clocks: off in the first half of their period.
+  const auto clock = [&](std::int64_t period_ms) { return time_ns / (period_ms * ns_per_ms / 2) % 2 == 1; };
+  m[8011] = clock(10);
+  m[8012] = clock(100);
+  m[8013] = clock(1000);
+  m[8014] = clock(60'000);
+  constexpr std::int64_t unit_ns = ns_per_ms / 10;
+  registers_.d[8010] = static_cast<std::uint16_t>(std::min<std::int64_t>(scan_ns_ / unit_ns, 0xFFFF));
+}
+
+void Lx3vpController::decam(int step, const DecamOperands& operands, bool powered) {
+  CamPort cams = port();
+  pulses_.decam(step, operands, powered, cams);
+}
+
+void Lx3vpController::plsv(int step, std::int32_t frequency, int output, int direction, bool powered) {
+  pulses_.plsv(step, frequency, output, direction, powered);
+}
+
+void Lx3vpController::drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
+                            int direction, bool powered) {
+  pulses_.drive(step, absolute, pulses, frequency, output, direction, powered, registers_);
+}
+
+void Lx3vpController::high_speed_counter(int number, std::int32_t preset, bool powered) {
+  counters_.enable(number, preset, powered);
+}
+
+void Lx3vpController::error(int step, int code, const std::string& text) {
+  registers_.m[error_relay] = true;
+  registers_.m[instruction_error_relay] = true;
+  registers_.d[instruction_error_register] = static_cast<std::uint16_t>(code);
+  registers_.d[error_step_register] = static_cast<std::uint16_t>(step);
+  tell(step, "error", text);
+}
+
+void Lx3vpController::tell_notes() {
+  for (const PulseNote& note : pulses_.take_notes()) {
+    const auto step = std::find_if(program_.steps.begin(), program_.steps.end(),
+                                   [&](const il::Step& candidate) { return candidate.number == note.step; });
+    const std::string place =
+        step == program_.steps.end() ? "" : fmt::format("{}:{}: ", program_.file, step->line);
+    if (note.code == 0)
+      tell(note.step, "warning", place + note.text);
+    else
+      error(note.step, note.code, fmt::format("{}{}: {}", place, note.code, note.text));
+  }
+}
+
+// Once each since power-up: an instruction that fails in every scan does not flood.
+void Lx3vpController::tell(int step, std::string event, std::string text) {
+  if (said_.emplace(step, text).second) events_.push_back({"LX3VP", std::move(event), std::move(text)});
+}
+
+}  // namespace drycut::devices::lx3vp

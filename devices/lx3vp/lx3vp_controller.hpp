@@ -1,0 +1,98 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "devices/controller.hpp"
+#include "devices/lx3vp/high_speed_counters.hpp"
+#include "devices/lx3vp/il_program.hpp"
+#include "devices/lx3vp/il_scan.hpp"
+#include "devices/lx3vp/instructions.hpp"
+#include "devices/lx3vp/pulse_unit.hpp"
+#include "devices/lx3vp/register_file.hpp"
+#include "devices/lx3vp/registers.hpp"
+#include "devices/problem.hpp"
+
+namespace drycut::devices::lx3vp {
+
+/// A WECON LX3VP: one program, scanned in cycles, on registers that it shares with the electronic cams, the
+/// pulse outputs and the high-speed counters, which work every 100 us.
+///
+/// Terminals: X and Y of the base unit, C235..C255 as the high-speed counters, Y0..Y3 for pulses too. Inputs
+/// are taken into the registers at the start of a scan, outputs given at its end; DECAM's start signal, its
+/// direction and its synchronous output go by the tick. An instruction that fails is told once and skipped.
+class Lx3vpController : public Controller, private Instructions {
+ public:
+  /// `program` is free of problems; `scan_ns` > 0. Begins powered on, at time 0, registers at their reset
+  /// values.
+  Lx3vpController(il::Program program, std::int64_t scan_ns);
+
+  Cards& cards() override { return cards_; }
+  bool offer(const Address& address) override;
+  [[nodiscard]] std::string_view base_terminals() const override;
+  [[nodiscard]] std::vector<Period> periods() const override;
+  void run_devices(std::int64_t time_ns) override;
+  void run_tasks(std::int64_t time_ns) override;
+  void interrupt(int line, bool rising) override;
+  void power(bool on) override;
+
+  /// Registers by name, see RegisterName. X and Y are the levels of the terminals and read-only.
+  std::optional<ControllerValue> find(const std::string& name) override;
+  /// The registers that the program names, those of its cams' blocks, and the pulse positions.
+  [[nodiscard]] std::vector<std::string> names() const override { return names_; }
+
+  [[nodiscard]] bool has_events() const override { return !events_.empty(); }
+  std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }
+
+  /// One `name = value` a line; zeros are left out.
+  [[nodiscard]] std::string retentive_state() const override;
+  /// Puts such a text back: retentive registers that it does not name become 0. False, and nothing changed,
+  /// if `problems` had to be added.
+  bool restore(const std::string& text, Problems& problems, const std::string& file_name = "retentive state");
+
+  [[nodiscard]] Registers& registers() { return registers_; }
+
+ private:
+  void decam(int step, const DecamOperands& operands, bool powered) override;
+  void plsv(int step, std::int32_t frequency, int output, int direction, bool powered) override;
+  void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output, int direction,
+             bool powered) override;
+  void high_speed_counter(int number, std::int32_t preset, bool powered) override;
+  void error(int step, int code, const std::string& text) override;
+
+  void add_used_terminals();
+  void add_names();
+  void reset_registers();
+  void take_inputs();
+  void give_outputs();
+  void set_system_relays(std::int64_t time_ns);
+  void tell_notes();
+  void tell(int step, std::string event, std::string text);
+  [[nodiscard]] CamPort port() { return {registers_, inputs_, counters_.pulses(), outputs_}; }
+
+  il::Program program_;
+  il::Scanner scanner_;
+  std::int64_t scan_ns_;
+  Cards cards_;
+  Registers registers_;
+  HighSpeedCounters counters_;
+  PulseUnit pulses_;
+  std::array<bool, terminals> inputs_{};  ///< levels of the terminals
+  std::array<bool, terminals> outputs_{};
+  std::array<std::int64_t, pulse_outputs> pulses_before_{};  ///< given in earlier times of power
+  bool powered_ = true;
+  bool first_scan_ = true;
+  std::int64_t power_up_ns_ = 0;
+  bool power_up_due_ = false;  ///< the next period is the first with power
+  std::int64_t next_tick_ns_ = 0;
+  std::int64_t next_scan_ns_ = 0;
+  std::vector<std::string> names_;
+  std::vector<ControllerEvent> events_;
+  std::set<std::pair<int, std::string>> said_;  ///< since power-up, by step
+};
+
+}  // namespace drycut::devices::lx3vp

@@ -1,0 +1,169 @@
+// The controller's terminals and values by name, and what it keeps without power.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/lx3vp_controller.hpp"
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+// Where an instruction names a pulse output, -1 = it names none.
+int pulse_operand(il::Op op) {
+  if (op == il::Op::decam) return 3;
+  if (op == il::Op::plsv) return 1;
+  return op == il::Op::drvi || op == il::Op::drva ? 2 : -1;
+}
+
+bool is_retentive(const RegisterName& name) {
+  using Kind = RegisterName::Kind;
+  const int n = name.number;
+  switch (name.kind) {
+    case Kind::word:
+    case Kind::bit:
+      return n >= first_retentive_word && n < first_special;
+    case Kind::wide:
+    case Kind::real:
+      return n >= first_retentive_word && n + 1 < first_special;
+    case Kind::m:
+      return n >= first_retentive_relay && n < first_special;
+    case Kind::s:
+      return n >= first_retentive_state;
+    case Kind::timer:
+    case Kind::timer_contact:
+      return n >= first_retentive_timer;
+    case Kind::counter:
+    case Kind::counter_contact:
+      return n >= first_retentive_wide || (n >= first_retentive_counter && n < first_wide_counter);
+    case Kind::x:
+    case Kind::y:
+      return false;
+  }
+  return false;
+}
+
+// Calls `act` with every name that holds a retentive value.
+template <typename Act>
+void for_each_retentive(Act act) {
+  using Kind = RegisterName::Kind;
+  const auto all = [&](Kind kind, int count) {
+    for (int i = 0; i < count; ++i)
+      if (const RegisterName name{kind, i}; is_retentive(name)) act(name);
+  };
+  all(Kind::word, data_words);
+  all(Kind::m, relays);
+  all(Kind::s, states);
+  all(Kind::timer, timers);
+  all(Kind::timer_contact, timers);
+  all(Kind::counter, counters);
+  all(Kind::counter_contact, counters);
+}
+
+}  // namespace
+
+void Lx3vpController::add_used_terminals() {
+  const auto used = [&](il::Kind kind, int number) {
+    if (kind == il::Kind::X) cards_.inputs.try_emplace({Kind::input, 0, number});
+    if (kind == il::Kind::Y) cards_.outputs.try_emplace({Kind::output, 0, number});
+    if (kind == il::Kind::C && number >= first_high_speed_counter)
+      cards_.counters.try_emplace({Kind::counter, 0, number});
+  };
+  for (const il::Step& step : program_.steps) {
+    for (std::size_t i = 0; i < step.operands.size(); ++i) {
+      const il::Operand& operand = step.operands[i];
+      if (static_cast<int>(i) == pulse_operand(step.op())) {
+        cards_.pulse_outputs.try_emplace({Kind::output, 0, operand.number});
+      } else if (operand.kind == il::Kind::bits) {
+        for (int bit = 0; bit < 4 * operand.count; ++bit) used(operand.of, operand.number + bit);
+      } else {
+        used(operand.kind, operand.number);
+      }
+    }
+  }
+}
+
+// For suggestions and the report's table: what the program itself is about, not 20000 registers.
+void Lx3vpController::add_names() {
+  using Kind = RegisterName::Kind;
+  const auto add = [&](Kind kind, int number) {
+    const std::string name = to_string(RegisterName{kind, number});
+    if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+  };
+  const auto add_operand = [&](const il::Operand& operand, bool wide) {
+    switch (operand.kind) {
+      case il::Kind::X:
+        return add(Kind::x, operand.number);
+      case il::Kind::Y:
+        return add(Kind::y, operand.number);
+      case il::Kind::M:
+        return add(Kind::m, operand.number);
+      case il::Kind::S:
+        return add(Kind::s, operand.number);
+      case il::Kind::T:
+        return add(Kind::timer, operand.number);
+      case il::Kind::C:
+        return add(Kind::counter, operand.number);
+      case il::Kind::D:
+        return add(wide ? Kind::wide : Kind::word, operand.number);
+      case il::Kind::constant:
+      case il::Kind::real:
+      case il::Kind::bits:
+      case il::Kind::word_bit:
+      case il::Kind::label:
+        return;
+    }
+  };
+  constexpr std::size_t block_operand = 1;
+  for (const il::Step& step : program_.steps) {
+    for (std::size_t i = 0; i < step.operands.size(); ++i) {
+      if (step.op() != il::Op::decam || i != block_operand) add_operand(step.operands[i], step.wide());
+    }
+    if (step.op() != il::Op::decam) continue;
+    for (const BlockWord& entry : block_words()) {
+      const int number = step.operands[block_operand].number + entry.offset;
+      if (entry.access == BlockWord::Access::reserved || entry.offset >= block_length) continue;
+      if (number + entry.words <= data_words) add(entry.words == 2 ? Kind::wide : Kind::word, number);
+    }
+  }
+  for (const auto& [address, output] : cards_.pulse_outputs)
+    add(Kind::wide, std::array{8140, 8142, 8150, 8152}[static_cast<std::size_t>(address.number)]);
+}
+
+std::optional<ControllerValue> Lx3vpController::find(const std::string& name) {
+  const auto named = parse_register(name);
+  if (!named) return std::nullopt;
+  ControllerValue value{to_string(*named), "", {}, {}, {}};
+  const auto at = static_cast<std::size_t>(named->number);
+  if (named->kind == RegisterName::Kind::x) {
+    value.read = [this, at] { return inputs_[at] ? 1.0 : 0.0; };
+  } else if (named->kind == RegisterName::Kind::y) {
+    value.read = [this, at] { return outputs_[at] ? 1.0 : 0.0; };
+  } else {
+    value.read = [this, at = *named] { return lx3vp::read(registers_, at); };
+    value.write = [this, at = *named](double number) { lx3vp::write(registers_, at, number); };
+  }
+  return value;
+}
+
+std::string Lx3vpController::retentive_state() const {
+  std::string text = fmt::format("; retentive registers of {}\n", program_.file);
+  for_each_retentive([&](const RegisterName& name) {
+    const double value = lx3vp::read(registers_, name);
+    if (value != 0) text += fmt::format("{} = {}\n", to_string(name), value);
+  });
+  return text;
+}
+
+bool Lx3vpController::restore(const std::string& text, Problems& problems, const std::string& file_name) {
+  const std::size_t before = problems.size();
+  const auto values = read_register_values(text, file_name, '=', problems);
+  if (problems.size() > before) return false;
+  for_each_retentive([&](const RegisterName& name) { lx3vp::write(registers_, name, 0); });
+  for (const RegisterValue& entry : values)
+    if (is_retentive(entry.name)) lx3vp::write(registers_, entry.name, entry.value);
+  return true;
+}
+
+}  // namespace drycut::devices::lx3vp

@@ -1,0 +1,43 @@
+#include "devices/lx3vp/pulse_output.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace drycut::devices::lx3vp {
+
+PulseTick PulseOutput::give(std::int64_t pulses, bool forwards) {
+  position_ += forwards ? pulses : -pulses;
+  return {static_cast<int>(pulses), forwards_, false};
+}
+
+PulseTick PulseOutput::follow(std::int64_t target, std::int32_t limit) {
+  const std::int64_t owed = std::abs(target - position_);
+  const bool forwards = target > position_;
+  credit_ += limit;
+  const std::int64_t allowed = credit_ / ticks_per_second;
+  std::int64_t given = std::min(owed, allowed);
+  if (owed > 0 && forwards != forwards_) {
+    forwards_ = forwards;
+    given = 0;
+  }
+  // Less than a pulse is kept: enough that a steady train at the limit passes, too little for a burst.
+  credit_ = std::min<std::int64_t>(credit_ - given * ticks_per_second, ticks_per_second - 1);
+  PulseTick tick = give(given, forwards);
+  tick.late = owed > allowed;
+  return tick;
+}
+
+PulseTick PulseOutput::run(std::int32_t frequency, std::int64_t most) {
+  const bool forwards = frequency > 0;
+  if (frequency == 0) return give(0, forwards);
+  if (forwards != forwards_) {
+    forwards_ = forwards;
+    return give(0, forwards);
+  }
+  credit_ += std::abs(frequency);
+  const std::int64_t pulses = std::min(credit_ / ticks_per_second, most);
+  credit_ -= pulses * ticks_per_second;
+  return give(pulses, forwards);
+}
+
+}  // namespace drycut::devices::lx3vp

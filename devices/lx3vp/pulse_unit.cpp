@@ -1,0 +1,187 @@
+#include "devices/lx3vp/pulse_unit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+constexpr int number_of_cams = 6783;
+constexpr int most_cams = 4;
+constexpr std::array<int, pulse_outputs> position_registers{8140, 8142, 8150, 8152};
+constexpr std::array<int, pulse_outputs> stop_relays{8145, 8146, 8152, 8153};
+constexpr int first_busy_relay = 8147;
+constexpr int arrived_relay = 8029;
+constexpr int bias_speed_register = 8145;
+constexpr int top_speed_register = 8146;
+constexpr int ramp_register = 8148;
+
+bool stopped(const Registers& registers, int output) {
+  return registers.m[static_cast<std::size_t>(stop_relays[static_cast<std::size_t>(output)])];
+}
+
+void give(CamPort& port, int y, bool level) {
+  port.outputs[static_cast<std::size_t>(y)] = level;
+  port.registers.y[static_cast<std::size_t>(y)] = level;
+}
+
+}  // namespace
+
+void PulseUnit::decam(int step, const DecamOperands& operands, bool powered, CamPort& port) {
+  Decam& cam = cams_[step];
+  if (powered == cam.enabled()) return;
+  if (!powered) return cam.disable(port);
+  std::optional<CamFault> fault;
+  int enabled = 0;
+  for (const auto& [other_step, other] : cams_) {
+    if (!other.enabled() || other.refused()) continue;
+    ++enabled;
+    if (other.operands().output == operands.output)
+      fault = {number_of_cams, 0, fmt::format("Y{:o} has a cam already", operands.output)};
+  }
+  if (enabled >= most_cams) fault = {number_of_cams, 0, fmt::format("{} cams are enabled already", enabled)};
+  cam.enable(operands, port, fault);
+  if (auto told = cam.take_fault()) notes_.push_back({step, told->code, std::move(told->text)});
+}
+
+bool PulseUnit::cam_uses(int output) const {
+  return std::any_of(cams_.begin(), cams_.end(), [&](const auto& entry) {
+    const Decam& cam = entry.second;
+    return cam.enabled() && !cam.refused() && cam.operands().output == output &&
+           cam.uses(lines_[static_cast<std::size_t>(output)].output);
+  });
+}
+
+bool PulseUnit::take(Line& line, int step, int output) {
+  if (line.motion.step == step) return true;
+  const bool by_cam = cam_uses(output);
+  if (line.motion.step < 0 && !by_cam) {
+    line.motion = {step};
+    line.output.halt();
+    return true;
+  }
+  if (!std::exchange(refused_[step], true))
+    notes_.push_back({step, 0,
+                      fmt::format("Y{:o} is in use by {}; this instruction gives no pulses", output,
+                                  by_cam ? "a cam" : "another instruction")});
+  return false;
+}
+
+void PulseUnit::plsv(int step, std::int32_t frequency, int output, int direction, bool powered) {
+  Line& line = lines_[static_cast<std::size_t>(output)];
+  if (!powered) {
+    refused_[step] = false;
+    if (line.motion.step == step) line.motion = {};
+  } else if (take(line, step, output)) {
+    line.motion.direction = direction;
+    line.motion.frequency = std::clamp(frequency, -max_frequency_hz, max_frequency_hz);
+  }
+}
+
+void PulseUnit::drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
+                      int direction, bool powered, Registers& registers) {
+  Line& line = lines_[static_cast<std::size_t>(output)];
+  Progress& progress = drives_[step];
+  if (!powered) {
+    refused_[step] = false;
+    progress = Progress::off;
+    if (line.motion.step == step) line.motion = {};
+  } else if (progress == Progress::off && take(line, step, output)) {
+    progress = Progress::on;
+    const std::int64_t from =
+        absolute ? registers.i32(position_registers[static_cast<std::size_t>(output)]) : 0;
+    line.motion.positioning = true;
+    line.motion.direction = direction;
+    line.motion.frequency = std::clamp(std::abs(std::max(frequency, -max_frequency_hz)), 1, max_frequency_hz);
+    line.motion.target = line.output.position() + (pulses - from);
+  }
+  registers.m[arrived_relay] = progress == Progress::arrived;
+}
+
+// A trapezoid of speed: the least speed from which a motor may start and stop, then a ramp, and a speed that
+// still leaves the way to stop.
+PulseTick PulseUnit::move(Line& line, const Registers& registers) {
+  Motion& motion = line.motion;
+  const auto remaining = static_cast<double>(std::abs(motion.target - line.output.position()));
+  const double top = std::clamp(registers.i32(top_speed_register), 10, max_frequency_hz);
+  const double bias = std::clamp<double>(registers.d[bias_speed_register], 0, top / 10);
+  const double ramp_s = std::clamp<double>(registers.d[ramp_register], 50, 5000) / 1000;
+  const double slope = (top - bias) / ramp_s;
+  const double least = std::max({bias, std::sqrt(slope / 2), 1.0});
+  const double most = std::max(least, std::min<double>(motion.frequency, top));
+  motion.speed = std::clamp(motion.speed + slope / ticks_per_second, least, most);
+  motion.speed = std::min(motion.speed, std::sqrt(least * least + 2 * slope * remaining));
+  const auto frequency = static_cast<std::int32_t>(std::lround(motion.speed));
+  return line.output.run(motion.target > line.output.position() ? frequency : -frequency,
+                         static_cast<std::int64_t>(remaining));
+}
+
+void PulseUnit::count(int output, const PulseTick& tick, Registers& registers) {
+  lines_[static_cast<std::size_t>(output)].given += tick.pulses;
+  const int at = position_registers[static_cast<std::size_t>(output)];
+  const auto pulses = static_cast<std::uint32_t>(tick.pulses);
+  registers.set_u32(at, registers.u32(at) + (tick.forwards ? pulses : 0U - pulses));
+}
+
+void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
+  const int output = cam.operands().output;
+  Line& line = lines_[static_cast<std::size_t>(output)];
+  count(output, cam.tick(port, line.output, stopped(port.registers, output), line.motion.step >= 0),
+        port.registers);
+  if (line.motion.step < 0) give(port, cam.operands().direction, line.output.forwards());
+  if (auto fault = cam.take_fault()) notes_.push_back({step, fault->code, std::move(fault->text)});
+  if (cam.take_delayed())
+    notes_.push_back({step, 0,
+                      fmt::format("the frequency limit of D{} holds back pulses of Y{:o}; they come later",
+                                  cam.operands().block + word::max_frequency, output)});
+}
+
+void PulseUnit::tick_motion(int output, CamPort& port) {
+  Line& line = lines_[static_cast<std::size_t>(output)];
+  if (line.motion.step < 0) return;
+  const int step = line.motion.step;
+  const int direction = line.motion.direction;
+  PulseTick tick;
+  if (!line.motion.positioning) {
+    tick = line.output.run(stopped(port.registers, output) ? 0 : line.motion.frequency, max_frequency_hz);
+  } else if (stopped(port.registers, output)) {
+    line.motion = {};
+  } else {
+    tick = move(line, port.registers);
+    if (line.output.position() == line.motion.target) {
+      drives_[step] = Progress::arrived;
+      line.motion = {};
+    }
+  }
+  give(port, direction, line.output.forwards());
+  count(output, tick, port.registers);
+}
+
+void PulseUnit::tick(CamPort& port) {
+  for (auto& [step, cam] : cams_)
+    if (cam.enabled() && !cam.refused()) tick_cam(step, cam, port);
+  for (int output = 0; output < pulse_outputs; ++output) {
+    tick_motion(output, port);
+    const Motion& motion = lines_[static_cast<std::size_t>(output)].motion;
+    const bool moves = motion.step >= 0 && (motion.positioning || motion.frequency != 0);
+    port.registers.m[static_cast<std::size_t>(first_busy_relay + output)] = moves || cam_uses(output);
+  }
+}
+
+bool PulseUnit::holds(int y) const {
+  for (const auto& [step, cam] : cams_) {
+    if (cam.enabled() && !cam.refused() && (cam.operands().direction == y || cam.sync_output() == y))
+      return true;
+  }
+  return std::any_of(lines_.begin(), lines_.end(),
+                     [&](const Line& line) { return line.motion.step >= 0 && line.motion.direction == y; });
+}
+
+std::vector<PulseNote> PulseUnit::take_notes() { return std::exchange(notes_, {}); }
+
+}  // namespace drycut::devices::lx3vp

@@ -1,0 +1,76 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/lx3vp/decam.hpp"
+
+namespace drycut::devices::lx3vp {
+
+inline constexpr int pulse_outputs = 4;  ///< Y0..Y3
+
+/// Something that an instruction of the pulse outputs has to tell.
+struct PulseNote {
+  int step = 0;  ///< of the program
+  int code = 0;  ///< of an error (6781 to 6783), 0 = a warning
+  std::string text;
+};
+
+/// The pulse outputs Y0..Y3 with all that gives pulses on them: cams, DPLSV, DDRVI and DDRVA. One of them has
+/// an output at a time; who comes second is refused and told. Calls as in `Instructions`.
+class PulseUnit {
+ public:
+  void decam(int step, const DecamOperands& operands, bool powered, CamPort& port);
+  void plsv(int step, std::int32_t frequency, int output, int direction, bool powered);
+  void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output, int direction,
+             bool powered, Registers& registers);
+
+  /// A tick of 100 us: pulses, directions, D8140.. and M8147...
+  void tick(CamPort& port);
+
+  /// Pulses given on Y`output` since power-up, each one counted.
+  [[nodiscard]] std::int64_t pulses(int output) const {
+    return lines_[static_cast<std::size_t>(output)].given;
+  }
+  /// True if the level of this Y is given tick by tick, not at the end of the scan.
+  [[nodiscard]] bool holds(int y) const;
+
+  [[nodiscard]] bool has_notes() const { return !notes_.empty(); }
+  std::vector<PulseNote> take_notes();
+
+ private:
+  /// DPLSV or DDRV. on an output.
+  struct Motion {
+    int step = -1;  ///< whose; -1 = none
+    bool positioning = false;
+    int direction = 0;
+    std::int32_t frequency = 0;
+    std::int64_t target = 0;
+    double speed = 0;  ///< positioning: present [Hz]
+  };
+  struct Line {
+    PulseOutput output;
+    Motion motion;
+    std::int64_t given = 0;
+  };
+  enum class Progress : std::uint8_t { off, on, arrived };  ///< of a DDRV. instruction
+
+  [[nodiscard]] bool cam_uses(int output) const;
+  /// True if the instruction has the output, taking it if it is free.
+  bool take(Line& line, int step, int output);
+  PulseTick move(Line& line, const Registers& registers);
+  void count(int output, const PulseTick& tick, Registers& registers);
+  void tick_cam(int step, Decam& cam, CamPort& port);
+  void tick_motion(int output, CamPort& port);
+
+  std::array<Line, pulse_outputs> lines_;
+  std::map<int, Decam> cams_;       ///< by step
+  std::map<int, Progress> drives_;  ///< by step
+  std::map<int, bool> refused_;     ///< by step: told since it got power
+  std::vector<PulseNote> notes_;
+};
+
+}  // namespace drycut::devices::lx3vp

@@ -1,0 +1,159 @@
+#include "devices/lx3vp/register_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+using Kind = RegisterName::Kind;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return text.substr(0, 0);
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+// As much of a text as a message shows, without what a terminal would take for a command.
+std::string shown(std::string_view text) {
+  constexpr std::size_t most = 24;
+  std::string result;
+  for (const char c : text.substr(0, most)) result += c >= ' ' && c <= '~' ? c : '?';
+  return text.size() > most ? result + "..." : result;
+}
+
+std::optional<double> read_number(std::string_view text) {
+  const char first = text.empty() ? ' ' : text.front();
+  const bool hexadecimal = first == 'H' || first == 'h';
+  if (hexadecimal || first == 'K' || first == 'k') {
+    std::int64_t whole = 0;
+    const auto digits = text.substr(1);
+    const auto [end, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), whole, hexadecimal ? 16 : 10);
+    if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+    return static_cast<double>(whole);
+  }
+  double number = 0;
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+bool holds_32_bit(const RegisterName& name) { return name.kind == Kind::wide || name.kind == Kind::real; }
+
+class RowReader {
+ public:
+  RowReader(const std::string& file, char separator, Problems& problems)
+      : file_(file), separator_(separator), problems_(problems) {}
+
+  void read(std::string_view line, int number) {
+    line_ = line;
+    number_ = number;
+    const auto content = trimmed(line.substr(0, line.find_first_of("#;")));
+    if (content.empty()) return;
+    const bool first = std::exchange(first_, false);
+    const std::size_t at = content.find(separator_);
+    if (at == std::string_view::npos)
+      return complain(content, fmt::format("no '{}' in '{}'", separator_, shown(content)), row_text());
+    const auto name_text = trimmed(content.substr(0, at));
+    const auto value_text = trimmed(content.substr(at + 1));
+    const auto name = parse_register(name_text);
+    if (!name && first && value_text == "value") return;
+    if (!name) complain(name_text, fmt::format("'{}' is no register", shown(name_text)), register_text);
+    const auto value = read_number(value_text);
+    if (!value)
+      complain(value_text, fmt::format("'{}' is no number", shown(value_text)),
+               "write 5, -5, K5, H1F or 1.5");
+    if (name && value) take(name_text, *name, value_text, *value);
+  }
+  std::vector<RegisterValue> take_values() { return std::move(values_); }
+
+ private:
+  static constexpr std::string_view register_text =
+      "write D10, D10:L (32 bit), D10:F (float), D10.A (bit 10), M0, S0, T0 or C0";
+
+  [[nodiscard]] std::string row_text() const {
+    return fmt::format("write register{0}value: D10{0}5", separator_);
+  }
+
+  void complain(std::string_view at, std::string what, std::string_view remedy) {
+    problems_.push_back({file_, number_, static_cast<int>(at.data() - line_.data()) + 1, std::move(what),
+                         std::string(remedy)});
+  }
+
+  void take(std::string_view name_text, const RegisterName& name, std::string_view value_text, double value) {
+    if (name.kind == Kind::x)
+      return complain(name_text, fmt::format("{} is an input", to_string(name)),
+                      "wire it to a plug of a plant");
+    if (const auto fault = misfit(name, value)) return complain(value_text, fault->what, fault->remedy);
+    if (const int line = given(name); line > 0)
+      return complain(name_text, fmt::format("{} is given in line {} already", to_string(name), line),
+                      "keep one of them");
+    values_.push_back({name, value});
+  }
+
+  // The line that has given it, or part of it, already; else notes it and is 0.
+  int given(const RegisterName& name) {
+    const bool word = name.kind == Kind::word || name.kind == Kind::bit || holds_32_bit(name);
+    const Kind kind = word ? Kind::word : name.kind;
+    // A bit is given by its own line or by a word's.
+    for (int i = 0; i <= (holds_32_bit(name) ? 1 : 0); ++i) {
+      for (int bit = 0; bit < 16; ++bit) {
+        if (name.kind == Kind::bit && bit != name.bit) continue;
+        const auto [at, fresh] = lines_.try_emplace({kind, name.number + i, bit}, number_);
+        if (!fresh && at->second != number_) return at->second;
+        if (!word) break;
+      }
+    }
+    return 0;
+  }
+
+  const std::string& file_;
+  char separator_;
+  Problems& problems_;
+  std::string_view line_;
+  int number_ = 0;
+  bool first_ = true;
+  std::map<std::tuple<Kind, int, int>, int> lines_;
+  std::vector<RegisterValue> values_;
+};
+
+}  // namespace
+
+std::optional<ValueFault> misfit(const RegisterName& name, double value) {
+  const ValueRange range = range_of(name);
+  if (name.kind != Kind::real && value != std::round(value)) {
+    return ValueFault{fmt::format("{} holds whole numbers, not {}", to_string(name), value),
+                      name.kind == Kind::word || name.kind == Kind::wide
+                          ? fmt::format("write D{}:F for a float", name.number)
+                          : "write a whole number"};
+  }
+  if (value >= range.low && value <= range.high) return std::nullopt;
+  return ValueFault{fmt::format("{} does not hold {}", to_string(name), value),
+                    name.kind == Kind::word
+                        ? fmt::format("write {} to {}, or D{}:L", range.low, range.high, name.number)
+                        : fmt::format("write {} to {}", range.low, range.high)};
+}
+
+std::vector<RegisterValue> read_register_values(std::string_view text, const std::string& file,
+                                                char separator, Problems& problems) {
+  RowReader reader(file, separator, problems);
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    reader.read(text.substr(0, end), ++number);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return reader.take_values();
+}
+
+}  // namespace drycut::devices::lx3vp

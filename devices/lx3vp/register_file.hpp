@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/lx3vp/registers.hpp"
+#include "devices/problem.hpp"
+
+namespace drycut::devices::lx3vp {
+
+struct RegisterValue {
+  RegisterName name;
+  double value = 0;
+};
+
+struct ValueFault {
+  std::string what;
+  std::string remedy;
+  bool operator==(const ValueFault&) const = default;
+};
+/// What is wrong with giving `value` to the register, nullopt if it takes it as it is.
+std::optional<ValueFault> misfit(const RegisterName& name, double value);
+
+/// Reads lines of name, `separator` and value: `D10,5`, `D20:L,100000`, `D30:F,1.5`, `M0,1`, `D40,H1F`.
+/// Comments begin with # or ;. A first line `address,value` is a heading. Every fault becomes a problem, and
+/// so does a register that is given twice.
+std::vector<RegisterValue> read_register_values(std::string_view text, const std::string& file,
+                                                char separator, Problems& problems);
+
+}  // namespace drycut::devices::lx3vp

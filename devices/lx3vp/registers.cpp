@@ -1,0 +1,200 @@
+#include "devices/lx3vp/registers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace drycut::devices::lx3vp {
+
+namespace {
+
+using Kind = RegisterName::Kind;
+
+struct Prefix {
+  std::string_view text;
+  Kind kind;
+  int count;  ///< numbers 0..count - 1
+  int base = 10;
+};
+// Longer prefixes first: "DD10" is no D.
+constexpr Prefix prefixes[] = {
+    {"DD", Kind::wide, data_words - 1},
+    {"FD", Kind::real, data_words - 1},
+    {"TS", Kind::timer_contact, timers},
+    {"CS", Kind::counter_contact, counters},
+    {"D", Kind::word, data_words},
+    {"M", Kind::m, relays},
+    {"S", Kind::s, states},
+    {"X", Kind::x, terminals, 8},
+    {"Y", Kind::y, terminals, 8},
+    {"T", Kind::timer, timers},
+    {"C", Kind::counter, counters},
+};
+
+// What stands behind the number: `D10:L`, `D10:F`, `D10.A`.
+bool read_suffix(std::string_view suffix, RegisterName& name) {
+  if (suffix.empty()) return true;
+  if (name.kind != Kind::word || suffix.size() != 2) return false;
+  const char letter = suffix[1];
+  if (suffix[0] == ':') {
+    if (letter != 'L' && letter != 'F') return false;
+    name.kind = letter == 'L' ? Kind::wide : Kind::real;
+    return name.number < data_words - 1;
+  }
+  if (suffix[0] != '.') return false;
+  name.kind = Kind::bit;
+  name.bit = letter >= 'A' ? letter - 'A' + 10 : letter - '0';
+  return name.bit >= 0 && name.bit <= 15;
+}
+
+}  // namespace
+
+std::uint32_t Registers::u32(int index) const {
+  return static_cast<std::uint32_t>(d[static_cast<std::size_t>(index)]) |
+         static_cast<std::uint32_t>(d[static_cast<std::size_t>(index) + 1]) << 16U;
+}
+float Registers::f32(int index) const { return std::bit_cast<float>(u32(index)); }
+void Registers::set_u32(int index, std::uint32_t value) {
+  d[static_cast<std::size_t>(index)] = static_cast<std::uint16_t>(value);
+  d[static_cast<std::size_t>(index) + 1] = static_cast<std::uint16_t>(value >> 16U);
+}
+void Registers::set_f32(int index, float value) { set_u32(index, std::bit_cast<std::uint32_t>(value)); }
+
+std::optional<RegisterName> parse_register(std::string_view text) {
+  std::string upper;
+  for (const char c : text) upper += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  for (const Prefix& prefix : prefixes) {
+    if (!upper.starts_with(prefix.text)) continue;
+    const char* const first = upper.data() + prefix.text.size();
+    const char* const last = upper.data() + upper.size();
+    RegisterName name{prefix.kind};
+    const auto [end, error] = std::from_chars(first, last, name.number, prefix.base);
+    if (first == last || *first == '-' || error != std::errc{} || name.number >= prefix.count)
+      return std::nullopt;
+    if (prefix.kind == Kind::m && name.number > last_relay && name.number < first_special)
+      return std::nullopt;
+    if (!read_suffix(std::string_view(end, static_cast<std::size_t>(last - end)), name)) return std::nullopt;
+    return name;
+  }
+  return std::nullopt;
+}
+
+std::string to_string(const RegisterName& name) {
+  if (name.kind == Kind::bit) return fmt::format("D{}.{:X}", name.number, name.bit);
+  for (const Prefix& prefix : prefixes) {
+    if (prefix.kind != name.kind) continue;
+    return prefix.base == 8 ? fmt::format("{}{:o}", prefix.text, name.number)
+                            : fmt::format("{}{}", prefix.text, name.number);
+  }
+  return {};
+}
+
+double read(const Registers& registers, const RegisterName& name) {
+  const auto at = static_cast<std::size_t>(name.number);
+  switch (name.kind) {
+    case Kind::word:
+      return registers.i16(name.number);
+    case Kind::wide:
+      return registers.i32(name.number);
+    case Kind::real:
+      return static_cast<double>(registers.f32(name.number));
+    case Kind::bit:
+      return registers.d[at] >> name.bit & 1;
+    case Kind::m:
+      return registers.m[at] ? 1 : 0;
+    case Kind::s:
+      return registers.s[at] ? 1 : 0;
+    case Kind::x:
+      return registers.x[at] ? 1 : 0;
+    case Kind::y:
+      return registers.y[at] ? 1 : 0;
+    case Kind::timer:
+      return registers.t[at].value;
+    case Kind::timer_contact:
+      return registers.t[at].contact ? 1 : 0;
+    case Kind::counter:
+      return registers.c[at].value;
+    case Kind::counter_contact:
+      return registers.c[at].contact ? 1 : 0;
+  }
+  return 0;
+}
+
+ValueRange range_of(const RegisterName& name) {
+  switch (name.kind) {
+    case Kind::word:
+      return {-32768, 65535};
+    case Kind::wide:
+      return {-2147483648.0, 2147483647.0};
+    case Kind::real:
+      return {-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
+    case Kind::timer:
+      return {0, 32767};
+    case Kind::counter:
+      if (name.number < first_wide_counter) return {-32768, 32767};
+      return {-2147483648.0, 2147483647.0};
+    case Kind::bit:
+    case Kind::m:
+    case Kind::s:
+    case Kind::x:
+    case Kind::y:
+    case Kind::timer_contact:
+    case Kind::counter_contact:
+      return {0, 1};
+  }
+  return {};
+}
+
+void write(Registers& registers, const RegisterName& name, double value) {
+  const auto at = static_cast<std::size_t>(name.number);
+  const ValueRange range = range_of(name);
+  const double limited = std::isnan(value) ? 0 : std::clamp(value, range.low, range.high);
+  if (name.kind == Kind::real) return registers.set_f32(name.number, static_cast<float>(limited));
+  const auto whole = static_cast<std::int64_t>(std::llround(limited));
+  const bool on = whole != 0;
+  switch (name.kind) {
+    case Kind::word:
+      registers.d[at] = static_cast<std::uint16_t>(whole);
+      break;
+    case Kind::wide:
+      registers.set_i32(name.number, static_cast<std::int32_t>(whole));
+      break;
+    case Kind::bit: {
+      const unsigned mask = 1U << static_cast<unsigned>(name.bit);
+      registers.d[at] = static_cast<std::uint16_t>(on ? registers.d[at] | mask : registers.d[at] & ~mask);
+      break;
+    }
+    case Kind::m:
+      registers.m[at] = on;
+      break;
+    case Kind::s:
+      registers.s[at] = on;
+      break;
+    case Kind::x:
+      registers.x[at] = on;
+      break;
+    case Kind::y:
+      registers.y[at] = on;
+      break;
+    case Kind::timer:
+      registers.t[at].value = static_cast<std::uint16_t>(whole);
+      break;
+    case Kind::timer_contact:
+      registers.t[at].contact = on;
+      break;
+    case Kind::counter:
+      registers.c[at].value = static_cast<std::int32_t>(whole);
+      break;
+    case Kind::counter_contact:
+      registers.c[at].contact = on;
+      break;
+    case Kind::real:
+      break;
+  }
+}
+
+}  // namespace drycut::devices::lx3vp
