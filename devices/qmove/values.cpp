@@ -160,6 +160,7 @@ std::optional<ControllerValue> QmoveController::find(const std::string& name) {
       if (symbol.kind == Symbol::Kind::state) break;
       const Variable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
       value.unit = variable.unit;
+      value.range = {variable.min, variable.max};
       if (variable.access == Access::read_write)
         value.write = [this, index, symbol](double x) { write_device(index, symbol, x); };
       break;

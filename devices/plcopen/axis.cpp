@@ -1,0 +1,248 @@
+#include "devices/plcopen/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "devices/axis/dac.hpp"
+
+namespace drycut::devices::plcopen {
+namespace {
+
+__extension__ using Wide = __int128;
+
+constexpr double pin_max = 2147483647;
+constexpr double microseconds = 1e-6;
+
+bool in_range(double value, double min) { return value >= min && value <= pin_max; }
+
+}  // namespace
+
+Axis::Axis(std::string name, const AxisParameters& parameters)
+    : name_(std::move(name)), parameters_(parameters) {
+  homed_ = parameters.homed_at_start != 0 || parameters.kind == static_cast<int>(AxisKind::virtual_axis);
+}
+
+bool Axis::set_parameter(const AxisParameter& parameter, double value) {
+  // What the axis is made of cannot change under a running axis.
+  const bool build = parameter.member == &AxisParameters::kind || parameter.member == &AxisParameters::modulo;
+  if (build && state_ != AxisState::disabled) return false;
+  return plcopen::set_parameter(parameters_, parameter, value);
+}
+
+AxisMotion Axis::as_master(bool actual_values, double delay) const {
+  if (!actual_values) return set_;
+  return {advanced(actual_, actual_velocity_ * delay, modulo()), actual_velocity_, 0};
+}
+
+ErrorId Axis::limits_of(const Dynamics& dynamics, JerkLimits& limits) const {
+  if (!in_range(dynamics.velocity, 0)) return ErrorId::velocity_range;
+  if (!in_range(dynamics.acceleration, 0)) return ErrorId::acceleration_range;
+  if (!in_range(dynamics.deceleration, 0)) return ErrorId::deceleration_range;
+  if (!in_range(dynamics.jerk, 0)) return ErrorId::jerk_range;
+  const double half = parameters_.a_max / 2;
+  const auto own = [](double pin, double axis) { return pin > 0 ? pin : axis; };
+  limits.velocity = std::min(own(dynamics.velocity, parameters_.vb_max), parameters_.vb_max) *
+                    increments_per_speed;
+  limits.acceleration = std::min(own(dynamics.acceleration, half), parameters_.a_max) *
+                        increments_per_acceleration;
+  limits.deceleration = std::min(own(dynamics.deceleration, half), parameters_.a_max) *
+                        increments_per_acceleration;
+  limits.jerk =
+      own(dynamics.jerk, half / (parameters_.tr_min * microseconds)) * increments_per_acceleration;
+  return ErrorId::none;
+}
+
+MotionState Axis::state_for_plan() const {
+  // The profile runs slower by the override: in its own time the axis is faster than it seems.
+  constexpr double standing = 1e-3;
+  if (override_ < standing) return {};
+  return {0, set_.velocity / override_, set_.acceleration / (override_ * override_)};
+}
+
+void Axis::run(const JerkProfile& profile) {
+  profile_ = profile;
+  profile_origin_ = set_.position;
+  profile_time_ = 0;
+}
+
+Order Axis::begin(AxisState to) {
+  state_ = to;
+  coupling_.reset();
+  profile_.reset();
+  target_.reset();
+  stop_held_ = false;
+  done_ = false;
+  return {ErrorId::none, ++ticket_};
+}
+
+Order Axis::power(bool on) {
+  powered_ = on;
+  const AxisState to = judge(state_, on ? Command::power_on : Command::power_off).to;
+  if (to == state_) return {};
+  begin(to);
+  stand_on_actual();
+  return {};
+}
+
+Order Axis::home(double position) {
+  const Verdict verdict = judge(state_, Command::home);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  if (!(std::abs(position) <= pin_max)) return {ErrorId::position_range};
+  home_to_ = position;
+  return begin(verdict.to);
+}
+
+Order Axis::move_absolute(double position, const Dynamics& dynamics, Direction direction) {
+  const Verdict verdict = judge(state_, Command::move_absolute);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  JerkLimits limits;
+  if (!in_range(dynamics.velocity, 1)) return {ErrorId::velocity_range};
+  if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
+  if (!(std::abs(position) <= pin_max)) return {ErrorId::position_range};
+  if (limited() && (position < parameters_.swe_neg || position > parameters_.swe_pos))
+    return {ErrorId::position_range};
+  if (direction < Direction::positive || direction > Direction::current) return {ErrorId::direction_range};
+  const MotionState now = state_for_plan();
+  double way = position - set_.position.part;
+  if (modulo() > 0) {
+    way = shortest({0, position}, set_.position, modulo());
+    double sign = 0;
+    if (direction == Direction::positive) sign = 1;
+    if (direction == Direction::negative) sign = -1;
+    if (direction == Direction::current && now.velocity != 0) sign = now.velocity > 0 ? 1 : -1;
+    // In a direction of its own the axis stops in front of the target, or goes once more round to it.
+    const double least = std::max(0.0, sign * to_velocity(now, 0, limits)->end.position);
+    if (sign != 0) way += sign * modulo() * std::ceil((least - sign * way) / modulo());
+  }
+  const Order order = begin(verdict.to);
+  run(*to_position(now, way, limits));
+  target_ = position;
+  return order;
+}
+
+Order Axis::move_velocity(double velocity, const Dynamics& dynamics, Direction direction) {
+  const Verdict verdict = judge(state_, Command::move_velocity);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  JerkLimits limits;
+  Dynamics checked = dynamics;
+  checked.velocity = velocity;
+  if (!in_range(velocity, 1)) return {ErrorId::velocity_range};
+  if (const ErrorId error = limits_of(checked, limits); error != ErrorId::none) return {error};
+  if (direction != Direction::positive && direction != Direction::negative && direction != Direction::current)
+    return {ErrorId::direction_range};
+  double sign = direction == Direction::negative ? -1 : 1;
+  if (direction == Direction::current && set_.velocity < 0) sign = -1;
+  const MotionState now = state_for_plan();
+  const Order order = begin(verdict.to);
+  run(*to_velocity(now, sign * limits.velocity, limits));
+  return order;
+}
+
+Order Axis::halt(const Dynamics& dynamics) {
+  const Verdict verdict = judge(state_, Command::halt);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  JerkLimits limits;
+  if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
+  const MotionState now = state_for_plan();
+  const Order order = begin(verdict.to);
+  run(*to_velocity(now, 0, limits));
+  return order;
+}
+
+Order Axis::stop(const Dynamics& dynamics) {
+  const Verdict verdict = judge(state_, Command::stop);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  JerkLimits limits;
+  if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
+  const MotionState now = state_for_plan();
+  const Order order = begin(verdict.to);
+  stop_held_ = true;
+  run(*to_velocity(now, 0, limits));
+  return order;
+}
+
+void Axis::release_stop(std::uint64_t ticket) {
+  if (ticket != ticket_ || state_ != AxisState::stopping) return;
+  stop_held_ = false;
+  if (!profile_) state_ = AxisState::standstill;
+}
+
+Order Axis::reset() {
+  const Verdict verdict = judge(state_, Command::reset);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  resetting_ = true;
+  done_ = false;
+  return {ErrorId::none, ++ticket_};
+}
+
+Order Axis::couple(Coupling coupling, const CouplingLink& link, Command command) {
+  const Verdict verdict = judge(state_, command);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  const Order order = begin(verdict.to);
+  coupling_ = std::move(coupling);
+  link_ = link;
+  override_ = 1;
+  return order;
+}
+
+Order Axis::uncouple(Command command) {
+  const Verdict verdict = judge(state_, command);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  // Each block lets go of its own kind of coupling.
+  const bool cam = coupling_ && coupling_->cam() != nullptr;
+  if (cam != (command == Command::cam_out)) return {ErrorId::in_synchronized_motion};
+  const Order order = begin(verdict.to);
+  set_.acceleration = 0;
+  JerkProfile onward;
+  onward.start = onward.end = {0, set_.velocity, 0};
+  override_ = 1;
+  run(onward);
+  done_ = true;
+  return order;
+}
+
+void Axis::fault(ErrorId error) {
+  if (state_ == AxisState::disabled || state_ == AxisState::errorstop) return;
+  error_ = error;
+  state_ = AxisState::errorstop;
+  coupling_.reset();
+  profile_.reset();
+  resetting_ = false;
+}
+
+void Axis::regulate() {
+  outputs_ = {};
+  if (parameters_.kind == static_cast<int>(AxisKind::virtual_axis)) {
+    actual_ = set_.position;
+    actual_velocity_ = set_.velocity;
+  }
+  if (parameters_.kind != static_cast<int>(AxisKind::drive) || !powered_ || !drive.ready) return;
+  const double lag = following_error();
+  if (parameters_.following_error_max > 0 && std::abs(lag) > parameters_.following_error_max)
+    fault(ErrorId::following_error);
+  const double speed = parameters_.kv / 100 * lag + parameters_.feed_forward / 1000 * set_.velocity;
+  const double share = speed / (parameters_.v_at_10v * increments_per_speed);
+  outputs_ = {drycut::devices::axis::to_dac(share * dac_full_scale).word, true};
+}
+
+Position Axis::position_of(std::int64_t counts) const {
+  const auto increments = static_cast<Wide>(parameters_.path_increments) * counts;
+  const auto per = static_cast<Wide>(parameters_.path_counts);
+  if (modulo() <= 0) {
+    const Wide whole = increments / per;
+    return {0, static_cast<double>(whole) +
+                   static_cast<double>(increments - whole * per) / static_cast<double>(per) + home_offset_};
+  }
+  const Wide turn = static_cast<Wide>(modulo()) * per;
+  Wide turns = increments / turn;
+  Wide rest = increments - turns * turn;
+  if (rest < 0) {
+    rest += turn;
+    --turns;
+  }
+  return advanced({static_cast<std::int64_t>(turns), static_cast<double>(rest) / static_cast<double>(per)},
+                  home_offset_, modulo());
+}
+
+}  // namespace drycut::devices::plcopen

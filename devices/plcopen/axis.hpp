@@ -1,0 +1,182 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "devices/plcopen/axis_parameters.hpp"
+#include "devices/plcopen/coupling.hpp"
+#include "devices/plcopen/errors.hpp"
+#include "devices/plcopen/state_machine.hpp"
+
+namespace drycut::devices::plcopen {
+
+/// AXIS_REF: the number of an axis in its kernel; -1 = not connected.
+struct AxisRef {
+  int number = -1;
+  bool operator==(const AxisRef&) const = default;
+};
+
+/// What the drive tells the axis; the owner of the kernel writes it before each cycle.
+struct DriveInputs {
+  std::int64_t counts = 0;      ///< of the encoder, x4 edges, never wraps
+  bool ready = true;            ///< false: the drive no longer follows
+  bool emergency_stop = false;  ///< seen over the drive interface; the drive still follows setpoints
+};
+/// What the axis tells the drive, valid after each cycle.
+struct DriveOutputs {
+  std::int16_t reference = 0;  ///< DAC word, -32767..32767 = -10..+10 V
+  bool enable = false;
+};
+/// The operator's hand on the axis.
+struct AxisControl {
+  bool feed_enable = true;
+  bool feed_hold = false;
+  double override_percent = 100;  ///< 0..100
+};
+
+/// Speed and slopes of a command in the units of the blocks' pins: um/s or 0.001 deg/s, mm/s2, mm/s3 or deg/s2,
+/// deg/s3. An acceleration, deceleration or jerk of 0 means the axis' own.
+struct Dynamics {
+  double velocity = 0;
+  double acceleration = 0;
+  double deceleration = 0;
+  double jerk = 0;
+};
+
+/// What becomes of a command: taken, with the ticket by which its block asks on, or refused.
+struct Order {
+  ErrorId error = ErrorId::none;
+  std::uint64_t ticket = 0;
+};
+
+/// How a slave hangs on its master.
+struct CouplingLink {
+  AxisRef master;
+  bool actual_values = false;   ///< follows the master's encoder, not its setpoints
+  std::uint16_t table = 0;      ///< 0 for a gear
+  std::uint64_t revision = 0;   ///< of the table when the curve was made
+  bool locks_table = false;
+  bool own_copy = false;        ///< changes of the table do not reach the coupling
+  Endless endless = Endless::no;
+  Interpolation interpolation = Interpolation::linear;
+};
+
+/// Direction pin of the movements.
+enum class Direction : std::int16_t { positive = 1, shortest_way = 2, negative = 3, current = 4 };
+
+/// One axis: setpoints by the state diagram, actual values from counts, and the position controller that
+/// makes the drive's reference. Lengths are increments of 0.1 um or 0.0001 deg throughout.
+class Axis {
+ public:
+  Axis(std::string name, const AxisParameters& parameters);
+
+  DriveInputs drive;
+  AxisControl control;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const AxisParameters& parameters() const { return parameters_; }
+  /// See plcopen::set_parameter; in force from the next cycle. `kind` and `modulo` only in Disabled.
+  bool set_parameter(const AxisParameter& parameter, double value);
+
+  [[nodiscard]] AxisState state() const { return state_; }
+  [[nodiscard]] ErrorId error() const { return error_; }
+  [[nodiscard]] bool powered() const { return powered_; }
+  [[nodiscard]] bool homed() const { return homed_; }
+  [[nodiscard]] double modulo() const { return parameters_.modulo; }
+  /// Commanded motion at the end of the last cycle.
+  [[nodiscard]] const AxisMotion& set() const { return set_; }
+  [[nodiscard]] const Position& actual() const { return actual_; }
+  [[nodiscard]] double actual_velocity() const { return actual_velocity_; }
+  [[nodiscard]] double following_error() const { return difference(set_.position, actual_, modulo()); }
+  [[nodiscard]] const DriveOutputs& outputs() const { return outputs_; }
+  /// As a master of setpoints, or of actual values with the slave's dead time [s].
+  [[nodiscard]] AxisMotion as_master(bool actual_values, double delay) const;
+
+  /// Ticket of the command in force, and whether it has done what it was asked.
+  [[nodiscard]] std::uint64_t ticket() const { return ticket_; }
+  [[nodiscard]] bool done() const { return done_; }
+  /// Cam ends passed while engaged, counted over all couplings.
+  [[nodiscard]] std::int64_t profile_ends() const { return profile_ends_; }
+
+  Order power(bool on);
+  /// The present actual position becomes `position`; takes one cycle.
+  Order home(double position);
+  Order move_absolute(double position, const Dynamics& dynamics, Direction direction);
+  Order move_velocity(double velocity, const Dynamics& dynamics, Direction direction);
+  Order halt(const Dynamics& dynamics);
+  Order stop(const Dynamics& dynamics);
+  /// MC_Stop's Execute has become FALSE: Stopping ends as soon as the axis stands.
+  void release_stop(std::uint64_t ticket);
+  Order reset();
+  /// Couples; the caller has checked master and cam.
+  Order couple(Coupling coupling, const CouplingLink& link, Command command);
+  /// The slave goes on at its present speed.
+  Order uncouple(Command command);
+
+  [[nodiscard]] const Coupling* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
+  Coupling* coupling() { return coupling_ ? &*coupling_ : nullptr; }
+  [[nodiscard]] const CouplingLink& link() const { return link_; }
+  CouplingLink& link() { return link_; }
+  /// Acceleration and jerk of MC_GearIn; a value of 0 takes the axis' own.
+  void set_gear_dynamics(const Dynamics& dynamics) { gear_dynamics_ = dynamics; }
+
+  /// Limits of a command's dynamics in increments; the error names the pin that is out of range.
+  ErrorId limits_of(const Dynamics& dynamics, JerkLimits& limits) const;
+
+  // The parts of a cycle, in the kernel's order.
+  void latch(double dt);
+  /// Setpoints of an axis that is not coupled.
+  void move(double dt);
+  /// Setpoints of a slave.
+  void follow(const AxisMotion& master, double dt);
+  void regulate();
+
+  void fault(ErrorId error);
+
+ private:
+  [[nodiscard]] Position position_of(std::int64_t counts) const;
+  [[nodiscard]] CouplingLimits coupling_limits() const;
+  [[nodiscard]] bool limited() const;
+  [[nodiscard]] bool passes_limit(const AxisMotion& next, bool with_braking) const;
+  [[nodiscard]] MotionState state_for_plan() const;
+  Order begin(AxisState to);
+  void run(const JerkProfile& profile);
+  void run_profile(double dt);
+  void finish_profile();
+  void brake(double dt);
+  void stand_on_actual();
+
+  std::string name_;
+  AxisParameters parameters_;
+  AxisState state_ = AxisState::disabled;
+  ErrorId error_ = ErrorId::none;
+  bool powered_ = false;
+  bool homed_ = false;
+  bool resetting_ = false;
+  std::uint64_t ticket_ = 0;
+  bool done_ = false;
+
+  AxisMotion set_;
+  Position actual_;
+  double home_offset_ = 0;
+  double home_to_ = 0;
+  double actual_velocity_ = 0;
+  bool latched_ = false;
+  std::deque<double> velocities_;  ///< of the last cycles, for the average filter
+
+  std::optional<JerkProfile> profile_;
+  Position profile_origin_;
+  double profile_time_ = 0;
+  double override_ = 1;
+  std::optional<double> target_;  ///< of a discrete movement, for the window
+  bool stop_held_ = false;
+
+  std::optional<Coupling> coupling_;
+  CouplingLink link_;
+  std::int64_t profile_ends_ = 0;
+  Dynamics gear_dynamics_;
+  DriveOutputs outputs_;
+};
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,92 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/plcopen/errors.hpp"
+
+namespace drycut::devices::plcopen {
+
+/// Interpolation between the points of a table: the values of MC_CamIn.TableFctType (004 "table_fkt_type").
+enum class Interpolation : std::uint8_t {
+  step_direct = 0,
+  linear = 1,
+  polynom_3 = 2,
+  polynom_3_koeff = 3,
+  line_poly5 = 4,
+  poly5_line = 5,
+  table_defined = 6,
+};
+/// "STEP_DIRECT", ... as the manual spells it.
+std::string_view name_of(Interpolation interpolation);
+/// By name, any case, or by number; nullopt if `text` is neither.
+std::optional<Interpolation> parse_interpolation(std::string_view text);
+
+/// What the lines of a table hold: the file's `Tabletype`.
+struct TableType {
+  int number = 0;
+  int columns = 0;
+  bool whole = false;  ///< whole numbers
+  double limit = 0;    ///< largest whole number; the smallest is -limit - 1
+  std::string_view meaning;
+};
+/// The types 1..7; nullptr if `number` is none of them. Type 6 is the maker's own and has no columns.
+const TableType* table_type(int number);
+
+/// A cam table in memory: a file's contents.
+struct CamTable {
+  std::string file;  ///< its file's name, by which MC_CamTableSelect finds it; may be empty
+  std::string name;
+  std::uint16_t id = 0;  ///< 1..65535
+  int type = 2;          ///< 1..7
+  Interpolation interpolation = Interpolation::table_defined;  ///< the header's; table_defined = it has none
+  std::vector<double> values;                                  ///< line by line
+
+  [[nodiscard]] int columns() const;
+  [[nodiscard]] std::size_t lines() const;
+  [[nodiscard]] double value(std::size_t line, int column) const {
+    return values[line * static_cast<std::size_t>(columns()) + static_cast<std::size_t>(column)];
+  }
+};
+
+/// The interpolation in force for a table: `wanted`, or what its header says if `wanted` is table_defined.
+/// Nullopt if the header says none or `wanted` is above 6 (42006).
+std::optional<Interpolation> interpolation_of(const CamTable& table, std::uint32_t wanted);
+
+/// What keeps the table from being run with this interpolation; none if nothing does. `modulo`: the
+/// master's turn [0.0001 deg].
+ErrorId check(const CamTable& table, Interpolation interpolation, double modulo);
+
+/// The tables of the controller, by id.
+class CamTables {
+ public:
+  /// Adds the table or replaces the one with its id. 240013 if the id is 0, 240011 if its type is
+  /// unknown, 42004 if its last line is incomplete.
+  ErrorId add(CamTable table);
+  /// Writes one element while the controller runs. 42003, 42007 or 42004 if there is no such element, 44003
+  /// if the type cannot hold the value.
+  ErrorId write(std::uint16_t id, std::size_t line, int column, double value);
+  /// A change of several elements begins or ends; until it ends MC_CamIn refuses the table (60266).
+  ErrorId begin_change(std::uint16_t id);
+  void end_change(std::uint16_t id);
+
+  [[nodiscard]] const CamTable* find(std::uint16_t id) const;
+  [[nodiscard]] const CamTable* find_file(std::string_view file) const;
+  [[nodiscard]] bool busy(std::uint16_t id) const;
+  /// Counts up with every change of the table.
+  [[nodiscard]] std::uint64_t revision(std::uint16_t id) const;
+
+ private:
+  struct Entry {
+    CamTable table;
+    std::uint64_t revision = 0;
+    bool changing = false;
+  };
+  std::map<std::uint16_t, Entry> entries_;
+};
+
+}  // namespace drycut::devices::plcopen

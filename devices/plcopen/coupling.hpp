@@ -1,0 +1,147 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "devices/plcopen/cam_laws.hpp"
+#include "devices/plcopen/jerk_profile.hpp"
+#include "devices/plcopen/position.hpp"
+
+namespace drycut::devices::plcopen {
+
+// A slave behind a master, in increments and seconds. Engaging is amplitude-true (004 "Behavior of MC_CamIn"): the
+// slave slips until it has the cam's speed, then a superimposed move brings it to the cam's position; the cam
+// itself is never scaled.
+
+/// How the axis moves at an instant [inc, inc/s, inc/s2].
+struct AxisMotion {
+  Position position;
+  double velocity = 0;
+  double acceleration = 0;
+};
+
+/// What bounds the ramp-in [inc, s]; from the slave's cam_gear parameters.
+struct CouplingLimits {
+  double window = 0.1;       ///< velocity window, as a share of the cam's speed
+  double window_floor = 0;   ///< and of this speed at least, so that a dwell of the cam has a window
+  double time_in_window = 0;
+  double timeout = 0;
+  bool timeout_from_start = false;
+  double sync_jerk = 0;
+  double up = 0;           ///< acceleration of the velocity synchronisation while the speed grows
+  double down = 0;         ///< and while it falls
+  JerkLimits phasing;
+  double velocity = 0;     ///< largest speed of the slave while engaging and engaged
+  double acceleration = 0; ///< largest acceleration of a geared slave
+};
+
+/// y = slave_scaling * cam(master_scaling * master + master_offset) + slave_offset
+struct CamFollow {
+  CamCurve curve;
+  std::int64_t master_scaling = 1;
+  double slave_scaling = 1;
+  double master_offset = 0;
+  double slave_offset = 0;
+  bool periodic = true;
+};
+
+/// The slave moves numerator/denominator times as far as the master, from wherever both are at engagement.
+struct GearFollow {
+  std::int64_t numerator = 1;
+  std::int64_t denominator = 1;
+  double master_modulo = 0;
+};
+
+enum class CouplingPhase : std::uint8_t {
+  slip,       ///< to the cam's speed, jerk-limited
+  window,     ///< in the velocity window or back into it
+  phasing,    ///< to the cam's position, by a superimposed move
+  wait_zero,  ///< non-periodic: at the cam's start until the master passes zero
+  coupled,
+};
+
+enum class CouplingOutcome : std::uint8_t { follows, timed_out, pass_complete };
+
+class Coupling {
+ public:
+  Coupling(std::variant<CamFollow, GearFollow> law, double slave_modulo)
+      : law_(std::move(law)), slave_modulo_(slave_modulo) {}
+
+  /// Takes over from another coupling to the same master: its phase shift stays, and where the slave already
+  /// moves as the new law wants, to within `tolerance` [inc, and inc/s of speed], it is engaged at once.
+  void take_over(const Coupling& before, const AxisMotion& master, const AxisMotion& slave, double tolerance);
+  /// Starts a non-periodic cam whose slave stands at its start: it waits for zero, or is there already.
+  void start_in_place(const AxisMotion& master, const AxisMotion& slave, double tolerance);
+
+  /// One cycle of `dt` [s]: the master as it is at its end; `slave` goes from the cycle's start to its end.
+  CouplingOutcome step(const AxisMotion& master, AxisMotion& slave, double dt, const CouplingLimits& limits);
+
+  /// MC_Phasing: moves the apparent master by `shift`, jerk-limited. False if a limit is not above 0.
+  bool shift_phase(double shift, const JerkLimits& limits);
+  /// True once the shift that was asked for last is done.
+  [[nodiscard]] bool phase_shifted() const { return !shift_profile_; }
+  /// Shifts asked for so far: a newer one takes over from an older.
+  [[nodiscard]] std::uint64_t shifts() const { return shifts_; }
+
+  /// Non-periodic: one pass more after this one; more than one is not stored.
+  void add_pass() { extra_pass_ = true; }
+  /// A live change of the table.
+  void replace_curve(CamCurve curve) { std::get<CamFollow>(law_).curve = std::move(curve); }
+
+  [[nodiscard]] CouplingPhase phase() const { return phase_; }
+  [[nodiscard]] bool engaged() const { return phase_ == CouplingPhase::coupled; }
+  /// Cam ends passed while engaged, since the start.
+  [[nodiscard]] std::int64_t profile_ends() const { return profile_ends_; }
+  [[nodiscard]] const CamFollow* cam() const { return std::get_if<CamFollow>(&law_); }
+  [[nodiscard]] bool running_pass() const { return engaged() && cam() != nullptr && !cam()->periodic; }
+
+ private:
+  struct Target {
+    AxisMotion motion;
+    std::int64_t cycle = 0;  ///< of the cam, by the master
+    double x = 0;            ///< in the cycle
+  };
+  [[nodiscard]] Target target(const AxisMotion& master) const;
+  [[nodiscard]] Target cam_target(const CamFollow& cam, const AxisMotion& master) const;
+  [[nodiscard]] AxisMotion gear_target(const GearFollow& gear, const AxisMotion& master) const;
+  /// The cam's start, where a non-periodic slave waits.
+  [[nodiscard]] AxisMotion start_of_cam() const;
+  [[nodiscard]] MotionState shift() const;
+
+  CouplingOutcome synchronise(const AxisMotion& wanted, const AxisMotion& master, AxisMotion& slave, double dt,
+                              const CouplingLimits& limits);
+  void begin_phasing(const AxisMotion& wanted, const AxisMotion& master, const AxisMotion& slave,
+                     const CouplingLimits& limits);
+  void follow(const AxisMotion& wanted, AxisMotion& slave, double dt, const CouplingLimits& limits);
+  CouplingOutcome run_pass(const Target& place, AxisMotion& slave);
+  void wait_for_zero(const Target& place);
+  void rebase_gear(const AxisMotion& master);
+
+  std::variant<CamFollow, GearFollow> law_;
+  double slave_modulo_ = 0;
+  CouplingPhase phase_ = CouplingPhase::slip;
+  double time_ = 0;            ///< for the timeout
+  double time_in_window_ = 0;
+
+  JerkProfile offset_profile_;  ///< slave less law while phasing
+  double offset_time_ = 0;
+
+  std::uint64_t shifts_ = 0;
+  double shift_sum_ = 0;  ///< completed phase shifts [master inc]
+  std::optional<JerkProfile> shift_profile_;
+  double shift_time_ = 0;
+
+  std::int64_t first_cycle_ = 0;  ///< cam cycle at which the slave's turns are slave_turns_
+  std::int64_t slave_turns_ = 0;
+  std::int64_t last_cycle_ = 0;   ///< of the last step
+  bool last_cycle_known_ = false;
+  std::int64_t pass_origin_ = 0;  ///< cycle at whose zero the pass began
+  bool extra_pass_ = false;
+  std::int64_t profile_ends_ = 0;
+
+  Position gear_master_;
+  Position gear_slave_;
+};
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,70 @@
+#include "devices/plcopen/state_machine.hpp"
+
+namespace drycut::devices::plcopen {
+namespace {
+
+ErrorId refusal(AxisState state) {
+  switch (state) {
+    case AxisState::disabled: return ErrorId::in_disabled;
+    case AxisState::standstill: return ErrorId::in_standstill;
+    case AxisState::homing: return ErrorId::in_homing;
+    case AxisState::stopping: return ErrorId::in_stopping;
+    case AxisState::discrete_motion: return ErrorId::in_discrete_motion;
+    case AxisState::continuous_motion: return ErrorId::in_continuous_motion;
+    case AxisState::synchronized_motion: return ErrorId::in_synchronized_motion;
+    case AxisState::errorstop: return ErrorId::in_errorstop;
+  }
+  return ErrorId::none;
+}
+
+bool moves_or_stands(AxisState state) {
+  return state == AxisState::standstill || state == AxisState::discrete_motion ||
+         state == AxisState::continuous_motion || state == AxisState::synchronized_motion;
+}
+
+}  // namespace
+
+std::string_view name_of(AxisState state) {
+  constexpr std::array<std::string_view, 8> names{
+      "Disabled",       "Standstill",       "Homing",             "Stopping",
+      "DiscreteMotion", "ContinuousMotion", "SynchronizedMotion", "Errorstop"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+Verdict judge(AxisState from, Command command) {
+  const Verdict refused{from, refusal(from)};
+  const auto if_allowed = [&](bool allowed, AxisState to) { return allowed ? Verdict{to} : refused; };
+  const bool synchronized = from == AxisState::synchronized_motion;
+  const bool stopping = from == AxisState::stopping;
+  switch (command) {
+    case Command::power_on:
+      return {from == AxisState::disabled ? AxisState::standstill : from};
+    case Command::power_off:
+      return {from == AxisState::errorstop ? from : AxisState::disabled};
+    case Command::home:
+      if (from == AxisState::homing) return {from, ErrorId::home_again};
+      return if_allowed(from == AxisState::standstill, AxisState::homing);
+    case Command::move_absolute:
+      return if_allowed(moves_or_stands(from) || stopping, AxisState::discrete_motion);
+    case Command::move_velocity:
+      return if_allowed(moves_or_stands(from) || stopping, AxisState::continuous_motion);
+    case Command::halt:
+      return if_allowed(moves_or_stands(from), AxisState::discrete_motion);
+    case Command::stop:
+      if (stopping) return {from, ErrorId::stop_again};
+      return if_allowed(moves_or_stands(from) || from == AxisState::homing, AxisState::stopping);
+    case Command::cam_in:
+    case Command::gear_in:
+      return if_allowed(moves_or_stands(from), AxisState::synchronized_motion);
+    case Command::cam_out:
+    case Command::gear_out:
+      return if_allowed(synchronized, AxisState::continuous_motion);
+    case Command::phasing:
+      return if_allowed(synchronized, AxisState::synchronized_motion);
+    case Command::reset:
+      return if_allowed(from == AxisState::errorstop, AxisState::standstill);
+  }
+  return refused;
+}
+
+}  // namespace drycut::devices::plcopen
