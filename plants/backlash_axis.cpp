@@ -53,14 +53,14 @@ double damping_ratio_for(double restitution) {
 BacklashAxisDefinition::BacklashAxisDefinition() {
   axis.data.mass = 100;
   axis.data.carriage_friction = {150, 100, 50, 0.01};
-  axis.data.servo.inertia_ratio = 0.25;
+  axis.data.drive.servo.inertia_ratio = 0.25;
   apply_flanks();
 }
 
 void BacklashAxisDefinition::apply_flanks() {
   TransmissionData& gear = axis.data.gear;
   const double metre = axis.data.lead / turn;  // of travel for a radian of the screw
-  const double screw = axis.data.servo.rotor_inertia * gear.ratio * gear.ratio + axis.data.screw_inertia;
+  const double screw = axis.data.drive.rotor_inertia() * gear.ratio * gear.ratio + axis.data.screw_inertia;
   const double motor_mass = screw / (metre * metre);
   const double reduced = axis.data.mass * motor_mass / (axis.data.mass + motor_mass);
   const double damping = 2 * damping_ratio_for(flanks.restitution) * std::sqrt(flanks.stiffness * reduced);

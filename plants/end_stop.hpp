@@ -42,7 +42,7 @@ class EndStop {
   }
   /// True once a hit: the last step stopped the slide, at `fraction()` of it.
   bool stopped(const Slide& slide) {
-    if (!touched_ || !compressing_ || side_ * slide.speed > 0) return false;
+    if (!touched_ || !compressing_ || side_ * slide.speed > standstill) return false;
     compressing_ = false;
     const double change = slide.speed_before - slide.speed;
     fraction_ = change != 0 ? std::clamp(slide.speed_before / change, 0.0, 1.0) : 1;
@@ -57,6 +57,9 @@ class EndStop {
   [[nodiscard]] double fraction() const { return fraction_; }
 
  private:
+  // Dry friction that brings a slide to rest leaves a rounding of its speed [m/s].
+  static constexpr double standstill = 1e-12;
+
   EndStopData data_;
   double position_;
   double side_;

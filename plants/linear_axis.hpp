@@ -3,12 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "plants/encoder.hpp"
+#include "plants/axis_drive.hpp"
+#include "plants/axis_transducers.hpp"
 #include "plants/end_stop.hpp"
 #include "plants/friction.hpp"
 #include "plants/plant.hpp"
-#include "plants/position_switch.hpp"
-#include "plants/servo_drive.hpp"
 #include "plants/transmission.hpp"
 
 namespace drycut::plants {
@@ -23,19 +22,13 @@ struct LinearAxisData {
   double travel_min = -0.05;    ///< where the carriage touches the end stops [m]
   double travel_max = 1.05;
   EndStopData stop;
-  ServoData servo = {.inertia_ratio = 0.1};
+  AxisDriveData drive = {.servo = {.inertia_ratio = 0.1}};
   /// Gear, coupling and screw or belt up to the carriage: ratio, stiffness, damping and play as seen at the
   /// screw or pulley.
   TransmissionData gear = {1, 1000, 0.05, 0};
   Friction motor_friction = {0.1, 0.0005, 0, 0.01};
   Friction carriage_friction = {30, 50, 0, 0.01};
-  EncoderData encoder = {.lines = 2500};  ///< on the motor
-  double scale_resolution = 1e-6;         ///< of the linear scale on the carriage, a count x4 [m]
-  double scale_pitch = 0.02;              ///< between two index pulses of the scale [m]
-  PositionSwitchData home = {0, 0.02, 0.5e-3, 0.5e-3};  ///< [m]
-  double limit_min = -0.03;                             ///< the limit switches are on beyond these [m]
-  double limit_max = 1.03;
-  double limit_delay = 0.5e-3;  ///< of the limit switches' filter [s]
+  AxisTransducersData sensors;
 
   // Pictures only.
   double heading = 0;  ///< direction of the axis in plan, 0 = with the line [rad]
@@ -47,11 +40,12 @@ struct LinearAxisData {
   std::string tool = "none";     ///< what the carriage carries: none, guide, blade, pen
 };
 
-/// A carriage on a guided slide, driven by a servo motor through gear and ball screw or belt. Position 0 is
+/// A carriage on a guided slide, driven by a motor through gear and ball screw or belt. Position 0 is
 /// where the motor has its zero pulse too. The rotor turns with the screw's or pulleys' inertia (reflected by
 /// the gear ratio squared); between them and the carriage is one spring with damper and play.
 ///
-/// Event: `end_stop` (side, speed, impulse, force) when an end stop has taken the motion out of the carriage.
+/// Events: `end_stop` (side, speed, impulse, force) when an end stop has taken the motion out of the
+/// carriage; `trip` (speed) of inverter or contactors.
 class LinearAxis : public Plant {
  public:
   /// `carrier`: see LinearAxisData, may be null.
@@ -90,18 +84,13 @@ class LinearAxis : public Plant {
   double screw_per_metre_;  // turn of the screw per travel [rad/m]
   Shaft& rotor_;
   Slide& carriage_;
-  ServoDrive servo_;
+  AxisDrive drive_;
   double twist_ = 0;        // [rad], at the screw
   double drive_force_ = 0;  // of screw or belt on the carriage in the last step [N]
   double outer_force_ = 0;  // set by the timeline [N]
   EndStop stop_min_;
   EndStop stop_max_;
-  Encoder encoder_;
-  PulseLine scale_;
-  SignalPort scale_index_;
-  PositionSwitch home_;
-  PositionSwitch limit_min_;
-  PositionSwitch limit_max_;
+  AxisTransducers sensors_;
   CommandPort tool_;
   std::vector<std::array<double, 3>> ink_;  // drawn by the pen, a dot every so often [m]
 };

@@ -49,43 +49,6 @@ Parameters mechanics(LinearAxisData& data) {
   };
 }
 
-Parameters transducers(LinearAxisData& data) {
-  return {
-      {"encoder.lines",
-       "",
-       "lines of the motor's encoder per turn; counted four times",
-       &data.encoder.lines,
-       1,
-       1000000,
-       {},
-       {},
-       "10000 counts a turn"},
-      {.name = "encoder.reverse",
-       .unit = "",
-       .meaning = "it counts down in positive direction",
-       .value = &data.encoder.reverse,
-       .max = 1,
-       .source = "wired the usual way"},
-      row("scale.resolution", "mm", "travel for a count (x4) of the linear scale", data.scale_resolution,
-          1e-6, 1000, "a usual scale"),
-      row("scale.pitch", "mm", "travel between two of its reference marks", data.scale_pitch, 0.01, 1e5,
-          "a usual scale"),
-      row("home.position", "mm", "middle of the home switch's target", data.home.centre, -1e6, 1e6,
-          "position 0"),
-      row("home.width", "mm", "width of the target", data.home.width, 0.01, 1e6, "estimate"),
-      row("home.hysteresis", "mm", "the home switch lets go this far behind the target", data.home.hysteresis,
-          0, 100, "estimate: proximity switch"),
-      row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
-          "estimate: proximity switch of 1 kHz"),
-      row("limit_min", "mm", "the lower limit switch is on below this", data.limit_min, -1e6, 1e6,
-          "20 mm before the stop"),
-      row("limit_max", "mm", "the upper limit switch is on above this", data.limit_max, -1e6, 1e6,
-          "20 mm before the stop"),
-      row("limit_delay", "ms", "delay of the limit switches", data.limit_delay, 0, 100,
-          "estimate: proximity switch of 1 kHz"),
-  };
-}
-
 Parameters looks(LinearAxisData& data) {
   return {
       row("heading", "deg", "direction of the axis in plan: 0 with the line, 90 away from the operator",
@@ -123,7 +86,7 @@ double reflected_inertia(const LinearAxisData& data) {
 }
 
 double motor_inertia(const LinearAxisData& data) {
-  return data.servo.rotor_inertia + data.screw_inertia / (data.gear.ratio * data.gear.ratio);
+  return data.drive.rotor_inertia() + data.screw_inertia / (data.gear.ratio * data.gear.ratio);
 }
 
 }  // namespace
@@ -133,8 +96,8 @@ Parameters LinearAxisDefinition::parameters() {
   const auto append = [&table](Parameters rows) {
     for (Parameter& p : rows) table.push_back(std::move(p));
   };
-  append(transducers(data));
-  append(servo_parameters(data.servo, "servo."));
+  append(axis_transducer_parameters(data.sensors));
+  append(axis_drive_parameters(data.drive));
   append(transmission_parameters(data.gear, "gear."));
   append(looks(data));
   for (Parameter& p : table) {
@@ -172,14 +135,10 @@ std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections() {
   else if (data.start < data.travel_min || data.start > data.travel_max)
     object("start", fmt::format("the carriage starts at {:g} mm, in an end stop", data.start * 1000),
            fmt::format("between {:g} and {:g} mm", data.travel_min * 1000, data.travel_max * 1000));
-  if (data.limit_max <= data.limit_min)
+  if (data.sensors.limit_max <= data.sensors.limit_min)
     object("limit_max", "it is not above limit_min", "leave room between the limit switches");
-  if (data.servo.max_speed < data.servo.rated_speed)
-    object("servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed");
-  if (data.servo.peak_torque < data.servo.rated_torque)
-    object("servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque");
-  if (data.servo.torque_at_max_speed > data.servo.peak_torque)
-    object("servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque");
+  for (Objection& objection : axis_drive_objections(data.drive, motor_inertia(data), usual_step))
+    found.push_back(std::move(objection));
   return found;
 }
 

@@ -151,7 +151,7 @@ std::vector<LinearAxis::Item> LinearAxis::items() const {
        0.116 * k,
        0},
       {{"home switch", Shape::box, {0.035 * k, 0.025 * k, 0.025 * k}, white, "paint"},
-       data_.home.centre,
+       data_.sensors.home.centre,
        0.045 * k,
        0.086 * k},
       {{"home flag", Shape::box, {0.02 * k, 0.06 * k, 0.006 * k}, white, "paint"},

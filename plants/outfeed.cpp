@@ -19,7 +19,7 @@ Outfeed::Outfeed(const OutfeedData& data, double mass_per_metre, World& world) :
   }
 }
 
-void Outfeed::add(double length, double speed, double fraction, double h) {
+void Outfeed::add(double tail, double length, double speed, double fraction, double h) {
   Piece& piece = pieces_[static_cast<std::size_t>(next_)];
   next_ = (next_ + 1) % pool_size;
   Slide& body = *piece.body;
@@ -31,7 +31,7 @@ void Outfeed::add(double length, double speed, double fraction, double h) {
   // off.
   const double early = (world_.since_slow() - 1 + fraction) * h;
   const double since = world_.since_slow() == 0 ? (1 - fraction) * h : -early;
-  body.position = body.position_before = length / 2 + speed * since;
+  body.position = body.position_before = tail + length / 2 + speed * since;
 }
 
 void Outfeed::drive(double line_speed, double h) {

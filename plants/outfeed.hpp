@@ -25,9 +25,9 @@ class Outfeed {
   /// Every piece body has the mass of a piece of 1 m: Coulomb friction by weight does not depend on it.
   Outfeed(const OutfeedData& data, double mass_per_metre, World& world);
 
-  /// A piece came off at `fraction` of the last step of `h` seconds, its tail at 0, with the speed of the
-  /// web.
-  void add(double length, double speed, double fraction, double h);
+  /// A piece came off at `fraction` of the last step of `h` seconds, its tail at `tail` then, with the speed
+  /// of the web.
+  void add(double tail, double length, double speed, double fraction, double h);
   /// Belt forces for the coming step of `h` seconds.
   void drive(double line_speed, double h);
 

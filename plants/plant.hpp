@@ -119,6 +119,13 @@ class PlantDefinition {
     std::string remedy;
   };
   virtual std::vector<Objection> objections() { return {}; }
+  /// Gives the definition of the plant of that name, null where there is none.
+  using FindDefinition = std::function<PlantDefinition*(std::string_view)>;
+  /// What is wrong with the parameters together with those of the plants that they refer to.
+  virtual std::vector<Objection> objections_with(const FindDefinition& find) {
+    (void)find;
+    return {};
+  }
   /// Builds the machine into `world`. `find` gives the already built plant that a reference parameter names.
   virtual std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) = 0;
 };

@@ -1,9 +1,11 @@
 #include "plants/backlash_axis.hpp"
 #include "plants/bench.hpp"
+#include "plants/flying_saw.hpp"
 #include "plants/ideal_axis.hpp"
 #include "plants/linear_axis.hpp"
 #include "plants/plant.hpp"
 #include "plants/rotary_knife.hpp"
+#include "plants/vertical_press.hpp"
 #include "plants/web.hpp"
 
 namespace drycut::plants {
@@ -21,11 +23,15 @@ const std::vector<PlantType>& plant_types() {
        define<BacklashAxisDefinition>},
       {"bench", "counters, switches and meters without physics, turned by the timeline",
        define<BenchDefinition>},
+      {"flying_saw", "a saw on a carriage that clamps the running web, strip or tube, and cuts it",
+       define<FlyingSawDefinition>},
       {"ideal_axis", "an axis without mass: voltage is speed, exactly", define<IdealAxisDefinition>},
       {"linear_axis", "a carriage on a ball screw or belt with servo, end stops and switches",
        define<LinearAxisDefinition>},
       {"rotary_knife", "a servo-driven drum with blades that cuts the running web",
        define<RotaryKnifeDefinition>},
+      {"vertical_press", "a ram under its weight on a screw, switched by inverter or contactors, with brake",
+       define<VerticalPressDefinition>},
       {"web", "the material: line drive, measuring wheel, cut pieces on an outfeed belt",
        define<WebDefinition>},
   };

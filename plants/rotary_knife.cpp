@@ -31,11 +31,11 @@ RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
       web_(web),
       radius_(data.circumference / turn),
       rotor_(world.add_shaft({.name = "knife motor",
-                              .inertia = data.servo.rotor_inertia,
+                              .inertia = data.drive.servo.rotor_inertia,
                               .revolutions = data.initial_angle / turn * data.gear.ratio})),
       drum_(world.add_shaft(
           {.name = "knife drum", .inertia = data.drum_inertia, .revolutions = data.initial_angle / turn})),
-      servo_(data.servo, world.random("servo")),
+      servo_(data.drive, rotor_, world.random("servo")),
       gear_(data.gear),
       encoder_(data.encoder, data.encoder_on_drum ? drum_.revolutions() : rotor_.revolutions(),
                world.random("encoder")),
@@ -56,6 +56,8 @@ void RotaryKnife::drive(double h) {
 
 void RotaryKnife::sense(double h) {
   gear_.sense(rotor_, drum_, h);
+  servo_.sense(rotor_);
+  if (auto trip = servo_.trip(rotor_)) happened(std::move(*trip));
   encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_);
   home_.sense(drum_.part_before, drum_.part, h);
   const Cutter::Outcome outcome = cutter_.sense(drum_, web_.material(), h);
@@ -79,16 +81,16 @@ void RotaryKnife::report(const Cutter::Outcome& outcome) {
 }
 
 std::vector<Port> RotaryKnife::ports() {
-  return {{"encoder", &encoder_.pulses.port, "incremental encoder of the knife"},
-          {"encoder.index", &encoder_.index, "its index pulse, once a turn"},
-          {"servo.reference", &servo_.reference, "speed reference, +-10 V"},
-          {"servo.enable", &servo_.enable, "enable of the amplifier; strapped high unless wired"},
-          {"home", &home_.port, "home switch on the drum"}};
+  std::vector<Port> ports = {{"encoder", &encoder_.pulses.port, "incremental encoder of the knife"},
+                             {"encoder.index", &encoder_.index, "its index pulse, once a turn"},
+                             {"home", &home_.port, "home switch on the drum"}};
+  servo_.offer_ports(ports);
+  return ports;
 }
 
 std::vector<Channel> RotaryKnife::channels() {
   const auto blade_speed = [this] { return drum_.speed * radius_; };
-  return {
+  std::vector<Channel> channels = {
       {"angle", "deg", [this] { return drum_.part * 360; },
        "drum angle within a turn, 0 = blade 1 at the cut"},
       {"angle.total", "deg", [this] { return drum_.revolutions() * 360; }, "drum angle over all turns"},
@@ -109,15 +111,6 @@ std::vector<Channel> RotaryKnife::channels() {
       {"cut.force", "N", [this] { return cutter_.force(); }, "vertical force on the blade"},
       {"cut.number", "", [this] { return static_cast<double>(cuts_); }, "cuts since the start"},
       {"motor.speed", "rpm", [this] { return rotor_.speed * rpm; }, "speed of the motor"},
-      {"motor.torque", "N m", [this] { return servo_.torque(); }, "torque of the motor"},
-      {"motor.utilisation", "%", [this] { return servo_.utilisation() * 100; },
-       "motor torque over rated torque"},
-      {"servo.reference", "V", [this] { return servo_.volts(); },
-       "speed reference as the amplifier reads it"},
-      {"servo.set_speed", "rpm", [this] { return servo_.speed_reference() * rpm; },
-       "speed reference after offset, drift and filter"},
-      {"servo.saturated", "", [this] { return servo_.saturated() ? 1.0 : 0.0; },
-       "1 while the torque limit acts"},
       {"gear.torque", "N m", [this] { return gear_.torque(); }, "torque of the gear on the drum"},
       {"gear.twist", "deg", [this] { return gear_.twist() * degrees; },
        "twist between motor and drum, at the drum"},
@@ -125,6 +118,8 @@ std::vector<Channel> RotaryKnife::channels() {
        "count of the encoder (x4), after faults"},
       {"home", "", [this] { return home_.port.level ? 1.0 : 0.0; }, "home switch"},
   };
+  servo_.offer_channels(channels);
+  return channels;
 }
 
 std::vector<EventType> RotaryKnife::event_types() {
@@ -134,12 +129,13 @@ std::vector<EventType> RotaryKnife::event_types() {
        "a blade went through the web at bottom dead centre: length of the piece, largest speed mismatch in "
        "the web, largest vertical force, number since the start"},
       {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
-      {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"}};
+      {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"},
+      ServoAxis::trip_event()};
 }
 
 std::vector<Fault> RotaryKnife::faults() {
   std::vector<Fault> faults;
-  servo_.offer_faults(faults, "servo");
+  servo_.offer_faults(faults);
   encoder_.pulses.offer_faults(faults, "encoder");
   home_.offer_faults(faults, "home");
   return faults;

@@ -5,7 +5,7 @@
 #include "plants/encoder.hpp"
 #include "plants/plant.hpp"
 #include "plants/position_switch.hpp"
-#include "plants/servo_drive.hpp"
+#include "plants/servo_axis.hpp"
 #include "plants/transmission.hpp"
 #include "plants/web.hpp"
 
@@ -22,7 +22,7 @@ struct RotaryKnifeData {
   double coupling = 2000;       ///< horizontal force between blade and web per speed mismatch [N s/m]
   double grip = 500;            ///< largest horizontal force [N]
   double mismatch_limit = 0.1;  ///< speed mismatch at which the web tears or buckles [m/s]
-  ServoData servo;
+  ServoAxisData drive;
   TransmissionData gear;
   Friction motor_friction = {0.1, 0.0005, 0, 0};
   Friction drum_friction = {2, 0.1, 0, 0};
@@ -37,8 +37,8 @@ struct RotaryKnifeData {
 ///
 /// Events: `cut` (length, mismatch, force, number) when a blade reaches bottom dead centre; `tear` and
 /// `buckle` (mismatch) when blade and web differ by more than mismatch_limit while the blade is in the web,
-/// once per engagement. The first cut, number 1, is as long as the web beyond the cut at the start plus its
-/// travel.
+/// once per engagement; `following_error` of a servo that takes pulses. The first cut, number 1, is as long
+/// as the web beyond the cut at the start plus its travel.
 class RotaryKnife : public Plant {
  public:
   RotaryKnife(const RotaryKnifeData& data, World& world, Web& web);
@@ -65,7 +65,7 @@ class RotaryKnife : public Plant {
   double radius_;
   Shaft& rotor_;
   Shaft& drum_;
-  ServoDrive servo_;
+  ServoAxis servo_;
   Transmission gear_;
   Encoder encoder_;
   PositionSwitch home_;
@@ -80,6 +80,7 @@ class RotaryKnifeDefinition : public PlantDefinition {
   RotaryKnifeData data;
   Parameters parameters() override;
   std::vector<Objection> objections() override;
+  std::vector<Objection> objections_with(const FindDefinition& find) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };
 

@@ -63,7 +63,7 @@ Parameters RotaryKnifeDefinition::parameters() {
       row("drum_friction.viscous", "N m s/rad", "viscous friction of the drum", &data.drum_friction.viscous,
           0, 1e4, "estimate"),
   };
-  for (Parameter& p : servo_parameters(data.servo, "servo.")) table.push_back(std::move(p));
+  for (Parameter& p : servo_axis_parameters(data.drive)) table.push_back(std::move(p));
   for (Parameter& p : transmission_parameters(data.gear, "gear.")) table.push_back(std::move(p));
   return table;
 }
@@ -71,7 +71,7 @@ Parameters RotaryKnifeDefinition::parameters() {
 std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections() {
   std::vector<Objection> found;
   const double usual_step = 100e-6;
-  const double jm = data.servo.rotor_inertia;
+  const double jm = data.drive.servo.rotor_inertia;
   if (!stable(data.gear, jm, data.drum_inertia, usual_step))
     found.push_back(
         {"gear.stiffness",
@@ -89,17 +89,41 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections() {
   };
   viscous("motor_friction.viscous", data.motor_friction, jm);
   viscous("drum_friction.viscous", data.drum_friction, data.drum_inertia);
-  if (data.servo.max_speed < data.servo.rated_speed)
-    found.push_back({"servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed"});
-  if (data.servo.peak_torque < data.servo.rated_torque)
-    found.push_back({"servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque"});
-  if (data.servo.torque_at_max_speed > data.servo.peak_torque)
-    found.push_back(
-        {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
+  for (Objection& o : servo_axis_objections(data.drive)) found.push_back(std::move(o));
   if (data.home.width + 2 * data.home.hysteresis >= 2 * std::numbers::pi)
     found.push_back({"home.width", "target and hysteresis cover the whole turn: the switch never lets go",
                      "a narrower target"});
   return found;
+}
+
+namespace {
+
+// What keeps the knife from cutting this web.
+std::vector<PlantDefinition::Objection> objections_to(const WebData& web, const RotaryKnifeData& knife) {
+  if (web.cross_section().tube)
+    return {{"web", fmt::format("a rotary knife cuts no tube, and {} is one", knife.web),
+             "a web of 'section: strip', or a flying_saw"}};
+  std::vector<PlantDefinition::Objection> found;
+  const double radius = knife.circumference / (2 * std::numbers::pi);
+  const double pitch = 2 * std::numbers::pi / knife.blade_count;
+  if (web.thickness >= radius)
+    found.push_back({"circumference",
+                     fmt::format("the web of {:g} mm is thicker than the radius of {:g} mm",
+                                 web.thickness * 1000, radius * 1000),
+                     "a larger circumference or a thinner web"});
+  else if (2 * engagement_angle(radius, web.thickness) >= pitch)
+    found.push_back({"blade_count",
+                     fmt::format("with {} blades two are in the web of {:g} mm at once", knife.blade_count,
+                                 web.thickness * 1000),
+                     "fewer blades, a larger circumference or a thinner web"});
+  return found;
+}
+
+}  // namespace
+
+std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections_with(const FindDefinition& find) {
+  const auto* web = dynamic_cast<WebDefinition*>(find(data.web));
+  return web != nullptr ? objections_to(web->data, data) : std::vector<Objection>();
 }
 
 std::unique_ptr<Plant> RotaryKnifeDefinition::build(World& world,
@@ -108,18 +132,8 @@ std::unique_ptr<Plant> RotaryKnifeDefinition::build(World& world,
   if (web == nullptr)
     throw std::invalid_argument(
         fmt::format("web: '{}' is no plant of type web; name one that stands before this one", data.web));
-  const double radius = data.circumference / (2 * std::numbers::pi);
-  const double pitch = 2 * std::numbers::pi / data.blade_count;
-  if (web->data().thickness >= radius)
-    throw std::invalid_argument(
-        fmt::format("circumference: the web of {:g} mm is thicker than the radius of {:g} mm; "
-                    "a larger circumference or a thinner web",
-                    web->data().thickness * 1000, radius * 1000));
-  if (2 * engagement_angle(radius, web->data().thickness) >= pitch)
-    throw std::invalid_argument(
-        fmt::format("blade_count: with {} blades two are in the web of {:g} mm at once; fewer "
-                    "blades, a larger circumference or a thinner web",
-                    data.blade_count, web->data().thickness * 1000));
+  for (const Objection& o : objections_to(web->data(), data))
+    throw std::invalid_argument(fmt::format("{}: {}; {}", o.parameter, o.what, o.remedy));
   return std::make_unique<RotaryKnife>(data, world, *web);
 }
 

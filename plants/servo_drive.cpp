@@ -43,6 +43,11 @@ double ServoDrive::speed_loop(double speed, double h) {
   return command;
 }
 
+void ServoDrive::give(double command, Shaft& rotor) {
+  torque_ += (command - torque_) * lag_share_;
+  rotor.add_torque(torque_);
+}
+
 void ServoDrive::drive(Shaft& rotor, double h) {
   if (h != h_) prepare(h);
   faults_.drifted += faults_.drift * h;
@@ -50,19 +55,24 @@ void ServoDrive::drive(Shaft& rotor, double h) {
   input += data_.offset + faults_.offset + faults_.drifted;
   if (faults_.noise > 0) input += faults_.noise * random_.gaussian();
   converted_ = convert(input);
+  if (!enabled()) return coast(rotor, h);
+  filtered_ += (converted_ * speed_per_volt_ - filtered_) * filter_share_;
+  give(speed_loop(rotor.speed, h), rotor);
+}
 
-  double command = 0;
-  if (enable.level && !faults_.disabled) {
-    filtered_ += (converted_ * speed_per_volt_ - filtered_) * filter_share_;
-    command = speed_loop(rotor.speed, h);
-  } else {
-    // Without enable the motor coasts; the loop starts from its speed when enable returns.
-    filtered_ = rotor.speed;
-    integral_ = 0;
-    saturated_ = false;
-  }
-  torque_ += (command - torque_) * lag_share_;
-  rotor.add_torque(torque_);
+void ServoDrive::follow(double speed_reference, Shaft& rotor, double h) {
+  if (h != h_) prepare(h);
+  if (!enabled()) return coast(rotor, h);
+  filtered_ = speed_reference;
+  give(speed_loop(rotor.speed, h), rotor);
+}
+
+void ServoDrive::coast(Shaft& rotor, double h) {
+  if (h != h_) prepare(h);
+  filtered_ = rotor.speed;
+  integral_ = 0;
+  saturated_ = false;
+  give(0, rotor);
 }
 
 void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& component) {
@@ -83,6 +93,11 @@ void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& com
                       faults_.stuck = v != 0;
                     },
                     "1: the reference stays as it is now"});
+  offer_power_faults(faults, component);
+}
+
+void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::string& component) {
+  Faults& f = faults_;
   faults.push_back({component, "disabled", "", [&f](double v) { f.disabled = v != 0; },
                     "1: the amplifier trips, the motor coasts"});
   faults.push_back({component, "torque_limit", "N m", [&f](double v) { f.torque_limit = std::abs(v); },

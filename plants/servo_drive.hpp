@@ -48,7 +48,13 @@ class ServoDrive {
 
   /// One step of the amplifier: torque on the rotor for the coming step of `h` seconds.
   void drive(Shaft& rotor, double h);
+  /// The same with the speed reference of a position loop [rad/s]: neither analogue input nor its filter.
+  void follow(double speed_reference, Shaft& rotor, double h);
+  /// The same without a torque command: the motor coasts, and the loop starts from its speed afterwards.
+  void coast(Shaft& rotor, double h);
 
+  /// The amplifier drives the motor: enabled and not tripped.
+  [[nodiscard]] bool enabled() const { return enable.level && !faults_.disabled; }
   [[nodiscard]] double torque() const { return torque_; }             ///< on the rotor [N m]
   [[nodiscard]] double speed_reference() const { return filtered_; }  ///< after the filter [rad/s]
   [[nodiscard]] double volts() const { return converted_; }           ///< as converted [V]
@@ -57,11 +63,14 @@ class ServoDrive {
 
   /// Faults for a plant's list, under the component name `component`. A value of 0 clears each of them.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
+  /// Those of them that do not need the analogue input.
+  void offer_power_faults(std::vector<Fault>& faults, const std::string& component);
 
  private:
   void prepare(double h);
   [[nodiscard]] double convert(double volts) const;
   [[nodiscard]] double speed_loop(double speed, double h);
+  void give(double command, Shaft& rotor);
 
   ServoData data_;
   Random random_;

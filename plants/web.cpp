@@ -16,7 +16,7 @@ Web::Web(const WebData& data, World& world)
       material_(world.add_slide({.name = "web", .mass = data.mass, .speed = data.drive.speed})),
       drive_(data.drive),
       wheel_(data.wheel, world.random("wheel")),
-      outfeed_(data.outfeed, data.thickness * data.width * data.density, world),
+      outfeed_(data.outfeed, section_area(data.cross_section()) * data.density, world),
       lead_end_(-data.lead) {}
 
 void Web::drive(double h) {
@@ -29,14 +29,19 @@ void Web::sense(double h) {
   wheel_.sense(material_.position_before, material_.position);
 }
 
-double Web::separate(double fraction) {
-  const double travel = within_step(material_.position_before, material_.position, material_.speed_before,
-                                    material_.speed, h_, fraction);
-  const double length = travel - lead_end_;
-  lead_end_ = travel;
+double Web::travel(double fraction) const {
+  return within_step(material_.position_before, material_.position, material_.speed_before, material_.speed,
+                     h_, fraction);
+}
+
+double Web::separate(double fraction) { return separate(fraction, travel(fraction)); }
+
+double Web::separate(double fraction, double mark) {
+  const double length = mark - lead_end_;
+  lead_end_ = mark;
   ++pieces_;
   // A web that stands or has run back leaves nothing that a belt could carry.
-  if (length > 0) outfeed_.add(length, material_.speed, fraction, h_);
+  if (length > 0) outfeed_.add(travel(fraction) - mark, length, material_.speed, fraction, h_);
   return length;
 }
 
@@ -82,8 +87,16 @@ Parameters WebDefinition::parameters() {
   Parameters table = {
       row("speed", "m/min", "line speed at the start; the web already runs at it", &data.drive.speed, 0, 1000,
           "a usual speed of a cut-to-length line"),
-      row("thickness", "mm", "thickness of the web", &data.thickness, 0.01, 100, "solid board"),
-      row("width", "mm", "width of the web", &data.width, 1, 10000, "a narrow line"),
+      {.name = "section",
+       .unit = "",
+       .meaning = "what the material is: a flat strip or a round tube",
+       .value = &data.section,
+       .choices = {"strip", "tube"},
+       .source = "solid board"},
+      row("thickness", "mm", "thickness of the strip, or of the tube's wall", &data.thickness, 0.01, 100,
+          "solid board"),
+      row("width", "mm", "width of the strip, or outer diameter of the tube", &data.width, 1, 10000,
+          "a narrow line"),
       row("density", "kg/m3", "density of the material", &data.density, 1, 20000, "solid board"),
       row("shear_strength", "MPa", "shear resistance of the material, mean over the length of the blade",
           &data.shear_strength, 0, 2000, "estimate: solid board, blade with a slight helix"),
@@ -120,6 +133,11 @@ std::vector<PlantDefinition::Objection> WebDefinition::objections() {
                      fmt::format("{:g} N s/m on {:g} kg settles faster than steps of 1 ms can follow",
                                  data.drive.damping, data.mass),
                      fmt::format("at most {:g} N s/m, or more mass", 2000 * data.mass)});
+  if (data.section == "tube" && 2 * data.thickness > data.width)
+    found.push_back(
+        {"thickness",
+         fmt::format("a tube of {:g} mm has no wall of {:g} mm", data.width * 1000, data.thickness * 1000),
+         fmt::format("at most {:g} mm", data.width * 500)});
   return found;
 }
 

@@ -3,24 +3,30 @@
 #include "plants/measuring_wheel.hpp"
 #include "plants/outfeed.hpp"
 #include "plants/plant.hpp"
+#include "plants/section.hpp"
 
 namespace drycut::plants {
 
 /// Parameters of `type: web`.
 struct WebData {
-  double thickness = 1e-3;      ///< [m]
-  double width = 0.3;           ///< [m]
-  double density = 700;         ///< [kg/m3]
-  double shear_strength = 5e6;  ///< mean over the blade's length [Pa]
+  std::string section = "strip";  ///< strip, tube
+  double thickness = 1e-3;        ///< of the strip or of the tube's wall [m]
+  double width = 0.3;             ///< of the strip; outer diameter of the tube [m]
+  double density = 700;           ///< [kg/m3]
+  double shear_strength = 5e6;    ///< mean over the blade's length [Pa]
   double mass = 20;  ///< of what moves with the web: strip between the stands and driven rolls [kg]
   double lead = 0;   ///< web beyond the cut at the start [m]
   LineDriveData drive;
   MeasuringWheelData wheel;
   OutfeedData outfeed;
+
+  [[nodiscard]] Section cross_section() const { return {width, thickness, section == "tube"}; }
 };
 
-/// The web: material that a line drive pulls past a measuring wheel and a cut to an outfeed belt. Along the
-/// line x, the cut at x = 0. What cuts it acts on `material` and calls separate().
+/// The web, strip or tube: material that a line drive pulls past a measuring wheel and a cut to an outfeed
+/// belt. Along the line x; a fixed cut is at x = 0. What cuts it acts on `material` and calls separate().
+///
+/// A place on the material is named by its mark: the travel of the web at which it passes x = 0.
 class Web : public Plant {
  public:
   Web(const WebData& data, World& world);
@@ -40,6 +46,10 @@ class Web : public Plant {
   /// Cuts the web off at x = 0 at `fraction` of the last step; the piece goes to the outfeed belt. Returns
   /// its length [m]: the travel since the last cut, of the first piece since the lead end.
   double separate(double fraction);
+  /// The same at the place `mark`, for a cut that travels.
+  double separate(double fraction, double mark);
+  /// Travel since the start at `fraction` of the last step [m].
+  [[nodiscard]] double travel(double fraction) const;
 
  private:
   WebData data_;
@@ -48,7 +58,7 @@ class Web : public Plant {
   MeasuringWheel wheel_;
   Outfeed outfeed_;
   double h_ = 0;     // of the last step [s]
-  double lead_end_;  // travel at which the present lead end passed x = 0 [m]
+  double lead_end_;  // mark of the present lead end [m]
   int pieces_ = 0;
 };
 

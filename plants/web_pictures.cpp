@@ -27,15 +27,28 @@ constexpr std::array<float, 3> mark_colour = {0.85F, 0.87F, 0.88F};
 
 using Shape = Part::Shape;
 
+/// How high the material looks [m].
+double look_of(const WebData& data) { return std::max(section_height(data.cross_section()), least_look); }
+/// Width of rolls, tables and belt [m]: a tube needs more than its own.
+double machine_width(const WebData& data) {
+  return data.cross_section().tube ? std::max(4 * data.width, 0.16) : data.width;
+}
+
 }  // namespace
 
 std::vector<Part> Web::parts() {
-  const double w = data_.width;
-  const double look = std::max(data_.thickness, least_look);
+  const double w = machine_width(data_);
+  const double look = look_of(data_);
   const double belt = data_.outfeed.length;
   const double wheel = data_.wheel.circumference / std::numbers::pi;
+  const bool tube = data_.cross_section().tube;
+  // Of a length of 1 m: poses scale it.
+  const auto material = [&](const std::string& name) {
+    return tube ? Part{name, Shape::cylinder, {look, look, 1}, web_colour, "web"}
+                : Part{name, Shape::box, {1, look, w}, web_colour, "web"};
+  };
   std::vector<Part> parts = {
-      {"web", Shape::box, {1, look, w}, web_colour, "web"},
+      material("web"),
       {"upper pull roll", Shape::cylinder, {roll_diameter, roll_diameter, w * 1.15}, rubber, "rubber"},
       {"lower pull roll", Shape::cylinder, {roll_diameter, roll_diameter, w * 1.15}, steel, "steel"},
       {"pull roll mark", Shape::box, {0.012, 0.05, 0.006}, mark_colour, "paint"},
@@ -56,32 +69,39 @@ std::vector<Part> Web::parts() {
   for (int i = 0; i < cleats; ++i)
     parts.push_back(
         {fmt::format("belt mark {}", i + 1), Shape::box, {0.02, 0.004, w * 1.15}, mark_colour, "paint"});
-  for (int i = 0; i < Outfeed::pool_size; ++i)
-    parts.push_back({fmt::format("piece {}", i + 1), Shape::box, {1, look, w}, web_colour, "web"});
+  for (int i = 0; i < Outfeed::pool_size; ++i) parts.push_back(material(fmt::format("piece {}", i + 1)));
   return parts;
 }
 
 void Web::poses(std::vector<PartPose>& out) {
-  const double look = std::max(data_.thickness, least_look);
+  const double look = look_of(data_);
+  const bool tube = data_.cross_section().tube;
+  // A cylinder's axis is z: a tube is turned into the line.
+  const double half = std::sqrt(0.5);
+  const auto material = [&](double middle, double length) {
+    PartPose pose = {.pose = turned(middle, look / 2, 0, 0), .scale = {length, 1, 1}};
+    if (tube) pose = {.pose = {{middle, look / 2, 0}, {0, half, 0, half}}, .scale = {1, 1, length}};
+    return pose;
+  };
   const double lead = std::max(0.0, material_.position - lead_end_);
   const double belt = data_.outfeed.length;
   const double belt_x = data_.outfeed.start;
   const double wheel_radius = data_.wheel.circumference / (2 * std::numbers::pi);
   const double wheel_angle = 2 * std::numbers::pi * (wheel_.revolutions() - std::floor(wheel_.revolutions()));
   const double roll_angle = std::fmod(material_.position / (roll_diameter / 2), 2 * std::numbers::pi);
-  const double near_side = data_.width / 2;
+  const double near_side = machine_width(data_) / 2;
   const double leg_y = floor_y + 0.375;
   const auto at = [](double x, double y, double z = 0) { return PartPose{.pose = turned(x, y, z, 0)}; };
 
   out.clear();
-  out.push_back({.pose = turned((lead - upstream) / 2, look / 2, 0, 0), .scale = {upstream + lead, 1, 1}});
+  out.push_back(material((lead - upstream) / 2, upstream + lead));
   const double upper_y = look + roll_diameter / 2;
   out.push_back({.pose = turned(pull_x, upper_y, 0, roll_angle)});
   out.push_back({.pose = turned(pull_x, -roll_diameter / 2, 0, -roll_angle)});
   out.push_back({.pose = turned(pull_x - 0.035 * std::sin(roll_angle), upper_y + 0.035 * std::cos(roll_angle),
                                 near_side * 1.15 + 0.003, roll_angle)});
   const double wheel_y = look + wheel_radius;
-  const double wheel_z = near_side * 0.8;
+  const double wheel_z = tube ? 0 : near_side * 0.8;
   out.push_back({.pose = turned(wheel_x, wheel_y, wheel_z, wheel_angle)});
   out.push_back(
       {.pose = turned(wheel_x - wheel_radius * 0.55 * std::sin(wheel_angle),
@@ -99,10 +119,10 @@ void Web::poses(std::vector<PartPose>& out) {
   out.push_back(at(belt_x + belt - 0.3, leg_y));
   for (int i = 0; i < cleats; ++i)
     out.push_back(at(belt_x + std::fmod(outfeed_.belt_travel() + belt * i / cleats, belt), -0.002));
-  for (const Outfeed::Piece& piece : outfeed_.pieces())
-    out.push_back({.pose = turned(piece.body->position, look / 2, 0, 0),
-                   .visible = piece.body->awake,
-                   .scale = {std::max(piece.length, 1e-3), 1, 1}});
+  for (const Outfeed::Piece& piece : outfeed_.pieces()) {
+    out.push_back(material(piece.body->position, std::max(piece.length, 1e-3)));
+    out.back().visible = piece.body->awake;
+  }
 }
 
 }  // namespace drycut::plants

@@ -207,6 +207,19 @@ Slide& World::add_slide(const SlideDefinition& definition) {
   return s.state;
 }
 
+void World::set_mass(Slide& slide, double mass) {
+  assert(mass > 0);
+  for (auto* list : {&bodies_->world.slides, &bodies_->world.slow_slides})
+    for (SlideBody& s : *list) {
+      if (&s.state != &slide) continue;
+      s.weight *= mass / s.state.mass;
+      s.state.mass = mass;
+      s.body->setMassProps(mass, btVector3(0, 0, 0));
+      return;
+    }
+  throw std::invalid_argument("World::set_mass: a slide of another world");
+}
+
 void World::step(double h) {
   if (!failure_.empty()) return;
   GuidedWorld& world = bodies_->world;

@@ -85,6 +85,9 @@ class World {
   Shaft& add_shaft(const ShaftDefinition& definition);
   Slide& add_slide(const SlideDefinition& definition);
 
+  /// Gives a body of this world another mass [kg], > 0: a load is put on or taken off. It keeps its speed.
+  void set_mass(Slide& slide, double mass);
+
   /// Moves all bodies by `h` seconds, the same in every call. Does not allocate. After a failure nothing
   /// moves.
   void step(double h);

@@ -200,8 +200,8 @@ TEST(BacklashAxis, TheEncoderOnTheMotorSeesTheGapTheScaleDoesNot) {
 TEST(BacklashAxis, SwitchesSeeTheLoadAfterTheirDelay) {
   auto definition = frictionless();
   definition.flanks.gap = 0.1;  // the motor does not follow
-  definition.axis.data.home.delay = 20e-3;
-  definition.axis.data.limit_delay = 10e-3;
+  definition.axis.data.sensors.home.delay = 20e-3;
+  definition.axis.data.sensors.limit_delay = 10e-3;
   for (const bool upward : {false, true}) {
     definition.axis.data.start = upward ? 1.0 : 0.04;
     Unit unit(definition);

@@ -61,8 +61,9 @@ LinearAxisDefinition frictionless() {
 
 double inertia_at_carriage(const LinearAxisData& data) {
   const double per_metre = turn / data.lead * data.gear.ratio;
-  return data.mass + (data.servo.rotor_inertia + data.screw_inertia / (data.gear.ratio * data.gear.ratio)) *
-                         per_metre * per_metre;
+  return data.mass +
+         (data.drive.servo.rotor_inertia + data.screw_inertia / (data.gear.ratio * data.gear.ratio)) *
+             per_metre * per_metre;
 }
 
 TEST(LinearAxis, FreeMotionKeepsItsSpeed) {
@@ -142,7 +143,7 @@ TEST(LinearAxis, OscillatesAtTheTwoMassResonance) {
   const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
   const auto& data = definition.data;
   const double load = data.mass * std::pow(data.lead / turn, 2);
-  const double motor = data.servo.rotor_inertia + data.screw_inertia;
+  const double motor = data.drive.servo.rotor_inertia + data.screw_inertia;
   EXPECT_NEAR(turn / period / std::sqrt(1000 * (1 / motor + 1 / load)), 1, 1e-3);
 }
 
@@ -316,9 +317,10 @@ TEST(LinearAxis, WhatCannotBeBuiltIsRefused) {
               ElementsAre("carriage_friction.viscous"));
   EXPECT_THAT(objections([](LinearAxisData& d) { d.travel_max = -1; }), ElementsAre("travel_max"));
   EXPECT_THAT(objections([](LinearAxisData& d) { d.start = 2; }), ElementsAre("start"));
-  EXPECT_THAT(objections([](LinearAxisData& d) { d.limit_max = -1; }), ElementsAre("limit_max"));
-  EXPECT_THAT(objections([](LinearAxisData& d) { d.servo.max_speed = 1; }), ElementsAre("servo.max_speed"));
-  EXPECT_THAT(objections([](LinearAxisData& d) { d.servo.peak_torque = 1; }),
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.sensors.limit_max = -1; }), ElementsAre("limit_max"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.drive.servo.max_speed = 1; }),
+              ElementsAre("servo.max_speed"));
+  EXPECT_THAT(objections([](LinearAxisData& d) { d.drive.servo.peak_torque = 1; }),
               ElementsAre("servo.peak_torque", "servo.torque_at_max_speed"));
 }
 

@@ -105,8 +105,8 @@ TEST(RotaryKnife, StandingBladeStopsAtTheMaterialWithTooLittleTorque) {
   RotaryKnifeDefinition definition;
   definition.data.coupling = 0;
   definition.data.initial_angle = -0.1;  // in the web
-  definition.data.servo.peak_torque = 1;
-  definition.data.servo.rated_torque = 0.5;
+  definition.data.drive.servo.peak_torque = 1;
+  definition.data.drive.servo.rated_torque = 0.5;
   WebDefinition web;
   web.data.shear_strength = 50e6;
   KnifeLine line(definition, web);
@@ -290,11 +290,11 @@ TEST(RotaryKnife, ObjectsToParametersThatDoNotGoTogether) {
               ElementsAre("drum_friction.viscous"));
   EXPECT_THAT(objections([](RotaryKnifeData& d) { d.motor_friction.viscous = 90; }),
               ElementsAre("motor_friction.viscous"));
-  EXPECT_THAT(objections([](RotaryKnifeData& d) { d.servo.max_speed = 100; }),
+  EXPECT_THAT(objections([](RotaryKnifeData& d) { d.drive.servo.max_speed = 100; }),
               ElementsAre("servo.max_speed"));
-  EXPECT_THAT(objections([](RotaryKnifeData& d) { d.servo.rated_torque = 30; }),
+  EXPECT_THAT(objections([](RotaryKnifeData& d) { d.drive.servo.rated_torque = 30; }),
               ElementsAre("servo.peak_torque"));
-  EXPECT_THAT(objections([](RotaryKnifeData& d) { d.servo.torque_at_max_speed = 30; }),
+  EXPECT_THAT(objections([](RotaryKnifeData& d) { d.drive.servo.torque_at_max_speed = 30; }),
               ElementsAre("servo.torque_at_max_speed"));
   EXPECT_THAT(objections([](RotaryKnifeData& d) { d.home.width = 6.28; }), ElementsAre("home.width"));
 }

@@ -1,0 +1,227 @@
+#include "plants/axis_drive.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double rpm = 30 / std::numbers::pi;  // rad/s -> rpm
+
+std::variant<ServoDrive, Inverter, ContactorDrive> chosen(const AxisDriveData& data, Random noise) {
+  if (data.kind == "inverter") return Inverter(data.inverter, data.motor);
+  if (data.kind == "contactors") return ContactorDrive(data.contactors, data.motor);
+  return ServoDrive(data.servo, noise);
+}
+
+double state_number(Inverter::State state) {
+  switch (state) {
+    case Inverter::State::off:
+      return 0;
+    case Inverter::State::running:
+      return 1;
+    case Inverter::State::tripped:
+      return 3;
+    default:
+      return 2;
+  }
+}
+double state_number(ContactorDrive::State state) {
+  return state == ContactorDrive::State::tripped ? 3 : state == ContactorDrive::State::running ? 1 : 0;
+}
+
+void offer(const ServoDrive& servo, std::vector<Channel>& channels) {
+  channels.push_back({"servo.reference", "V", [&servo] { return servo.volts(); },
+                      "speed reference as the amplifier reads it"});
+  channels.push_back({"servo.set_speed", "rpm", [&servo] { return servo.speed_reference() * rpm; },
+                      "speed reference after offset, drift and filter"});
+  channels.push_back({"servo.saturated", "", [&servo] { return servo.saturated() ? 1.0 : 0.0; },
+                      "1 while the torque limit acts"});
+}
+
+// Inverter and contactors look alike from outside: one scene may try either.
+template <class Drive>
+void offer(const Drive& drive, std::vector<Channel>& channels) {
+  channels.push_back({"drive.state", "", [&drive] { return state_number(drive.state()); },
+                      "0 off, 1 runs, 2 stops or holds, 3 has tripped"});
+  channels.push_back({"drive.frequency", "Hz", [&drive] { return drive.frequency(); },
+                      "frequency at the motor, negative backwards"});
+  channels.push_back({"drive.field_speed", "rpm", [&drive] { return drive.field_speed() * rpm; },
+                      "speed of the motor's field"});
+  channels.push_back({"drive.slip", "rpm", [&drive] { return drive.slip() * rpm; }, "field less rotor"});
+  channels.push_back({"drive.forward", "", [&drive] { return drive.forward_on() ? 1.0 : 0.0; },
+                      "contactor forward, or the input after its filter"});
+  channels.push_back({"drive.backward", "", [&drive] { return drive.backward_on() ? 1.0 : 0.0; },
+                      "contactor backward, or the input after its filter"});
+  channels.push_back({"drive.slow", "", [&drive] { return drive.slow_on() ? 1.0 : 0.0; },
+                      "contactor slow, or the input after its filter"});
+}
+
+void offer(ServoDrive& servo, std::vector<Port>& ports) {
+  ports.push_back({"servo.reference", &servo.reference, "speed reference, +-10 V"});
+  ports.push_back({"servo.enable", &servo.enable, "enable of the amplifier; strapped high unless wired"});
+}
+
+template <class Drive>
+void offer(Drive& drive, std::vector<Port>& ports) {
+  ports.push_back({"drive.forward", &drive.forward, "inverter's input or contactor for positive motion"});
+  ports.push_back({"drive.backward", &drive.backward, "for negative motion"});
+  ports.push_back({"drive.slow", &drive.slow, "slow speed instead of fast; moves nothing alone"});
+}
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
+}  // namespace
+
+AxisDrive::AxisDrive(const AxisDriveData& data, Random noise)
+    : data_(data), drive_(chosen(data, noise)), brake_(data.brake) {}
+
+void AxisDrive::drive(Shaft& rotor, double h) {
+  bool tripped = false;
+  moves_ = std::visit(Overloaded{[&](ServoDrive& servo) {
+                                   servo.drive(rotor, h);
+                                   return servo.enabled();
+                                 },
+                                 [&](auto& drive) {
+                                   drive.drive(rotor, h);
+                                   using Drive = std::decay_t<decltype(drive)>;
+                                   tripped = drive.state() == Drive::State::tripped;
+                                   return drive.moving();
+                                 }},
+                      drive_);
+  just_tripped_ = tripped && !tripped_;
+  tripped_ = tripped;
+  brake_.update(moves_, h);
+}
+
+double AxisDrive::torque() const {
+  return std::visit([](const auto& drive) { return drive.torque(); }, drive_);
+}
+
+double AxisDrive::rated_torque() const {
+  return data_.kind == "servo" ? data_.servo.rated_torque : data_.motor.winding.rated_torque;
+}
+
+void AxisDrive::offer_ports(std::vector<Port>& ports) {
+  std::visit([&ports](auto& drive) { offer(drive, ports); }, drive_);
+  if (data_.brake.torque > 0)
+    ports.push_back({"brake.release", &brake_.release,
+                     "releases the brake, with the drive unless brake.control says otherwise; strapped high "
+                     "unless wired"});
+}
+
+void AxisDrive::offer_channels(std::vector<Channel>& channels) const {
+  channels.push_back({"motor.torque", "N m", [this] { return torque(); }, "torque of the motor"});
+  channels.push_back({"motor.utilisation", "%", [this] { return std::abs(torque()) / rated_torque() * 100; },
+                      "motor torque over rated torque"});
+  std::visit([&channels](const auto& drive) { offer(drive, channels); }, drive_);
+  if (data_.brake.torque > 0)
+    channels.push_back(
+        {"brake.engaged", "", [this] { return brake_.released() ? 0.0 : 1.0; }, "1 while the brake holds"});
+}
+
+void AxisDrive::offer_faults(std::vector<Fault>& faults) {
+  std::visit(Overloaded{[&faults](ServoDrive& servo) { servo.offer_faults(faults, "servo"); },
+                        [&faults](auto& drive) { drive.offer_faults(faults); }},
+             drive_);
+  if (data_.brake.torque > 0) brake_.offer_faults(faults);
+}
+
+EventType AxisDrive::trip_event() {
+  return {"trip",
+          {{"speed", "rpm"}},
+          "inverter or breaker has switched the motor off: both contactors closed, a phase lost behind the "
+          "inverter, the fault trip; speed of the motor then"};
+}
+
+Parameters axis_drive_parameters(AxisDriveData& data) {
+  Parameters table = {{.name = "drive",
+                       .unit = "",
+                       .meaning = "what drives the axis: servo by voltage; inverter or contactors with plugs "
+                                  "drive.forward, drive.backward, drive.slow",
+                       .value = &data.kind,
+                       .choices = {"servo", "inverter", "contactors"},
+                       .source = "positioning by voltage"}};
+  const auto append = [&table](Parameters rows) {
+    for (Parameter& p : rows) table.push_back(std::move(p));
+  };
+  append(servo_parameters(data.servo, "servo."));
+  append(induction_motor_parameters(data.motor, "induction_motor."));
+  append(inverter_parameters(data.inverter, "inverter."));
+  append(contactor_parameters(data.contactors, "contactors."));
+  append(holding_brake_parameters(data.brake, "brake."));
+  return table;
+}
+
+namespace {
+
+using Objections = std::vector<PlantDefinition::Objection>;
+
+void object_to_servo(const ServoData& servo, Objections& found) {
+  if (servo.max_speed < servo.rated_speed)
+    found.push_back({"servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed"});
+  if (servo.peak_torque < servo.rated_torque)
+    found.push_back({"servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque"});
+  if (servo.torque_at_max_speed > servo.peak_torque)
+    found.push_back(
+        {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
+}
+
+void object_to_winding(const WindingData& data, const std::string& prefix, double inertia, double step,
+                       Objections& found) {
+  if (data.rated_speed >= data.synchronous_speed) {
+    found.push_back({prefix + "rated_speed", "it is not below synchronous_speed: no torque without slip",
+                     "less than synchronous_speed"});
+    return;
+  }
+  if (data.pullout_torque < 1.05 * data.rated_torque) {
+    found.push_back(
+        {prefix + "pullout_torque", "it is not above rated_torque", "1.6 to 3 times rated_torque"});
+    return;
+  }
+  // The curve is steepest at no slip; explicit steps follow a time constant longer than a step.
+  const double steepness = 2 * data.pullout_torque / Winding(data).pullout_slip();
+  if (steepness * step > inertia)
+    found.push_back(
+        {prefix + "rated_speed",
+         fmt::format("{:.4g} N m s/rad of torque over slip pull the rotor faster than steps of 100 "
+                     "us can follow",
+                     steepness),
+         "more slip at rated torque or more inertia"});
+}
+
+}  // namespace
+
+Objections axis_drive_objections(const AxisDriveData& data, double inertia, double usual_step) {
+  Objections found;
+  if (data.kind == "servo") {
+    object_to_servo(data.servo, found);
+    return found;
+  }
+  object_to_winding(data.motor.winding, "induction_motor.", inertia, usual_step, found);
+  if (data.kind == "contactors") {
+    object_to_winding(data.contactors.slow, "contactors.slow.", inertia, usual_step, found);
+    return found;
+  }
+  const auto frequency = [&](const char* name, double hertz) {
+    if (hertz > data.motor.rated_frequency)
+      found.push_back({name,
+                       fmt::format("{:g} Hz is above the rated frequency: the flux would weaken", hertz),
+                       fmt::format("at most {:g} Hz", data.motor.rated_frequency)});
+  };
+  frequency("inverter.fast", data.inverter.fast);
+  frequency("inverter.slow", data.inverter.slow);
+  if (data.inverter.torque_limit > data.motor.winding.pullout_torque)
+    found.push_back({"inverter.torque_limit", "it is above induction_motor.pullout_torque",
+                     fmt::format("at most {:g} N m", data.motor.winding.pullout_torque)});
+  return found;
+}
+
+}  // namespace drycut::plants

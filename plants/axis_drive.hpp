@@ -1,0 +1,66 @@
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "plants/contactor_drive.hpp"
+#include "plants/holding_brake.hpp"
+#include "plants/inverter.hpp"
+#include "plants/servo_drive.hpp"
+
+namespace drycut::plants {
+
+/// The motor of an axis with what feeds and what holds it.
+struct AxisDriveData {
+  std::string kind = "servo";  ///< servo, inverter, contactors
+  ServoData servo = {};
+  InductionMotorData motor = {};  ///< of inverter and contactors
+  InverterData inverter = {};
+  ContactorData contactors = {};
+  HoldingBrakeData brake = {};
+
+  [[nodiscard]] double rotor_inertia() const {  ///< of the motor that is chosen [kg m2]
+    return kind == "servo" ? servo.rotor_inertia : motor.rotor_inertia;
+  }
+};
+
+/// Rows for a parameter table: `drive`, `servo.`, `induction_motor.`, `inverter.`, `contactors.`, `brake.`.
+Parameters axis_drive_parameters(AxisDriveData& data);
+/// What is wrong with the data taken together; `usual_step` [s], `inertia` that turns with the motor [kg m2].
+std::vector<PlantDefinition::Objection> axis_drive_objections(const AxisDriveData& data, double inertia,
+                                                              double usual_step);
+
+class AxisDrive {
+ public:
+  AxisDrive(const AxisDriveData& data, Random noise);
+
+  /// Torque of the motor for the coming step of `h` seconds, and the brake's command. The brake itself is dry
+  /// friction of brake_torque() that the plant applies with the other friction.
+  void drive(Shaft& rotor, double h);
+
+  [[nodiscard]] double torque() const;  ///< of the motor [N m]
+  [[nodiscard]] double brake_torque() const { return brake_.torque(); }
+  [[nodiscard]] const HoldingBrake& brake() const { return brake_; }
+  /// Neither the drive moves the motor nor may the brake be open.
+  [[nodiscard]] bool at_rest() const { return !moves_ && brake_.commanded_to_hold(); }
+  /// True once when the drive has tripped in the last step.
+  [[nodiscard]] bool just_tripped() const { return just_tripped_; }
+
+  // What it adds to a plant's lists.
+  void offer_ports(std::vector<Port>& ports);
+  void offer_channels(std::vector<Channel>& channels) const;
+  void offer_faults(std::vector<Fault>& faults);
+  static EventType trip_event();
+
+ private:
+  [[nodiscard]] double rated_torque() const;
+
+  AxisDriveData data_;
+  std::variant<ServoDrive, Inverter, ContactorDrive> drive_;
+  HoldingBrake brake_;
+  bool moves_ = false;
+  bool tripped_ = false;
+  bool just_tripped_ = false;
+};
+
+}  // namespace drycut::plants

@@ -1,0 +1,67 @@
+#include "plants/contactor_drive.hpp"
+
+namespace drycut::plants {
+
+ContactorDrive::ContactorDrive(const ContactorData& data, const InductionMotorData& motor)
+    : fast_(motor.winding),
+      slow_winding_(data.slow),
+      mains_(motor.rated_frequency),
+      forward_contact_(data.close_delay, data.open_delay),
+      backward_contact_(data.close_delay, data.open_delay),
+      slow_contact_(data.close_delay, data.open_delay) {}
+
+void ContactorDrive::drive(Shaft& rotor, double h) {
+  const bool forwards = forward_contact_.update(forward.level, h);
+  const bool backwards = backward_contact_.update(backward.level, h);
+  const Winding& winding = slow_contact_.update(slow.level, h) ? slow_winding_ : fast_;
+  if (forwards && backwards)
+    state_ = State::tripped;
+  else if (state_ != State::tripped)
+    state_ = forwards || backwards ? State::running : State::off;
+
+  field_ = slip_ = torque_ = 0;
+  if (state_ == State::running) {
+    field_ = forwards ? winding.data().synchronous_speed : -winding.data().synchronous_speed;
+    slip_ = field_ - rotor.speed;
+    torque_ = phase_lost_ ? winding.single_phase_torque(field_, rotor.speed) : winding.torque(slip_);
+  }
+  rotor.add_torque(torque_);
+}
+
+void ContactorDrive::offer_faults(std::vector<Fault>& faults) {
+  faults.push_back({"drive", "trip", "", [this](double v) { state_ = v != 0 ? State::tripped : State::off; },
+                    "1: the motor's breaker trips, the motor coasts; 0 resets it"});
+  faults.push_back({"drive", "phase_lost", "", [this](double v) { phase_lost_ = v != 0; },
+                    "1: a phase is lost: less torque, none at standstill"});
+  forward_contact_.offer_faults(faults, "drive.forward");
+  backward_contact_.offer_faults(faults, "drive.backward");
+  slow_contact_.offer_faults(faults, "drive.slow");
+}
+
+Parameters contactor_parameters(ContactorData& data, const std::string& prefix) {
+  Parameters table = {
+      {prefix + "close_delay",
+       "ms",
+       "from coil on to contacts closed",
+       &data.close_delay,
+       0,
+       1000,
+       {},
+       {},
+       "usual: contactors of the 2 kW class"},
+      {prefix + "open_delay",
+       "ms",
+       "from coil off to the end of the arc",
+       &data.open_delay,
+       0,
+       1000,
+       {},
+       {},
+       "usual: contactors of the 2 kW class"},
+  };
+  for (Parameter& row : winding_parameters(data.slow, prefix + "slow.", "usual values: 4/16 poles, wound to brake well"))
+    table.push_back(std::move(row));
+  return table;
+}
+
+}  // namespace drycut::plants

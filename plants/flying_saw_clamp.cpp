@@ -1,0 +1,56 @@
+#include "plants/flying_saw_clamp.hpp"
+
+namespace drycut::plants {
+
+void Clamp::move_jaws(double h) {
+  const double time = command.level ? data_.close_time : data_.open_time;
+  const double change = time > 0 ? h / time : 1;
+  stroke_ = std::clamp(stroke_ + (command.level ? change : -change), 0.0, 1.0);
+  // A hair of rounding must not cost a step.
+  constexpr double hair = 1e-9;
+  const bool before = closed_;
+  closed_ = closed_ ? stroke_ > hair : stroke_ > 1 - hair;
+  closed.edge_count = 0;
+  if (closed_ == before) return;
+  closed.level = closed_;
+  closed.add_edge(closed_, 0);
+  slip_ = 0;
+}
+
+void Clamp::drive(Slide& carriage, Slide& material, double h) {
+  move_jaws(h);
+  const double reduced = carriage.mass * material.mass / (carriage.mass + material.mass);
+  const double difference = carriage.speed + carriage.force * h / carriage.mass - material.speed -
+                            material.force * h / material.mass;
+  const double most = limit();
+  friction_ = most > 0 ? std::clamp(-difference * reduced / h, -most, most) : 0;
+  carriage.add_force(friction_);
+  material.add_force(-friction_);
+}
+
+void Clamp::sense(const Slide& carriage, const Slide& material, double h) {
+  if (closed_) slip_ += (carriage.speed - material.speed) * h;
+}
+
+void Clamp::offer_faults(std::vector<Fault>& faults, const std::string& component) {
+  faults.push_back({component, "force_loss", "%", [this](double v) { lost_ = std::clamp(v, 0.0, 1.0); },
+                    "share of the clamping force that is missing: a leak, oil on the jaws"});
+}
+
+Parameters clamp_parameters(ClampData& data, const std::string& prefix) {
+  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
+                             double min, double max, std::string_view source) {
+    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
+  };
+  return {
+      row("force", "N", "force of a jaw on the material", &data.force, 0, 1e6, "cylinder of 125 mm at 5 bar"),
+      row("friction", "", "Coulomb friction coefficient, jaw on material", &data.friction, 0, 2,
+          "estimate: steel on steel, dry"),
+      row("close_time", "ms", "from the command until the jaws grip", &data.close_time, 0, 10000,
+          "estimate: short stroke"),
+      row("open_time", "ms", "from the end of the command until they let go", &data.open_time, 0, 10000,
+          "estimate: venting"),
+  };
+}
+
+}  // namespace drycut::plants

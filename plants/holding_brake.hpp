@@ -1,0 +1,55 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "plants/delayed_contact.hpp"
+
+namespace drycut::plants {
+
+/// A spring-applied brake on the motor's shaft.
+struct HoldingBrakeData {
+  double torque = 0;              ///< [N m], 0 = no brake
+  double release_delay = 60e-3;   ///< from command to no torque left [s]
+  double engage_delay = 40e-3;    ///< from command to full torque [s]
+  std::string control = "drive";  ///< what releases it: drive, output
+};
+
+/// Rows for a parameter table; `prefix` ends with a dot: "brake.".
+Parameters holding_brake_parameters(HoldingBrakeData& data, const std::string& prefix);
+
+/// The brake is released while its command is on and, under control of the drive, the drive moves the motor:
+/// a brake coil fed from the motor's terminals or by the drive's own brake relay. It acts as dry friction: it
+/// holds up to its torque and slips above it.
+class HoldingBrake {
+ public:
+  explicit HoldingBrake(const HoldingBrakeData& data)
+      : data_(data), contact_(data.release_delay, data.engage_delay) {
+    release.level = true;
+  }
+
+  CommandPort release;  ///< high unless something is wired to it (strapped in the cabinet)
+
+  /// Follows the commands at the start of a step of `h` seconds.
+  void update(bool drive_moves, double h) {
+    holds_ = !(release.level && (drive_moves || data_.control == "output"));
+    contact_.update(!holds_, h);
+  }
+
+  /// Largest torque that it holds now [N m].
+  [[nodiscard]] double torque() const { return released() ? 0 : data_.torque * (1 - worn_); }
+  [[nodiscard]] bool released() const { return (contact_.closed() && !stuck_closed_) || stuck_open_; }
+  [[nodiscard]] bool commanded_to_hold() const { return holds_; }
+
+  /// Faults for a plant's list, under "brake".
+  void offer_faults(std::vector<Fault>& faults);
+
+ private:
+  HoldingBrakeData data_;
+  DelayedContact contact_;  // closed = released
+  bool holds_ = true;
+  bool stuck_open_ = false;
+  bool stuck_closed_ = false;
+  double worn_ = 0;  // share of the torque that is lost
+};
+
+}  // namespace drycut::plants

@@ -1,0 +1,53 @@
+#pragma once
+#include <numbers>
+#include <string>
+
+#include "plants/parameters.hpp"
+
+namespace drycut::plants {
+
+/// One winding of a three-phase induction motor, as on its data sheet.
+struct WindingData {
+  double synchronous_speed = 1500 * std::numbers::pi / 30;  ///< of the field at rated frequency [rad/s]
+  double rated_speed = 1420 * std::numbers::pi / 30;        ///< at rated torque [rad/s]
+  double rated_torque = 14.8;                               ///< [N m]
+  double pullout_torque = 40;                               ///< largest of the torque curve [N m]
+};
+
+/// A motor of 2.2 kW, 4 poles.
+struct InductionMotorData {
+  double rotor_inertia = 5e-3;  ///< [kg m2]
+  double rated_frequency = 50;  ///< of the mains [Hz]
+  WindingData winding;
+};
+
+/// Rows for a parameter table; `prefix` ends with a dot: "induction_motor.".
+Parameters winding_parameters(WindingData& data, const std::string& prefix, std::string_view source);
+Parameters induction_motor_parameters(InductionMotorData& data, const std::string& prefix);
+
+/// The torque curve of a winding at full flux after Kloss: pull-out torque at the pull-out slip, which
+/// follows from the rated point. Slip is the speed of the field less that of the rotor [rad/s]. No electrical
+/// transients.
+class Winding {
+ public:
+  explicit Winding(const WindingData& data);
+
+  [[nodiscard]] double torque(double slip) const {
+    const double x = slip / pullout_slip_;
+    return 2 * data_.pullout_torque * x / (1 + x * x);
+  }
+  /// Torque with one phase lost, when field and counter-field of half the power are left: none at standstill.
+  [[nodiscard]] double single_phase_torque(double field, double speed) const {
+    return 0.5 * (torque(field - speed) + torque(-field - speed));
+  }
+  /// Slip for a torque on the stable branch; of the pull-out torque for more than that.
+  [[nodiscard]] double slip(double torque) const;
+  [[nodiscard]] double pullout_slip() const { return pullout_slip_; }
+  [[nodiscard]] const WindingData& data() const { return data_; }
+
+ private:
+  WindingData data_;
+  double pullout_slip_;
+};
+
+}  // namespace drycut::plants

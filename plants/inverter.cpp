@@ -1,0 +1,139 @@
+#include "plants/inverter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drycut::plants {
+
+Inverter::Inverter(const InverterData& data, const InductionMotorData& motor)
+    : data_(data),
+      winding_(motor.winding),
+      speed_per_hertz_(motor.winding.synchronous_speed / motor.rated_frequency),
+      rated_field_(motor.winding.synchronous_speed),
+      forward_filter_(data.input_filter, data.input_filter),
+      backward_filter_(data.input_filter, data.input_filter),
+      slow_filter_(data.input_filter, data.input_filter),
+      limit_slip_(winding_.slip(data.torque_limit)) {}
+
+void Inverter::ramp(double target, double h) {
+  if (field_ * target < 0) {  // a reversal goes down to 0 first and takes its second ramp from there
+    const double to_zero = std::abs(field_) / rated_field_ * data_.deceleration;
+    if (to_zero > h) {
+      target = 0;
+    } else {
+      field_ = 0;
+      h -= to_zero;
+    }
+  }
+  const double time = std::abs(target) < std::abs(field_) ? data_.deceleration : data_.acceleration;
+  const double most = rated_field_ / time * h;
+  field_ += std::clamp(target - field_, -most, most);
+}
+
+// What the inverter does in the coming step, with the frequency that it gives.
+void Inverter::advance(int direction, double h) {
+  const bool was_off = state_ == State::off || state_ == State::dc_braking;
+  if (direction != 0) {
+    if (was_off) field_ = 0;
+    state_ = State::running;
+  } else if (state_ == State::running) {
+    state_ = data_.stop == "ramp" ? State::stopping : data_.stop == "coast" ? State::off : State::dc_braking;
+    remaining_ = data_.dc_brake_time;
+  }
+  switch (state_) {
+    case State::running:
+      ramp(direction * (slow_on() ? data_.slow : data_.fast) * speed_per_hertz_, h);
+      break;
+    case State::stopping:
+      ramp(0, h);
+      if (field_ != 0) break;
+      state_ = State::holding;
+      remaining_ = data_.hold_time;
+      break;
+    case State::holding:
+    case State::dc_braking:
+      if (remaining_ < h / 2) state_ = State::off;
+      remaining_ -= h;
+      break;
+    case State::off:
+    case State::tripped:
+      break;
+  }
+}
+
+void Inverter::drive(Shaft& rotor, double h) {
+  const int forwards = forward_filter_.update(forward.level, h) ? 1 : 0;
+  const int backwards = backward_filter_.update(backward.level, h) ? 1 : 0;
+  slow_filter_.update(slow.level, h);
+  if (phase_lost_ && moving()) trip_ = true;
+  if (trip_) state_ = State::tripped;
+  if (state_ != State::tripped) advance(forwards - backwards, h);
+
+  limited_ = false;
+  slip_ = torque_ = 0;
+  if (moving() || state_ == State::holding) {
+    const double wanted = field_ - rotor.speed;
+    slip_ = std::clamp(wanted, -limit_slip_, limit_slip_);
+    limited_ = slip_ != wanted;
+    if (limited_) field_ = rotor.speed + slip_;
+    torque_ = winding_.torque(slip_);
+  } else {
+    field_ = 0;
+    if (state_ == State::dc_braking) {
+      const double x = rotor.speed / winding_.pullout_slip();
+      torque_ = -2 * data_.dc_brake_torque * x / (1 + x * x);
+    }
+  }
+  rotor.add_torque(torque_);
+}
+
+void Inverter::offer_faults(std::vector<Fault>& faults) {
+  faults.push_back({"drive", "trip", "",
+                    [this](double v) {
+                      trip_ = v != 0;
+                      if (!trip_ && state_ == State::tripped) state_ = State::off;
+                    },
+                    "1: the drive switches itself off, the motor coasts; 0 resets it"});
+  faults.push_back({"drive", "torque_limit", "N m",
+                    [this](double v) {
+                      limit_slip_ = winding_.slip(v != 0 ? std::min(std::abs(v), data_.torque_limit)
+                                                         : data_.torque_limit);
+                    },
+                    "the torque is limited to this; 0 takes the limit away"});
+  faults.push_back({"drive", "phase_lost", "", [this](double v) { phase_lost_ = v != 0; },
+                    "1: a phase of the motor is interrupted: the drive trips when it runs"});
+  forward_filter_.offer_faults(faults, "drive.forward");
+  backward_filter_.offer_faults(faults, "drive.backward");
+  slow_filter_.offer_faults(faults, "drive.slow");
+}
+
+Parameters inverter_parameters(InverterData& data, const std::string& prefix) {
+  const auto row = [&](const char* name, std::string_view unit, std::string_view meaning, double& value,
+                       double min, double max, std::string_view source) {
+    return Parameter{prefix + name, unit, meaning, &value, min, max, {}, {}, source};
+  };
+  return {
+      row("fast", "Hz", "output frequency; at most the motor's rated frequency", data.fast, 0.1, 400,
+          "rated frequency"),
+      row("slow", "Hz", "output frequency while the input slow is on", data.slow, 0.1, 400, "a tenth"),
+      row("acceleration", "s", "ramp from 0 to rated frequency", data.acceleration, 1e-3, 100, "estimate"),
+      row("deceleration", "s", "ramp from rated frequency to 0", data.deceleration, 1e-3, 100, "estimate"),
+      row("torque_limit", "N m", "driving and braking; the frequency follows the rotor there",
+          data.torque_limit, 1e-3, 1e5, "150 % of the default motor"),
+      row("input_filter", "ms", "of the inputs forward, backward, slow", data.input_filter, 0, 1000,
+          "usual: scan of the inputs"),
+      {.name = prefix + "stop",
+       .unit = "",
+       .meaning = "when neither direction is on: ramp to 0 and hold, coast, or DC brake",
+       .value = &data.stop,
+       .choices = {"ramp", "coast", "dc_brake"},
+       .source = "usual setting"},
+      row("hold_time", "ms", "at 0 Hz after a ramp, while the brake engages", data.hold_time, 0, 10000,
+          "estimate: longer than the brake takes"),
+      row("dc_brake_torque", "N m", "largest torque of the DC brake, at the motor's pull-out slip",
+          data.dc_brake_torque, 0, 1e5, "estimate: rated torque"),
+      row("dc_brake_time", "ms", "duration of the DC brake", data.dc_brake_time, 0, 60000, "estimate"),
+  };
+}
+
+}  // namespace drycut::plants

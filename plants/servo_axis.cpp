@@ -1,0 +1,118 @@
+#include "plants/servo_axis.hpp"
+
+#include <numbers>
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double rpm = 30 / std::numbers::pi;  // rad/s -> rpm
+
+}  // namespace
+
+ServoAxis::ServoAxis(const ServoAxisData& data, const Shaft& rotor, Random noise)
+    : amplifier_(data.servo, noise) {
+  if (data.kind == "pulses") pulses_.emplace(data.pulses, amplifier_, rotor);
+}
+
+void ServoAxis::drive(Shaft& rotor, double h) {
+  if (pulses_)
+    pulses_->drive(rotor, h);
+  else
+    amplifier_.drive(rotor, h);
+}
+
+void ServoAxis::sense(const Shaft& rotor) {
+  if (pulses_) pulses_->sense(rotor);
+}
+
+std::optional<Event> ServoAxis::trip(const Shaft& rotor) const {
+  if (!pulses_ || !pulses_->just_tripped()) return {};
+  return Event{
+      "following_error", 1, {{"turns", pulses_->trip_turns(), ""}, {"speed", rotor.speed * rpm, "rpm"}}};
+}
+
+EventType ServoAxis::trip_event() {
+  return {"following_error",
+          {{"turns", ""}, {"speed", "rpm"}},
+          "the drive's position loop has tripped: its deviation in turns of the motor, speed of the motor; "
+          "the motor coasts until reset"};
+}
+
+void ServoAxis::offer_ports(std::vector<Port>& ports) {
+  ports.push_back(
+      {"servo.enable", &amplifier_.enable, "enable of the amplifier; strapped high unless wired"});
+  if (!pulses_) {
+    ports.push_back({"servo.reference", &amplifier_.reference, "speed reference, +-10 V"});
+    return;
+  }
+  ports.push_back({"servo.pulses", &pulses_->pulses, "pulse train: position reference"});
+  ports.push_back({"servo.direction", &pulses_->direction, "direction of the pulses, on = forward"});
+  ports.push_back({"servo.reset", &pulses_->reset, "its rising edge clears the alarm"});
+  ports.push_back({"servo.in_position", &pulses_->in_position, "on while the deviation is within its range"});
+  ports.push_back({"servo.alarm", &pulses_->alarm, "on after a trip by following error, until reset"});
+}
+
+void ServoAxis::offer_channels(std::vector<Channel>& channels) const {
+  channels.push_back({"motor.torque", "N m", [this] { return amplifier_.torque(); }, "torque of the motor"});
+  channels.push_back({"motor.utilisation", "%", [this] { return amplifier_.utilisation() * 100; },
+                      "motor torque over rated torque"});
+  if (pulses_) {
+    channels.push_back({"servo.reference", "", [this] { return pulses_->reference(); },
+                        "position reference: net pulses since the start"});
+    channels.push_back({"servo.deviation", "", [this] { return pulses_->deviation(); },
+                        "position reference less motor position, in pulses"});
+    channels.push_back({"servo.in_position", "", [this] { return pulses_->in_position.level ? 1.0 : 0.0; },
+                        "1 while the deviation is within its range"});
+    channels.push_back({"servo.alarm", "", [this] { return pulses_->alarm.level ? 1.0 : 0.0; },
+                        "1 after a trip by following error"});
+  } else {
+    channels.push_back({"servo.reference", "V", [this] { return amplifier_.volts(); },
+                        "speed reference as the amplifier reads it"});
+  }
+  channels.push_back(
+      {"servo.set_speed", "rpm", [this] { return amplifier_.speed_reference() * rpm; },
+       pulses_ ? "speed that the position loop asks for" : "speed reference after offset, drift and filter"});
+  channels.push_back({"servo.saturated", "", [this] { return amplifier_.saturated() ? 1.0 : 0.0; },
+                      "1 while the torque limit acts"});
+}
+
+void ServoAxis::offer_faults(std::vector<Fault>& faults) {
+  if (!pulses_) {
+    amplifier_.offer_faults(faults, "servo");
+    return;
+  }
+  amplifier_.offer_power_faults(faults, "servo");
+  pulses_->offer_faults(faults, "servo");
+}
+
+Parameters servo_axis_parameters(ServoAxisData& data) {
+  Parameters table = {{.name = "drive",
+                       .unit = "",
+                       .meaning = "what the servo follows: servo = a speed reference by voltage; pulses = a "
+                                  "pulse train, with plugs servo.pulses, servo.direction (on = forward), "
+                                  "servo.reset, servo.in_position, servo.alarm",
+                       .value = &data.kind,
+                       .choices = {"servo", "pulses"},
+                       .source = "positioning by voltage"}};
+  const auto append = [&table](Parameters rows) {
+    for (Parameter& p : rows) table.push_back(std::move(p));
+  };
+  append(servo_parameters(data.servo, "servo."));
+  append(pulse_servo_parameters(data.pulses, "servo.pulses."));
+  return table;
+}
+
+std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data) {
+  std::vector<PlantDefinition::Objection> found;
+  if (data.servo.max_speed < data.servo.rated_speed)
+    found.push_back({"servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed"});
+  if (data.servo.peak_torque < data.servo.rated_torque)
+    found.push_back({"servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque"});
+  if (data.servo.torque_at_max_speed > data.servo.peak_torque)
+    found.push_back(
+        {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
+  return found;
+}
+
+}  // namespace drycut::plants

@@ -1,0 +1,54 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plants/pulse_servo.hpp"
+#include "plants/servo_drive.hpp"
+
+namespace drycut::plants {
+
+/// The servo of a machine that runs under either kind of controller: one with analogue outputs or one that
+/// gives pulse trains.
+struct ServoAxisData {
+  std::string kind = "servo";  ///< servo: speed reference +-10 V; pulses: pulse train and position loop
+  ServoData servo = {};
+  PulseServoData pulses = {};
+};
+
+/// Rows for a parameter table: `drive`, `servo.`, `servo.pulses.`.
+Parameters servo_axis_parameters(ServoAxisData& data);
+/// What is wrong with the data taken together.
+std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data);
+
+/// Event: `following_error` (turns, speed) when a position loop has tripped.
+class ServoAxis {
+ public:
+  /// `rotor` at its start, where the position reference of a pulse train is 0.
+  ServoAxis(const ServoAxisData& data, const Shaft& rotor, Random noise);
+  // Its parts know each other.
+  ServoAxis(const ServoAxis&) = delete;
+  ServoAxis& operator=(const ServoAxis&) = delete;
+
+  /// Torque on the rotor for the coming step of `h` seconds.
+  void drive(Shaft& rotor, double h);
+  /// Outputs after the step.
+  void sense(const Shaft& rotor);
+
+  [[nodiscard]] const ServoDrive& amplifier() const { return amplifier_; }
+  [[nodiscard]] const std::optional<PulseServo>& pulses() const { return pulses_; }  ///< where it takes them
+
+  // What it adds to a plant's lists.
+  void offer_ports(std::vector<Port>& ports);
+  void offer_channels(std::vector<Channel>& channels) const;
+  void offer_faults(std::vector<Fault>& faults);
+  static EventType trip_event();
+  /// The trip of the last step, if there was one.
+  [[nodiscard]] std::optional<Event> trip(const Shaft& rotor) const;
+
+ private:
+  ServoDrive amplifier_;
+  std::optional<PulseServo> pulses_;
+};
+
+}  // namespace drycut::plants

@@ -1,0 +1,146 @@
+#include <fmt/format.h>
+
+#include "plants/vertical_press.hpp"
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double usual_step = 100e-6;  // [s]
+constexpr double turn = 2 * std::numbers::pi;
+
+Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
+              double max, std::string_view source) {
+  return Parameter{name, unit, meaning, &value, min, max, {}, {}, source};
+}
+
+Parameters mechanics(VerticalPressData& data) {
+  return {
+      row("mass", "kg", "mass of the ram with its tool", data.mass, 1e-3, 1e6, "a small screw press"),
+      row("load", "kg", "what the ram carries besides, at the start", data.load, 0, 1e6, "none"),
+      row("counterbalance", "N", "constant force upwards: cylinder or gas spring", data.counterbalance, 0,
+          1e7, "estimate: a third of the weight"),
+      row("lead", "mm", "travel for one turn of the screw, or of a rack's pinion", data.lead, 0.1, 5000,
+          "ball screw 40 x 10"),
+      row("screw_inertia", "kg m2", "inertia of screw or pinion", data.screw_inertia, 0, 100,
+          "steel screw, 40 mm by 0.8 m"),
+      row("efficiency", "", "of screw or rack while the motor drives the ram", data.efficiency, 0.05, 1,
+          "usual: ball screw 0.9, trapezoidal screw 0.35"),
+      row("back_efficiency", "", "while the ram drives the motor; 0 or less: self-locking",
+          data.back_efficiency, -20, 1, "estimate: ball screw 0.8; 2 - 1/efficiency for even friction"),
+      row("start", "mm", "height at the start; encoder and scale count 0 there", data.start, -1e6, 1e6,
+          "middle of the stroke"),
+      row("travel_min", "mm", "where the lower end stop begins", data.travel_min, -1e6, 1e6,
+          "10 mm below the stroke"),
+      row("travel_max", "mm", "where the upper end stop begins", data.travel_max, -1e6, 1e6,
+          "10 mm above a stroke of 600 mm"),
+      row("stop.stiffness", "N/m", "stiffness of an end stop", data.stop.stiffness, 1, 1e10,
+          "estimate: steel on hard rubber"),
+      row("stop.damping", "N s/m", "damping of an end stop", data.stop.damping, 0, 1e8,
+          "estimate: a third of critical for ram and motor"),
+      row("workpiece.height", "mm", "height at which the tool meets the workpiece", data.workpiece_height,
+          -1e6, 1e6, "a part of 50 mm"),
+      row("workpiece.stiffness", "N/m", "of the workpiece, 0 = none is there", data.workpiece.stiffness, 0,
+          1e10, "none"),
+      row("workpiece.damping", "N s/m", "of the workpiece", data.workpiece.damping, 0, 1e8, "none"),
+      row("motor_friction.coulomb", "N m", "dry friction of motor and screw bearings",
+          data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque"),
+      row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor, its fan",
+          data.motor_friction.viscous, 0, 100, "estimate"),
+      row("ram_friction.coulomb", "N", "dry friction of the ram's guides", data.ram_friction.coulomb, 0, 1e6,
+          "estimate: four guide bushes"),
+      row("ram_friction.viscous", "N s/m", "viscous friction of the guides", data.ram_friction.viscous, 0,
+          1e6, "estimate"),
+      row("ram_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
+          data.ram_friction.breakaway, 0, 1e6, "none: set it to study stick-slip"),
+      row("ram_friction.stribeck_speed", "mm/s", "speed at which 1/e of it is left",
+          data.ram_friction.stribeck_speed, 1e-3, 1e5, "estimate"),
+  };
+}
+
+Parameters looks(VerticalPressData& data) {
+  return {
+      row("place.x", "mm", "picture: middle of the table along the line", data.place_x, -1e5, 1e5,
+          "at the cut"),
+      row("place.y", "mm", "picture: height of the table over the web", data.place_y, -900, 1e5,
+          "height of the web"),
+      row("place.z", "mm", "picture: across the line, towards the operator", data.place_z, -1e5, 1e5,
+          "middle of the line"),
+  };
+}
+
+double motor_inertia(const VerticalPressData& data) {
+  return data.drive.rotor_inertia() + data.screw_inertia / (data.gear.ratio * data.gear.ratio);
+}
+
+}  // namespace
+
+Parameters VerticalPressDefinition::parameters() {
+  Parameters table = mechanics(data);
+  const auto append = [&table](Parameters rows) {
+    for (Parameter& p : rows) table.push_back(std::move(p));
+  };
+  append(axis_drive_parameters(data.drive));
+  append(transmission_parameters(data.gear, "gear."));
+  append(axis_transducer_parameters(data.sensors));
+  append(looks(data));
+  for (Parameter& p : table) {
+    if (p.name == "drive") p.source = "a press that is positioned on/off";
+    if (p.name == "brake.torque") p.source = "1.7 times rated torque";
+    if (p.name == "gear.ratio") p.source = "motor on the screw";
+    if (p.name == "gear.stiffness") p.source = "estimate: 100 N/um of screw, nut and bearings, lead 10 mm";
+    if (p.name == "scale.resolution") p.source = "a usual scale of a press";
+    if (p.name == "home.position") p.source = "in the upper part of the stroke";
+    if (p.name == "limit_min" || p.name == "limit_max") p.source = "10 mm before the stop";
+  }
+  return table;
+}
+
+std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections() {
+  std::vector<Objection> found;
+  const auto object = [&found](const char* name, std::string what, std::string remedy) {
+    found.push_back({name, std::move(what), std::move(remedy)});
+  };
+  const double metre = data.lead / turn;
+  const double load = data.mass * metre * metre;
+  if (!stable(data.gear, motor_inertia(data), load, usual_step))
+    object("gear.stiffness",
+           fmt::format("motor and ram oscillate at {:.0f} Hz, or are damped so hard that steps of 100 us "
+                       "cannot follow",
+                       resonance(data.gear, motor_inertia(data), load) / turn),
+           "a softer drive, less damping or more mass");
+  const auto contact = [&](const char* name, const EndStopData& stop, const char* what) {
+    if (stop.stiffness * usual_step * usual_step + 2 * stop.damping * usual_step >= 4 * data.mass)
+      object(name, fmt::format("the ram bounces off the {} faster than steps of 100 us can follow", what),
+             "softer, less damping or more mass");
+  };
+  contact("stop.stiffness", data.stop, "end stop");
+  contact("workpiece.stiffness", data.workpiece, "workpiece");
+  const auto viscous = [&](const char* name, const Friction& friction, double inertia, const char* unit) {
+    if (friction.viscous * usual_step > inertia)
+      object(name,
+             fmt::format("{:g} {} brakes faster than steps of 100 us can follow", friction.viscous, unit),
+             fmt::format("at most {:g} {}", inertia / usual_step, unit));
+  };
+  viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
+  viscous("ram_friction.viscous", data.ram_friction, data.mass, "N s/m");
+  if (data.travel_max <= data.travel_min)
+    object("travel_max", "it is not above travel_min", "leave room between the end stops");
+  else if (data.start < data.travel_min || data.start > data.travel_max)
+    object("start", fmt::format("the ram starts at {:g} mm, in an end stop", data.start * 1000),
+           fmt::format("between {:g} and {:g} mm", data.travel_min * 1000, data.travel_max * 1000));
+  if (data.sensors.limit_max <= data.sensors.limit_min)
+    object("limit_max", "it is not above limit_min", "leave room between the limit switches");
+  if (data.workpiece.stiffness > 0 && data.start < data.workpiece_height)
+    object("workpiece.height", "the ram starts in the workpiece", "below start");
+  for (Objection& objection : axis_drive_objections(data.drive, motor_inertia(data), usual_step))
+    found.push_back(std::move(objection));
+  return found;
+}
+
+std::unique_ptr<Plant> VerticalPressDefinition::build(World& world,
+                                                      const std::function<Plant*(std::string_view)>&) {
+  return std::make_unique<VerticalPress>(data, world);
+}
+
+}  // namespace drycut::plants

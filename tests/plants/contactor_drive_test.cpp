@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/plants/drive_stand.hpp"
+
+namespace drycut::plants {
+namespace {
+
+TEST(DelayedContact, FollowsToTheStepAndSwallowsShortCommands) {
+  DelayedContact contact(20e-3, 15e-3);
+  const auto steps_until = [&](bool command, bool wanted) {
+    int n = 0;
+    while (contact.update(command, h) != wanted) ++n;
+    return n;
+  };
+  EXPECT_EQ(steps_until(true, true), 200);
+  EXPECT_EQ(steps_until(false, false), 150);
+  for (int i = 0; i < 199; ++i) EXPECT_FALSE(contact.update(true, h));
+  for (int i = 0; i < 500; ++i) EXPECT_FALSE(contact.update(false, h));
+  EXPECT_EQ(steps_until(true, true), 200);  // the swallowed command has left nothing behind
+  DelayedContact immediate(0, 0);
+  EXPECT_TRUE(immediate.update(true, h));
+  EXPECT_FALSE(immediate.update(false, h));
+}
+
+TEST(DelayedContact, StuckContacts) {
+  DelayedContact contact(0, 0);
+  std::vector<Fault> faults;
+  contact.offer_faults(faults, "k");
+  fault(faults, "k", "stuck_on", 1);
+  EXPECT_TRUE(contact.update(false, h));
+  fault(faults, "k", "stuck_on", 0);
+  EXPECT_FALSE(contact.update(false, h));
+  fault(faults, "k", "stuck_off", 1);
+  EXPECT_FALSE(contact.update(true, h));
+  fault(faults, "k", "stuck_off", 0);
+  EXPECT_TRUE(contact.update(true, h));
+}
+
+TEST(Winding, PassesThroughItsDataSheet) {
+  const WindingData data;
+  const Winding winding(data);
+  EXPECT_NEAR(winding.torque(sync - data.rated_speed), data.rated_torque, 1e-9);
+  EXPECT_NEAR(winding.torque(winding.pullout_slip()), data.pullout_torque, 1e-9);
+  EXPECT_NEAR(winding.torque(sync), kloss(data, sync), 1e-9);  // at standstill
+  for (const double torque : {-39.0, -5.0, 0.0, 1.0, 14.8, 40.0})
+    EXPECT_NEAR(winding.torque(winding.slip(torque)), torque, 1e-9);
+  EXPECT_EQ(winding.slip(100), winding.pullout_slip());
+  EXPECT_EQ(winding.single_phase_torque(sync, 0), 0);
+  const double slip = sync - data.rated_speed;
+  EXPECT_NEAR(winding.single_phase_torque(sync, data.rated_speed),
+              (kloss(data, slip) - kloss(data, sync + data.rated_speed)) / 2, 1e-9);
+}
+
+TEST(ContactorDrive, ClosesAndOpensAfterItsDelays) {
+  ContactorStand stand;
+  stand.drive.forward.level = true;
+  stand.run(20e-3);
+  EXPECT_EQ(stand.rotor.speed, 0);
+  stand.step();
+  EXPECT_NEAR(stand.drive.torque(), kloss(WindingData{}, sync), 1e-9);  // locked rotor
+  stand.run(2);
+  EXPECT_NEAR(stand.rotor.speed, sync, 1e-6);
+  EXPECT_EQ(stand.drive.frequency(), 50);
+  stand.load = 14.8;
+  stand.run(1);
+  EXPECT_NEAR(stand.rotor.speed * rpm, 1420, 1e-6);
+  stand.drive.forward.level = false;
+  stand.run(15e-3);
+  EXPECT_NEAR(stand.rotor.speed * rpm, 1420, 1e-6);
+  stand.step();
+  EXPECT_NEAR(stand.rotor.speed * rpm, 1420 - 14.8 / 0.05 * h * rpm, 1e-6);
+  EXPECT_EQ(stand.drive.state(), ContactorDrive::State::off);
+}
+
+TEST(ContactorDrive, TheSlowWindingBrakesAFastMotor) {
+  ContactorStand stand;
+  stand.drive.backward.level = true;
+  stand.run(3);
+  stand.drive.slow.level = true;
+  stand.run(20.1e-3);
+  const ContactorData data;
+  EXPECT_NEAR(stand.drive.torque(), -kloss(data.slow, 375 / rpm - sync), 1e-6);
+  EXPECT_GT(stand.drive.torque(), 0);
+  stand.run(3);
+  EXPECT_NEAR(stand.rotor.speed * rpm, -375, 1e-6);
+  fault(stand.faults(), "drive.slow", "stuck_off", 1);
+  stand.run(3);
+  EXPECT_NEAR(stand.rotor.speed * rpm, -1500, 1e-6);
+  fault(stand.faults(), "drive.slow", "stuck_off", 0);
+  fault(stand.faults(), "drive.slow", "stuck_on", 1);
+  stand.drive.slow.level = false;
+  stand.run(3);
+  EXPECT_NEAR(stand.rotor.speed * rpm, -375, 1e-6);
+}
+
+TEST(ContactorDrive, BothDirectionsTripTheBreakerUntilItIsReset) {
+  ContactorStand stand;
+  stand.drive.forward.level = true;
+  stand.run(1);
+  fault(stand.faults(), "drive.backward", "stuck_on", 1);
+  stand.step();
+  EXPECT_EQ(stand.drive.state(), ContactorDrive::State::tripped);
+  fault(stand.faults(), "drive.backward", "stuck_on", 0);
+  const double speed = stand.rotor.speed;
+  stand.run(1);
+  EXPECT_EQ(stand.rotor.speed, speed);
+  fault(stand.faults(), "drive", "trip", 0);
+  stand.run(1);
+  EXPECT_NEAR(stand.rotor.speed, sync, 1e-3);
+}
+
+TEST(ContactorDrive, WithAPhaseLostItRunsButDoesNotStart) {
+  ContactorStand stand;
+  fault(stand.faults(), "drive", "phase_lost", 1);
+  stand.drive.forward.level = true;
+  stand.run(2);
+  EXPECT_EQ(stand.rotor.speed, 0);
+  fault(stand.faults(), "drive", "phase_lost", 0);
+  stand.load = 5;
+  stand.run(2);
+  fault(stand.faults(), "drive", "phase_lost", 1);
+  const double sound = stand.rotor.speed;
+  stand.run(2);
+  EXPECT_LT(stand.rotor.speed, sound - 1);  // about twice the slip
+  EXPECT_GT(stand.rotor.speed, 0.9 * sync);
+  const WindingData w;
+  EXPECT_NEAR((kloss(w, sync - stand.rotor.speed) - kloss(w, sync + stand.rotor.speed)) / 2, 5, 1e-6);
+}
+
+}  // namespace
+}  // namespace drycut::plants

@@ -1,0 +1,349 @@
+#include "plants/vertical_press.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/plants/vertical_press_unit.hpp"
+
+namespace drycut::plants {
+namespace {
+
+TEST(VerticalPress, StandsOnItsBrakeFromTheFirstStep) {
+  Press press;
+  press.run(2);
+  EXPECT_EQ(channel(*press.plant, "position"), 300);
+  EXPECT_EQ(channel(*press.plant, "speed"), 0);
+  EXPECT_EQ(channel(*press.plant, "brake.engaged"), 1);
+  EXPECT_NEAR(channel(*press.plant, "screw.force"), 600 * g - 2000, 0.01);
+  EXPECT_TRUE(press.events.empty());
+}
+
+TEST(VerticalPress, GoesUpAndDownAtThePresetSpeeds) {
+  for (const char* kind : {"inverter", "contactors"})
+    for (const int direction : {1, -1})
+      for (const bool slow : {false, true}) {
+        VerticalPressDefinition definition;
+        definition.data.drive.kind = kind;
+        Press press(definition);
+        press.command(direction, slow);
+        press.run(1);
+        const bool inverter = definition.data.drive.kind == "inverter";
+        const double field = slow ? (inverter ? 150 : 375) : 1500;
+        EXPECT_NEAR(channel(*press.plant, "drive.field_speed"), direction * field, 1e-9);
+        const double slip = channel(*press.plant, "drive.slip");
+        EXPECT_NEAR(channel(*press.plant, "speed"), (direction * field - slip) / 60 * 10, 0.05);
+        // Going up the motor lifts, going down it is driven and brakes: slip in the same direction.
+        EXPECT_GT(slip, 0) << kind << direction << slow;
+        EXPECT_EQ(channel(*press.plant, "brake.engaged"), 0);
+      }
+}
+
+TEST(VerticalPress, TheMotorFeelsTheLoadThroughTheEfficiencyOfTheScrew) {
+  auto definition = frictionless();
+  for (const double back : {0.8, 0.3, -0.5}) {
+    definition.data.back_efficiency = back;
+    const double torque = (600 * g - 2000) * 0.01 / turn;  // at the screw without losses
+    Press up(definition);
+    up.command(1, true);
+    up.run(1);
+    EXPECT_NEAR(channel(*up.plant, "motor.torque"), torque / 0.9, 1e-3);
+    Press down(definition);
+    down.command(-1, true);
+    down.run(1);
+    EXPECT_NEAR(channel(*down.plant, "motor.torque"), torque * back, 1e-3);
+  }
+}
+
+TEST(VerticalPress, WhatTheMotorGivesIsInTheRam) {
+  auto definition = frictionless();
+  definition.data.efficiency = definition.data.back_efficiency = 1;
+  definition.data.drive.brake.torque = 0;
+  const double inertia = definition.data.drive.motor.rotor_inertia + definition.data.screw_inertia;
+  for (const int direction : {1, -1}) {
+    Press press(definition);
+    press.command(direction, false);
+    double work = 0;
+    for (int i = 0; i < 8000; ++i) {
+      const double before = press.rotor().speed;
+      press.step();
+      work += channel(*press.plant, "motor.torque") * (before + press.rotor().speed) / 2 * h;
+    }
+    const double energy = 600 * std::pow(press.ram().speed, 2) / 2 +
+                          inertia * std::pow(press.rotor().speed, 2) / 2 +
+                          (600 * g - 2000) * (press.ram().position - 0.3);
+    EXPECT_NEAR(energy / work, 1, 5e-3) << direction;
+  }
+}
+
+TEST(VerticalPress, ASelfLockingScrewHoldsWithoutABrake) {
+  auto definition = frictionless();
+  definition.data.drive.brake.torque = 0;
+  definition.data.efficiency = 0.4;
+  definition.data.back_efficiency = -0.5;
+  Press locking(definition);
+  locking.run(1);
+  set(*locking.plant, "load", 2000);
+  locking.run(4);
+  // Only the screw gives way: 2000 kg more on its 250 N m/rad.
+  const double give = 2000 * g * std::pow(0.01 / turn, 2) / 250 * 1000;
+  EXPECT_NEAR(channel(*locking.plant, "position"), 300 - give, 1e-3);
+  EXPECT_EQ(locking.rotor().speed, 0);
+  definition.data.back_efficiency = 0.05;
+  Press sinking(definition);
+  sinking.run(1);
+  EXPECT_LT(channel(*sinking.plant, "position"), 295);
+}
+
+TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
+  VerticalPressDefinition definition;
+  auto& d = definition.data;
+  d.motor_friction.viscous = d.ram_friction.viscous = 0;
+  for (const double back : {1.0, 0.8}) {
+    d.back_efficiency = back;
+    Press press(definition);
+    press.run(0.1);
+    fault(press.plant->faults(), "brake", "stuck_open", 1);
+    const double seconds = 0.4;
+    press.run(seconds);
+    // One mass, falling: weight less counterbalance and guides on the ram; what arrives at the motor is
+    // `back` of the screw's force; dry friction there.
+    const double r = 0.01 / turn;
+    const double j = d.drive.motor.rotor_inertia + d.screw_inertia;
+    const double net = 600 * g - 2000 - 150;
+    const double a = (back * net * r - 0.2) / (j / r + back * 600 * r);
+    EXPECT_NEAR(channel(*press.plant, "speed") / (-1000 * a * seconds), 1, 0.01);
+    EXPECT_NEAR((channel(*press.plant, "position") - 300) / (-500 * a * seconds * seconds), 1, 0.01);
+    press.run(0.2);
+    ASSERT_EQ(press.events.size(), 1U);
+    EXPECT_EQ(press.events[0].name, "sag");
+    EXPECT_NEAR(press.times[0], 0.5, 1.5 * h);  // it was told to hold from the start
+    EXPECT_NEAR(value(press.events[0], "speed") / (-1000 * a * 0.4), 1, 0.01);
+    press.run(6);  // into the lower stop and to rest
+    EXPECT_EQ(press.events[1].name, "end_stop");
+    EXPECT_EQ(value(press.events[1], "side"), -1);
+    EXPECT_NEAR(channel(*press.plant, "position"), -10, 1);
+    EXPECT_NEAR(channel(*press.plant, "speed"), 0, 1e-3);
+  }
+}
+
+TEST(VerticalPress, AWornBrakeSlipsAboveItsTorque) {
+  auto definition = frictionless();
+  definition.data.efficiency = definition.data.back_efficiency = 1;
+  const double needed = (600 * g - 2000) * 0.01 / turn;
+  for (const double share : {1.001, 0.999}) {
+    Press press(definition);
+    fault(press.plant->faults(), "brake", "worn", 1 - share * needed / 25);
+    press.run(1);
+    if (share > 1)
+      EXPECT_EQ(channel(*press.plant, "position"), 300);
+    else
+      EXPECT_LT(channel(*press.plant, "position"), 299.9);
+  }
+}
+
+TEST(VerticalPress, PressesWithTheTorqueLimitOfTheInverter) {
+  VerticalPressDefinition definition;
+  auto& d = definition.data;
+  d.workpiece = {5e6, 5e3};
+  d.start = 0.08;
+  Press press(definition);
+  press.command(-1, true);
+  press.run(4);
+  // At standstill friction may help or hinder.
+  const double r = 0.01 / turn;
+  const double ram = 600 * g - 2000;
+  EXPECT_LE(channel(*press.plant, "press.force"), ram + 22 / r / 0.9 + 300);
+  EXPECT_GE(channel(*press.plant, "press.force"), ram + (22 - 0.2) * 0.9 / r - 300);
+  EXPECT_NEAR(channel(*press.plant, "motor.torque"), -22, 1e-6);
+  EXPECT_NEAR(channel(*press.plant, "position"), 50 - channel(*press.plant, "press.force") / 5e6 * 1000,
+              1e-3);
+  ASSERT_EQ(press.events.size(), 1U);
+  EXPECT_EQ(press.events[0].name, "pressed");
+  EXPECT_GT(value(press.events[0], "force"), 5000);
+  EXPECT_NEAR(value(press.events[0], "speed"), 29, 1);  // 150 rpm and the slip of a motor that is driven
+}
+
+TEST(VerticalPress, TheWorkpieceStopsAFreeRamWithItsMomentum) {
+  auto definition = frictionless();
+  auto& d = definition.data;
+  d.counterbalance = 600 * g;
+  d.gear.stiffness = 1e-9;  // the motor holds nothing
+  d.gear.damping = 0;
+  d.workpiece = {5e6, 0};
+  d.start = 0.06;
+  Press press(definition);
+  press.ram().speed = -0.2;
+  while (press.events.empty() && press.steps < 20000) press.step(1e-5);
+  ASSERT_EQ(press.events.size(), 1U);
+  EXPECT_NEAR(value(press.events[0], "impulse"), 600 * 0.2, 0.01);
+  EXPECT_NEAR(value(press.events[0], "force") / (0.2 * std::sqrt(5e6 * 600)), 1, 2e-3);
+}
+
+TEST(VerticalPress, TheLoadChangesMassAndWeight) {
+  auto definition = frictionless();
+  auto& d = definition.data;
+  d.gear.stiffness = 1e-9;  // the motor holds nothing, the counterbalance all
+  d.gear.damping = 0;
+  d.counterbalance = 600 * g;
+  Press press(definition);
+  set(*press.plant, "load", 400);
+  EXPECT_EQ(channel(*press.plant, "mass"), 1000);
+  press.run(0.05);
+  const double speed = press.ram().speed;
+  EXPECT_NEAR(speed, -400 * g / 1000 * 0.05, 1e-6);
+  set(*press.plant, "force", 400 * g);
+  press.run(0.05);
+  EXPECT_NEAR(press.ram().speed, speed, 1e-6);
+  set(*press.plant, "load", -5);
+  EXPECT_EQ(channel(*press.plant, "mass"), 600);
+  press.run(0.05);
+  EXPECT_NEAR(press.ram().speed - speed, 400 * g / 600 * 0.05, 1e-6);
+}
+
+TEST(VerticalPress, EncoderScaleAndSwitchesFollowTheRam) {
+  Press press;
+  press.command(1, false);
+  press.run(1.2);
+  press.command(0, false);
+  press.run(1);
+  const double travel = channel(*press.plant, "position") - 300;
+  EXPECT_GT(travel, 150);
+  EXPECT_NEAR(channel(*press.plant, "scale.count"), travel / 0.005, 1);
+  EXPECT_NEAR(channel(*press.plant, "encoder.count"), travel * 1000, 50);  // the screw gives by 0.04 mm
+  EXPECT_EQ(channel(*press.plant, "home"), channel(*press.plant, "position") <= 520.5 ? 1 : 0);
+  fault(press.plant->faults(), "encoder", "stuck", 1);
+  const double count = channel(*press.plant, "encoder.count");
+  press.command(-1, false);
+  press.run(3);
+  EXPECT_EQ(channel(*press.plant, "encoder.count"), count);
+  EXPECT_EQ(channel(*press.plant, "limit_min"), 1);
+  EXPECT_EQ(press.events.front().name, "end_stop");
+}
+
+TEST(VerticalPress, BothContactorsTripAndTheBrakeStopsTheRam) {
+  VerticalPressDefinition definition;
+  definition.data.drive.kind = "contactors";
+  Press press(definition);
+  press.command(1, true);
+  press.run(0.5);
+  fault(press.plant->faults(), "drive.backward", "stuck_on", 1);
+  press.run(1);
+  ASSERT_EQ(press.events.size(), 1U);
+  EXPECT_EQ(press.events[0].name, "trip");
+  EXPECT_NEAR(value(press.events[0], "speed"), channel(*press.plant, "motor.speed") + 330, 30);
+  EXPECT_EQ(channel(*press.plant, "drive.state"), 3);
+  EXPECT_NEAR(channel(*press.plant, "speed"), 0, 1e-9);
+}
+
+// Whatever fails and when: nothing diverges, the ram stays between its stops, and once the commands are gone
+// it rests, runs on by a contact that is stuck, or has been reported.
+TEST(VerticalPress, EveryFaultEndsInADefinedState) {
+  struct Combination {
+    int direction;
+    bool slow;
+  };
+  for (const char* kind : {"inverter", "contactors"}) {
+    VerticalPressDefinition definition;
+    definition.data.drive.kind = kind;
+    const Press listed(definition);
+    for (const Fault& listed_fault : listed.plant->faults())
+      for (const Combination& command : {Combination{1, false}, {-1, false}, {0, false}}) {
+        Press press(definition);
+        press.command(command.direction, command.slow);
+        press.run(0.4);
+        const double value = listed_fault.unit.empty() ? 1 : 2;  // 2 N m of torque limit
+        fault(press.plant->faults(), listed_fault.component, listed_fault.name, value);
+        press.run(0.3);
+        press.command(0, false);
+        press.run(1.3);
+        const std::string what = fmt::format("{}: {}.{} at {} {}", kind, listed_fault.component,
+                                             listed_fault.name, command.direction, command.slow);
+        const double position = channel(*press.plant, "position");
+        EXPECT_GT(position, -30) << what;
+        EXPECT_LT(position, 630) << what;
+        const bool driven = channel(*press.plant, "drive.state") == 1;
+        EXPECT_EQ(driven,
+                  (listed_fault.component == "drive.forward" || listed_fault.component == "drive.backward") &&
+                      listed_fault.name == "stuck_on" && channel(*press.plant, "drive.state") != 3)
+            << what;
+        const bool reported = !press.events.empty();
+        if (std::abs(channel(*press.plant, "speed")) > 1) {
+          EXPECT_TRUE(driven || reported) << what;
+        }
+      }
+  }
+}
+
+TEST(VerticalPress, EveryPartHasAPose) {
+  VerticalPressDefinition definition;
+  definition.data.workpiece.stiffness = 1e6;
+  definition.data.load = 100;
+  Press press(definition);
+  std::vector<PartPose> before;
+  std::vector<PartPose> after;
+  const auto parts = press.plant->parts();
+  press.plant->poses(before);
+  ASSERT_EQ(before.size(), parts.size());
+  press.ram().position += 0.2;
+  press.plant->poses(after);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const double moved = after[i].pose.position[1] - before[i].pose.position[1];
+    const std::string& name = parts[i].name;
+    const double expected = name == "ram" || name == "tool" || name == "screw" ? 0.2 : 0;
+    if (name == "ram" || name == "tool" || name == "screw" || name == "crown" || name == "motor") {
+      EXPECT_NEAR(moved, expected, 1e-12) << name;
+    }
+    EXPECT_EQ(after[i].visible, name != "lamp released") << name;  // it stands on its brake
+  }
+}
+
+TEST(VerticalPress, WhatCannotBeBuiltIsRefused) {
+  const auto objections = [](auto change) {
+    VerticalPressDefinition definition;
+    change(definition.data);
+    std::vector<std::string> names;
+    for (const auto& o : definition.objections()) {
+      EXPECT_FALSE(o.remedy.empty());
+      names.push_back(o.parameter + ": " + o.what);
+    }
+    return names;
+  };
+  using ::testing::ElementsAre;
+  using ::testing::StartsWith;
+  using Data = VerticalPressData;
+  EXPECT_THAT(objections([](Data&) {}), ElementsAre());
+  EXPECT_THAT(objections([](Data& d) { d.gear.stiffness = 1e6; }),
+              ElementsAre(StartsWith("gear.stiffness: motor and ram oscillate at")));
+  EXPECT_THAT(objections([](Data& d) { d.stop.damping = 1e8; }),
+              ElementsAre(StartsWith("stop.stiffness: the ram bounces off the end stop")));
+  EXPECT_THAT(objections([](Data& d) { d.workpiece.stiffness = 1e12; }),
+              ElementsAre(StartsWith("workpiece.stiffness: the ram bounces off the workpiece")));
+  EXPECT_THAT(objections([](Data& d) { d.motor_friction.viscous = 99; }),
+              ElementsAre(StartsWith("motor_friction.viscous: 99 N m s/rad brakes faster")));
+  EXPECT_THAT(objections([](Data& d) { d.ram_friction.viscous = 9e7; }),
+              ElementsAre(StartsWith("ram_friction.viscous: ")));
+  EXPECT_THAT(objections([](Data& d) { d.travel_max = -1; }),
+              ElementsAre("travel_max: it is not above travel_min"));
+  EXPECT_THAT(objections([](Data& d) { d.start = 2; }),
+              ElementsAre("start: the ram starts at 2000 mm, in an end stop"));
+  EXPECT_THAT(objections([](Data& d) { d.sensors.limit_max = -1; }),
+              ElementsAre("limit_max: it is not above limit_min"));
+  EXPECT_THAT(objections([](Data& d) {
+                d.workpiece = {1e6, 0}, d.start = 0.02;
+              }),
+              ElementsAre("workpiece.height: the ram starts in the workpiece"));
+  EXPECT_THAT(objections([](Data& d) { d.drive.inverter.fast = 60; }),
+              ElementsAre(StartsWith("inverter.fast: 60 Hz")));
+}
+
+TEST(World, ASlideOfAnotherWorldHasNoMassToSet) {
+  World world;
+  Slide stranger;
+  EXPECT_THAT([&] { world.set_mass(stranger, 1); }, ::testing::Throws<std::invalid_argument>());
+}
+
+}  // namespace
+}  // namespace drycut::plants
