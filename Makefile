@@ -10,11 +10,11 @@ BUILD    ?= build
 JOBS     ?= $(shell nproc)
 PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libyaml-cpp-dev \
             libmuparser-dev libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev gnuplot-nox \
-            fonts-dejavu-core
+            fonts-dejavu-core libjs-dygraphs ffmpeg
 TEST_PACKAGES  := libgtest-dev libgmock-dev
 BENCH_PACKAGES := libmujoco-dev
 LINT_PACKAGES  := clang-format clang-tidy
-SOURCES := $(wildcard devices/*.?pp devices/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp tests/*/*.?pp)
+SOURCES := $(wildcard devices/*.?pp devices/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*/*.?pp)
 
 CONFIGURE := cmake -G Ninja -DCMAKE_BUILD_TYPE=Release
 

@@ -108,6 +108,7 @@ CaptionLayout::CaptionLayout(const Film& film) : title_(one_line(film.title)), w
   page.font(kMeasure);
   std::vector<Widths> items;
   for (const Frame& frame : film.frames) {
+    if (std::abs(frame.time_s * 1e3 - std::round(frame.time_s * 1e3)) > 1e-4) time_digits_ = 4;
     if (frame.caption.size() > items.size()) items.resize(frame.caption.size());
     for (std::size_t i = 0; i < frame.caption.size(); ++i) {
       items[i].label = std::max(items[i].label, page.width(one_line(frame.caption[i].label)) / kMeasure);
@@ -184,7 +185,7 @@ void CaptionLayout::draw(const Frame& frame, Image& image) const {
 
   const double baseline = 0.45 * margin_ + 0.85 * kLine * title_size_ * 0.92;
   page.font(title_size_, true);
-  const std::string time = fmt::format("t = {:.3f} s", frame.time_s);
+  const std::string time = fmt::format("t = {:.{}f} s", frame.time_s, time_digits_);
   const double time_width = page.width(time);
   page.text(margin_, baseline, page.fitted(title_, width_ - 3 * margin_ - time_width), kTitle);
   page.text(width_ - margin_ - time_width, baseline, time, kTitle);

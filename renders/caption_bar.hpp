@@ -37,6 +37,7 @@ class CaptionLayout {
   bool place(const std::vector<Widths>& items, std::size_t rows, double font_size, bool by_force);
 
   std::string title_;
+  int time_digits_ = 3;  ///< what tells all frames' times in seconds apart
   int width_ = 0;
   int height_ = 0;
   double margin_ = 0;

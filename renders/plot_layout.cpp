@@ -17,6 +17,7 @@ constexpr double kXAxisHeight = 62;  ///< tick labels and axis label below the l
 constexpr double kYLabelWidth = 40;
 constexpr double kRightMargin = 26;
 constexpr double kEntryGap = 24;
+constexpr double kLaneHeight = 34;
 
 class Span {
  public:
@@ -55,6 +56,8 @@ Range x_range(const Plot& plot) {
   bool equal_scale = false;
   for (const Panel& panel : plot.panels) {
     equal_scale = equal_scale || panel.equal_scale;
+    for (const Lane& lane : panel.lanes)
+      std::for_each(lane.x.begin(), lane.x.end(), [&](double x) { span.add(x); });
     for (const NamedPoint& point : panel.points) span.add(point.x);
   }
   return span.range(equal_scale ? 0.06 : 0);
@@ -147,6 +150,17 @@ void equalise(const Plot& plot, PlotLayout& layout, double width, double height)
   }
 }
 
+/// Lanes stand one below the other, a unit of y high each; their names stand where other panels have numbers.
+void lay_lanes(const std::vector<Lane>& lanes, double widest_name, PanelLayout& here) {
+  const auto count = static_cast<double>(lanes.size());
+  here.y_range = {0, count};
+  here.y_ticks.clear();
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    here.y_ticks.push_back({count - static_cast<double>(i) - 0.5,
+                            fitted_text(one_line(lanes[i].label), PlotType::text, widest_name)});
+  }
+}
+
 double widest_label(const std::vector<Tick>& ticks) {
   double widest = 0;
   for (const Tick& tick : ticks) widest = std::max(widest, text_width(tick.label, PlotType::text));
@@ -188,7 +202,8 @@ double lay_marks(const Plot& plot, PlotLayout& layout) {
   for (const Mark& mark : plot.marks) {
     if (!(mark.x >= low && mark.x <= high)) continue;
     const double x = layout.left + (mark.x - low) / (high - low) * (layout.right - layout.left);
-    layout.marks.push_back({fitted_text(one_line(mark.label), PlotType::mark, widest_label), x, x + 4});
+    layout.marks.push_back(
+        {fitted_text(one_line(mark.label), PlotType::mark, widest_label), x, x + 4, mark.strong});
   }
   double widest = 0;
   for (std::size_t i = 0; i < layout.marks.size(); ++i) {
@@ -219,6 +234,7 @@ PlotLayout laid_out(const Plot& plot) {
     here.y_range = y_range(panel);
     const double least = only_whole_numbers(panel) ? 1 : 0;
     here.y_ticks = axis_ticks(here.y_range.first, here.y_range.second, y_ticks, least);
+    if (!panel.lanes.empty()) lay_lanes(panel.lanes, plot.width / 4.0, here);
     widest = std::max(widest, widest_label(here.y_ticks));
     layout.panels.push_back(here);
   }
@@ -242,7 +258,8 @@ PlotLayout laid_out(const Plot& plot) {
     here.title_y = y + kPanelHeader / 2;
     const int rows = lay_legend(plot.panels[i], layout.left, layout.right, here.title_y, here.legend);
     here.top = y + kPanelHeader + rows * kLegendRow + (i == 0 ? strip : 0);
-    here.bottom = here.top + axes_height;
+    const auto lanes = static_cast<double>(plot.panels[i].lanes.size());
+    here.bottom = here.top + (lanes > 0 ? lanes * kLaneHeight : axes_height);
     if (i == 0) layout.marks_bottom = here.top - 3;
     y = here.bottom + kPanelGap;
   }

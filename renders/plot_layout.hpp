@@ -42,6 +42,7 @@ struct MarkLayout {
   std::string label;  ///< "" = no room for it
   double line = 0;    ///< of the mark
   double text = 0;    ///< left end of an upright label, middle of one that stands across
+  bool strong = false;
 };
 
 struct PlotLayout {

@@ -10,6 +10,7 @@
 #include "renders/decimate.hpp"
 #include "renders/gnuplot.hpp"
 #include "renders/plot_layout.hpp"
+#include "renders/plot_script.hpp"
 #include "renders/png_image.hpp"
 #include "renders/text.hpp"
 
@@ -23,41 +24,9 @@ constexpr std::array<const char*, 3> kBandColours = {"#e8c400", "#56b4e9", "#8a8
 constexpr const char* kLimitColour = "#b3261e";
 constexpr const char* kMarkColour = "#7b8794";
 constexpr const char* kMarkTextColour = "#52606d";
+constexpr const char* kStrongColour = "#b3261e";
 constexpr const char* kPointColour = "#1f2933";
 constexpr double kBandOpacity = 0.22;
-
-/// A plot's script as it grows; converts pixels from the upper left corner to gnuplot's screen coordinates.
-class Script {
- public:
-  explicit Script(const PlotLayout& layout) : layout_(layout) {}
-
-  template <typename... Arguments>
-  void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-    text_ += '\n';
-  }
-
-  std::string at(double x, double y) const {
-    return fmt::format("screen {:.6f}, screen {:.6f}", x / layout_.width, 1 - y / layout_.height);
-  }
-  double screen_x(double x) const { return x / layout_.width; }
-  double screen_y(double y) const { return 1 - y / layout_.height; }
-
-  void text(double x, double y, const std::string& words, const char* placing, double size, bool bold = false,
-            const char* colour = "#1f2933") {
-    line("set label {} at {} {} front textcolor rgb '{}' font 'DejaVu Sans{},{:.2f}'", gnuplot_string(words),
-         at(x, y), placing, colour, bold ? ":Bold" : "", points(size));
-  }
-
-  /// Font sizes are in points for gnuplot, which takes 96 dots an inch.
-  static double points(double pixels) { return pixels * 0.75; }
-
-  const std::string& str() const { return text_; }
-
- private:
-  const PlotLayout& layout_;
-  std::string text_;
-};
 
 std::string curve_colour(std::size_t index) { return kCurveColours[index % kCurveColours.size()]; }
 std::size_t dash_type(std::size_t index) { return 1 + (index / kCurveColours.size()) % 5; }
@@ -77,23 +46,15 @@ Points isolated(const Points& points) {
   return alone;
 }
 
-void write_points(Script& script, const std::string& name, const Points& points) {
-  script.line("${} << END_OF_CURVE", name);
-  for (std::size_t i = 0; i < points.x.size(); ++i) {
-    if (std::isfinite(points.y[i])) {
-      script.line("{} {}", points.x[i], points.y[i]);
-    } else {
-      script.line("");  // interrupts the curve
-    }
-  }
-  script.line("END_OF_CURVE");
-}
-
 /// Writes the points of all curves, thinned, and returns what to plot in each panel.
 std::vector<std::string> write_data(Script& script, const Plot& plot, const PlotLayout& layout) {
   std::vector<std::string> lists(plot.panels.size());
   for (std::size_t p = 0; p < plot.panels.size(); ++p) {
     const PanelLayout& place = layout.panels[p];
+    if (!plot.panels[p].lanes.empty()) {
+      lists[p] = write_lanes(script, plot.panels[p], layout, p);
+      continue;
+    }
     const PixelGrid grid = {layout.x_range.first,
                             layout.x_range.second,
                             place.y_range.first,
@@ -116,6 +77,8 @@ std::vector<std::string> write_data(Script& script, const Plot& plot, const Plot
         plot_block("points", c, points, "with points pointtype 7 pointsize 0.7");
         continue;
       }
+      if (curve.style == Curve::Style::area)
+        plot_block("area", c, points, "with filledcurves y1=0 fillstyle transparent solid 0.35 noborder");
       plot_block("curve", c, points,
                  fmt::format("with {} lw 1.7 dashtype {}",
                              curve.style == Curve::Style::steps ? "steps" : "lines", dash_type(c)));
@@ -181,18 +144,21 @@ void write_legend(Script& script, const Panel& panel, const PanelLayout& place) 
 
 void write_marks(Script& script, const PlotLayout& layout, const PanelLayout& place, bool labels) {
   for (const MarkLayout& mark : layout.marks) {
-    script.line("set arrow from {} to {} nohead back lw 0.8 dashtype 3 lc rgb '{}'",
-                script.at(mark.line, place.bottom), script.at(mark.line, place.top), kMarkColour);
+    const char* const colour = mark.strong ? kStrongColour : kMarkColour;
+    const char* const text_colour = mark.strong ? kStrongColour : kMarkTextColour;
+    script.line("set arrow from {} to {} nohead {} dashtype 3 lc rgb '{}'",
+                script.at(mark.line, place.bottom), script.at(mark.line, place.top),
+                mark.strong ? "front lw 1.4" : "back lw 0.8", colour);
     if (!labels || mark.label.empty()) continue;
     if (!layout.marks_across) {
       script.text(mark.text, layout.marks_bottom - PlotType::mark / 2, mark.label, "left", PlotType::mark,
-                  false, kMarkTextColour);
+                  false, text_colour);
       continue;
     }
     script.line("set arrow from {} to {} nohead front lw 0.8 lc rgb '{}'", script.at(mark.line, place.top),
-                script.at(mark.text, layout.marks_bottom - kMarkLeader + 2), kMarkColour);
+                script.at(mark.text, layout.marks_bottom - kMarkLeader + 2), colour);
     script.text(mark.text, layout.marks_bottom - kMarkLeader, mark.label, "left rotate by 90", PlotType::mark,
-                false, kMarkTextColour);
+                false, text_colour);
   }
 }
 
@@ -246,10 +212,12 @@ void write_panel(Script& script, const Plot& plot, const PlotLayout& layout, std
     script.text((layout.left + layout.right) / 2, middle, "no data", "center", PlotType::text, false,
                 "#7b8794");
   }
+  script.line("set grid {}ytics", panel.lanes.empty() ? "" : "no");
   write_bands(script, panel, place);
   write_marks(script, layout, place, index == 0);
   write_points_named(script, panel, layout, place);
   write_legend(script, panel, place);
+  write_lane_labels(script, panel, layout, index);
   script.line("plot {}", curves.empty() ? "NaN" : curves);
 }
 
@@ -259,6 +227,7 @@ Plot in_decades(Plot plot) {
   for (Panel& panel : plot.panels) {
     for (Curve& curve : panel.curves) std::for_each(curve.x.begin(), curve.x.end(), shrink);
     for (NamedPoint& point : panel.points) shrink(point.x);
+    for (Lane& lane : panel.lanes) std::for_each(lane.x.begin(), lane.x.end(), shrink);
   }
   for (Mark& mark : plot.marks) shrink(mark.x);
   return plot;
@@ -308,6 +277,13 @@ void require_drawable(const Plot& plot) {
       refuse(fmt::format("curve '{}' has {} x and {} y values", one_line(curve.label), curve.x.size(),
                          curve.y.size()));
     }
+    for (const Lane& lane : panel.lanes) {
+      if (lane.x.size() != lane.y.size())
+        refuse(fmt::format("lane '{}' has {} x and {} states", one_line(lane.label), lane.x.size(),
+                           lane.y.size()));
+      if (!std::is_sorted(lane.x.begin(), lane.x.end()))
+        refuse(fmt::format("lane '{}' does not run from left to right", one_line(lane.label)));
+    }
     const bool ordered =
         !panel.y_range || (std::isfinite(panel.y_range->first) && std::isfinite(panel.y_range->second) &&
                            panel.y_range->first < panel.y_range->second);
@@ -321,6 +297,18 @@ void require_drawable(const Plot& plot) {
 }
 
 }  // namespace
+
+void write_points(Script& script, const std::string& name, const Points& points) {
+  script.line("${} << END_OF_CURVE", name);
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    if (std::isfinite(points.y[i])) {
+      script.line("{} {}", points.x[i], points.y[i]);
+    } else {
+      script.line("");  // interrupts the curve
+    }
+  }
+  script.line("END_OF_CURVE");
+}
 
 std::vector<std::filesystem::path> draw_plots(const std::vector<Plot>& plots,
                                               const std::filesystem::path& directory) {

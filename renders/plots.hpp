@@ -8,7 +8,7 @@
 namespace drycut::renders {
 
 struct Curve {
-  enum class Style { line, steps, points };
+  enum class Style { line, steps, points, area };  ///< area: a line, filled down to 0
   std::string label;
   std::vector<double> x;
   std::vector<double> y;
@@ -26,6 +26,15 @@ struct Band {
 struct Mark {
   double x = 0;
   std::string label;
+  bool strong = false;  ///< drawn to catch the eye: a fault, a limit
+};
+
+/// A state over time as a timing diagram shows it: high and low if it is only ever 0 or 1, else a labelled
+/// band for each value.
+struct Lane {
+  std::string label;
+  std::vector<double> x;  ///< ascending
+  std::vector<double> y;  ///< the state from there to the next x
 };
 
 /// A named point of a panel: a dot with its label beside it.
@@ -43,7 +52,8 @@ struct Panel {
   std::vector<Band> bands;
   std::optional<std::pair<double, double>> y_range;  ///< automatic if absent
   std::vector<NamedPoint> points = {};
-  bool equal_scale = false;  ///< a unit is as long in x as in y, for a path in a plane; y_range may grow
+  bool equal_scale = false;      ///< a unit is as long in x as in y, for a path in a plane; y_range may grow
+  std::vector<Lane> lanes = {};  ///< instead of all the above: from the top, on the plot's x axis
 };
 
 /// Panels above each other that share the x axis: one PNG.

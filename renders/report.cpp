@@ -9,6 +9,7 @@
 
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
+#include "renders/report_data.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -88,21 +89,42 @@ void write_checks(std::string& page, const std::vector<ReportCheck>& checks) {
   page += "</tbody>\n</table>\n</div>\n";
 }
 
-void write_frames(std::string& page, const std::vector<ReportFigure>& frames) {
+/// The film itself, or where it is if it would make the report too heavy to mail.
+void write_video(std::string& page, const Report& report) {
+  constexpr std::size_t kHeaviest = 24 << 20;
+  if (report.video.empty()) return;
+  const std::string bytes = read_file(report.video);
+  if (bytes.size() > kHeaviest) {
+    page += fmt::format("<p>The film: {}, beside this report.</p>\n",
+                        html_text(report.video.filename().string()));
+    return;
+  }
+  page += fmt::format(
+      "<figure class=\"film\"><video controls loop muted playsinline preload=\"metadata\" "
+      "src=\"data:video/mp4;base64,{}\"></video><figcaption>{}</figcaption></figure>\n",
+      base64(bytes), html_text(report.video.filename().string()));
+}
+
+void write_frames(std::string& page, const Report& report) {
+  const std::vector<ReportFigure>& frames = report.frames;
   if (frames.empty()) return;
-  page += "<h2>The run in pictures</h2>\n<div class=\"strip\">\n";
+  page += "<h2>The run in pictures</h2>\n";
+  write_video(page, report);
+  page += "<div class=\"strip\">\n";
   for (const ReportFigure& frame : frames) {
     page += fmt::format("<figure>{}{}</figure>\n", picture(frame), caption(frame));
   }
   page += "</div>\n";
 }
 
-void write_plots(std::string& page, const std::vector<ReportFigure>& plots) {
-  if (plots.empty()) return;
+void write_plots(std::string& page, const Report& report) {
+  if (report.plots.empty()) return;
   page += "<h2>Measured</h2>\n";
-  for (const ReportFigure& plot : plots) {
-    page += fmt::format("<figure class=\"plot\"><div class=\"ground\">{}</div>{}</figure>\n", picture(plot),
-                        caption(plot));
+  for (std::size_t i = 0; i < report.plots.size(); ++i) {
+    const ReportFigure& plot = report.plots[i];
+    const bool live = i < report.live.size() && can_be_live(report.live[i]);
+    page += fmt::format("<figure class=\"plot\"{}><div class=\"ground\">{}</div>{}</figure>\n",
+                        live ? fmt::format(" data-plot=\"{}\"", i) : "", picture(plot), caption(plot));
   }
 }
 
@@ -166,8 +188,8 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   write_head(page, report);
   write_facts(page, report.facts);
   write_checks(page, report.checks);
-  write_frames(page, report.frames);
-  write_plots(page, report.plots);
+  write_frames(page, report);
+  write_plots(page, report);
   // What is folded goes to the end: first what is read, then what is looked up.
   for (const bool folded : {false, true}) {
     const bool any = std::any_of(report.tables.begin(), report.tables.end(),
@@ -178,7 +200,9 @@ void write_report(const Report& report, const std::filesystem::path& file) {
     }
   }
   write_scenario(page, report.scenario_expanded);
-  page += "</main>\n</body>\n</html>\n";
+  page += "</main>\n";
+  page += live_plots(report.live);
+  page += "</body>\n</html>\n";
   replace_file(file, page);
 }
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "renders/plots.hpp"
+
 namespace drycut::renders {
 
 struct ReportCheck {
@@ -37,14 +39,18 @@ struct Report {
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
   std::vector<ReportCheck> checks;
   std::vector<ReportFigure> frames;  ///< chosen frames, shown as a strip
+  std::filesystem::path video;       ///< MP4 of all frames, "" = none
   std::vector<ReportFigure> plots;
+  std::vector<Plot> live;  ///< the plots as data, one a figure in `plots`, for a browser to zoom; or none
   std::vector<ReportTable> tables;  ///< pieces, events, parameters in force
   std::string scenario_expanded;    ///< the scenario with every default in force
 };
 
 /// Writes one HTML file that opens offline: pictures inside, no script needed to read it, light and dark,
-/// readable on a phone and in print. Written under a temporary name and renamed, so that a half report never
-/// stands there. Throws std::runtime_error if a picture cannot be read or the file not written.
+/// readable on a phone and in print. Where a script runs, the plots with data can be zoomed; the library for
+/// that (dygraphs) is taken from its installed package, without it the pictures stay. Written under a
+/// temporary name and renamed, so that a half report never stands there. Throws std::runtime_error if a
+/// picture cannot be read or the file not written.
 void write_report(const Report& report, const std::filesystem::path& file);
 
 }  // namespace drycut::renders

@@ -47,10 +47,28 @@ td small { display: block; color: var(--soft); }
 .strip { display: grid; grid-template-columns: repeat(auto-fill, minmax(290px, 1fr)); gap: 14px; }
 figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 10px; overflow: hidden;
   break-inside: avoid; }
+figure.film { max-width: 960px; margin-bottom: 16px; }
+figure video { display: block; width: 100%; height: auto; background: #1b2026; }
 figure img { display: block; width: 100%; height: auto; }
 figcaption { padding: 6px 12px 8px; color: var(--soft); font-size: 0.88rem; overflow-wrap: anywhere; }
 figure.plot { margin-bottom: 16px; }
 figure.plot .ground { background: #ffffff; overflow-x: auto; }
+figure.plot.is-live .ground { display: none; }
+.live { padding: 12px 14px 8px; }
+.live-head { display: flex; flex-wrap: wrap; align-items: baseline; gap: 6px 16px; margin-bottom: 8px; }
+.live-head strong { font-size: 1.05rem; }
+.live-head button { font: inherit; font-size: 0.82rem; color: var(--ink); background: var(--head);
+  border: 1px solid var(--line); border-radius: 6px; padding: 1px 10px; cursor: pointer; }
+.live-x { color: var(--soft); font-size: 0.88rem; font-variant-numeric: tabular-nums; }
+.live-legend { display: flex; flex-wrap: wrap; gap: 0 18px; font-size: 0.88rem; min-height: 1.4em; margin-top: 4px; }
+.live-entry i { display: inline-block; width: 22px; height: 3px; vertical-align: middle; margin-right: 6px; }
+.live-entry output { display: inline-block; min-width: 6.5em; font-variant-numeric: tabular-nums; }
+.live-canvas { position: relative; width: 100%; touch-action: pan-y; }
+.live-cursor { position: absolute; top: 0; bottom: 0; width: 0; border-left: 1px solid var(--soft); display: none;
+  pointer-events: none; z-index: 20; }
+.live-hint { margin: 4px 0 0; color: var(--soft); font-size: 0.8rem; }
+.live .dygraph-axis-label { color: var(--soft); }
+.live .dygraph-axis-label-y { white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 details { margin-top: 14px; background: var(--card); border: 1px solid var(--line); border-radius: 10px; }
 summary { padding: 10px 16px; cursor: pointer; font-weight: 600; }
 summary small { color: var(--soft); font-weight: 400; margin-left: 8px; }
@@ -80,6 +98,8 @@ pre { margin: 0; padding: 14px 16px; font: 13px/1.5 ui-monospace, "DejaVu Sans M
   main { max-width: none; padding: 0; }
   .scroll { max-height: none; overflow: visible; }
   .strip { grid-template-columns: repeat(3, 1fr); }
+  figure.film, .live { display: none; }
+  figure.plot.is-live .ground { display: block; }
   .verdict, .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   tr, figure { break-inside: avoid; }
   h2 { break-after: avoid; }

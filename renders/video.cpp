@@ -1,0 +1,68 @@
+#include "renders/video.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <system_error>
+
+#include "renders/process.hpp"
+
+namespace drycut::renders {
+
+void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
+                  const std::filesystem::path& file) {
+  std::filesystem::path unfinished = std::filesystem::absolute(file);
+  unfinished += ".part";
+  const Command command = {"ffmpeg",
+                           "ffmpeg",
+                           {"-v",
+                            "error",
+                            "-nostdin",
+                            "-y",
+                            "-framerate",
+                            fmt::format("1000000000/{}", period_ns),
+                            "-i",
+                            "frame_%05d.png",
+                            "-vf",
+                            "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                            "-c:v",
+                            "libx264",
+                            "-preset",
+                            "fast",
+                            "-crf",
+                            "20",
+                            "-pix_fmt",
+                            "yuv420p",
+                            "-threads",
+                            "1",
+                            "-map_metadata",
+                            "-1",
+                            "-fflags",
+                            "+bitexact",
+                            "-flags:v",
+                            "+bitexact",
+                            "-movflags",
+                            "+faststart",
+                            "-f",
+                            "mp4",
+                            "file:" + unfinished.string()},
+                           frames};
+  const auto discard = [&] {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+  };
+  const Finished finished = [&] {
+    try {
+      return run_process(command, "");
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(std::string("video: ") + error.what());
+    }
+  }();
+  if (!finished.good) {
+    discard();
+    throw std::runtime_error("video: ffmpeg failed: " + finished.words);
+  }
+  std::filesystem::rename(unfinished, file);
+}
+
+}  // namespace drycut::renders
