@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 namespace drycut::sim {
 
@@ -20,6 +19,8 @@ std::string_view kind_of(const plants::Port& port) {
                                         "a pulse train"};
   return names[port.plug.index()];
 }
+
+constexpr std::size_t pulse_plug = 4;
 
 /// The kind of plug that a terminal takes: index into plants::Port::plug.
 std::size_t plug_for(Kind kind) {
@@ -67,12 +68,16 @@ class Connector {
   void connect(const Wire& wire) {
     const auto address = terminal(wire.terminal);
     if (!address) return;
-    if (!wired_.insert(*address).second) {
+    if (!bus_.wired_.insert(*address).second) {
       problem(wire.terminal.place, fmt::format("{} is wired already", to_string(*address)),
               "a terminal takes one wire; remove this one");
       return;
     }
-    if (wire.plug.text.starts_with("panel.")) {
+    const auto looped = address->kind == Kind::counter ? devices::parse_base_terminal(wire.plug.text)
+                                                       : std::optional<Address>();
+    if (looped) {
+      connect_loop(*address, wire, *looped);
+    } else if (wire.plug.text.starts_with("panel.")) {
       connect_panel(*address, wire);
     } else if (const auto* port = plug(wire.plug)) {
       connect_plant(*address, wire, *port);
@@ -86,6 +91,13 @@ class Connector {
 
   /// The terminal, if it is one and the controller uses it.
   std::optional<Address> terminal(const Text& text) {
+    if (const auto base = controller_.base_terminals(); !base.empty()) {
+      const auto built_in = devices::parse_base_terminal(text.text);
+      if (built_in && controller_.offer(*built_in)) return built_in;
+      problem(text.place, fmt::format("'{}' is not a terminal of the controller", text.text),
+              std::string(base));
+      return {};
+    }
     const auto address = devices::parse_address(text.text);
     if (!address) {
       problem(text.place, fmt::format("'{}' is not a terminal of the controller", text.text),
@@ -153,7 +165,33 @@ class Connector {
     return names;
   }
 
+  /// A pulse output of the controller, counted by one of its own counters: the manual's way to have a master.
+  void connect_loop(const Address& address, const Wire& wire, const Address& from) {
+    auto& cards = controller_.cards();
+    if (from.kind != Kind::output || !controller_.offer(from) || !cards.pulse_outputs.contains(from)) {
+      problem(wire.plug.place,
+              fmt::format("{} gives no pulses that {} could count", wire.plug.text, to_string(address)),
+              "wire an encoder to it, or a pulse output of the controller");
+      return;
+    }
+    bus_.loops_.push_back({&cards.pulse_outputs.at(from), &cards.counters.at(address)});
+    bus_.looped_.insert(from);
+  }
+
+  void connect_pulses(const Address& address, const Wire& wire, plants::PulsePort* port) {
+    auto& trains = controller_.cards().pulse_outputs;
+    if (const auto found = trains.find(address); found == trains.end()) {
+      problem(wire.plug.place,
+              fmt::format("{} gives no pulses, {} is a pulse train", to_string(address), wire.plug.text),
+              address.slot == 0 ? "wire it to Y0, Y1, Y2 or Y3" : "this controller has no pulse outputs");
+    } else if (sole_driver(address, wire)) {
+      bus_.pulses_.push_back({&found->second, port});
+    }
+  }
+
   void connect_plant(const Address& address, const Wire& wire, const plants::Port& port) {
+    if (address.kind == Kind::output && port.plug.index() == pulse_plug)
+      return connect_pulses(address, wire, std::get<plants::PulsePort*>(port.plug));
     if (port.plug.index() != plug_for(address.kind)) {
       problem(wire.plug.place,
               fmt::format("{} is a {}, {} is {}", to_string(address), name_of(address.kind), wire.plug.text,
@@ -238,7 +276,6 @@ class Connector {
   std::map<std::string, plants::Port> ports_;
   std::vector<std::string> plant_names_;
   std::map<std::string, Address> drivers_;
-  std::set<Address> wired_;
 };
 
 void Bus::connect(const Scenario& scenario, devices::Controller& controller,
@@ -250,30 +287,32 @@ void Bus::connect(const Scenario& scenario, devices::Controller& controller,
 
 std::vector<std::string> Bus::unwired() const {
   std::vector<std::string> names;
-  const auto collect = [&](auto& terminals, const auto& wires, auto end_of) {
-    for (auto& [address, terminal] : terminals) {
+  const auto collect = [&](const auto& terminals) {
+    for (const auto& [address, terminal] : terminals) {
       if (address.kind == Kind::counter && address.slot == 1) continue;
-      const bool wired = std::any_of(wires.begin(), wires.end(),
-                                     [&](const auto& wire) { return end_of(wire) == &terminal; });
-      if (!wired) names.push_back(to_string(address));
+      if (!wired_.contains(address) && !looped_.contains(address)) names.push_back(to_string(address));
     }
   };
   if (controller_ == nullptr) return names;
-  auto& cards = controller_->cards();
-  collect(cards.counters, counters_, [](const auto& wire) { return wire.to; });
-  collect(cards.inputs, inputs_, [](const auto& wire) { return wire.to; });
-  collect(cards.outputs, outputs_, [](const auto& wire) { return wire.from; });
-  collect(cards.analogue_outputs, analogue_outputs_, [](const auto& wire) { return wire.from; });
+  const auto& cards = controller_->cards();
+  collect(cards.counters);
+  collect(cards.inputs);
+  collect(cards.outputs);
+  collect(cards.pulse_outputs);
+  collect(cards.analogue_outputs);
   return names;
 }
 
 void Bus::outputs_to_plants() const {
   for (const auto& wire : outputs_) wire.to->level = wire.from->level;
   for (const auto& wire : analogue_outputs_) wire.to->volts = wire.output() + wire.added;
+  for (const auto& wire : pulses_) wire.to->pulses = wire.from->count;
 }
 
 void Bus::plants_to_inputs() {
   for (const auto& wire : counters_) wire.to->count = wire.from->count;
+  // A pulse is one period, four edges.
+  for (const auto& wire : loops_) wire.to->count = 4 * wire.from->count;
   for (const auto& wire : inputs_) wire.to->level = wire.from->level;
   for (const auto& wire : interrupts_) {
     if (wire.from->edge_count > 0) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ struct Panel {
 };
 
 /// The wires between the controller's terminals and the plants' plugs. Type-checked when connected: a counter
-/// takes an encoder, an input or interrupt line a signal, an output drives a command, an analogue output a
-/// reference; a plug that the controller drives has one driver.
+/// takes an encoder or a pulse output of its own controller, an input or interrupt line a signal, an output
+/// drives a command or a pulse train, an analogue output a reference; a plug that the controller drives has
+/// one driver.
 class Bus {
  public:
   /// Makes the scenario's wires; what cannot be connected is reported with its place and left out.
@@ -81,6 +83,15 @@ class Bus {
     plants::CommandPort* to;
   };
 
+  struct PulseWire {
+    const devices::PulseTrain* from;
+    plants::PulsePort* to;
+  };
+  struct LoopWire {
+    const devices::PulseTrain* from;
+    devices::Counter* to;
+  };
+
   void deliver_interrupts();
 
   devices::Controller* controller_ = nullptr;
@@ -89,7 +100,11 @@ class Bus {
   std::vector<InputWire> inputs_;
   std::vector<InterruptWire> interrupts_;
   std::vector<OutputWire> outputs_;
+  std::vector<PulseWire> pulses_;
+  std::vector<LoopWire> loops_;
   std::vector<AnalogueWire> analogue_outputs_;
+  std::set<devices::Address> wired_;
+  std::set<devices::Address> looped_;  ///< pulse outputs that a counter of the controller counts
   friend class Connector;
 };
 

@@ -14,11 +14,6 @@ namespace {
 
 constexpr int shown_digits = 6;
 
-/// "cut" names the event of any source, "knife.cut" that of one.
-bool matches(const std::string& wanted, const std::string& source, const std::string& event) {
-  return wanted == event || wanted == source + "." + event;
-}
-
 std::string window_text(const Check& check) {
   std::string text;
   if (check.from > 0) text += fmt::format(", from {} s", seconds_text(check.from));
@@ -61,21 +56,8 @@ Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
 const KnownEvent* Checks::bind_event(State& state, const Scenario& scenario,
                                      const std::vector<KnownEvent>& events, devices::Problems& problems) {
   const auto& check = state.check;
-  const KnownEvent* found = nullptr;
-  std::vector<std::string> known;
-  for (const auto& event : events) {
-    known.push_back(event.name);
-    known.push_back(event.source + "." + event.name);
-    if (found == nullptr && matches(check.event.text, event.source, event.name)) found = &event;
-  }
-  if (found == nullptr) {
-    const auto near = devices::nearest(check.event.text, known);
-    problems.push_back(problem_at(scenario, check.event.place,
-                                  fmt::format("nothing here reports an event '{}'", check.event.text),
-                                  near.empty() ? "events of plants are listed by drycut plants"
-                                               : fmt::format("did you mean {}?", near)));
-    return nullptr;
-  }
+  const auto* found = find_event(events, check.event, scenario, problems);
+  if (found == nullptr) return nullptr;
   for (const auto& [name, unit] : found->values) {
     if (check.kind == Check::Kind::all) {
       state.series.push_back({name, unit, {}});
@@ -116,7 +98,7 @@ void Checks::bind(State& state, const Scenario& scenario, Watch& watch, const Na
 }
 
 bool Checks::concerns(const State& state, const RecordedEvent& event) {
-  return !state.check.event.text.empty() && matches(state.check.event.text, event.source, event.event) &&
+  return !state.check.event.text.empty() && names_event(state.check.event.text, event.source, event.event) &&
          in_window(state.check, event.at_seconds());
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/known_events.hpp"
 #include "sim/names.hpp"
 #include "sim/recorder.hpp"
 #include "sim/scenario/expression.hpp"
@@ -21,13 +22,6 @@ struct CheckResult {
   std::string unit;              ///< of the margin, "" if it is none or mixed
   std::optional<double> at;      ///< [s] the worst moment
   std::string detail;            ///< "15 cuts, worst length = 800.047 mm at 7.204 s"
-};
-
-/// An event that something in the scenario can report, with its values and their units.
-struct KnownEvent {
-  std::string source;
-  std::string name;
-  std::vector<std::pair<std::string, std::string>> values;
 };
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the

@@ -4,16 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
+#include "renders/caption_bar.hpp"
+#include "renders/filmstrip.hpp"
 #include "renders/pictures.hpp"
+#include "renders/video.hpp"
 #include "sim/results.hpp"
 #include "sim/scenario/parameter_text.hpp"
 
 namespace drycut::sim {
 
 namespace {
+
+constexpr auto* frames_folder = "frames";
+constexpr auto* plots_folder = "plots";
+constexpr auto* video_file = "film.mp4";
+constexpr auto* strip_file = "filmstrip.png";
+constexpr auto* report_file = "report.html";
 
 renders::SolidPart solid(const std::string& plant, const plants::Part& part) {
   const auto shape = part.shape == plants::Part::Shape::box        ? renders::SolidPart::Shape::box
@@ -31,134 +42,6 @@ std::string caption_number(double number, const std::string& unit) {
   if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-')
     text.erase(0, 1);  // no "-0.00"
   return unit.empty() ? text : text + " " + unit;
-}
-
-renders::Curve event_curve(const Recording& recording, const PlotRequest& plot, const std::string& event,
-                           const std::string& value) {
-  renders::Curve curve;
-  curve.label = value;
-  curve.style = renders::Curve::Style::points;
-  double number = 0;
-  for (const auto& happened : recording.events()) {
-    if (happened.event != event && happened.source + "." + happened.event != event) continue;
-    const auto* found = happened.find(value);
-    ++number;
-    const double at = happened.at_seconds();
-    if (found == nullptr || at < seconds(plot.from) || (plot.until && at > seconds(*plot.until))) continue;
-    curve.x.push_back(plot.against_number ? number : at);
-    curve.y.push_back(found->number);
-  }
-  return curve;
-}
-
-std::string event_unit(const Recording& recording, const std::string& event, const std::string& value) {
-  for (const auto& happened : recording.events()) {
-    if (happened.event != event && happened.source + "." + happened.event != event) continue;
-    if (const auto* found = happened.find(value)) return found->unit;
-  }
-  return "";
-}
-
-renders::Curve channel_curve(const Recording& recording, const Recording::Column& column, Time from,
-                             const std::optional<Time>& until) {
-  renders::Curve curve;
-  curve.label = column.name;
-  for (std::size_t row = 0; row < recording.times().size(); ++row) {
-    const auto time = recording.times()[row];
-    if (time < from || (until && time > *until)) continue;
-    curve.x.push_back(seconds(time));
-    curve.y.push_back(column.values[row]);
-  }
-  return curve;
-}
-
-/// "following error [counts]": the panel's title with the units of what it shows.
-std::string axis_label(const std::string& title, const std::vector<std::string>& units) {
-  std::vector<std::string> distinct;
-  for (const auto& unit : units) {
-    const auto shown = unit.empty() ? std::string("-") : unit;
-    if (std::find(distinct.begin(), distinct.end(), shown) == distinct.end()) distinct.push_back(shown);
-  }
-  std::string text;
-  for (const auto& unit : distinct) text += (text.empty() ? "" : ", ") + unit;
-  return fmt::format("{}{}[{}]", title, title.empty() ? "" : " ", text);
-}
-
-/// A path in a plane: one curve, or one for each whole value of the split channel.
-renders::Panel path_panel(const Recording& recording, const PlotRequest& plot,
-                          const PlotRequest::Panel& request) {
-  const auto& x = *recording.column(request.x.text);
-  const auto& y = *recording.column(request.y.text);
-  const auto* split = request.split.text.empty() ? nullptr : recording.column(request.split.text);
-  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-  std::map<double, renders::Curve> curves;
-  double before = 0;
-  for (std::size_t row = 0; row < recording.times().size(); ++row) {
-    const auto time = recording.times()[row];
-    if (time < plot.from || (plot.until && time > *plot.until)) continue;
-    const double part = split == nullptr ? 1 : split->values[row];
-    if (part >= 1) {
-      auto& curve = curves[part];
-      if (part != before && !curve.x.empty()) {
-        curve.x.push_back(gap);
-        curve.y.push_back(gap);
-      }
-      curve.x.push_back(x.values[row]);
-      curve.y.push_back(y.values[row]);
-    }
-    before = part;
-  }
-  renders::Panel panel;
-  panel.title = request.title;
-  panel.y_label = axis_label(y.name, {y.unit});
-  panel.equal_scale = true;
-  for (auto& [part, curve] : curves) {
-    if (split != nullptr) {
-      curve.label = fmt::format("{:g}", part);
-      if (part <= static_cast<double>(request.labels.size()))
-        curve.label = request.labels[static_cast<std::size_t>(part) - 1].text;
-    }
-    panel.curves.push_back(std::move(curve));
-  }
-  for (const auto& point : request.points) panel.points.push_back({point.label.text, point.x, point.y});
-  return panel;
-}
-
-renders::Panel panel_of(const Recording& recording, const PlotRequest& plot,
-                        const PlotRequest::Panel& request) {
-  renders::Panel panel;
-  std::vector<std::string> units;
-  for (const auto& name : request.channels) {
-    const auto* column = recording.column(name.text);
-    panel.curves.push_back(channel_curve(recording, *column, plot.from, plot.until));
-    units.push_back(column->unit);
-  }
-  for (const auto& value : request.values) {
-    panel.curves.push_back(event_curve(recording, plot, request.event.text, value.text));
-    units.push_back(event_unit(recording, request.event.text, value.text));
-  }
-  panel.y_label = axis_label(request.title, units);
-  if (request.limits) {
-    panel.bands.push_back({fmt::format("{:g} to {:g}", request.limits->first, request.limits->second),
-                           request.limits->first, request.limits->second});
-  }
-  return panel;
-}
-
-/// Without a request: every recorded channel, channels of one unit together.
-renders::Plot overview(const Recording& recording) {
-  renders::Plot plot{"recorded", "Recorded channels", "time [s]", {}, 1200, 260};
-  for (const auto& column : recording.columns()) {
-    const auto label = axis_label("", {column.unit});
-    auto found = std::find_if(plot.panels.begin(), plot.panels.end(),
-                              [&](const auto& p) { return p.y_label == label; });
-    if (found == plot.panels.end()) {
-      plot.panels.push_back({"", label, {}, {}, {}});
-      found = std::prev(plot.panels.end());
-    }
-    found->curves.push_back(channel_curve(recording, column, 0, {}));
-  }
-  return plot;
 }
 
 renders::ReportTable event_table(const Recording& recording, const KnownEvent& known) {
@@ -205,10 +88,13 @@ renders::ReportTable controller_table(Simulation& simulation) {
 
 std::string units_note(double simulated) { return fmt::format("{:g} s", simulated); }
 
-/// Six frames from the last full cycle between two cuts, or from the whole run: what the machine does, at a
-/// glance.
-std::vector<std::size_t> chosen_frames(const std::vector<Snapshot>& snapshots, const Recording& recording) {
-  constexpr std::size_t wanted = 6;
+constexpr std::size_t report_frames = 6;
+constexpr std::size_t strip_frames = 8;
+
+/// So many frames from the last full cycle between two cuts, or from the whole film: what the machine does,
+/// at a glance.
+std::vector<std::size_t> chosen_frames(const Simulation& simulation, std::size_t wanted) {
+  const auto& snapshots = simulation.snapshots();
   if (snapshots.size() <= wanted) {
     std::vector<std::size_t> all(snapshots.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -217,17 +103,17 @@ std::vector<std::size_t> chosen_frames(const std::vector<Snapshot>& snapshots, c
   double from = seconds(snapshots.front().time);
   double until = seconds(snapshots.back().time);
   std::vector<double> cuts;
-  for (const auto& event : recording.events()) {
+  for (const auto& event : simulation.recording().events()) {
     if (event.event == "cut" && event.at_seconds() >= from && event.at_seconds() <= until)
       cuts.push_back(event.at_seconds());
   }
-  if (cuts.size() >= 2) {
+  if (cuts.size() >= 2 && !simulation.frames_event()) {
     until = cuts.back();
     from = cuts[cuts.size() - 2];
   }
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < wanted; ++i) {
-    const double at = from + (until - from) * static_cast<double>(i) / (wanted - 1);
+    const double at = from + (until - from) * static_cast<double>(i) / static_cast<double>(wanted - 1);
     std::size_t nearest = 0;
     for (std::size_t k = 0; k < snapshots.size(); ++k) {
       if (std::abs(seconds(snapshots[k].time) - at) < std::abs(seconds(snapshots[nearest].time) - at))
@@ -236,6 +122,13 @@ std::vector<std::size_t> chosen_frames(const std::vector<Snapshot>& snapshots, c
     if (chosen.empty() || chosen.back() != nearest) chosen.push_back(nearest);
   }
   return chosen;
+}
+
+std::string frame_label(const Simulation& simulation, std::size_t index) {
+  const double time = seconds(simulation.snapshots()[index].time);
+  const auto event = simulation.frames_event();
+  if (!event) return fmt::format("{:.3f} s", time);
+  return fmt::format("{:.3f} s ({:+.1f} ms)", time, (time - *event) * 1e3);
 }
 
 /// The film as the camera sees it: of one plant only its own parts, unless it shows the whole line.
@@ -247,6 +140,18 @@ renders::Film shown(const renders::Film& film, const std::string& camera) {
     for (auto& frame : view.frames) frame.placements[i].visible = false;
   }
   return view;
+}
+
+/// What a film in slow motion about an event tells beside the channels.
+std::vector<renders::CaptionItem> film_caption(const PicturesSection& pictures,
+                                               std::optional<double> event_at, double at) {
+  std::vector<renders::CaptionItem> items;
+  if (event_at) {
+    items.push_back({fmt::format("from {}[{}]", pictures.around->event.text, pictures.around->number),
+                     fmt::format("{:+.1f} ms", (at - *event_at) * 1e3)});
+  }
+  if (pictures.slow > 1) items.push_back({"slowed down", fmt::format("{} x", pictures.slow)});
+  return items;
 }
 
 }  // namespace
@@ -265,6 +170,7 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation) {
     for (const auto& pose : shot.poses) {
       frame.placements.push_back({pose.pose.position, pose.pose.rotation, pose.scale, pose.visible});
     }
+    frame.caption = film_caption(scenario.pictures, simulation.frames_event(), frame.time_s);
     for (std::size_t i = 0; i < shot.caption.size(); ++i) {
       frame.caption.push_back({scenario.pictures.caption[i].text,
                                caption_number(shot.caption[i], simulation.caption_units()[i])});
@@ -275,34 +181,8 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation) {
   return film;
 }
 
-std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& recording) {
-  std::vector<renders::Plot> plots;
-  for (const auto& request : scenario.pictures.plots) {
-    renders::Plot plot;
-    plot.name = request.name.text;
-    plot.title = request.title.empty() ? request.name.text : request.title;
-    plot.x_label = "time [s]";
-    if (request.against_number) plot.x_label = request.panels.front().event.text + " number";
-    for (const auto& panel : request.panels) {
-      if (!panel.is_path()) {
-        plot.panels.push_back(panel_of(recording, request, panel));
-        continue;
-      }
-      const auto& x = *recording.column(panel.x.text);
-      plot.x_label = axis_label(x.name, {x.unit});
-      plot.width = 960;
-      plot.panel_height = 900;
-      plot.panels.push_back(path_panel(recording, request, panel));
-    }
-    plots.push_back(std::move(plot));
-  }
-  if (plots.empty() && !recording.columns().empty()) plots.push_back(overview(recording));
-  return plots;
-}
-
 renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                          const std::vector<std::filesystem::path>& frames,
-                          const std::vector<std::filesystem::path>& plots) {
+                          Drawn drawn) {
   renders::Report report;
   report.title = scenario.scene.title.empty() ? scenario.file.stem().string() : scenario.scene.title;
   report.scenario = scenario.file.filename().string();
@@ -319,13 +199,13 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   for (const auto& check : outcome.checks) {
     report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
   }
-  if (!frames.empty()) {
-    for (const auto index : chosen_frames(simulation.snapshots(), simulation.recording())) {
-      report.frames.push_back(
-          {frames.at(index), fmt::format("{} s", seconds_text(simulation.snapshots()[index].time))});
-    }
+  if (!drawn.frames.empty()) {
+    for (const auto index : chosen_frames(simulation, report_frames))
+      report.frames.push_back({drawn.frames.at(index), frame_label(simulation, index)});
   }
-  for (const auto& plot : plots) report.plots.push_back({plot, "plots/" + plot.filename().string()});
+  report.video = drawn.video;
+  report.live = std::move(drawn.live);
+  for (const auto& plot : drawn.plots) report.plots.push_back({plot, "plots/" + plot.filename().string()});
   for (const auto& known : simulation.known_events()) {
     auto table = event_table(simulation.recording(), known);
     if (!table.rows.empty()) report.tables.push_back(std::move(table));
@@ -345,6 +225,41 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   for (const auto& entry : scenario.plants) report.tables.push_back(parameter_table(entry));
   report.scenario_expanded = expand(scenario);
   return report;
+}
+
+void write_pictures(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
+                    const std::filesystem::path& directory, int threads,
+                    const std::function<void(const char*, double)>& progress) {
+  Drawn drawn;
+  std::exception_ptr no_film;
+  if (!simulation.snapshots().empty()) {
+    const auto film = film_of(scenario, simulation);
+    const auto count = static_cast<double>(film.frames.size());
+    drawn.frames = renders::draw_film(
+        film, directory / frames_folder, [&](int done) { progress("drawing", done / count); }, threads);
+    std::vector<renders::StripFrame> strip;
+    for (const auto index : chosen_frames(simulation, strip_frames))
+      strip.push_back({drawn.frames.at(index), frame_label(simulation, index)});
+    renders::draw_filmstrip(strip, renders::CaptionLayout(film).height(), directory / strip_file);
+    if (scenario.pictures.video) {
+      progress("filming", 1);
+      try {
+        renders::encode_video(directory / frames_folder, scenario.pictures.every, directory / video_file);
+        drawn.video = directory / video_file;
+      } catch (const std::runtime_error&) {
+        no_film = std::current_exception();  // the report is worth having without it
+      }
+    }
+  }
+  drawn.live = plots_of(scenario, simulation.recording());
+  drawn.plots = renders::draw_plots(drawn.live, directory / plots_folder);
+  renders::write_report(report_of(scenario, simulation, outcome, std::move(drawn)), directory / report_file);
+  if (no_film) std::rethrow_exception(no_film);
+}
+
+void remove_pictures(const std::filesystem::path& directory) {
+  for (const auto* old : {frames_folder, plots_folder, video_file, strip_file, report_file})
+    std::filesystem::remove_all(directory / old);
 }
 
 }  // namespace drycut::sim

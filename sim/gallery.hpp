@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <vector>
 
 #include "renders/plots.hpp"
 #include "renders/report.hpp"
@@ -17,9 +19,23 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation);
 /// unit.
 std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& recording);
 
-/// The report of a run; `frames` and `plots` are the picture files made for it.
+/// Picture files made for a report.
+struct Drawn {
+  std::vector<std::filesystem::path> frames;  ///< one a snapshot
+  std::vector<std::filesystem::path> plots;
+  std::filesystem::path video;      ///< "" = none
+  std::vector<renders::Plot> live;  ///< the plots as data
+};
 renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                          const std::vector<std::filesystem::path>& frames,
-                          const std::vector<std::filesystem::path>& plots);
+                          Drawn drawn);
+
+/// Everything that is drawn of a run: frames/, film.mp4, filmstrip.png, plots/ and report.html in
+/// `directory`. `progress` is told what is being done and which share of it is. Throws std::runtime_error if
+/// something cannot be drawn or written.
+void write_pictures(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
+                    const std::filesystem::path& directory, int threads,
+                    const std::function<void(const char*, double)>& progress);
+/// Removes what write_pictures left in an earlier run.
+void remove_pictures(const std::filesystem::path& directory);
 
 }  // namespace drycut::sim

@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <string>
+#include <vector>
 
+#include "sim/cam/study.hpp"
 #include "sim/commands/commands.hpp"
+#include "sim/scenario/yaml_reader.hpp"
 
 namespace {
 
@@ -14,26 +18,31 @@ using namespace drycut::sim;
 void add_cam(CLI::App& app, CamOptions& options, int& status) {
   auto* cam = app.add_subcommand(
       "cam",
-      "Validate a cam table without a machine: its sectors, errors, warnings and violated limits.\n"
-      "Positions are in Um of the table; speeds in 10^decpt Um per minute or second (unitvel), as maxvel.\n"
+      "Validate a cam table without a machine: its sectors or rows, errors, warnings and violated limits.\n"
+      "CAMMING4: positions in Um, speeds in 10^decpt Um per minute or second (unitvel), as maxvel.\n"
+      "LX3VP: positions in pulses, speeds in pulses per second.\n"
       "Exit status: 0 sound (warnings are printed), 1 an error or a violated limit, 2 bad input");
-  cam->add_option("table", options.table,
-                  "Cam table (.csv): sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM")
-      ->required();
-  cam->add_option("--device", options.device, "Device that runs the cam")
-      ->check(CLI::IsMember({"camming4"}))
-      ->capture_default_str();
+  std::string headers;
+  std::vector<std::string> devices;
+  for (const auto& kind : cam_kinds()) {
+    headers += (headers.empty() ? "" : "; ") + std::string(kind.header);
+    devices.emplace_back(kind.name);
+  }
+  cam->add_option("table", options.table, "Cam table (.csv): " + headers)->required();
+  cam->add_option("--device", options.device, "Device that runs the cam; else by the table's header")
+      ->check(CLI::IsMember(devices));
   cam->add_option("--master-speed", options.duty.master_speed,
-                  "Speed of the master: results in time too, errors 4 of sampling, warnings 1 and 2");
+                  "Speed of the master: results in time too, and what depends on it is judged");
   cam->add_option("--max-velocity", options.duty.max_velocity, "Limit of the slave's velocity");
   cam->add_option("--max-acceleration", options.duty.max_acceleration,
-                  "Limit of the slave's acceleration [Um/s2]");
-  cam->add_option("--at", options.at, "Sample at these master positions [Um], M1,M2,...")
+                  "Limit of the slave's acceleration [Um/s2, pulses/s2]");
+  cam->add_option("--at", options.at, "Sample at these master positions [Um, pulses], M1,M2,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   cam->add_option("--csv", options.csv, "Write the samples; - prints them, the report to standard error");
   cam->add_option("--png", options.png, "Draw position, velocity, acceleration and jerk");
-  cam->add_option("--loops", options.loops, "Times round, for a cam that jumps back")
+  cam->add_option("--table", options.rows, "Write the rows that the device makes (# ecamtbx)");
+  cam->add_option("--loops", options.loops, "Times round, for a cam that comes back to its beginning")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   cam->add_flag("--strict", options.strict, "Warnings and cautions fail as well");
@@ -47,20 +56,24 @@ void add_bode(CLI::App& app, BodeOptions& options, int& status) {
       "Exit status: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the\n"
       "simulation failed");
   bode->add_option("scenario", options.scenario, "Scenario (.yaml)")->required();
-  bode->add_option("--wire", options.wire, "Analogue reference, as knife.servo.reference");
-  bode->add_option("--speed", options.speed, "Channel of the motor's speed, for the speed loop");
-  bode->add_option("--at", options.at, "The scenario runs undisturbed until then [s]; else to its end");
-  bode->add_option("--from", options.from, "Lowest frequency [Hz]; else 1");
-  bode->add_option("--to", options.to, "Highest frequency [Hz]; else half the sampling frequency");
-  bode->add_option("--points", options.points, "Frequencies between them, evenly in decades")
+  bode->add_option("--wire", options.loop.wire, "Analogue reference, as knife.servo.reference");
+  bode->add_option("--speed", options.loop.speed, "Channel of the motor's speed, for the speed loop");
+  bode->add_option("--at", options.loop.at, "The scenario runs undisturbed until then [s]; else to its end");
+  bode->add_option("--from", options.loop.from, "Lowest frequency [Hz]; else 1, and lower to the crossover");
+  bode->add_option("--to", options.loop.to, "Highest frequency [Hz]; else half the sampling frequency");
+  bode->add_option("--points", options.loop.points, "Frequencies between them, evenly in decades")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
-  bode->add_option("--amplitude", options.amplitude, "Of the sine [V]")->capture_default_str();
-  bode->add_option("--settle", options.settle, "Before each measurement [s]")->capture_default_str();
+  bode->add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")->capture_default_str();
+  bode->add_option("--settle", options.loop.settle, "Before each measurement [s]")->capture_default_str();
+  bode->add_flag(
+      "--limit-cycle", options.limit_cycle,
+      "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
   bode->add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
   bode->add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
   bode->add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
   bode->add_option("--png", options.png, "Draw gain and phase");
+  bode->add_option("--out", options.out, "Directory for report.html, plot and table");
   bode->add_option("--set", options.set, "Override a value of the scenario: path=value, may be repeated")
       ->allow_extra_args(false);
   bode->callback([&] { status = measure_bode(options); });
@@ -82,13 +95,20 @@ void add_tune(CLI::App& app, TuneOptions& options, int& status) {
   tune->add_option("--minimise", options.minimise, "Metric, such as rms(AxisX.follerr) or sd(cut.length)")
       ->required();
   tune->add_option("--constraint", options.constraints,
-                   "Limit, such as \"max(abs(knife.motor.torque)) <= 20\"; may be repeated")
+                   "Limit, such as \"max(abs(knife.motor.torque)) <= 20\", \"phase_margin >= 45\" [deg], "
+                   "\"gain_margin >= 6\" [dB] or \"max_sensitivity <= 2\"; may be repeated")
       ->allow_extra_args(false);
+  tune->add_option("--wire", options.loop.wire,
+                   "Analogue reference where margins are measured, as with bode");
+  tune->add_option("--at", options.loop.at, "Margins are measured from then on [s]; else from the end on");
+  tune->add_option("--amplitude", options.loop.amplitude, "Of the sine that measures margins [V]")
+      ->capture_default_str();
   tune->add_option("--from", options.from, "Metric and constraints look from this time on")
       ->capture_default_str();
   tune->add_flag("--ignore-checks", options.ignore_checks, "The scenarios' failed checks do not count");
   tune->add_option("--budget", options.budget,
-                   "Simulated runs of the search; the surroundings of the optimum come on top")
+                   "Simulated runs of the search; the surroundings of the optimum come on top.\n"
+                   "A margin takes two more, of the values that keep all other limits")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   tune->add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
@@ -141,10 +161,14 @@ int run(int argc, char** argv) {
   check
       ->add_option(
           "files", check_options.files,
-          "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, cam tables "
-          "(.csv)")
+          "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
+          "lists (.il), cam tables and registers (.csv)")
       ->required();
   check->add_flag("--expand", check_options.expand, "Print scenarios with every default in force");
+  check
+      ->add_option("--set", check_options.set,
+                   "Override a value of the scenarios: path=value, may be repeated")
+      ->allow_extra_args(false);
   check->callback([&] { status = check_files(check_options); });
 
   CamOptions cam_options;
@@ -168,6 +192,13 @@ int run(int argc, char** argv) {
   plants->add_flag("--json", json, "As JSON");
   plants->callback([&] { status = list_plants(name, json); });
 
+  std::vector<std::string> commands;
+  for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1], did_you_mean(argv[1], commands));
+    return bad_input;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

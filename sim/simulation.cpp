@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "sim/controller_loader.hpp"
+#include "sim/gallery_plots.hpp"
 
 namespace drycut::sim {
 
@@ -18,7 +19,8 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
     : scenario_(scenario),
       step_(scenario.scene.step),
       h_(seconds(scenario.scene.step)),
-      world_(scenario.scene.seed) {
+      world_(scenario.scene.seed),
+      shutter_(scenario.pictures) {
   load_controller(problems);
   build_plants();
   if (controller_) {
@@ -84,16 +86,8 @@ void Simulation::bind_recording(devices::Problems& problems) {
 
 void Simulation::check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const {
   if (panel.event.text.empty()) return;
-  const auto of = [&](const KnownEvent& known) {
-    return panel.event.text == known.name || panel.event.text == known.source + "." + known.name;
-  };
-  const auto known = std::find_if(known_events_.begin(), known_events_.end(), of);
-  if (known == known_events_.end()) {
-    problems.push_back(problem_at(scenario_, panel.event.place,
-                                  fmt::format("nothing here reports an event '{}'", panel.event.text),
-                                  "events of plants are listed by drycut plants"));
-    return;
-  }
+  const auto* known = find_event(known_events_, panel.event, scenario_, problems);
+  if (known == nullptr) return;
   std::vector<std::string> names;
   for (const auto& [name, unit] : known->values) names.push_back(name);
   for (const auto& value : panel.values) {
@@ -102,6 +96,51 @@ void Simulation::check_plot_event(const PlotRequest::Panel& panel, devices::Prob
                                   fmt::format("event '{}' has no value '{}'", panel.event.text, value.text),
                                   fmt::format("it has: {}", fmt::join(names, ", "))));
   }
+}
+
+/// A lane shows a state: a quantity with a unit is none.
+void Simulation::add_lane(const Text& name, devices::Problems& problems) {
+  add_channel(name, problems);
+  const auto* column = recording_.column(name.text);
+  if (column == nullptr || column->unit.empty()) return;
+  problems.push_back(problem_at(scenario_, name.place,
+                                fmt::format("{} is a quantity in {}, not a state", name.text, column->unit),
+                                "show it in a panel of channels"));
+}
+
+void Simulation::add_motor(const Text& plant, devices::Problems& problems) {
+  bool known = has_motor_limits(scenario_, plant.text);
+  for (const auto& name : motor_channels(plant.text)) known = known && recording_.add(*watch_, name);
+  if (known) return;
+  problems.push_back(problem_at(scenario_, plant.place,
+                                fmt::format("'{}' is no plant with a servo motor", plant.text),
+                                "name a plant with parameters servo.rated_torque, servo.peak_torque, ..."));
+}
+
+void Simulation::bind_plot(const PlotRequest& plot, const std::vector<KnownEvent>& events,
+                           devices::Problems& problems) {
+  for (const auto& panel : plot.panels) {
+    check_plot_event(panel, problems);
+    for (const auto& name : panel.lanes) add_lane(name, problems);
+    for (const auto& name : panel.channels) add_channel(name, problems);
+    for (const auto* name : {&panel.x, &panel.y, &panel.split})
+      if (!name->text.empty()) add_channel(*name, problems);
+    if (!panel.motor.text.empty()) add_motor(panel.motor, problems);
+  }
+  if (!plot.marks) return;
+  for (const auto& mark : *plot.marks) find_event(events, mark, scenario_, problems);
+}
+
+void Simulation::bind_frames(const std::vector<KnownEvent>& events, devices::Problems& problems) const {
+  const auto& pictures = scenario_.pictures;
+  if (!pictures.frames) return;
+  if (pictures.around) find_event(events, pictures.around->event, scenario_, problems);
+  if (pictures.every % pictures.slow == 0 && pictures.every / pictures.slow % step_ == 0) return;
+  problems.push_back(problem_at(
+      scenario_, pictures.slow_place,
+      fmt::format("pictures.frames: a frame every {} ns / {} is not a whole multiple of the step of {} ns",
+                  pictures.every, pictures.slow, step_),
+      "choose every = slow x a multiple of the step"));
 }
 
 void Simulation::bind_pictures(devices::Problems& problems) {
@@ -113,14 +152,10 @@ void Simulation::bind_pictures(devices::Problems& problems) {
                                   fmt::format("there is no camera '{}'", camera),
                                   fmt::format("cameras: {}", fmt::join(cameras, ", "))));
   }
-  for (const auto& plot : scenario_.pictures.plots) {
-    for (const auto& panel : plot.panels) {
-      check_plot_event(panel, problems);
-      for (const auto& name : panel.channels) add_channel(name, problems);
-      for (const auto* name : {&panel.x, &panel.y, &panel.split})
-        if (!name->text.empty()) add_channel(*name, problems);
-    }
-  }
+  auto events = known_events_;
+  for (auto& event : events_of_every_run()) events.push_back(std::move(event));
+  bind_frames(events, problems);
+  for (const auto& plot : scenario_.pictures.plots) bind_plot(plot, events, problems);
   for (const auto& name : scenario_.pictures.caption) {
     const auto* slot = watch_->slot(name.text);
     if (slot == nullptr) {
@@ -153,7 +188,7 @@ void Simulation::step() {
   time_ += step_;
   if (!world_.failure().empty()) failure_ = world_.failure();
   if (time_ >= next_record_) record();
-  if (time_ >= next_snapshot_) snapshot();
+  if (time_ >= shutter_.next()) snapshot();
 }
 
 void Simulation::collect_events() {
@@ -180,6 +215,7 @@ void Simulation::collect_events() {
   watch_->update();
   for (; events_seen_ < recording_.events().size(); ++events_seen_) {
     checks_->happened(recording_.events()[events_seen_]);
+    shutter_.happened(recording_.events()[events_seen_]);
   }
 }
 
@@ -195,19 +231,17 @@ void Simulation::record() {
 }
 
 void Simulation::snapshot() {
-  const auto& pictures = scenario_.pictures;
-  next_snapshot_ = std::max(time_ + pictures.every, pictures.from);
-  if (!pictures.frames || time_ < pictures.from || (pictures.until && time_ > *pictures.until)) return;
+  auto* shot = shutter_.take(time_);
+  if (shot == nullptr) return;
   watch_->update();
-  auto& shot = snapshots_.emplace_back();
-  shot.time = time_;
+  shot->time = time_;
   std::vector<plants::PartPose> poses;
   for (auto& plant : plants_) {
     poses.clear();
     plant->poses(poses);
-    shot.poses.insert(shot.poses.end(), poses.begin(), poses.end());
+    shot->poses.insert(shot->poses.end(), poses.begin(), poses.end());
   }
-  for (const auto* slot : caption_) shot.caption.push_back(*slot);
+  for (const auto* slot : caption_) shot->caption.push_back(*slot);
 }
 
 std::vector<std::string> Simulation::notes() const {
@@ -215,6 +249,11 @@ std::vector<std::string> Simulation::notes() const {
   std::vector<std::string> notes;
   if (const auto open = bus_.unwired(); !open.empty())
     notes.push_back(fmt::format("not wired: {}", fmt::join(open, ", ")));
+  const auto& around = scenario_.pictures.around;
+  if (around && scenario_.pictures.frames && !shutter_.event_at()) {
+    notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
+                                around->number, shutter_.seen()));
+  }
   std::size_t remarks = 0;
   for (const auto& event : recording_.events()) {
     if (event.text.empty() || event.source == "timeline") continue;
@@ -243,7 +282,6 @@ std::vector<Reading> Simulation::controller_values() {
 Outcome Simulation::run(const std::function<void(Time)>& progress) {
   constexpr int steps_between_reports = 2000;
   record();
-  next_snapshot_ = std::max(scenario_.pictures.every, scenario_.pictures.from);
   int countdown = steps_between_reports;
   while (time_ < scenario_.scene.duration && failure_.empty()) {
     step();

@@ -13,17 +13,11 @@
 #include "sim/names.hpp"
 #include "sim/recorder.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "sim/shutter.hpp"
 #include "sim/timeline.hpp"
 #include "sim/watch.hpp"
 
 namespace drycut::sim {
-
-/// Where every part was at the instant of a frame, and the captions' numbers.
-struct Snapshot {
-  Time time = 0;
-  std::vector<plants::PartPose> poses;  ///< of all plants, in order
-  std::vector<double> caption;          ///< one a caption channel
-};
 
 /// How a run ended.
 struct Outcome {
@@ -73,11 +67,13 @@ class Simulation {
     return controller_ ? controller_->retentive_state() : "";
   }
   [[nodiscard]] const Recording& recording() const { return recording_; }
-  [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+  [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return shutter_.kept(); }
+  /// When the event happened that the frames are about [s]; absent if they are about none.
+  [[nodiscard]] std::optional<double> frames_event() const { return shutter_.event_at(); }
   [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }
   /// Units of the caption channels.
   [[nodiscard]] const std::vector<std::string>& caption_units() const { return caption_units_; }
-  /// Events that the plants and the controller can report.
+  /// Events that the plants can report.
   [[nodiscard]] const std::vector<KnownEvent>& known_events() const { return known_events_; }
 
  private:
@@ -86,7 +82,11 @@ class Simulation {
   void check_periods(devices::Problems& problems) const;
   void bind_recording(devices::Problems& problems);
   void bind_pictures(devices::Problems& problems);
+  void bind_plot(const PlotRequest& plot, const std::vector<KnownEvent>& events, devices::Problems& problems);
+  void bind_frames(const std::vector<KnownEvent>& events, devices::Problems& problems) const;
   void check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const;
+  void add_motor(const Text& plant, devices::Problems& problems);
+  void add_lane(const Text& name, devices::Problems& problems);
   void add_channel(const Text& name, devices::Problems& problems);
 
   void step();
@@ -111,8 +111,7 @@ class Simulation {
   Recording recording_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
-  Time next_snapshot_ = 0;
-  std::vector<Snapshot> snapshots_;
+  Shutter shutter_;
   std::vector<const double*> caption_;
   std::vector<std::string> caption_units_;
   std::vector<KnownEvent> known_events_;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
+#include "renders/report.hpp"
 #include "sim/recorder.hpp"
 
 namespace drycut::sim {
@@ -35,8 +37,15 @@ struct Table {
   Columns speed;  ///< empty if not measured
 };
 
-Table table_of(const BodeResult& result) {
-  const auto& points = result.sweep.points;
+/// The points where the loop answered.
+std::vector<BodePoint> heard(const LoopResult& result) {
+  auto points = result.sweep.points;
+  std::erase_if(points, [](const BodePoint& point) { return point.silent; });
+  return points;
+}
+
+Table table_of(const LoopResult& result) {
+  const auto points = heard(result);
   Table table;
   table.open = columns_of(points, [](const BodePoint& p) { return p.open_loop; });
   table.closed = columns_of(points, [](const BodePoint& p) { return p.closed_loop(); });
@@ -45,40 +54,35 @@ Table table_of(const BodeResult& result) {
   return table;
 }
 
-std::string hertz(double frequency) { return fmt::format("{:.4g} Hz", frequency); }
-
-std::string margins_text(const BodeResult& result) {
+/// What the loop is judged by: name and value in words.
+std::vector<renders::ReportRow> margin_rows(const LoopResult& result) {
   const auto& margins = result.margins;
-  const auto row = [](const char* name, const std::string& value) {
-    return fmt::format("{:<24}{}\n", name, value);
-  };
   const std::string absent = "not between these frequencies";
-  std::string text;
-  text +=
-      row("phase margin", margins.phase ? fmt::format("{:.1f} deg at the crossover of {}",
-                                                      margins.phase->value, hertz(margins.phase->frequency))
-                                        : "no crossover between these frequencies");
-  text +=
-      row("gain margin", margins.gain ? fmt::format("{:.2f} dB at {}: unstable from {:.3g} times the gain on",
-                                                    margins.gain->value, hertz(margins.gain->frequency),
-                                                    std::pow(10, margins.gain->value / 20))
-                                      : absent);
+  const auto factor = [](const AtFrequency& margin) { return std::pow(10, margin.value / 20); };
+  std::vector<renders::ReportRow> rows;
+  const auto row = [&](const char* name, std::string value) { rows.push_back({{name, std::move(value)}}); };
+  row("phase margin", margins.phase ? fmt::format("{:.1f} deg at the crossover of {}", margins.phase->value,
+                                                  hertz_text(margins.phase->frequency))
+                                    : "no crossover between these frequencies");
+  row("gain margin", margins.gain ? fmt::format("{:.2f} dB at {}: unstable from {:.3g} times the gain on",
+                                                margins.gain->value, hertz_text(margins.gain->frequency),
+                                                factor(*margins.gain))
+                                  : absent);
   if (margins.gain_down)
-    text +=
-        row("gain margin downwards",
-            fmt::format("{:.2f} dB at {}: unstable below {:.3g} times the gain", margins.gain_down->value,
-                        hertz(margins.gain_down->frequency), std::pow(10, margins.gain_down->value / 20)));
+    row("gain margin downwards",
+        fmt::format("{:.2f} dB at {}: unstable below {:.3g} times the gain", margins.gain_down->value,
+                    hertz_text(margins.gain_down->frequency), factor(*margins.gain_down)));
   if (margins.sensitivity)
-    text += row("largest sensitivity", fmt::format("{:.2f} at {}", margins.sensitivity->value,
-                                                   hertz(margins.sensitivity->frequency)));
-  text += row("position loop -3 dB", margins.closed_bandwidth ? hertz(*margins.closed_bandwidth) : absent);
+    row("largest sensitivity",
+        fmt::format("{:.2f} at {}", margins.sensitivity->value, hertz_text(margins.sensitivity->frequency)));
+  row("position loop -3 dB", margins.closed_bandwidth ? hertz_text(*margins.closed_bandwidth) : absent);
   if (!result.speed.empty())
-    text += row("speed loop -3 dB", margins.speed_bandwidth ? hertz(*margins.speed_bandwidth) : absent);
-  return text;
+    row("speed loop -3 dB", margins.speed_bandwidth ? hertz_text(*margins.speed_bandwidth) : absent);
+  return rows;
 }
 
-std::string table_text(const BodeResult& result) {
-  const auto& points = result.sweep.points;
+std::string table_text(const LoopResult& result) {
+  const auto points = heard(result);
   const auto table = table_of(result);
   const bool speed = !result.speed.empty();
   std::string text = fmt::format("{:>10}{:>20}{:>20}{:>20}{:>9}\n{:>10}{:>20}{:>20}{:>20}{:>9}\n",
@@ -96,55 +100,139 @@ std::string table_text(const BodeResult& result) {
   return text;
 }
 
-}  // namespace
-
-std::vector<std::string> bode_doubts(const BodeResult& result) {
-  std::vector<std::string> doubts;
-  if (!result.sweep.failure.empty()) doubts.push_back("the simulation stopped: " + result.sweep.failure);
-  if (result.sweep.loop == Sweep::Loop::open)
-    doubts.push_back(
-        fmt::format("{} does not answer: the loop is open at {} s; measure while the axis regulates "
-                    "(--at), or with more --amplitude",
-                    result.terminal, seconds_text(result.plan.at)));
-  if (result.sweep.loop == Sweep::Loop::unstable)
-    doubts.emplace_back("the loop is not stable: after a push it swings on; lower the gain");
-  const auto tell = [&](const std::string& what, const auto& doubted) {
-    int count = 0;
-    const BodePoint* first = nullptr;
-    for (const auto& point : result.sweep.points) {
-      if (!doubted(point)) continue;
-      if (first == nullptr) first = &point;
-      ++count;
+renders::ReportTable response_table(const LoopResult& result) {
+  const auto table = table_of(result);
+  renders::ReportTable made{"Response", {"frequency [Hz]"}, {}, true};
+  std::vector<const Columns*> all = {&table.open, &table.closed, &table.sensitivity};
+  std::vector<std::string> names = {"open loop", "position loop", "sensitivity"};
+  if (!result.speed.empty()) {
+    all.push_back(&table.speed);
+    names.push_back(fmt::format("{}, of its first value", result.speed));
+  }
+  for (const auto& name : names) {
+    made.headings.push_back(name + " [dB]");
+    made.headings.push_back(name + " [deg]");
+  }
+  const auto points = heard(result);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    renders::ReportRow row{{fmt::format("{:.4g}", points[i].frequency)}};
+    for (const auto* columns : all) {
+      const double zero = columns == &table.speed ? columns->gain.front() : 0;
+      row.cells.push_back(fmt::format("{:.2f}", columns->gain[i] - zero));
+      row.cells.push_back(fmt::format("{:.1f}", columns->phase[i]));
     }
-    if (count == 0) return;
-    doubts.push_back(fmt::format("at {} of {} frequencies, the first {}, {}", count,
-                                 result.sweep.points.size(), hertz(first->frequency), what));
-  };
-  tell(result.terminal + " stood at its limit of 10 V: take less --amplitude",
-       [](const BodePoint& point) { return point.saturated; });
-  tell(fmt::format(
-           "the answer is lost in what else moves (error above {:.0f} %): measure while the axis stands or "
-           "runs evenly (--at), or with another --amplitude",
-           bode_error_limit * 100),
-       [](const BodePoint& point) { return !(point.doubt() <= bode_error_limit); });
-  return doubts;
+    made.rows.push_back(std::move(row));
+  }
+  return made;
 }
 
-std::string bode_report(const BodeResult& result) {
+/// What was measured, in one line.
+std::string subject(const LoopResult& result) {
   const auto& plan = result.plan;
-  std::string text = fmt::format("{}: {} from {}, sampled every {} ms; a sine of {} V added from {} s on\n",
-                                 result.scenario, result.wire, result.terminal, seconds(plan.sampling) * 1000,
-                                 plan.amplitude, seconds_text(plan.at));
-  if (!result.sweep.points.empty()) {
-    text += '\n' + table_text(result) + '\n' + margins_text(result);
-    text += fmt::format(
-        "Gains and phases are those of the simulated loop, the delay of sampling and hold included.\n");
+  return fmt::format("{}: {} from {}, sampled every {} ms; a sine of {:.3g} V added from {} s on",
+                     result.scenario, result.wire, result.terminal, seconds(plan.sampling) * 1000,
+                     plan.amplitude, seconds_text(plan.at));
+}
+
+/// Where a limit cycle begins, in a sentence.
+std::string verdict_of(const LimitCycle& cycle) {
+  if (!cycle.least) return "Limit cycle: no gain margin was found at any amplitude.";
+  const auto& least = cycle.margins[*cycle.least];
+  return fmt::format(
+      "Limit cycle from {:.3g} times the gain on: {} at about {:.2g} V; a smaller disturbance may die out.{}",
+      factor_of(*least.gain), hertz_text(least.gain->frequency), least.amplitude(),
+      cycle.at_end ? " This lies at an end of the amplitudes: beyond it may be less." : "");
+}
+
+renders::ReportTable amplitude_table(const LimitCycle& cycle) {
+  renders::ReportTable table{
+      "Gain margin over the amplitude of the sine", {"amplitude", "gain margin", "times the gain"}, {}};
+  for (const auto& margin : cycle.margins)
+    table.rows.push_back({{fmt::format("{:.3g} V", margin.amplitude()),
+                           margin.gain ? fmt::format("{:.2f} dB", margin.gain->value) : "unknown",
+                           margin.gain ? fmt::format("{:.3g}", factor_of(*margin.gain)) : ""}});
+  return table;
+}
+
+renders::Plot amplitude_plot(const LimitCycle& cycle) {
+  renders::Plot plot{"limit_cycle", "Gain margin over the amplitude", "amplitude of the sine [V]", {}};
+  plot.log_x = true;
+  renders::Panel panel;
+  panel.title = "gain margin";
+  panel.y_label = "[dB]";
+  renders::Curve curve{"measured", {}, {}, renders::Curve::Style::points};
+  for (const auto& margin : cycle.margins) {
+    if (!margin.gain) continue;
+    curve.x.push_back(margin.amplitude());
+    curve.y.push_back(margin.gain->value);
   }
-  for (const auto& doubt : bode_doubts(result)) text += doubt + '\n';
+  panel.curves.push_back(std::move(curve));
+  const auto& least = cycle.margins[*cycle.least];
+  plot.marks.push_back(
+      {least.amplitude(), fmt::format("limit cycle from {:.3g} times the gain", factor_of(*least.gain))});
+  plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+std::string faded_text(const LoopResult& result) {
+  return fmt::format("From {} on nothing answers to {:.3g} V: it would be finer than count and DAC resolve.",
+                     hertz_text(result.sweep.faded_from), result.plan.amplitude);
+}
+
+constexpr std::string_view reading =
+    "Gains and phases are those of the simulated loop, the delay of sampling and hold included.";
+
+}  // namespace
+
+std::string bode_report(const LoopResult& result) {
+  auto text = subject(result) + '\n';
+  if (!heard(result).empty()) {
+    text += '\n' + table_text(result) + '\n';
+    for (const auto& row : margin_rows(result)) text += fmt::format("{:<24}{}\n", row.cells[0], row.cells[1]);
+    if (result.sweep.faded_from > 0) text += fmt::format("{}\n", faded_text(result));
+    text += fmt::format("{}\n", reading);
+  }
+  for (const auto& doubt : loop_doubts(result)) text += doubt + '\n';
   return text;
 }
 
-std::string bode_csv(const BodeResult& result) {
+std::string limit_cycle_text(const LimitCycle& cycle) {
+  const auto table = amplitude_table(cycle);
+  std::string text = table.title + "\n";
+  for (const auto& row : table.rows)
+    text += fmt::format("{:>10}{:>12}{:>14}\n", row.cells[0], row.cells[1], row.cells[2]);
+  return text + verdict_of(cycle) + "\n";
+}
+
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                       const std::vector<std::string>& faults, const std::string& expanded,
+                       const std::filesystem::path& folder) {
+  for (const auto* old : {"plots", "report.html", "bode.csv"}) std::filesystem::remove_all(folder / old);
+  renders::Report report;
+  report.title = "Frequency response: " + result.wire;
+  report.scenario = result.file;
+  report.passed = faults.empty();
+  report.verdict =
+      faults.empty() ? "measured, nothing against it" : fmt::format("{}", fmt::join(faults, "; "));
+  report.facts = {
+      {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
+  if (!heard(result).empty()) {
+    report.tables = {{"Margins", {"", ""}, margin_rows(result)}, response_table(result)};
+    for (const auto& picture : renders::draw_plots({bode_plot(result, "bode")}, folder / "plots"))
+      report.plots.push_back({picture, "plots/" + picture.filename().string()});
+  }
+  if (cycle != nullptr) {
+    report.facts.insert(report.facts.begin(), {{"limit cycle", verdict_of(*cycle)}});
+    report.tables.insert(report.tables.begin(), amplitude_table(*cycle));
+    if (cycle->least)
+      for (const auto& picture : renders::draw_plots({amplitude_plot(*cycle)}, folder / "plots"))
+        report.plots.push_back({picture, "plots/" + picture.filename().string()});
+  }
+  report.scenario_expanded = expanded;
+  renders::write_report(report, folder / "report.html");
+}
+
+std::string bode_csv(const LoopResult& result) {
   const auto table = table_of(result);
   const bool speed = !result.speed.empty();
   std::string text =
@@ -153,7 +241,7 @@ std::string bode_csv(const BodeResult& result) {
       "sensitivity.gain [dB],error";
   if (speed) text += fmt::format(",{0}.gain [{1}/V],{0}.phase [deg]", result.speed, result.speed_unit);
   text += '\n';
-  const auto& points = result.sweep.points;
+  const auto points = heard(result);
   for (std::size_t i = 0; i < points.size(); ++i) {
     text +=
         fmt::format("{},{},{},{},{},{},{}", points[i].frequency, table.open.gain[i], table.open.phase[i],
@@ -164,10 +252,10 @@ std::string bode_csv(const BodeResult& result) {
   return text;
 }
 
-renders::Plot bode_plot(const BodeResult& result, const std::string& name) {
+renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   const auto table = table_of(result);
   std::vector<double> x;
-  for (const auto& point : result.sweep.points) x.push_back(point.frequency);
+  for (const auto& point : heard(result)) x.push_back(point.frequency);
   renders::Plot plot;
   plot.name = name;
   plot.title = fmt::format("{}: {}", result.scenario, result.wire);

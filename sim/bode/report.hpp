@@ -1,34 +1,26 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "renders/plots.hpp"
-#include "sim/bode/sweep.hpp"
+#include "sim/bode/limit_cycle.hpp"
+#include "sim/bode/loop.hpp"
 
 namespace drycut::sim {
 
-/// A sweep with what its text needs.
-struct BodeResult {
-  std::string scenario;  ///< name of the file
-  std::string wire;      ///< "knife.servo.reference"
-  std::string terminal;  ///< "2.AN01"
-  std::string speed;     ///< channel, "" = none
-  std::string speed_unit;
-  SweepPlan plan;
-  Sweep sweep;
-  Margins margins;
-};
-
-/// Doubt of a point (BodePoint::doubt) above which it is not to be trusted.
-inline constexpr double bode_error_limit = 0.05;
-
-/// What keeps the measurement from being trusted, a line each; empty if nothing does.
-std::vector<std::string> bode_doubts(const BodeResult& result);
 /// Table and margins as text.
-std::string bode_report(const BodeResult& result);
+std::string bode_report(const LoopResult& result);
+/// The gain margin over the amplitude, and where a limit cycle begins.
+std::string limit_cycle_text(const LimitCycle& cycle);
+/// Folder with report.html and plots/bode.png; `faults` are what fails it, `expanded` is the scenario with
+/// every default; `cycle` may be null. Throws std::runtime_error if something cannot be written.
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                       const std::vector<std::string>& faults, const std::string& expanded,
+                       const std::filesystem::path& folder);
 /// One row a frequency: gains and phases of open loop, closed loop, sensitivity and speed.
-std::string bode_csv(const BodeResult& result);
+std::string bode_csv(const LoopResult& result);
 /// Gain and phase over the logarithm of the frequency.
-renders::Plot bode_plot(const BodeResult& result, const std::string& name);
+renders::Plot bode_plot(const LoopResult& result, const std::string& name);
 
 }  // namespace drycut::sim

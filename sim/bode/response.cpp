@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -104,7 +105,9 @@ std::vector<double> phases(const std::vector<std::complex<double>>& responses) {
   return angles;
 }
 
-Margins margins_of(const std::vector<BodePoint>& points) {
+Margins margins_of(const std::vector<BodePoint>& all) {
+  std::vector<BodePoint> points;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(points), [](const auto& p) { return !p.silent; });
   std::vector<std::complex<double>> open;
   std::vector<double> gains;
   std::vector<double> closed;

@@ -44,6 +44,8 @@ struct BodePoint {
   /// where L is small its error is of no account.
   [[nodiscard]] double doubt() const { return error * std::abs(closed_loop()); }
   bool saturated = false;  ///< the output stood at +-10 V
+  bool silent = false;     ///< the output stood still: nothing is known of L
+  double quantum = 0;      ///< smallest change of the output that was seen [V]; 0 = none
   /// L / (1 + L): the position loop closed.
   [[nodiscard]] std::complex<double> closed_loop() const { return open_loop / (1.0 + open_loop); }
   /// 1 / (1 + L): what the loop leaves of a disturbance.
@@ -71,7 +73,7 @@ struct Margins {
 };
 
 /// Between the points gains are taken as straight lines of dB, phases of degrees, over the logarithm of the
-/// frequency. Points in ascending order of frequency.
+/// frequency. Points in ascending order of frequency; silent ones do not count.
 Margins margins_of(const std::vector<BodePoint>& points);
 
 }  // namespace drycut::sim

@@ -33,6 +33,7 @@ class Twins {
   [[nodiscard]] double total() const { return wire_.to->volts - still_wire_.to->volts; }  ///< [V]
   [[nodiscard]] bool has_speed() const { return static_cast<bool>(speed_); }
   [[nodiscard]] double speed() const { return speed_() - still_speed_(); }
+  [[nodiscard]] double own() const { return still_wire_.output(); }  ///< undisturbed output [V]
   [[nodiscard]] bool saturated() const { return std::abs(wire_.from->word) >= devices::dac_full_scale; }
   [[nodiscard]] std::string failure() const {
     return excited_.failure().empty() ? still_.failure() : excited_.failure();
@@ -57,21 +58,31 @@ Sweep::Loop push(Twins& twins, const SweepPlan& plan) {
   const auto part = static_cast<Time>(std::max(plan.settle, 1.0) * 1e9) / parts;
   std::array<double, parts> low{};
   std::array<double, parts> high{};
+  double own_low = 0;
+  double own_high = 0;
   for (int i = 0; i < parts; ++i) {
     for (const Time begin = twins.time(); twins.time() < begin + part;) {
       if (!twins.advance(0)) return Sweep::Loop::closed;
       low[i] = std::min(low[i], twins.output());
       high[i] = std::max(high[i], twins.output());
+      own_low = std::min(own_low, twins.own());
+      own_high = std::max(own_high, twins.own());
     }
   }
   const double first = std::max(high.front(), -low.front());
   const double last = std::max(high.back(), -low.back());
-  if (first == 0 && last == 0) return Sweep::Loop::open;
+  if (first == 0 && last == 0) {
+    // A loop that swings from limit to limit takes no notice of a push.
+    constexpr double limit = 9.9;  // [V]
+    return own_low < -limit && own_high > limit ? Sweep::Loop::unstable : Sweep::Loop::open;
+  }
   const double half = first / 2;
   const bool swings_on = last > 0.9 * first && high.back() > half && low.back() < -half;
   const bool runs_away = last > 1.1 * first;
   return swings_on || runs_away ? Sweep::Loop::unstable : Sweep::Loop::closed;
 }
+
+constexpr double nothing = 1e-9;  // far below a step of the DAC [V]
 
 /// Comes to rest with the tone, then measures it over its samples. False if the simulation failed.
 bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoint& point) {
@@ -83,6 +94,7 @@ bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoi
   Correlator total(tone.cycles, tone.samples);
   Correlator drive(tone.cycles, tone.samples * steps);
   Correlator speed(tone.cycles, tone.samples * steps);
+  double last = 0;  // output [V]
   // The tone's phase counts on from the settling, whose length is of no account then.
   const std::int64_t lead = tone.samples - settle % tone.samples;
   for (std::int64_t k = 0; k < settle + tone.samples; ++k) {
@@ -93,6 +105,10 @@ bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoi
       if (i == 0) {
         output.add(twins.output());
         total.add(twins.total());
+        const double change = std::abs(twins.output() - last);
+        last = twins.output();
+        if (k > settle && change > nothing && (point.quantum == 0 || change < point.quantum))
+          point.quantum = change;
         point.saturated = point.saturated || twins.saturated();
       }
       if (!twins.has_speed()) continue;
@@ -101,10 +117,36 @@ bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoi
     }
   }
   point.frequency = tone.frequency(plan.sampling);
+  point.silent = point.quantum == 0;
   point.open_loop = -output.tone() / total.tone();
   point.error = std::hypot(output.error(), total.error());
   if (twins.has_speed()) point.speed = speed.tone() / drive.tone();
   return true;
+}
+
+/// Takes the highest points away where the answer has sunk below the resolution of count and DAC. A loop that
+/// falls silent all at once, as in play, keeps them.
+void drop_faded(const SweepPlan& plan, Sweep& sweep) {
+  auto& points = sweep.points;
+  auto last = points.size();
+  while (last > 0 && points[last - 1].silent) --last;
+  if (last == 0 || last == points.size()) return;
+  constexpr double near_resolution = 5;
+  const auto& heard = points[last - 1];
+  if (std::abs(heard.open_loop) * plan.amplitude > near_resolution * heard.quantum) return;
+  sweep.faded_from = points[last].frequency;
+  points.resize(last);
+}
+
+/// Octave by octave down to where the loop has gain.
+void measure_below(Twins& twins, const SweepPlan& plan, std::vector<BodePoint>& points) {
+  while (!points.empty() && std::abs(points.front().open_loop) <= 1) {
+    const double wanted = points.front().frequency / 2;
+    if (wanted < plan.lowest) return;
+    BodePoint point;
+    if (!measure_tone(twins, plan, plan_tones(wanted, wanted, 1, plan.sampling, 0).front(), point)) return;
+    points.insert(points.begin(), point);
+  }
 }
 
 }  // namespace
@@ -149,6 +191,8 @@ Sweep measure(Simulation& excited, Simulation& still, const SweepPlan& plan,
     sweep.points.push_back(point);
     if (progress) progress(static_cast<double>(sweep.points.size()) / static_cast<double>(plan.tones.size()));
   }
+  drop_faded(plan, sweep);
+  if (plan.lowest > 0) measure_below(twins, plan, sweep.points);
   sweep.failure = twins.failure();
   return sweep;
 }

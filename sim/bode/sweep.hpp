@@ -33,6 +33,8 @@ struct SweepPlan {
   double amplitude = 0;  ///< of the sine [V]
   double settle = 0;     ///< before each measurement [s], and at least two periods
   std::vector<Tone> tones;
+  double lowest = 0;  ///< [Hz] down to here lower tones follow until |L| > 1, so that the crossover is found;
+                      ///< 0 = none
 };
 
 /// What came of it.
@@ -44,6 +46,7 @@ struct Sweep {
   };
   Loop loop = Loop::closed;
   std::vector<BodePoint> points;  ///< none unless the loop is closed
+  double faded_from = 0;          ///< [Hz] from here on the answer is finer than the resolution; 0 = nowhere
   std::string failure;            ///< why the simulation itself stopped, "" if it did not
 };
 

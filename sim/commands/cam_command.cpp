@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "renders/plots.hpp"
-#include "sim/cam/plot.hpp"
-#include "sim/cam/report.hpp"
+#include "sim/cam/study.hpp"
+#include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/file.hpp"
 
@@ -20,66 +17,44 @@ void check_number(const char* option, const std::optional<double>& value, device
       {option, 1, 1, fmt::format("{} is out of range", *value), "give a number above 0, at most 1000000000"});
 }
 
-void check_output(const char* option, const std::string& file, const CamOptions& options,
-                  devices::Problems& problems) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(file, options.table, ignored))
-    problems.push_back({option, 1, 1, fmt::format("{} is the table itself", file), "name another file"});
-  if (std::filesystem::is_directory(file, ignored))
-    problems.push_back({option, 1, 1, fmt::format("{} is a directory", file), "name a file"});
-  const auto folder = std::filesystem::path(file).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
-    problems.push_back({option, 1, 1, fmt::format("there is no directory {}", folder.string()),
-                        "make it first or name another"});
-}
-
-void check_options(const CamOptions& options, devices::Problems& problems) {
+void check_options(const CamOptions& options, bool speed_known, devices::Problems& problems) {
   check_number("--master-speed", options.duty.master_speed, problems);
   check_number("--max-velocity", options.duty.max_velocity, problems);
   check_number("--max-acceleration", options.duty.max_acceleration, problems);
-  if (!options.duty.master_speed) {
+  if (!options.duty.master_speed && !speed_known) {
     for (const auto& [option, value] : {std::pair{"--max-velocity", options.duty.max_velocity},
                                         std::pair{"--max-acceleration", options.duty.max_acceleration}})
       if (value)
         problems.push_back({option, 1, 1, "a limit in time means nothing without the master's speed",
                             "give --master-speed too"});
   }
-  if (!options.csv.empty() && options.csv != "-") check_output("--csv", options.csv, options, problems);
-  if (options.png.empty()) return;
-  check_output("--png", options.png, options, problems);
-  const std::filesystem::path png = options.png;
-  if (png.extension() != ".png" || png.stem().empty())
-    problems.push_back({"--png", 1, 1, fmt::format("{} does not end in .png", options.png), "name it x.png"});
-  if (options.png == options.csv)
-    problems.push_back({"--png", 1, 1, "it is the file of --csv", "name another file"});
+  const InputFile input{options.table, "table"};
+  check_outputs(options.csv, options.png, input, problems);
+  if (options.rows.empty()) return;
+  check_output("--table", options.rows, input, problems);
+  if (options.rows == options.csv || options.rows == options.png)
+    problems.push_back({"--table", 1, 1, "it is the file of another option", "name another file"});
 }
 
-void check_positions(const CamOptions& options, const CamRun& run, devices::Problems& problems) {
-  for (const double at : options.at) {
-    if (at >= 0 && at <= run.master_total) continue;
-    problems.push_back({"--at", 1, 1, fmt::format("the cam has no master position {}", at),
-                        fmt::format("give positions from 0 to {} Um", run.master_total)});
-  }
+void write_file(const std::string& name, const std::string& text) {
+  OutputFile file(name);
+  file.write(text);
+  file.finish();
 }
 
-void write(const CamOptions& options, const CamTable& table, const CamRun& run,
-           const std::vector<CamPoint>& points) {
+void write(const CamOptions& options, const CamStudy& study) {
   if (!options.csv.empty()) {
-    std::optional<double> master;
-    if (options.duty.master_speed) master = *options.duty.master_speed * um_per_second(table);
-    const auto text = cam_csv(points, master);
-    if (options.csv == "-") {
+    const auto text = cam_csv(study.points, study.master_per_s);
+    if (options.csv == "-")
       fmt::print("{}", text);
-    } else {
-      OutputFile file(options.csv);
-      file.write(text);
-      file.finish();
-    }
+    else
+      write_file(options.csv, text);
   }
-  if (!options.png.empty()) {
+  if (!options.rows.empty() && !study.table.empty()) write_file(options.rows, study.table);
+  if (!options.png.empty() && !study.plot.panels.empty()) {
     const std::filesystem::path png = options.png;
     const auto folder = png.has_parent_path() ? png.parent_path() : std::filesystem::path(".");
-    renders::draw_plots({cam_plot(table, options.duty, run, png.stem().string())}, folder);
+    renders::draw_plots({study.plot}, folder);
   }
 }
 
@@ -87,27 +62,28 @@ void write(const CamOptions& options, const CamTable& table, const CamRun& run,
 
 int validate_cam(const CamOptions& options) {
   devices::Problems problems;
-  CamTable table;
-  if (const auto text = read_file(options.table, problems))
-    table = read_cam_table(*text, options.table.string(), problems);
-  check_options(options, problems);
-  CamRun run;
+  const auto text = read_file(options.table, problems);
+  const auto& kind = cam_kind(options.device, text.value_or(""));
+  const bool speed_known = text && kind.check(*text, options.table.string(), problems);
+  check_options(options, speed_known, problems);
+  CamStudy study;
   if (problems.empty()) {
-    run = run_cam(table, options.duty, options.loops);
-    check_positions(options, run, problems);
+    const CamRequest request{options.duty, options.at, options.loops,
+                             std::filesystem::path(options.png).stem().string()};
+    study = kind.study(*text, options.table.string(), request, problems);
   }
+  if (problems.empty() && !options.rows.empty() && study.rows_are_given)
+    problems.push_back({"--table", 1, 1, "the table's rows were given, not made", "leave it out"});
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
-  const auto findings = judge(table, options.duty, run);
-  const auto points = options.at.empty() ? sample_cam(run) : sample_cam_at(run, options.at);
-  auto text = cam_report(table, options.duty, run, findings);
-  if (!options.at.empty() && options.csv.empty()) text += '\n' + cam_samples_text(points);
+  auto report = cam_report(study);
+  if (!options.at.empty() && options.csv.empty()) report += '\n' + cam_samples_text(study.points);
   // Samples on standard output are for a program: it must find nothing else there.
-  fmt::print(options.csv == "-" ? stderr : stdout, "{}", text);
-  write(options, table, run, points);
-  return is_unsound(findings, options.strict) ? check_failed : all_passed;
+  fmt::print(options.csv == "-" ? stderr : stdout, "{}", report);
+  write(options, study);
+  return is_unsound(study.findings, options.strict) ? check_failed : all_passed;
 }
 
 }  // namespace drycut::sim

@@ -3,9 +3,12 @@
 #include <optional>
 
 #include "devices/catalogue.hpp"
+#include "devices/lx3vp/il_program.hpp"
+#include "devices/lx3vp/register_file.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
-#include "sim/cam/table.hpp"
+#include "sim/cam/study.hpp"
+#include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/file.hpp"
 #include "sim/simulation.hpp"
@@ -19,7 +22,8 @@ namespace qmove = devices::qmove;
 /// Checks files in the order given; a configuration stands for the modules after it.
 class Checker {
  public:
-  explicit Checker(bool expand) : expand_(expand) {}
+  explicit Checker(const CheckOptions& options)
+      : expand_(options.expand), overrides_(overrides_of(options.set, problems_)) {}
 
   void check(const std::filesystem::path& file) {
     auto kind = file.extension().string();
@@ -30,13 +34,16 @@ class Checker {
       check_configuration(file);
     } else if (kind == ".mod" || kind == ".qcl") {
       check_module(file);
+    } else if (kind == ".il") {
+      if (const auto text = read_file(file, problems_))
+        devices::lx3vp::il::compile(*text, file.string(), problems_);
     } else if (kind == ".csv") {
-      if (const auto text = read_file(file, problems_)) read_cam_table(*text, file.string(), problems_);
+      if (const auto text = read_file(file, problems_)) check_table(*text, file.string());
     } else {
       problems_.push_back(
           {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
-           "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl) or a cam "
-           "table (.csv)"});
+           "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an instruction "
+           "list (.il), a cam table or registers (.csv)"});
     }
   }
 
@@ -45,9 +52,18 @@ class Checker {
  private:
   void check_scenario(const std::filesystem::path& file) {
     const auto before = problems_.size();
-    const auto scenario = read_scenario(file, {}, problems_);
+    const auto scenario = read_scenario(file, overrides_, problems_);
     if (scenario.buildable) Simulation simulation(scenario, problems_);
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
+  }
+
+  /// Registers of the LX3VP or a cam table, as the first line says.
+  void check_table(const std::string& text, const std::string& file) {
+    const auto first = header_line(text).substr(0, header_line(text).find(','));
+    if (first == "address" || devices::lx3vp::parse_register(first))
+      devices::lx3vp::read_register_values(text, file, ',', problems_);
+    else
+      cam_kind("", text).check(text, file, problems_);
   }
 
   void check_configuration(const std::filesystem::path& file) {
@@ -75,6 +91,7 @@ class Checker {
 
   bool expand_;
   devices::Problems problems_;
+  std::vector<Override> overrides_;
   std::optional<qmove::Configuration> configuration_;
   bool configuration_given_ = false;
 };
@@ -82,7 +99,7 @@ class Checker {
 }  // namespace
 
 int check_files(const CheckOptions& options) {
-  Checker checker(options.expand);
+  Checker checker(options);
   for (const auto& file : options.files) checker.check(file);
   print_problems(checker.problems());
   if (!checker.problems().empty()) {

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/cam/run.hpp"
+#include "sim/bode/loop.hpp"
+#include "sim/cam/duty.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
@@ -32,18 +33,20 @@ int run_scenarios(const RunOptions& options);
 struct CheckOptions {
   std::vector<std::filesystem::path> files;
   bool expand = false;
+  std::vector<std::string> set = {};  ///< overrides of the scenarios: path=value
 };
 /// drycut check: scenarios (.yaml), configurations (.cnf), QCL modules (.mod, .qcl; against the .cnf before
-/// them), cam tables (.csv)
+/// them), instruction lists (.il), cam tables and registers (.csv)
 int check_files(const CheckOptions& options);
 
 struct CamOptions {
   std::filesystem::path table;
-  std::string device = "camming4";
+  std::string device = {};  ///< "" = by the table's header
   CamDuty duty;
-  std::vector<double> at;  ///< master positions [Um], empty = 1000 a pass and every boundary
+  std::vector<double> at;  ///< master positions, empty = 1000 a pass and every boundary
   std::string csv;         ///< "" = none, "-" = standard output
   std::string png;         ///< "" = none
+  std::string rows = {};   ///< file for the rows that the device makes from parameters, "" = none
   int loops = 1;
   bool strict = false;  ///< warnings and cautions fail too
 };
@@ -52,18 +55,13 @@ int validate_cam(const CamOptions& options);
 
 struct BodeOptions {
   std::filesystem::path scenario;
-  std::string wire;            ///< plug of the analogue reference, "" = the only one
-  std::string speed;           ///< channel of the motor's speed, "" = motor.speed or speed of the plant
-  std::optional<double> at;    ///< [s], absent = the end of the scenario
-  std::optional<double> from;  ///< [Hz], absent = 1, or a hundredth of `to` if that is less
-  std::optional<double> to;    ///< [Hz], absent = half the sampling frequency
-  int points = 40;
-  double amplitude = 0.1;                  ///< [V]
-  double settle = 0.5;                     ///< [s]
+  LoopRequest loop;
+  bool limit_cycle = false;                ///< sweeps the amplitude too; shows the one with the least margin
   std::optional<double> min_phase_margin;  ///< [deg], less fails
   std::optional<double> min_gain_margin;   ///< [dB], less fails
   std::string csv;                         ///< "" = none, "-" = standard output
   std::string png;                         ///< "" = none
+  std::filesystem::path out;               ///< folder for report, plot and table, "" = none
   std::vector<std::string> set;            ///< overrides of the scenario: path=value
 };
 /// drycut bode: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the
@@ -74,13 +72,14 @@ struct TuneOptions {
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> vary;         ///< "controller.qmove.set.AxisX.pgain=1..100"
   std::string minimise;                  ///< "rms(AxisX.follerr)"
-  std::vector<std::string> constraints;  ///< "max(abs(knife.motor.torque)) <= 20"
+  std::vector<std::string> constraints;  ///< "max(abs(knife.motor.torque)) <= 20", "phase_margin >= 45"
+  LoopRequest loop;                      ///< how stability margins in the constraints are measured
   std::string from = "0 s";              ///< metric and constraints look from here on
   bool ignore_checks = false;            ///< failed checks of the scenarios do not count
-  int budget = 100;                      ///< simulated runs of the search
-  int jobs = 1;                          ///< runs at the same time; the result is the same
-  std::uint64_t seed = 1;                ///< of the search and the spread
-  std::vector<std::string> spread;       ///< "plants.knife.inertia=±30%"
+  int budget = 100;                 ///< simulated runs of the search, those that measure margins included
+  int jobs = 1;                     ///< runs at the same time; the result is the same
+  std::uint64_t seed = 1;           ///< of the search and the spread
+  std::vector<std::string> spread;  ///< "plants.knife.inertia=±30%"
   int spread_runs = 20;
   std::vector<std::string> set;  ///< "plants.web.speed=80 m/min", before everything else
   std::filesystem::path out = "out/tune";

@@ -7,9 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "renders/pictures.hpp"
-#include "renders/plots.hpp"
-#include "renders/report.hpp"
+#include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/progress.hpp"
 #include "sim/controller_loader.hpp"
@@ -30,23 +28,9 @@ struct Job {
   std::string trouble;  ///< a result could not be written
 };
 
-std::vector<Override> overrides_of(const RunOptions& options, devices::Problems& problems) {
-  std::vector<Override> overrides;
-  for (const auto& text : options.set) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      problems.push_back({"--set", 1, 1, fmt::format("'{}' is not an assignment", text),
-                          "write path=value, such as plants.web.speed=80 m/min"});
-      continue;
-    }
-    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
-  }
-  return overrides;
-}
-
 /// Reads and puts together all scenarios; problems of all of them are told before anything runs.
 std::vector<std::unique_ptr<Job>> prepare(const RunOptions& options, devices::Problems& problems) {
-  const auto overrides = overrides_of(options, problems);
+  const auto overrides = overrides_of(options.set, problems);
   std::vector<std::unique_ptr<Job>> jobs;
   std::map<std::string, std::filesystem::path> names;
   for (const auto& file : options.scenarios) {
@@ -82,29 +66,13 @@ std::vector<std::unique_ptr<Job>> prepare(const RunOptions& options, devices::Pr
   return jobs;
 }
 
-void write_pictures(Job& job, int threads, const std::function<void(const char*, double)>& progress) {
-  const auto& directory = job.result.directory;
-  std::vector<std::filesystem::path> frames;
-  if (!job.simulation->snapshots().empty()) {
-    const auto film = film_of(job.scenario, *job.simulation);
-    const auto count = static_cast<double>(film.frames.size());
-    frames = renders::draw_film(
-        film, directory / "frames", [&](int done) { progress("drawing", done / count); }, threads);
-  }
-  const auto plots =
-      renders::draw_plots(plots_of(job.scenario, job.simulation->recording()), directory / "plots");
-  renders::write_report(report_of(job.scenario, *job.simulation, job.result.outcome, frames, plots),
-                        directory / "report.html");
-  job.result.has_report = true;
-}
-
 void run_job(Job& job, bool pictures, int threads, const std::function<void(const char*, double)>& progress) {
   const auto& directory = job.result.directory;
   const auto duration = static_cast<double>(job.scenario.scene.duration);
   job.result.outcome =
       job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
   // What an earlier run left here must not be taken for this one's.
-  for (const auto* old : {"frames", "plots", "report.html"}) std::filesystem::remove_all(directory / old);
+  remove_pictures(directory);
   std::filesystem::create_directories(directory);
   write_trace(job.simulation->recording(), directory / "trace.csv");
   write_events(job.simulation->recording(), directory / "events.csv");
@@ -114,7 +82,9 @@ void run_job(Job& job, bool pictures, int threads, const std::function<void(cons
     out.write(job.simulation->retentive_state());
     out.finish();
   }
-  if (pictures) write_pictures(job, threads, progress);
+  if (!pictures) return;
+  write_pictures(job.scenario, *job.simulation, job.result.outcome, directory, threads, progress);
+  job.result.has_report = true;
 }
 
 void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options) {
@@ -181,15 +151,7 @@ int run_scenarios(const RunOptions& options) {
     print_problems(problems);
     return bad_input;
   }
-  for (const auto& job : jobs) {
-    std::error_code error;
-    std::filesystem::create_directories(job->result.directory, error);
-    if (!error && std::filesystem::is_directory(job->result.directory)) continue;
-    problems.push_back({"--out", 1, 1,
-                        fmt::format("the directory {} cannot be made{}{}", job->result.directory.string(),
-                                    error ? ": " : "", error ? error.message() : ""),
-                        "name one that can be written"});
-  }
+  for (const auto& job : jobs) make_folder(job->result.directory, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;

@@ -8,6 +8,8 @@
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 #include "sim/commands/commands.hpp"
+#include "sim/commands/lx3vp_tables.hpp"
+#include "sim/commands/text_table.hpp"
 #include "sim/scenario/parameter_text.hpp"
 
 namespace drycut::sim {
@@ -15,31 +17,6 @@ namespace drycut::sim {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Columns of text, each as wide as its widest cell; the last one flows.
-class TextTable {
- public:
-  explicit TextTable(std::vector<std::string> headings) { rows_.push_back(std::move(headings)); }
-  void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-  void print(const std::string& title) const {
-    if (rows_.size() == 1) return;
-    std::vector<std::size_t> widths(rows_.front().size(), 0);
-    for (const auto& row : rows_) {
-      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    }
-    fmt::print("\n{}\n", title);
-    for (const auto& row : rows_) {
-      std::string line = " ";
-      for (std::size_t i = 0; i < row.size(); ++i)
-        line += fmt::format(" {:<{}}", row[i], i + 1 < row.size() ? widths[i] + 1 : 0);
-      line.erase(line.find_last_not_of(' ') + 1);
-      fmt::print("{}\n", line);
-    }
-  }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
 
 int unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& names) {
   const auto near = devices::nearest(name, names);
@@ -277,6 +254,18 @@ int list_devices(const std::string& name, bool json) {
       } else {
         print_device(type);
       }
+      return all_passed;
+    }
+  }
+  for (const auto& table : lx3vp_tables()) {
+    names.emplace_back(table.name);
+    if (name.empty() && json) all.push_back(table.json());
+    if (name.empty() && !json) fmt::print("{:<14} {}\n", table.name, table.summary);
+    if (!name.empty() && same_name(table.name, name)) {
+      if (json)
+        fmt::print("{}\n", table.json().dump(2));
+      else
+        table.print();
       return all_passed;
     }
   }

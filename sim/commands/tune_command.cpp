@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/progress.hpp"
 #include "sim/file.hpp"
@@ -31,15 +32,7 @@ void read_cases(const TuneOptions& options, Study& study, devices::Problems& pro
 }
 
 void read_settings(const TuneOptions& options, Study& study, devices::Problems& problems) {
-  for (const auto& text : options.set) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      problems.push_back({"--set", 1, 1, fmt::format("'{}' is not an assignment", text),
-                          "write path=value, such as plants.web.speed=80 m/min"});
-    } else {
-      study.set.push_back({text.substr(0, equals), text.substr(equals + 1)});
-    }
-  }
+  study.set = overrides_of(options.set, problems);
   const auto from = parse_quantity(options.from);
   if (!from || !(from->number >= 0) || !is_unit(from->unit) || !same_dimension(from->unit, "s") ||
       to_si(from->number, from->unit) > 1e9) {
@@ -132,7 +125,12 @@ Plan make_plan(const TuneOptions& options, devices::Problems& problems) {
   plan.study.minimise = options.minimise;
   plan.study.constraints = options.constraints;
   plan.study.ignore_checks = options.ignore_checks;
+  plan.study.loop = options.loop;
+  check_request(plan.study.loop, problems);
   prepare(plan.study, problems);
+  if (problems.empty() && !plan.study.needs_loop && !options.loop.wire.empty())
+    problems.push_back({"--wire", 1, 1, "no constraint is on the loop",
+                        "add --constraint \"phase_margin >= 45\", or leave it out"});
   read_parameters(options.vary, "--vary", false, plan.vary, problems);
   read_parameters(options.spread, "--spread", true, plan.spread, problems);
   for (const auto& parameter : plan.spread)
@@ -162,25 +160,24 @@ std::optional<Point> start_of(const Plan& plan) {
 }
 
 int tune(const TuneOptions& options, const Plan& plan) {
-  std::filesystem::create_directories(options.out);
   for (const auto* old : {"plots", "report.html", "patch.txt"})
     std::filesystem::remove_all(options.out / old);
   const auto& study = plan.study;
   Progress bar;
-  Trials trials(study, plan.vary, {}, options.out / "evaluations.csv", options.jobs, [&](int done) {
-    bar.show("tuning", std::min(1.0, static_cast<double>(done) / options.budget));
+  Trials trials(study, plan.vary, {}, options.out / "evaluations.csv", options.jobs, [&](int runs) {
+    bar.show("tuning", std::min(1.0, static_cast<double>(runs) / options.budget));
   });
-  const int sets = std::max(1, options.budget / static_cast<int>(study.cases.size()));
   Tuning tuning{study, trials, plan.present, measure(study, {}), 0, {}, nullptr, {}, {}};
-  tuning.best = search(trials, start_of(plan), sets, options.seed);
+  tuning.best = search(trials, start_of(plan), options.budget, options.seed);
+  const int searched = trials.runs();
   tuning.slices = look_around(trials, tuning.best);
 
   const auto tuned = overrides_of(plan.vary, trials.at(tuning.best).point);
   std::optional<Trials> spread;
   if (!plan.spread.empty()) {
-    spread.emplace(study, plan.spread, tuned, options.out / "spread.csv", options.jobs, [&](int done) {
-      bar.show("spreading", std::min(1.0, static_cast<double>(done) / options.spread_runs));
-    });
+    const double all = options.spread_runs * study.runs_of_a_trial();
+    spread.emplace(study, plan.spread, tuned, options.out / "spread.csv", options.jobs,
+                   [&](int runs) { bar.show("spreading", std::min(1.0, runs / all)); });
     spread->run("spread", latin_hypercube(plan.spread, options.spread_runs,
                                           plants::Random(options.seed, "drycut tune spread")));
     tuning.spread = &*spread;
@@ -190,9 +187,11 @@ int tune(const TuneOptions& options, const Plan& plan) {
   patch.write(patch_text(tuning));
   patch.finish();
   fmt::print("{}", summary_text(tuning));
-  const auto runs = trials.simulated() + (spread ? spread->simulated() : 0);
-  fmt::print("\n{} sets of values tried, {} simulated now; {}\n", trials.trials().size(), runs,
+  const auto now = trials.simulated() + (spread ? spread->simulated() : 0);
+  fmt::print("\n{} sets of values tried, {} simulated now; {}\n", trials.trials().size(), now,
              (options.out / "evaluations.csv").string());
+  fmt::print("simulated runs: search {}, surroundings {}{}\n", searched, trials.runs() - searched,
+             spread ? fmt::format(", spread {}", spread->runs()) : "");
   if (options.pictures && !trials.at(tuning.best).verdict.stopped) {
     for (const auto& entry : study.cases) {
       tuning.runs_before.push_back(keep_run(study, entry, {}));
@@ -211,6 +210,7 @@ int tune(const TuneOptions& options, const Plan& plan) {
 int tune_scenarios(const TuneOptions& options) {
   devices::Problems problems;
   const auto plan = make_plan(options, problems);
+  if (problems.empty()) make_folder(options.out, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;

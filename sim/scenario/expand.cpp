@@ -38,6 +38,7 @@ class Writer {
     if (!scenario.plants.empty()) line(0, "plants:");
     for (const auto& entry : scenario.plants) plant(entry);
     if (const auto* section = std::get_if<QmoveSection>(&scenario.controller)) qmove(*section);
+    if (const auto* section = std::get_if<Lx3vpSection>(&scenario.controller)) lx3vp(*section);
     wiring(scenario.wiring);
     if (!scenario.timeline.empty()) line(0, "timeline:");
     for (const auto& stimulus : scenario.timeline) timeline(stimulus);
@@ -105,8 +106,22 @@ class Writer {
     line(2, fmt::format("tasks: {}", texts(section.tasks)));
     line(2, fmt::format("cycle: {}", format_time(section.cycle)));
     line(2, fmt::format("retentive: {}", yaml_text(section.retentive.text)));
+    preset(section.set);
+  }
+
+  void lx3vp(const Lx3vpSection& section) {
+    line(0, "controller:");
+    line(1, "lx3vp:");
+    line(2, fmt::format("program: {}", yaml_text(section.program.text)));
+    line(2, fmt::format("registers: {}", yaml_text(section.registers.text)));
+    line(2, fmt::format("scan: {}", format_time(section.scan)));
+    line(2, fmt::format("retentive: {}", yaml_text(section.retentive.text)));
+    preset(section.set);
+  }
+
+  void preset(const std::vector<std::pair<Text, double>>& values) {
     std::vector<std::string> items;
-    for (const auto& [name, value] : section.set) {
+    for (const auto& [name, value] : values) {
       items.push_back(fmt::format("{}: {}", yaml_text(name.text), number(value)));
     }
     line(2, fmt::format("set: {}", map(items)));
@@ -183,15 +198,28 @@ class Writer {
     if (section.frames) {
       line(1, "frames:");
       line(2, fmt::format("every: {}", format_time(section.every)));
-      line(2, fmt::format("from: {}", format_time(section.from)));
-      if (section.until) line(2, fmt::format("until: {}", format_time(*section.until)));
+      frame_window(section);
+      line(2, fmt::format("slow: {}", section.slow));
       line(2, fmt::format("camera: {}", section.camera));
       line(2, fmt::format("size: {}x{}", section.width, section.height));
+      line(1, fmt::format("video: {}", section.video ? "on" : "off"));
     }
     line(1, fmt::format("caption: {}", texts(section.caption)));
     if (section.plots.empty()) line(1, "plots: []");
     if (!section.plots.empty()) line(1, "plots:");
     for (const auto& one : section.plots) plot(one);
+  }
+
+  void frame_window(const PicturesSection& section) {
+    if (section.around) {
+      const auto& around = *section.around;
+      line(2, "around: " + yaml_quoted(fmt::format("{}[{}]", around.event.text, around.number)));
+      line(2, fmt::format("before: {}", format_time(around.before)));
+      line(2, fmt::format("after: {}", format_time(around.after)));
+      return;
+    }
+    line(2, fmt::format("from: {}", format_time(section.from)));
+    if (section.until) line(2, fmt::format("until: {}", format_time(*section.until)));
   }
 
   static std::string panel(const PlotRequest::Panel& one) {
@@ -205,12 +233,17 @@ class Writer {
       for (const auto& p : one.points)
         points.push_back(fmt::format("{}: [{}, {}]", yaml_text(p.label.text), p.x, p.y));
       if (!points.empty()) items.push_back("points: " + map(points));
+    } else if (!one.motor.text.empty()) {
+      items.push_back("motor: " + yaml_text(one.motor.text));
+    } else if (!one.lanes.empty()) {
+      items.push_back("lanes: " + texts(one.lanes));
     } else if (one.event.text.empty()) {
       items.push_back("channels: " + texts(one.channels));
     } else {
       items.push_back("event: " + yaml_text(one.event.text));
       items.push_back("values: " + texts(one.values));
     }
+    if (one.histogram) items.push_back("histogram: on");
     if (one.limits) items.push_back(fmt::format("limits: [{}, {}]", one.limits->first, one.limits->second));
     return map(items);
   }
@@ -221,6 +254,7 @@ class Writer {
     line(3, fmt::format("from: {}", format_time(one.from)));
     if (one.until) line(3, fmt::format("until: {}", format_time(*one.until)));
     line(3, fmt::format("against: {}", one.against_number ? "number" : "time"));
+    if (one.marks) line(3, "marks: " + texts(*one.marks));
     line(3, one.panels.empty() ? "panels: []" : "panels:");
     for (const auto& request : one.panels) {
       line(4, "- " + panel(request));

@@ -52,23 +52,24 @@ class OverrideSetter {
     if (rest == best->key.text) {
       best->value = value_;
     } else {
-      // A section that stands without a value is as good as absent.
-      if (name.empty() && best->value.kind == YamlNode::Kind::null) best->value.kind = YamlNode::Kind::map;
+      // A key that stands without a value is as good as absent.
+      if (best->value.kind == YamlNode::Kind::null) best->value.kind = YamlNode::Kind::map;
       set(best->value, rest.substr(best->key.text.size() + 1), full);
     }
   }
 
-  // A key that the file leaves at its default. The readers refuse what they do not know; here only the way
-  // to it must exist.
+  // A key that the file leaves at its default, and the maps on the way to it. The readers refuse what they do
+  // not know, except where any name would do: sections and plants are not made up here.
   void add(YamlNode& map, std::string_view rest, const std::string& name) {
     const auto dot = rest.find('.');
     const std::string first(rest.substr(0, dot));
     const auto& sections = section_names();
+    const bool section = std::find(sections.begin(), sections.end(), first) != sections.end();
     if (dot == std::string_view::npos || takes_dotted_keys(name)) {
       map.entries.push_back({Text{std::string(rest), place_}, value_});
-    } else if (name.empty() && std::find(sections.begin(), sections.end(), first) != sections.end()) {
+    } else if (name.empty() ? section : name != "plants") {
       map.entries.push_back({Text{first, place_}, YamlNode{YamlNode::Kind::map, {"", place_}}});
-      set(map.entries.back().value, rest.substr(dot + 1), first);
+      set(map.entries.back().value, rest.substr(dot + 1), name.empty() ? first : name + "." + first);
     } else {
       std::vector<std::string> keys = name.empty() ? sections : std::vector<std::string>();
       for (const auto& entry : map.entries) keys.push_back(entry.key.text);

@@ -275,10 +275,25 @@ std::vector<PlantEntry> sorted(std::vector<PlantEntry> plants, const YamlNode& s
   return order;
 }
 
+// What plants object to in each other.
+void object_to_each_other(const std::vector<PlantEntry>& all, Findings& findings) {
+  const auto find = [&all](std::string_view name) -> plants::PlantDefinition* {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const PlantEntry& entry) { return entry.name.text == name; });
+    return found == all.end() ? nullptr : found->definition.get();
+  };
+  for (const auto& plant : all)
+    for (const auto& objection : plant.definition->objections_with(find))
+      findings.add(place_of(plant, objection.parameter),
+                   fmt::format("{}.{}: {}", plant.name.text, objection.parameter, objection.what),
+                   objection.remedy);
+}
+
 }  // namespace
 
 std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types,
                                     Findings& findings) {
+  const auto before = findings.count();
   std::vector<PlantEntry> plants;
   refuse_duplicates(node, "plants", findings);
   for (const auto& entry : node.entries) {
@@ -296,7 +311,9 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     ParameterReader(*plant, findings).read(entry.value);
     plants.push_back(std::move(*plant));
   }
-  return sorted(std::move(plants), node, findings);
+  auto order = sorted(std::move(plants), node, findings);
+  if (findings.count() == before) object_to_each_other(order, findings);
+  return order;
 }
 
 }  // namespace drycut::sim

@@ -68,6 +68,21 @@ SceneSection read_scene(const YamlNode& node, Findings& findings) {
   return scene;
 }
 
+void read_preset(MapReader& reader, const std::string& of, std::vector<std::pair<Text, double>>& values,
+                 Findings& findings) {
+  const auto* set = reader.map("set");
+  if (set == nullptr) return;
+  refuse_duplicates(*set, of + ".set", findings);
+  for (const auto& entry : set->entries) {
+    const auto name = fmt::format("{}.set.{}", of, entry.key.text);
+    if (entry.value.kind != YamlNode::Kind::scalar) {
+      refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
+    } else if (const auto number = read_si(entry.value.text, name, "", findings)) {
+      values.emplace_back(entry.key, *number);
+    }
+  }
+}
+
 QmoveSection read_qmove(const YamlNode& node, const Place& place, Findings& findings) {
   QmoveSection qmove;
   qmove.place = place;
@@ -76,17 +91,7 @@ QmoveSection read_qmove(const YamlNode& node, const Place& place, Findings& find
   reader.texts("tasks", qmove.tasks);
   reader.time("cycle", qmove.cycle, Sign::positive);
   reader.text("retentive", qmove.retentive);
-  if (const auto* set = reader.map("set")) {
-    refuse_duplicates(*set, "controller.qmove.set", findings);
-    for (const auto& entry : set->entries) {
-      const auto name = "controller.qmove.set." + entry.key.text;
-      if (entry.value.kind != YamlNode::Kind::scalar) {
-        refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
-      } else if (const auto number = read_si(entry.value.text, name, "", findings)) {
-        qmove.set.emplace_back(entry.key, *number);
-      }
-    }
-  }
+  read_preset(reader, "controller.qmove", qmove.set, findings);
   reader.finish();
   if (!reader.has("configuration")) {
     reader.missing("configuration", "add configuration: programs/line.cnf");
@@ -94,18 +99,42 @@ QmoveSection read_qmove(const YamlNode& node, const Place& place, Findings& find
   return qmove;
 }
 
+Lx3vpSection read_lx3vp(const YamlNode& node, const Place& place, Findings& findings) {
+  Lx3vpSection lx3vp;
+  lx3vp.place = place;
+  MapReader reader(node, "controller.lx3vp", findings);
+  reader.text("program", lx3vp.program);
+  reader.text("registers", lx3vp.registers);
+  reader.time("scan", lx3vp.scan, Sign::positive);
+  reader.text("retentive", lx3vp.retentive);
+  read_preset(reader, "controller.lx3vp", lx3vp.set, findings);
+  reader.finish();
+  if (!reader.has("program")) reader.missing("program", "add program: programs/saw.il");
+  return lx3vp;
+}
+
 ControllerSection read_controller(const YamlNode& node, Findings& findings) {
   refuse_duplicates(node, "controller", findings);
   ControllerSection section;
   for (const auto& entry : node.entries) {
-    if (entry.key.text != "qmove") {
-      findings.add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text), "known: qmove");
+    const bool qmove = entry.key.text == "qmove";
+    if (!qmove && entry.key.text != "lx3vp") {
+      findings.add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text),
+                   "known: qmove, lx3vp");
     } else if (!is_repeated(node, entry)) {
-      section = read_qmove(entry.value, entry.key.place, findings);
+      if (&entry != &node.entries.front()) {
+        findings.add(entry.key.place,
+                     fmt::format("a second controller, after {}", node.entries.front().key.text), "keep one");
+      } else if (qmove) {
+        section = read_qmove(entry.value, entry.key.place, findings);
+      } else {
+        section = read_lx3vp(entry.value, entry.key.place, findings);
+      }
     }
   }
   if (node.entries.empty()) {
-    findings.add(node.text.place, "controller names none", "write controller: {qmove: {configuration: ...}}");
+    findings.add(node.text.place, "controller names none",
+                 "write controller: {qmove: {configuration: ...}} or {lx3vp: {program: ...}}");
   }
   return section;
 }
@@ -180,6 +209,9 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
   }
   if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) {
     require_multiple(root, {"controller", "qmove", "cycle"}, qmove->cycle, step, findings);
+  }
+  if (const auto* lx3vp = std::get_if<Lx3vpSection>(&scenario.controller)) {
+    require_multiple(root, {"controller", "lx3vp", "scan"}, lx3vp->scan, step, findings);
   }
   if (scenario.scene.duration < step) {
     findings.add(place_at(root, {"scene", "duration"}),

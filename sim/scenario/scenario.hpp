@@ -61,7 +61,17 @@ struct QmoveSection {
   std::vector<std::pair<Text, double>> set;  ///< values before power-up: {slLength: 800, AxisX.pgain: 5}
   Place place;
 };
-using ControllerSection = std::variant<std::monostate, QmoveSection>;
+/// controller: lx3vp: ...
+struct Lx3vpSection {
+  Text program;                 ///< path of the instruction list, relative to the scenario
+  Text registers;               ///< path of a CSV with register values before power-up, "" = none
+  Time scan = 1 * millisecond;  ///< a scan of the program begins every `scan`
+  Text retentive;               ///< as of QmoveSection
+  std::vector<std::pair<Text, double>>
+      set;  ///< after the CSV and the retentive file: {D100: 5, DD2044: 50000}
+  Place place;
+};
+using ControllerSection = std::variant<std::monostate, QmoveSection, Lx3vpSection>;
 
 /// wiring: {2.CNT01: knife.encoder}
 struct Wire {
@@ -125,9 +135,12 @@ struct PlotRequest {
   std::string title;
   struct Panel {
     std::string title;
-    std::vector<Text> channels;                       ///< curves over time
-    Text event;                                       ///< instead: points, one an event of this name ("cut")
-    std::vector<Text> values;                         ///< of the event ("length")
+    std::vector<Text> channels;  ///< curves over time
+    std::vector<Text> lanes;     ///< instead: states over time, one lane each
+    Text event;                  ///< instead: points, one an event of this name ("cut")
+    std::vector<Text> values;    ///< of the event ("length")
+    bool histogram = false;      ///< the event's value by how often it comes
+    Text motor;  ///< instead: torque over speed of the servo motor of this plant, with its limits
     std::optional<std::pair<double, double>> limits;  ///< band drawn behind: [low, high], in the curves' unit
     /// Instead: a path in a plane, at equal scale. With `split`, one curve for each of that channel's whole
     /// values from 1, named by `labels`; nothing is drawn where it is 0.
@@ -142,12 +155,15 @@ struct PlotRequest {
     };
     std::vector<Point> points;  ///< named places on the plane, in the channels' units
     [[nodiscard]] bool is_path() const { return !x.text.empty(); }
+    [[nodiscard]] bool has_own_x() const { return is_path() || histogram || !motor.text.empty(); }
   };
   std::vector<Panel> panels;
   Time from = 0;
   std::optional<Time> until;
   bool against_number =
       false;  ///< `against: number`: x is the event's number instead of time; event panels only
+  /// Events drawn as vertical lines; absent = faults and power changes.
+  std::optional<std::vector<Text>> marks;
 };
 
 struct PicturesSection {
@@ -155,6 +171,17 @@ struct PicturesSection {
   Time every = 40 * millisecond;
   Time from = 0;
   std::optional<Time> until;
+  /// `around: cut[3]`: instead of from and until, a window about the third event of that name.
+  struct Around {
+    Text event;      ///< without the number
+    int number = 1;  ///< from 1
+    Time before = 100 * millisecond;
+    Time after = 100 * millisecond;
+  };
+  std::optional<Around> around;
+  int slow = 1;        ///< frames every `every` / slow: at the film's pace, that many times slower
+  bool video = false;  ///< the frames as a film file too
+  Place slow_place;
   std::string camera = "operator";  ///< what it shows: operator = the whole line, else one plant by its name
   int width = 960;
   int height = 540;

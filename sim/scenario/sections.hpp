@@ -4,6 +4,7 @@
 
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/yaml_node.hpp"
+#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim {
 
@@ -15,6 +16,10 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
 std::vector<Stimulus> read_timeline(const YamlNode& node, Findings& findings);
 std::vector<Check> read_checks(const YamlNode& node, Findings& findings);
 PicturesSection read_pictures(const YamlNode& node, Findings& findings);
+/// One of pictures.plots; `name` is its full name in messages.
+PlotRequest read_plot(const YamlNode& node, const std::string& name, Findings& findings);
+/// Says that a window ends before it begins.
+void refuse_empty_window(MapReader& reader, Time from, const std::optional<Time>& until, Findings& findings);
 
 /// Puts override number `source` (of Findings::sources) into the tree before it is read: lists by index,
 /// missing keys added where a default stands.

@@ -25,6 +25,14 @@ double number_of(const Expression& expression) {
   return margin ? *margin : nothing;
 }
 
+/// The figure of the loop called `name`; nullptr if there is none.
+double LoopFigures::*figure_of(std::string_view name) {
+  if (name == "phase_margin") return &LoopFigures::phase_margin;
+  if (name == "gain_margin") return &LoopFigures::gain_margin;
+  if (name == "max_sensitivity") return &LoopFigures::max_sensitivity;
+  return nullptr;
+}
+
 std::string list_of_values(const KnownEvent& event) {
   std::string list;
   for (const auto& [name, unit] : event.values) list += (list.empty() ? "" : ", ") + name;
@@ -45,17 +53,23 @@ class Metric::Compiler {
     tokens_ = scan_expression(text_, faults_);
     if (faults_.size() != before) return {};
     Metric metric;
+    bool figures = false;
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       if (tokens_[i].kind == Token::function && is_aggregate(i)) {
         take(i, metric);
         i = tokens_[i + 1].partner;
+      } else if (tokens_[i].kind == Token::name && figure_of(tokens_[i].text) != nullptr) {
+        figures = true;
+        if (kind == Metric::Kind::number)
+          fault(tokens_[i].offset, fmt::format("{} is measured for constraints only", tokens_[i].text),
+                "put a limit into --constraint");
       } else if (tokens_[i].kind == Token::name && tokens_[i].text != "_pi" && tokens_[i].text != "_e") {
         fault(tokens_[i].offset, fmt::format("'{}' stands outside a term", tokens_[i].text),
               fmt::format("write max({0}), min({0}), mean({0}), rms({0}), sd({0}) or settling({0}, band)",
                           tokens_[i].text));
       }
     }
-    if (faults_.size() == before && metric.terms_.empty())
+    if (faults_.size() == before && metric.terms_.empty() && !figures)
       fault(0, "nothing recorded is in it", "for example rms(AxisX.follerr), sd(cut.length)");
     if (faults_.size() != before) return {};
     metric.formula_ = outer(metric, kind);
@@ -187,7 +201,8 @@ class Metric::Compiler {
     const auto resolve = [&](const std::string& name) -> const double* {
       for (std::size_t i = 0; i < metric.terms_.size(); ++i)
         if (name == fmt::format("t{}", i + 1)) return &metric.terms_[i].result;
-      return nullptr;
+      const auto figure = figure_of(name);
+      return figure == nullptr ? nullptr : &metric.figures_.emplace_back(Figure{figure, 0}).number;
     };
     if (number) {
       for (const auto& token : tokens_)
@@ -302,7 +317,13 @@ double Metric::reduce(const Term& term, const Series& series, double from) {
   return 0;
 }
 
-double Metric::value(const Recording& recording, Time from) {
+bool Metric::needs_loop() const { return !figures_.empty(); }
+
+double Metric::value(const Recording& recording, Time from, const LoopFigures& loop) {
+  for (auto& figure : figures_) {
+    figure.number = loop.*figure.figure;
+    if (std::isnan(figure.number)) return nothing;
+  }
   for (auto& term : terms_) {
     term.result = reduce(term, series_of(term, recording, from), seconds(from));
     if (std::isnan(term.result)) return nothing;

@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,13 @@ struct MetricName {
   std::string value;       ///< of the event
 };
 
+/// What was measured at the position loop, for constraints; NaN = not measured.
+struct LoopFigures {
+  double phase_margin = std::numeric_limits<double>::quiet_NaN();     ///< [deg]
+  double gain_margin = std::numeric_limits<double>::quiet_NaN();      ///< [dB]
+  double max_sensitivity = std::numeric_limits<double>::quiet_NaN();  ///< largest |1 / (1 + L)|
+};
+
 /// One number out of a whole recording: a formula over the terms max, min, mean, rms, sd, count (of an
 /// expression over channels, or over the values of one event) and settling(expression, band). max and min
 /// with several arguments are the plain ones. settling is the time [s] from the window's start until
@@ -27,12 +35,13 @@ struct MetricName {
 /// 1).
 ///
 /// A name EVENT.VALUE or SOURCE.EVENT.VALUE of an event that the scenario knows means the event's; any other
-/// is a channel. One object must not be used by two threads at once.
+/// is a channel. A limit may also name the loop's figures phase_margin, gain_margin and max_sensitivity,
+/// outside of terms. One object must not be used by two threads at once.
 class Metric {
  public:
   enum class Kind {
     number,  ///< something to minimise
-    limit    ///< terms compared by < <= > >=, joined by &&
+    limit    ///< terms and figures of the loop, compared by < <= > >=, joined by &&
   };
   /// Compiles `text`; what is wrong is added to `faults`, and then nothing is returned. Channels are not
   /// looked up here.
@@ -42,7 +51,9 @@ class Metric {
 
   /// A number: its value. A limit: the room left, negative beyond it. Over instants and events from `from`
   /// on; the channels must have been recorded. NaN where a term has nothing to look at.
-  [[nodiscard]] double value(const Recording& recording, Time from);
+  [[nodiscard]] double value(const Recording& recording, Time from, const LoopFigures& loop = {});
+  /// True if a figure of the loop is in it.
+  [[nodiscard]] bool needs_loop() const;
   /// Every name, once.
   [[nodiscard]] std::vector<MetricName> names() const;
 
@@ -59,6 +70,10 @@ class Metric {
     double band = 0;
     double result = 0;
   };
+  struct Figure {
+    double LoopFigures::*figure;
+    double number = 0;
+  };
   struct Series {
     std::vector<double> times;  ///< [s]
     std::vector<double> numbers;
@@ -69,6 +84,7 @@ class Metric {
   static double reduce(const Term& term, const Series& series, double from);
 
   std::deque<Term> terms_;
+  std::deque<Figure> figures_;
   std::optional<Expression> formula_;
 };
 

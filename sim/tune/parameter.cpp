@@ -186,6 +186,13 @@ void check_against_controller(TunedParameter& parameter, const Scenario& scenari
                           "end the range at whole numbers"});
       continue;
     }
+    if (value->range && (bound < value->range->first || bound > value->range->second)) {
+      problems.push_back({parameter.option, 1, column,
+                          fmt::format("{} goes from {} to {}, not to {}", value->name, value->range->first,
+                                      value->range->second, bound),
+                          "stay within the range"});
+      continue;
+    }
     (void)controller->take_events();
     value->write(bound);
     const auto events = controller->take_events();

@@ -85,11 +85,14 @@ renders::Plot way(const Tuning& tuning) {
   panel.y_label = tuning.study.minimise;
   for (const auto* curve : {&least, &all, &refused})
     if (!curve->x.empty()) panel.curves.push_back(*curve);
-  // A start far off would press the rest flat.
-  if (!all.y.empty() && panel.curves.size() > 2) {
-    const auto [low, high] = std::minmax_element(all.y.begin(), all.y.end());
-    const double room = (*high - *low) / 10;
-    if (room > 0) panel.y_range = {*low - room, *high + room};
+  // The first samples, far off, would press the rest flat.
+  auto sorted = all.y;
+  std::sort(sorted.begin(), sorted.end());
+  if (!sorted.empty()) {
+    const double low = sorted.front();
+    const double most = sorted[(sorted.size() - 1) * 4 / 5];
+    const double room = (most - low) / 10;
+    if (room > 0) panel.y_range = {low - room, most + room};
   }
   renders::Plot plot{"search", "The way to the optimum", "trial", {}};
   if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
@@ -104,6 +107,7 @@ renders::Plot surroundings(const Tuning& tuning) {
   renders::Panel panel;
   panel.title = panel.y_label = tuning.study.minimise;
   const auto& optimum = tuning.trials.at(tuning.best);
+  renders::Curve refused{"beyond a limit", {}, {}, renders::Curve::Style::points};
   for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
     const auto& parameter = tuning.trials.parameters()[i];
     std::vector<std::pair<double, double>> places = {{0, optimum.verdict.metric}};
@@ -112,6 +116,9 @@ renders::Plot surroundings(const Tuning& tuning) {
       if (slice.parameter != i || trial.verdict.stopped) continue;
       const double moved = (trial.point[i] - optimum.point[i]) / (parameter.high - parameter.low);
       places.emplace_back(moved * 100, trial.verdict.metric);
+      if (trial.verdict.feasible()) continue;
+      refused.x.push_back(moved * 100);
+      refused.y.push_back(trial.verdict.metric);
     }
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -122,6 +129,7 @@ renders::Plot surroundings(const Tuning& tuning) {
     }
     if (places.size() > 1) panel.curves.push_back(std::move(curve));
   }
+  if (!refused.x.empty()) panel.curves.push_back(std::move(refused));
   if (!optimum.verdict.stopped && !panel.curves.empty()) plot.panels.push_back(std::move(panel));
   return plot;
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 #include "renders/report.hpp"
 #include "sim/results.hpp"
@@ -21,7 +23,7 @@ std::string metric_text(const Verdict& verdict) {
 }
 
 std::string room_text(double room) {
-  if (!std::isfinite(room)) return "unknown";
+  if (!std::isfinite(room)) return "not measured";
   return room >= 0 ? fmt::format("{:.4g} left", room) : fmt::format("{:.4g} too far", -room);
 }
 
@@ -154,6 +156,34 @@ std::string as_text(const ReportTable& table) {
   return text;
 }
 
+/// The least room of a constraint over the spread; NaN if it was never measured.
+double least_room(const Trials& spread, std::size_t constraint) {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& trial : spread.trials()) {
+    const double room = trial.verdict.room[constraint];
+    if (!(room >= least)) least = std::isnan(room) ? least : room;
+  }
+  return least;
+}
+
+/// Dotted paths and their values as nested YAML.
+std::string nested(std::vector<std::pair<std::string, std::string>> values) {
+  std::sort(values.begin(), values.end());  // groups together
+  std::string text;
+  std::vector<std::string> open;  // keys of the line before
+  for (const auto& [path, value] : values) {
+    std::vector<std::string> keys;
+    std::istringstream stream(path);
+    for (std::string key; std::getline(stream, key, '.');) keys.push_back(key);
+    const auto same =
+        std::mismatch(keys.begin(), keys.end() - 1, open.begin(), open.end()).first - keys.begin();
+    for (auto i = static_cast<std::size_t>(same); i < keys.size(); ++i)
+      text += fmt::format("{:{}}{}:{}\n", "", 2 * i, keys[i], i + 1 == keys.size() ? " " + value : "");
+    open = std::move(keys);
+  }
+  return text;
+}
+
 std::string qcl_line(std::string name, double value) {
   if (const auto dot = name.find('.'); dot != std::string::npos) name[dot] = ':';
   return fmt::format("{} = {}{}\n", name, value < 0 ? "- " : "", std::abs(value));
@@ -173,6 +203,7 @@ std::string patch_text(const Tuning& tuning) {
   const auto& point = tuning.trials.at(tuning.best).point;
   std::string qcl;
   std::string set;
+  std::vector<std::pair<std::string, std::string>> plants;
   std::string others;
   std::string arguments;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -182,6 +213,8 @@ std::string patch_text(const Tuning& tuning) {
       const auto name = path.substr(controller_set.size());
       qcl += qcl_line(name, point[i]);
       set += fmt::format("{}{}: {}", set.empty() ? "" : ", ", name, value);
+    } else if (path.starts_with("plants.")) {
+      plants.emplace_back(path, value);
     } else {
       others += fmt::format("# {}: {}\n", path, value);
     }
@@ -190,6 +223,7 @@ std::string patch_text(const Tuning& tuning) {
   std::string text;
   if (!qcl.empty()) text += "; QCL, in the set-up of the axis\n" + qcl;
   if (!set.empty()) text += "# scenario, below controller: qmove:\n    set: {" + set + "}\n";
+  if (!plants.empty()) text += "# scenario, into what stands there\n" + nested(std::move(plants));
   if (!others.empty()) text += "# scenario, at these paths\n" + others;
   return text + "# drycut run\n" + arguments.substr(1) + "\n";
 }
@@ -205,8 +239,12 @@ std::string summary_text(const Tuning& tuning) {
                         all.size(), beyond, tuning.study.minimise, metric_text(worst.verdict),
                         limits_text(worst.verdict));
     for (std::size_t i = 0; i < worst.point.size(); ++i)
-      text += fmt::format("  at {} = {}\n", tuning.spread->parameters()[i].path,
-                          value_text(tuning.spread->parameters()[i], worst.point[i]));
+      text += fmt::format("  at {} = {:.4g}{}{}\n", tuning.spread->parameters()[i].path, worst.point[i],
+                          tuning.spread->parameters()[i].unit.empty() ? "" : " ",
+                          tuning.spread->parameters()[i].unit);
+    for (std::size_t i = 0; i < tuning.study.constraints.size(); ++i)
+      text += fmt::format("  least room of {}: {}\n", tuning.study.constraints[i],
+                          room_text(least_room(*tuning.spread, i)));
   }
   for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
     const auto& p = tuning.trials.parameters()[i];

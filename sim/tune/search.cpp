@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlopt.hpp>
 #include <numeric>
 
@@ -13,7 +14,7 @@ namespace {
 /// What the subplex method calls: a place in the unit cube, looked up in the trials or tried.
 struct Descent {
   Trials& trials;
-  int budget;
+  int budget;  ///< [runs]
   int repeats = 0;
 
   static double cost(const std::vector<double>& unit, std::vector<double>&, void* self) {
@@ -24,10 +25,12 @@ struct Descent {
     const auto point = from_unit(trials.parameters(), unit);
     if (trials.has(point)) {
       if (++repeats > most_repeats) throw nlopt::forced_stop();
-    } else if (static_cast<int>(trials.trials().size()) >= budget) {
+    } else if (trials.runs() + trials.runs_of_a_trial() > budget) {
       throw nlopt::forced_stop();
     }
-    return trials.at(trials.run("search", {point})[0]).verdict.rank();
+    const auto& best = trials.at(trials.best()).verdict;
+    const double to_beat = best.feasible() ? best.metric : std::numeric_limits<double>::infinity();
+    return trials.at(trials.run("search", {point}, to_beat)[0]).verdict.rank();
   }
 };
 
@@ -62,7 +65,8 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 std::size_t search(Trials& trials, const std::optional<Point>& start, int budget, std::uint64_t seed) {
   const auto& parameters = trials.parameters();
   const int least = static_cast<int>(2 * parameters.size()) + 2;
-  const int samples = std::clamp(budget * 2 / 5, std::min(least, budget), budget);
+  const int sets = std::max(1, budget / trials.runs_of_a_trial());
+  const int samples = std::clamp(sets * 2 / 5, std::min(least, sets), sets);
   auto points = latin_hypercube(parameters, samples, plants::Random(seed, "drycut tune"));
   if (start) points.front() = *start;
   const auto tried = trials.run("sample", points);
@@ -74,7 +78,7 @@ std::size_t search(Trials& trials, const std::optional<Point>& start, int budget
   constexpr double elsewhere = 0.1;  // of the range, in one parameter at least
   std::vector<std::vector<double>> begun;
   for (const auto index : order) {
-    if (static_cast<int>(trials.trials().size()) >= budget) break;
+    if (trials.runs() + trials.runs_of_a_trial() > budget) break;
     const Point point = trials.at(index).point;
     const auto unit = to_unit(parameters, point);
     if (std::any_of(begun.begin(), begun.end(),

@@ -8,8 +8,9 @@ namespace drycut::sim {
 
 /// Looks for the values with the least metric that keep all limits: a Latin hypercube over two fifths of
 /// `budget` (and `start`, where known and inside), several runs at the same time; then subplex (NLopt) from
-/// the best, and from the next best that lies elsewhere when it has converged, until `budget` sets of values
-/// have been tried. Returns the index of the best trial. The way depends on `seed` and `budget` alone.
+/// the best, and from the next best that lies elsewhere when it has converged, until `budget` simulated runs
+/// would be exceeded (one set of values is always tried). Returns the index of the best trial. The way
+/// depends on `seed` and `budget` alone.
 std::size_t search(Trials& trials, const std::optional<Point>& start, int budget, std::uint64_t seed);
 
 /// How the metric changes when one parameter at a time is moved by a share of its range.

@@ -73,8 +73,46 @@ void judge_checks(const Outcome& outcome, Verdict& verdict) {
   }
 }
 
+void judge_limit(const Gauge& gauge, double room, double& worst, Verdict& verdict) {
+  worst = std::isnan(worst) ? room : std::min(worst, room);
+  if (room >= 0) return;
+  verdict.violation += 1 + beyond(room);
+  if (verdict.note.empty()) verdict.note = "beyond " + gauge.text;
+}
+
+/// Measures the loop and judges the constraints on it.
+void judge_loop(const Study& study, const Scenario& scenario, std::vector<Gauge>& all,
+                const Recording& recording, Verdict& verdict) {
+  devices::Problems problems;
+  const auto loop = measure_loop(scenario, study.loop, problems);
+  if (!loop) return stop(verdict, to_string(problems.front()));
+  verdict.runs += 2;
+  const auto doubts = loop_doubts(*loop);
+  if (!doubts.empty()) {
+    verdict.violation += 2;
+    verdict.note = doubts.front();
+    return;
+  }
+  LoopFigures figures;
+  const auto& margins = loop->margins;
+  if (margins.phase) figures.phase_margin = margins.phase->value;
+  if (margins.gain) figures.gain_margin = margins.gain->value;
+  if (margins.sensitivity) figures.max_sensitivity = margins.sensitivity->value;
+  for (std::size_t i = 0; i < verdict.room.size(); ++i) {
+    auto& gauge = all[i + 1];
+    if (!gauge.metric.needs_loop()) continue;
+    const double room = gauge.metric.value(recording, study.from, figures);
+    if (!std::isnan(room)) {
+      judge_limit(gauge, room, verdict.room[i], verdict);
+      continue;
+    }
+    verdict.violation += 2;
+    if (verdict.note.empty()) verdict.note = "not met between the measured frequencies: " + gauge.text;
+  }
+}
+
 void measure_case(const Study& study, const Study::Case& entry, const std::vector<Override>& overrides,
-                  Verdict& verdict) {
+                  double to_beat, Verdict& verdict) {
   devices::Problems problems;
   auto scenario = read_case(study, entry, overrides, problems);
   auto all = gauges(study, entry, problems);
@@ -83,21 +121,23 @@ void measure_case(const Study& study, const Study::Case& entry, const std::vecto
     return stop(verdict, problems.empty() ? "cannot be built" : to_string(problems.front()));
   Simulation simulation(scenario, problems);
   if (!problems.empty()) return stop(verdict, to_string(problems.front()));
+  ++verdict.runs;
   const auto outcome = simulation.run();
   if (!outcome.failure.empty()) return stop(verdict, outcome.failure);
-  const double metric = all[0].metric.value(simulation.recording(), study.from);
+  const auto& recording = simulation.recording();
+  const double metric = all[0].metric.value(recording, study.from);
   if (!std::isfinite(metric)) return stop(verdict, fmt::format("no number for {}", study.minimise));
   verdict.metric = std::isnan(verdict.metric) ? metric : std::max(verdict.metric, metric);
   for (std::size_t i = 0; i < verdict.room.size(); ++i) {
-    const double room = all[i + 1].metric.value(simulation.recording(), study.from);
-    if (std::isnan(room)) return stop(verdict, fmt::format("no number for {}", all[i + 1].text));
-    verdict.room[i] = std::min(verdict.room[i], room);
-    if (room < 0) {
-      verdict.violation += 1 + beyond(room);
-      if (verdict.note.empty()) verdict.note = "beyond " + all[i + 1].text;
-    }
+    auto& gauge = all[i + 1];
+    if (gauge.metric.needs_loop()) continue;
+    const double room = gauge.metric.value(recording, study.from);
+    if (std::isnan(room)) return stop(verdict, fmt::format("no number for {}", gauge.text));
+    judge_limit(gauge, room, verdict.room[i], verdict);
   }
   if (!study.ignore_checks) judge_checks(outcome, verdict);
+  if (study.needs_loop && verdict.feasible() && verdict.metric < to_beat)
+    judge_loop(study, scenario, all, recording, verdict);
 }
 
 }  // namespace
@@ -108,11 +148,11 @@ double Verdict::rank() const {
   return metric / (1 + std::abs(metric));  // monotone, in (-1, 1)
 }
 
-Verdict measure(const Study& study, const std::vector<Override>& overrides) {
+Verdict measure(const Study& study, const std::vector<Override>& overrides, double to_beat) {
   Verdict verdict;
   verdict.metric = std::numeric_limits<double>::quiet_NaN();
-  verdict.room.assign(study.constraints.size(), std::numeric_limits<double>::infinity());
-  for (const auto& scenario : study.cases) measure_case(study, scenario, overrides, verdict);
+  verdict.room.assign(study.constraints.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const auto& scenario : study.cases) measure_case(study, scenario, overrides, to_beat, verdict);
   return verdict;
 }
 
@@ -157,8 +197,13 @@ void prepare(Study& study, devices::Problems& problems) {
            fmt::format("the scenario lasts {} s", seconds(scenario.scene.duration))});
     auto measured = read_case(study, entry, {}, problems);
     devices::Problems of_gauges;
-    record_names(measured, gauges(study, entry, of_gauges));
+    const auto all = gauges(study, entry, of_gauges);
+    record_names(measured, all);
     const Simulation probe(measured, of_gauges);
+    study.needs_loop = study.needs_loop || std::any_of(all.begin(), all.end(), [](const Gauge& gauge) {
+                         return gauge.metric.needs_loop();
+                       });
+    if (study.needs_loop && of_gauges.empty()) check_loop(measured, study.loop, of_gauges);
     for (auto& problem : of_gauges)
       if (std::none_of(problems.begin(), problems.end(),
                        [&](const auto& told) { return to_string(told) == to_string(problem); }))

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/bode/loop.hpp"
 #include "sim/simulation.hpp"
 #include "sim/tune/metric.hpp"
 
@@ -21,17 +23,23 @@ struct Study {
   std::vector<Override> set;  ///< applied before what the tuning changes
   std::string minimise;
   std::vector<std::string> constraints;
+  LoopRequest loop;         ///< how the figures of the loop are measured
+  bool needs_loop = false;  ///< a constraint limits one of them; found out by prepare()
   Time from = 0;
   bool ignore_checks = false;
+
+  /// Simulated runs that one set of values may take: two more a scenario where the loop is measured.
+  [[nodiscard]] int runs_of_a_trial() const { return static_cast<int>(cases.size()) * (needs_loop ? 3 : 1); }
 };
 
 /// What one set of values is worth, over all scenarios: the worst of each number.
 struct Verdict {
   double metric = 0;         ///< NaN if it could not be measured
-  std::vector<double> room;  ///< one a constraint, negative beyond it
+  std::vector<double> room;  ///< one a constraint, negative beyond it; NaN = not measured
   int failed_checks = 0;
   bool stopped = false;  ///< a run ended early, could not begin or gave no number
   double violation = 0;  ///< 0 = all limits kept; else their number and, below 1 each, how far beyond
+  int runs = 0;          ///< simulated runs that it took
   std::string note;      ///< first thing that failed
 
   [[nodiscard]] bool feasible() const { return !stopped && violation == 0; }
@@ -46,8 +54,10 @@ struct KeptRun {
   std::string expanded;  ///< the scenario with every value in force
 };
 
-/// Runs all scenarios of `study` with `overrides` on top.
-Verdict measure(const Study& study, const std::vector<Override>& overrides);
+/// Runs all scenarios of `study` with `overrides` on top. The loop is measured last, and only where the
+/// values keep all other limits and their metric is less than `to_beat`: it takes longer than all the rest.
+Verdict measure(const Study& study, const std::vector<Override>& overrides,
+                double to_beat = std::numeric_limits<double>::infinity());
 /// The run of one scenario with the channels that metric and constraints look at; throws
 /// std::runtime_error if it cannot be built.
 KeptRun keep_run(const Study& study, const Study::Case& scenario, const std::vector<Override>& overrides);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <condition_variable>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -76,8 +77,8 @@ std::string row_of(std::size_t number, const Trials::Trial& trial) {
   const auto& verdict = trial.verdict;
   row += fmt::format(",{}", verdict.metric);
   for (const double room : verdict.room) row += fmt::format(",{}", room);
-  return row + fmt::format(",{},{},{},{}\n", verdict.failed_checks, verdict.violation,
-                           verdict.stopped ? 1 : 0, quoted(verdict.note));
+  return row + fmt::format(",{},{},{},{},{}\n", verdict.failed_checks, verdict.violation,
+                           verdict.stopped ? 1 : 0, verdict.runs, quoted(verdict.note));
 }
 
 }  // namespace
@@ -101,6 +102,8 @@ std::string Trials::fingerprint() const {
   hash.add(study_.minimise);
   for (const auto& text : study_.constraints) hash.add(text);
   hash.add(fmt::format("{} {}", study_.from, study_.ignore_checks));
+  if (study_.needs_loop)
+    hash.add(fmt::format("{} {} {}", study_.loop.wire, study_.loop.at.value_or(-1), study_.loop.amplitude));
   for (const auto& override : fixed_) hash.add(override.path + "=" + override.value);
   for (const auto& entry : study_.cases) {
     devices::Problems problems;
@@ -125,7 +128,7 @@ std::string Trials::heading() const {
     line += "," + quoted(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
   line += "," + quoted(study_.minimise);
   for (const auto& text : study_.constraints) line += "," + quoted("room of " + text);
-  return line + ",failed_checks,violation,stopped,note";
+  return line + ",failed_checks,violation,stopped,runs,note";
 }
 
 // Takes what an earlier run of the same study left; a line cut short ends it.
@@ -137,7 +140,7 @@ void Trials::load() {
   content << old.rdbuf();
   const std::string all = old ? content.str() : "";
   if (all.starts_with(first)) {
-    const std::size_t columns = 2 + parameters_.size() + 1 + study_.constraints.size() + 4;
+    const std::size_t columns = 2 + parameters_.size() + 1 + study_.constraints.size() + 5;
     for (std::size_t at = first.size(); at < all.size();) {
       const auto end = all.find('\n', at);
       if (end == std::string::npos) break;
@@ -153,10 +156,11 @@ void Trials::load() {
       const auto split = numbers.begin() + static_cast<std::ptrdiff_t>(parameters_.size());
       Verdict verdict;
       verdict.metric = *split;
-      verdict.room.assign(split + 1, numbers.end() - 3);
-      verdict.failed_checks = static_cast<int>(numbers.end()[-3]);
-      verdict.violation = numbers.end()[-2];
-      verdict.stopped = numbers.end()[-1] != 0;
+      verdict.room.assign(split + 1, numbers.end() - 4);
+      verdict.failed_checks = static_cast<int>(numbers.end()[-4]);
+      verdict.violation = numbers.end()[-3];
+      verdict.stopped = numbers.end()[-2] != 0;
+      verdict.runs = static_cast<int>(numbers.end()[-1]);
       verdict.note = cells.back();
       kept_.emplace(Point(numbers.begin(), split), verdict);
       text += all.substr(at, end + 1 - at);
@@ -174,7 +178,8 @@ void Trials::append(const Trial& trial) {
   ++simulated_;
 }
 
-std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector<Point>& points) {
+std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector<Point>& points,
+                                     double to_beat) {
   std::vector<std::size_t> indices;
   std::vector<std::size_t> open;
   for (const auto& point : points) {
@@ -192,6 +197,7 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
   // Rows go into the file in order, whoever finishes first.
   std::vector<bool> done(open.size());
   std::size_t written = 0;
+  int runs_done = runs();
   std::mutex mutex;
   std::exception_ptr trouble;
   std::atomic<std::size_t> next = 0;
@@ -202,11 +208,14 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
         auto overrides = fixed_;
         for (auto& override : overrides_of(parameters_, trial.point))
           overrides.push_back(std::move(override));
-        trial.verdict = measure(study_, overrides);
+        trial.verdict = measure(study_, overrides, to_beat);
         const std::lock_guard lock(mutex);
         done[i] = true;
-        while (written < open.size() && done[written]) append(trials_[open[written++]]);
-        if (progress_) progress_(static_cast<int>(trials_.size() - open.size() + written));
+        while (written < open.size() && done[written]) {
+          runs_done += trials_[open[written]].verdict.runs;
+          append(trials_[open[written++]]);
+        }
+        if (progress_) progress_(runs_done);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!trouble) trouble = std::current_exception();
@@ -222,6 +231,11 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
   }
   if (trouble) std::rethrow_exception(trouble);
   return indices;
+}
+
+int Trials::runs() const {
+  return std::accumulate(trials_.begin(), trials_.end(), 0,
+                         [](int sum, const Trial& trial) { return sum + trial.verdict.runs; });
 }
 
 std::size_t Trials::best() const {

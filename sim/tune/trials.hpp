@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,12 +22,15 @@ class Trials {
     Point point;
     Verdict verdict;
   };
-  /// `fixed` is set before the point's values. Throws std::runtime_error if the file cannot be written.
+  /// `fixed` is set before the point's values; `progress` is told the runs so far. Throws std::runtime_error
+  /// if the file cannot be written.
   Trials(const Study& study, TunedParameters parameters, std::vector<Override> fixed,
          std::filesystem::path file, int jobs, std::function<void(int)> progress = {});
 
-  /// Tries all of `points`, several at the same time; returns the index of each in trials().
-  std::vector<std::size_t> run(const std::string& phase, const std::vector<Point>& points);
+  /// Tries all of `points`, several at the same time; returns the index of each in trials(). `to_beat`: see
+  /// measure().
+  std::vector<std::size_t> run(const std::string& phase, const std::vector<Point>& points,
+                               double to_beat = std::numeric_limits<double>::infinity());
 
   [[nodiscard]] const std::vector<Trial>& trials() const { return trials_; }
   [[nodiscard]] const Trial& at(std::size_t index) const { return trials_[index]; }
@@ -34,6 +38,10 @@ class Trials {
   [[nodiscard]] const TunedParameters& parameters() const { return parameters_; }
   /// Sets of values that were not found in the file.
   [[nodiscard]] int simulated() const { return simulated_; }
+  /// Simulated runs of all trials, those in the file included.
+  [[nodiscard]] int runs() const;
+  /// Simulated runs that one more set of values may take.
+  [[nodiscard]] int runs_of_a_trial() const { return study_.runs_of_a_trial(); }
   /// Index of the best so far; the earlier of two equals. There must be a trial.
   [[nodiscard]] std::size_t best() const;
 

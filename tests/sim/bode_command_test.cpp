@@ -18,8 +18,8 @@ using testing::StartsWith;
 struct BodeCommand : testing::Test {
   BodeCommand() {
     options.scenario = folder.path / "axis.yaml";
-    options.points = 12;
-    options.amplitude = 1;
+    options.loop.points = 12;
+    options.loop.amplitude = 1;
   }
   int run() {
     testing::internal::CaptureStdout();
@@ -69,7 +69,7 @@ TEST_F(BodeCommand, FailsBelowALimit) {
 }
 
 TEST_F(BodeCommand, FailsOnAMarginThatItCannotKnow) {
-  options.to = 20;
+  options.loop.to = 20;
   options.min_gain_margin = 6;
   EXPECT_EQ(run(), check_failed);
   EXPECT_THAT(out, HasSubstr("FAIL: the gain margin is not known: it lies outside these frequencies"));
@@ -82,7 +82,7 @@ TEST_F(BodeCommand, FailsOnAnUnstableLoop) {
 }
 
 TEST_F(BodeCommand, FailsOnAnOpenLoop) {
-  options.at = 0.001;
+  options.loop.at = 0.001;
   folder.write("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
   EXPECT_EQ(run(), check_failed);
   EXPECT_THAT(out, HasSubstr("2.AN01 does not answer: the loop is open at 0.001 s"));
@@ -104,6 +104,65 @@ TEST_F(BodeCommand, WritesTableAndPicture) {
   EXPECT_EQ(content(options.csv), first);
 }
 
+TEST_F(BodeCommand, WritesAReport) {
+  options.out = folder.path / "results";
+  options.min_gain_margin = 30;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("report: " + (options.out / "report.html").string()));
+  const auto html = content(options.out / "report.html");
+  EXPECT_THAT(html, HasSubstr("the gain margin of 26.04 dB is below 30 dB"));
+  EXPECT_THAT(html, HasSubstr("87.1 deg at the crossover of 3.9"));
+  EXPECT_THAT(html, HasSubstr("speed_at_10v"));  // the scenario with its defaults
+  EXPECT_THAT(content(options.out / "plots/bode.png"), StartsWith("\x89PNG"));
+  EXPECT_THAT(content(options.out / "bode.csv"), StartsWith("frequency [Hz],"));
+}
+
+TEST_F(BodeCommand, SweepsTheAmplitudeForALimitCycle) {
+  options.limit_cycle = true;
+  options.out = folder.path / "results";
+  options.loop.from = 20;
+  options.loop.points = 4;
+  EXPECT_EQ(run(), all_passed) << out << err;
+  // A linear loop: the margin is that of any amplitude, a factor of 20 on pgain 100.
+  EXPECT_THAT(out, HasSubstr("Gain margin over the amplitude of the sine"));
+  EXPECT_THAT(out, testing::ContainsRegex("Limit cycle from (19|20)"));
+  EXPECT_THAT(content(options.out / "report.html"), HasSubstr("Gain margin over the amplitude"));
+  EXPECT_THAT(content(options.out / "plots/limit_cycle.png"), StartsWith("\x89PNG"));
+}
+
+TEST_F(BodeCommand, WithoutAnyMarginThereIsNoLimitCycle) {
+  options.limit_cycle = true;
+  options.loop.to = 20;
+  options.loop.points = 3;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("Limit cycle: no gain margin was found at any amplitude."));
+}
+
+TEST_F(BodeCommand, GoesDownToTheCrossover) {
+  options.set = {"controller.qmove.set.Axis.pgain=10"};
+  EXPECT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(out, HasSubstr("deg at the crossover of 0.39"));
+  options.loop.from = 1;
+  options.min_phase_margin = 30;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("FAIL: the phase margin is not known: it lies outside these frequencies"));
+}
+
+TEST_F(BodeCommand, LeavesOutWhatIsFinerThanTheResolution) {
+  // 5 mV are 0.5 mm/s: less than a count of 0.01 mm from 16 Hz on.
+  options.loop.amplitude = 0.005;
+  EXPECT_EQ(run(), all_passed) << out;
+  EXPECT_THAT(out,
+              testing::ContainsRegex("From [0-9.]+ Hz on nothing answers to 0.005 V: it would be finer"));
+  EXPECT_THAT(out, testing::Not(HasSubstr("inf")));
+}
+
+TEST_F(BodeCommand, RefusesAFolderThatCannotBeMade) {
+  options.out = options.scenario / "results";
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, StartsWith("--out:1:1: the directory " + options.out.string() + " cannot be made"));
+}
+
 TEST_F(BodeCommand, PrintsTheTableForAProgram) {
   options.csv = "-";
   EXPECT_EQ(run(), all_passed);
@@ -112,35 +171,43 @@ TEST_F(BodeCommand, PrintsTheTableForAProgram) {
 }
 
 TEST_F(BodeCommand, RefusesNumbersOutOfRange) {
-  options.amplitude = 11;
-  options.settle = -1;
-  options.points = 1;
+  options.loop.amplitude = 11;
+  options.loop.settle = -1;
+  options.loop.points = 1;
   options.min_phase_margin = 200;
   refuses(
       "--settle:1:1: -1 is out of range; give 0 to 1000 s\n"
       "--amplitude:1:1: 11 is out of range; give 0.001 to 10 V\n"
-      "--min-phase-margin:1:1: 200 is out of range; give 0 to 180 deg\n"
-      "--points:1:1: 1 is out of range; give 2 to 1000");
+      "--points:1:1: 1 is out of range; give 2 to 1000\n"
+      "--min-phase-margin:1:1: 200 is out of range; give 0 to 180 deg");
 }
 
 TEST_F(BodeCommand, RefusesFrequenciesThatTheControllerCannotSee) {
-  options.to = 200;
+  options.loop.to = 200;
   refuses("--to:1:1: 200 Hz is above half the sampling frequency of 4 ms; give at most 125 Hz");
 }
 
 TEST_F(BodeCommand, RefusesARangeUpsideDown) {
-  options.from = 50;
-  options.to = 20;
+  options.loop.from = 50;
+  options.loop.to = 20;
   refuses("--from:1:1: 50 Hz is not below --to, 20 Hz; give a lower frequency");
 }
 
+TEST_F(BodeCommand, RefusesFilesThatAreDirectoriesOrTheSame) {
+  options.csv = folder.path;
+  options.png = folder.path / "x.png";
+  refuses("--csv:1:1: " + options.csv + " is a directory; name a file");
+  options.csv = options.png;
+  refuses("--png:1:1: it is the file of --csv; name another file");
+}
+
 TEST_F(BodeCommand, RefusesAnUnknownWire) {
-  options.wire = "axis.servo";
+  options.loop.wire = "axis.servo";
   refuses("--wire:1:1: there is no analogue reference 'axis.servo'; give one of: axis.reference");
 }
 
 TEST_F(BodeCommand, RefusesAnUnknownSpeed) {
-  options.speed = "axis.sped";
+  options.loop.speed = "axis.sped";
   refuses("--speed:1:1: there is no channel 'axis.sped'; did you mean axis.speed?");
 }
 
@@ -157,7 +224,7 @@ TEST_F(BodeCommand, RefusesAnOverrideThatIsNone) {
   options.set = {"pgain"};
   refuses(
       "--set:1:1: 'pgain' is not an assignment; write path=value, such as "
-      "controller.qmove.set.AxisX.pgain=50");
+      "\"plants.web.speed=80 m/min\"");
 }
 
 TEST_F(BodeCommand, RefusesAScenarioWithoutAnalogueOutput) {

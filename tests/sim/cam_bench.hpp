@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/cam/findings.hpp"
-#include "sim/cam/run.hpp"
-#include "sim/cam/samples.hpp"
-#include "sim/cam/table.hpp"
+#include "sim/cam/camming4/judge.hpp"
+#include "sim/cam/camming4/run.hpp"
+#include "sim/cam/camming4/samples.hpp"
+#include "sim/cam/camming4/table.hpp"
 
 namespace drycut::sim::cams {
 

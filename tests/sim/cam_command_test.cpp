@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "sim/cam/plot.hpp"
+#include "sim/cam/camming4/plot.hpp"
 #include "sim/commands/commands.hpp"
 #include "tests/sim/cam_bench.hpp"
 

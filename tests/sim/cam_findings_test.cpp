@@ -1,4 +1,4 @@
-#include "sim/cam/findings.hpp"
+#include "sim/cam/camming4/judge.hpp"
 
 #include <gmock/gmock.h>
 

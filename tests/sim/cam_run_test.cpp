@@ -1,4 +1,4 @@
-#include "sim/cam/run.hpp"
+#include "sim/cam/camming4/run.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "sim/cam/samples.hpp"
+#include "sim/cam/camming4/samples.hpp"
 
 #include <gmock/gmock.h>
 

@@ -251,8 +251,18 @@ TEST(ScenarioProblems, PlantsTakenTogether) {
 
 TEST(ScenarioProblems, Controller) {
   expect_problems({
-      {"controller: {lx3vp: {program: a.il}}\n", {"1:14: unknown controller 'lx3vp'; known: qmove"}},
-      {"controller: {}\n", {"1:13: controller names none; write controller: {qmove: {configuration: ...}}"}},
+      {"controller: {s7: {program: a.il}}\n", {"1:14: unknown controller 's7'; known: qmove, lx3vp"}},
+      {"controller: {}\n",
+       {"1:13: controller names none; write controller: {qmove: {configuration: ...}} or {lx3vp: {program: "
+        "...}}"}},
+      {"controller: {lx3vp: {}, qmove: {configuration: a.cnf}}\n",
+       {"1:21: controller.lx3vp.program is missing; add program: programs/saw.il",
+        "1:25: a second controller, after lx3vp; keep one"}},
+      {"scene: {step: 200 us}\ncontroller: {lx3vp: {program: a.il, scan: 500 us, regs: a.csv}}\n",
+       {"2:43: controller.lx3vp.scan 500 us is not a whole multiple of scene.step 200 us; for example 400 us "
+        "or "
+        "600 us",
+        "2:51: unknown key 'regs' in controller.lx3vp; known: program, registers, scan, retentive, set"}},
       {"controller: {qmove: {tasks: [a.mod]}}\n",
        {"1:21: controller.qmove.configuration is missing; add configuration: programs/line.cnf"}},
       {"controller: {qmove: {configuration: a.cnf, tasks: a.mod}}\n",
@@ -346,54 +356,6 @@ TEST(ScenarioProblems, Checks) {
        {"1:31: this ( is not closed; add )",
         "1:35: unknown key 'y) < 1' in checks.0; an expression with a comma in it stands in quotes"}},
       {"checks: [{name: a, always: sqr(x) < 1}]\n", {"1:28: unknown function 'sqr'; did you mean sqrt?"}},
-  });
-}
-
-TEST(ScenarioProblems, Pictures) {
-  const std::string frames = "pictures: {frames: {";
-  expect_problems({
-      {frames + "size: 960}}\n",
-       {"1:27: pictures.frames.size: '960' is no picture size; write width x height in "
-        "pixels without blanks: 960x540"}},
-      {frames + "size: 960x}}\n",
-       {"1:27: pictures.frames.size: '960x' is no picture size; write width x height in "
-        "pixels without blanks: 960x540"}},
-      {frames + "size: 9x9}}\n",
-       {"1:27: pictures.frames.size is 9x9, out of range; 64 to 4096 pixels each way"}},
-      {frames + "size: 99999999999x9}}\n",
-       {"1:27: pictures.frames.size: '99999999999x9' is no picture size; write "
-        "width x height in pixels without blanks: 960x540"}},
-      {frames + "from: 2 s, until: 1 s}}\n",
-       {"1:32: pictures.frames.until is not after from; let until be later than from"}},
-      {"pictures: {plots: [{panels: []}]}\n",
-       {"1:20: pictures.plots.0.name is missing; it names the file: name.png"}},
-      {"pictures: {plots: [{name: a}]}\n",
-       {"1:20: pictures.plots.0.panels is missing; add panels: [{title: ..., "
-        "channels: [...]}]"}},
-      {"pictures: {plots: [{name: a/b, panels: []}]}\n",
-       {"1:27: pictures.plots.0.name 'a/b' is no file name; leave / and \\ out; it becomes name.png"}},
-      {"pictures: {plots: [{name: a, panels: []}, {name: a, panels: []}]}\n",
-       {"1:50: there are two plots named 'a'; rename one: each is a file"}},
-      {"pictures: {plots: [{name: a, panels: [{title: b}]}]}\n",
-       {"1:39: pictures.plots.0.panels.0.channels is missing; add channels: [knife.speed], or event: cut and "
-        "values: [length]"}},
-      {"pictures: {plots: [{name: a, panels: [{channels: [b], event: cut, values: [c]}]}]}\n",
-       {"1:55: pictures.plots.0.panels.0 has both channels and an event; make two panels of it"}},
-      {"pictures: {plots: [{name: a, panels: [{event: cut}]}]}\n",
-       {"1:40: pictures.plots.0.panels.0: event and values go together; write event: cut, values: [length]"}},
-      {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [2, 1]}]}]}\n",
-       {"1:63: pictures.plots.0.panels.0.limits must be a lower and an upper limit; for example [499.8, "
-        "500.2]"}},
-      {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [x, 1]}]}]}\n",
-       {"1:64: pictures.plots.0.panels.0.limits: 'x' is not a number; write a number, with its unit if it "
-        "has one: "
-        "0.5, 60 m/min"}},
-      {"pictures: {plots: [{name: a, against: number, panels: [{channels: [b]}]}]}\n",
-       {"1:39: pictures.plots.0.against: channels have no number; against: number is for plots whose panels "
-        "all "
-        "show events"}},
-      {"pictures: {plots: [{name: a, against: wall, panels: []}]}\n",
-       {"1:39: pictures.plots.0.against: unknown choice 'wall'; known: time, number"}},
   });
 }
 

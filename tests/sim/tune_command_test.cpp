@@ -1,6 +1,9 @@
 // drycut tune: the answer, that it is the same however it is found, what it writes, what it refuses.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/sim/tune_bench.hpp"
 
 namespace drycut::sim::tuning {
@@ -34,6 +37,122 @@ TEST_F(TuneCommand, TunesThePlantAsWell) {
   const auto at = patch.find("speed_at_10v: ");
   ASSERT_NE(at, std::string::npos) << patch;
   EXPECT_NEAR(std::stod(patch.substr(at + 14)), 1.0, 0.002);
+  EXPECT_THAT(patch, HasSubstr("# scenario, into what stands there\nplants:\n  axis:\n    speed_at_10v: "));
+}
+
+/// The loop of the bench is L(z) = pgain / 1000 / (z - 1).
+struct TuneMargins : TuneCommand {
+  TuneMargins() {
+    options.vary = {pgain + "=10..900"};
+    options.budget = 60;
+    options.loop.points = 8;
+    options.loop.from = 5;
+    options.loop.settle = 0.2;
+    options.loop.amplitude = 1;
+  }
+  [[nodiscard]] double tuned() const {
+    const auto patch = content(folder / "out/patch.txt");
+    return std::stod(patch.substr(patch.find("pgain = ") + 8));
+  }
+};
+
+TEST_F(TuneMargins, PhaseMarginStopsTheGainWhereTheLawDoes) {
+  options.constraints = {"phase_margin >= 80"};
+  ASSERT_EQ(run(), all_passed) << out << err;
+  // |z - 1| = 2 sin(w T / 2) = pgain / 1000, and the phase there is -90 deg - w T / 2.
+  EXPECT_NEAR(tuned(), 2000 * std::sin(10 * std::numbers::pi / 180), 10);
+}
+
+TEST_F(TuneMargins, GainMarginStopsTheGainWhereTheLawDoes) {
+  options.constraints = {"gain_margin >= 14"};
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_NEAR(tuned(), 2000 / std::pow(10, 14.0 / 20), 10);
+  EXPECT_THAT(out, HasSubstr("gain_margin >= 14"));
+}
+
+TEST_F(TuneMargins, SensitivityStopsTheGainWhereTheLawDoes) {
+  // |1 / (1 + L)| is largest at half the sampling frequency: 1 / (1 - pgain / 2000).
+  options.constraints = {"max_sensitivity <= 1.2"};
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_NEAR(tuned(), 2000 * (1 - 1 / 1.2), 10);
+}
+
+TEST_F(TuneMargins, TheBudgetIsOfSimulatedRunsMarginsIncluded) {
+  options.constraints = {"phase_margin >= 80"};
+  options.budget = 30;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  const auto at = out.find("simulated runs: search ");
+  ASSERT_NE(at, std::string::npos) << out;
+  const int runs = std::stoi(out.substr(at + 23));
+  EXPECT_GT(runs, 20);
+  EXPECT_LE(runs, 30);
+}
+
+TEST_F(TuneMargins, SameAnswerForAnyJobsAndWhenResumed) {
+  options.constraints = {"phase_margin >= 80", "max(axis.speed) <= 520"};
+  options.budget = 30;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  const auto whole = content(folder / "out/evaluations.csv");
+  options.jobs = 2;
+  options.out = folder / "out2";
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_EQ(content(folder / "out2/evaluations.csv"), whole);
+  std::ofstream(folder / "out2/evaluations.csv", std::ios::binary) << whole.substr(0, whole.size() / 2);
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_EQ(content(folder / "out2/evaluations.csv"), whole);
+  EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
+  // Measured in another way it is another study.
+  options.loop.amplitude = 0.5;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
+}
+
+TEST_F(TuneMargins, AnUnstableLoopIsBeyondEveryMargin) {
+  options.vary = {pgain + "=2200..3000"};
+  options.budget = 6;
+  options.constraints = {"phase_margin >= 1"};
+  EXPECT_EQ(run(), check_failed) << out << err;
+  EXPECT_THAT(out, HasSubstr("the loop is not stable"));
+}
+
+TEST_F(TuneMargins, AMarginThatIsNotMetIsNotKept) {
+  options.loop.to = 20;
+  options.constraints = {"gain_margin >= 1"};
+  options.budget = 9;
+  EXPECT_EQ(run(), check_failed) << out << err;
+  EXPECT_THAT(out, HasSubstr("not met between the measured frequencies: gain_margin >= 1"));
+}
+
+TEST_F(TuneMargins, SpreadTellsTheLeastRoom) {
+  options.constraints = {"phase_margin >= 80"};
+  options.budget = 30;
+  options.spread = {"plants.axis.speed_at_10v=±30%"};
+  options.spread_runs = 6;
+  ASSERT_EQ(run(), all_passed) << out << err;
+  // Tuned to the very limit: a faster machine has less margin.
+  EXPECT_THAT(out, testing::ContainsRegex("least room of phase_margin >= 80: [0-9.]+ too far"));
+}
+
+TEST_F(TuneMargins, RefusesWhatCannotBeMeasured) {
+  options.minimise = "phase_margin";
+  options.constraints = {"gain_margin >= 6"};
+  options.loop.amplitude = 20;
+  options.loop.wire = "axis.referenz";
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, HasSubstr("--amplitude:1:1: 20 is out of range; give 0.001 to 10 V"));
+  EXPECT_THAT(err,
+              HasSubstr("--minimise:1:1: phase_margin is measured for constraints only; put a limit into "
+                        "--constraint"));
+  options.minimise = "rms(AxisX.follerr)";
+  options.loop.amplitude = 1;
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, HasSubstr("--wire:1:1: there is no analogue reference 'axis.referenz'; give one of: "
+                             "axis.reference"));
+  options.constraints.clear();
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, HasSubstr("--wire:1:1: no constraint is on the loop; add --constraint \"phase_margin >= "
+                             "45\", or leave it out"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(TuneCommand, TheNumberOfJobsChangesNothing) {
@@ -158,12 +277,28 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+TEST_F(TuneCommand, RefusesBoundsOutsideTheDocumentedRange) {
+  options.vary = {pgain + "=-5..100", "controller.qmove.set.AxisX.rtype=0..7"};
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err,
+              HasSubstr("--vary:1:34: AxisX.pgain goes from 0 to 32767, not to -5; stay within the range"));
+  EXPECT_THAT(err, HasSubstr("--vary:1:37: AxisX.rtype goes from 0 to 1, not to 7; stay within the range"));
+}
+
+TEST_F(TuneCommand, RefusesAFolderThatCannotBeMade) {
+  options.out = folder / "axis.yaml" / "out";
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err,
+              testing::StartsWith("--out:1:1: the directory " + options.out.string() + " cannot be made"));
+}
+
 TEST_F(TuneCommand, RefusesWhatTheVariableCannotHold) {
   options.vary = {pgain + "=1..70000"};
   options.from = "1 s";
   options.spread = {pgain + "=±10%"};
   EXPECT_EQ(run(), bad_input);
-  EXPECT_THAT(err, HasSubstr("--vary:1:37: AxisX.pgain cannot hold 70000"));
+  EXPECT_THAT(
+      err, HasSubstr("--vary:1:37: AxisX.pgain goes from 0 to 32767, not to 70000; stay within the range"));
   EXPECT_THAT(err, HasSubstr("--from:1:1: 1 s is not before the end of"));
   EXPECT_THAT(err, HasSubstr("--spread:1:1: controller.qmove.set.AxisX.pgain is what --vary tunes"));
   EXPECT_THAT(err, HasSubstr("has no value to spread around"));

@@ -92,6 +92,26 @@ TEST_F(TuneMetric, AConstraintHasItsRoom) {
   EXPECT_DOUBLE_EQ(limit->value(recording, 3 * second), 1);
 }
 
+TEST_F(TuneMetric, AConstraintMayLimitTheLoop) {
+  std::vector<ExpressionFault> faults;
+  auto limit = Metric::compile("phase_margin - 5 >= 40 && max(AxisX.follerr) <= 9", Metric::Kind::limit,
+                               events, faults);
+  ASSERT_TRUE(limit.has_value());
+  EXPECT_TRUE(limit->needs_loop());
+  EXPECT_DOUBLE_EQ(limit->value(recording, 0, {46, 6, 2}), 1);
+  EXPECT_DOUBLE_EQ(limit->value(recording, 0, {80, 6, 2}), 4);
+  EXPECT_TRUE(std::isnan(limit->value(recording, 0)));
+  auto gain =
+      Metric::compile("gain_margin >= 6 && max_sensitivity <= 2", Metric::Kind::limit, events, faults);
+  ASSERT_TRUE(gain.has_value());
+  EXPECT_DOUBLE_EQ(gain->value(recording, 0, {46, 8, 2.5}), -0.5);
+  auto plain = Metric::compile("max(AxisX.follerr) <= 9", Metric::Kind::limit, events, faults);
+  ASSERT_TRUE(plain.has_value());
+  EXPECT_FALSE(plain->needs_loop());
+  EXPECT_THAT(fault("rms(AxisX.follerr) + gain_margin"),
+              HasSubstr("22: gain_margin is measured for constraints only; put a limit into --constraint"));
+}
+
 TEST_F(TuneMetric, FaultsStandAtTheirPlace) {
   EXPECT_THAT(fault("AxisX.follerr"), HasSubstr("1: 'AxisX.follerr' stands outside a term; write max("));
   EXPECT_THAT(fault("2 + 3"), HasSubstr("1: nothing recorded is in it"));

@@ -1,6 +1,4 @@
-#include "sim/cam/samples.hpp"
-
-#include <fmt/format.h>
+#include "sim/cam/camming4/samples.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -112,25 +110,6 @@ std::vector<CamPoint> sample_cam_at(const CamRun& run, std::vector<double> maste
     if (!points.empty()) points.back().master = master;
   }
   return points;
-}
-
-std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> master_um_per_s) {
-  std::string text = "master,slave,velocity,acceleration,jerk,sector";
-  if (master_um_per_s) text += ",time,velocity_t,acceleration_t,jerk_t";
-  text += '\n';
-  const auto out = std::back_inserter(text);
-  for (const auto& p : points) {
-    // Adding 0 turns -0 into 0.
-    fmt::format_to(out, "{},{},{},{},{},{}", p.master + 0.0, p.slave + 0.0, p.velocity + 0.0,
-                   p.acceleration + 0.0, p.jerk + 0.0, p.row);
-    if (master_um_per_s) {
-      const double v = *master_um_per_s;
-      fmt::format_to(out, ",{},{},{},{}", p.master / v + 0.0, p.velocity * v + 0.0,
-                     p.acceleration * v * v + 0.0, p.jerk * v * v * v + 0.0);
-    }
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace drycut::sim

@@ -4,17 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/cam/table.hpp"
+#include "sim/cam/camming4/table.hpp"
+#include "sim/cam/duty.hpp"
 
 namespace drycut::sim {
-
-/// What a cam is judged at. Speeds are in 10^decpt Um (the unit that the decimal point makes) per unitvel
-/// time, as the device's maxvel.
-struct CamDuty {
-  std::optional<double> master_speed = {};
-  std::optional<double> max_velocity = {};      ///< of the slave
-  std::optional<double> max_acceleration = {};  ///< of the slave [Um/s2]
-};
 
 /// A sector as it ran once, or the wait of sector 160. Positions count on from the start of the cam, whatever
 /// loops and counter updates do to the device's counts.

@@ -1,4 +1,4 @@
-#include "sim/cam/remedies.hpp"
+#include "sim/cam/camming4/remedies.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "renders/plots.hpp"
-#include "sim/cam/samples.hpp"
+#include "sim/cam/camming4/samples.hpp"
 
 namespace drycut::sim {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "sim/cam/run.hpp"
+#include "sim/cam/camming4/run.hpp"
 
 namespace drycut::sim {
 

@@ -1,10 +1,13 @@
-#include "sim/cam/report.hpp"
+#include "sim/cam/camming4/report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "sim/cam/camming4/judge.hpp"
+#include "sim/cam/columns.hpp"
 
 namespace drycut::sim {
 
@@ -29,33 +32,6 @@ std::string meaning(const camming4::Row& row) {
   if (row.codeG == 160) text += fmt::format(": {} Um", row.codeQm);
   return text;
 }
-
-/// Columns of text, as wide as their widest cells; numbers to the right, words to the left.
-class Columns {
- public:
-  explicit Columns(std::vector<bool> words) : words_(std::move(words)) {}
-  void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
-
-  [[nodiscard]] std::string text() const {
-    std::vector<std::size_t> widths(words_.size(), 0);
-    for (const auto& cells : lines_)
-      for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
-    std::string text;
-    for (const auto& cells : lines_) {
-      std::string line;
-      for (std::size_t i = 0; i < cells.size(); ++i)
-        line += words_[i] ? fmt::format("  {:<{}}", cells[i], widths[i])
-                          : fmt::format("  {:>{}}", cells[i], widths[i]);
-      line.erase(line.find_last_not_of(' ') + 1);
-      text += line + '\n';
-    }
-    return text;
-  }
-
- private:
-  std::vector<bool> words_;
-  std::vector<std::vector<std::string>> lines_;
-};
 
 /// A line of the table of sectors, and how often the cam ran it just so.
 struct Line {
@@ -184,28 +160,11 @@ class Report {
   std::size_t untold_ = 0;
 };
 
-std::string findings_text(const std::vector<CamFinding>& findings) {
-  if (findings.empty()) return "no finding\n";
-  std::string text;
-  for (const auto& finding : findings) text += to_string(finding) + '\n';
-  return text;
-}
-
 }  // namespace
 
-std::string cam_report(const CamTable& table, const CamDuty& duty, const CamRun& run,
-                       const std::vector<CamFinding>& findings) {
+CamText cam_text(const CamTable& table, const CamDuty& duty, const CamRun& run) {
   Report report(table, duty, run);
-  return report.heading() + '\n' + report.sectors() + '\n' + findings_text(findings) + report.totals();
-}
-
-std::string cam_samples_text(const std::vector<CamPoint>& points) {
-  Columns columns({false, false, false, false, false, false});
-  columns.add({"master", "slave", "velocity", "acceleration", "jerk", "sector"});
-  for (const auto& p : points)
-    columns.add({number_text(p.master), number_text(p.slave), number_text(p.velocity),
-                 number_text(p.acceleration), number_text(p.jerk), std::to_string(p.row)});
-  return columns.text();
+  return {report.heading(), report.sectors(), report.totals()};
 }
 
 }  // namespace drycut::sim

@@ -1,0 +1,103 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/problem.hpp"
+
+namespace drycut::sim {
+
+// What the cam tables of all devices share as texts: cells with their columns, settings `# key: value` above
+// the header, problems with line and column.
+
+/// A piece of a line and where it stands.
+struct Cell {
+  std::string_view text;
+  int column = 1;
+};
+/// Without the blanks around it.
+Cell trimmed(Cell cell);
+/// The cells between the commas of a line.
+std::vector<Cell> split_cells(std::string_view line);
+/// What a message may quote: short, printable ASCII.
+std::string quoted(std::string_view text);
+
+/// The problems of one table; after 1000 of them the rest is not told.
+class TableProblems {
+ public:
+  TableProblems(std::string file, devices::Problems& problems)
+      : file_(std::move(file)), problems_(problems), before_(problems.size()) {}
+  void add(int line, int column, std::string what, std::string remedy);
+  [[nodiscard]] bool full() const { return full_; }
+  [[nodiscard]] bool none() const { return problems_.size() == before_; }
+
+ private:
+  std::string file_;
+  devices::Problems& problems_;
+  std::size_t before_;
+  bool full_ = false;
+};
+
+/// What a number may be.
+struct Range {
+  double low = 0;
+  double high = 0;
+};
+/// A whole number in its range, or a problem.
+std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string_view name, Range range,
+                                         TableProblems& problems);
+/// A number or a fraction of two (5/3), or a problem.
+std::optional<double> real_number(const Cell& cell, int line, std::string_view name, Range range,
+                                  TableProblems& problems);
+
+/// The settings of a table, comment lines `# key: value` above its header; `##` and prose are remarks.
+class Settings {
+ public:
+  using Take = std::function<void(const Cell& value, int line)>;
+  explicit Settings(TableProblems& problems) : problems_(problems) {}
+  void add(std::string name, Take take) { settings_.emplace(std::move(name), std::move(take)); }
+  /// Reads a comment line; `above` is false once the header was read.
+  void read(const Cell& comment, int line, bool above);
+  /// Line that gave a setting, 0 = none did.
+  [[nodiscard]] int line_of(std::string_view name) const;
+
+ private:
+  void refuse(const Cell& key, int line);
+
+  TableProblems& problems_;
+  std::map<std::string, Take, std::less<>> settings_;
+  std::map<std::string, int, std::less<>> given_;
+};
+
+/// Where the columns of a table stand in its lines.
+class Header {
+ public:
+  /// `columns` in the order of the places; the first `needed` of them must be there.
+  Header(std::vector<std::string> columns, std::size_t needed)
+      : columns_(std::move(columns)), needed_(needed) {}
+  /// Reads the header; false if the line is none but begins with a number: then the columns stand as they are
+  /// named, and a problem was told.
+  bool read(const std::vector<Cell>& cells, int line, TableProblems& problems);
+  [[nodiscard]] bool is_read() const { return !places_.empty(); }
+  [[nodiscard]] bool has(std::size_t column) const { return places_[column] >= 0; }
+  /// The cell of a column; empty if the line or the header ends before it.
+  [[nodiscard]] Cell cell_of(const std::vector<Cell>& cells, std::size_t column) const;
+  /// Tells a cell that is in no column.
+  void check_width(const std::vector<Cell>& cells, int line, TableProblems& problems) const;
+  /// "sector,codeG,..."
+  [[nodiscard]] std::string text() const;
+
+ private:
+  void read_name(const Cell& cell, int place, int line, TableProblems& problems);
+
+  std::vector<std::string> columns_;
+  std::size_t needed_;
+  std::vector<int> places_;
+  std::size_t width_ = 0;
+};
+
+}  // namespace drycut::sim

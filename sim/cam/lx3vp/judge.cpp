@@ -1,0 +1,302 @@
+#include "sim/cam/lx3vp/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drycut::sim {
+
+namespace {
+
+using devices::lx3vp::EcamError;
+using devices::lx3vp::EcamType;
+using Grade = CamFinding::Grade;
+
+constexpr double within = 1 + 1e-9;  // what rounding may add to a limit that is just met
+constexpr int table_error = 6782;    // of DECAM: the table is out of range
+constexpr std::size_t most_rows = 512;
+
+std::string number(double value) { return number_text(value, 6); }
+
+/// What a fault of ECAMTBX asks to be changed, with the list's own numbers.
+std::string remedy_of(EcamError error, const EcamTable& table) {
+  const auto& p = table.saw;
+  const double k = static_cast<double>(p.sync_ratio);
+  const double slave = std::abs(static_cast<double>(p.slave_length));
+  const double sync = p.sync_length;
+  switch (error) {
+    case EcamError::type:
+      return "give P6L 0, 1 or 2 and P6H 0, 1, 2, 3 or 5, with 4096 (H1000) added to return";
+    case EcamError::length:
+      return table.is_s_curve() ? "give P1 other than 0 and short enough for its speed"
+                                : "give P1 above 0, P2 other than 0 and P3 from 0 on";
+    case EcamError::sync_zone:
+      if (sync > slave) return fmt::format("give P3 {} at most", number(slave));
+      if (table.type == EcamType::fly_saw)
+        return fmt::format("give P1 {} at least, or a larger P4", std::ceil((2 * slave - sync) / k));
+      return fmt::format("give P1 above {}, or a shorter P3", number(sync / k));
+    case EcamError::ratio:
+      if (p.max_ratio < p.sync_ratio) return fmt::format("give P5 {} at least", number(k));
+      return fmt::format(
+          "outside the synchronous zone the mean ratio is {}; give P5 well above it, or a longer P1",
+          number((slave - sync) / (p.master_length - sync / k)));
+    case EcamError::resolution:
+      return table.is_s_curve() ? "give P6 from 51 to 512, and the ramps more time"
+                                : "give P7 0 (automatic) or 10 to 512, and the ramps more than a pulse each";
+    case EcamError::speed:
+      return "give P2 from 1 to 150000 Hz, P4 and P5 from 0 to 32767 ms";
+    case EcamError::number:
+      return "give P4 and P5 above 0";
+    default:
+      return "choose fewer rows";
+  }
+}
+
+class Judge {
+ public:
+  Judge(const EcamTable& table, const CamDuty& duty, const EcamRun& run)
+      : table_(table), duty_(duty), run_(run) {}
+
+  std::vector<CamFinding> findings() {
+    if (table_.is_made() && !table_.made.ok()) {
+      const auto error = table_.made.error;
+      add(Grade::error, "", fmt::format("ECAMTBX makes no table: {}", error_text(error)),
+          remedy_of(error, table_), static_cast<int>(error));
+      return std::move(found_);
+    }
+    judge_rows();
+    if (run_.law.pieces.empty()) return std::move(found_);
+    judge_ratio();
+    judge_speed();
+    judge_acceleration();
+    if (table_.is_made())
+      judge_law();
+    else
+      judge_steps();
+    remarks();
+    return std::move(found_);
+  }
+
+ private:
+  void add(Grade grade, std::string where, std::string text, std::string remedy = "", int code = 0) {
+    found_.push_back({grade, code, std::move(where), std::move(text), std::move(remedy)});
+  }
+
+  [[nodiscard]] std::string where(std::size_t row) const {
+    if (row >= table_.lines.size()) return fmt::format("row {}", row);
+    return fmt::format("row {} (line {})", row, table_.lines[row]);
+  }
+
+  void judge_rows() {
+    const auto& rows = table_.rows;
+    const auto refuse = [&](std::size_t row, std::string text, std::string remedy) {
+      add(Grade::error, where(row), std::move(text), std::move(remedy), table_error);
+    };
+    if (rows.size() < 2) refuse(0, "a cam of one row has no length", "give at least two rows");
+    if (rows.size() > most_rows)
+      refuse(most_rows, fmt::format("{} rows", rows.size()), fmt::format("a block takes {} rows", most_rows));
+    if (!rows.empty() && rows.front().master < 0)
+      refuse(0, fmt::format("the cam begins at master {}", rows.front().master), "begin at 0");
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (rows[i].master <= rows[i - 1].master)
+        refuse(i, fmt::format("master {} does not come after {}", rows[i].master, rows[i - 1].master),
+               "give the rows in ascending order of the master, each position once");
+  }
+
+  // What the device plays: straight pieces from row to row.
+
+  [[nodiscard]] double length(std::size_t row) const {
+    return static_cast<double>(table_.rows[row].master) - table_.rows[row - 1].master;
+  }
+  [[nodiscard]] double rise(std::size_t row) const {
+    return static_cast<double>(table_.rows[row].slave) - table_.rows[row - 1].slave;
+  }
+  [[nodiscard]] double ratio(std::size_t row) const { return rise(row) / length(row); }
+
+  /// The row that ends the steepest piece.
+  [[nodiscard]] std::size_t steepest() const {
+    std::size_t worst = 1;
+    for (std::size_t i = 2; i < table_.rows.size(); ++i)
+      if (std::abs(ratio(i)) > std::abs(ratio(worst))) worst = i;
+    return worst;
+  }
+
+  void judge_ratio() {
+    if (!table_.max_ratio) return;
+    std::size_t worst = 0;
+    int count = 0;
+    double most = 0;
+    for (std::size_t i = 1; i < table_.rows.size(); ++i) {
+      // Both ends are rounded to a pulse.
+      const double surplus = std::abs(rise(i)) - 1 - *table_.max_ratio * length(i) * within;
+      if (surplus <= 0) continue;
+      ++count;
+      if (surplus / length(i) <= most) continue;
+      most = surplus / length(i);
+      worst = i;
+    }
+    if (count == 0) return;
+    add(Grade::limit, where(worst),
+        fmt::format("ratio {} above {}{}", number(ratio(worst)), number(*table_.max_ratio), others(count)),
+        fmt::format("give the piece before it {} master pulses at least",
+                    number(std::ceil(std::abs(rise(worst)) / *table_.max_ratio))));
+  }
+
+  static std::string others(int count) {
+    return count == 1 ? "" : fmt::format(", the worst of {} rows", count);
+  }
+
+  /// Largest |ratio| and where it is: of the laws if there are any, for rounding to pulses moves nothing.
+  struct Peak {
+    double ratio = 0;
+    std::string where;
+  };
+  [[nodiscard]] Peak peak() const {
+    if (!table_.is_made()) return {std::abs(ratio(steepest())), where(steepest())};
+    Peak most;
+    for (std::size_t i = 0; i < run_.law.pieces.size(); ++i)
+      if (peak_ratio(run_.law.pieces[i]) > most.ratio)
+        most = {peak_ratio(run_.law.pieces[i]), fmt::format("piece {}", i + 1)};
+    return most;
+  }
+
+  void judge_speed() {
+    if (!run_.master_speed) return;
+    const auto most = peak();
+    const double frequency = most.ratio * *run_.master_speed;
+    const auto remedy = [&](double limit) {
+      if (table_.time_axis == 0)
+        return fmt::format("run the master at {} pulses/s at most", number(limit / most.ratio));
+      return table_.is_made() ? fmt::format("give P2 {} Hz at most", number(limit))
+                              : std::string("give the same way more time");
+    };
+    if (frequency > table_.max_frequency * within)
+      add(Grade::limit, most.where,
+          fmt::format("output at {} Hz above {} Hz (words 6 and 7): the slave lags and catches up later",
+                      number(frequency), table_.max_frequency),
+          remedy(table_.max_frequency));
+    if (duty_.max_velocity && frequency > *duty_.max_velocity * within)
+      add(Grade::limit, most.where,
+          fmt::format("velocity {} pulses/s above {}", number(frequency), number(*duty_.max_velocity)),
+          remedy(*duty_.max_velocity));
+  }
+
+  void judge_acceleration() {
+    if (!run_.master_speed || !duty_.max_acceleration) return;
+    const double speed = *run_.master_speed;
+    double most = 0;
+    std::string place;
+    if (table_.is_made()) {
+      for (std::size_t i = 0; i < run_.law.pieces.size(); ++i) {
+        if (peak_gradient(run_.law.pieces[i]) <= most) continue;
+        most = peak_gradient(run_.law.pieces[i]);
+        place = fmt::format("piece {}", i + 1);
+      }
+    } else {
+      // From the middle of a piece to the middle of the next.
+      for (std::size_t i = 2; i < table_.rows.size(); ++i) {
+        const double gradient = std::abs(ratio(i) - ratio(i - 1)) * 2 / (length(i) + length(i - 1));
+        if (gradient <= most) continue;
+        most = gradient;
+        place = where(i - 1);
+      }
+    }
+    const double acceleration = most * speed * speed;
+    if (acceleration <= *duty_.max_acceleration * within) return;
+    add(Grade::limit, place,
+        fmt::format("acceleration {} pulses/s2 above {}", number(acceleration),
+                    number(*duty_.max_acceleration)),
+        table_.time_axis > 0 ? "give its ramps more time"
+                             : fmt::format("give it more master, or run the master at {} pulses/s at most",
+                                           number(std::sqrt(*duty_.max_acceleration / most))));
+  }
+
+  /// Steps of the ratio, for given rows: more than half of the largest ratio from one piece to the next.
+  void judge_steps() {
+    const double peak = std::abs(ratio(steepest()));
+    double most = peak / 2;
+    std::size_t worst = 0;
+    int count = 0;
+    const auto look = [&](std::size_t before, std::size_t after, std::size_t row) {
+      const double rounding = 1 / length(before) + 1 / length(after);
+      const double step = std::abs(ratio(after) - ratio(before)) - rounding;
+      if (step <= peak / 2) return;
+      ++count;
+      if (step <= most) return;
+      most = step;
+      worst = row;
+    };
+    const auto last = table_.rows.size() - 1;
+    for (std::size_t i = 1; i < last; ++i) look(i, i + 1, i);
+    if (table_.cyclic && last > 1) look(last, 1, last);
+    if (count == 0) return;
+    const auto next = worst == last ? 1 : worst + 1;
+    add(Grade::caution, where(worst),
+        fmt::format("the ratio jumps from {} to {}{}{}", number(ratio(worst)), number(ratio(next)),
+                    worst == last ? " as the cycle begins again" : "", others(count)),
+        "put rows between, so that the slave can follow");
+  }
+
+  // What ECAMTBX made.
+
+  void judge_law() {
+    const auto& pieces = run_.law.pieces;
+    const double same = 1e-5 * std::abs(pieces.empty() ? 0 : std::max(peak_ratio(pieces.front()), 1e-9));
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const bool wraps = i + 1 == pieces.size();
+      if (wraps && (!table_.cyclic || run_.law.stops)) break;
+      const auto& next = pieces[wraps ? 0 : i + 1];
+      if (std::abs(next.r0 - pieces[i].r1) <= same) continue;
+      add(Grade::caution, fmt::format("piece {}", i + 1),
+          fmt::format("the ratio jumps from {} to {}{}", number(pieces[i].r1), number(next.r0),
+                      wraps ? " as the cycle begins again" : ""),
+          step_remedy(wraps));
+    }
+    if (table_.is_s_curve() && table_.made.speed_reached < table_.s_curve.top_speed)
+      add(Grade::caution, "",
+          fmt::format("reaches {} Hz, not {} Hz: too short for its times", table_.made.speed_reached,
+                      table_.s_curve.top_speed),
+          "give P4 and P5 less time");
+  }
+
+  [[nodiscard]] std::string step_remedy(bool wraps) const {
+    if (table_.is_s_curve()) return "give P4 and P5 some time";
+    if (table_.saw.acceleration == 0) return "give P6L 1 or 2 for ramps";
+    if (wraps && (table_.saw.curve & 0xFFF) == devices::lx3vp::mid_cam_begin)
+      return "use midCAMbegin for the first cycle and midCAMall for those after it";
+    return "give P3 less than P2, so that there is way left for ramps";
+  }
+
+  void remarks() {
+    const auto remark = [&](std::string text) { add(Grade::remark, "", std::move(text)); };
+    const auto& law = run_.law;
+    if (!table_.is_made() && run_.first_master != 0)
+      remark(
+          fmt::format("the cycle begins at master {}; the cam runs from there", number(run_.first_master)));
+    if (law.sync_end > law.sync_begin && !table_.is_s_curve())
+      remark(fmt::format("synchronous zone: master {} to {}", number(law.sync_begin), number(law.sync_end)));
+    if (law.stops) remark("midCAMend: the cam stops by itself at the end of the cycle");
+    if (table_.cyclic && !law.stops && law.slave_length != 0)
+      remark(fmt::format("the slave goes on by {} pulses each cycle", number_text(law.slave_length)));
+    if (table_.is_made())
+      remark(
+          fmt::format("samples are of the laws; the device plays {} straight pieces, ratio {} at most, never "
+                      "more than {} pulses from them",
+                      table_.rows.size() - 1, number(std::abs(ratio(steepest()))),
+                      number_text(largest_deviation(table_.made), 3)));
+  }
+
+  const EcamTable& table_;
+  const CamDuty& duty_;
+  const EcamRun& run_;
+  std::vector<CamFinding> found_;
+};
+
+}  // namespace
+
+std::vector<CamFinding> judge_ecam(const EcamTable& table, const CamDuty& duty, const EcamRun& run) {
+  return Judge(table, duty, run).findings();
+}
+
+}  // namespace drycut::sim

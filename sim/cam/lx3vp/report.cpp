@@ -1,0 +1,191 @@
+#include "sim/cam/lx3vp/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "sim/cam/columns.hpp"
+#include "sim/cam/motion_plot.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+using devices::lx3vp::EcamType;
+using devices::lx3vp::RatioPiece;
+using devices::lx3vp::Transition;
+
+constexpr std::size_t most_lines = 60;  // of pieces between given rows
+
+std::string number(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
+
+std::string type_text(const EcamTable& table) {
+  constexpr const char* laws[] = {"uniform", "uniform acceleration", "B type"};
+  constexpr const char* curves[] = {"leftCAM", "midCAMall", "midCAMbegin", "midCAMend", "", "rightCAM"};
+  const auto law = table.saw.acceleration < std::size(laws) ? laws[table.saw.acceleration] : "no law";
+  const auto curve = table.saw.curve & ~devices::lx3vp::return_square;
+  switch (*table.type) {
+    case EcamType::s_curve_0:
+      return "K0 (S-curve, cosine)";
+    case EcamType::s_curve_1:
+      return "K1 (S-curve, parabolas)";
+    case EcamType::fly_saw:
+      return fmt::format("K101 (fly saw, {})", law);
+    default:
+      return fmt::format("K100 (rotary saw, {}, {})",
+                         static_cast<std::size_t>(curve) < std::size(curves) ? curves[curve] : "no curve",
+                         law);
+  }
+}
+
+std::string law_text(Transition law) {
+  switch (law) {
+    case Transition::constant:
+      return "steady";
+    case Transition::uniform_acceleration:
+      return "ramp, uniform acceleration";
+    case Transition::b_type:
+      return "ramp, B type";
+    case Transition::cosine:
+      return "ramp, cosine";
+    case Transition::parabolas:
+      return "ramp, parabolas";
+  }
+  return "";
+}
+
+std::string what_it_does(const EcamRun& run, const RatioPiece& piece) {
+  const auto& law = run.law;
+  const double middle = piece.master + piece.length / 2;
+  if (piece.is_curved()) return law_text(piece.law);
+  if (law.sync_end > law.sync_begin && middle > law.sync_begin && middle < law.sync_end) return "synchronous";
+  return piece.r0 == 0 ? "stands still" : law_text(piece.law);
+}
+
+/// What the master counts in.
+std::string master_unit(const EcamTable& table) {
+  return table.time_axis == 0 ? "pulses" : fmt::format("{} us", number(100.0 * table.time_axis));
+}
+
+std::string heading(const EcamTable& table, const EcamRun& run) {
+  auto text =
+      fmt::format("{}: LX3VP, {} row{}", table.file, table.rows.size(), table.rows.size() == 1 ? "" : "s");
+  if (table.is_made()) text += fmt::format(" made by ECAMTBX {}", type_text(table));
+  text += fmt::format(", {}\n", table.cyclic ? "cyclic" : "not cyclic");
+  if (table.time_axis > 0)
+    text +=
+        fmt::format("master is the time axis K{}: {} counts/s", table.time_axis, number(*run.master_speed));
+  else if (run.master_speed)
+    text += fmt::format("master at {} pulses/s", number(*run.master_speed));
+  if (run.master_speed) text += fmt::format(", output at {} Hz at most\n", table.max_frequency);
+  return text;
+}
+
+std::string sections(const EcamTable& table, const EcamRun& run) {
+  if (run.law.pieces.empty()) return "nothing to run\n";
+  const bool timed = run.master_speed.has_value();
+  std::vector<std::string> names = {"piece", "master", "slave", "entry", "exit", "peak a"};
+  std::vector<std::string> units = {"", master_unit(table), "pulses", "", "", "1/pulse"};
+  std::vector<bool> words(names.size(), false);
+  if (timed) {
+    names.insert(names.end(), {"time", "peak v"});
+    units.insert(units.end(), {"s", "Hz"});
+    words.insert(words.end(), 2, false);
+  }
+  names.emplace_back("what it does");
+  words.push_back(true);
+  Columns columns(words);
+  columns.add(names);
+  columns.add(units);
+  const auto& pieces = run.law.pieces;
+  const auto shown = std::min(pieces.size(), most_lines);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto& piece = pieces[i];
+    std::vector<std::string> cells = {std::to_string(i + 1), number(piece.length),
+                                      number(travel(piece)), number(piece.r0),
+                                      number(piece.r1),      number(peak_gradient(piece))};
+    if (timed) {
+      cells.push_back(number(piece.length / *run.master_speed));
+      cells.push_back(number(peak_ratio(piece) * *run.master_speed));
+    }
+    cells.push_back(what_it_does(run, piece));
+    columns.add(std::move(cells));
+  }
+  auto text = columns.text();
+  if (shown < pieces.size()) text += fmt::format("  ... and {} more\n", pieces.size() - shown);
+  return text;
+}
+
+std::string totals(const EcamTable& table, const EcamRun& run) {
+  auto text = fmt::format("master total {} {}, slave total {} pulses", number_text(run.master_total()),
+                          table.time_axis == 0 ? "pulses" : "counts", number_text(run.slave_total()));
+  if (run.loops > 1) text += fmt::format(" in {} cycles", run.loops);
+  if (run.master_speed) text += fmt::format(", {} s", number(run.master_total() / *run.master_speed));
+  return text + '\n';
+}
+
+/// The ratios of the straight pieces that the device plays.
+renders::Curve played(const EcamTable& table, const EcamRun& run, double scale) {
+  renders::Curve curve;
+  curve.label = "as played";
+  for (int pass = 0; pass < run.loops; ++pass) {
+    for (std::size_t i = 1; i < table.rows.size(); ++i) {
+      const auto& from = table.rows[i - 1];
+      const auto& to = table.rows[i];
+      const double ratio =
+          (static_cast<double>(to.slave) - from.slave) / (static_cast<double>(to.master) - from.master);
+      for (const auto end : {from.master, to.master}) {
+        curve.x.push_back(pass * run.cycle() + end);
+        curve.y.push_back(ratio * scale);
+      }
+    }
+  }
+  return curve;
+}
+
+}  // namespace
+
+CamText ecam_text(const EcamTable& table, const EcamRun& run) {
+  return {heading(table, run), sections(table, run), totals(table, run)};
+}
+
+renders::Plot ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun& run,
+                        const std::string& name) {
+  if (run.law.pieces.empty()) return {};
+  const bool timed = run.master_speed.has_value();
+  const double speed = run.master_speed.value_or(1);
+  MotionPlot how;
+  how.name = name;
+  how.title = "Cam " + std::filesystem::path(table.file).filename().string();
+  if (table.is_made()) how.title += ", ECAMTBX " + type_text(table);
+  if (timed && table.time_axis == 0) how.title += fmt::format(", master at {} pulses/s", number(speed));
+  how.position = "pulses";
+  if (table.time_axis > 0) how.master_position = master_unit(table);
+  how.velocity = {timed ? "Hz" : "slave/master", speed};
+  how.acceleration = {timed ? "pulses/s²" : "1/pulse", speed * speed};
+  how.jerk = {timed ? "pulses/s³" : "1/pulse²", speed * speed * speed};
+  if (timed) how.velocity_limits.push_back({"words 6-7", static_cast<double>(table.max_frequency)});
+  if (timed && duty.max_velocity) how.velocity_limits.push_back({"max velocity", *duty.max_velocity});
+  if (timed && duty.max_acceleration)
+    how.acceleration_limits.push_back({"max acceleration", *duty.max_acceleration});
+  if (!timed && table.max_ratio)
+    how.velocity_limits.push_back({table.is_made() ? "P5" : "max_ratio", *table.max_ratio});
+  if (table.is_made())
+    for (int pass = 0; pass < run.loops; ++pass)
+      for (std::size_t i = 0; i < run.law.pieces.size(); ++i)
+        how.marks.push_back({pass * run.cycle() + run.law.pieces[i].master, std::to_string(i + 1)});
+  auto plot = motion_plot(sample_ecam(run, true), how);
+  if (!table.is_made()) {
+    // Straight pieces have no acceleration between their ends, and no end to it at them.
+    plot.panels.erase(plot.panels.begin() + 2, plot.panels.end());
+  } else {
+    plot.panels[1].curves.front().label = "law";
+    // Behind the law, which it follows closely.
+    plot.panels[1].curves.insert(plot.panels[1].curves.begin(), played(table, run, speed));
+  }
+  return plot;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "renders/plots.hpp"
+#include "sim/cam/lx3vp/run.hpp"
+#include "sim/cam/study.hpp"
+
+namespace drycut::sim {
+
+/// The pieces of the cam and its totals, in words.
+CamText ecam_text(const EcamTable& table, const EcamRun& run);
+
+/// Position and ratio against the master; of a table that was made acceleration and jerk, and the ratio of
+/// the straight pieces too. No panels if there is nothing to draw.
+renders::Plot ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun& run,
+                        const std::string& name);
+
+}  // namespace drycut::sim

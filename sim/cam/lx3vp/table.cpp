@@ -1,0 +1,295 @@
+#include "sim/cam/lx3vp/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "sim/cam/csv.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+using devices::lx3vp::EcamType;
+
+constexpr Range whole_32 = {-2147483648.0, 2147483647.0};
+constexpr Range whole_16 = {0, 65535};
+constexpr Range ratios = {-1e30, 1e30};  // what a float holds; ECAMTBX itself judges them
+constexpr std::size_t most_rows = 100000;
+
+/// A parameter of ECAMTBX: its name and what it may be.
+struct Parameter {
+  std::string_view name;
+  Range range;
+  bool real = false;
+  bool needed = true;
+};
+constexpr Parameter saw_parameters[] = {{"P1", whole_32},
+                                        {"P2", whole_32},
+                                        {"P3", whole_32},
+                                        {"P4", ratios, true},
+                                        {"P5", ratios, true},
+                                        {"P6", {0, 4294967295.0}, false, false},
+                                        {"P6L", whole_16, false, false},
+                                        {"P6H", whole_16, false, false},
+                                        {"P7", whole_16, false, false}};
+constexpr Parameter s_curve_parameters[] = {
+    {"P1", whole_32}, {"P2", whole_32}, {"P4", {-32768, 32767}}, {"P5", {-32768, 32767}}, {"P6", whole_16}};
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::string& file, devices::Problems& problems)
+      : text_(text), told_(file, problems), settings_(told_) {
+    table_.file = file;
+    add_settings();
+  }
+
+  EcamTable read() {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+    while (!text_.empty() && !told_.full()) {
+      const auto end = std::min(text_.find('\n'), text_.size());
+      ++line_;
+      read_line(text_.substr(0, end));
+      text_.remove_prefix(std::min(end + 1, text_.size()));
+    }
+    if (!told_.full()) finish();
+    return std::move(table_);
+  }
+
+ private:
+  void add_settings() {
+    const auto take = [&](const char* name, Range range, std::int32_t& target) {
+      settings_.add(name, [this, name, range, &target](const Cell& value, int line) {
+        if (const auto number = whole_number(value, line, name, range, told_))
+          target = static_cast<std::int32_t>(*number);
+      });
+    };
+    take("max_frequency", {1, 200000}, table_.max_frequency);
+    take("time_axis", {1, 2147483647}, table_.time_axis);
+    take("cyclic", {0, 1}, cyclic_);
+    settings_.add("max_ratio", [this](const Cell& value, int line) {
+      constexpr double least = 1e-9;
+      table_.max_ratio = real_number(value, line, "max_ratio", {least, 1e9}, told_);
+    });
+    settings_.add("ecamtbx", [this](const Cell& value, int line) { read_type(value, line); });
+  }
+
+  void read_type(const Cell& value, int line) {
+    for (const auto& [name, type] : {std::pair{"K0", EcamType::s_curve_0},
+                                     {"K1", EcamType::s_curve_1},
+                                     {"K100", EcamType::rotary_saw},
+                                     {"K101", EcamType::fly_saw}}) {
+      const std::string_view number = std::string_view(name).substr(1);
+      if (value.text == name || value.text == number ||
+          (value.text.starts_with('k') && value.text.substr(1) == number))
+        table_.type = type;
+    }
+    if (!table_.type)
+      told_.add(line, value.column, fmt::format("there is no ecamtbx {}", quoted(value.text)),
+                "write K0 or K1 S-curve, K100 rotary saw, K101 fly saw");
+  }
+
+  void read_line(std::string_view line) {
+    const Cell cell = trimmed({line, 1});
+    if (cell.text.empty()) return;
+    const auto cells = split_cells(line);
+    auto& header = settings_.line_of("ecamtbx") > 0 ? parameters_ : rows_;
+    if (cell.text.front() == '#') {
+      settings_.read(cell, line_, !rows_.is_read() && !parameters_.is_read());
+    } else if (&header == &rows_ && cells.front().text == "parameter") {
+      told_.add(line_, cell.column, "parameters of what?", "say it above: # ecamtbx: K100 (K101, K0, K1)");
+      lost_ = true;
+    } else if (lost_) {
+      return;
+    } else if (header.is_read() || !header.read(cells, line_, told_)) {
+      header.check_width(cells, line_, told_);
+      if (&header == &parameters_)
+        read_parameter(cells);
+      else
+        read_row(cells);
+    }
+  }
+
+  // Rows.
+
+  void read_row(const std::vector<Cell>& cells) {
+    if (!rows_.has(0) || !rows_.has(1)) return;
+    const auto master = whole_number(rows_.cell_of(cells, 0), line_, "master", whole_32, told_);
+    const auto slave = whole_number(rows_.cell_of(cells, 1), line_, "slave", whole_32, told_);
+    if (!master || !slave) return;
+    if (table_.rows.size() == most_rows) {
+      told_.add(line_, 1, fmt::format("more than {} rows", most_rows), "a block takes 512");
+      lost_ = true;
+      return;
+    }
+    table_.rows.push_back({static_cast<std::int32_t>(*master), static_cast<std::int32_t>(*slave)});
+    table_.lines.push_back(line_);
+  }
+
+  // Parameters.
+
+  [[nodiscard]] std::vector<Parameter> known() const {
+    if (!table_.type) return {};
+    if (table_.is_s_curve()) return {std::begin(s_curve_parameters), std::end(s_curve_parameters)};
+    return {std::begin(saw_parameters), std::end(saw_parameters)};
+  }
+
+  void read_parameter(const std::vector<Cell>& cells) {
+    if (!table_.type || !parameters_.has(0) || !parameters_.has(1)) return;
+    const auto name = parameters_.cell_of(cells, 0);
+    const auto all = known();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name.text; });
+    if (found == all.end()) {
+      refuse_parameter(name, all);
+      return;
+    }
+    const auto [first, fresh] = given_.emplace(name.text, Given{line_, 0});
+    if (!fresh) {
+      told_.add(line_, name.column, fmt::format("{} is given twice", name.text),
+                fmt::format("it was first given in line {}; keep one", first->second.line));
+      return;
+    }
+    first->second.value = read_value(parameters_.cell_of(cells, 1), *found);
+  }
+
+  void refuse_parameter(const Cell& name, const std::vector<Parameter>& all) {
+    std::string names;
+    for (const auto& parameter : all) names += (names.empty() ? "" : ", ") + std::string(parameter.name);
+    told_.add(line_, name.column, fmt::format("there is no parameter {}", quoted(name.text)),
+              "there are " + names);
+  }
+
+  double read_value(Cell cell, const Parameter& parameter) {
+    if (parameter.real) return real_number(cell, line_, parameter.name, parameter.range, told_).value_or(0);
+    if (const auto pattern = hexadecimal(cell.text)) return static_cast<double>(*pattern);
+    if (!cell.text.empty() && (cell.text.front() == 'K' || cell.text.front() == 'k'))
+      cell = {cell.text.substr(1), cell.column + 1};
+    return static_cast<double>(whole_number(cell, line_, parameter.name, parameter.range, told_).value_or(0));
+  }
+
+  /// H1000 as the manual writes it.
+  static std::optional<std::uint32_t> hexadecimal(std::string_view text) {
+    constexpr std::size_t most = 8;
+    if (text.size() < 2 || text.size() > most + 1 || (text.front() != 'H' && text.front() != 'h')) return {};
+    std::uint32_t value = 0;
+    for (const char c : text.substr(1)) {
+      const auto digit = std::string_view("0123456789ABCDEFabcdef").find(c);
+      if (digit == std::string_view::npos) return {};
+      value = value << 4 | static_cast<std::uint32_t>(digit > 15 ? digit - 6 : digit);
+    }
+    return value;
+  }
+
+  // The whole.
+
+  void finish() {
+    table_.cyclic = cyclic_ == 1;
+    if (lost_) return;
+    if (settings_.line_of("ecamtbx") > 0) {
+      finish_parameters();
+    } else if (!rows_.is_read()) {
+      told_.add(std::max(line_, 1), 1, "there is no table: the header is missing",
+                "give the line master,slave and a line for each row, or # ecamtbx: K100 and parameter,value");
+    } else if (table_.rows.empty() && told_.none()) {
+      told_.add(line_, 1, "the table has no row", "give a line for each row, such as 0,0");
+    }
+  }
+
+  void finish_parameters() {
+    if (!table_.type) return;
+    if (!parameters_.is_read()) {
+      told_.add(std::max(line_, 1), 1, "there are no parameters: the header is missing",
+                "give the line parameter,value and a line for each, such as P1,3183");
+      return;
+    }
+    for (const auto& parameter : known())
+      if (parameter.needed && !given_.contains(parameter.name))
+        told_.add(line_, 1, fmt::format("{} is missing", parameter.name),
+                  fmt::format("give a line {},value", parameter.name));
+    const auto whole = given_.find("P6");
+    const auto low = given_.find("P6L");
+    const auto high = given_.find("P6H");
+    if (!table_.is_s_curve() && whole != given_.end())
+      for (const auto& part : {low, high})
+        if (part != given_.end())
+          told_.add(part->second.line, 1, fmt::format("{} is a word of P6, which is given too", part->first),
+                    "give P6, or P6L (acceleration) and P6H (cam curve)");
+    if (told_.none()) make();
+  }
+
+  [[nodiscard]] double value(std::string_view name) const {
+    const auto found = given_.find(name);
+    return found == given_.end() ? 0 : found->second.value;
+  }
+  template <typename Number>
+  [[nodiscard]] Number whole(std::string_view name) const {
+    return static_cast<Number>(static_cast<std::int64_t>(value(name)));
+  }
+
+  void make() {
+    if (table_.is_s_curve()) {
+      table_.s_curve = {.length = whole<std::int32_t>("P1"),
+                        .top_speed = whole<std::int32_t>("P2"),
+                        .acceleration = whole<std::int16_t>("P4"),
+                        .deceleration = whole<std::int16_t>("P5"),
+                        .resolution = whole<std::uint16_t>("P6")};
+      table_.made = make_s_curve(*table_.type, table_.s_curve);
+      // Its master is time.
+      if (table_.time_axis == 0) table_.time_axis = 1;
+      table_.cyclic = table_.cyclic && settings_.line_of("cyclic") > 0;
+    } else {
+      const auto curves = whole<std::uint32_t>("P6");
+      table_.saw = {
+          .master_length = whole<std::int32_t>("P1"),
+          .slave_length = whole<std::int32_t>("P2"),
+          .sync_length = whole<std::int32_t>("P3"),
+          .sync_ratio = static_cast<float>(value("P4")),
+          .max_ratio = static_cast<float>(value("P5")),
+          .acceleration = static_cast<std::uint16_t>((curves & 0xFFFF) + whole<std::uint16_t>("P6L")),
+          .curve = static_cast<std::uint16_t>((curves >> 16) + whole<std::uint16_t>("P6H")),
+          .resolution = whole<std::uint16_t>("P7")};
+      table_.made =
+          *table_.type == EcamType::rotary_saw ? make_rotary_saw(table_.saw) : make_fly_saw(table_.saw);
+      if (!table_.max_ratio) table_.max_ratio = static_cast<double>(table_.saw.max_ratio);
+    }
+    table_.rows = table_.made.rows;
+  }
+
+  struct Given {
+    int line = 0;
+    double value = 0;
+  };
+  std::string_view text_;
+  TableProblems told_;
+  EcamTable table_;
+  int line_ = 0;
+  std::int32_t cyclic_ = 1;
+  bool lost_ = false;  ///< what follows cannot be understood
+  Header rows_{{"master", "slave"}, 2};
+  Header parameters_{{"parameter", "value"}, 2};
+  std::map<std::string, Given, std::less<>> given_;
+  Settings settings_;
+};
+
+}  // namespace
+
+EcamTable read_ecam_table(std::string_view text, const std::string& file, devices::Problems& problems) {
+  return Reader(text, file, problems).read();
+}
+
+std::string ecam_rows_csv(const EcamTable& table) {
+  std::string text;
+  if (table.max_frequency != EcamTable{}.max_frequency)
+    text += fmt::format("# max_frequency: {}\n", table.max_frequency);
+  if (table.time_axis > 0) text += fmt::format("# time_axis: {}\n", table.time_axis);
+  if (table.max_ratio) text += fmt::format("# max_ratio: {}\n", *table.max_ratio);
+  if (!table.cyclic) text += "# cyclic: 0\n";
+  text += "master,slave\n";
+  for (const auto& row : table.rows) text += fmt::format("{},{}\n", row.master, row.slave);
+  return text;
+}
+
+}  // namespace drycut::sim

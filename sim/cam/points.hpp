@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drycut::sim {
+
+/// A cam at one master position: full precision, before any quantisation. Positions in the table's unit (Um,
+/// pulses); derivatives are with respect to the master.
+struct CamPoint {
+  double master = 0;  ///< counts on across loops and counter updates
+  double slave = 0;
+  double velocity = 0;
+  double acceleration = 0;
+  double jerk = 0;
+  int row = 0;  ///< sector, or row of the table, that begins the piece; 0: the cam has released the slave
+};
+
+/// `master,slave,velocity,acceleration,jerk,sector`, and with the master's speed [units/s]
+/// `time,velocity_t,acceleration_t,jerk_t` [s, slave units/s, /s2, /s3]. Numbers read back to the same bits.
+std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> master_per_s);
+
+/// The samples of `--at` as a table.
+std::string cam_samples_text(const std::vector<CamPoint>& points);
+
+}  // namespace drycut::sim

@@ -1,0 +1,58 @@
+#include "sim/commands/arguments.hpp"
+
+#include <fmt/format.h>
+
+namespace drycut::sim {
+
+namespace fs = std::filesystem;
+
+std::vector<Override> overrides_of(const std::vector<std::string>& set, devices::Problems& problems) {
+  std::vector<Override> overrides;
+  for (const auto& text : set) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      problems.push_back({"--set", 1, 1, fmt::format("'{}' is not an assignment", text),
+                          "write path=value, such as \"plants.web.speed=80 m/min\""});
+      continue;
+    }
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+void check_output(const char* option, const std::string& file, const InputFile& input,
+                  devices::Problems& problems) {
+  std::error_code ignored;
+  if (fs::equivalent(file, input.file, ignored))
+    problems.push_back(
+        {option, 1, 1, fmt::format("{} is the {} itself", file, input.kind), "name another file"});
+  if (fs::is_directory(file, ignored))
+    problems.push_back({option, 1, 1, fmt::format("{} is a directory", file), "name a file"});
+  const auto folder = fs::path(file).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    problems.push_back({option, 1, 1, fmt::format("there is no directory {}", folder.string()),
+                        "make it first or name another"});
+}
+
+void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
+                   devices::Problems& problems) {
+  if (!csv.empty() && csv != "-") check_output("--csv", csv, input, problems);
+  if (png.empty()) return;
+  check_output("--png", png, input, problems);
+  const fs::path picture = png;
+  if (picture.extension() != ".png" || picture.stem().empty())
+    problems.push_back({"--png", 1, 1, fmt::format("{} does not end in .png", png), "name it x.png"});
+  if (png == csv) problems.push_back({"--png", 1, 1, "it is the file of --csv", "name another file"});
+}
+
+void make_folder(const fs::path& folder, devices::Problems& problems) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder)) return;
+  problems.push_back({"--out", 1, 1,
+                      fmt::format("the directory {} cannot be made{}{}", folder.string(), error ? ": " : "",
+                                  error ? error.message() : ""),
+                      "name one that can be written"});
+}
+
+}  // namespace drycut::sim

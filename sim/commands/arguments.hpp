@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "devices/problem.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+// Arguments that several commands take. What is wrong goes to `problems`, by the name of the option.
+
+/// The texts of `--set` as overrides; one that is no assignment path=value is a problem.
+std::vector<Override> overrides_of(const std::vector<std::string>& set, devices::Problems& problems);
+
+/// A file that a command reads, which its results must not overwrite.
+struct InputFile {
+  std::filesystem::path file;
+  std::string kind;  ///< "scenario", "table"
+};
+/// The file of an option can be written and is not the input.
+void check_output(const char* option, const std::string& file, const InputFile& input,
+                  devices::Problems& problems);
+/// The files of `--csv` ("" = none, "-" = standard output) and `--png` ("" = none): they can be written, are
+/// not the input and not each other, and the picture's name ends in .png.
+void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
+                   devices::Problems& problems);
+/// Makes the folder of `--out` if it is not there.
+void make_folder(const std::filesystem::path& folder, devices::Problems& problems);
+
+}  // namespace drycut::sim

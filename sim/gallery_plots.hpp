@@ -1,0 +1,27 @@
+#pragma once
+#include "renders/plots.hpp"
+#include "sim/recorder.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+// Plots whose x is not time, for plots_of.
+
+/// "following error [counts]": a title with the units of what is shown.
+std::string axis_label(const std::string& title, const std::vector<std::string>& units);
+
+/// How often each value of the panel's event came, with its limits, mean and capability (Cp and Cpk from the
+/// sample's standard deviation).
+void draw_histogram(const Recording& recording, const PlotRequest& request, renders::Plot& plot);
+
+/// Torque over speed of a plant's servo motor at every record instant, with the limits of its data sheet:
+/// peak torque as the drive gives it, rated torque up to rated speed.
+void draw_motor(const Scenario& scenario, const Recording& recording, const PlotRequest& request,
+                renders::Plot& plot);
+
+/// What of a motor is recorded for that: speed, then torque.
+std::vector<std::string> motor_channels(const std::string& plant);
+/// True if the plant of that name has the parameters of a servo motor.
+bool has_motor_limits(const Scenario& scenario, const std::string& plant);
+
+}  // namespace drycut::sim

@@ -1,0 +1,254 @@
+// What is found in cams of LX3VP, and how they run and are sampled.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "sim/cam/lx3vp/report.hpp"
+#include "tests/sim/cam_ecam_bench.hpp"
+
+namespace drycut::sim {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+EcamTable rows(const std::string& text, const std::string& settings = "") {
+  return ecams::table(settings + "master,slave\n" + text);
+}
+
+TEST(EcamFindings, SoundTablesHaveNone) {
+  EXPECT_THAT(ecams::findings(rows("0,0\n100,50\n200,100\n")), IsEmpty());
+  EXPECT_THAT(ecams::findings(ecams::table(ecams::rotary())), IsEmpty());
+  EXPECT_THAT(ecams::findings(ecams::table(ecams::s_curve())), IsEmpty());
+}
+
+TEST(EcamFindings, TablesThatTheDeviceRefuses) {
+  EXPECT_THAT(
+      ecams::findings(rows("0,0\n")),
+      ElementsAre("row 0 (line 2): error 6782: a cam of one row has no length; give at least two rows"));
+  EXPECT_THAT(
+      ecams::findings(rows("-5,0\n10,5\n10,6\n4,7\n")),
+      ElementsAre("row 0 (line 2): error 6782: the cam begins at master -5; begin at 0",
+                  "row 2 (line 4): error 6782: master 10 does not come after 10; give the rows in ascending "
+                  "order of the master, each position once",
+                  "row 3 (line 5): error 6782: master 4 does not come after 10; give the rows in ascending "
+                  "order of the master, each position once"));
+  std::string many;
+  for (int i = 0; i < 513; ++i) many += std::to_string(i) + ",0\n";
+  EXPECT_THAT(ecams::findings(rows(many)),
+              ElementsAre("row 512 (line 514): error 6782: 513 rows; a block takes 512 rows"));
+}
+
+TEST(EcamFindings, EcamtbxErrorsWithTheirRemedies) {
+  const auto told = [](const std::string& text) { return ecams::findings(ecams::table(text)).at(0); };
+  EXPECT_EQ(told(ecams::rotary("50/3", "3")),
+            "error -1: ECAMTBX makes no table: there is no such type of table, acceleration or cam curve "
+            "(S1, P6); give P6L 0, "
+            "1 or 2 and P6H 0, 1, 2, 3 or 5, with 4096 (H1000) added to return");
+  EXPECT_THAT(told(ecams::rotary("50/3", "1", "-1")), HasSubstr("error -2: "));
+  EXPECT_THAT(told(ecams::rotary("50/3", "1", "1001")), HasSubstr("; give P3 1000 at most"));
+  EXPECT_THAT(told(ecams::rotary("1.5")),
+              HasSubstr("error -4: ECAMTBX makes no table: the cycle needs a ratio above the largest "
+                        "allowed (P5); give P5 1.66667 at least"));
+  EXPECT_THAT(told(ecams::rotary("0")), HasSubstr("error -8: "));
+  EXPECT_THAT(told(ecams::s_curve("0")), HasSubstr("; give P1 other than 0 and short enough for its speed"));
+  const auto saw = [](const std::string& type, const std::string& P1, const std::string& more = "P6,1\n") {
+    return "# ecamtbx: " + type + "\nparameter,value\nP1," + P1 + "\nP2,2000\nP3,667\nP4,9.424778\nP5,10\n" +
+           more;
+  };
+  EXPECT_THAT(told(saw("K101", "353")),
+              HasSubstr("error -3: ECAMTBX makes no table: the synchronous zone does not fit the cycle or "
+                        "the slave's length (P1, P2, P3, P4); give P1 354 at least, or a larger P4"));
+  EXPECT_THAT(told(saw("K100", "70")), HasSubstr("; give P1 above 70.7709, or a shorter P3"));
+  EXPECT_THAT(
+      told(saw("K100", "200")),
+      HasSubstr(
+          "outside the synchronous zone the mean ratio is 10.315; give P5 well above it, or a longer P1"));
+  EXPECT_THAT(told(saw("K101", "1750", "P7,9\n")), HasSubstr("error -5: "));
+  EXPECT_THAT(told("# ecamtbx: K1\nparameter,value\nP1,100\nP2,0\nP4,1\nP5,1\nP6,60\n"),
+              HasSubstr("error -6: ECAMTBX makes no table: a speed or a time is out of range (P2, P4, P5); "
+                        "give P2 from 1 to 150000 Hz"));
+}
+
+TEST(EcamFindings, TheRemedyForAStrokeThatDoesNotFitIsEnough) {
+  const auto fly = [](int P1) {
+    return ecams::table("# ecamtbx: K101\nparameter,value\nP1," + std::to_string(P1) +
+                        "\nP2,2000\nP3,667\nP4,9.424778\nP5,10\nP6,1\n");
+  };
+  EXPECT_FALSE(fly(353).made.ok());
+  EXPECT_TRUE(fly(354).made.ok());
+}
+
+TEST(EcamFindings, RatiosAboveTheLimit) {
+  EXPECT_THAT(
+      ecams::findings(rows("0,0\n100,310\n200,600\n300,900\n", "# max_ratio: 3\n")),
+      ElementsAre(
+          "row 1 (line 4): limit: ratio 3.1 above 3; give the piece before it 104 master pulses at least"));
+  // What rounding to a pulse may do is no fault.
+  EXPECT_THAT(ecams::findings(rows("0,0\n10,31\n20,60\n", "# max_ratio: 3\n")), IsEmpty());
+  EXPECT_THAT(ecams::findings(rows("0,0\n10,-40\n20,-75\n30,-75\n", "# max_ratio: 3\n")),
+              Contains("row 1 (line 4): limit: ratio -4 above 3, the worst of 2 rows; give the piece before "
+                       "it 14 master pulses at least"));
+}
+
+TEST(EcamFindings, SpeedsAtTheMastersSpeed) {
+  const auto table = rows("0,0\n100,100\n200,300\n", "# max_frequency: 50000\n");
+  EXPECT_THAT(ecams::findings(table, {.master_speed = 25000.0}), IsEmpty());
+  EXPECT_THAT(ecams::findings(table, {.master_speed = 26000.0, .max_velocity = 51000.0}),
+              ElementsAre("row 2 (line 5): limit: output at 52000 Hz above 50000 Hz (words 6 and 7): the "
+                          "slave lags and catches up "
+                          "later; run the master at 25000 pulses/s at most",
+                          "row 2 (line 5): limit: velocity 52000 pulses/s above 51000; run the master at "
+                          "25500 pulses/s at most"));
+  EXPECT_THAT(ecams::findings(table, {.master_speed = 1000.0, .max_acceleration = 9999.0}),
+              ElementsAre("row 1 (line 4): limit: acceleration 10000 pulses/s2 above 9999; give it more "
+                          "master, or run the master at "
+                          "999.95 pulses/s at most"));
+  // Of made tables the laws are judged, not the rounding of their rows.
+  const auto made = ecams::table(ecams::rotary());
+  EXPECT_THAT(
+      ecams::findings(made, {.master_speed = 1000.0, .max_velocity = 1667.0, .max_acceleration = 4165.0}),
+      IsEmpty());
+  EXPECT_THAT(
+      ecams::findings(made, {.master_speed = 1000.0, .max_velocity = 1666.0, .max_acceleration = 4164.0}),
+      ElementsAre(
+          "piece 1: limit: velocity 1666.67 pulses/s above 1666; run the master at 999.6 pulses/s at most",
+          "piece 2: limit: acceleration 4164.58 pulses/s2 above 4164; give it more master, or run the master "
+          "at "
+          "999.93 pulses/s at most"));
+  EXPECT_THAT(
+      ecams::findings(ecams::table(ecams::s_curve()), {.max_velocity = 40000.0, .max_acceleration = 1000.0}),
+      ElementsAre("piece 1: limit: velocity 50000 pulses/s above 40000; give P2 40000 Hz at most",
+                  "piece 1: limit: acceleration 785398 pulses/s2 above 1000; give its ramps more time"));
+}
+
+TEST(EcamFindings, JumpsOfTheRatio) {
+  EXPECT_THAT(
+      ecams::findings(rows("0,0\n100,0\n200,300\n300,300\n")),
+      ElementsAre(
+          "row 1 (line 3): caution: the ratio jumps from 0 to 3, the worst of 2 rows; put rows between, so "
+          "that the slave can follow"));
+  EXPECT_THAT(
+      ecams::findings(rows("0,0\n100,300\n200,500\n300,600\n")),
+      ElementsAre(
+          "row 3 (line 5): caution: the ratio jumps from 1 to 3 as the cycle begins again; put rows between, "
+          "so that the slave can follow"));
+  EXPECT_THAT(ecams::findings(rows("0,0\n100,300\n200,500\n300,600\n", "# cyclic: 0\n")), IsEmpty());
+  EXPECT_THAT(
+      ecams::findings(ecams::table(ecams::rotary("50/3", "0"))),
+      ElementsAre(
+          "piece 1: caution: the ratio jumps from 1.66667 to 0.223585; give P6L 1 or 2 for ramps",
+          "piece 2: caution: the ratio jumps from 0.223585 to 1.66667 as the cycle begins again; give P6L 1 "
+          "or 2 for ramps"));
+  EXPECT_THAT(ecams::findings(ecams::table(ecams::rotary("50/3", "1", "1000"))),
+              ElementsAre("piece 1: caution: the ratio jumps from 1.66667 to 0; give P3 less than P2, so "
+                          "that there is way left for ramps",
+                          "piece 2: caution: the ratio jumps from 0 to 1.66667 as the cycle begins again; "
+                          "give P3 less than P2, so that "
+                          "there is way left for ramps"));
+}
+
+TEST(EcamFindings, ACycleThatDoesNotClose) {
+  const auto table =
+      ecams::table("# ecamtbx: K100\nparameter,value\nP1,1100\nP2,1700\nP3,200\nP4,2\nP5,8\nP6L,1\nP6H,2\n");
+  EXPECT_THAT(ecams::findings(table), ElementsAre("piece 4: caution: the ratio jumps from 1 to 0 as the "
+                                                  "cycle begins again; use midCAMbegin for the first cycle "
+                                                  "and midCAMall for those after it"));
+  const auto end =
+      ecams::table("# ecamtbx: K100\nparameter,value\nP1,1100\nP2,1700\nP3,200\nP4,2\nP5,8\nP6L,1\nP6H,3\n");
+  EXPECT_THAT(ecams::findings(end), IsEmpty());
+  EXPECT_THAT(ecams::findings(end, {}, true),
+              Contains("remark: midCAMend: the cam stops by itself at the end of the cycle"));
+}
+
+TEST(EcamFindings, AnSCurveTooShortForItsTimes) {
+  EXPECT_THAT(
+      ecams::findings(ecams::table(ecams::s_curve("3000"))),
+      ElementsAre(
+          "caution: reaches 30000 Hz, not 50000 Hz: too short for its times; give P4 and P5 less time"));
+}
+
+TEST(EcamFindings, Remarks) {
+  EXPECT_THAT(ecams::findings(rows("100,0\n200,50\n"), {}, true),
+              ElementsAre("remark: the cycle begins at master 100; the cam runs from there",
+                          "remark: the slave goes on by 50 pulses each cycle"));
+  EXPECT_THAT(ecams::findings(ecams::table(ecams::rotary()), {}, true),
+              ElementsAre("remark: synchronous zone: master 0 to 199.8",
+                          "remark: the slave goes on by 1000 pulses each cycle",
+                          "remark: samples are of the laws; the device plays 199 straight pieces, ratio 1.75 "
+                          "at most, never more "
+                          "than 0.5 pulses from them"));
+}
+
+// Samples.
+
+TEST(EcamSamples, StraightPiecesAndTheirCycles) {
+  const auto run = run_ecam(rows("100,10\n200,60\n300,60\n"), {}, 2);
+  const auto at = sample_ecam_at(run, {500, 100, 150, 200, 250, 300, 350});
+  std::vector<std::vector<double>> told;
+  for (const auto& p : at) told.push_back({p.master, p.slave, p.velocity, static_cast<double>(p.row)});
+  using V = std::vector<double>;
+  EXPECT_THAT(told, ElementsAre(V{100, 10, 0.5, 1}, V{150, 35, 0.5, 1}, V{200, 60, 0, 2}, V{250, 60, 0, 2},
+                                V{300, 60, 0.5, 1}, V{350, 85, 0.5, 1}, V{500, 110, 0, 2}));
+  EXPECT_DOUBLE_EQ(run.master_total(), 400);
+  EXPECT_DOUBLE_EQ(run.slave_total(), 100);
+}
+
+TEST(EcamSamples, AThousandPointsAndEveryBoundary) {
+  const auto run = run_ecam(ecams::table(ecams::rotary()), {}, 1);
+  const auto points = sample_ecam(run);
+  EXPECT_GE(points.size(), 1000U);
+  EXPECT_LE(points.size(), 1010U);
+  EXPECT_EQ(points.front().master, 0);
+  EXPECT_NEAR(points.back().master, 3183, 1e-9);
+  EXPECT_NEAR(points.back().slave, 1000, 1e-9);
+  for (const auto& piece : run.law.pieces)
+    EXPECT_TRUE(std::any_of(points.begin(), points.end(),
+                            [&](const CamPoint& p) { return p.master == piece.master; }));
+  for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GE(points[i].master, points[i - 1].master);
+}
+
+TEST(EcamSamples, BeforeAndAfterAStepOfTheRatio) {
+  const auto points = sample_ecam(run_ecam(rows("0,0\n100,100\n200,300\n"), {}, 1));
+  std::vector<double> ratios;
+  for (const auto& p : points)
+    if (p.master == 100) ratios.push_back(p.velocity);
+  EXPECT_THAT(ratios, ElementsAre(1, 2));
+}
+
+TEST(EcamSamples, TheLawIsTheLimitOfItsRows) {
+  const auto table = ecams::table(ecams::rotary());
+  const auto run = run_ecam(table, {}, 1);
+  for (const auto& row : table.rows) {
+    const auto point = sample_ecam_at(run, {static_cast<double>(row.master)}).at(0);
+    EXPECT_NEAR(point.slave, row.slave, 0.5 + 1e-6);
+  }
+}
+
+TEST(EcamReport, TellsThePiecesAndTheTotals) {
+  const auto table = ecams::table(ecams::s_curve());
+  const auto text = ecam_text(table, run_ecam(table, {}, 1));
+  EXPECT_EQ(text.heading,
+            "cam.csv: LX3VP, 200 rows made by ECAMTBX K0 (S-curve, cosine), not cyclic\n"
+            "master is the time axis K1: 10000 counts/s, output at 200000 Hz at most\n");
+  EXPECT_THAT(text.sections,
+              HasSubstr("1    1000    2500      0     5  0.00785398   0.1   50000  ramp, cosine\n"));
+  EXPECT_EQ(text.totals, "master total 3000 counts, slave total 10000 pulses, 0.3 s\n");
+}
+
+TEST(EcamPlot, DrawsTheLawAndWhatIsPlayed) {
+  const auto table = ecams::table(ecams::rotary());
+  const auto plot = ecam_plot(table, {}, run_ecam(table, {}, 2), "p");
+  ASSERT_EQ(plot.panels.size(), 4U);
+  EXPECT_EQ(plot.panels[1].curves.size(), 2U);
+  EXPECT_EQ(plot.marks.size(), 8U);
+  const auto given = rows("0,0\n100,50\n");
+  EXPECT_EQ(ecam_plot(given, {}, run_ecam(given, {}, 1), "p").panels.size(), 2U);
+  const auto failed = ecams::table(ecams::rotary("1"));
+  EXPECT_THAT(ecam_plot(failed, {}, run_ecam(failed, {}, 1), "p").panels, IsEmpty());
+}
+
+}  // namespace
+}  // namespace drycut::sim

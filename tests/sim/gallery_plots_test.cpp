@@ -1,0 +1,244 @@
+// From what was recorded to what is plotted: lanes and marks; and what a scenario's pictures may ask of its
+// machine.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "sim/gallery.hpp"
+#include "tests/sim/fakes.hpp"
+#include "tests/sim/scenario_fake_plants.hpp"
+
+namespace drycut::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// Ten records of a lamp that blinks, with faults and cuts in between.
+struct GalleryPlots : ::testing::Test {
+  GalleryPlots() {
+    panel.lamps["busy"];
+    recording.add(watch, "panel.busy");
+    recording.add(watch, "web.speed");
+    for (int i = 0; i < 10; ++i) {
+      panel.lamps["busy"].level = i % 4 >= 2;
+      watch.update();
+      recording.sample(i * millisecond);
+    }
+    recording.happened({millisecond, 0, "timeline", "set", {}, "panel.start = 1"});
+    recording.happened({2 * millisecond, 0.0005, "knife", "cut", {{"length", 800, "mm"}}, ""});
+    recording.happened({3 * millisecond, 0, "timeline", "power", {}, "off"});
+    recording.happened({4 * millisecond, 0.00025, "knife", "cut", {{"length", 801, "mm"}}, ""});
+    recording.happened({5 * millisecond, 0, "AxisX", "warning", {}, "st_warning: warning 12"});
+    recording.happened({6 * millisecond, 0, "timeline", "fault", {}, "knife.encoder.lose_counts = 200"});
+  }
+  renders::Plot plot(const std::string& text) {
+    std::vector<std::string> problems;
+    const auto scenario = fakes::read("pictures: {plots: [{name: a, " + text + "}]}\n", problems);
+    EXPECT_THAT(problems, IsEmpty());
+    return plots_of(scenario, recording).at(0);
+  }
+  static std::vector<std::string> listed(const renders::Plot& plot) {
+    std::vector<std::string> list;
+    for (const auto& mark : plot.marks)
+      list.push_back(std::to_string(std::lround(mark.x * 1e6)) + " us " + mark.label +
+                     (mark.strong ? "!" : ""));
+    return list;
+  }
+
+  fakes::FakePlant web;
+  Panel panel;
+  Names names{{{"web", &web}}, nullptr, panel};
+  Watch watch{names};
+  Recording recording;
+};
+
+TEST_F(GalleryPlots, LanesShowTheRecordedStatesInTheOrderAskedFor) {
+  const auto made = plot(
+      "from: 2 ms, until: 5 ms, panels: [{title: outputs, lanes: [panel.busy]}, {channels: [web.speed]}]");
+  ASSERT_EQ(made.panels.size(), 2U);
+  ASSERT_EQ(made.panels[0].lanes.size(), 1U);
+  EXPECT_EQ(made.panels[0].title, "outputs");
+  EXPECT_EQ(made.panels[0].lanes[0].label, "panel.busy");
+  EXPECT_THAT(made.panels[0].lanes[0].x, ElementsAre(0.002, 0.003, 0.004, 0.005));
+  EXPECT_THAT(made.panels[0].lanes[0].y, ElementsAre(1, 1, 0, 0));
+  EXPECT_TRUE(made.panels[0].curves.empty());
+  EXPECT_TRUE(made.panels[1].lanes.empty());
+}
+
+TEST_F(GalleryPlots, FaultsAndPowerAreMarkedUnlessOtherEventsAreAskedFor) {
+  EXPECT_THAT(listed(plot("panels: [{channels: [web.speed]}]")),
+              ElementsAre("3000 us power off!", "6000 us lose_counts = 200!"));
+  EXPECT_THAT(listed(plot("marks: [], panels: [{channels: [web.speed]}]")), IsEmpty());
+  EXPECT_THAT(listed(plot("marks: [warning, cut], panels: [{channels: [web.speed]}]")),
+              ElementsAre("2500 us cut 1", "4250 us cut 2", "5000 us warning"));
+  EXPECT_THAT(listed(plot("marks: [set], panels: [{channels: [web.speed]}]")),
+              ElementsAre("1000 us start = 1!"));
+}
+
+TEST_F(GalleryPlots, MarksOutsideTheWindowAreLeftOutButCounted) {
+  EXPECT_THAT(
+      listed(plot("from: 3 ms, until: 5 ms, marks: [knife.cut, fault], panels: [{channels: [web.speed]}]")),
+      ElementsAre("4250 us cut 2"));
+}
+
+TEST_F(GalleryPlots, OnlyPlotsOverTimeHaveMarks) {
+  EXPECT_THAT(listed(plot("against: number, panels: [{event: cut, values: [length]}]")), IsEmpty());
+  EXPECT_THAT(listed(plot("panels: [{x: web.speed, y: web.speed}]")), IsEmpty());
+}
+
+TEST_F(GalleryPlots, TheOverviewHasTheUsualMarksToo) {
+  std::vector<std::string> problems;
+  const auto plots = plots_of(fakes::read("scene: {}\n", problems), recording);
+  ASSERT_EQ(plots.size(), 1U);
+  EXPECT_THAT(listed(plots[0]), ElementsAre("3000 us power off!", "6000 us lose_counts = 200!"));
+}
+
+// ---- plots whose x is not time ----
+
+struct Histogram : GalleryPlots {
+  /// Cuts of these lengths [mm], one a second from 10 s on.
+  renders::Plot of(const std::vector<double>& lengths, const std::string& more) {
+    Time at = 10 * second;
+    for (const double length : lengths) {
+      recording.happened({at, 0, "saw", "drop", {{"length", length, "mm"}}, ""});
+      at += second;
+    }
+    return plot("from: 10 s, panels: [{event: drop, values: [length], histogram: on" + more + "}]");
+  }
+  /// Bars as (middle, count), those of no count left out.
+  static std::vector<std::pair<double, double>> bars(const renders::Plot& plot) {
+    std::vector<std::pair<double, double>> list;
+    const auto& curve = plot.panels.at(0).curves.at(0);
+    for (std::size_t i = 1; i + 1 < curve.x.size(); i += 4) {
+      if (curve.y[i] > 0) list.emplace_back((curve.x[i] + curve.x[i + 1]) / 2, curve.y[i]);
+    }
+    return list;
+  }
+};
+
+TEST_F(Histogram, CountsEveryValueOnceAndTellsTheCapability) {
+  // Mean 500.05, standard deviation sqrt(1/30); limits 499 and 501: Cp = 2 / (6 sd), Cpk = 0.95 / (3 sd).
+  const auto made = of({499.8, 500.0, 500.2, 500.2}, ", limits: [499, 501]");
+  EXPECT_THAT(bars(made), testing::ElementsAre(testing::Pair(testing::DoubleNear(499.8, 1e-9), 1),
+                                               testing::Pair(testing::DoubleNear(500.0, 1e-9), 1),
+                                               testing::Pair(testing::DoubleNear(500.2, 1e-9), 2)));
+  EXPECT_EQ(made.x_label, "length [mm]");
+  const double sd = std::sqrt(((0.25 * 0.25) + (0.05 * 0.05) + 2 * (0.15 * 0.15)) / 3);
+  char expected[64];
+  std::snprintf(expected, sizeof expected, "Cp %.2f, Cpk %.2f", 2 / (6 * sd), 0.95 / (3 * sd));
+  EXPECT_THAT(made.panels[0].title, HasSubstr(expected));
+  EXPECT_THAT(made.panels[0].title, HasSubstr("4 values, mean 500.05 mm, from 499.8 to 500.2"));
+  EXPECT_THAT(listed(made), ElementsAre("499000000 us 499!", "500050000 us mean", "501000000 us 501!"));
+}
+
+TEST_F(Histogram, TheWindowCountsAndNoLimitsAreNoCpk) {
+  auto made = of({1, 2, 3}, "");
+  EXPECT_THAT(made.panels[0].title, Not(HasSubstr("Cp")));
+  EXPECT_EQ(bars(made).size(), 3U);
+  made = plot("from: 11 s, until: 11500 ms, panels: [{event: drop, values: [length], histogram: on}]");
+  EXPECT_THAT(made.panels[0].title, HasSubstr("1 values, mean 2 mm"));
+}
+
+TEST_F(Histogram, WithoutSpreadOrValuesThereIsNoCpk) {
+  EXPECT_THAT(of({500, 500, 500}, ", limits: [499, 501]").panels[0].title, HasSubstr("no spread"));
+  EXPECT_THAT(
+      plot("from: 10 s, until: 10500 ms, panels: [{event: drop, values: [length], histogram: on, limits: "
+           "[499, 501]}]")
+          .panels[0]
+          .title,
+      HasSubstr("too few for a Cpk"));
+  EXPECT_TRUE(
+      plot("from: 90 s, panels: [{event: drop, values: [length], histogram: on}]").panels[0].curves.empty());
+}
+
+TEST_F(Histogram, ABeyondTheLimitIsANegativeCpk) {
+  EXPECT_THAT(of({502, 502.5, 503}, ", limits: [499, 501]").panels[0].title, HasSubstr("Cpk -1.00"));
+}
+
+TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
+  devices::Problems problems;
+  const auto scenario = read_scenario_text(
+      "scene: {duration: 500 ms}\nplants: {w: {type: web}, k: {type: rotary_knife, web: w, servo: "
+      "{rated_speed: 1500 "
+      "rpm}}}\n"
+      "pictures: {plots: [{name: m, panels: [{title: drum, motor: k}]}]}\n",
+      "line.yaml", {}, problems);
+  Simulation simulation(scenario, problems);
+  ASSERT_TRUE(problems.empty()) << devices::to_string(problems.front());
+  simulation.run();
+  const auto plots = plots_of(scenario, simulation.recording());
+  ASSERT_EQ(plots.size(), 1U);
+  const auto& panel = plots[0].panels.at(0);
+  ASSERT_EQ(panel.curves.size(), 3U);
+  EXPECT_EQ(panel.curves[0].x, simulation.recording().column("k.motor.speed")->values);
+  EXPECT_EQ(panel.curves[0].y, simulation.recording().column("k.motor.torque")->values);
+  // HG-SR202: 28.6 N m up to rated speed, 19 N m at 3000 rpm; it only stood or turned forwards.
+  const auto& peak = panel.curves[1];
+  const std::vector<double> speeds = {0, 1500, 3000, 3000, 1500, 0};
+  const std::vector<double> torques = {28.6, 28.6, 19, -28.6, -28.6, -28.6};
+  ASSERT_EQ(peak.x.size(), speeds.size());
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    EXPECT_NEAR(peak.x[i], speeds[i], 1e-9) << i;
+    EXPECT_NEAR(peak.y[i], torques[i], 1e-9) << i;
+  }
+  EXPECT_NEAR(panel.curves[2].x[1], 1500, 1e-9);
+  EXPECT_NEAR(panel.curves[2].y[1], 9.5, 1e-9);
+  EXPECT_THAT(panel.title, HasSubstr("drum: rms torque"));
+  EXPECT_EQ(plots[0].x_label, "k.motor.speed [rpm]");
+}
+
+std::vector<std::string> binding_problems(const std::string& pictures) {
+  devices::Problems problems;
+  const auto scenario = read_scenario_text("scene: {duration: 1 s}\nplants: {w: {type: web}}\n" + pictures,
+                                           "line.yaml", {}, problems);
+  const Simulation simulation(scenario, problems);
+  std::vector<std::string> list;
+  for (const auto& problem : problems) list.push_back(devices::to_string(problem));
+  return list;
+}
+
+TEST(PicturesBinding, WhatTheMachineDoesNotHave) {
+  const auto plot = [](const std::string& text) {
+    return binding_problems("pictures: {plots: [{name: a, " + text + "}]}\n");
+  };
+  EXPECT_THAT(
+      plot("panels: [{lanes: [w.speed, w.pieces]}]"),
+      ElementsAre(
+          "line.yaml:3:48: w.speed is a quantity in m/min, not a state; show it in a panel of channels"));
+  EXPECT_THAT(plot("panels: [{lanes: [w.sped]}]"),
+              ElementsAre(HasSubstr("3:48: there is no channel 'w.sped'; did you mean w.speed?")));
+  EXPECT_THAT(plot("marks: [fault, timeline.power, error, faul], panels: [{channels: [w.speed]}]"),
+              ElementsAre("line.yaml:3:68: nothing here reports an event 'faul'; did you mean fault?"));
+  EXPECT_THAT(plot("panels: [{motor: w}]"),
+              ElementsAre("line.yaml:3:47: 'w' is no plant with a servo motor; name a plant with parameters "
+                          "servo.rated_torque, servo.peak_torque, ..."));
+  EXPECT_THAT(plot("panels: [{motor: x}]"), ElementsAre(HasSubstr("'x' is no plant with a servo motor")));
+  EXPECT_THAT(plot("panels: [{event: ct, values: [length]}]"),
+              ElementsAre(HasSubstr("nothing here reports an event 'ct'")));
+  EXPECT_THAT(binding_problems("pictures: {frames: {around: \"ct[2]\"}}\n"),
+              ElementsAre(HasSubstr("3:30: nothing here reports an event 'ct'")));
+  EXPECT_THAT(
+      binding_problems("pictures: {frames: {every: 2 ms, slow: 30}}\n"),
+      ElementsAre("line.yaml:3:40: pictures.frames: a frame every 2000000 ns / 30 is not a whole multiple "
+                  "of the step of 100000 ns; choose every = slow x a multiple of the step"));
+  EXPECT_THAT(binding_problems("pictures: {frames: {every: 2 ms, slow: 20, around: fault}}\n"), IsEmpty());
+}
+
+TEST(PicturesBinding, FramesAboutAnEventThatNeverComesAreNoted) {
+  devices::Problems problems;
+  const auto scenario = read_scenario_text(
+      "scene: {duration: 100 ms}\nplants: {w: {type: web}}\ntimeline: [{at: 10 ms, fault: {w.wheel: "
+      "{lose_counts: 3}}}]\npictures: {frames: {around: \"fault[2]\"}}\n",
+      "line.yaml", {}, problems);
+  Simulation simulation(scenario, problems);
+  ASSERT_TRUE(problems.empty()) << devices::to_string(problems.front());
+  simulation.run();
+  EXPECT_TRUE(simulation.snapshots().empty());
+  EXPECT_THAT(simulation.notes(), ElementsAre("no frames: fault[2] did not happen; 1 did"));
+}
+
+}  // namespace
+}  // namespace drycut::sim
