@@ -17,9 +17,11 @@ Axis:rampmode = 0
 Axis:taccdec  = 100               ; 1 s from rest to maxvel
 Axis:rtype    = 1
 Axis:toll     = 3
-Axis:feedfw   = 1000
 Axis:setvel   = 6000
-Axis:pgain    = 30
+IF Axis:pgain EQ 0                ; gains, unless the commissioning has set them
+    Axis:pgain  = 30
+    Axis:feedfw = 1000
+ENDIF
 
 INIT Axis
 WAIT Axis:st_init

@@ -51,6 +51,8 @@ TEST(Examples, Camming4Jog) { run("camming4_jog"); }
 TEST(Examples, Camming4Datagroup) { run("camming4_datagroup"); }
 TEST(Examples, Camming4SimulatedMaster) { run("camming4_simulated_master"); }
 TEST(Examples, Epicpos) { run("epicpos"); }
+TEST(Examples, Oopos2) { run("oopos2"); }
+TEST(Examples, Delcnt) { run("delcnt"); }
 
 }  // namespace
 }  // namespace drycut::sim

@@ -97,6 +97,26 @@ TEST_F(ProgramTest, BadInputIsStatusTwoAndWritesNothing) {
   EXPECT_EQ(call("run " + scenes + "rotary_knife.yaml --jobs 0").status, 2);
 }
 
+TEST_F(ProgramTest, AnUnknownCommandIsNamedWithTheNearest) {
+  const auto close = call("tuen");
+  EXPECT_EQ(close.status, 2);
+  EXPECT_THAT(close.text, testing::HasSubstr("drycut: there is no command 'tuen'; did you mean tune?"));
+  const auto far = call("blah scenes");
+  EXPECT_EQ(far.status, 2);
+  EXPECT_THAT(far.text, testing::HasSubstr("drycut: there is no command 'blah'; known: run, "));
+}
+
+TEST_F(ProgramTest, CheckTakesOverrides) {
+  const auto file = scenes + "backlash_motor_encoder.yaml";
+  const auto sound = call("check --expand " + file + " --set controller.qmove.set.Axis.pgain=12");
+  EXPECT_EQ(sound.status, 0) << sound.text;
+  EXPECT_THAT(sound.text, testing::HasSubstr("set: {Axis.pgain: 12}"));
+  const auto wrong = call("check " + file + " --set controller.qmove.set.Axis.pgian=12 --set gap");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.text, testing::HasSubstr("the controller has nothing called 'Axis.pgian'"));
+  EXPECT_THAT(wrong.text, testing::HasSubstr("--set:1:1: 'gap' is not an assignment; write path=value"));
+}
+
 TEST_F(ProgramTest, DivergedSimulationIsStatusThreeAndKeepsWhatItHas) {
   // A gear far too stiff for the step.
   const auto result = call("run " + scenes +
