@@ -59,7 +59,8 @@ Parameters contactor_parameters(ContactorData& data, const std::string& prefix) 
        {},
        "usual: contactors of the 2 kW class"},
   };
-  for (Parameter& row : winding_parameters(data.slow, prefix + "slow.", "usual values: 4/16 poles, wound to brake well"))
+  for (Parameter& row :
+       winding_parameters(data.slow, prefix + "slow.", "usual values: 4/16 poles, wound to brake well"))
     table.push_back(std::move(row));
   return table;
 }
