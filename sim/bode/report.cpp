@@ -155,7 +155,11 @@ renders::ReportTable amplitude_table(const LimitCycle& cycle) {
 }
 
 renders::Plot amplitude_plot(const LimitCycle& cycle) {
-  renders::Plot plot{"limit_cycle", "Gain margin over the amplitude", "amplitude of the sine [V]", {}};
+  const auto& least = cycle.margins[*cycle.least];
+  renders::Plot plot{"limit_cycle",
+                     fmt::format("Limit cycle from {:.3g} times the gain on", factor_of(*least.gain)),
+                     "amplitude of the sine [V]",
+                     {}};
   plot.log_x = true;
   renders::Panel panel;
   panel.title = "gain margin";
@@ -167,9 +171,7 @@ renders::Plot amplitude_plot(const LimitCycle& cycle) {
     curve.y.push_back(margin.gain->value);
   }
   panel.curves.push_back(std::move(curve));
-  const auto& least = cycle.margins[*cycle.least];
-  plot.marks.push_back(
-      {least.amplitude(), fmt::format("limit cycle from {:.3g} times the gain", factor_of(*least.gain))});
+  plot.marks.push_back({least.amplitude(), "least margin"});
   plot.panels.push_back(std::move(panel));
   return plot;
 }
