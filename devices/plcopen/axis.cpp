@@ -42,14 +42,13 @@ ErrorId Axis::limits_of(const Dynamics& dynamics, JerkLimits& limits) const {
   if (!in_range(dynamics.jerk, 0)) return ErrorId::jerk_range;
   const double half = parameters_.a_max / 2;
   const auto own = [](double pin, double axis) { return pin > 0 ? pin : axis; };
-  limits.velocity = std::min(own(dynamics.velocity, parameters_.vb_max), parameters_.vb_max) *
-                    increments_per_speed;
-  limits.acceleration = std::min(own(dynamics.acceleration, half), parameters_.a_max) *
-                        increments_per_acceleration;
-  limits.deceleration = std::min(own(dynamics.deceleration, half), parameters_.a_max) *
-                        increments_per_acceleration;
-  limits.jerk =
-      own(dynamics.jerk, half / (parameters_.tr_min * microseconds)) * increments_per_acceleration;
+  limits.velocity =
+      std::min(own(dynamics.velocity, parameters_.vb_max), parameters_.vb_max) * increments_per_speed;
+  limits.acceleration =
+      std::min(own(dynamics.acceleration, half), parameters_.a_max) * increments_per_acceleration;
+  limits.deceleration =
+      std::min(own(dynamics.deceleration, half), parameters_.a_max) * increments_per_acceleration;
+  limits.jerk = own(dynamics.jerk, half / (parameters_.tr_min * microseconds)) * increments_per_acceleration;
   return ErrorId::none;
 }
 
@@ -78,6 +77,7 @@ Order Axis::begin(AxisState to) {
 
 Order Axis::power(bool on) {
   powered_ = on;
+  outputs_ = {};
   const AxisState to = judge(state_, on ? Command::power_on : Command::power_off).to;
   if (to == state_) return {};
   begin(to);

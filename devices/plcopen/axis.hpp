@@ -35,8 +35,8 @@ struct AxisControl {
   double override_percent = 100;  ///< 0..100
 };
 
-/// Speed and slopes of a command in the units of the blocks' pins: um/s or 0.001 deg/s, mm/s2, mm/s3 or deg/s2,
-/// deg/s3. An acceleration, deceleration or jerk of 0 means the axis' own.
+/// Speed and slopes of a command in the units of the blocks' pins: um/s or 0.001 deg/s, mm/s2, mm/s3 or
+/// deg/s2, deg/s3. An acceleration, deceleration or jerk of 0 means the axis' own.
 struct Dynamics {
   double velocity = 0;
   double acceleration = 0;
@@ -53,11 +53,11 @@ struct Order {
 /// How a slave hangs on its master.
 struct CouplingLink {
   AxisRef master;
-  bool actual_values = false;   ///< follows the master's encoder, not its setpoints
-  std::uint16_t table = 0;      ///< 0 for a gear
-  std::uint64_t revision = 0;   ///< of the table when the curve was made
+  bool actual_values = false;  ///< follows the master's encoder, not its setpoints
+  std::uint16_t table = 0;     ///< 0 for a gear
+  std::uint64_t revision = 0;  ///< of the table when the curve was made
   bool locks_table = false;
-  bool own_copy = false;        ///< changes of the table do not reach the coupling
+  bool own_copy = false;  ///< changes of the table do not reach the coupling
   Endless endless = Endless::no;
   Interpolation interpolation = Interpolation::linear;
 };
@@ -149,20 +149,13 @@ class Axis {
 
   std::string name_;
   AxisParameters parameters_;
-  AxisState state_ = AxisState::disabled;
-  ErrorId error_ = ErrorId::none;
-  bool powered_ = false;
-  bool homed_ = false;
-  bool resetting_ = false;
   std::uint64_t ticket_ = 0;
-  bool done_ = false;
 
   AxisMotion set_;
   Position actual_;
   double home_offset_ = 0;
   double home_to_ = 0;
   double actual_velocity_ = 0;
-  bool latched_ = false;
   std::deque<double> velocities_;  ///< of the last cycles, for the average filter
 
   std::optional<JerkProfile> profile_;
@@ -170,13 +163,21 @@ class Axis {
   double profile_time_ = 0;
   double override_ = 1;
   std::optional<double> target_;  ///< of a discrete movement, for the window
-  bool stop_held_ = false;
 
   std::optional<Coupling> coupling_;
   CouplingLink link_;
   std::int64_t profile_ends_ = 0;
   Dynamics gear_dynamics_;
+
+  ErrorId error_ = ErrorId::none;
   DriveOutputs outputs_;
+  AxisState state_ = AxisState::disabled;
+  bool powered_ = false;
+  bool homed_ = false;
+  bool resetting_ = false;
+  bool done_ = false;
+  bool latched_ = false;
+  bool stop_held_ = false;
 };
 
 }  // namespace drycut::devices::plcopen

@@ -22,8 +22,8 @@ void Axis::latch(double dt) {
   const std::size_t keep =
       parameters_.average_filter != 0 ? static_cast<std::size_t>(parameters_.filter_cycles) : 1;
   while (velocities_.size() > keep) velocities_.pop_front();
-  actual_velocity_ = std::accumulate(velocities_.begin(), velocities_.end(), 0.0) /
-                     static_cast<double>(velocities_.size());
+  actual_velocity_ =
+      std::accumulate(velocities_.begin(), velocities_.end(), 0.0) / static_cast<double>(velocities_.size());
 }
 
 void Axis::stand_on_actual() {
@@ -32,16 +32,14 @@ void Axis::stand_on_actual() {
   set_.acceleration = 0;
 }
 
-bool Axis::limited() const {
-  return modulo() <= 0 && homed_ && parameters_.swe_neg < parameters_.swe_pos;
-}
+bool Axis::limited() const { return modulo() <= 0 && homed_ && parameters_.swe_neg < parameters_.swe_pos; }
 
 bool Axis::passes_limit(const AxisMotion& next, bool with_braking) const {
   if (!limited()) return false;
   double end = next.position.part;
   if (with_braking) {
-    const double braking =
-        next.velocity * std::abs(next.velocity) / (2 * parameters_.a_grenz_stufe_1 * increments_per_acceleration);
+    const double braking = next.velocity * std::abs(next.velocity) /
+                           (2 * parameters_.a_grenz_stufe_1 * increments_per_acceleration);
     end += braking;
   }
   constexpr double rounding = 1e-3;
@@ -75,8 +73,8 @@ void Axis::run_profile(double dt) {
   // The override slews so slowly that it takes no more than half of a_max by itself.
   const bool held = control.feed_hold || !control.feed_enable;
   const double wanted = held ? 0 : std::clamp(control.override_percent / 100, 0.0, 1.0);
-  const double slew = parameters_.a_max / 2 * increments_per_acceleration * dt /
-                      (parameters_.vb_max * increments_per_speed);
+  const double slew =
+      parameters_.a_max / 2 * increments_per_acceleration * dt / (parameters_.vb_max * increments_per_speed);
   override_ = std::clamp(wanted, override_ - slew, override_ + slew);
   const double time = profile_time_ + dt * override_;
   const MotionState state = at(*profile_, time);
@@ -104,7 +102,8 @@ void Axis::finish_profile() {
       std::abs(following_error()) > parameters_.window)
     return;
   // The target itself, not the sum that has come there.
-  if (target_) set_.position = advanced(set_.position, shortest({0, *target_}, set_.position, modulo()), modulo());
+  if (target_)
+    set_.position = advanced(set_.position, shortest({0, *target_}, set_.position, modulo()), modulo());
   profile_.reset();
   done_ = true;
   if (state_ == AxisState::discrete_motion || !stop_held_) state_ = AxisState::standstill;
@@ -154,7 +153,8 @@ CouplingLimits Axis::coupling_limits() const {
                     std::min(p.a_phasing, half) * increments_per_acceleration,
                     std::min(p.d_phasing, half) * increments_per_acceleration,
                     std::min(p.j_phasing, steepest) * increments_per_acceleration};
-  if (coupling_->cam() == nullptr) limits.phasing = {limits.phasing.velocity, limits.up, limits.down, limits.sync_jerk};
+  if (coupling_->cam() == nullptr)
+    limits.phasing = {limits.phasing.velocity, limits.up, limits.down, limits.sync_jerk};
   limits.velocity = (p.v_max_slave > 0 ? p.v_max_slave : p.vb_max) * increments_per_speed;
   limits.acceleration = (p.a_max_slave > 0 ? p.a_max_slave : p.a_max) * increments_per_acceleration;
   return limits;

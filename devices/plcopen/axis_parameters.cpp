@@ -11,7 +11,8 @@ constexpr double most = 2147483647;
 constexpr double unsigned_most = 4294967295;
 
 constexpr std::array table{
-    AxisParameter{"kind", "", "", 0, 2, true, &P::kind, "0 servo with +-10 V reference, 1 virtual, 2 encoder only"},
+    AxisParameter{"kind", "", "", 0, 2, true, &P::kind,
+                  "0 servo with +-10 V reference, 1 virtual, 2 encoder only"},
     AxisParameter{"modulo", "", "0.1 um, 0.0001 deg", 0, most, true, &P::modulo,
                   "length of a turn of a modulo axis; 0 = linear axis"},
     AxisParameter{"dynamik.vb_max", "P-AXIS-00212", "um/s, 0.001 deg/s", 1, most, false, &P::vb_max,

@@ -63,7 +63,7 @@ struct AxisParameter {
   double min = 0;
   double max = 0;
   bool whole = false;
-  double AxisParameters::* member = nullptr;
+  double AxisParameters::*member = nullptr;
   std::string_view meaning;
 };
 

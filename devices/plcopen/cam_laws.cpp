@@ -12,7 +12,8 @@ std::vector<double> column(const CamTable& table, int number) {
   return values;
 }
 
-/// Coefficients of the quintic from y0 with slope v0 over h to y1 with slope v1, accelerations 0 at both ends.
+/// Coefficients of the quintic from y0 with slope v0 over h to y1 with slope v1, accelerations 0 at both
+/// ends.
 std::array<double, 6> quintic(double y0, double y1, double v0, double v1, double h) {
   const double d = y1 - y0 - v0 * h;
   const double e = (v1 - v0) * h;
@@ -81,7 +82,7 @@ std::vector<double> unwrapped(const std::vector<double>& positions, double slave
                               std::int64_t& turns) {
   std::vector<double> y = positions;
   turns = 0;
-  const double direction = static_cast<double>(static_cast<int>(endless));
+  const auto direction = static_cast<double>(static_cast<int>(endless));
   if (endless == Endless::no || slave_modulo <= 0) {
     y.push_back(positions.front());
     return y;
@@ -103,7 +104,7 @@ CamCurve curve_of(const CamTable& table, Interpolation interpolation, double mod
                   Endless endless) {
   CamCurve curve{.modulo = modulo, .slave_modulo = slave_modulo, .segments = {}};
   curve.segments.resize(table.lines());
-  const double count = static_cast<double>(curve.segments.size());
+  const auto count = static_cast<double>(curve.segments.size());
   for (std::size_t i = 0; i < curve.segments.size(); ++i) {
     curve.segments[i].start = static_cast<double>(i) * modulo / count;
     curve.segments[i].length = modulo / count;
@@ -121,7 +122,7 @@ CamCurve curve_of(const CamTable& table, Interpolation interpolation, double mod
 
 std::size_t segment_at(const CamCurve& curve, double x) {
   if (curve.even) {
-    const double count = static_cast<double>(curve.segments.size());
+    const auto count = static_cast<double>(curve.segments.size());
     const double number = std::floor(x * count / curve.modulo);
     return static_cast<std::size_t>(std::clamp(number, 0.0, count - 1));
   }

@@ -30,12 +30,12 @@ struct CamSegment {
   bool step = false;  ///< STEP_DIRECT: holds its value
 };
 
-/// The whole cam. The slave's positions are unwrapped: a cam that turns the slave on ends `turns` of its turns
-/// from where it began.
+/// The whole cam. The slave's positions are unwrapped: a cam that turns the slave on ends `turns` of its
+/// turns from where it began.
 struct CamCurve {
-  double modulo = 0;    ///< of the master
-  double first = 0;     ///< master of the first segment's start, in 0..modulo
-  bool even = true;     ///< intervals of one length, from master 0
+  double modulo = 0;       ///< of the master
+  double first = 0;        ///< master of the first segment's start, in 0..modulo
+  bool even = true;        ///< intervals of one length, from master 0
   std::int64_t turns = 0;  ///< of the slave in one turn of the master
   double slave_modulo = 0;
   std::vector<CamSegment> segments;

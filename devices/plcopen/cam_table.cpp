@@ -23,18 +23,18 @@ constexpr std::array table_types{
     TableType{7, 2, true, long_limit, "master and slave positions, SGN32"},
 };
 
-constexpr std::array<std::string_view, 7> names{"STEP_DIRECT",     "LINEAR",     "POLYNOM_3",
-                                                "POLYNOM_3_KOEFF", "LINE_POLY5", "POLY5_LINE",
-                                                "TABLE_DEFINED"};
+constexpr std::array<std::string_view, 7> names{
+    "STEP_DIRECT", "LINEAR", "POLYNOM_3", "POLYNOM_3_KOEFF", "LINE_POLY5", "POLY5_LINE", "TABLE_DEFINED"};
 
+/// Farthest position: 100 km, where an increment is still far above the rounding.
+constexpr double farthest = 1e12;
 /// Least distance of two masters: 0.1 deg.
 constexpr double least_gap = 1000;
 constexpr std::size_t most_pairs = 360;
 
 bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::toupper(x) == std::toupper(y);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
 }
 
 ErrorId check_pairs(const CamTable& table, double modulo) {
@@ -74,7 +74,8 @@ int CamTable::columns() const {
 }
 
 std::size_t CamTable::lines() const {
-  return columns() == 0 ? 0 : values.size() / static_cast<std::size_t>(columns());
+  const auto width = static_cast<std::size_t>(columns());
+  return width == 0 ? 0 : values.size() / width;
 }
 
 std::optional<Interpolation> interpolation_of(const CamTable& table, std::uint32_t wanted) {
@@ -92,6 +93,8 @@ ErrorId check(const CamTable& table, Interpolation interpolation, double modulo)
   if (interpolation == Interpolation::polynom_3_koeff) needed = 4;
   if (interpolation == Interpolation::line_poly5 || interpolation == Interpolation::poly5_line) needed = 2;
   if (type->columns != needed) return ErrorId::table_type_mismatch;
+  const auto too_far = [](double value) { return !(std::abs(value) <= farthest); };
+  if (std::any_of(table.values.begin(), table.values.end(), too_far)) return ErrorId::position_range;
   if (needed == 2) return check_pairs(table, modulo);
   return table.lines() == 0 ? ErrorId::too_few_lines : ErrorId::none;
 }
@@ -113,9 +116,11 @@ ErrorId CamTables::write(std::uint16_t id, std::size_t line, int column, double 
   if (line >= entry.table.lines()) return ErrorId::too_few_lines;
   if (column < 0 || column >= entry.table.columns()) return ErrorId::too_few_columns;
   const TableType& type = *table_type(entry.table.type);
-  if (!std::isfinite(value) || (type.whole && (value != std::round(value) || value > type.limit || value < -type.limit - 1)))
+  if (!std::isfinite(value) ||
+      (type.whole && (value != std::round(value) || value > type.limit || value < -type.limit - 1)))
     return ErrorId::position_range;
-  entry.table.values[line * static_cast<std::size_t>(type.columns) + static_cast<std::size_t>(column)] = value;
+  entry.table.values[line * static_cast<std::size_t>(type.columns) + static_cast<std::size_t>(column)] =
+      value;
   ++entry.revision;
   return ErrorId::none;
 }

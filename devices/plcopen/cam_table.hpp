@@ -41,8 +41,8 @@ const TableType* table_type(int number);
 struct CamTable {
   std::string file;  ///< its file's name, by which MC_CamTableSelect finds it; may be empty
   std::string name;
-  std::uint16_t id = 0;  ///< 1..65535
-  int type = 2;          ///< 1..7
+  std::uint16_t id = 0;                                        ///< 1..65535
+  int type = 2;                                                ///< 1..7
   Interpolation interpolation = Interpolation::table_defined;  ///< the header's; table_defined = it has none
   std::vector<double> values;                                  ///< line by line
 

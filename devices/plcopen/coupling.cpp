@@ -10,6 +10,14 @@ namespace {
 /// Sums of cycles are compared with times that are whole cycles.
 constexpr double time_rounding = 1e-9;
 
+/// Turns count round for ever: with the largest scalings a product may pass the end of the numbers.
+std::int64_t times(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b));
+}
+std::int64_t plus(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
 AxisMotion displaced(AxisMotion motion, const MotionState& by, double modulo) {
   motion.position = advanced(motion.position, by.position, modulo);
   motion.velocity += by.velocity;
@@ -27,18 +35,21 @@ bool in_window(const AxisMotion& wanted, const AxisMotion& slave, const Coupling
 void Coupling::take_over(const Coupling& before, const AxisMotion& master, const AxisMotion& slave,
                          double tolerance) {
   const CamFollow* cam = this->cam();
-  if (cam == nullptr) return;
+  if (cam == nullptr || before.cam() == nullptr) return;
   shift_sum_ = before.shift_sum_;
   shift_profile_ = before.shift_profile_;
   shift_time_ = before.shift_time_;
   if (!before.engaged() || !cam->periodic) return;
-  const AxisMotion wanted = target(master).motion;
+  const Target place = target(master);
+  const AxisMotion& wanted = place.motion;
   const double away = shortest(slave.position, wanted.position, slave_modulo_);
   if (std::abs(away) > tolerance || std::abs(slave.velocity - wanted.velocity) > tolerance) return;
   if (slave_modulo_ > 0)
     slave_turns_ +=
         std::llround((difference(slave.position, wanted.position, slave_modulo_) - away) / slave_modulo_);
   phase_ = CouplingPhase::coupled;
+  last_cycle_ = place.cycle;
+  last_cycle_known_ = true;
 }
 
 void Coupling::start_in_place(const AxisMotion& master, const AxisMotion& slave, double tolerance) {
@@ -76,11 +87,10 @@ bool Coupling::shift_phase(double shift_by, const JerkLimits& limits) {
 
 Coupling::Target Coupling::cam_target(const CamFollow& cam, const AxisMotion& master) const {
   const MotionState phase_shift = shift();
-  const double scaling = static_cast<double>(cam.master_scaling);
-  const Position x =
-      normalised({cam.master_scaling * master.position.turns,
-                  scaling * master.position.part + cam.master_offset + phase_shift.position},
-                 cam.curve.modulo);
+  const auto scaling = static_cast<double>(cam.master_scaling);
+  const Position x = normalised({times(cam.master_scaling, master.position.turns),
+                                 scaling * master.position.part + cam.master_offset + phase_shift.position},
+                                cam.curve.modulo);
   const CamMotion slave = at(cam.curve, x.part);
   const double dx = scaling * master.velocity + phase_shift.velocity;
   const double ddx = scaling * master.acceleration + phase_shift.acceleration;
@@ -88,7 +98,7 @@ Coupling::Target Coupling::cam_target(const CamFollow& cam, const AxisMotion& ma
   Target target;
   target.cycle = x.turns;
   target.x = x.part;
-  target.motion.position = normalised({turns * (x.turns - first_cycle_) + slave_turns_,
+  target.motion.position = normalised({plus(times(turns, x.turns - first_cycle_), slave_turns_),
                                        cam.slave_scaling * slave.position + cam.slave_offset},
                                       slave_modulo_);
   target.motion.velocity = cam.slave_scaling * slave.velocity * dx;
@@ -100,11 +110,11 @@ AxisMotion Coupling::gear_target(const GearFollow& gear, const AxisMotion& maste
   const MotionState phase_shift = shift();
   const double ratio = static_cast<double>(gear.numerator) / static_cast<double>(gear.denominator);
   const double way = difference(master.position, gear_master_, gear.master_modulo) + phase_shift.position;
-  return {advanced(gear_slave_,
-                   way * static_cast<double>(gear.numerator) / static_cast<double>(gear.denominator),
-                   slave_modulo_),
-          ratio * (master.velocity + phase_shift.velocity),
-          ratio * (master.acceleration + phase_shift.acceleration)};
+  return {
+      advanced(gear_slave_, way * static_cast<double>(gear.numerator) / static_cast<double>(gear.denominator),
+               slave_modulo_),
+      ratio * (master.velocity + phase_shift.velocity),
+      ratio * (master.acceleration + phase_shift.acceleration)};
 }
 
 Coupling::Target Coupling::target(const AxisMotion& master) const {
@@ -113,7 +123,7 @@ Coupling::Target Coupling::target(const AxisMotion& master) const {
 }
 
 AxisMotion Coupling::start_of_cam() const {
-  const CamFollow& cam = std::get<CamFollow>(law_);
+  const auto& cam = std::get<CamFollow>(law_);
   const double start = cam.slave_scaling * at(cam.curve, 0).position + cam.slave_offset;
   return {normalised({slave_turns_, start}, slave_modulo_), 0, 0};
 }
@@ -168,13 +178,11 @@ CouplingOutcome Coupling::synchronise(const AxisMotion& wanted, const AxisMotion
   const double down = wanted.velocity < 0 ? limits.up : limits.down;
   const double reach = 0.9;
   const double a = speed == wanted.velocity ? std::clamp(wanted.acceleration, -reach * down, reach * up) : 0;
-  const std::optional<JerkProfile> profile =
-      to_velocity({0, slave.velocity - (speed - a * dt), slave.acceleration - a}, 0, up - a, down + a,
-                  limits.sync_jerk);
+  const std::optional<JerkProfile> profile = to_velocity(
+      {0, slave.velocity - (speed - a * dt), slave.acceleration - a}, 0, up - a, down + a, limits.sync_jerk);
   if (!profile) return CouplingOutcome::timed_out;
   const MotionState relative = at(*profile, dt);
-  slave.position =
-      advanced(slave.position, relative.position + speed * dt - a * dt * dt / 2, slave_modulo_);
+  slave.position = advanced(slave.position, relative.position + speed * dt - a * dt * dt / 2, slave_modulo_);
   slave.velocity = speed + relative.velocity;
   slave.acceleration = a + relative.acceleration;
 
@@ -233,7 +241,8 @@ void Coupling::follow(const AxisMotion& wanted, AxisMotion& slave, double dt, co
   }
   const double change = limits.acceleration * dt * (1 + 1e-9);
   if (std::abs(way) <= most && std::abs(way / dt - slave.velocity) <= change &&
-      std::abs(wanted.velocity - slave.velocity) <= change) {
+      std::abs(wanted.velocity - slave.velocity) <= change &&
+      std::abs(wanted.acceleration) <= limits.acceleration * (1 + 1e-9)) {
     slave = wanted;
     return;
   }
@@ -261,8 +270,7 @@ void Coupling::wait_for_zero(const Target& place) {
 
 CouplingOutcome Coupling::run_pass(const Target& place, AxisMotion& slave) {
   const bool forward = place.cycle > pass_origin_;
-  const bool backward =
-      place.cycle < pass_origin_ - 1 || (place.cycle == pass_origin_ - 1 && place.x == 0);
+  const bool backward = place.cycle < pass_origin_ - 1 || (place.cycle == pass_origin_ - 1 && place.x == 0);
   if (!forward && !backward) return CouplingOutcome::follows;
   ++profile_ends_;
   if (extra_pass_) {
@@ -271,22 +279,22 @@ CouplingOutcome Coupling::run_pass(const Target& place, AxisMotion& slave) {
     return CouplingOutcome::follows;
   }
   // The cam is run exactly once: the slave stops at its end, however far the master has gone beyond.
-  const CamFollow& cam = std::get<CamFollow>(law_);
+  const auto& cam = std::get<CamFollow>(law_);
   const std::int64_t turns = std::llround(cam.slave_scaling * static_cast<double>(cam.curve.turns));
   const double start = at(cam.curve, 0).position;
   const double end = cam.curve.even ? at(cam.curve.segments.back(), 1).position
                                     : start + static_cast<double>(cam.curve.turns) * slave_modulo_;
   const std::int64_t cycles = (forward ? pass_origin_ : pass_origin_ - 1) - first_cycle_;
-  slave.position = normalised(
-      {slave_turns_ + turns * cycles, cam.slave_scaling * (forward ? end : start) + cam.slave_offset},
-      slave_modulo_);
+  slave.position = normalised({plus(slave_turns_, times(turns, cycles)),
+                               cam.slave_scaling * (forward ? end : start) + cam.slave_offset},
+                              slave_modulo_);
   slave.velocity = 0;
   slave.acceleration = 0;
   return CouplingOutcome::pass_complete;
 }
 
 void Coupling::rebase_gear(const AxisMotion& master) {
-  const GearFollow* gear = std::get_if<GearFollow>(&law_);
+  const auto* gear = std::get_if<GearFollow>(&law_);
   if (gear == nullptr || gear->master_modulo <= 0) return;
   // After `denominator` turns of the master the slave has come a whole number of increments: taken out, the
   // rest stays small and exact however long the gear runs.

@@ -10,9 +10,9 @@
 
 namespace drycut::devices::plcopen {
 
-// A slave behind a master, in increments and seconds. Engaging is amplitude-true (004 "Behavior of MC_CamIn"): the
-// slave slips until it has the cam's speed, then a superimposed move brings it to the cam's position; the cam
-// itself is never scaled.
+// A slave behind a master, in increments and seconds. Engaging is amplitude-true (004 "Behavior of
+// MC_CamIn"): the slave slips until it has the cam's speed, then a superimposed move brings it to the cam's
+// position; the cam itself is never scaled.
 
 /// How the axis moves at an instant [inc, inc/s, inc/s2].
 struct AxisMotion {
@@ -23,17 +23,17 @@ struct AxisMotion {
 
 /// What bounds the ramp-in [inc, s]; from the slave's cam_gear parameters.
 struct CouplingLimits {
-  double window = 0.1;       ///< velocity window, as a share of the cam's speed
-  double window_floor = 0;   ///< and of this speed at least, so that a dwell of the cam has a window
+  double window = 0.1;      ///< velocity window, as a share of the cam's speed
+  double window_floor = 0;  ///< and of this speed at least, so that a dwell of the cam has a window
   double time_in_window = 0;
   double timeout = 0;
   bool timeout_from_start = false;
   double sync_jerk = 0;
-  double up = 0;           ///< acceleration of the velocity synchronisation while the speed grows
-  double down = 0;         ///< and while it falls
+  double up = 0;    ///< acceleration of the velocity synchronisation while the speed grows
+  double down = 0;  ///< and while it falls
   JerkLimits phasing;
-  double velocity = 0;     ///< largest speed of the slave while engaging and engaged
-  double acceleration = 0; ///< largest acceleration of a geared slave
+  double velocity = 0;      ///< largest speed of the slave while engaging and engaged
+  double acceleration = 0;  ///< largest acceleration of a geared slave
 };
 
 /// y = slave_scaling * cam(master_scaling * master + master_offset) + slave_offset
@@ -109,8 +109,8 @@ class Coupling {
   [[nodiscard]] AxisMotion start_of_cam() const;
   [[nodiscard]] MotionState shift() const;
 
-  CouplingOutcome synchronise(const AxisMotion& wanted, const AxisMotion& master, AxisMotion& slave, double dt,
-                              const CouplingLimits& limits);
+  CouplingOutcome synchronise(const AxisMotion& wanted, const AxisMotion& master, AxisMotion& slave,
+                              double dt, const CouplingLimits& limits);
   void begin_phasing(const AxisMotion& wanted, const AxisMotion& master, const AxisMotion& slave,
                      const CouplingLimits& limits);
   void follow(const AxisMotion& wanted, AxisMotion& slave, double dt, const CouplingLimits& limits);
@@ -121,7 +121,7 @@ class Coupling {
   std::variant<CamFollow, GearFollow> law_;
   double slave_modulo_ = 0;
   CouplingPhase phase_ = CouplingPhase::slip;
-  double time_ = 0;            ///< for the timeout
+  double time_ = 0;  ///< for the timeout
   double time_in_window_ = 0;
 
   JerkProfile offset_profile_;  ///< slave less law while phasing
@@ -134,7 +134,7 @@ class Coupling {
 
   std::int64_t first_cycle_ = 0;  ///< cam cycle at which the slave's turns are slave_turns_
   std::int64_t slave_turns_ = 0;
-  std::int64_t last_cycle_ = 0;   ///< of the last step
+  std::int64_t last_cycle_ = 0;  ///< of the last step
   bool last_cycle_known_ = false;
   std::int64_t pass_origin_ = 0;  ///< cycle at whose zero the pass began
   bool extra_pass_ = false;

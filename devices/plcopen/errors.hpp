@@ -6,8 +6,8 @@
 
 namespace drycut::devices::plcopen {
 
-/// What an ErrorID output or an axis reports. 0 = no error. Numbers up to 64999 and from 240000 on are those of
-/// the ISG kernel; those of 65xxx are ours, for refusals to which its documents give no number.
+/// What an ErrorID output or an axis reports. 0 = no error. Numbers up to 64999 and from 240000 on are those
+/// of the ISG kernel; those of 65xxx are ours, for refusals to which its documents give no number.
 enum class ErrorId : std::uint32_t {
   none = 0,
   no_such_table = 42003,
@@ -93,7 +93,8 @@ inline constexpr std::array error_table{
     ErrorRow{ErrorId::not_modulo, "this cam needs modulo axes"},
     ErrorRow{ErrorId::not_homed, "the slave of a cam must be homed"},
     ErrorRow{ErrorId::feed_enable_missing, "the slave's feed enable is off"},
-    ErrorRow{ErrorId::table_master_order, "masters must ascend by 0.1 deg (1000) at least, over the wrap too"},
+    ErrorRow{ErrorId::table_master_order,
+             "masters must ascend by 0.1 deg (1000) at least, over the wrap too"},
     ErrorRow{ErrorId::table_line_count, "LINE/POLY5 needs an even number of lines, 2..360"},
     ErrorRow{ErrorId::selected_table_missing, "MC_CamTableSelect: no table of this file name or id"},
     ErrorRow{ErrorId::table_busy, "the table is being changed"},

@@ -63,7 +63,8 @@ void McReset::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
   if (edge_.rising(Execute)) {
     taken(axis == nullptr ? Order{ErrorId::no_such_axis} : axis->reset());
-  } else if (watch_ == Watch::busy && axis->ticket() == ticket_ && axis->state() == AxisState::errorstop) {
+  } else if (axis != nullptr && watch_ == Watch::busy && axis->ticket() == ticket_ &&
+             axis->state() == AxisState::errorstop) {
     // The error that it resets is none of its own.
   } else {
     watch(axis);
@@ -126,8 +127,8 @@ void McMoveVelocity::call(MotionKernel& kernel) {
 
 void McCamTableSelect::call(MotionKernel& kernel) {
   if (edge_.rising(Execute)) {
-    const plcopen::CamTable* table = CamTable.file.empty() ? kernel.tables().find(CamTable.id)
-                                                           : kernel.tables().find_file(CamTable.file);
+    const plcopen::CamTable* table =
+        CamTable.file.empty() ? kernel.tables().find(CamTable.id) : kernel.tables().find_file(CamTable.file);
     released();
     watch_ = Watch::done;
     if (kernel.axis(Master) == nullptr || kernel.axis(Slave) == nullptr) {
@@ -157,7 +158,8 @@ void McCamIn::call(MotionKernel& kernel) {
     ends_seen_ = axis->profile_ends();
   }
   // A pass that has ended leaves its command in force, but nothing follows it any more.
-  InSync = Execute && now == Watch::done && axis->state() == AxisState::synchronized_motion;
+  InSync =
+      Execute && now == Watch::done && axis != nullptr && axis->state() == AxisState::synchronized_motion;
   CommandAborted = Execute && now == Watch::aborted;
   if (!Execute) released();
 }
@@ -173,12 +175,8 @@ void McCamOut::call(MotionKernel& kernel) {
 void McGearIn::call(MotionKernel& kernel) {
   const plcopen::Axis* axis = kernel.axis(Slave);
   if (edge_.rising(Execute)) {
-    taken(kernel.gear_in({Master,
-                          Slave,
-                          RatioNumerator,
-                          RatioDenominator,
-                          {0, Acceleration, Deceleration, Jerk},
-                          Mode}));
+    taken(kernel.gear_in(
+        {Master, Slave, RatioNumerator, RatioDenominator, {0, Acceleration, Deceleration, Jerk}, Mode}));
   }
   const Watch now = watch(axis, true);
   InGear = Execute && now == Watch::done;
@@ -199,9 +197,9 @@ void McPhasing::call(MotionKernel& kernel) {
   if (edge_.rising(Execute)) {
     taken({kernel.phase(Master, Slave, PhaseShift, {Velocity, Acceleration, Deceleration, Jerk}),
            axis != nullptr ? axis->ticket() : 0});
-    if (watch_ == Watch::busy) shift_ = axis->coupling()->shifts();
+    if (watch_ == Watch::busy && axis != nullptr) shift_ = axis->coupling()->shifts();
   }
-  if (watch_ == Watch::busy) {
+  if (watch_ == Watch::busy && axis != nullptr) {
     if (axis->ticket() != ticket_ || axis->coupling() == nullptr || axis->coupling()->shifts() != shift_) {
       watch_ = Watch::aborted;
     } else if (axis->coupling()->phase_shifted()) {

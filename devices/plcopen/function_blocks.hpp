@@ -4,9 +4,9 @@
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/pins.hpp"
 
-// The function blocks, each with PLCopen's own pin names. Times are those of the caller's task: outputs change in
-// call(). Units: positions 0.1 um or 0.0001 deg, speeds um/s or 0.001 deg/s, accelerations mm/s2 or deg/s2,
-// jerks mm/s3 or deg/s3.
+// The function blocks, each with PLCopen's own pin names. Times are those of the caller's task: outputs
+// change in call(). Units: positions 0.1 um or 0.0001 deg, speeds um/s or 0.001 deg/s, accelerations mm/s2 or
+// deg/s2, jerks mm/s3 or deg/s3.
 namespace drycut::devices::plcopen {
 
 /// A rising edge of Execute.
@@ -33,8 +33,8 @@ struct ExecutedBlock : FunctionBlock {
   /// Takes an order given at an edge: the outputs of the last one are gone.
   void taken(const Order& order);
   void refused(ErrorId error);
-  /// Looks after the order given to `axis`. A command that `goes_on` once done, a speed or a coupling, is still
-  /// aborted or ended by an error; another one keeps its Done.
+  /// Looks after the order given to `axis`. A command that `goes_on` once done, a speed or a coupling, is
+  /// still aborted or ended by an error; another one keeps its Done.
   Watch watch(const Axis* axis, bool goes_on = false);
   /// Execute is FALSE: outputs go FALSE too, the command goes on.
   void released();

@@ -92,8 +92,9 @@ JerkProfile forward(const MotionState& from, double target, const JerkLimits& li
     both.acceleration = both.deceleration = std::min(limits.acceleration, limits.deceleration);
     const double all_the_way = way(from, -top, 0, both).now.position;
     if (target <= all_the_way) return way(from, -top, (all_the_way - target) / top, both).profile;
-    return way(from, root(-top, 0, target,
-                          [&](double cruising) { return way(from, cruising, 0, both).now.position; }),
+    return way(from,
+               root(-top, 0, target,
+                    [&](double cruising) { return way(from, cruising, 0, both).now.position; }),
                0, both)
         .profile;
   }
@@ -114,8 +115,7 @@ MotionState mirrored(const MotionState& state) {
 }  // namespace
 
 MotionState moved(const MotionState& state, double jerk, double time) {
-  return {state.position +
-              time * (state.velocity + time * (state.acceleration / 2 + time * jerk / 6)),
+  return {state.position + time * (state.velocity + time * (state.acceleration / 2 + time * jerk / 6)),
           state.velocity + time * (state.acceleration + time * jerk / 2), state.acceleration + time * jerk};
 }
 
@@ -153,8 +153,8 @@ std::optional<JerkProfile> to_position(const MotionState& state, double position
   const double released =
       state.velocity + state.acceleration * std::abs(state.acceleration) / (2 * limits.jerk);
   const bool backward = released < 0 || (released == 0 && position < state.position);
-  JerkProfile profile = backward ? forward(mirrored(state), -position, limits)
-                                 : forward(state, position, limits);
+  JerkProfile profile =
+      backward ? forward(mirrored(state), -position, limits) : forward(state, position, limits);
   if (backward) {
     profile.start = state;
     for (JerkProfile::Phase& phase : profile.phases) phase.jerk = -phase.jerk;

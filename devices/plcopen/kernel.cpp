@@ -98,11 +98,11 @@ ErrorId MotionKernel::check_cam(const CamInRequest& request, const CamTable& tab
                                 Interpolation interpolation) const {
   const Axis& master = *axis(request.master);
   const Axis& slave = *axis(request.slave);
-  const bool pairs =
-      interpolation == Interpolation::line_poly5 || interpolation == Interpolation::poly5_line;
+  const bool pairs = interpolation == Interpolation::line_poly5 || interpolation == Interpolation::poly5_line;
   const bool turns_on = endless_of(request.start_mode) != Endless::no;
   if (master.modulo() <= 0 || (slave.modulo() <= 0 && (pairs || turns_on))) return ErrorId::not_modulo;
-  if (const ErrorId error = check(table, interpolation, master.modulo()); error != ErrorId::none) return error;
+  if (const ErrorId error = check(table, interpolation, master.modulo()); error != ErrorId::none)
+    return error;
   if (tables_.busy(request.table)) return ErrorId::table_busy;
   if (!slave.homed()) return ErrorId::not_homed;
   return slave.control.feed_enable ? ErrorId::none : ErrorId::feed_enable_missing;
@@ -131,7 +131,8 @@ Order MotionKernel::cam_in(const CamInRequest& request, std::uint64_t again) {
   if (table == nullptr) return {ErrorId::no_such_table};
   const std::optional<Interpolation> interpolation = interpolation_of(*table, request.interpolation);
   if (!interpolation) return {ErrorId::unknown_interpolation};
-  if (const ErrorId error = check_cam(request, *table, *interpolation); error != ErrorId::none) return {error};
+  if (const ErrorId error = check_cam(request, *table, *interpolation); error != ErrorId::none)
+    return {error};
 
   const bool periodic = (request.start_mode & hli_ci_f_periodic) != 0;
   Coupling* present = slave.coupling();
@@ -139,22 +140,22 @@ Order MotionKernel::cam_in(const CamInRequest& request, std::uint64_t again) {
     present->add_pass();
     return {ErrorId::none, again};
   }
-  const CouplingLink link{.master = request.master,
-                          .table = request.table,
-                          .revision = tables_.revision(request.table),
-                          .locks_table = (request.start_mode & hli_ci_lock_table) != 0,
-                          .own_copy = *interpolation == Interpolation::line_poly5 ||
-                                      *interpolation == Interpolation::poly5_line,
-                          .endless = endless_of(request.start_mode),
-                          .interpolation = *interpolation};
+  const CouplingLink link{
+      .master = request.master,
+      .table = request.table,
+      .revision = tables_.revision(request.table),
+      .locks_table = (request.start_mode & hli_ci_lock_table) != 0,
+      .own_copy = *interpolation == Interpolation::line_poly5 || *interpolation == Interpolation::poly5_line,
+      .endless = endless_of(request.start_mode),
+      .interpolation = *interpolation};
   const AxisMotion master = axis(request.master)->set();
-  CamFollow law{.curve = curve_of(*table, *interpolation, axis(request.master)->modulo(), slave.modulo(),
-                                  link.endless),
-                .master_scaling = std::llround(request.master_scaling),
-                .slave_scaling = request.slave_scaling,
-                .master_offset = request.master_offset,
-                .slave_offset = request.slave_offset,
-                .periodic = periodic};
+  CamFollow law{
+      .curve = curve_of(*table, *interpolation, axis(request.master)->modulo(), slave.modulo(), link.endless),
+      .master_scaling = std::llround(request.master_scaling),
+      .slave_scaling = request.slave_scaling,
+      .master_offset = request.master_offset,
+      .slave_offset = request.slave_offset,
+      .periodic = periodic};
   if (const ErrorId error = check_curve(request, law.curve); error != ErrorId::none) return {error};
   Coupling coupling(std::move(law), slave.modulo());
   if (present != nullptr && slave.link().master == request.master)
@@ -221,7 +222,8 @@ void MotionKernel::set_points(std::size_t number) {
   const CouplingLink& link = axis.link();
   set_points(static_cast<std::size_t>(link.master.number));
   refresh(axis);
-  axis.follow(this->axis(link.master)->as_master(link.actual_values, axis.parameters().delay_time * 1e-6), dt);
+  axis.follow(this->axis(link.master)->as_master(link.actual_values, axis.parameters().delay_time * 1e-6),
+              dt);
 }
 
 void MotionKernel::cycle() {

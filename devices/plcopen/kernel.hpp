@@ -9,8 +9,8 @@
 
 namespace drycut::devices::plcopen {
 
-/// Bits of MC_CamIn.StartMode (004 "startmode"). The first three have no effect: ramp-in and absolute are always
-/// used.
+/// Bits of MC_CamIn.StartMode (004 "startmode"). The first three have no effect: ramp-in and absolute are
+/// always used.
 enum StartMode : std::uint32_t {
   hli_ci_ramp_in = 0x01,
   hli_ci_absolute = 0x02,
@@ -86,8 +86,8 @@ class MotionKernel {
   void end_table_change(std::uint16_t id) { tables_.end_change(id); }
   [[nodiscard]] const CamTables& tables() const { return tables_; }
 
-  /// MC_CamIn, MC_GearIn. `again` is the ticket of the block's own coupling, if it has one: a non-periodic pass
-  /// under way is then given one pass more instead of being engaged anew.
+  /// MC_CamIn, MC_GearIn. `again` is the ticket of the block's own coupling, if it has one: a non-periodic
+  /// pass under way is then given one pass more instead of being engaged anew.
   Order cam_in(const CamInRequest& request, std::uint64_t again = 0);
   Order gear_in(const GearInRequest& request);
   /// MC_Phasing: shifts the apparent master of the slave; does not take the axis from its coupling.

@@ -14,11 +14,11 @@ namespace {
 template <typename B, typename T>
 struct Bound {
   Pin pin;
-  T B::* member;
+  T B::*member;
 };
 
 template <typename B, typename C, typename T>
-constexpr Bound<B, T> bind(std::string_view name, std::string_view type, PinDirection direction, T C::* member,
+constexpr Bound<B, T> bind(std::string_view name, std::string_view type, PinDirection direction, T C::*member,
                            std::string_view meaning) {
   return {{name, type, direction, meaning}, static_cast<T B::*>(member)};
 }
@@ -35,26 +35,32 @@ constexpr PinDirection out = PinDirection::output;
   PIN(block, "BOOL", out, Error, "refused, or ended by an error of the axis"), \
       PIN(block, "UDINT", out, ErrorID, "which; see the table of errors")
 #define AXIS(block) PIN(block, "AXIS_REF", io, Axis, "the axis")
-#define SLOPES(block)                                                                                      \
-  PIN(block, "LREAL", in, Acceleration, "mm/s2 or deg/s2; 0 = half of a_max"),                             \
-      PIN(block, "LREAL", in, Deceleration, "mm/s2 or deg/s2; 0 = half of a_max"),                         \
+#define SLOPES(block)                                                              \
+  PIN(block, "LREAL", in, Acceleration, "mm/s2 or deg/s2; 0 = half of a_max"),     \
+      PIN(block, "LREAL", in, Deceleration, "mm/s2 or deg/s2; 0 = half of a_max"), \
       PIN(block, "LREAL", in, Jerk, "mm/s3 or deg/s3; 0 = half of a_max in tr_min")
-#define MASTER_SLAVE(block)                                            \
-  PIN(block, "AXIS_REF", io, Master, "the axis that is followed"),     \
+#define MASTER_SLAVE(block)                                        \
+  PIN(block, "AXIS_REF", io, Master, "the axis that is followed"), \
       PIN(block, "AXIS_REF", io, Slave, "the axis that follows")
 
 constexpr std::tuple power{AXIS(McPower), PIN(McPower, "BOOL", in, Enable, "TRUE switches the drive on"),
                            PIN(McPower, "BOOL", out, Status, "the drive is on"), ERRORS(McPower)};
-constexpr std::tuple home{AXIS(McHome), EXECUTE(McHome),
-                          PIN(McHome, "LREAL", in, Position, "the present position's new value [0.1 um or 0.0001 deg]"),
-                          DONE(McHome, "homed"), ABORTED(McHome), ERRORS(McHome)};
-constexpr std::tuple reset{AXIS(McReset), EXECUTE(McReset), DONE(McReset, "out of Errorstop"), ERRORS(McReset)};
-constexpr std::tuple stop{AXIS(McStop),
-                          PIN(McStop, "BOOL", in, Execute,
-                              "the rising edge stops; the axis stays in Stopping while it is TRUE"),
-                          PIN(McStop, "LREAL", in, Deceleration, "mm/s2 or deg/s2; 0 = half of a_max"),
-                          PIN(McStop, "LREAL", in, Jerk, "mm/s3 or deg/s3; 0 = half of a_max in tr_min"),
-                          DONE(McStop, "the axis stands"), ERRORS(McStop)};
+constexpr std::tuple home{
+    AXIS(McHome),
+    EXECUTE(McHome),
+    PIN(McHome, "LREAL", in, Position, "the present position's new value [0.1 um or 0.0001 deg]"),
+    DONE(McHome, "homed"),
+    ABORTED(McHome),
+    ERRORS(McHome)};
+constexpr std::tuple reset{AXIS(McReset), EXECUTE(McReset), DONE(McReset, "out of Errorstop"),
+                           ERRORS(McReset)};
+constexpr std::tuple stop{
+    AXIS(McStop),
+    PIN(McStop, "BOOL", in, Execute, "the rising edge stops; the axis stays in Stopping while it is TRUE"),
+    PIN(McStop, "LREAL", in, Deceleration, "mm/s2 or deg/s2; 0 = half of a_max"),
+    PIN(McStop, "LREAL", in, Jerk, "mm/s3 or deg/s3; 0 = half of a_max in tr_min"),
+    DONE(McStop, "the axis stands"),
+    ERRORS(McStop)};
 constexpr std::tuple halt{AXIS(McHalt),
                           EXECUTE(McHalt),
                           PIN(McHalt, "LREAL", in, Deceleration, "mm/s2 or deg/s2; 0 = half of a_max"),
@@ -63,50 +69,70 @@ constexpr std::tuple halt{AXIS(McHalt),
                           ABORTED(McHalt),
                           ERRORS(McHalt)};
 constexpr std::tuple move_absolute{
-    AXIS(McMoveAbsolute), EXECUTE(McMoveAbsolute),
+    AXIS(McMoveAbsolute),
+    EXECUTE(McMoveAbsolute),
     PIN(McMoveAbsolute, "LREAL", in, Position, "target [0.1 um or 0.0001 deg]"),
-    PIN(McMoveAbsolute, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"), SLOPES(McMoveAbsolute),
+    PIN(McMoveAbsolute, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
+    SLOPES(McMoveAbsolute),
     PIN(McMoveAbsolute, "INT", in, Direction,
         "of a modulo axis: 1 positive, 2 shortest way, 3 negative, 4 current"),
-    DONE(McMoveAbsolute, "at the target, the actual position within the window"), ABORTED(McMoveAbsolute),
+    DONE(McMoveAbsolute, "at the target, the actual position within the window"),
+    ABORTED(McMoveAbsolute),
     ERRORS(McMoveAbsolute)};
 constexpr std::tuple move_velocity{
-    AXIS(McMoveVelocity), EXECUTE(McMoveVelocity),
-    PIN(McMoveVelocity, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"), SLOPES(McMoveVelocity),
+    AXIS(McMoveVelocity),
+    EXECUTE(McMoveVelocity),
+    PIN(McMoveVelocity, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
+    SLOPES(McMoveVelocity),
     PIN(McMoveVelocity, "INT", in, Direction, "1 positive, 3 negative, 4 current"),
-    PIN(McMoveVelocity, "BOOL", out, InVelocity, "the speed is reached"), ABORTED(McMoveVelocity),
+    PIN(McMoveVelocity, "BOOL", out, InVelocity, "the speed is reached"),
+    ABORTED(McMoveVelocity),
     ERRORS(McMoveVelocity)};
 constexpr std::tuple cam_table_select{
-    MASTER_SLAVE(McCamTableSelect), EXECUTE(McCamTableSelect),
+    MASTER_SLAVE(McCamTableSelect),
+    EXECUTE(McCamTableSelect),
     PIN(McCamTableSelect, "MC_CAM_REF", in, CamTable, "the table by its file's name, which wins, or its id"),
-    DONE(McCamTableSelect, "the table is there"), ERRORS(McCamTableSelect),
+    DONE(McCamTableSelect, "the table is there"),
+    ERRORS(McCamTableSelect),
     PIN(McCamTableSelect, "UINT", out, CamTableID, "for MC_CamIn")};
 constexpr std::tuple cam_in{
-    MASTER_SLAVE(McCamIn), EXECUTE(McCamIn),
+    MASTER_SLAVE(McCamIn),
+    EXECUTE(McCamIn),
     PIN(McCamIn, "LREAL", in, MasterOffset, "added to the scaled master, +-2^31"),
     PIN(McCamIn, "LREAL", in, SlaveOffset, "added to the scaled cam, +-2^31"),
     PIN(McCamIn, "LREAL", in, MasterScaling, "the master is multiplied by it: a whole number, not 0"),
     PIN(McCamIn, "LREAL", in, SlaveScaling, "the cam is multiplied by it"),
-    PIN(McCamIn, "DWORD", in, StartMode, "HLI_CI_ bits"), PIN(McCamIn, "UINT", in, CamTableID, "the table"),
+    PIN(McCamIn, "DWORD", in, StartMode, "HLI_CI_ bits"),
+    PIN(McCamIn, "UINT", in, CamTableID, "the table"),
     PIN(McCamIn, "UDINT", in, TableFctType, "0 STEP_DIRECT .. 5 POLY5_LINE, 6 as the table says"),
-    PIN(McCamIn, "BOOL", out, InSync, "engaged"), ABORTED(McCamIn), ERRORS(McCamIn),
+    PIN(McCamIn, "BOOL", out, InSync, "engaged"),
+    ABORTED(McCamIn),
+    ERRORS(McCamIn),
     PIN(McCamIn, "BOOL", out, EndOfProfile, "for one call: the cam has come to its end")};
 constexpr std::tuple cam_out{PIN(McCamOut, "AXIS_REF", io, Slave, "the axis that follows"), EXECUTE(McCamOut),
                              DONE(McCamOut, "uncoupled, the slave keeps its speed"), ERRORS(McCamOut)};
 constexpr std::tuple gear_in{
-    MASTER_SLAVE(McGearIn), EXECUTE(McGearIn),
+    MASTER_SLAVE(McGearIn),
+    EXECUTE(McGearIn),
     PIN(McGearIn, "DINT", in, RatioNumerator, "slave, not 0; negative turns the other way"),
-    PIN(McGearIn, "UDINT", in, RatioDenominator, "master, above 0"), SLOPES(McGearIn),
+    PIN(McGearIn, "UDINT", in, RatioDenominator, "master, above 0"),
+    SLOPES(McGearIn),
     PIN(McGearIn, "DWORD", in, Mode, "0 setpoints of the master, 16#80 its actual values"),
-    PIN(McGearIn, "BOOL", out, InGear, "engaged"), ABORTED(McGearIn), ERRORS(McGearIn)};
+    PIN(McGearIn, "BOOL", out, InGear, "engaged"),
+    ABORTED(McGearIn),
+    ERRORS(McGearIn)};
 constexpr std::tuple gear_out{PIN(McGearOut, "AXIS_REF", io, Slave, "the axis that follows"),
                               EXECUTE(McGearOut), DONE(McGearOut, "uncoupled, the slave keeps its speed"),
                               ERRORS(McGearOut)};
-constexpr std::tuple phasing{
-    MASTER_SLAVE(McPhasing), EXECUTE(McPhasing),
-    PIN(McPhasing, "LREAL", in, PhaseShift, "by how much more the master seems to have moved [0.1 um or 0.0001 deg]"),
-    PIN(McPhasing, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"), SLOPES(McPhasing),
-    DONE(McPhasing, "shifted"), ABORTED(McPhasing), ERRORS(McPhasing)};
+constexpr std::tuple phasing{MASTER_SLAVE(McPhasing),
+                             EXECUTE(McPhasing),
+                             PIN(McPhasing, "LREAL", in, PhaseShift,
+                                 "by how much more the master seems to have moved [0.1 um or 0.0001 deg]"),
+                             PIN(McPhasing, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
+                             SLOPES(McPhasing),
+                             DONE(McPhasing, "shifted"),
+                             ABORTED(McPhasing),
+                             ERRORS(McPhasing)};
 
 #undef PIN
 #undef EXECUTE
@@ -157,9 +183,8 @@ const std::array types{
 };
 
 bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::toupper(x) == std::toupper(y);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 namespace drycut::devices::plcopen {
 
-/// Where an axis is, in whole turns and a part of one: the part of a modulo axis lies in 0..modulo, of a linear
-/// axis (modulo 0) it is all there is [0.1 um or 0.0001 deg]. However many turns there were, the part is
-/// as fine as in the first one.
+/// Where an axis is, in whole turns and a part of one: the part of a modulo axis lies in 0..modulo, of a
+/// linear axis (modulo 0) it is all there is [0.1 um or 0.0001 deg]. However many turns there were, the part
+/// is as fine as in the first one.
 struct Position {
   std::int64_t turns = 0;
   double part = 0;

@@ -5,14 +5,22 @@ namespace {
 
 ErrorId refusal(AxisState state) {
   switch (state) {
-    case AxisState::disabled: return ErrorId::in_disabled;
-    case AxisState::standstill: return ErrorId::in_standstill;
-    case AxisState::homing: return ErrorId::in_homing;
-    case AxisState::stopping: return ErrorId::in_stopping;
-    case AxisState::discrete_motion: return ErrorId::in_discrete_motion;
-    case AxisState::continuous_motion: return ErrorId::in_continuous_motion;
-    case AxisState::synchronized_motion: return ErrorId::in_synchronized_motion;
-    case AxisState::errorstop: return ErrorId::in_errorstop;
+    case AxisState::disabled:
+      return ErrorId::in_disabled;
+    case AxisState::standstill:
+      return ErrorId::in_standstill;
+    case AxisState::homing:
+      return ErrorId::in_homing;
+    case AxisState::stopping:
+      return ErrorId::in_stopping;
+    case AxisState::discrete_motion:
+      return ErrorId::in_discrete_motion;
+    case AxisState::continuous_motion:
+      return ErrorId::in_continuous_motion;
+    case AxisState::synchronized_motion:
+      return ErrorId::in_synchronized_motion;
+    case AxisState::errorstop:
+      return ErrorId::in_errorstop;
   }
   return ErrorId::none;
 }
@@ -25,9 +33,9 @@ bool moves_or_stands(AxisState state) {
 }  // namespace
 
 std::string_view name_of(AxisState state) {
-  constexpr std::array<std::string_view, 8> names{
-      "Disabled",       "Standstill",       "Homing",             "Stopping",
-      "DiscreteMotion", "ContinuousMotion", "SynchronizedMotion", "Errorstop"};
+  constexpr std::array<std::string_view, 8> names{"Disabled",           "Standstill",     "Homing",
+                                                  "Stopping",           "DiscreteMotion", "ContinuousMotion",
+                                                  "SynchronizedMotion", "Errorstop"};
   return names[static_cast<std::size_t>(state)];
 }
 

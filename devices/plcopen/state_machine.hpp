@@ -18,10 +18,14 @@ enum class AxisState : std::uint8_t {
   synchronized_motion,
   errorstop,
 };
-inline constexpr std::array axis_states{
-    AxisState::disabled,        AxisState::standstill,        AxisState::homing,
-    AxisState::stopping,        AxisState::discrete_motion,   AxisState::continuous_motion,
-    AxisState::synchronized_motion, AxisState::errorstop};
+inline constexpr std::array axis_states{AxisState::disabled,
+                                        AxisState::standstill,
+                                        AxisState::homing,
+                                        AxisState::stopping,
+                                        AxisState::discrete_motion,
+                                        AxisState::continuous_motion,
+                                        AxisState::synchronized_motion,
+                                        AxisState::errorstop};
 /// "SynchronizedMotion", as PLCopen spells it.
 std::string_view name_of(AxisState state);
 

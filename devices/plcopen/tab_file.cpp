@@ -118,12 +118,14 @@ class Reader {
         if (next - table.value(i, 0) < 1000) line = rows_[last ? i : i + 1];
       }
     }
-    std::string remedy = "see the error's meaning";
+    std::string remedy;
     if (error == ErrorId::table_type_mismatch)
-      remedy = "STEP_DIRECT, LINEAR, POLYNOM_3 take one column, POLYNOM_3_KOEFF a0..a3, LINE_POLY5 and POLY5_LINE "
-               "master and slave";
+      remedy =
+          "STEP_DIRECT, LINEAR, POLYNOM_3 take one column, POLYNOM_3_KOEFF a0..a3, LINE_POLY5 and POLY5_LINE "
+          "master and slave";
     if (error == ErrorId::table_master_order) remedy = "let the masters ascend inside one turn";
     if (error == ErrorId::table_line_count) remedy = "add or take away a line";
+    if (error == ErrorId::position_range) remedy = "keep positions within +-1e12";
     if (error == ErrorId::too_few_lines) remedy = "write one line at least";
     fault(line, 1, fmt::format("error {}: {}", static_cast<unsigned>(error), meaning_of(error)), remedy);
   }
@@ -136,15 +138,16 @@ class Reader {
 };
 
 const std::vector<std::string>& tab_keys() {
-  static const std::vector<std::string> keys{"Tablename", "Tabletype", "Table-ID",
-                                             "Functiontype", "Lines", "Begintable"};
+  static const std::vector<std::string> keys{"Tablename",    "Tabletype", "Table-ID",
+                                             "Functiontype", "Lines",     "Begintable"};
   return keys;
 }
 
 /// A whole number of a header line, or nullopt with a fault.
 std::optional<int> whole(Reader& reader, const Word& word, int line, int min, int max) {
   const std::optional<double> value = number_of(word.text, false);
-  if (value && *value == std::round(*value) && *value >= min && *value <= max) return static_cast<int>(*value);
+  if (value && *value == std::round(*value) && *value >= min && *value <= max)
+    return static_cast<int>(*value);
   reader.fault(line, word.column, fmt::format("'{}' is out of range", word.text),
                fmt::format("write a whole number, {} to {}", min, max));
   return std::nullopt;
@@ -174,8 +177,7 @@ void header_line(Reader& reader, CamTable& table, std::map<std::string, int>& se
     table.name = std::string(value.text);
   } else if (name == "tabletype") {
     table.type = whole(reader, value, number, 1, 7).value_or(0);
-    if (table.type == 6)
-      reader.fault(number, value.column, "type 6 is of the maker only", "use 1..5 or 7");
+    if (table.type == 6) reader.fault(number, value.column, "type 6 is of the maker only", "use 1..5 or 7");
   } else if (name == "table-id") {
     table.id = static_cast<std::uint16_t>(whole(reader, value, number, 1, 65535).value_or(0));
   } else if (name == "functiontype") {
@@ -250,13 +252,17 @@ void csv_key(Reader& reader, CamCsv& cam, bool& named, std::string_view line, in
     if (key.text.find(' ') != std::string_view::npos) return;
     const std::string guess = nearest(name, csv_keys());
     return reader.fault(number, key.column, fmt::format("unknown key '{}'", key.text),
-                        guess.empty() ? "known are interpolation, endless, master_modulo, slave_modulo, name, id"
-                                      : fmt::format("did you mean {}?", guess));
+                        guess.empty()
+                            ? "known are interpolation, endless, master_modulo, slave_modulo, name, id"
+                            : fmt::format("did you mean {}?", guess));
   }
   if (name == "name") cam.table.name = std::string(value.text);
-  if (name == "id") cam.table.id = static_cast<std::uint16_t>(whole(reader, value, number, 1, 65535).value_or(1));
-  if (name == "master_modulo") cam.master_modulo = whole(reader, value, number, 1, 2147483647).value_or(3600000);
-  if (name == "slave_modulo") cam.slave_modulo = whole(reader, value, number, 0, 2147483647).value_or(3600000);
+  if (name == "id")
+    cam.table.id = static_cast<std::uint16_t>(whole(reader, value, number, 1, 65535).value_or(1));
+  if (name == "master_modulo")
+    cam.master_modulo = whole(reader, value, number, 1, 2147483647).value_or(3600000);
+  if (name == "slave_modulo")
+    cam.slave_modulo = whole(reader, value, number, 0, 2147483647).value_or(3600000);
   if (name == "endless") {
     const std::string direction = lower(value.text);
     if (direction == "positive") cam.endless = Endless::positive;
@@ -313,7 +319,8 @@ std::optional<CamCsv> parse_cam_csv(std::string_view text, const std::string& fi
       reader.row(cam.table, split(line, separator), number, separator == ';');
     }
   }
-  if (header == 0) reader.fault(number + 1, 1, "there is no header", "write slave, or master,slave, or a0,a1,a2,a3");
+  if (header == 0)
+    reader.fault(number + 1, 1, "there is no header", "write slave, or master,slave, or a0,a1,a2,a3");
   if (!named && cam.table.type == 7) cam.interpolation = Interpolation::poly5_line;
   if (!named && cam.table.type == 5) cam.interpolation = Interpolation::polynom_3_koeff;
   cam.table.interpolation = cam.interpolation;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -47,7 +48,9 @@ struct Bench {
   Axis& m() { return *kernel.axis(master); }
   Axis& s() { return *kernel.axis(slave); }
   /// Slave and master as unwrapped positions.
-  double at(Axis& axis) { return static_cast<double>(axis.set().position.turns) * turn + axis.set().position.part; }
+  double at(Axis& axis) {
+    return static_cast<double>(axis.set().position.turns) * turn + axis.set().position.part;
+  }
 
   /// A parameter of the slave, by its name.
   void set(const std::string& name, double value) {
@@ -100,5 +103,20 @@ struct Bench {
 
 /// A linear cam that turns the slave once for each turn of the master.
 inline std::vector<double> one_to_one() { return {0, 900'000, 1'800'000, 2'700'000}; }
+
+/// A rise to half a turn and back, at rest at both ends of the cam.
+inline std::vector<double> swing() { return {0, 0, 600'000, 0, 1'200'000, 1'800'000, 1'800'000, 1'800'000}; }
+
+/// Largest speed, acceleration, deceleration and jerk of what a block does.
+struct Peaks {
+  double v = 0, a = 0, d = 0, j = 0, last = 0;
+  void take(const AxisMotion& motion) {
+    v = std::max(v, std::abs(motion.velocity));
+    a = std::max(a, motion.acceleration);
+    d = std::max(d, -motion.acceleration);
+    j = std::max(j, std::abs(motion.acceleration - last) / cycle_s);
+    last = motion.acceleration;
+  }
+};
 
 }  // namespace drycut::devices::plcopen

@@ -10,8 +10,8 @@
 
 namespace drycut::devices::plcopen {
 
-/// What the tests of the PLCopen kernel must show (coverage.hpp): every pin ("MC_CamIn.InSync"), parameter, error
-/// number, bit of StartMode, interpolation and type of table ("type 3").
+/// What the tests of the PLCopen kernel must show (coverage.hpp): every pin ("MC_CamIn.InSync"), parameter,
+/// error number, bit of StartMode, interpolation and type of table ("type 3").
 inline coverage::Marks all_marks() {
   coverage::Marks marks;
   for (const BlockType& type : block_types())

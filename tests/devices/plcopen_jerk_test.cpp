@@ -15,7 +15,8 @@ constexpr JerkLimits limits{.velocity = 100, .acceleration = 400, .deceleration 
 void expect_sound(const JerkProfile& profile, const JerkLimits& bounds, double scale = 1) {
   const MotionState& start = profile.start;
   const double most_a = std::max({bounds.acceleration, bounds.deceleration, std::abs(start.acceleration)});
-  const double released = std::abs(start.velocity) + start.acceleration * start.acceleration / (2 * bounds.jerk);
+  const double released =
+      std::abs(start.velocity) + start.acceleration * start.acceleration / (2 * bounds.jerk);
   const double most_v = std::max(bounds.velocity, released);
   MotionState now = start;
   for (int i = 0; i < profile.count; ++i) {
@@ -36,7 +37,8 @@ void expect_sound(const JerkProfile& profile, const JerkLimits& bounds, double s
   EXPECT_NEAR(now.acceleration, 0, 1e-6 * most_a);
   const MotionState after = at(profile, profile.duration + 1);
   EXPECT_EQ(after.velocity, profile.end.velocity);
-  EXPECT_EQ(after.position, profile.end.position + profile.end.velocity * (profile.duration + 1 - profile.duration));
+  EXPECT_EQ(after.position,
+            profile.end.position + profile.end.velocity * (profile.duration + 1 - profile.duration));
 }
 
 TEST(PlcopenJerk, AChangeOfSpeedFromRestTakesTwoRootsOfItsJerk) {
@@ -94,7 +96,8 @@ TEST(PlcopenJerk, ItComesBackWhereItCannotStopInTime) {
   expect_sound(profile, limits);
   double furthest = 0;
   for (double t = 0; t < profile.duration; t += 1e-3) furthest = std::max(furthest, at(profile, t).position);
-  // It turns without letting go of its deceleration: v a/(2j) + v2/(2a), less what the onset a3/(24 j2) saves.
+  // It turns without letting go of its deceleration: v a/(2j) + v2/(2a), less what the onset a3/(24 j2)
+  // saves.
   EXPECT_NEAR(furthest, 4 + 8 - 64e6 / (24 * 16e6), 1e-3);
   EXPECT_EQ(profile.end.position, 1);
 }

@@ -12,8 +12,12 @@ namespace {
 
 constexpr double turn = 3'600'000;
 
-CamTable slaves(std::vector<double> values) { return {.file = {}, .name = {}, .id = 1, .type = 3, .values = std::move(values)}; }
-CamTable pairs(std::vector<double> values) { return {.file = {}, .name = {}, .id = 1, .type = 7, .values = std::move(values)}; }
+CamTable slaves(std::vector<double> values) {
+  return {.file = {}, .name = {}, .id = 1, .type = 3, .values = std::move(values)};
+}
+CamTable pairs(std::vector<double> values) {
+  return {.file = {}, .name = {}, .id = 1, .type = 7, .values = std::move(values)};
+}
 
 CamCurve curve(const CamTable& table, Interpolation type, Endless endless = Endless::no) {
   return curve_of(table, type, turn, turn, endless);
@@ -76,7 +80,8 @@ TEST(PlcopenLaws, PolynomThreeIsTheBezierOfFourNeighbours) {
     const double after = s[(i + 2) % 6];
     EXPECT_EQ(at(cam, static_cast<double>(i) * h).position, here);
     // The middle by De Casteljau of b0, b1 = here + (next-before)/6, b2 = next - (after-here)/6, b3.
-    EXPECT_NEAR(at(cam, (static_cast<double>(i) + 0.5) * h).position, (9 * (here + next) - before - after) / 16, 1e-9);
+    EXPECT_NEAR(at(cam, (static_cast<double>(i) + 0.5) * h).position,
+                (9 * (here + next) - before - after) / 16, 1e-9);
     EXPECT_NEAR(at(cam, static_cast<double>(i) * h).velocity, (next - before) / (2 * h), 1e-15);
   }
   expect_consistent(cam);
@@ -193,7 +198,8 @@ TEST(PlcopenLaws, EndlessTurnsAStepAgainstItsDirectionOverTheTurn) {
   const CamCurve none = curve(slaves(s), Interpolation::linear);
   EXPECT_EQ(none.turns, 0);
   EXPECT_EQ(at(none, 3'000'000).position, 1'200'000);
-  const CamCurve negative = curve(slaves({0, 2'400'000, 1'200'000}), Interpolation::linear, Endless::negative);
+  const CamCurve negative =
+      curve(slaves({0, 2'400'000, 1'200'000}), Interpolation::linear, Endless::negative);
   EXPECT_EQ(negative.turns, -1);
   EXPECT_EQ(at(negative, 600'000).position, -600'000);
   EXPECT_EQ(at(negative, 1'200'000).position, -1'200'000);
@@ -217,7 +223,8 @@ TEST(PlcopenLaws, EndlessCoefficientsGoOnInTheTurnInWhichTheyEnd) {
 }
 
 TEST(PlcopenLaws, OneLineIsOnePlace) {
-  for (const Interpolation type : {Interpolation::step_direct, Interpolation::linear, Interpolation::polynom_3}) {
+  for (const Interpolation type :
+       {Interpolation::step_direct, Interpolation::linear, Interpolation::polynom_3}) {
     const CamCurve cam = curve(slaves({123}), type);
     EXPECT_EQ(at(cam, 0).position, 123);
     EXPECT_EQ(at(cam, turn / 3).position, 123);

@@ -93,7 +93,8 @@ TEST(PlcopenRampIn, PhasingKeepsItsOwnLimitsOnTopOfTheCam) {
     const AxisMotion now = b.s().set();
     const double relative = now.velocity - b.m().set().velocity;
     v = std::max(v, std::abs(relative));
-    (relative * now.acceleration > 0 ? a : d) = std::max(relative * now.acceleration > 0 ? a : d, std::abs(now.acceleration));
+    (relative * now.acceleration > 0 ? a : d) =
+        std::max(relative * now.acceleration > 0 ? a : d, std::abs(now.acceleration));
     j = std::max(j, std::abs(now.acceleration - last) / cycle_s);
     last = now.acceleration;
     b.step();
@@ -103,7 +104,8 @@ TEST(PlcopenRampIn, PhasingKeepsItsOwnLimitsOnTopOfTheCam) {
   EXPECT_NEAR(d, 500 * increments_per_acceleration, 1);
   EXPECT_NEAR(j, 40'000 * increments_per_acceleration, 1);
   EXPECT_TRUE(b.s().coupling()->engaged());
-  covers({"cam_gear.v_phasing", "cam_gear.a_phasing", "cam_gear.d_phasing", "cam_gear.j_phasing", "MC_CamIn.SlaveOffset"});
+  covers({"cam_gear.v_phasing", "cam_gear.a_phasing", "cam_gear.d_phasing", "cam_gear.j_phasing",
+          "MC_CamIn.SlaveOffset"});
 }
 
 TEST(PlcopenRampIn, PhasingTakesTheShortestWayRoundTheTurn) {

@@ -26,18 +26,36 @@ struct Walk : Bench {
     mover.Velocity = turner.Velocity = 1'000;
     mover.Position = 1'500'000;
     switch (state) {
-      case disabled: power_slave.Enable = false; power_slave.call(kernel); break;
-      case standstill: break;
-      case homing: execute(homer); break;
-      case stopping: execute(turner); kernel.cycle(); execute(stopper); break;
-      case discrete_motion: execute(mover); kernel.cycle(); break;
-      case continuous_motion: execute(turner); kernel.cycle(); break;
+      case disabled:
+        power_slave.Enable = false;
+        power_slave.call(kernel);
+        break;
+      case standstill:
+        break;
+      case homing:
+        execute(homer);
+        break;
+      case stopping:
+        execute(turner);
+        kernel.cycle();
+        execute(stopper);
+        break;
+      case discrete_motion:
+        execute(mover);
+        kernel.cycle();
+        break;
+      case continuous_motion:
+        execute(turner);
+        kernel.cycle();
+        break;
       case synchronized_motion:
         cam.StartMode = hli_ci_f_periodic;
         execute(cam);
         while (!s().coupling()->engaged()) kernel.cycle();
         break;
-      case errorstop: s().fault(ErrorId::drive_error); break;
+      case errorstop:
+        s().fault(ErrorId::drive_error);
+        break;
     }
     EXPECT_EQ(s().state(), state);
   }
@@ -90,17 +108,38 @@ constexpr auto e_errorstop = ErrorId::in_errorstop;
 
 // The state diagram once more, as the specification has it (spec ecam.md B7 and PLCopen's diagram).
 const std::array walk{
-    Row{"MC_Home", {e_disabled, homing, ErrorId::home_again, e_stopping, e_discrete, e_continuous, e_synchronized, e_errorstop}},
-    Row{"MC_MoveAbsolute", {e_disabled, discrete_motion, e_homing, discrete_motion, discrete_motion, discrete_motion, discrete_motion, e_errorstop}},
-    Row{"MC_MoveVelocity", {e_disabled, continuous_motion, e_homing, continuous_motion, continuous_motion, continuous_motion, continuous_motion, e_errorstop}},
-    Row{"MC_Halt", {e_disabled, discrete_motion, e_homing, e_stopping, discrete_motion, discrete_motion, discrete_motion, e_errorstop}},
-    Row{"MC_Stop", {e_disabled, stopping, stopping, ErrorId::stop_again, stopping, stopping, stopping, e_errorstop}},
-    Row{"MC_CamIn", {e_disabled, synchronized_motion, e_homing, e_stopping, synchronized_motion, synchronized_motion, synchronized_motion, e_errorstop}},
-    Row{"MC_GearIn", {e_disabled, synchronized_motion, e_homing, e_stopping, synchronized_motion, synchronized_motion, synchronized_motion, e_errorstop}},
-    Row{"MC_CamOut", {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, continuous_motion, e_errorstop}},
-    Row{"MC_GearOut", {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, e_synchronized, e_errorstop}},
-    Row{"MC_Phasing", {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, synchronized_motion, e_errorstop}},
-    Row{"MC_Reset", {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, e_synchronized, errorstop}},
+    Row{"MC_Home",
+        {e_disabled, homing, ErrorId::home_again, e_stopping, e_discrete, e_continuous, e_synchronized,
+         e_errorstop}},
+    Row{"MC_MoveAbsolute",
+        {e_disabled, discrete_motion, e_homing, discrete_motion, discrete_motion, discrete_motion,
+         discrete_motion, e_errorstop}},
+    Row{"MC_MoveVelocity",
+        {e_disabled, continuous_motion, e_homing, continuous_motion, continuous_motion, continuous_motion,
+         continuous_motion, e_errorstop}},
+    Row{"MC_Halt",
+        {e_disabled, discrete_motion, e_homing, e_stopping, discrete_motion, discrete_motion, discrete_motion,
+         e_errorstop}},
+    Row{"MC_Stop",
+        {e_disabled, stopping, stopping, ErrorId::stop_again, stopping, stopping, stopping, e_errorstop}},
+    Row{"MC_CamIn",
+        {e_disabled, synchronized_motion, e_homing, e_stopping, synchronized_motion, synchronized_motion,
+         synchronized_motion, e_errorstop}},
+    Row{"MC_GearIn",
+        {e_disabled, synchronized_motion, e_homing, e_stopping, synchronized_motion, synchronized_motion,
+         synchronized_motion, e_errorstop}},
+    Row{"MC_CamOut",
+        {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, continuous_motion,
+         e_errorstop}},
+    Row{"MC_GearOut",
+        {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, e_synchronized,
+         e_errorstop}},
+    Row{"MC_Phasing",
+        {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, synchronized_motion,
+         e_errorstop}},
+    Row{"MC_Reset",
+        {e_disabled, e_standstill, e_homing, e_stopping, e_discrete, e_continuous, e_synchronized,
+         errorstop}},
 };
 
 TEST(PlcopenStates, EveryBlockInEveryStateDoesWhatTheDiagramSays) {
@@ -119,7 +158,8 @@ TEST(PlcopenStates, EveryBlockInEveryStateDoesWhatTheDiagramSays) {
         EXPECT_EQ(b.s().ticket(), ticket);
       }
       // Error goes with Execute.
-      *std::get<bool*>(block->pin(static_cast<std::size_t>(find_pin(*find_block_type(row.block), "Execute")))) = false;
+      *std::get<bool*>(
+          block->pin(static_cast<std::size_t>(find_pin(*find_block_type(row.block), "Execute")))) = false;
       block->call(b.kernel);
       EXPECT_FALSE(b.value<bool>(row.block, *block, "Error"));
       EXPECT_EQ(b.value<std::uint32_t>(row.block, *block, "ErrorID"), 0u);
@@ -175,16 +215,22 @@ TEST(PlcopenStates, AFaultLeadsFromEveryStateToErrorstopButFromDisabled) {
     Walk b(state);
     b.s().fault(ErrorId::following_error);
     EXPECT_EQ(b.s().state(), state == disabled ? disabled : errorstop);
-    EXPECT_EQ(b.s().error(), state == disabled ? ErrorId::none : (state == errorstop ? ErrorId::drive_error : ErrorId::following_error));
+    EXPECT_EQ(b.s().error(), state == disabled
+                                 ? ErrorId::none
+                                 : (state == errorstop ? ErrorId::drive_error : ErrorId::following_error));
   }
 }
 
 TEST(PlcopenStates, WhatIsDoneEndsItsState) {
-  const std::map<AxisState, AxisState> ends{{homing, standstill}, {discrete_motion, standstill}, {stopping, stopping},
-                                            {continuous_motion, continuous_motion}, {synchronized_motion, synchronized_motion}};
+  const std::map<AxisState, AxisState> ends{{homing, standstill},
+                                            {discrete_motion, standstill},
+                                            {stopping, stopping},
+                                            {continuous_motion, continuous_motion},
+                                            {synchronized_motion, synchronized_motion}};
   for (const auto& [state, end] : ends) {
     Walk b(state);
-    for (int i = 0; i < 1'000'000 && b.s().state() == state && !(b.s().done() && i > 10); ++i) b.kernel.cycle();
+    for (int i = 0; i < 1'000'000 && b.s().state() == state && !(b.s().done() && i > 10); ++i)
+      b.kernel.cycle();
     EXPECT_EQ(b.s().state(), end) << name_of(state);
     EXPECT_TRUE(b.s().done());
   }
@@ -215,7 +261,8 @@ TEST(PlcopenStates, StopHoldsTheAxisWhileExecuteIsTrue) {
 }
 
 TEST(PlcopenStates, AnotherCommandAbortsEveryOneUnderWay) {
-  for (const std::string name : {"MC_MoveAbsolute", "MC_MoveVelocity", "MC_Halt", "MC_CamIn", "MC_GearIn", "MC_Home"}) {
+  for (const std::string name :
+       {"MC_MoveAbsolute", "MC_MoveVelocity", "MC_Halt", "MC_CamIn", "MC_GearIn", "MC_Home"}) {
     Walk b(name == "MC_Halt" ? continuous_motion : standstill);
     const std::unique_ptr<FunctionBlock> block = b.make(name);
     block->call(b.kernel);
@@ -240,6 +287,25 @@ TEST(PlcopenStates, EachBlockUncouplesItsOwnKindOnly) {
   EXPECT_EQ(b.s().uncouple(Command::gear_out).error, ErrorId::none);
 }
 
+TEST(PlcopenStates, AnAxisUnpluggedFromARunningBlockDoesNoHarm) {
+  for (const BlockType& type : block_types()) {
+    const std::string name(type.name);
+    for (const AxisState state : {standstill, synchronized_motion, errorstop}) {
+      Walk b(state);
+      const std::unique_ptr<FunctionBlock> block = b.make(name);
+      block->call(b.kernel);
+      for (int i = 0; i < 400; ++i) b.kernel.cycle();
+      block->call(b.kernel);
+      const int pin = find_pin(type, find_pin(type, "Axis") >= 0 ? "Axis" : "Slave");
+      *std::get<AxisRef*>(block->pin(static_cast<std::size_t>(pin))) = {};
+      block->call(b.kernel);
+      if (name == "MC_CamIn") {
+        EXPECT_FALSE(b.value<bool>(name, *block, "InSync"));
+      }
+    }
+  }
+}
+
 TEST(PlcopenStates, ANameIsFoundWhateverItsCase) {
   EXPECT_EQ(find_block_type("mc_camin")->name, "MC_CamIn");
   EXPECT_EQ(find_block_type("MC_Nothing"), nullptr);
@@ -248,8 +314,9 @@ TEST(PlcopenStates, ANameIsFoundWhateverItsCase) {
 }
 
 TEST(PlcopenStates, ThePinsTypesAreThoseOfTheirValues) {
-  const std::map<std::string_view, std::size_t> index{{"BOOL", 0}, {"INT", 1}, {"UINT", 2}, {"DINT", 3}, {"DWORD", 4},
-                                                      {"UDINT", 4}, {"LREAL", 5}, {"AXIS_REF", 6}, {"MC_CAM_REF", 7}};
+  const std::map<std::string_view, std::size_t> index{{"BOOL", 0},  {"INT", 1},      {"UINT", 2},
+                                                      {"DINT", 3},  {"DWORD", 4},    {"UDINT", 4},
+                                                      {"LREAL", 5}, {"AXIS_REF", 6}, {"MC_CAM_REF", 7}};
   for (const BlockType& type : block_types()) {
     const std::unique_ptr<FunctionBlock> block = type.make();
     for (std::size_t i = 0; i < type.pins.size(); ++i) {
