@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "devices/lx3vp/block.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
-
-constexpr int row_words = 4;
 
 bool is_s_curve(std::int32_t type) {
   return type == static_cast<int>(EcamType::s_curve_0) || type == static_cast<int>(EcamType::s_curve_1);
@@ -24,23 +24,20 @@ EcamResult make(const Registers& registers, int list, std::int32_t type) {
 }
 
 void write_block(Registers& registers, int block, bool has_sync_zone, const EcamResult& result) {
-  constexpr int flags = 4;
-  constexpr int low_threshold = 9;
-  constexpr int high_threshold = 11;
-  constexpr int count = 38;
-  constexpr int offset = 39;
-  registers.set_i16(block + count, static_cast<std::int16_t>(result.rows.size()));
-  registers.set_i16(block + offset, cam_block_words);
+  registers.set_i16(block + word::rows, static_cast<std::int16_t>(result.rows.size()));
+  registers.set_i16(block + word::table_offset, cam_block_words);
   int at = block + cam_block_words;
   for (const auto& row : result.rows) {
     registers.set_i32(at, row.master);
     registers.set_i32(at + 2, row.slave);
     at += row_words;
   }
-  if (!has_sync_zone || (registers.i16(block + flags) & 1) == 0) return;
-  registers.set_u32(block + low_threshold,
+  std::uint16_t& flags = registers.d[static_cast<std::size_t>(block + word::live)];
+  if (result.profile.stops) flags |= live::stop_after_cycle;
+  if (!has_sync_zone || (flags & live::sync_output) == 0) return;
+  registers.set_u32(block + word::sync_low,
                     static_cast<std::uint32_t>(std::llround(result.profile.sync_begin)));
-  registers.set_u32(block + high_threshold,
+  registers.set_u32(block + word::sync_high,
                     static_cast<std::uint32_t>(std::llround(result.profile.sync_end)));
 }
 

@@ -19,6 +19,10 @@ SCurveParameters read_s_curve_parameters(const Registers& registers, int first);
 /// (sync output enabled) a saw's synchronous zone in words 9 to 12. The result goes to D`result` as 32 bit,
 /// its low word alone tells it too. With an error the block is left as it is. K0 and K1 report in
 /// words 10..17 and 19 of their list.
+///
+/// A cam by midCAMend stops by itself at its end (003 appendix, rotary saw, P6), which the manual gives no
+/// word for: word 4 bit 1 (stop after the cycle) is switched on. The other curves leave it as it is, for it
+/// is the program's too.
 void run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result);
 
 }  // namespace drycut::devices::lx3vp

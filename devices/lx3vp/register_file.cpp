@@ -48,6 +48,23 @@ std::optional<double> read_number(std::string_view text) {
   return number;
 }
 
+// What a line says, without comment and blanks.
+std::string_view content_of(std::string_view line) {
+  return trimmed(line.substr(0, line.find_first_of("#;")));
+}
+
+// Takes the first line off the text.
+std::string_view next_line(std::string_view& text) {
+  const auto line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  return line;
+}
+
+// Spreadsheets begin a file with a mark of its encoding.
+std::string_view without_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
+
 bool holds_32_bit(const RegisterName& name) { return name.kind == Kind::wide || name.kind == Kind::real; }
 
 class RowReader {
@@ -58,7 +75,7 @@ class RowReader {
   void read(std::string_view line, int number) {
     line_ = line;
     number_ = number;
-    const auto content = trimmed(line.substr(0, line.find_first_of("#;")));
+    const auto content = content_of(line);
     if (content.empty()) return;
     const bool first = std::exchange(first_, false);
     const std::size_t at = content.find(separator_);
@@ -148,12 +165,19 @@ std::vector<RegisterValue> read_register_values(std::string_view text, const std
                                                 char separator, Problems& problems) {
   RowReader reader(file, separator, problems);
   int number = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    reader.read(text.substr(0, end), ++number);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  for (text = without_mark(text); !text.empty();) reader.read(next_line(text), ++number);
   return reader.take_values();
+}
+
+bool is_register_file(std::string_view text, char separator) {
+  for (text = without_mark(text); !text.empty();) {
+    const auto content = content_of(next_line(text));
+    const auto at = content.find(separator);
+    if (at == std::string_view::npos) continue;
+    const auto name = trimmed(content.substr(0, at));
+    if (name == "address" || parse_register(name)) return true;
+  }
+  return false;
 }
 
 }  // namespace drycut::devices::lx3vp

@@ -28,4 +28,8 @@ std::optional<ValueFault> misfit(const RegisterName& name, double value);
 std::vector<RegisterValue> read_register_values(std::string_view text, const std::string& file,
                                                 char separator, Problems& problems);
 
+/// True if a line of the text gives a register, or is the heading `address`: it is meant for
+/// read_register_values, whatever is wrong with the other lines.
+bool is_register_file(std::string_view text, char separator);
+
 }  // namespace drycut::devices::lx3vp

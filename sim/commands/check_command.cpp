@@ -57,10 +57,9 @@ class Checker {
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
   }
 
-  /// Registers of the LX3VP or a cam table, as the first line says.
+  /// Registers of the LX3VP or a cam table, as its lines say.
   void check_table(const std::string& text, const std::string& file) {
-    const auto first = header_line(text).substr(0, header_line(text).find(','));
-    if (first == "address" || devices::lx3vp::parse_register(first))
+    if (devices::lx3vp::is_register_file(text, ','))
       devices::lx3vp::read_register_values(text, file, ',', problems_);
     else
       cam_kind("", text).check(text, file, problems_);

@@ -3,6 +3,7 @@
 
 #include "tests/devices/ecamtbx_bench.hpp"
 #include "tests/devices/il_bench.hpp"
+#include "tests/devices/lx3vp_bench.hpp"
 
 namespace drycut::devices::lx3vp {
 namespace {
@@ -43,6 +44,53 @@ TEST(EcamtbxRegisters, WritesTheSynchronousZoneIfItsOutputIsEnabled) {
   plc.scan();
   EXPECT_EQ(plc.registers.u32(block + 9), 2983U);
   EXPECT_EQ(plc.registers.u32(block + 11), 3183U);
+}
+
+TEST(EcamtbxRegisters, MidCamEndStopsAtTheEndOfTheCycle) {
+  for (const int curve : {0, 1, 2, 3, 5, 0x1003, 0x1001}) {
+    Registers d;
+    d.set_i32(100, 2000);
+    d.set_i32(102, 1000);
+    d.set_i32(104, 400);
+    d.set_f32(106, 1);
+    d.set_f32(108, 3);
+    d.set_i16(110, 1);
+    d.set_i16(111, static_cast<std::int16_t>(curve));
+    d.d[block + 4] = 0x8000;
+    run_ecamtbx(d, 100, 100, block, result);
+    ASSERT_EQ(d.i32(result), 200) << curve;
+    EXPECT_EQ(d.d[block + 4], (curve & 0xFFF) == 3 ? 0x8002 : 0x8000) << curve;
+    // What the program has switched on stays on.
+    d.d[block + 4] = 2;
+    run_ecamtbx(d, 100, 100, block, result);
+    EXPECT_EQ(d.d[block + 4], 2) << curve;
+  }
+}
+
+// The cyclic cam of a table by midCAMend runs one cycle, to the pulse, and starts anew after word 5 was 0.
+TEST(EcamtbxRegisters, ACyclicCamByMidCamEndRunsOneCycle) {
+  CamBench bench;
+  auto& d = bench.registers;
+  d.set_i32(300, 1000);
+  d.set_i32(302, 1500);
+  d.set_i32(304, 300);
+  d.set_f32(306, 2);
+  d.set_f32(308, 8);
+  d.set_i16(310, 1);
+  d.set_i16(311, mid_cam_end);
+  run_ecamtbx(d, 300, 100, CamBench::block, 330);
+  ASSERT_GT(d.i32(330), 0);
+  bench.start(1);
+  for (int i = 0; i < 300; ++i) bench.travel(10);
+  EXPECT_EQ(d.i32(8140), 1500);
+  EXPECT_TRUE(bench.flag(status::completed));
+  EXPECT_FALSE(bench.flag(status::cyclic));
+  bench.set(word::start, 0);
+  bench.tick(3);
+  bench.set(word::start, 1);
+  bench.tick(3);
+  for (int i = 0; i < 300; ++i) bench.travel(10);
+  EXPECT_EQ(d.i32(8140), 3000);
 }
 
 TEST(EcamtbxRegisters, AnErrorLeavesTheBlockAsItIs) {

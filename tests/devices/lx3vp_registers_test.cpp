@@ -146,6 +146,34 @@ TEST(Lx3vpRegisterFile, EveryFaultIsToldInOneRun) {
           "saw.csv:15:1: D14 is given in line 13 already; keep one of them"));
 }
 
+TEST(Lx3vpRegisterFile, IsRecognisedByItsLines) {
+  EXPECT_TRUE(is_register_file("D10,5\n", ','));
+  EXPECT_TRUE(is_register_file("; presets\n# of the saw\n\n  D20:L , 100000\n", ','));
+  EXPECT_TRUE(is_register_file("address,value\n", ','));
+  EXPECT_TRUE(is_register_file("Q10,5\nM0,1\n", ',')) << "a slip in the first line";
+  EXPECT_TRUE(
+      is_register_file("\xEF\xBB\xBF"
+                       "D10,5\r\n",
+                       ','));
+  EXPECT_FALSE(is_register_file("", ','));
+  EXPECT_FALSE(is_register_file("master,slave\n0,0\n100,50\n", ','));
+  EXPECT_FALSE(is_register_file("# ecamtbx: K100\nparameter,value\nP1,3183\n", ','));
+  EXPECT_FALSE(is_register_file("sector,codeG\n1,132\n", ','));
+  EXPECT_FALSE(is_register_file("D10=5\n", ','));
+  EXPECT_FALSE(is_register_file("; D10,5\n", ',')) << "a comment";
+}
+
+TEST(Lx3vpRegisterFile, AMarkOfTheEncodingIsNoPartOfTheName) {
+  Problems problems;
+  const auto values = read_register_values(
+      "\xEF\xBB\xBF"
+      "D10,5\n",
+      "saw.csv", ',', problems);
+  EXPECT_TRUE(problems.empty());
+  ASSERT_EQ(values.size(), 1U);
+  EXPECT_EQ(values[0].value, 5);
+}
+
 TEST(Lx3vpRegisterFile, NoTextBreaksTheReader) {
   std::mt19937 random(5);
   const std::string alphabet = "DMXYSTCFLKH0123456789:.,=;#\n\r -+eE\t\xff";
@@ -154,6 +182,7 @@ TEST(Lx3vpRegisterFile, NoTextBreaksTheReader) {
     for (auto length = random() % 40; length > 0; --length) text += alphabet[random() % alphabet.size()];
     Problems problems;
     const auto values = read_register_values(text, "fuzz.csv", ',', problems);
+    EXPECT_TRUE(values.empty() || is_register_file(text, ',')) << text;
     Registers registers;
     for (const auto& entry : values) {
       write(registers, entry.name, entry.value);

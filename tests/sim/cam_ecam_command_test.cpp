@@ -130,6 +130,13 @@ TEST_F(EcamCommand, BadOptions) {
   EXPECT_THAT(err, HasSubstr("cam.csv:1:3: there is no setting 'ecamtbx'"));
 }
 
+TEST_F(EcamCommand, AStrokeThatDoesNotFitTheTravelFails) {
+  const std::string saw = "parameter,value\nP1,6600\nP2,12900\nP3,9400\nP4,2.5\nP5,2.5\nP6,1\nP7,400\n";
+  EXPECT_EQ(run(options("# ecamtbx: K101\n# max_position: 12900\n" + saw)), all_passed);
+  EXPECT_EQ(run(options("# ecamtbx: K101\n# max_position: 12899\n" + saw)), check_failed);
+  EXPECT_THAT(out, HasSubstr("limit: the stroke does not fit the travel: slave at 12900 pulses"));
+}
+
 TEST_F(EcamCommand, CheckReadsCamsRegistersAndInstructionLists) {
   const auto faults = [&](const std::string& name, const std::string& text) {
     const auto path = folder / name;
@@ -148,6 +155,8 @@ TEST_F(EcamCommand, CheckReadsCamsRegistersAndInstructionLists) {
               HasSubstr("a.csv:3:3: slave 'x' is not a whole number"));
   EXPECT_THAT(faults("b.csv", "address,value\nD10,5\n"), IsEmpty());
   EXPECT_THAT(faults("b.csv", "D10,5\nQ10,5\n"), HasSubstr("b.csv:2:1: "));
+  EXPECT_THAT(faults("b.csv", "; presets of the saw\nD10,5\n"), IsEmpty());
+  EXPECT_THAT(faults("b.csv", "Q10,5\nM0,1\n"), HasSubstr("b.csv:1:1: 'Q10' is no register; write D10, "));
   EXPECT_THAT(faults("c.il", "LD X0\nOUT Y0\nEND\n"), IsEmpty());
   EXPECT_THAT(faults("c.il", "LD X8\nOUT Y0\nEND\n"), HasSubstr("c.il:1:4: 'X8' is not octal"));
 }

@@ -170,6 +170,69 @@ TEST(EcamFindings, AnSCurveTooShortForItsTimes) {
           "caution: reaches 30000 Hz, not 50000 Hz: too short for its times; give P4 and P5 less time"));
 }
 
+TEST(EcamFindings, AStrokeThatDoesNotFitTheTravel) {
+  const std::string there_and_back = "0,0\n100,300\n200,280\n300,-40\n400,0\n";
+  const auto told = [&](const std::string& settings) {
+    auto all = ecams::findings(rows(there_and_back, settings));
+    std::erase_if(all, [](const std::string& text) { return text.find("jumps") != std::string::npos; });
+    return all;
+  };
+  EXPECT_THAT(told("# min_position: -40\n# max_position: 300\n"), IsEmpty());
+  EXPECT_THAT(told("# max_position: 299\n"),
+              ElementsAre("row 1 (line 4): limit: the stroke does not fit the travel: slave at 300 pulses, "
+                          "max_position is 299; shorten the stroke, or let the cam begin 1 pulses further "
+                          "back"));
+  EXPECT_THAT(told("# min_position: -30\n# max_position: 400\n"),
+              ElementsAre("row 3 (line 7): limit: the stroke does not fit the travel: slave at -40 pulses, "
+                          "min_position is -30; shorten the stroke, or let the cam begin 10 pulses further "
+                          "on"));
+  EXPECT_THAT(told("# min_position: -30\n# max_position: 290\n"),
+              ElementsAre(HasSubstr("row 1 (line 5): limit: the stroke does not fit the travel: slave at "
+                                    "300 pulses, max_position is 290; shorten the stroke to 320 pulses at "
+                                    "most; it is 340"),
+                          HasSubstr("row 3 (line 7): limit: ")));
+}
+
+TEST(EcamFindings, TheTravelIsReadAndWrittenBack) {
+  const std::string text = "# min_position: -2147483648\n# max_position: 2147483647\n";
+  EXPECT_THAT(ecam_rows_csv(rows("0,0\n5,5\n", text)), HasSubstr(text + "master,slave\n"));
+  EXPECT_THAT(ecams::faults("# max_position: 5\n# min_position: 6\nmaster,slave\n0,0\n5,5\n"),
+              ElementsAre("2:1: min_position is above max_position; give the lower end of the travel as "
+                          "min_position"));
+  EXPECT_THAT(ecams::faults("# max_position: 5.5\nmaster,slave\n0,0\n5,5\n"),
+              ElementsAre(HasSubstr("1:17: max_position '5.5' is not a whole number")));
+}
+
+TEST(EcamFindings, ASawsStrokeAndItsRemedy) {
+  const auto saw = [](const std::string& settings, int P2) {
+    return ecams::findings(ecams::table("# ecamtbx: K101\n" + settings + "parameter,value\nP1,6600\nP2," +
+                                        std::to_string(P2) + "\nP3,9400\nP4,2.5\nP5,2.5\nP6,1\nP7,400\n"));
+  };
+  const std::string travel = "# min_position: -500\n# max_position: 12000\n";
+  const auto found = saw(travel, 12900);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0], testing::StartsWith("row "));
+  EXPECT_THAT(found[0],
+              testing::EndsWith(": limit: the stroke does not fit the travel: slave at 12900 pulses, "
+                                "max_position is 12000; shorten the stroke (P2) to 12500 pulses at most; it "
+                                "is 12900"));
+  EXPECT_THAT(saw(travel, 12500), ElementsAre(HasSubstr("let the cam begin 500 pulses further back")));
+  EXPECT_THAT(saw(travel, 12000), IsEmpty());
+}
+
+TEST(EcamFindings, ACycleThatWandersLeavesTheTravelInTheEnd) {
+  const std::string steps = "0,0\n100,50\n200,100\n";
+  EXPECT_THAT(ecams::findings(rows(steps, "# max_position: 350\n")),
+              ElementsAre("limit: the slave goes on by 100 pulses each cycle and passes max_position 350 in "
+                          "cycle 4; end the cycle where it begins, or run it once: # cyclic: 0"));
+  EXPECT_THAT(ecams::findings(rows(steps, "# max_position: 400\n")), ElementsAre(HasSubstr("in cycle 5; ")));
+  EXPECT_THAT(ecams::findings(rows("0,0\n100,-50\n200,-100\n", "# min_position: -100\n")),
+              ElementsAre(HasSubstr("goes on by -100 pulses each cycle and passes min_position -100 in cycle "
+                                    "2; ")));
+  EXPECT_THAT(ecams::findings(rows(steps, "# min_position: 0\n")), IsEmpty()) << "it goes the other way";
+  EXPECT_THAT(ecams::findings(rows(steps, "# max_position: 100\n# cyclic: 0\n")), IsEmpty());
+}
+
 TEST(EcamFindings, Remarks) {
   EXPECT_THAT(ecams::findings(rows("100,0\n200,50\n"), {}, true),
               ElementsAre("remark: the cycle begins at master 100; the cam runs from there",

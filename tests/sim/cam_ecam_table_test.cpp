@@ -92,8 +92,8 @@ TEST(EcamTable, FaultsOfSettings) {
           "2:14: time_axis '0' is out of range; write a whole number from 1 to 2147483647",
           "3:11: cyclic '2' is out of range; write a whole number from 0 to 1",
           "4:14: max_ratio '0' is out of range; write a number or a fraction (5/3) from 1e-09 to 1e+09",
-          "5:3: there is no setting 'frequncy'; there are cyclic, ecamtbx, max_frequency, max_ratio, "
-          "time_axis; a "
+          "5:3: there is no setting 'frequncy'; there are cyclic, ecamtbx, max_frequency, "
+          "max_position, max_ratio, min_position, time_axis; a "
           "remark begins with ##"));
   EXPECT_THAT(
       ecams::faults("# max_ratio: 5/0\n# max_ratio: 3\nmaster,slave\n0,0\n# cyclic: 1\n"),

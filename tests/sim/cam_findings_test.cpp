@@ -22,6 +22,28 @@ TEST(CamFindings, TheIntroductionIsSound) {
   EXPECT_THAT(findings(cams::introduction(), {.master_speed = 100.0}), IsEmpty());
 }
 
+TEST(CamFindings, AStrokeThatDoesNotFitTheTravel) {
+  // Out to 300 Um, and back: the slave turns round in sector 3, 25 Um behind its beginning.
+  const std::string text = cams::header + "1,132,100,50\n2,133,225,225\n3,133,100,0\n4,135,200,-100\n5,136\n";
+  const auto told = [&](const std::string& settings) {
+    auto all = findings(cams::table(settings + text));
+    std::erase_if(all, [](const std::string& one) { return one.find("warning 5") != std::string::npos; });
+    return all;
+  };
+  const double top = reach_of(run_cam(cams::table(text), {}, 1).visits.at(2)).high;
+  EXPECT_NEAR(top, 300, 1e-6);
+  EXPECT_THAT(told("# minpos: 0\n# maxpos: 300\n"), IsEmpty());
+  EXPECT_THAT(told("# maxpos: 299\n"),
+              ElementsAre("sector 3 (133 RSC): limit: the stroke does not fit the travel: slave at 300 Um, "
+                          "maxpos is 299; shorten the stroke, or let the cam begin 1 Um further back"));
+  EXPECT_THAT(told("# minpos: 10\n# maxpos: 200\n"),
+              ElementsAre(HasSubstr("sector 1 (132 AZM): limit: the stroke does not fit the travel: slave at "
+                                    "0 Um, minpos is 10; shorten the stroke to 190 Um at most; it is 300"),
+                          HasSubstr("maxpos is 200; ")));
+  EXPECT_THAT(cams::faults("# maxpos: 5\n# minpos: 6\n" + text),
+              ElementsAre("2:1: minpos is above maxpos; give the lower end of the travel as minpos"));
+}
+
 TEST(CamFindings, Error1TooManyRowsWithoutMasterSpace) {
   std::string text = "1,133,100,0\n";
   for (int row = 2; row <= 10; ++row) text += std::to_string(row) + ",130\n";

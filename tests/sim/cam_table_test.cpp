@@ -60,8 +60,9 @@ TEST(CamTable, FaultsOfSettings) {
       ElementsAre("1:3: there is no setting 'tacmax'; did you mean taccmax?; a remark begins with ##"));
   EXPECT_THAT(
       faults("# colour: red\n" + rest),
-      ElementsAre("1:3: there is no setting 'colour'; there are TCamp, decpt, maxvel, measure, measurem, "
-                  "pulse, pulsem, taccmax, tdecmax, unitvel; a remark begins with ##"));
+      ElementsAre(
+          "1:3: there is no setting 'colour'; there are TCamp, decpt, maxpos, maxvel, measure, measurem, "
+          "minpos, pulse, pulsem, taccmax, tdecmax, unitvel; a remark begins with ##"));
   EXPECT_THAT(faults("#  measure: 0\n" + rest),
               ElementsAre("1:13: measure '0' is out of range; write a whole number from 1 to 999999"));
   EXPECT_THAT(faults("# decpt: 4\n" + rest),

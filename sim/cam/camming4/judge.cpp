@@ -35,6 +35,7 @@ class Judge {
     judge_events();
     for (std::size_t i = 0; i < run_.visits.size(); ++i) judge_visit(run_.visits[i], i + 1);
     judge_frequencies();
+    judge_travel();
     judge_end();
     judge_unreached();
     remark_on_end();
@@ -134,6 +135,27 @@ class Judge {
         fmt::format("the slave's transducer gives {} times as many bits as the master's; 1.5 is the most",
                     number(peak_speed(visit) * bits)),
         "use a finer transducer on the master or a coarser one on the slave (manual 1.6)");
+  }
+
+  /// Once for each end, where the slave is farthest.
+  void judge_travel() {
+    if (!table_.travel.is_given() || run_.visits.empty()) return;
+    struct Place {
+      double slave = 0;
+      std::size_t visit = 0;
+    };
+    Place low;
+    Place high;
+    for (std::size_t i = 0; i < run_.visits.size(); ++i) {
+      const auto reach = reach_of(run_.visits[i]);
+      if (reach.low < low.slave) low = {reach.low, i};
+      if (reach.high > high.slave) high = {reach.high, i};
+    }
+    for (auto& fault : travel_faults(table_.travel, low.slave, high.slave, {"minpos", "maxpos", "Um", ""})) {
+      const auto place = (fault.above ? high : low).visit;
+      const auto& visit = run_.visits[place];
+      add(place + 1, Grade::limit, 0, visit.row, visit.pass, std::move(fault.text), std::move(fault.remedy));
+    }
   }
 
   template <typename Tell>

@@ -307,6 +307,31 @@ double peak_speed(const CamVisit& visit) {
   return peak;
 }
 
+CamReach reach_of(const CamVisit& visit) {
+  CamReach reach{visit.slave_start, visit.slave_start};
+  const auto take = [&](double m) {
+    const double slave = visit.slave_start + visit.at(m).position;
+    reach = {std::min(reach.low, slave), std::max(reach.high, slave)};
+  };
+  // The slave turns round where its speed passes 0.
+  constexpr int steps = 256;
+  constexpr int halvings = 50;
+  const double step = visit.master_length / steps;
+  for (int i = 0; i < steps; ++i) {
+    double begin = i * step;
+    double end = i + 1 == steps ? visit.master_length : (i + 1) * step;
+    take(end);
+    const bool forwards = visit.at(begin).velocity > 0;
+    if (forwards == (visit.at(end).velocity > 0)) continue;
+    for (int half = 0; half < halvings; ++half) {
+      const double middle = (begin + end) / 2;
+      ((visit.at(middle).velocity > 0) == forwards ? begin : end) = middle;
+    }
+    take(begin);
+  }
+  return reach;
+}
+
 double peak_gradient(const CamVisit& visit) {
   if (visit.waiting) return 0;
   return std::max(peak_acceleration(visit.sector), peak_deceleration(visit.sector));

@@ -27,6 +27,12 @@ struct CamVisit {
   [[nodiscard]] double entry_speed() const { return waiting ? 0 : sector.entry_speed; }
   [[nodiscard]] double exit_speed() const { return waiting ? 0 : sector.exit_speed; }
 };
+/// Between which positions the slave is during a visit [slave Um].
+struct CamReach {
+  double low = 0;
+  double high = 0;
+};
+CamReach reach_of(const CamVisit& visit);
 /// Largest |speed| [slave Um per master Um] and largest |acceleration| [slave Um per master Um2] of a visit.
 double peak_speed(const CamVisit& visit);
 double peak_gradient(const CamVisit& visit);

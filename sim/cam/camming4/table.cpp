@@ -72,6 +72,14 @@ class Reader {
     take("maxvel", table_.maxvel);
     take("taccmax", table_.taccmax);
     take("tdecmax", table_.tdecmax);
+    const auto take_position = [&](const char* name, std::optional<double>& target) {
+      settings_.add(name, [this, name, &target](const Cell& value, int line) {
+        if (const auto number = whole_number(value, line, name, range_of_variable(name), told_))
+          target = static_cast<double>(*number);
+      });
+    };
+    take_position("minpos", table_.travel.least);
+    take_position("maxpos", table_.travel.most);
     settings_.add("TCamp", [this](Cell value, int line) {
       if (value.text.ends_with("ms"))
         value = trimmed({value.text.substr(0, value.text.size() - 2), value.column});
@@ -179,6 +187,10 @@ class Reader {
         problem(settings_.line_of(ramp), 1, fmt::format("{} means nothing without maxvel", ramp),
                 "give the speed at 10 V too: # maxvel: 1000");
     }
+    const auto& travel = table_.travel;
+    if (travel.least && travel.most && *travel.least > *travel.most)
+      problem(settings_.line_of("minpos"), 1, "minpos is above maxpos",
+              "give the lower end of the travel as minpos");
     if (!header_.is_read()) {
       problem(std::max(line_, 1), 1, "there is no table: the header is missing",
               "give the line sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM and a line for each sector");

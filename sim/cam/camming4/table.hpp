@@ -6,6 +6,7 @@
 
 #include "devices/camming4/cam.hpp"
 #include "devices/problem.hpp"
+#include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
 
@@ -20,6 +21,7 @@ struct CamTable {
   std::int32_t taccmax = 0;                 ///< shortest time from rest to maxvel [1/100 s], 0 = not watched
   std::int32_t tdecmax = 0;                 ///< from maxvel to rest
   std::int32_t TCamp = 2;                   ///< sampling time [ms]
+  CamTravel travel = {};                    ///< minpos and maxpos, from where the cam begins [Um]
   // The sectors.
   struct Sector {
     devices::camming4::Row row;

@@ -70,6 +70,7 @@ class Judge {
     judge_ratio();
     judge_speed();
     judge_acceleration();
+    judge_travel();
     if (table_.is_made())
       judge_law();
     else
@@ -210,6 +211,36 @@ class Judge {
         table_.time_axis > 0 ? "give its ramps more time"
                              : fmt::format("give it more master, or run the master at {} pulses/s at most",
                                            number(std::sqrt(*duty_.max_acceleration / most))));
+  }
+
+  /// The slave is farthest at a row, for the device plays straight pieces.
+  void judge_travel() {
+    const auto& rows = table_.rows;
+    const auto [low, high] = std::minmax_element(
+        rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.slave < b.slave; });
+    const bool saw = table_.is_made() && !table_.is_s_curve();
+    const TravelWords words{"min_position", "max_position", "pulses",
+                            saw                ? "P2"
+                            : table_.is_made() ? "P1"
+                                               : ""};
+    const auto faults = travel_faults(table_.travel, low->slave, high->slave, words);
+    for (const auto& fault : faults)
+      add(Grade::limit, where(static_cast<std::size_t>((fault.above ? high : low) - rows.begin())),
+          fault.text, fault.remedy);
+    if (faults.empty()) judge_wandering(low->slave, high->slave);
+  }
+
+  /// A cycle that fits and does not end where it began leaves the travel in a later one.
+  void judge_wandering(double low, double high) {
+    const double growth = static_cast<double>(table_.rows.back().slave) - table_.rows.front().slave;
+    const auto& end = growth > 0 ? table_.travel.most : table_.travel.least;
+    if (!table_.cyclic || run_.law.stops || growth == 0 || !end) return;
+    const double room = growth > 0 ? *end - high : low - *end;
+    add(Grade::limit, "",
+        fmt::format("the slave goes on by {} pulses each cycle and passes {} {} in cycle {:.0f}",
+                    number(growth), growth > 0 ? "max_position" : "min_position", number(*end),
+                    std::floor(room / std::abs(growth)) + 2),
+        "end the cycle where it begins, or run it once: # cyclic: 0");
   }
 
   /// Steps of the ratio, for given rows: more than half of the largest ratio from one piece to the next.

@@ -69,6 +69,14 @@ class Reader {
     take("max_frequency", {1, 200000}, table_.max_frequency);
     take("time_axis", {1, 2147483647}, table_.time_axis);
     take("cyclic", {0, 1}, cyclic_);
+    const auto take_position = [&](const char* name, std::optional<double>& target) {
+      settings_.add(name, [this, name, &target](const Cell& value, int line) {
+        if (const auto number = whole_number(value, line, name, whole_32, told_))
+          target = static_cast<double>(*number);
+      });
+    };
+    take_position("min_position", table_.travel.least);
+    take_position("max_position", table_.travel.most);
     settings_.add("max_ratio", [this](const Cell& value, int line) {
       constexpr double least = 1e-9;
       table_.max_ratio = real_number(value, line, "max_ratio", {least, 1e9}, told_);
@@ -187,6 +195,10 @@ class Reader {
 
   void finish() {
     table_.cyclic = cyclic_ == 1;
+    const auto& travel = table_.travel;
+    if (travel.least && travel.most && *travel.least > *travel.most)
+      told_.add(settings_.line_of("min_position"), 1, "min_position is above max_position",
+                "give the lower end of the travel as min_position");
     if (lost_) return;
     if (settings_.line_of("ecamtbx") > 0) {
       finish_parameters();
@@ -286,6 +298,8 @@ std::string ecam_rows_csv(const EcamTable& table) {
     text += fmt::format("# max_frequency: {}\n", table.max_frequency);
   if (table.time_axis > 0) text += fmt::format("# time_axis: {}\n", table.time_axis);
   if (table.max_ratio) text += fmt::format("# max_ratio: {}\n", *table.max_ratio);
+  if (table.travel.least) text += fmt::format("# min_position: {:.0f}\n", *table.travel.least);
+  if (table.travel.most) text += fmt::format("# max_position: {:.0f}\n", *table.travel.most);
   if (!table.cyclic) text += "# cyclic: 0\n";
   text += "master,slave\n";
   for (const auto& row : table.rows) text += fmt::format("{},{}\n", row.master, row.slave);

@@ -7,6 +7,7 @@
 
 #include "devices/lx3vp/ecamtbx.hpp"
 #include "devices/problem.hpp"
+#include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
 
@@ -19,6 +20,7 @@ struct EcamTable {
   std::int32_t max_frequency = 200000;  ///< words 6-7 [Hz]
   std::int32_t time_axis = 0;           ///< S1 = K: the master counts every so many 100 us, 0 = it is an axis
   std::optional<double> max_ratio = {};  ///< slave to master, not to be passed; P5 where there is one
+  CamTravel travel = {};                 ///< min_position and max_position [slave pulses]
   bool cyclic = true;                    ///< word 5 = 1: the cycle repeats itself
   // The rows, given or made.
   std::vector<devices::lx3vp::CamTableRow> rows;
