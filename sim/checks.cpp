@@ -80,14 +80,23 @@ void Checks::bind(State& state, const Scenario& scenario, Watch& watch, const Na
 
   // The values of the event come before channels of the same name.
   std::set<std::string> units;
+  const auto note = [&](const std::string& name, const double* number, const std::string& unit) {
+    for (const auto& operand : state.operands)
+      if (operand.name == name) return;
+    state.operands.push_back({name, number, unit, 0});
+  };
   const auto resolve = [&](const std::string& name) -> const double* {
     for (const auto& slot : state.slots) {
       if (slot.name != name) continue;
       units.insert(slot.unit);
+      note(name, &slot.number, slot.unit);
       return &slot.number;
     }
     const auto* slot = watch.slot(name);
-    if (slot != nullptr) units.insert(watch.unit(name));
+    if (slot != nullptr) {
+      units.insert(watch.unit(name));
+      note(name, slot, watch.unit(name));
+    }
     return slot;
   };
   auto known = names.reading_names();
@@ -102,10 +111,35 @@ bool Checks::concerns(const State& state, const RecordedEvent& event) {
          in_window(state.check, event.at_seconds());
 }
 
+void Checks::note_operands(State& state) {
+  for (auto& operand : state.operands) operand.noted = *operand.number;
+}
+
+std::string Checks::operands_text(const State& state) {
+  std::string text;
+  for (const auto& [name, number, unit, noted] : state.operands) {
+    text += fmt::format("{}{}={:.{}g}{}{}", text.empty() ? "" : "; ", name, without_noise(noted),
+                        shown_digits, unit.empty() ? "" : " ", unit);
+  }
+  return text;
+}
+
+/// When a condition without a margin did not hold: there is no worst moment, but a first and a last one.
+std::string Checks::failed_text(const State& state) {
+  auto text =
+      fmt::format(", {} failed, first at {:.4f} s: {}", state.failed, state.worst_at, state.worst_values);
+  if (state.failed > 1) text += fmt::format(", last at {:.4f} s", state.last_failed_at);
+  return text;
+}
+
 void Checks::evaluate(State& state, double at, const std::string& values) {
   ++state.count;
   const auto evaluation = state.expression->evaluate();
-  if (!evaluation.holds) ++state.failed;
+  state.last_at = at;
+  if (!evaluation.holds) {
+    ++state.failed;
+    state.last_failed_at = at;
+  }
   const bool eventually = state.check.kind == Check::Kind::eventually;
   if (eventually && evaluation.holds && !state.held_at) state.held_at = at;
   // For "eventually" the moment that counts is the best one, for the others the worst. Without margins it is
@@ -121,7 +155,12 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (decisive) {
     state.worst_at = at;
     state.worst_values = values;
+    if (state.check.kind == Check::Kind::always && !evaluation.margin) {
+      note_operands(state);
+      state.worst_values = operands_text(state);
+    }
   }
+  if (eventually) note_operands(state);
 }
 
 void Checks::sample(Time now) {
@@ -179,7 +218,7 @@ void Checks::finish_statistics(State& state) {
       set(fmt::format("{}_{}", statistic_names[i], series.value), numbers[i]);
       const auto name = fmt::format("{}_{}", statistic_names[i], series.value);
       if (state.check.expression.text.find(name) == std::string::npos) continue;
-      values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name, numbers[i],
+      values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name, without_noise(numbers[i]),
                             series.unit.empty() ? "" : " ", series.unit);
     }
   }
@@ -221,9 +260,10 @@ CheckResult Checks::result(State& state, Time end) {
   result.margin = state.worst;
   if (check.kind == Check::Kind::eventually) {
     result.passed = state.held_at.has_value();
-    result.at = state.held_at ? state.held_at : std::optional(state.worst_at);
+    result.at = state.held_at ? *state.held_at : state.worst ? state.worst_at : state.last_at;
     result.detail = state.held_at ? fmt::format("first true at {:.4f} s", *state.held_at)
-                                  : "not true at any instant looked at";
+                                  : fmt::format("not true at any of {} instants, the last at {:.4f} s: {}",
+                                                state.count, state.last_at, operands_text(state));
     // Once it held, what is left is time.
     result.margin.reset();
     if (state.held_at && check.within) {
@@ -236,6 +276,10 @@ CheckResult Checks::result(State& state, Time end) {
   if (check.kind != Check::Kind::all && (state.worst || state.failed > 0)) result.at = state.worst_at;
   const auto looked_at =
       check.kind == Check::Kind::always ? std::string("instants") : check.event.text + " events";
+  if (!state.worst && state.failed > 0 && check.kind != Check::Kind::all) {
+    result.detail = fmt::format("{} {}{}", state.count, looked_at, failed_text(state));
+    return result;
+  }
   result.detail = fmt::format(
       "{} {}{}{}", state.count, looked_at,
       state.failed > 0 && check.kind != Check::Kind::all ? fmt::format(", {} failed", state.failed) : "",

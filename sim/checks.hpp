@@ -50,17 +50,27 @@ class Checks {
     std::string unit;
     double number = 0;
   };
+  /// A name in an expression, where its number is, and its unit.
+  struct Operand {
+    std::string name;
+    const double* number;
+    std::string unit;
+    double noted = 0;  ///< the number at an instant to tell of
+  };
   struct State {
     Check check;
     std::optional<Expression> expression;
-    std::deque<Slot> slots;      ///< event values or statistics, by name in the expression
-    std::vector<Series> series;  ///< all: the numbers behind the statistics
-    std::string unit;            ///< common to all names in the expression
-    int count = 0;               ///< events or instants looked at
+    std::vector<Operand> operands;  ///< what the expression names
+    std::deque<Slot> slots;         ///< event values or statistics, by name in the expression
+    std::vector<Series> series;     ///< all: the numbers behind the statistics
+    std::string unit;               ///< common to all names in the expression
+    int count = 0;                  ///< events or instants looked at
     int failed = 0;
     std::optional<double> worst;
     double worst_at = 0;
     std::string worst_values;
+    double last_failed_at = 0;
+    double last_at = 0;             ///< instant looked at last
     std::optional<double> held_at;  ///< eventually: first time
   };
 
@@ -70,6 +80,9 @@ class Checks {
                                       const std::vector<KnownEvent>& events, devices::Problems& problems);
   static bool concerns(const State& state, const RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
+  static void note_operands(State& state);
+  static std::string operands_text(const State& state);
+  static std::string failed_text(const State& state);
   static void finish_statistics(State& state);
   static CheckResult result(State& state, Time end);
 

@@ -54,7 +54,7 @@ renders::ReportTable event_table(const Recording& recording, const KnownEvent& k
     renders::ReportRow row{{fmt::format("{:.6f}", event.at_seconds())}};
     for (const auto& [name, unit] : known.values) {
       const auto* value = event.find(name);
-      row.cells.push_back(value == nullptr ? "" : fmt::format("{:.6g}", value->number));
+      row.cells.push_back(value == nullptr ? "" : fmt::format("{:.6g}", without_noise(value->number)));
     }
     table.rows.push_back(std::move(row));
   }

@@ -27,6 +27,22 @@ Names::Names(std::vector<NamedPlant> plants, devices::Controller* controller, Pa
   }
 }
 
+void Names::assume_controller(const std::vector<Wire>& wiring) {
+  assumed_ = true;
+  for (const auto& [terminal, plug] : wiring) {
+    if (!plug.text.starts_with(panel_prefix)) continue;
+    const auto name = plug.text.substr(panel_prefix.size());
+    auto address = devices::parse_address(terminal.text);
+    if (!address) address = devices::parse_base_terminal(terminal.text);
+    const bool lamp = address && address->kind == devices::Kind::output;
+    // What is wrong with a terminal is told once there is a controller to ask.
+    if (lamp)
+      panel_.lamps[name];
+    else
+      panel_.switches[name];
+  }
+}
+
 bool Names::of_controller(const std::string& name) const {
   const auto plant = name.substr(0, name.find('.'));
   return plant != "panel" &&

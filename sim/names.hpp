@@ -34,8 +34,9 @@ class Names {
  public:
   Names(std::vector<NamedPlant> plants, devices::Controller* controller, Panel& panel);
   /// For a scenario whose controller has problems of its own: every name that no plant and no panel could
-  /// have is taken for one of the controller's or the panel's, so that only what is wrong is told.
-  void assume_controller() { assumed_ = true; }
+  /// have is taken for one of the controller's, and the panel has what `wiring` names, so that only what is
+  /// wrong is told.
+  void assume_controller(const std::vector<Wire>& wiring);
 
   /// What can be recorded or checked under this name.
   std::optional<Reading> reading(const std::string& name);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "sim/file.hpp"
@@ -46,12 +47,14 @@ std::string seconds_text(Time time) {
   return text;
 }
 
+double without_noise(double number) { return std::abs(number) < 1e-9 ? 0.0 : number; }
+
 std::string values_text(const RecordedEvent& event, int digits) {
   std::string text;
   for (const auto& value : event.values) {
     if (!text.empty()) text += "; ";
-    text += fmt::format("{}={:.{}g}{}{}", value.name, value.number, digits, value.unit.empty() ? "" : " ",
-                        value.unit);
+    text += fmt::format("{}={:.{}g}{}{}", value.name, without_noise(value.number), digits,
+                        value.unit.empty() ? "" : " ", value.unit);
   }
   if (!event.text.empty()) text += (text.empty() ? "" : "; ") + event.text;
   return text;

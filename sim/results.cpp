@@ -45,8 +45,8 @@ nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
 std::string margin_text(const CheckResult& check) {
   if (!check.margin) return "";
   const auto unit = check.unit.empty() ? "" : " " + check.unit;
-  auto text = *check.margin >= 0 ? fmt::format("{:.4g}{} left", *check.margin, unit)
-                                 : fmt::format("{:.4g}{} too far", -*check.margin, unit);
+  const double room = without_noise(std::abs(*check.margin));
+  auto text = fmt::format("{:.4g}{} {}", room, unit, *check.margin >= 0 ? "left" : "too far");
   if (check.at) text += fmt::format(", at {:.4f} s", *check.at);
   return text;
 }

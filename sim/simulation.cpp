@@ -29,7 +29,7 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
   }
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
   if (!controller_ && !std::holds_alternative<std::monostate>(scenario.controller))
-    names_->assume_controller();
+    names_->assume_controller(scenario.wiring);
   watch_ = std::make_unique<Watch>(*names_);
   timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
   for (const auto& [name, plant] : named_) {

@@ -15,9 +15,9 @@ struct BlockWord {
   int offset = 0;
   int words = 1;
   std::string_view name;
-  std::string_view type;   ///< "flags", "u16", "i32", "u32"
-  std::string_view range;  ///< "" = the type's
-  std::int64_t initial = 0;
+  std::string_view type;    ///< "flags", "u16", "i32", "u32"
+  std::string_view range;   ///< "" = the type's
+  std::int64_t set_up = 0;  ///< what the manual has written at set-up; the register itself is 0 until then
   Access access = Access::write;
   std::string_view taken;  ///< when the cam reads it: "start", "always"; "" = it writes it
   std::string_view meaning;

@@ -253,6 +253,13 @@ EcamResult make_s_curve(EcamType type, const SCurveParameters& parameters) {
   return result;
 }
 
+std::span<const EcamError> ecam_errors() {
+  static constexpr std::array errors = {EcamError::type,  EcamError::length,     EcamError::sync_zone,
+                                        EcamError::ratio, EcamError::resolution, EcamError::speed,
+                                        EcamError::area,  EcamError::number};
+  return errors;
+}
+
 std::string_view error_text(EcamError error) {
   switch (error) {
     case EcamError::none:

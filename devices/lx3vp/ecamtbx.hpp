@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -65,6 +66,8 @@ enum class EcamError : int {
 };
 /// In words, with the parameter to change: "the synchronous zone is longer than ...".
 std::string_view error_text(EcamError error);
+/// All errors, from -1 down.
+std::span<const EcamError> ecam_errors();
 
 /// A generated table, or the error.
 struct EcamResult {

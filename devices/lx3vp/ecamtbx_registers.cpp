@@ -1,8 +1,11 @@
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/ecamtbx_words.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -43,45 +46,52 @@ void write_block(Registers& registers, int block, bool has_sync_zone, const Ecam
 
 /// P8 to P11 of K0 and K1.
 void report_s_curve(Registers& registers, int list, const EcamResult& result) {
-  registers.set_i32(list + 10, result.rows.back().master);
-  registers.set_i32(list + 12, result.rows.back().slave);
-  registers.set_i32(list + 14, result.uniform_time);
-  registers.set_i32(list + 16, result.speed_reached);
+  registers.set_i32(list + s_curve_word::last_master, result.rows.back().master);
+  registers.set_i32(list + s_curve_word::last_slave, result.rows.back().slave);
+  registers.set_i32(list + s_curve_word::uniform_time, result.uniform_time);
+  registers.set_i32(list + s_curve_word::speed_reached, result.speed_reached);
 }
 
 }  // namespace
 
 SawParameters read_saw_parameters(const Registers& registers, int first) {
   const auto word = [&](int offset) { return static_cast<std::uint16_t>(registers.i16(first + offset)); };
-  return {.master_length = registers.i32(first),
-          .slave_length = registers.i32(first + 2),
-          .sync_length = registers.i32(first + 4),
-          .sync_ratio = registers.f32(first + 6),
-          .max_ratio = registers.f32(first + 8),
-          .acceleration = word(10),
-          .curve = word(11),
-          .resolution = word(12)};
+  return {.master_length = registers.i32(first + saw_word::master_length),
+          .slave_length = registers.i32(first + saw_word::slave_length),
+          .sync_length = registers.i32(first + saw_word::sync_length),
+          .sync_ratio = registers.f32(first + saw_word::sync_ratio),
+          .max_ratio = registers.f32(first + saw_word::max_ratio),
+          .acceleration = word(saw_word::acceleration),
+          .curve = word(saw_word::curve),
+          .resolution = word(saw_word::resolution)};
 }
 
 SCurveParameters read_s_curve_parameters(const Registers& registers, int first) {
-  return {.length = registers.i32(first),
-          .top_speed = registers.i32(first + 2),
-          .acceleration = registers.i16(first + 6),
-          .deceleration = registers.i16(first + 7),
-          .resolution = static_cast<std::uint16_t>(registers.i16(first + 8))};
+  return {.length = registers.i32(first + s_curve_word::length),
+          .top_speed = registers.i32(first + s_curve_word::top_speed),
+          .acceleration = registers.i16(first + s_curve_word::acceleration),
+          .deceleration = registers.i16(first + s_curve_word::deceleration),
+          .resolution = static_cast<std::uint16_t>(registers.i16(first + s_curve_word::resolution))};
 }
 
-void run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result) {
+EcamtbxReport run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result) {
   auto made = make(registers, list, type);
   const auto end = block + cam_block_words + row_words * static_cast<int>(made.rows.size());
   if (made.ok() && end > first_special) made.error = EcamError::area;
+  EcamtbxReport report{made.code(), {}};
+  // Before the result is written: it may lie in the list.
+  if (made.error == EcamError::area)
+    report.fault = fmt::format("the table of {} rows from D{} on ends at D{}, beyond D{}", made.rows.size(),
+                               block + cam_block_words, end - 1, last_block_word);
+  else if (!made.ok())
+    report.fault = ecamtbx_fault(registers, list, type, made.error);
   if (made.ok()) write_block(registers, block, !is_s_curve(type), made);
   if (is_s_curve(type)) {
-    constexpr int result_word = 19;  // P13
     if (made.ok()) report_s_curve(registers, list, made);
-    registers.set_i16(list + result_word, static_cast<std::int16_t>(made.code()));
+    registers.set_i16(list + s_curve_word::result, static_cast<std::int16_t>(made.code()));
   }
   registers.set_i32(result, made.code());
+  return report;
 }
 
 }  // namespace drycut::devices::lx3vp

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "devices/lx3vp/ecamtbx.hpp"
 #include "devices/lx3vp/registers.hpp"
@@ -14,6 +15,12 @@ inline constexpr int cam_block_words = 40;
 SawParameters read_saw_parameters(const Registers& registers, int first);
 SCurveParameters read_s_curve_parameters(const Registers& registers, int first);
 
+/// What an ECAMTBX came to.
+struct EcamtbxReport {
+  std::int32_t code = 0;  ///< D1: the number of rows, or the error
+  std::string fault;      ///< in words; empty if a table was made
+};
+
 /// ECAMTBX S0 S1 D0 D1: makes the table of type `type` from the list at D`list` and writes it to the cam's
 /// block at D`block`: the rows from word 40 on, their number in word 38, 40 in word 39; with word 4 bit 0
 /// (sync output enabled) a saw's synchronous zone in words 9 to 12. The result goes to D`result` as 32 bit,
@@ -23,6 +30,9 @@ SCurveParameters read_s_curve_parameters(const Registers& registers, int first);
 /// A cam by midCAMend stops by itself at its end (003 appendix, rotary saw, P6), which the manual gives no
 /// word for: word 4 bit 1 (stop after the cycle) is switched on. The other curves leave it as it is, for it
 /// is the program's too.
-void run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result);
+EcamtbxReport run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result);
+
+/// Why the list at D`list` makes no table of type `type`, with its numbers: "P3 (D504) is 9400: ...".
+std::string ecamtbx_fault(const Registers& registers, int list, std::int32_t type, EcamError error);
 
 }  // namespace drycut::devices::lx3vp

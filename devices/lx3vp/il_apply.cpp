@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -298,11 +297,12 @@ void apply(Registers& registers, const Step& step) {
     apply_words(call, step.op());
 }
 
-void apply_ecamtbx(Registers& registers, const Step& step) {
+EcamtbxReport apply_ecamtbx(Registers& registers, const Step& step) {
   const auto& type = step.operands[1];
   // The type is read from the low word: a program may have written it with MOV.
-  run_ecamtbx(registers, step.operands[0].number, read_value(registers, type, type.kind == Kind::constant),
-              step.operands[2].number, step.operands[3].number);
+  return run_ecamtbx(registers, step.operands[0].number,
+                     read_value(registers, type, type.kind == Kind::constant), step.operands[2].number,
+                     step.operands[3].number);
 }
 
 void drive_outputs(const Registers& registers, const Step& step, bool powered, Instructions& instructions) {

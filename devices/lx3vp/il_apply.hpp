@@ -1,4 +1,5 @@
 #pragma once
+#include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/instructions.hpp"
 #include "devices/lx3vp/registers.hpp"
@@ -10,7 +11,7 @@ bool compare(const Registers& registers, const Step& step);
 /// Executes an instruction on words or floating-point numbers. Throws RuntimeError.
 void apply(Registers& registers, const Step& step);
 /// Executes ECAMTBX: table and result, and what K0 and K1 report in their list. Throws RuntimeError.
-void apply_ecamtbx(Registers& registers, const Step& step);
+EcamtbxReport apply_ecamtbx(Registers& registers, const Step& step);
 /// Hands DECAM or a pulse instruction to the controller, with the power into it.
 void drive_outputs(const Registers& registers, const Step& step, bool powered, Instructions& instructions);
 

@@ -139,6 +139,11 @@ class Compiler {
   }
 
   void refuse_mnemonic(const Word& word) {
+    if (is_not_simulated(word.text)) {
+      problem(word.column, fmt::format("{} is not simulated", word.text),
+              "`drycut devices LX3VP` lists what is");
+      return;
+    }
     std::vector<std::string> names;
     for (const auto& spelling : spellings()) names.push_back(spelling.text);
     const auto near = nearest(std::string(word.text.substr(0, 24)), names);

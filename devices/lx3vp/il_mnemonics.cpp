@@ -144,6 +144,28 @@ const Spelling* find_spelling(std::string_view text) {
   return found == by_name.end() ? nullptr : found->second;
 }
 
+bool is_not_simulated(std::string_view text) {
+  // FX, and the pulse and CAN instructions of the LX3V series.
+  static constexpr std::string_view names[] = {
+      "FOR",  "NEXT", "CALL", "SRET", "IRET", "STL",  "RET",  "MC",   "MCR",  "WDT",  "EI",   "DI",
+      "ZRN",  "DSZR", "DVIT", "TBL",  "ABS",  "PLSY", "PLSR", "PWM",  "PTO",  "SPD",  "HSCS", "HSCR",
+      "HSZ",  "SFTL", "SFTR", "WSFL", "WSFR", "SFWR", "SFRD", "ROL",  "ROR",  "RCL",  "RCR",  "TO",
+      "FROM", "RS",   "CCD",  "PRUN", "ASCI", "HEX",  "PID",  "SMOV", "BCD",  "BIN",  "DECO", "ENCO",
+      "SUM",  "BON",  "MEAN", "ANS",  "ANR",  "SQR",  "SQRT", "ESQR", "EBCD", "EBIN", "SIN",  "COS",
+      "TAN",  "SWAP", "REF",  "REFF", "MTR",  "IST",  "SER",  "ABSD", "INCD", "TTMR", "STMR", "RAMP",
+      "ROTC", "SORT", "TKY",  "HKY",  "DSW",  "SEGD", "SEGL", "ARWS", "ASC",  "PR",   "VRRD", "VRSC",
+      "TCMP", "TZCP", "TADD", "TSUB", "TRD",  "TWR",  "HOUR", "GRY",  "GBIN", "CRC"};
+  std::string upper(text);
+  for (auto& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const auto is_name = [](std::string_view name) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+  };
+  const std::string_view whole = upper;
+  const auto without_p = whole.ends_with('P') ? whole.substr(0, whole.size() - 1) : whole;
+  const auto without_d = [](std::string_view name) { return name.starts_with('D') ? name.substr(1) : name; };
+  return is_name(whole) || is_name(without_p) || is_name(without_d(whole)) || is_name(without_d(without_p));
+}
+
 std::string_view operand_text(char kind) {
   switch (kind) {
     case 'b':

@@ -130,6 +130,10 @@ const std::vector<Spelling>& spellings();
 /// The spelling, any case, or nullptr.
 const Spelling* find_spelling(std::string_view text);
 
+/// Whether the real unit has such an instruction (any case, with D before or P behind it) that is not
+/// simulated.
+bool is_not_simulated(std::string_view text);
+
 /// What an operand of a kind may be, for messages: "D", "X, Y, M, S, T or C".
 std::string_view operand_text(char kind);
 

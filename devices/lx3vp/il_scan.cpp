@@ -250,7 +250,7 @@ void Scanner::call(const Step& step, Rung& rung) {
     else if (op == Op::alt)
       write_bit(rung.registers, step.operands[0], !read_bit(rung.registers, step.operands[0]));
     else if (op == Op::ecamtbx)
-      apply_ecamtbx(rung.registers, step);
+      make_cam_table(step, rung);
     else
       apply(rung.registers, step);
   } catch (const RuntimeError& error) {
@@ -258,6 +258,15 @@ void Scanner::call(const Step& step, Rung& rung) {
                             fmt::format("{}:{}: {}: {}: {}", program_.file, step.line, error.code,
                                         step.spelling->text, error.what()));
   }
+}
+
+void Scanner::make_cam_table(const Step& step, Rung& rung) {
+  const auto report = apply_ecamtbx(rung.registers, step);
+  std::string text;
+  if (report.code < 0)
+    text = fmt::format("{}:{}: ECAMTBX {}: {}; the block D{} is left as it was", program_.file, step.line,
+                       report.code, report.fault, step.operands[2].number);
+  rung.instructions.cam_table(step.number, report.code, text);
 }
 
 }  // namespace drycut::devices::lx3vp::il

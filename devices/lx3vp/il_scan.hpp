@@ -29,6 +29,7 @@ class Scanner {
   void timer(const Step& step, bool on, Rung& rung);
   void counter(const Step& step, bool on, Rung& rung);
   void call(const Step& step, Rung& rung);
+  void make_cam_table(const Step& step, Rung& rung);
   /// Whether `now` is ON and was not at this step in the scan before; keeps it.
   bool rises(const Step& step, bool now);
   bool falls(const Step& step, bool now);

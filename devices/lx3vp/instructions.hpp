@@ -62,6 +62,10 @@ class Instructions {
   /// An error of an instruction while it runs (M8067, D8067, D8069 = step); the scan goes on behind it.
   /// `text` says where and what: "saw.il:12: 6706: ...".
   virtual void error(int step, int code, const std::string& text) = 0;
+
+  /// The result of an ECAMTBX: rows, or below 0 the error, then `text` says where and what:
+  /// "saw.il:29: ECAMTBX -3: ...". Comes in every scan that executes it.
+  virtual void cam_table(int step, std::int32_t result, const std::string& text) = 0;
 };
 
 }  // namespace drycut::devices::lx3vp

@@ -124,6 +124,7 @@ void Lx3vpController::power(bool on) {
   first_scan_ = true;
   power_up_due_ = true;
   said_.clear();
+  cam_tables_.clear();
 }
 
 // What power-up leaves of the registers.
@@ -198,6 +199,14 @@ void Lx3vpController::error(int step, int code, const std::string& text) {
   registers_.d[instruction_error_register] = static_cast<std::uint16_t>(code);
   registers_.d[error_step_register] = static_cast<std::uint16_t>(step);
   tell(step, "error", text);
+}
+
+// Once per change of the result: an ECAMTBX that fails in every scan does not flood, one that fails anew is
+// told.
+void Lx3vpController::cam_table(int step, std::int32_t result, const std::string& text) {
+  const auto [last, first] = cam_tables_.try_emplace(step, result);
+  const bool changed = std::exchange(last->second, result) != result;
+  if (result < 0 && (first || changed)) events_.push_back({"LX3VP", "warning", text});
 }
 
 void Lx3vpController::tell_notes() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -63,6 +64,7 @@ class Lx3vpController : public Controller, private Instructions {
              bool powered) override;
   void high_speed_counter(int number, std::int32_t preset, bool powered) override;
   void error(int step, int code, const std::string& text) override;
+  void cam_table(int step, std::int32_t result, const std::string& text) override;
 
   void add_used_terminals();
   void add_names();
@@ -93,6 +95,7 @@ class Lx3vpController : public Controller, private Instructions {
   std::vector<std::string> names_;
   std::vector<ControllerEvent> events_;
   std::set<std::pair<int, std::string>> said_;  ///< since power-up, by step
+  std::map<int, std::int32_t> cam_tables_;      ///< last results of ECAMTBX since power-up, by step
 };
 
 }  // namespace drycut::devices::lx3vp

@@ -135,10 +135,16 @@ void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
         port.registers);
   if (line.motion.step < 0) give(port, cam.operands().direction, line.output.forwards());
   if (auto fault = cam.take_fault()) notes_.push_back({step, fault->code, std::move(fault->text)});
-  if (cam.take_delayed())
+  if (!cam.take_delayed()) return;
+  const int limit = cam.operands().block + word::max_frequency;
+  if (port.registers.i32(limit) == 0)
+    notes_.push_back({step, 0,
+                      fmt::format("D{} is 0: nothing comes out of Y{:o}; write 1 to {}", limit, output,
+                                  max_frequency_hz)});
+  else
     notes_.push_back({step, 0,
                       fmt::format("the frequency limit of D{} holds back pulses of Y{:o}; they come later",
-                                  cam.operands().block + word::max_frequency, output)});
+                                  limit, output)});
 }
 
 void PulseUnit::tick_motion(int output, CamPort& port) {

@@ -49,12 +49,18 @@ inline bool in_tolerance(Parts off, std::int32_t more, std::int32_t less) {
   return off <= more * parts_per_tenth && off >= -less * parts_per_tenth;
 }
 
-/// Inertia after a placement that used `inertia` and ended `beyond` its quota in its direction: the way that
-/// the axis coasted, to the nearest Um/10 (D38).
-inline std::int32_t recalculated_inertia(std::int32_t inertia, Parts beyond) {
+inline constexpr std::int32_t largest_inertia = 32767;  ///< [Um/10] that an inertia's word holds
+
+/// Way that the axis coasted in a placement that used `inertia` and ended `beyond` its quota in its
+/// direction, to the nearest Um/10 (D38).
+inline std::int64_t coasted_way(std::int32_t inertia, Parts beyond) {
   const Parts half = beyond < 0 ? -parts_per_tenth / 2 : parts_per_tenth / 2;
-  const Parts coasted = inertia + (beyond + half) / parts_per_tenth;
-  return static_cast<std::int32_t>(std::clamp<Parts>(coasted, 0, 32767));
+  return inertia + (beyond + half) / parts_per_tenth;
+}
+
+/// Inertia after such a placement: the way coasted, as far as its word holds it.
+inline std::int32_t recalculated_inertia(std::int32_t inertia, Parts beyond) {
+  return static_cast<std::int32_t>(std::clamp<Parts>(coasted_way(inertia, beyond), 0, largest_inertia));
 }
 
 }  // namespace drycut::devices::oopos2

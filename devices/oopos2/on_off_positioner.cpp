@@ -116,10 +116,22 @@ void OnOffPositioner::recalculate_inertia(bool in_tolerance) {
   const Leg& leg = movement_.leg();
   const Parts off = position() - target_ * parts_per_tenth;
   const auto old = static_cast<std::int32_t>(leg.inertia / parts_per_tenth);
-  const std::int32_t fresh = recalculated_inertia(old, leg.backward ? -off : off);
-  value(inertia_variable(value(v_actiner), leg.backward)) = fresh;
+  const Parts beyond = leg.backward ? -off : off;
+  const std::int32_t fresh = recalculated_inertia(old, beyond);
+  const int variable = inertia_variable(value(v_actiner), leg.backward);
+  value(variable) = fresh;
+  note_held_inertia(variable, coasted_way(old, beyond));
   const std::int32_t most = value(v_maxiner);
   set_state(st_erin, most != 0 && std::abs(fresh - old) > most);
+}
+
+// An axis that coasts farther than the word says would miss every placement without a word about it.
+void OnOffPositioner::note_held_inertia(int variable, std::int64_t coasted) {
+  bool& noted = inertia_noted_.at(static_cast<std::size_t>(variable - v_iner01));
+  if (coasted <= largest_inertia || noted) return;
+  noted = true;
+  report({Diagnostic::Kind::note, std::string(type().variables[static_cast<std::size_t>(variable)].name),
+          fmt::format("the way coasted would be {} Um/10, held at {}", coasted, largest_inertia)});
 }
 
 void OnOffPositioner::put_out() {

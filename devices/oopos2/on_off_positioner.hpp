@@ -77,6 +77,7 @@ class OnOffPositioner final : public Device {
   void measure();
   void movement_ended();
   void recalculate_inertia(bool in_tolerance);
+  void note_held_inertia(int variable, std::int64_t coasted);
   void put_out();
   void put(int output, bool level);
 
@@ -92,9 +93,10 @@ class OnOffPositioner final : public Device {
   axis::FrequencyMeter frequency_;
 
   Movement movement_;
-  std::int64_t target_ = 0;  ///< of the running or last placement [Um/10]
-  std::int32_t tool_ = 0;    ///< in it [Um/10]
-  std::int32_t wanted_ = 0;  ///< the setpos that it goes to [Um]
+  std::int64_t target_ = 0;               ///< of the running or last placement [Um/10]
+  std::int32_t tool_ = 0;                 ///< in it [Um/10]
+  std::int32_t wanted_ = 0;               ///< the setpos that it goes to [Um]
+  std::array<bool, 16> inertia_noted_{};  ///< iner01 to iner16: said already that it is held
 
   Search search_ = Search::none;
   bool search_backward_ = false;  ///< direction of the running leg

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "sim/recorder.hpp"
+#include "sim/scenario/units.hpp"
 
 namespace drycut::sim {
 
@@ -17,6 +18,17 @@ void check_number(const char* option, const std::optional<double>& value, double
   if (!value || (*value >= least && *value <= most)) return;  // not NaN either
   problems.push_back({option, 1, 1, fmt::format("{} is out of range", *value),
                       fmt::format("give {} to {} {}", least, most, unit)});
+}
+
+/// The time of --at; nullopt if it is not given, or no time from 0 to 1e6 s.
+std::optional<Time> time_of(const LoopRequest& request) {
+  if (!request.at) return {};
+  auto at = parse_quantity(*request.at);
+  if (at && at->unit.empty()) at->unit = "s";
+  if (!at || !is_unit(at->unit) || !same_dimension(at->unit, "s")) return {};
+  const double time = to_si(at->number, at->unit);
+  if (!(time >= 0 && time <= 1e6)) return {};
+  return std::llround(time * 1e9);
 }
 
 /// The wire to measure at; nullopt and a problem if it is not clear which.
@@ -73,7 +85,7 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const Scenario& sce
   SweepPlan plan;
   plan.wire = *wire;
   plan.speed = choose_speed(request, at_wire.plug, simulation, problems);
-  plan.at = request.at ? std::llround(*request.at * 1e9) : scenario.scene.duration;
+  plan.at = time_of(request).value_or(scenario.scene.duration);
   plan.step = scenario.scene.step;
   plan.sampling = std::max(simulation.output_period(at_wire.terminal), plan.step);
   plan.amplitude = request.amplitude;
@@ -116,7 +128,9 @@ Twins prepare(const Scenario& scenario, const LoopRequest& request, devices::Pro
 std::string hertz_text(double frequency) { return fmt::format("{:.4g} Hz", frequency); }
 
 void check_request(const LoopRequest& request, devices::Problems& problems) {
-  check_number("--at", request.at, 0, 1e6, "s", problems);
+  if (request.at && !time_of(request))
+    problems.push_back(
+        {"--at", 1, 1, fmt::format("'{}' is no time from 0 to 1e6 s", *request.at), "such as 6 s"});
   check_number("--settle", request.settle, 0, 1000, "s", problems);
   check_number("--amplitude", request.amplitude, 0.001, 10, "V", problems);
   check_number("--from", request.from, 0.001, 1e6, "Hz", problems);
@@ -154,9 +168,20 @@ std::vector<std::string> loop_doubts(const LoopResult& result) {
   if (!result.sweep.failure.empty()) doubts.push_back("the simulation stopped: " + result.sweep.failure);
   if (result.sweep.loop == Sweep::Loop::open)
     doubts.push_back(
-        fmt::format("{} does not answer: the loop is open at {} s; measure while the axis regulates "
-                    "(--at), or with more --amplitude",
-                    result.terminal, seconds_text(result.plan.at)));
+        fmt::format("{} does not answer to {} V at {} s: either the loop is open there (let the program do "
+                    "REGON before, or choose another --at), or the axis sits in play or stiction (take more "
+                    "--amplitude)",
+                    result.terminal, result.plan.amplitude, seconds_text(result.plan.at)));
+  if (result.sweep.loop == Sweep::Loop::restless)
+    doubts.push_back(
+        fmt::format("the loop has not come to rest within {} s after the push: wait longer (--settle) or "
+                    "push harder (--amplitude)",
+                    result.sweep.waited));
+  if (result.sweep.loop == Sweep::Loop::runaway)
+    doubts.push_back(
+        fmt::format("the loop runs away to the limit of {} after a push: look at the directions of count and "
+                    "reference",
+                    result.terminal));
   if (result.sweep.loop == Sweep::Loop::unstable)
     doubts.emplace_back("the loop is not stable: after a push it swings on; lower the gain");
   const auto tell = [&](const std::string& what, const auto& doubted) {

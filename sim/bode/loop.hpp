@@ -10,9 +10,9 @@ namespace drycut::sim {
 
 /// Where and how a loop is to be measured, as a user says it.
 struct LoopRequest {
-  std::string wire;            ///< plug of the analogue reference, "" = the only one
-  std::string speed;           ///< channel of the motor's speed, "" = motor.speed or speed of the plant
-  std::optional<double> at;    ///< [s], absent = the end of the scenario
+  std::string wire;               ///< plug of the analogue reference, "" = the only one
+  std::string speed;              ///< channel of the motor's speed, "" = motor.speed or speed of the plant
+  std::optional<std::string> at;  ///< "6 s", "6" = 6 s; absent = the end of the scenario
   std::optional<double> from;  ///< [Hz], absent = 1 (a hundredth of `to` if less), and lower to the crossover
   std::optional<double> to;    ///< [Hz], absent = half the sampling frequency
   int points = 40;

@@ -1,9 +1,9 @@
 #include "sim/bode/sweep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace drycut::sim {
 
@@ -48,41 +48,75 @@ class Twins {
   std::function<double()> still_speed_;
 };
 
-/// Pushes the drive for a moment and looks whether the loop comes to rest.
-Sweep::Loop push(Twins& twins, const SweepPlan& plan) {
+constexpr double nothing = 1e-9;      // far below a step of the DAC [V]
+constexpr double output_limit = 9.9;  // from here on an output stands at its end [V]
+
+/// What a push left behind, in thirds of the samples: whether the loop came to rest, swings on, runs away, or
+/// cannot be told yet.
+Sweep::Loop judge_push(std::span<const double> output) {
+  if (output.size() < 3) return Sweep::Loop::restless;
+  struct Third {
+    double low, high;
+    [[nodiscard]] double swing() const { return high - low; }
+  };
+  const auto third = [&](std::size_t i) {
+    const auto part = output.subspan(i * output.size() / 3, output.size() / 3);
+    const auto [low, high] = std::minmax_element(part.begin(), part.end());
+    return Third{*low, *high};
+  };
+  double quantum = 0.02;  // at most [V]: a swing from limit to limit knows no smaller step
+  for (std::size_t k = 1; k < output.size(); ++k) {
+    const double change = std::abs(output[k] - output[k - 1]);
+    if (change > nothing) quantum = std::min(quantum, change);
+  }
+  const auto first = third(0);
+  const auto last = third(2);
+  if (last.low > output_limit || last.high < -output_limit) return Sweep::Loop::runaway;
+  // A rest offset in play, and the last bit that toggles, are rest.
+  const bool rests = !(last.swing() > 2.5 * quantum);
+  if (rests || last.swing() < 0.9 * first.swing()) return Sweep::Loop::closed;
+  constexpr int enough = 4;  // two periods in the last third
+  const double middle = (last.low + last.high) / 2;
+  int crossings = 0;
+  int side = 0;
+  for (const double volts : output.subspan(2 * output.size() / 3)) {
+    if (std::abs(volts - middle) < last.swing() / 8) continue;
+    const int now = volts > middle ? 1 : -1;
+    if (side == -now) ++crossings;
+    side = now;
+  }
+  return crossings >= enough ? Sweep::Loop::unstable : Sweep::Loop::restless;
+}
+
+/// Pushes the drive for a moment and looks whether the loop comes to rest; `waited` tells for how long [s].
+Sweep::Loop push(Twins& twins, const SweepPlan& plan, double& waited) {
   constexpr int push_samples = 10;
   const Time start = twins.time();
   while (twins.time() < start + push_samples * plan.sampling)
     if (!twins.advance(plan.amplitude)) return Sweep::Loop::closed;
-  constexpr int parts = 4;
-  const auto part = static_cast<Time>(std::max(plan.settle, 1.0) * 1e9) / parts;
-  std::array<double, parts> low{};
-  std::array<double, parts> high{};
+  // A loop of low gain takes its time: twice as long, as long as it cannot be told.
+  constexpr int most_windows = 8;
+  const auto window = static_cast<Time>(std::max(plan.settle, 1.0) * 1e9);
+  std::vector<double> output;
   double own_low = 0;
   double own_high = 0;
-  for (int i = 0; i < parts; ++i) {
-    for (const Time begin = twins.time(); twins.time() < begin + part;) {
+  const Time begin = twins.time();
+  for (int windows = 1;; windows *= 2) {
+    while (twins.time() < begin + windows * window) {
       if (!twins.advance(0)) return Sweep::Loop::closed;
-      low[i] = std::min(low[i], twins.output());
-      high[i] = std::max(high[i], twins.output());
       own_low = std::min(own_low, twins.own());
       own_high = std::max(own_high, twins.own());
+      if ((twins.time() - begin) % plan.sampling == 0) output.push_back(twins.output());
     }
+    waited = seconds(windows * window);
+    if (std::all_of(output.begin(), output.end(), [](double volts) { return volts == 0; })) {
+      // A loop that swings from limit to limit takes no notice of a push.
+      return own_low < -output_limit && own_high > output_limit ? Sweep::Loop::unstable : Sweep::Loop::open;
+    }
+    const auto judged = judge_push(output);
+    if (judged != Sweep::Loop::restless || windows == most_windows) return judged;
   }
-  const double first = std::max(high.front(), -low.front());
-  const double last = std::max(high.back(), -low.back());
-  if (first == 0 && last == 0) {
-    // A loop that swings from limit to limit takes no notice of a push.
-    constexpr double limit = 9.9;  // [V]
-    return own_low < -limit && own_high > limit ? Sweep::Loop::unstable : Sweep::Loop::open;
-  }
-  const double half = first / 2;
-  const bool swings_on = last > 0.9 * first && high.back() > half && low.back() < -half;
-  const bool runs_away = last > 1.1 * first;
-  return swings_on || runs_away ? Sweep::Loop::unstable : Sweep::Loop::closed;
 }
-
-constexpr double nothing = 1e-9;  // far below a step of the DAC [V]
 
 /// Comes to rest with the tone, then measures it over its samples. False if the simulation failed.
 bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoint& point) {
@@ -181,7 +215,7 @@ Sweep measure(Simulation& excited, Simulation& still, const SweepPlan& plan,
       (void)twins.advance(0);
   };
   wait_for_sampling(plan.at);
-  if (twins.failure().empty()) sweep.loop = push(twins, plan);
+  if (twins.failure().empty()) sweep.loop = push(twins, plan, sweep.waited);
   wait_for_sampling(0);
   sweep.failure = twins.failure();
   if (!sweep.failure.empty() || sweep.loop != Sweep::Loop::closed) return sweep;

@@ -40,11 +40,14 @@ struct SweepPlan {
 /// What came of it.
 struct Sweep {
   enum class Loop : std::uint8_t {
-    closed,   ///< it answers and comes to rest after a push
-    open,     ///< the controller's output does not answer
-    unstable  ///< it swings on, or away, after a push
+    closed,    ///< it answers and comes to rest after a push
+    open,      ///< the controller's output does not answer
+    restless,  ///< after a push it neither came to rest nor swings evenly: longer or harder would tell
+    runaway,   ///< after a push it goes to the limit and stays there
+    unstable   ///< it swings on after a push, over several periods
   };
   Loop loop = Loop::closed;
+  double waited = 0;              ///< for rest after the push [s]
   std::vector<BodePoint> points;  ///< none unless the loop is closed
   double faded_from = 0;          ///< [Hz] from here on the answer is finer than the resolution; 0 = nowhere
   std::string failure;            ///< why the simulation itself stopped, "" if it did not

@@ -121,7 +121,8 @@ std::optional<double> real_number(const Cell& cell, int line, std::string_view n
 
 void Settings::read(const Cell& comment, int line, bool above) {
   const auto colon = comment.text.find(':');
-  if (comment.text.starts_with("##") || colon == std::string_view::npos) return;
+  if (comment.text.starts_with("##")) return;
+  if (colon == std::string_view::npos) return read_without_colon(comment, line);
   const Cell key = trimmed({comment.text.substr(1, colon - 1), comment.column + 1});
   const bool is_word = !key.text.empty() && std::all_of(key.text.begin(), key.text.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -148,6 +149,23 @@ void Settings::read(const Cell& comment, int line, bool above) {
     return;
   }
   found->second(value, line);
+}
+
+/// `# time_axis`, `# time_axis 5` and `# time_axis = 5` are meant as settings; `# time_axis in 0.1 ms` is
+/// not.
+void Settings::read_without_colon(const Cell& comment, int line) {
+  const Cell text = trimmed({comment.text.substr(1), comment.column + 1});
+  const auto key = text.text.substr(0, std::min(text.text.find_first_of(" \t="), text.text.size()));
+  if (!settings_.contains(key)) return;
+  auto value = trimmed({text.text.substr(key.size())}).text;
+  const bool equals = value.starts_with('=');
+  if (equals) value = trimmed({value.substr(1)}).text;
+  const bool is_value = value.find_first_of("0123456789") != std::string_view::npos &&
+                        value.find_first_of(" \t") == std::string_view::npos;
+  if (!value.empty() && !equals && !is_value) return;
+  problems_.add(line, text.column, fmt::format("{} has no colon", key),
+                fmt::format("write # {}: {}; a remark begins with ##", key,
+                            is_value ? std::string(value.substr(0, 40)) : "and its value"));
 }
 
 int Settings::line_of(std::string_view name) const {

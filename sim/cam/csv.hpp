@@ -67,6 +67,7 @@ class Settings {
 
  private:
   void refuse(const Cell& key, int line);
+  void read_without_colon(const Cell& comment, int line);
 
   TableProblems& problems_;
   std::map<std::string, Take, std::less<>> settings_;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "sim/cam/camming4/study.hpp"
+#include "sim/cam/csv.hpp"
 #include "sim/cam/lx3vp/study.hpp"
 
 namespace drycut::sim {
@@ -13,6 +15,41 @@ namespace drycut::sim {
 namespace {
 
 constexpr std::array kinds = {camming4_cams, lx3vp_cams};
+
+/// Whether a cell of a header is a column of a kind of table, or nearly so.
+bool has_column_of(const CamKind& kind, std::string_view header) {
+  std::vector<std::string> names;
+  for (const auto& column : split_cells(kind.header.substr(0, kind.header.find(" ("))))
+    names.emplace_back(column.text);
+  const auto cells = split_cells(header);
+  return std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) {
+    return !devices::nearest(std::string(cell.text.substr(0, 40)), names).empty();
+  });
+}
+
+bool check_no_kind(std::string_view text, const std::string& file, devices::Problems& problems) {
+  const auto header = header_line(text);
+  const auto before = text.substr(0, static_cast<std::size_t>(header.data() - text.data()));
+  const auto line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const auto column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
+  problems.push_back(
+      {file, line, column, fmt::format("{} is the header of no cam table", quoted(trimmed({header}).text)),
+       fmt::format("CAMMING4's is {}; LX3VP's is master,slave, or parameter,value below a line "
+                   "# ecamtbx: K100 (K101, K0, K1)",
+                   camming4_cams.header)});
+  return false;
+}
+
+CamStudy study_no_kind(std::string_view text, const std::string& file, const CamRequest& /*request*/,
+                       devices::Problems& problems) {
+  check_no_kind(text, file, problems);
+  return {};
+}
+
+bool owns_nothing(std::string_view /*text*/) { return false; }
+
+/// Takes what no kind knows, to tell what all of them want.
+constexpr CamKind no_kind = {"", "", owns_nothing, check_no_kind, study_no_kind};
 
 }  // namespace
 
@@ -22,7 +59,13 @@ const CamKind& cam_kind(std::string_view name, std::string_view text) {
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const CamKind& kind) {
     return name.empty() ? kind.owns(text) : kind.name == name;
   });
-  return found == kinds.end() ? kinds.front() : *found;
+  if (found != kinds.end()) return *found;
+  const auto header = header_line(text);
+  const bool numbers = !header.empty() && std::isdigit(static_cast<unsigned char>(header.front())) != 0;
+  if (!name.empty() || header.empty() || numbers) return kinds.front();
+  const auto near = std::find_if(kinds.begin(), kinds.end(),
+                                 [&](const CamKind& kind) { return has_column_of(kind, header); });
+  return near == kinds.end() ? no_kind : *near;
 }
 
 std::string cam_report(const CamStudy& study) {

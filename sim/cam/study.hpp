@@ -55,7 +55,8 @@ struct CamKind {
 
 /// All kinds; the first also takes what no other owns.
 std::span<const CamKind> cam_kinds();
-/// By the name of --device; "" = by the table's text.
+/// By the name of --device; "" = by the table's text, and a header that no kind knows has a kind without a
+/// name, which tells all of theirs.
 const CamKind& cam_kind(std::string_view name, std::string_view text);
 
 /// What `drycut cam` prints: the cam in words with the findings before the totals.

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/ecamtbx.hpp"
+#include "devices/lx3vp/ecamtbx_words.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
 #include "sim/commands/text_table.hpp"
 
@@ -18,6 +20,7 @@ using lx3vp::BlockWord;
 using nlohmann::ordered_json;
 
 constexpr std::string_view decam_summary = "electronic cam of the LX3VP: its parameter block from S2 on";
+constexpr std::string_view ecamtbx_summary = "cam tables of the LX3VP: its parameter lists and results";
 constexpr std::string_view lx3vp_summary = "WECON LX3VP: special registers and instructions";
 
 std::string_view access_text(BlockWord::Access access) {
@@ -37,16 +40,24 @@ std::string offsets(const BlockWord& word) {
                          : fmt::format("{}-{}", word.offset, word.offset + word.words - 1);
 }
 
+/// What the program has to write; the cam writes what is only to be read.
+std::string set_up_text(const BlockWord& word) {
+  return word.access == BlockWord::Access::write && word.set_up != 0 ? fmt::format("{}", word.set_up) : "";
+}
+
 void print_decam() {
   fmt::print(
       "DECAM: {}\n\nDECAM S1 S2 S3 D1 D2: master C, D or K (x 100 us), block D, start signal X or M, "
-      "pulse output Y0..Y3, direction Y\n",
+      "pulse output Y0..Y3, direction Y\n\n"
+      "Registers are 0 until something writes them: \"write at set-up\" is what the program, or the "
+      "scenario's\n"
+      "set or registers, has to write there before the cam is enabled.\n",
       decam_summary);
-  TextTable words({"word", "name", "type", "range", "initial", "access", "taken", "meaning"});
+  TextTable words({"word", "name", "type", "range", "write at set-up", "access", "taken", "meaning"});
   for (const auto& word : lx3vp::block_words()) {
     words.add({offsets(word), std::string(word.name), std::string(word.type), std::string(word.range),
-               word.access == BlockWord::Access::reserved ? "" : fmt::format("{}", word.initial),
-               std::string(access_text(word.access)), std::string(word.taken), std::string(word.meaning)});
+               set_up_text(word), std::string(access_text(word.access)), std::string(word.taken),
+               std::string(word.meaning)});
   }
   words.print("Words; 32-bit values have their low word first");
   TextTable flags({"word", "bit", "name", "access", "meaning"});
@@ -65,7 +76,7 @@ ordered_json decam_json() {
                              {"name", word.name},
                              {"type", word.type},
                              {"range", word.range},
-                             {"initial", word.initial},
+                             {"write_at_set_up", word.set_up},
                              {"access", access_text(word.access)},
                              {"taken", word.taken},
                              {"meaning", word.meaning}});
@@ -77,6 +88,61 @@ ordered_json decam_json() {
                              {"access", flag.access},
                              {"meaning", flag.meaning}});
   }
+  return json;
+}
+
+std::string offsets(const lx3vp::EcamtbxWord& word) {
+  return word.words == 1 ? fmt::format("{}", word.offset)
+                         : fmt::format("{}-{}", word.offset, word.offset + word.words - 1);
+}
+
+void print_words(std::span<const lx3vp::EcamtbxWord> list, const std::string& title) {
+  TextTable words({"word", "parameter", "type", "unit", "range", "meaning"});
+  for (const auto& word : list)
+    words.add({offsets(word), std::string(word.number), std::string(word.type), std::string(word.unit),
+               std::string(word.range), std::string(word.meaning)});
+  words.print(title);
+}
+
+void print_ecamtbx() {
+  fmt::print(
+      "ECAMTBX: {}\n\nECAMTBX S0 S1 D0 D1: parameter list D (20 words), type K or D, block D of the cam, "
+      "result D (32 bit)\n\n"
+      "It writes the rows from word 40 of the block on, their number into word 38 and 40 into word 39; with\n"
+      "word 4 bit 0 a saw's synchronous zone into words 9 to 12. With an error the block is left as it was "
+      "and\n"
+      "the run's events tell why.\n",
+      ecamtbx_summary);
+  print_words(lx3vp::saw_words(),
+              "K100 (rotary saw) and K101 (flying saw); 32-bit values have their low word first");
+  print_words(lx3vp::s_curve_words(),
+              "K0 (cosine) and K1 (parabolas), S-curves over time; 100 us are a master count");
+  TextTable results({"result", "meaning"});
+  results.add({"above 0", "rows of the table"});
+  for (const auto error : lx3vp::ecam_errors())
+    results.add({fmt::format("{}", static_cast<int>(error)), std::string(lx3vp::error_text(error))});
+  results.print("Results in D1");
+}
+
+ordered_json words_json(std::span<const lx3vp::EcamtbxWord> list) {
+  ordered_json json = ordered_json::array();
+  for (const auto& word : list)
+    json.push_back({{"offset", word.offset},
+                    {"words", word.words},
+                    {"parameter", word.number},
+                    {"type", word.type},
+                    {"unit", word.unit},
+                    {"range", word.range},
+                    {"meaning", word.meaning}});
+  return json;
+}
+
+ordered_json ecamtbx_json() {
+  ordered_json json = {{"name", "ECAMTBX"}, {"summary", ecamtbx_summary}};
+  json["saw_words"] = words_json(lx3vp::saw_words());
+  json["s_curve_words"] = words_json(lx3vp::s_curve_words());
+  for (const auto error : lx3vp::ecam_errors())
+    json["results"].push_back({{"result", static_cast<int>(error)}, {"meaning", lx3vp::error_text(error)}});
   return json;
 }
 
@@ -129,6 +195,7 @@ ordered_json lx3vp_json() {
 std::span<const Lx3vpTable> lx3vp_tables() {
   static constexpr Lx3vpTable tables[] = {
       {"DECAM", decam_summary, print_decam, decam_json},
+      {"ECAMTBX", ecamtbx_summary, print_ecamtbx, ecamtbx_json},
       {"LX3VP", lx3vp_summary, print_lx3vp, lx3vp_json},
   };
   return tables;

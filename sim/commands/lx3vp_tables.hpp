@@ -12,7 +12,8 @@ struct Lx3vpTable {
   void (*print)();
   nlohmann::ordered_json (*json)();
 };
-/// DECAM, the parameter block of an electronic cam, and LX3VP, special registers and instructions.
+/// DECAM, the parameter block of an electronic cam, ECAMTBX, its parameter lists, and LX3VP, special
+/// registers and instructions.
 std::span<const Lx3vpTable> lx3vp_tables();
 
 }  // namespace drycut::sim

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -128,10 +129,12 @@ struct Specimen {
   std::vector<std::unique_ptr<plants::Plant>> plants;
   std::vector<std::string> names;
 
-  plants::Plant* build(const plants::PlantType& type, const std::string& name) {
+  plants::Plant* build(const plants::PlantType& type, const std::string& name,
+                       const std::string& drive = "") {
     definitions.push_back(type.define());
     auto* definition = definitions.back().get();
     for (auto& parameter : definition->parameters()) {
+      if (!drive.empty() && parameter.name == "drive") *std::get<std::string*>(parameter.value) = drive;
       if (parameter.reference.empty() || *std::get<std::string*>(parameter.value) == plants::no_plant)
         continue;
       const auto& types = plants::plant_types();
@@ -150,6 +153,85 @@ struct Specimen {
     return plants.back().get();
   }
 };
+
+/// Something that a plant of the type offers, and with which drives if not with all of them.
+template <typename Item>
+struct Offered {
+  Item item;
+  std::vector<std::string> drives;
+};
+
+/// A specimen for every choice of the parameter `drive`, the default one first; one if it has no such
+/// choice. A drive brings plugs, channels and faults of its own.
+class Specimens {
+ public:
+  explicit Specimens(const plants::PlantType& type) {
+    for (const auto& p : type.define()->parameters()) {
+      if (p.name != "drive" || p.choices.empty()) continue;
+      drives_ = {*std::get<std::string*>(p.value)};
+      for (const auto& choice : p.choices)
+        if (choice != drives_.front()) drives_.push_back(choice);
+    }
+    if (drives_.empty()) drives_ = {""};
+    for (const auto& drive : drives_) {
+      specimens_.push_back(std::make_unique<Specimen>());
+      built_.push_back(specimens_.back()->build(type, "it", drive));
+    }
+  }
+
+  [[nodiscard]] plants::Parameters parameters() const {
+    return specimens_.front()->definitions.front()->parameters();
+  }
+
+  /// What the specimens offer by `list`, each once: `same` tells whether two of them are one.
+  template <typename Item, typename Same>
+  std::vector<Offered<Item>> offered(std::vector<Item> (plants::Plant::*list)(), Same same) const {
+    std::vector<Offered<Item>> all;
+    for (std::size_t i = 0; i < built_.size(); ++i) {
+      for (auto& item : (built_[i]->*list)()) {
+        auto known = std::find_if(all.begin(), all.end(), [&](const auto& o) { return same(o.item, item); });
+        if (known == all.end()) known = all.insert(all.end(), {std::move(item), {}});
+        known->drives.push_back(drives_[i]);
+      }
+    }
+    for (auto& one : all)
+      if (one.drives.size() == drives_.size()) one.drives.clear();
+    return all;
+  }
+
+  [[nodiscard]] auto ports() const {
+    return offered(&plants::Plant::ports, [](const auto& a, const auto& b) {
+      return a.name == b.name && a.plug.index() == b.plug.index();
+    });
+  }
+  [[nodiscard]] auto channels() const { return offered(&plants::Plant::channels, same_name_and_unit); }
+  [[nodiscard]] auto settings() const { return offered(&plants::Plant::settings, same_name_and_unit); }
+  [[nodiscard]] auto faults() const {
+    return offered(&plants::Plant::faults, [](const auto& a, const auto& b) {
+      return a.component == b.component && same_name_and_unit(a, b);
+    });
+  }
+  [[nodiscard]] auto events() const {
+    return offered(&plants::Plant::event_types,
+                   [](const auto& a, const auto& b) { return a.name == b.name; });
+  }
+
+ private:
+  static constexpr auto same_name_and_unit = [](const auto& a, const auto& b) {
+    return a.name == b.name && a.unit == b.unit;
+  };
+  std::vector<std::string> drives_;
+  std::vector<std::unique_ptr<Specimen>> specimens_;
+  std::vector<plants::Plant*> built_;
+};
+
+/// The meaning, with the drives that have it: "runs forward (drive: inverter, contactors)".
+template <typename Item>
+std::string meaning_text(const Offered<Item>& offered) {
+  std::string text(offered.item.meaning);
+  if (!offered.drives.empty()) text += fmt::format(" (drive: {})", fmt::join(offered.drives, ", "));
+  return text;
+}
 
 std::string_view plug_text(const plants::Port& port) {
   constexpr std::string_view names[] = {"encoder (to a counter)", "signal (to an input or interrupt line)",
@@ -170,11 +252,16 @@ std::string range_text(const plants::Parameter& parameter) {
   return fmt::format("{:g}..{:g}", parameter.min, parameter.max);
 }
 
+template <typename Item>
+ordered_json with_drives(ordered_json json, const Offered<Item>& offered) {
+  if (!offered.drives.empty()) json["drives"] = offered.drives;
+  return json;
+}
+
 ordered_json plant_json(const plants::PlantType& type) {
   ordered_json json = {{"name", type.name}, {"summary", type.summary}};
-  Specimen specimen;
-  auto* plant = specimen.build(type, "it");
-  for (const auto& p : specimen.definitions.front()->parameters()) {
+  const Specimens specimens(type);
+  for (const auto& p : specimens.parameters()) {
     json["parameters"].push_back({{"name", p.name},
                                   {"default", value_text(p)},
                                   {"unit", p.unit},
@@ -182,53 +269,61 @@ ordered_json plant_json(const plants::PlantType& type) {
                                   {"meaning", p.meaning},
                                   {"source", p.source}});
   }
-  for (const auto& p : plant->ports())
-    json["ports"].push_back({{"name", p.name}, {"kind", plug_text(p)}, {"meaning", p.meaning}});
-  for (const auto& c : plant->channels())
-    json["channels"].push_back({{"name", c.name}, {"unit", c.unit}, {"meaning", c.meaning}});
-  for (const auto& s : plant->settings())
-    json["settings"].push_back({{"name", s.name}, {"unit", s.unit}, {"meaning", s.meaning}});
-  for (const auto& f : plant->faults())
-    json["faults"].push_back(
-        {{"component", f.component}, {"name", f.name}, {"unit", f.unit}, {"meaning", f.meaning}});
-  for (const auto& e : plant->event_types()) {
+  for (const auto& o : specimens.ports())
+    json["ports"].push_back(
+        with_drives({{"name", o.item.name}, {"kind", plug_text(o.item)}, {"meaning", o.item.meaning}}, o));
+  for (const auto& o : specimens.channels())
+    json["channels"].push_back(
+        with_drives({{"name", o.item.name}, {"unit", o.item.unit}, {"meaning", o.item.meaning}}, o));
+  for (const auto& o : specimens.settings())
+    json["settings"].push_back(
+        with_drives({{"name", o.item.name}, {"unit", o.item.unit}, {"meaning", o.item.meaning}}, o));
+  for (const auto& o : specimens.faults()) {
+    const auto& f = o.item;
+    json["faults"].push_back(with_drives(
+        {{"component", f.component}, {"name", f.name}, {"unit", f.unit}, {"meaning", f.meaning}}, o));
+  }
+  for (const auto& o : specimens.events()) {
     ordered_json values = ordered_json::array();
-    for (const auto& v : e.values) values.push_back({{"name", v.name}, {"unit", v.unit}});
-    json["events"].push_back({{"name", e.name}, {"values", values}, {"meaning", e.meaning}});
+    for (const auto& v : o.item.values) values.push_back({{"name", v.name}, {"unit", v.unit}});
+    json["events"].push_back(
+        with_drives({{"name", o.item.name}, {"values", values}, {"meaning", o.item.meaning}}, o));
   }
   return json;
 }
 
 void print_plant(const plants::PlantType& type) {
   fmt::print("{}: {}\n", type.name, type.summary);
-  Specimen specimen;
-  auto* plant = specimen.build(type, "it");
+  const Specimens specimens(type);
   TextTable parameters({"parameter", "default", "range", "meaning", "from"});
-  for (const auto& p : specimen.definitions.front()->parameters()) {
+  for (const auto& p : specimens.parameters()) {
     auto range = range_text(p);
     if (!p.unit.empty() && !range.empty()) range += fmt::format(" {}", p.unit);
     parameters.add({p.name, value_text(p), range, std::string(p.meaning), std::string(p.source)});
   }
   parameters.print("Parameters");
   TextTable ports({"plug", "kind", "meaning"});
-  for (const auto& p : plant->ports()) ports.add({p.name, std::string(plug_text(p)), p.meaning});
+  for (const auto& o : specimens.ports())
+    ports.add({o.item.name, std::string(plug_text(o.item)), meaning_text(o)});
   ports.print("Plugs, for wiring");
   TextTable channels({"channel", "unit", "meaning"});
-  for (const auto& c : plant->channels()) channels.add({c.name, c.unit, c.meaning});
+  for (const auto& o : specimens.channels()) channels.add({o.item.name, o.item.unit, meaning_text(o)});
   channels.print("Channels, for record, checks and plots");
   TextTable settings({"setting", "unit", "meaning"});
-  for (const auto& s : plant->settings()) settings.add({s.name, std::string(s.unit), s.meaning});
+  for (const auto& o : specimens.settings())
+    settings.add({o.item.name, std::string(o.item.unit), meaning_text(o)});
   settings.print("Settings, for the timeline");
   TextTable faults({"component", "fault", "unit", "meaning"});
-  for (const auto& f : plant->faults()) faults.add({f.component, f.name, std::string(f.unit), f.meaning});
+  for (const auto& o : specimens.faults())
+    faults.add({o.item.component, o.item.name, std::string(o.item.unit), meaning_text(o)});
   faults.print("Faults, for the timeline");
   TextTable events({"event", "values", "meaning"});
-  for (const auto& e : plant->event_types()) {
+  for (const auto& o : specimens.events()) {
     std::string values;
-    for (const auto& v : e.values)
+    for (const auto& v : o.item.values)
       values += fmt::format("{}{}{}", values.empty() ? "" : ", ", v.name,
                             v.unit.empty() ? "" : fmt::format(" [{}]", v.unit));
-    events.add({std::string(e.name), values, std::string(e.meaning)});
+    events.add({std::string(o.item.name), values, meaning_text(o)});
   }
   events.print("Events, for checks");
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include "renders/report.hpp"
@@ -27,9 +28,30 @@ std::string room_text(double room) {
   return room >= 0 ? fmt::format("{:.4g} left", room) : fmt::format("{:.4g} too far", -room);
 }
 
+/// For a cell: short. reason_text() has the sentence.
 std::string limits_text(const Verdict& verdict) {
   if (verdict.feasible()) return "kept";
+  if (verdict.stopped) return "stopped";
+  if (verdict.unmeasured()) return "not measured";
   return verdict.note.empty() ? "not kept" : verdict.note;
+}
+
+/// Why there is no number, "" if there is one.
+std::string reason_text(const Verdict& verdict) {
+  return verdict.stopped || verdict.unmeasured() ? limits_text(verdict) + ": " + verdict.note : "";
+}
+
+std::string miss_of(const Verdict& verdict) {
+  const auto reason = reason_text(verdict);
+  return reason.empty() ? limits_text(verdict) : reason;
+}
+
+/// What is to be known before anything else where nothing keeps the limits; "" where the best does.
+std::string miss_text(const Tuning& tuning) {
+  const auto& best = tuning.trials.at(tuning.best).verdict;
+  if (best.feasible()) return "";
+  if (best.stopped) return "no values tried could be run to the end: " + best.note;
+  return "no values tried keep all limits; the best miss is " + miss_of(best);
 }
 
 ReportTable before_after(const Tuning& tuning) {
@@ -43,6 +65,30 @@ ReportTable before_after(const Tuning& tuning) {
     table.rows.push_back({{"failed checks", fmt::format("{}", tuning.before.failed_checks),
                            fmt::format("{}", after.failed_checks)}});
   table.rows.push_back({{"limits", limits_text(tuning.before), limits_text(after)}});
+  return table;
+}
+
+/// The sentences for what the cells of before_after() call stopped or not measured, each once.
+std::string reasons(const Tuning& tuning) {
+  const auto before = reason_text(tuning.before);
+  const auto after = reason_text(tuning.trials.at(tuning.best).verdict);
+  std::string text;
+  if (!before.empty()) text += fmt::format("  {}{}\n", before == after ? "" : "before, ", before);
+  if (!after.empty() && after != before) text += fmt::format("  after, {}\n", after);
+  return text;
+}
+
+/// The same for the report's tables of trials, with how many of them it befell.
+ReportTable reasons_table(const Tuning& tuning) {
+  std::map<std::string, int> told;
+  const auto count = [&](const Verdict& verdict) {
+    if (const auto reason = reason_text(verdict); !reason.empty()) ++told[reason];
+  };
+  for (const auto& trial : tuning.trials.trials()) count(trial.verdict);
+  if (tuning.spread != nullptr)
+    for (const auto& trial : tuning.spread->trials()) count(trial.verdict);
+  ReportTable table{"Why there is no number", {"trials", "reason"}, {}};
+  for (const auto& [reason, times] : told) table.rows.push_back({{fmt::format("{}", times), reason}});
   return table;
 }
 
@@ -166,6 +212,13 @@ double least_room(const Trials& spread, std::size_t constraint) {
   return least;
 }
 
+/// The largest metric over the spread; NaN if none was measured.
+double largest_metric(const Trials& spread) {
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& trial : spread.trials()) largest = std::fmax(largest, trial.verdict.metric);
+  return largest;
+}
+
 /// Dotted paths and their values as nested YAML.
 std::string nested(std::vector<std::pair<std::string, std::string>> values) {
   std::sort(values.begin(), values.end());  // groups together
@@ -221,6 +274,7 @@ std::string patch_text(const Tuning& tuning) {
     arguments += fmt::format(" --set \"{}={}\"", path, value);
   }
   std::string text;
+  if (const auto miss = miss_text(tuning); !miss.empty()) text += fmt::format("# {}\n", miss);
   if (!qcl.empty()) text += "; QCL, in the set-up of the axis\n" + qcl;
   if (!set.empty()) text += "# scenario, below controller: qmove:\n    set: {" + set + "}\n";
   if (!plants.empty()) text += "# scenario, into what stands there\n" + nested(std::move(plants));
@@ -229,15 +283,26 @@ std::string patch_text(const Tuning& tuning) {
 }
 
 std::string summary_text(const Tuning& tuning) {
-  auto text = as_text(before_after(tuning)) + "\n" + as_text(values(tuning)) + "\n" + as_text(around(tuning));
+  std::string text;
+  if (auto miss = miss_text(tuning); !miss.empty()) {
+    miss.front() = 'N';
+    text = miss + "\n\n";
+  }
+  text += as_text(before_after(tuning)) + reasons(tuning) + "\n" + as_text(values(tuning)) + "\n" +
+          as_text(around(tuning));
   if (tuning.spread != nullptr && !tuning.spread->trials().empty()) {
     const auto& worst = tuning.spread->at(worst_of(*tuning.spread));
     const auto& all = tuning.spread->trials();
     const auto beyond =
         std::count_if(all.begin(), all.end(), [](const auto& trial) { return !trial.verdict.feasible(); });
-    text += fmt::format("\nSpread of the machine: {} samples, {} beyond a limit; worst {} = {} ({})\n",
-                        all.size(), beyond, tuning.study.minimise, metric_text(worst.verdict),
-                        limits_text(worst.verdict));
+    text += fmt::format("\nSpread of the machine: {} samples, {} beyond a limit; ", all.size(), beyond);
+    if (beyond == 0) {
+      text += fmt::format("worst {} = {}\n", tuning.study.minimise, metric_text(worst.verdict));
+    } else {
+      text += fmt::format("worst of the limits: {} (there {} = {}; the largest of all: {:.6g})\n",
+                          miss_of(worst.verdict), tuning.study.minimise, metric_text(worst.verdict),
+                          largest_metric(*tuning.spread));
+    }
     for (std::size_t i = 0; i < worst.point.size(); ++i)
       text += fmt::format("  at {} = {:.4g}{}{}\n", tuning.spread->parameters()[i].path, worst.point[i],
                           tuning.spread->parameters()[i].unit.empty() ? "" : " ",
@@ -263,8 +328,10 @@ void write_tuning_report(const Tuning& tuning, const std::filesystem::path& fold
   for (const auto& entry : tuning.study.cases)
     report.scenario += (report.scenario.empty() ? "" : ", ") + entry.file.filename().string();
   report.passed = after.feasible();
-  report.verdict = fmt::format("{} from {} to {}; limits: {}", tuning.study.minimise,
-                               metric_text(tuning.before), metric_text(after), limits_text(after));
+  const auto miss = miss_text(tuning);
+  report.verdict =
+      fmt::format("{}{} from {} to {}; limits: {}", miss.empty() ? "" : miss + "; ", tuning.study.minimise,
+                  metric_text(tuning.before), metric_text(after), limits_text(after));
   report.facts = {{{"trials", fmt::format("{}", tuning.trials.trials().size())}},
                   {{"measured from", fmt::format("{} s", seconds_text(tuning.study.from))}},
                   {{"drycut", DRYCUT_VERSION}}};
@@ -278,6 +345,7 @@ void write_tuning_report(const Tuning& tuning, const std::filesystem::path& fold
     report.plots.push_back({picture, "plots/" + picture.filename().string()});
   report.tables = {before_after(tuning), values(tuning), patch_table(tuning), around(tuning)};
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
+  if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));
   report.tables.push_back(trials_table(tuning));
   renders::write_report(report, folder / "report.html");
 }

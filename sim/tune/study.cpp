@@ -59,6 +59,12 @@ Scenario read_case(const Study& study, const Study::Case& scenario, const std::v
 /// How far beyond, between 0 and 1: units differ from limit to limit.
 double beyond(double room) { return room < 0 ? -room / (1 - room) : 0; }
 
+/// What a margin that could not be measured counts: a broken limit, half way between nearly kept and grossly
+/// broken, for it may be either.
+constexpr double unmeasured = 1.5;
+/// A loop that is not stable is beyond every margin.
+constexpr double grossly_broken = 2;
+
 void stop(Verdict& verdict, std::string why) {
   verdict.stopped = true;
   if (verdict.note.empty()) verdict.note = std::move(why);
@@ -89,7 +95,13 @@ void judge_loop(const Study& study, const Scenario& scenario, std::vector<Gauge>
   verdict.runs += 2;
   const auto doubts = loop_doubts(*loop);
   if (!doubts.empty()) {
-    verdict.violation += 2;
+    const auto& sweep = loop->sweep;
+    const bool always_at_limit =
+        !sweep.points.empty() && std::all_of(sweep.points.begin(), sweep.points.end(),
+                                             [](const BodePoint& point) { return point.saturated; });
+    const bool wild =
+        sweep.loop == Sweep::Loop::unstable || sweep.loop == Sweep::Loop::runaway || always_at_limit;
+    verdict.violation += wild ? grossly_broken : unmeasured;
     verdict.note = doubts.front();
     return;
   }
@@ -106,7 +118,7 @@ void judge_loop(const Study& study, const Scenario& scenario, std::vector<Gauge>
       judge_limit(gauge, room, verdict.room[i], verdict);
       continue;
     }
-    verdict.violation += 2;
+    verdict.violation += unmeasured;
     if (verdict.note.empty()) verdict.note = "not met between the measured frequencies: " + gauge.text;
   }
 }
@@ -141,6 +153,11 @@ void measure_case(const Study& study, const Study::Case& entry, const std::vecto
 }
 
 }  // namespace
+
+bool Verdict::unmeasured() const {
+  return !stopped && violation > 0 && failed_checks == 0 &&
+         std::none_of(room.begin(), room.end(), [](double left) { return left < 0; });
+}
 
 double Verdict::rank() const {
   if (stopped) return std::numeric_limits<double>::max();

@@ -43,6 +43,8 @@ struct Verdict {
   std::string note;      ///< first thing that failed
 
   [[nodiscard]] bool feasible() const { return !stopped && violation == 0; }
+  /// True if all that was measured keeps its limit, but a margin gave no number; `note` says why.
+  [[nodiscard]] bool unmeasured() const;
   /// Smaller is better, always: what keeps all limits comes before what does not.
   [[nodiscard]] double rank() const;
 };

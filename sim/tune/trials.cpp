@@ -99,11 +99,12 @@ Trials::Trials(const Study& study, TunedParameters parameters, std::vector<Overr
 std::string Trials::fingerprint() const {
   Hash hash;
   hash.add(DRYCUT_VERSION);
+  hash.add("violations 2");  // how they are counted: rows of another way do not compare
   hash.add(study_.minimise);
   for (const auto& text : study_.constraints) hash.add(text);
   hash.add(fmt::format("{} {}", study_.from, study_.ignore_checks));
   if (study_.needs_loop)
-    hash.add(fmt::format("{} {} {}", study_.loop.wire, study_.loop.at.value_or(-1), study_.loop.amplitude));
+    hash.add(fmt::format("{} {} {}", study_.loop.wire, study_.loop.at.value_or(""), study_.loop.amplitude));
   for (const auto& override : fixed_) hash.add(override.path + "=" + override.value);
   for (const auto& entry : study_.cases) {
     devices::Problems problems;

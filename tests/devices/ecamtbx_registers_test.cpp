@@ -1,6 +1,7 @@
 // ECAMTBX as a program calls it: from a list in D registers to a cam's block.
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 
+#include "devices/lx3vp/ecamtbx_words.hpp"
 #include "tests/devices/ecamtbx_bench.hpp"
 #include "tests/devices/il_bench.hpp"
 #include "tests/devices/lx3vp_bench.hpp"
@@ -102,6 +103,94 @@ TEST(EcamtbxRegisters, AnErrorLeavesTheBlockAsItIs) {
   EXPECT_EQ(plc.registers.i16(result), -4);  // the low word alone tells it too
   EXPECT_EQ(plc.registers.i16(block + 38), 77);
   EXPECT_EQ(plc.registers.i16(block + 39), 0);
+}
+
+// Each error in words, with the numbers of the list at hand.
+TEST(EcamtbxRegisters, ErrorsSayWhatIsWrong) {
+  const auto fault = [](const std::string& change) {
+    il::Plc plc(
+        "LD M8000\nDMOV K3000 D100\nDMOV K12900 D102\nDMOV K9400 D104\nDEMOV E2.5 D106\n"
+        "DEMOV E2.5 D108\nMOV K1 D110\nMOV K101 D50\n" +
+        change + "ECAMTBX D100 D50 D2000 D300");
+    plc.registers.m[8000] = true;
+    plc.scan();
+    return plc.notes.calls.empty() ? std::string("no error")
+                                   : plc.notes.calls[0].substr(plc.notes.calls[0].find("ECAMTBX"));
+  };
+  const std::string left = "; the block D2000 is left as it was";
+  EXPECT_EQ(fault("DMOV K6560 D100\n"), "no error");
+  EXPECT_EQ(fault(""),
+            "ECAMTBX -3: P1 (D100) is 3000, but a stroke takes 6560 master pulses (P2 (D102) is 12900, "
+            "P3 (D104) is 9400, P4 (D106) is 2.5)" +
+                left);
+  EXPECT_EQ(fault("DMOV K6559 D100\n").substr(0, 60),
+            "ECAMTBX -3: P1 (D100) is 6559, but a stroke takes 6560 maste");
+  EXPECT_EQ(fault("MOV K0 D110\n").substr(0, 60),
+            "ECAMTBX -3: P1 (D100) is 3000, but a stroke takes 5160 maste");
+  EXPECT_EQ(
+      fault("DMOV K13000 D104\n"),
+      "ECAMTBX -3: P3 (D104) is 13000: the synchronous zone is longer than the slave, P2 (D102) is 12900" +
+          left);
+  EXPECT_EQ(fault("MOV K100 D50\n"),
+            "ECAMTBX -3: P1 (D100) is 3000, but the synchronous zone alone takes 3760 master pulses "
+            "(P2 (D102) is 12900, P3 (D104) is 9400, P4 (D106) is 2.5)" +
+                left);
+  EXPECT_EQ(fault("MOV K100 D50\nDMOV K4760 D100\n"),
+            "ECAMTBX -4: P5 (D108) is 2.5, but the cycle needs more: outside the synchronous zone the mean "
+            "ratio is 3.5 (P1 (D100) is 4760, P2 (D102) is 12900, P3 (D104) is 9400, P4 (D106) is 2.5)" +
+                left);
+  EXPECT_EQ(fault("DEMOV E1 D108\n"), "ECAMTBX -4: P5 (D108) is 1, less than P4 (D106) is 2.5" + left);
+  EXPECT_EQ(fault("DEMOV E0 D106\n"),
+            "ECAMTBX -8: P4 (D106) is 0 and P5 (D108) is 2.5; write ratios above 0" + left);
+  EXPECT_EQ(fault("MOV K7 D50\n"), "ECAMTBX -1: the type is 7; write K0, K1, K100 or K101" + left);
+  EXPECT_EQ(fault("MOV K3 D110\n"),
+            "ECAMTBX -1: P6 low (D110) is 3; write 0, 1 or 2 for the acceleration" + left);
+  EXPECT_EQ(fault("MOV K100 D50\nMOV K4 D111\n"),
+            "ECAMTBX -1: P6 high (D111) is 4; write 0, 1, 2, 3 or 5 for the cam curve, plus H1000 backwards" +
+                left);
+  EXPECT_EQ(fault("DMOV K0 D100\n"), "ECAMTBX -2: P1 (D100) is 0; write a master length above 0" + left);
+  EXPECT_EQ(fault("DMOV K0 D102\n"), "ECAMTBX -2: P2 (D102) is 0; write a slave length other than 0" + left);
+  EXPECT_EQ(fault("DMOV K-1 D104\n"), "ECAMTBX -2: P3 (D104) is -1; write 0 or more" + left);
+  EXPECT_EQ(
+      fault("DMOV K1073741824 D100\n"),
+      "ECAMTBX -2: P1 (D100) is 1073741824; both strokes go beyond 32 bits, write 1073741823 at most" + left);
+  EXPECT_EQ(fault("MOV K9 D112\n"), "ECAMTBX -5: P7 (D112) is 9; write 0 (automatic) or 10 to 512" + left);
+}
+
+TEST(EcamtbxRegisters, ErrorsOfTheSCurveSayWhatIsWrong) {
+  const auto fault = [](int offset, std::int32_t value, int at = block) {
+    Registers d;
+    d.set_i32(100, 10000);
+    d.set_i32(102, 50000);
+    d.set_i16(106, 100);
+    d.set_i16(107, 100);
+    d.set_i16(108, 200);
+    if (offset < 6)
+      d.set_i32(100 + offset, value);
+    else
+      d.set_i16(100 + offset, static_cast<std::int16_t>(value));
+    return run_ecamtbx(d, 100, 0, at, result).fault;
+  };
+  EXPECT_EQ(fault(4, 0), "");
+  EXPECT_EQ(fault(0, 0), "P1 (D100) is 0; write a way other than 0");
+  EXPECT_EQ(fault(2, 150'001), "P2 (D102) is 150001; write 1 to 150000 Hz");
+  EXPECT_EQ(fault(6, -1), "P4 (D106) is -1; write 0 to 32767 ms");
+  EXPECT_EQ(fault(7, -2), "P5 (D107) is -2; write 0 to 32767 ms");
+  EXPECT_EQ(fault(8, 50), "P6 (D108) is 50; write 51 to 512");
+  EXPECT_EQ(fault(4, 0, 7161), "the table of 200 rows from D7201 on ends at D8000, beyond D7999");
+}
+
+// The table of the words is what the registers are read by: each parameter at its place and in its type.
+TEST(EcamtbxRegisters, TheListsDoNotOverlap) {
+  for (const auto words : {saw_words(), s_curve_words()}) {
+    int next = 0;
+    for (const auto& word : words) {
+      EXPECT_GE(word.offset, next) << word.number;
+      EXPECT_EQ(word.words, word.type.ends_with("32") ? 2 : 1) << word.number;
+      next = word.offset + word.words;
+    }
+    EXPECT_LE(next, ecamtbx_parameters);
+  }
 }
 
 TEST(EcamtbxRegisters, ATableThatDoesNotFitTheRegisters) {

@@ -51,6 +51,9 @@ struct Notes : Instructions {
   void error(int step, int code, const std::string& text) override {
     calls.push_back("error " + std::to_string(step) + " " + std::to_string(code) + " " + text);
   }
+  void cam_table(int step, std::int32_t result, const std::string& text) override {
+    if (result < 0) calls.push_back("cam " + std::to_string(step) + " " + text);
+  }
 };
 
 /// A program with its registers, scanned every 10 ms.

@@ -25,6 +25,15 @@ TEST(IlCompile, NamesTheNearestInstruction) {
               ElementsAre("3:1: there is no instruction '@%$#&'; one instruction a line: LD X0"));
 }
 
+// The real unit has them: no wrong suggestion.
+TEST(IlCompile, SaysWhatIsNotSimulated) {
+  for (const std::string name : {"PLSY", "dplsy", "SFTLP", "DFROMP", "FOR", "RET", "WDTP", "DHSCS", "EI"})
+    EXPECT_THAT(faults("LD X0\n" + name + " K1 Y0\nOUT Y0\nEND"),
+                ElementsAre("2:1: " + name + " is not simulated; `drycut devices LX3VP` lists what is"));
+  for (const auto& spelling : spellings()) EXPECT_FALSE(is_not_simulated(spelling.text)) << spelling.text;
+  for (const char* typo : {"DMVO", "OTU", "P", "D", ""}) EXPECT_FALSE(is_not_simulated(typo)) << typo;
+}
+
 TEST(IlCompile, AllFaultsInOneRun) {
   EXPECT_THAT(faults("LD X8\nMOV K40000 D0\nOUT X1\nEND"),
               ElementsAre("1:4: 'X8' is not octal; X count X0 to X7, X10 to X17 and on",

@@ -33,9 +33,9 @@ class CamBench {
     for (const BlockWord& word : block_words()) {
       if (word.offset >= block_length || word.access == BlockWord::Access::read) continue;
       if (word.words == 2)
-        registers.set_i32(at + word.offset, static_cast<std::int32_t>(word.initial));
+        registers.set_i32(at + word.offset, static_cast<std::int32_t>(word.set_up));
       else
-        registers.d[static_cast<std::size_t>(at + word.offset)] = static_cast<std::uint16_t>(word.initial);
+        registers.d[static_cast<std::size_t>(at + word.offset)] = static_cast<std::uint16_t>(word.set_up);
     }
   }
   void table(const std::vector<std::pair<std::int32_t, std::int32_t>>& rows, int at = block) {

@@ -267,6 +267,59 @@ TEST(Lx3vpController, HeldBackPulsesAreAWarning) {
                           "of Y0; they come later"));
 }
 
+TEST(Lx3vpController, ALimitOfZeroIsAWarningOfItsOwn) {
+  Plc plc("LD M8000\nDECAM D100 D2000 X2 Y0 Y4\nEND\n");
+  plc.block(2000, {{0, 0}, {100'000, 100'000}});
+  plc.set("DD2006", 0);
+  plc.set("D2005", 1);
+  plc.run_ms(5);
+  plc.set("DD100", 5'000);
+  plc.run_ms(100);
+  EXPECT_EQ(plc.get("DD8140"), 0);
+  EXPECT_THAT(plc.events(), ElementsAre("LX3VP warning: test.il:2: D2006 is 0: nothing comes out of Y0; "
+                                        "write 1 to 200000"));
+}
+
+// A failing ECAMTBX stops no program, and the machine only stands still: it is told, once a change.
+TEST(Lx3vpController, AFailingEcamtbxIsAWarningOnceAChange) {
+  Plc plc("LD M8000\nECAMTBX D500 K101 D1000 D540\nEND\n");
+  plc.set("DD500", 6560);
+  plc.set("DD502", 12900);
+  plc.set("DD504", 9400);
+  plc.set("FD506", 2.5);
+  plc.set("FD508", 2.5);
+  plc.set("D510", 1);
+  plc.run_ms(100);
+  EXPECT_EQ(plc.get("DD540"), 200);
+  EXPECT_THAT(plc.events(), testing::IsEmpty());
+  plc.set("DD500", 3000);
+  plc.run_ms(100);
+  plc.set("DD500", 2999);  // the same result
+  plc.run_ms(100);
+  EXPECT_EQ(plc.get("DD540"), -3);
+  EXPECT_EQ(plc.get("M8067"), 0);
+  EXPECT_THAT(plc.events(),
+              ElementsAre("LX3VP warning: test.il:2: ECAMTBX -3: P1 (D500) is 3000, but a stroke takes 6560 "
+                          "master pulses (P2 (D502) is 12900, P3 (D504) is 9400, P4 (D506) is 2.5); "
+                          "the block D1000 is left as it was"));
+  plc.set("FD506", 0);
+  plc.run_ms(100);
+  plc.set("FD506", 2.5);
+  plc.run_ms(100);
+  const auto events = plc.events();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_THAT(events[0], HasSubstr("ECAMTBX -8: "));
+  EXPECT_THAT(events[1], HasSubstr("ECAMTBX -3: P1 (D500) is 2999"));
+  plc.set("DD500", 6560);
+  plc.run_ms(100);
+  EXPECT_THAT(plc.events(), testing::IsEmpty());
+  plc.controller_.power(false);
+  plc.controller_.power(true);
+  plc.set("DD500", 3000);
+  plc.run_ms(100);
+  EXPECT_EQ(plc.events().size(), 1u);
+}
+
 TEST(Lx3vpController, PowerOffKeepsWhatIsRetentive) {
   Plc plc("LD M8002\nINC D300\nINC D0\nLD M8000\nOUT Y7\nDPLSV K1000 Y0 Y4\nEND\n");
   plc.set("D199", 1);

@@ -142,6 +142,33 @@ TEST_F(Oopos2Inertia, AChangeAboveMaxinerIsAnAlertOnly) {
   EXPECT_EQ(get("st_erin"), 0);
 }
 
+TEST_F(Oopos2Inertia, AWayThatItsWordDoesNotHoldIsToldOnceABand) {
+  set({{"ninert", 2}, {"iner02", 32767}});
+  const auto overrun = [&](int setpos) {  // 12 Um coasted and pushed on by 3265: 32770 Um/10 in band 1
+    write("setpos", setpos);
+    command("START");
+    ASSERT_TRUE(wait("st_movslow", 1));
+    while (output(4)) tick();
+    count() += 3265;
+    ASSERT_TRUE(wait("st_still", 1));
+  };
+  diagnostics();
+  overrun(500);
+  EXPECT_EQ(get("iner01"), 32767);
+  EXPECT_THAT(diagnostics(),
+              testing::ElementsAre("iner01: the way coasted would be 32770 Um/10, held at 32767"));
+  write("iner01", 0);
+  count() = 0;
+  overrun(500);
+  EXPECT_EQ(get("iner01"), 32767);
+  EXPECT_THAT(diagnostics(), testing::IsEmpty());  // said already
+  write("iner02", 0);
+  overrun(4500);
+  EXPECT_EQ(get("iner02"), 32767);
+  EXPECT_THAT(diagnostics(),
+              testing::ElementsAre("iner02: the way coasted would be 32770 Um/10, held at 32767"));
+}
+
 TEST_F(Oopos2Inertia, ItIsNeverNegative) {
   coast = 0;
   write("iner01", 100);

@@ -219,6 +219,11 @@ TEST_F(ProgramTest, TablesAreComplete) {
     EXPECT_THAT(plant.text, testing::HasSubstr(name));
   }
   EXPECT_EQ(call("plants --json").status, 0);
+  const auto axis = call("plants backlash_axis");
+  EXPECT_THAT(axis.text, testing::ContainsRegex("drive\\.forward .*\\(drive: inverter, contactors\\)\n"));
+  EXPECT_THAT(axis.text, testing::ContainsRegex("servo\\.reference .*\\(drive: servo\\)\n"));
+  EXPECT_THAT(call("plants backlash_axis --json").text,
+              testing::ContainsRegex("\"drives\": \\[[ \n]*\"inverter\",[ \n]*\"contactors\"[ \n]*\\]"));
   const auto wrong = call("devices CAMING4");
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.text, testing::HasSubstr("did you mean CAMMING4?"));

@@ -82,10 +82,28 @@ TEST_F(BodeCommand, FailsOnAnUnstableLoop) {
 }
 
 TEST_F(BodeCommand, FailsOnAnOpenLoop) {
-  options.loop.at = 0.001;
+  options.loop.at = "0.001";
   folder.write("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
   EXPECT_EQ(run(), check_failed);
-  EXPECT_THAT(out, HasSubstr("2.AN01 does not answer: the loop is open at 0.001 s"));
+  EXPECT_THAT(out,
+              HasSubstr("2.AN01 does not answer to 1 V at 0.001 s: either the loop is open there (let the "
+                        "program do REGON before, or choose another --at), or the axis sits in play or "
+                        "stiction (take more --amplitude)"));
+}
+
+TEST_F(BodeCommand, TakesATimeWithItsUnit) {
+  options.loop.at = "400 ms";
+  EXPECT_EQ(run(), all_passed) << out;
+  EXPECT_THAT(out, HasSubstr("added from 0.4 s"));
+  options.loop.at = "6 kg";
+  refuses("--at:1:1: '6 kg' is no time from 0 to 1e6 s; such as 6 s");
+}
+
+TEST_F(BodeCommand, ALoopOfLowGainIsNotUnstable) {
+  options.set = {"controller.qmove.set.Axis.pgain=1"};
+  options.loop.amplitude = 0.1;
+  run();
+  EXPECT_THAT(out, testing::Not(HasSubstr("not stable")));
 }
 
 TEST_F(BodeCommand, WritesTableAndPicture) {

@@ -83,7 +83,7 @@ TEST_P(BodeLimitCycle, BeginsWhereTheFrequencyResponsePredictsIt) {
   devices::Problems problems;
   const auto axis = scenario(gain_in_force, 0, problems);
   LoopRequest request;
-  request.at = 0.2;
+  request.at = "200 ms";
   request.from = GetParam().least;
   request.to = GetParam().most;
   request.points = 14;

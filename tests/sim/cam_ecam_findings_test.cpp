@@ -44,9 +44,14 @@ TEST(EcamFindings, TablesThatTheDeviceRefuses) {
 TEST(EcamFindings, EcamtbxErrorsWithTheirRemedies) {
   const auto told = [](const std::string& text) { return ecams::findings(ecams::table(text)).at(0); };
   EXPECT_EQ(told(ecams::rotary("50/3", "3")),
-            "error -1: ECAMTBX makes no table: there is no such type of table, acceleration or cam curve "
-            "(S1, P6); give P6L 0, "
-            "1 or 2 and P6H 0, 1, 2, 3 or 5, with 4096 (H1000) added to return");
+            "error -1: ECAMTBX makes no table: there is no P6L 3; give P6L 0, 1 or 2");
+  EXPECT_EQ(
+      told(ecams::rotary("50/3", "H00040001")),
+      "error -1: ECAMTBX makes no table: there is no P6H 4; give P6H 0, 1, 2, 3 or 5, with 4096 (H1000) "
+      "added to return");
+  EXPECT_EQ(told(ecams::rotary("50/3", "H10060007")),
+            "error -1: ECAMTBX makes no table: there is no P6L 7, P6H 4102; give P6L 0, 1 or 2 and P6H 0, 1, "
+            "2, 3 or 5, with 4096 (H1000) added to return");
   EXPECT_THAT(told(ecams::rotary("50/3", "1", "-1")), HasSubstr("error -2: "));
   EXPECT_THAT(told(ecams::rotary("50/3", "1", "1001")), HasSubstr("; give P3 1000 at most"));
   EXPECT_THAT(told(ecams::rotary("1.5")),
@@ -105,23 +110,111 @@ TEST(EcamFindings, SpeedsAtTheMastersSpeed) {
   EXPECT_THAT(ecams::findings(table, {.master_speed = 1000.0, .max_acceleration = 9999.0}),
               ElementsAre("row 1 (line 4): limit: acceleration 10000 pulses/s2 above 9999; give it more "
                           "master, or run the master at "
-                          "999.95 pulses/s at most"));
-  // Of made tables the laws are judged, not the rounding of their rows.
+                          "999.949 pulses/s at most"));
+}
+
+TEST(EcamFindings, SpeedsOfMadeTablesAreOfTheLawOrOfTheSteeperRows) {
+  // The law asks for 5/3; rows rounded to a pulse go to 7/4.
   const auto made = ecams::table(ecams::rotary());
   EXPECT_THAT(
-      ecams::findings(made, {.master_speed = 1000.0, .max_velocity = 1667.0, .max_acceleration = 4165.0}),
+      ecams::findings(made, {.master_speed = 1000.0, .max_velocity = 1750.0, .max_acceleration = 4165.0}),
       IsEmpty());
-  EXPECT_THAT(
-      ecams::findings(made, {.master_speed = 1000.0, .max_velocity = 1666.0, .max_acceleration = 4164.0}),
-      ElementsAre(
-          "piece 1: limit: velocity 1666.67 pulses/s above 1666; run the master at 999.6 pulses/s at most",
-          "piece 2: limit: acceleration 4164.58 pulses/s2 above 4164; give it more master, or run the master "
-          "at "
-          "999.93 pulses/s at most"));
+  const auto found =
+      ecams::findings(made, {.master_speed = 1000.0, .max_velocity = 1749.0, .max_acceleration = 4164.0});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_THAT(found[0], testing::StartsWith("row "));
+  EXPECT_THAT(found[0],
+              testing::EndsWith(
+                  ": limit: velocity 1750 pulses/s above 1749; run the master at 999.428 pulses/s at most"));
+  EXPECT_EQ(
+      found[1],
+      "piece 2: limit: acceleration 4164.58 pulses/s2 above 4164; give it more master, or run the master "
+      "at 999.929 pulses/s at most");
+}
+
+/// The number behind some words of the only finding.
+double number_behind(const std::vector<std::string>& found, const std::string& words) {
+  if (found.size() != 1 || found[0].find(words) == std::string::npos) {
+    ADD_FAILURE() << testing::PrintToString(found);
+    return 0;
+  }
+  return std::stod(found[0].substr(found[0].find(words) + words.size()));
+}
+
+TEST(EcamFindings, TheRemedysSpeedIsSoundAsLawAndAsRows) {
+  const auto saw = [](int P1) {
+    return "# ecamtbx: K101\nparameter,value\nP1," + std::to_string(P1) +
+           "\nP2,2000\nP3,667\nP4,9.424778\nP5,10\nP6L,1\n";
+  };
+  for (const auto& text : {saw(1750), saw(1777), saw(2001), ecams::rotary(), ecams::rotary("20", "2")}) {
+    const auto law = ecams::table(text);
+    const auto as_rows = ecams::table(ecam_rows_csv(law));
+    for (const auto& table : {law, as_rows}) {
+      const double speed =
+          number_behind(ecams::findings(table, {.master_speed = 180000.0}), "run the master at ");
+      EXPECT_GT(speed, 10000);
+      EXPECT_THAT(ecams::findings(law, {.master_speed = speed}), IsEmpty());
+      EXPECT_THAT(ecams::findings(as_rows, {.master_speed = speed}), IsEmpty());
+      // It is the largest of six digits.
+      EXPECT_THAT(ecams::findings(as_rows, {.master_speed = speed * 1.00002}), testing::SizeIs(1));
+    }
+  }
+}
+
+TEST(EcamFindings, TheRemedysP2IsSoundAsLawAndAsRows) {
+  for (const double limit : {12345.0, 33333.0, 40000.0, 47777.0, 49999.0}) {
+    const auto s_curve = [](int P2) {
+      return ecams::table("# ecamtbx: K1\nparameter,value\nP1,10000\nP2," + std::to_string(P2) +
+                          "\nP4,93\nP5,117\nP6,211\n");
+    };
+    const double P2 = number_behind(ecams::findings(s_curve(50000), {.max_velocity = limit}), "give P2 ");
+    EXPECT_GT(P2, 0.8 * limit);
+    EXPECT_LE(P2, limit);
+    const auto law = s_curve(static_cast<int>(P2));
+    EXPECT_THAT(ecams::findings(law, {.max_velocity = limit}), IsEmpty());
+    EXPECT_THAT(ecams::findings(ecams::table(ecam_rows_csv(law)), {.max_velocity = limit}), IsEmpty());
+  }
+}
+
+TEST(EcamFindings, AccelerationsOfMadeTablesAndTheirP2) {
   EXPECT_THAT(
       ecams::findings(ecams::table(ecams::s_curve()), {.max_velocity = 40000.0, .max_acceleration = 1000.0}),
       ElementsAre("piece 1: limit: velocity 50000 pulses/s above 40000; give P2 40000 Hz at most",
                   "piece 1: limit: acceleration 785398 pulses/s2 above 1000; give its ramps more time"));
+}
+
+TEST(EcamFindings, RatiosOfALawAboveTheLimit) {
+  EXPECT_THAT(
+      ecams::findings(ecams::table("# max_ratio: 4.99\n" + ecams::s_curve())),
+      ElementsAre(testing::MatchesRegex("row [0-9]+: limit: ratio 5 above 4.99; give P2 [0-9]+ Hz at most")));
+  EXPECT_THAT(ecams::findings(ecams::table("# max_ratio: 5\n" + ecams::s_curve())), IsEmpty());
+  EXPECT_THAT(ecams::findings(ecams::table("# max_ratio: 1.66\n" + ecams::rotary())),
+              ElementsAre(HasSubstr("limit: ratio 1.66667 above 1.66; give P5 1.66 at most, which ECAMTBX "
+                                    "keeps to")));
+}
+
+TEST(EcamFindings, ACamThatRunsOnceJumpsFromRestOrToRest) {
+  const auto s_curve = [](const std::string& P4, const std::string& P5) {
+    return ecams::findings(ecams::table("# ecamtbx: K0\nparameter,value\nP1,10000\nP2,50000\nP4," + P4 +
+                                        "\nP5," + P5 + "\nP6,200\n"));
+  };
+  const std::string start =
+      "piece 1: caution: the ratio jumps from 0 to 5 as the cam starts; give P4 some time";
+  const std::string end = ": caution: the ratio jumps from 5 to 0 at the end of the cam; give P5 some time";
+  EXPECT_THAT(s_curve("100", "100"), IsEmpty());
+  EXPECT_THAT(s_curve("0", "100"), ElementsAre(start));
+  EXPECT_THAT(s_curve("100", "0"), ElementsAre("piece 2" + end));
+  EXPECT_THAT(s_curve("0", "0"), ElementsAre(start, "piece 1" + end));
+  const auto once = [](const std::string& P6) {
+    return ecams::findings(ecams::table("# cyclic: 0\n" + ecams::rotary("50/3", P6)));
+  };
+  EXPECT_THAT(once("H00000001"),
+              ElementsAre("piece 1: caution: the ratio jumps from 0 to 1.66667 as the cam starts; use "
+                          "midCAMbegin for the first cycle",
+                          HasSubstr("the ratio jumps from 1.66667 to 0 at the end of the cam; use midCAMend "
+                                    "for the last")));
+  EXPECT_THAT(once("H00020001"), IsEmpty()) << "midCAMbegin goes on in another";
+  EXPECT_THAT(once("H00030001"), IsEmpty()) << "midCAMend goes on from another";
 }
 
 TEST(EcamFindings, JumpsOfTheRatio) {

@@ -137,9 +137,48 @@ TEST(CamKinds, AreToldByTheHeader) {
   EXPECT_EQ(cam_kind("", "# remark\n\nsector,codeG\n").name, "camming4");
   EXPECT_EQ(cam_kind("", "# remark\n\nmaster,slave\n").name, "lx3vp");
   EXPECT_EQ(cam_kind("", ecams::rotary()).name, "lx3vp");
-  EXPECT_EQ(cam_kind("", "nothing").name, "camming4");
+  EXPECT_EQ(cam_kind("", "").name, "camming4");
+  EXPECT_EQ(cam_kind("", "0,0\n").name, "camming4");
+  EXPECT_EQ(cam_kind("", "sektor,codeG\n").name, "camming4");
+  EXPECT_EQ(cam_kind("", "mastr,slave\n").name, "lx3vp");
+  EXPECT_EQ(cam_kind("", "foo,bar\n").name, "");
   EXPECT_EQ(cam_kind("lx3vp", "sector,codeG\n").name, "lx3vp");
   for (const auto& kind : cam_kinds()) EXPECT_EQ(cam_kind(kind.name, "").name, kind.name);
+}
+
+TEST(CamKinds, AHeaderOfNoneIsToldWithAllOfTheirs) {
+  const std::string text = "# remark\n  foo,bar \n0,0\n";
+  devices::Problems problems;
+  cam_kind("", text).study(text, "a.csv", {}, problems);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(to_string(problems[0]),
+            "a.csv:2:3: 'foo,bar' is the header of no cam table; CAMMING4's is "
+            "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM; LX3VP's is master,slave, or parameter,value "
+            "below a line # ecamtbx: K100 (K101, K0, K1)");
+}
+
+TEST(EcamTable, TheTimeAxisAsTheProgramHasIt) {
+  EXPECT_EQ(ecams::table("# time_axis: K10\nmaster,slave\n0,0\n5,5\n").time_axis, 10);
+  EXPECT_EQ(ecams::table("# time_axis: k1\nmaster,slave\n0,0\n5,5\n").time_axis, 1);
+  EXPECT_THAT(ecams::faults("# time_axis: K0\nmaster,slave\n0,0\n"),
+              ElementsAre("1:15: time_axis '0' is out of range; write a whole number from 1 to 2147483647"));
+  EXPECT_THAT(ecams::faults("# time_axis: K\nmaster,slave\n0,0\n"),
+              ElementsAre(testing::StartsWith("1:14: time_axis 'K' is not a whole number")));
+}
+
+TEST(EcamTable, SettingsWithoutAColon) {
+  EXPECT_THAT(ecams::faults("# time_axis\n#cyclic 0\n# max_ratio = 5/2\n# max_position=\n# time_axis K5\n"
+                            "master,slave\n0,0\n"),
+              ElementsAre("1:3: time_axis has no colon; write # time_axis: and its value; a remark begins "
+                          "with ##",
+                          "2:2: cyclic has no colon; write # cyclic: 0; a remark begins with ##",
+                          "3:3: max_ratio has no colon; write # max_ratio: 5/2; a remark begins with ##",
+                          "4:3: max_position has no colon; write # max_position: and its value; a remark "
+                          "begins with ##",
+                          "5:3: time_axis has no colon; write # time_axis: K5; a remark begins with ##"));
+  EXPECT_THAT(ecams::faults("# time_axis in tenths of 1 ms\n# cyclic 1 means again\n## time_axis\n#\n"
+                            "# time\nmaster,slave\n0,0\n"),
+              IsEmpty());
 }
 
 }  // namespace

@@ -124,7 +124,15 @@ TEST_F(ChecksTest, AlwaysWithoutMarginTellsTheFirstFailure) {
   EXPECT_FALSE(r.passed);
   EXPECT_FALSE(r.margin);
   EXPECT_DOUBLE_EQ(*r.at, 2.0);
-  EXPECT_EQ(r.detail, "3 instants, 2 failed");
+  EXPECT_EQ(r.detail, "3 instants, 2 failed, first at 2.0000 s: error=3 Um, last at 3.0000 s");
+}
+
+TEST_F(ChecksTest, EachWithoutMarginTellsTheFirstFailure) {
+  add(Check::Kind::each, "cut", "length == 800 || force == 0");
+  start();
+  cut(2 * second, 800);
+  cut(3 * second, 801);
+  EXPECT_EQ(result().detail, "2 cut events, 1 failed, first at 3.0000 s: length=801 mm; force=130 N");
 }
 
 TEST_F(ChecksTest, AlwaysNeverLookedAtFails) {
@@ -154,6 +162,33 @@ TEST_F(ChecksTest, EventuallyTooLateFails) {
   sample(second, 1);
   sample(2 * second, 6);
   EXPECT_FALSE(result().passed);
+}
+
+TEST_F(ChecksTest, EventuallyNeverTrueTellsTheValueAtTheEnd) {
+  add(Check::Kind::eventually, "", "error == 7").within = 3 * second;
+  start();
+  sample(second, 1);
+  sample(2 * second, 6);
+  sample(4 * second, 7);  // too late
+  const auto r = result();
+  EXPECT_FALSE(r.passed);
+  EXPECT_EQ(*r.at, 2.0);
+  EXPECT_EQ(r.detail, "not true at any of 2 instants, the last at 2.0000 s: error=6 Um");
+}
+
+TEST_F(ChecksTest, RoundingNoiseIsPrintedAsZero) {
+  add(Check::Kind::each, "cut", "length >= -1");
+  start();
+  cut(2 * second, -1.8e-12);
+  EXPECT_EQ(result().detail, "1 cut events, worst: length=0 mm; force=130 N");
+  EXPECT_EQ(values_text({0, 0, "a", "b", {{"slant", -1.8e-12, "mm"}, {"gap", 2e-9, "mm"}}, ""}),
+            "slant=0 mm; gap=2e-09 mm");
+  CheckResult noise;
+  noise.margin = 1e-13;
+  noise.unit = "mm";
+  EXPECT_EQ(margin_text(noise), "0 mm left");
+  noise.margin = -1e-13;
+  EXPECT_EQ(margin_text(noise), "0 mm too far");
 }
 
 TEST_F(ChecksTest, NeverCountsEvents) {

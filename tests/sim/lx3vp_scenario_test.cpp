@@ -61,6 +61,24 @@ checks:
   devices::Problems problems;
 };
 
+TEST_F(Lx3vpScenario, AProgramThatDoesNotLoadMakesNoSwitchOfThePanelUnknown) {
+  const auto scenario = read(R"(scene: {title: Saw, step: 50 us, duration: 2 s}
+plants: {bench: {type: bench}}
+controller:
+  lx3vp: {program: gone.il, scan: 1 ms}
+wiring: {X1: panel.start, Y10: panel.lamp}
+timeline:
+  - {at: 0.1 s, set: {panel.start: on}}
+  - {at: 0.2 s, set: {panel.stop: on}}
+record: {every: 1 ms, channels: [panel.start, panel.lamp]}
+)");
+  Simulation simulation(scenario, problems);
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_THAT(told()[0], HasSubstr("gone.il"));
+  EXPECT_THAT(told()[1], HasSubstr("line.yaml:8:23: nothing called 'panel.stop' can be set; wire an input to "
+                                   "panel.stop first; switches: panel.start"));
+}
+
 TEST_F(Lx3vpScenario, RunsAgainstTheBench) {
   const auto scenario = read(line);
   Simulation simulation(scenario, problems);

@@ -22,7 +22,8 @@ TEST(Lx3vpTables, AreListedWithTheDevices) {
   EXPECT_THAT(list, HasSubstr("\nDECAM          electronic cam of the LX3VP"));
   EXPECT_THAT(list, HasSubstr("\nLX3VP          WECON LX3VP"));
   const auto json = nlohmann::json::parse(printed("", true));
-  EXPECT_EQ(json.at(json.size() - 2).at("name"), "DECAM");
+  EXPECT_EQ(json.at(json.size() - 3).at("name"), "DECAM");
+  EXPECT_EQ(json.at(json.size() - 2).at("name"), "ECAMTBX");
   EXPECT_EQ(json.back().at("name"), "LX3VP");
 }
 
@@ -33,6 +34,31 @@ TEST(Lx3vpTables, DecamIsTheWholeBlock) {
   const auto json = nlohmann::json::parse(printed("DECAM", true));
   EXPECT_EQ(json.at("words").size(), devices::lx3vp::block_words().size());
   EXPECT_EQ(json.at("flags").size(), devices::lx3vp::block_flags().size());
+}
+
+// The registers are 0 at power-up: the table says what to write, and only where there is something to write.
+TEST(Lx3vpTables, DecamSaysWhatToWriteAtSetUp) {
+  const auto text = printed("DECAM", false);
+  EXPECT_THAT(text, HasSubstr("write at set-up"));
+  EXPECT_THAT(text, HasSubstr("Registers are 0 until something writes them"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  6-7 +max frequency +i32 +1..200000 +200000 +read/write"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  39 +table offset +u16 +40 +40 +read/write.*ECAMTBX"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  0 +version +u16 +read "));
+  EXPECT_THAT(text, testing::Not(HasSubstr("initial ")));
+}
+
+TEST(Lx3vpTables, EcamtbxHasItsListsAndResults) {
+  const auto text = printed("ecamtbx", false);
+  EXPECT_THAT(text, testing::ContainsRegex("\n  6-7 +P4 +f32 +above 0 +slave pulses per master pulse"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  12 +P7 +u16 +rows +0, 10..512"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  2-3 +P2 +i32 +Hz +1..150000"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  -3 +the synchronous zone does not fit"));
+  const auto json = nlohmann::json::parse(printed("ECAMTBX", true));
+  EXPECT_EQ(json.at("saw_words").size(), 8U);
+  EXPECT_EQ(json.at("s_curve_words").size(), 10U);
+  ASSERT_EQ(json.at("results").size(), 8U);
+  for (int i = 0; i < 8; ++i)
+    EXPECT_EQ(json.at("results").at(static_cast<std::size_t>(i)).at("result"), -1 - i);
 }
 
 TEST(Lx3vpTables, TheControllerHasRegistersAndInstructions) {

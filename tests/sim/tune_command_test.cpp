@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/tune/study.hpp"
 #include "tests/sim/tune_bench.hpp"
 
 namespace drycut::sim::tuning {
@@ -112,7 +113,9 @@ TEST_F(TuneMargins, AnUnstableLoopIsBeyondEveryMargin) {
   options.budget = 6;
   options.constraints = {"phase_margin >= 1"};
   EXPECT_EQ(run(), check_failed) << out << err;
-  EXPECT_THAT(out, HasSubstr("the loop is not stable"));
+  EXPECT_THAT(out,
+              testing::StartsWith(
+                  "No values tried keep all limits; the best miss is not measured: the loop is not stable"));
 }
 
 TEST_F(TuneMargins, AMarginThatIsNotMetIsNotKept) {
@@ -120,7 +123,49 @@ TEST_F(TuneMargins, AMarginThatIsNotMetIsNotKept) {
   options.constraints = {"gain_margin >= 1"};
   options.budget = 9;
   EXPECT_EQ(run(), check_failed) << out << err;
-  EXPECT_THAT(out, HasSubstr("not met between the measured frequencies: gain_margin >= 1"));
+  EXPECT_THAT(
+      out,
+      HasSubstr("\n  after, not measured: not met between the measured frequencies: gain_margin >= 1\n"));
+  EXPECT_THAT(out, testing::ContainsRegex("limits +not measured +not measured\n"));
+}
+
+TEST_F(TuneMargins, WhereNothingKeepsTheLimitsThePatchSaysSo) {
+  options.vary = {pgain + "=100..900"};
+  options.budget = 12;
+  options.constraints = {"phase_margin >= 170"};
+  options.spread = {"plants.axis.speed_at_10v=±10%"};
+  options.spread_runs = 3;
+  EXPECT_EQ(run(), check_failed) << out << err;
+  const std::string miss = "o values tried keep all limits; the best miss is beyond phase_margin >= 170\n";
+  EXPECT_THAT(out, testing::StartsWith("N" + miss));
+  EXPECT_THAT(content(folder / "out/patch.txt"), testing::StartsWith("# n" + miss));
+  EXPECT_THAT(out, HasSubstr("3 samples, 3 beyond a limit; worst of the limits: beyond phase_margin >= 170 "
+                             "(there rms(AxisX.follerr) = "));
+}
+
+TEST_F(TuneMargins, AMarginWithoutANumberRanksBetweenNearlyKeptAndGrosslyBroken) {
+  // The loop of the bench at pgain 100 has 87.1 deg.
+  const auto violation_of = [this](const std::string& constraint, std::optional<double> to) {
+    Study study;
+    study.cases.push_back({folder / "axis.yaml", scenario, {}});
+    study.set = {{sim::tuning::pgain, "100"}};
+    study.minimise = "rms(AxisX.follerr)";
+    study.constraints = {constraint};
+    study.loop.points = 8;
+    study.loop.from = 5;
+    study.loop.to = to;
+    study.loop.settle = 0.2;
+    study.loop.amplitude = 1;
+    devices::Problems problems;
+    prepare(study, problems);
+    EXPECT_TRUE(problems.empty());
+    const auto verdict = measure(study, {});
+    EXPECT_EQ(verdict.unmeasured(), to.has_value()) << verdict.note;
+    return verdict.violation;
+  };
+  const double unmeasured = violation_of("gain_margin >= 1", 20);
+  EXPECT_LT(violation_of("phase_margin >= 87.5", {}), unmeasured);
+  EXPECT_GT(violation_of("phase_margin >= 150", {}), unmeasured);
 }
 
 TEST_F(TuneMargins, SpreadTellsTheLeastRoom) {

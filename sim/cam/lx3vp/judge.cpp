@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace drycut::sim {
 
@@ -19,6 +20,37 @@ constexpr std::size_t most_rows = 512;
 
 std::string number(double value) { return number_text(value, 6); }
 
+/// A speed that a remedy names: rounded down, so that it is sound itself.
+std::string number_below(double value) {
+  constexpr int digits = 6;
+  const double rounded = std::strtod(number(value).c_str(), nullptr);
+  if (rounded <= value * within) return number(value);
+  return number(rounded - std::pow(10.0, std::floor(std::log10(value)) + 1 - digits));
+}
+
+/// The steepest of the straight pieces between rows, by the row that ends it.
+std::size_t steepest_row(const std::vector<devices::lx3vp::CamTableRow>& rows) {
+  const auto steepness = [&](std::size_t row) {
+    return std::abs(static_cast<double>(rows[row].slave) - rows[row - 1].slave) /
+           (static_cast<double>(rows[row].master) - rows[row - 1].master);
+  };
+  std::size_t worst = 1;
+  for (std::size_t i = 2; i < rows.size(); ++i)
+    if (steepness(i) > steepness(worst)) worst = i;
+  return worst;
+}
+
+/// What no type of table has: "P6L 7", "P6H 4" or both.
+std::string wrong_words(const EcamTable& table) {
+  const auto curve = table.saw.curve & ~devices::lx3vp::return_square;
+  const bool no_law = table.saw.acceleration > 2;
+  const bool no_curve = table.type == EcamType::rotary_saw && (curve > 5 || curve == 4);
+  std::string told;
+  if (no_law) told = fmt::format("P6L {}", table.saw.acceleration);
+  if (no_curve) told += fmt::format("{}P6H {}", no_law ? ", " : "", table.saw.curve);
+  return told;
+}
+
 /// What a fault of ECAMTBX asks to be changed, with the list's own numbers.
 std::string remedy_of(EcamError error, const EcamTable& table) {
   const auto& p = table.saw;
@@ -27,6 +59,8 @@ std::string remedy_of(EcamError error, const EcamTable& table) {
   const double sync = p.sync_length;
   switch (error) {
     case EcamError::type:
+      if (table.saw.acceleration <= 2) return "give P6H 0, 1, 2, 3 or 5, with 4096 (H1000) added to return";
+      if (wrong_words(table).find("P6H") == std::string::npos) return "give P6L 0, 1 or 2";
       return "give P6L 0, 1 or 2 and P6H 0, 1, 2, 3 or 5, with 4096 (H1000) added to return";
     case EcamError::length:
       return table.is_s_curve() ? "give P1 other than 0 and short enough for its speed"
@@ -61,7 +95,10 @@ class Judge {
   std::vector<CamFinding> findings() {
     if (table_.is_made() && !table_.made.ok()) {
       const auto error = table_.made.error;
-      add(Grade::error, "", fmt::format("ECAMTBX makes no table: {}", error_text(error)),
+      const auto words = error == EcamError::type ? wrong_words(table_) : std::string();
+      add(Grade::error, "",
+          words.empty() ? fmt::format("ECAMTBX makes no table: {}", error_text(error))
+                        : fmt::format("ECAMTBX makes no table: there is no {}", words),
           remedy_of(error, table_), static_cast<int>(error));
       return std::move(found_);
     }
@@ -116,12 +153,7 @@ class Judge {
   [[nodiscard]] double ratio(std::size_t row) const { return rise(row) / length(row); }
 
   /// The row that ends the steepest piece.
-  [[nodiscard]] std::size_t steepest() const {
-    std::size_t worst = 1;
-    for (std::size_t i = 2; i < table_.rows.size(); ++i)
-      if (std::abs(ratio(i)) > std::abs(ratio(worst))) worst = i;
-    return worst;
-  }
+  [[nodiscard]] std::size_t steepest() const { return steepest_row(table_.rows); }
 
   void judge_ratio() {
     if (!table_.max_ratio) return;
@@ -137,29 +169,72 @@ class Judge {
       most = surplus / length(i);
       worst = i;
     }
-    if (count == 0) return;
+    if (count == 0) return judge_ratio_of_law();
     add(Grade::limit, where(worst),
         fmt::format("ratio {} above {}{}", number(ratio(worst)), number(*table_.max_ratio), others(count)),
-        fmt::format("give the piece before it {} master pulses at least",
-                    number(std::ceil(std::abs(rise(worst)) / *table_.max_ratio))));
+        table_.is_made() ? ratio_remedy()
+                         : fmt::format("give the piece before it {} master pulses at least",
+                                       number(std::ceil(std::abs(rise(worst)) / *table_.max_ratio))));
+  }
+
+  /// Rounding to pulses may hide in short pieces what the law does.
+  void judge_ratio_of_law() {
+    constexpr double of_a_float = 1 + 1e-6;
+    if (!table_.is_made()) return;
+    const auto most = peak_of_law();
+    if (most.ratio <= *table_.max_ratio * of_a_float) return;
+    add(Grade::limit, most.where,
+        fmt::format("ratio {} above {}", number(most.ratio), number(*table_.max_ratio)), ratio_remedy());
+  }
+
+  [[nodiscard]] std::string ratio_remedy() const {
+    if (table_.is_s_curve()) return top_speed_remedy(*table_.max_ratio * *run_.master_speed);
+    return fmt::format("give P5 {} at most, which ECAMTBX keeps to", number_below(*table_.max_ratio));
   }
 
   static std::string others(int count) {
     return count == 1 ? "" : fmt::format(", the worst of {} rows", count);
   }
 
-  /// Largest |ratio| and where it is: of the laws if there are any, for rounding to pulses moves nothing.
+  /// Largest |ratio| and where it is.
   struct Peak {
     double ratio = 0;
     std::string where;
   };
-  [[nodiscard]] Peak peak() const {
-    if (!table_.is_made()) return {std::abs(ratio(steepest())), where(steepest())};
+  [[nodiscard]] Peak peak_of_law() const {
     Peak most;
     for (std::size_t i = 0; i < run_.law.pieces.size(); ++i)
       if (peak_ratio(run_.law.pieces[i]) > most.ratio)
         most = {peak_ratio(run_.law.pieces[i]), fmt::format("piece {}", i + 1)};
     return most;
+  }
+  /// Of the rows, which the device plays, and of the law if that is steeper: rounded to pulses, rows may be
+  /// steeper than their law.
+  [[nodiscard]] Peak peak() const {
+    const Peak played = {std::abs(ratio(steepest())), where(steepest())};
+    if (!table_.is_made()) return played;
+    auto law = peak_of_law();
+    return played.ratio > law.ratio * within ? played : law;
+  }
+
+  /// The largest P2 whose law and rows both keep to a speed [Hz], looked for downwards: rows round anew.
+  [[nodiscard]] std::string top_speed_remedy(double limit) const {
+    constexpr int most_turns = 2000;  // rounding may ask for many small steps
+    auto parameters = table_.s_curve;
+    for (int turn = 0; turn < most_turns && parameters.top_speed > 0; ++turn) {
+      const auto made = make_s_curve(*table_.type, parameters);
+      if (!made.ok()) break;
+      double most = 0;
+      for (const auto& piece : made.profile.pieces) most = std::max(most, peak_ratio(piece));
+      const auto row = steepest_row(made.rows);
+      most = std::max(most, std::abs(static_cast<double>(made.rows[row].slave) - made.rows[row - 1].slave) /
+                                (static_cast<double>(made.rows[row].master) - made.rows[row - 1].master));
+      most *= *run_.master_speed;
+      if (most <= limit * within) return fmt::format("give P2 {} Hz at most", parameters.top_speed);
+      parameters.top_speed =
+          std::min(parameters.top_speed - 1, static_cast<std::int32_t>(parameters.top_speed * limit / most));
+    }
+    return "give P2 less";
   }
 
   void judge_speed() {
@@ -168,9 +243,8 @@ class Judge {
     const double frequency = most.ratio * *run_.master_speed;
     const auto remedy = [&](double limit) {
       if (table_.time_axis == 0)
-        return fmt::format("run the master at {} pulses/s at most", number(limit / most.ratio));
-      return table_.is_made() ? fmt::format("give P2 {} Hz at most", number(limit))
-                              : std::string("give the same way more time");
+        return fmt::format("run the master at {} pulses/s at most", number_below(limit / most.ratio));
+      return table_.is_s_curve() ? top_speed_remedy(limit) : std::string("give the same way more time");
     };
     if (frequency > table_.max_frequency * within)
       add(Grade::limit, most.where,
@@ -210,7 +284,7 @@ class Judge {
                     number(*duty_.max_acceleration)),
         table_.time_axis > 0 ? "give its ramps more time"
                              : fmt::format("give it more master, or run the master at {} pulses/s at most",
-                                           number(std::sqrt(*duty_.max_acceleration / most))));
+                                           number_below(std::sqrt(*duty_.max_acceleration / most))));
   }
 
   /// The slave is farthest at a row, for the device plays straight pieces.
@@ -284,11 +358,33 @@ class Judge {
                       wraps ? " as the cycle begins again" : ""),
           step_remedy(wraps));
     }
+    judge_rest(same);
     if (table_.is_s_curve() && table_.made.speed_reached < table_.s_curve.top_speed)
       add(Grade::caution, "",
           fmt::format("reaches {} Hz, not {} Hz: too short for its times", table_.made.speed_reached,
                       table_.s_curve.top_speed),
           "give P4 and P5 less time");
+  }
+
+  /// A cam that runs once begins and ends at rest; midCAMbegin and midCAMend go on in another.
+  void judge_rest(double same) {
+    const auto& pieces = run_.law.pieces;
+    if (table_.cyclic && !run_.law.stops) return;
+    const auto curve = table_.type == EcamType::rotary_saw ? table_.saw.curve & 0xFFF : 0;
+    const auto remedy = [&](std::string_view ramp, std::string_view other) {
+      if (table_.is_s_curve()) return fmt::format("give {} some time", ramp);
+      return table_.type == EcamType::fly_saw
+                 ? std::string("give P6L 1 or 2 for ramps")
+                 : fmt::format("use {} for the {}", other, ramp == "P4" ? "first cycle" : "last");
+    };
+    if (!run_.law.stops && std::abs(pieces.front().r0) > same)
+      add(Grade::caution, "piece 1",
+          fmt::format("the ratio jumps from 0 to {} as the cam starts", number(pieces.front().r0)),
+          remedy("P4", "midCAMbegin"));
+    if (curve != devices::lx3vp::mid_cam_begin && std::abs(pieces.back().r1) > same)
+      add(Grade::caution, fmt::format("piece {}", pieces.size()),
+          fmt::format("the ratio jumps from {} to 0 at the end of the cam", number(pieces.back().r1)),
+          remedy("P5", "midCAMend"));
   }
 
   [[nodiscard]] std::string step_remedy(bool wraps) const {

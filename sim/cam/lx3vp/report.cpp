@@ -24,7 +24,8 @@ std::string number(double value) { return number_text(std::abs(value) < 1e-9 ? 0
 std::string type_text(const EcamTable& table) {
   constexpr const char* laws[] = {"uniform", "uniform acceleration", "B type"};
   constexpr const char* curves[] = {"leftCAM", "midCAMall", "midCAMbegin", "midCAMend", "", "rightCAM"};
-  const auto law = table.saw.acceleration < std::size(laws) ? laws[table.saw.acceleration] : "no law";
+  const auto law = table.saw.acceleration < std::size(laws) ? std::string(laws[table.saw.acceleration])
+                                                            : fmt::format("P6L {}", table.saw.acceleration);
   const auto curve = table.saw.curve & ~devices::lx3vp::return_square;
   switch (*table.type) {
     case EcamType::s_curve_0:
@@ -35,8 +36,7 @@ std::string type_text(const EcamTable& table) {
       return fmt::format("K101 (fly saw, {})", law);
     default:
       return fmt::format("K100 (rotary saw, {}, {})",
-                         static_cast<std::size_t>(curve) < std::size(curves) ? curves[curve] : "no curve",
-                         law);
+                         static_cast<std::size_t>(curve) < std::size(curves) ? curves[curve] : "", law);
   }
 }
 

@@ -67,7 +67,11 @@ class Reader {
       });
     };
     take("max_frequency", {1, 200000}, table_.max_frequency);
-    take("time_axis", {1, 2147483647}, table_.time_axis);
+    settings_.add("time_axis", [this](const Cell& value, int line) {
+      // S1 as the program has it.
+      if (const auto number = whole_number(behind_k(value), line, "time_axis", {1, 2147483647}, told_))
+        table_.time_axis = static_cast<std::int32_t>(*number);
+    });
     take("cyclic", {0, 1}, cyclic_);
     const auto take_position = [&](const char* name, std::optional<double>& target) {
       settings_.add(name, [this, name, &target](const Cell& value, int line) {
@@ -170,12 +174,17 @@ class Reader {
               "there are " + names);
   }
 
-  double read_value(Cell cell, const Parameter& parameter) {
+  double read_value(const Cell& cell, const Parameter& parameter) {
     if (parameter.real) return real_number(cell, line_, parameter.name, parameter.range, told_).value_or(0);
     if (const auto pattern = hexadecimal(cell.text)) return static_cast<double>(*pattern);
-    if (!cell.text.empty() && (cell.text.front() == 'K' || cell.text.front() == 'k'))
-      cell = {cell.text.substr(1), cell.column + 1};
-    return static_cast<double>(whole_number(cell, line_, parameter.name, parameter.range, told_).value_or(0));
+    return static_cast<double>(
+        whole_number(behind_k(cell), line_, parameter.name, parameter.range, told_).value_or(0));
+  }
+
+  /// K5 is 5.
+  static Cell behind_k(const Cell& cell) {
+    const bool has_k = cell.text.size() > 1 && (cell.text.front() == 'K' || cell.text.front() == 'k');
+    return has_k ? Cell{cell.text.substr(1), cell.column + 1} : cell;
   }
 
   /// H1000 as the manual writes it.
