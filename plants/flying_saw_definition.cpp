@@ -2,13 +2,13 @@
 
 #include <stdexcept>
 
+#include "plants/axis_objections.hpp"
 #include "plants/flying_saw.hpp"
 
 namespace drycut::plants {
 
 namespace {
 
-constexpr double usual_step = 100e-6;  // [s]
 constexpr double turn = 2 * std::numbers::pi;
 
 Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
@@ -119,47 +119,19 @@ Parameters FlyingSawDefinition::parameters() {
 }
 
 Objections FlyingSawDefinition::objections() {
-  Objections found;
-  const auto object = [&found](const char* name, std::string what, std::string remedy) {
-    found.push_back({name, std::move(what), std::move(remedy)});
-  };
-  const double load = reflected_inertia(data);
-  if (!stable(data.gear, motor_inertia(data), load, usual_step))
-    object("gear.stiffness",
-           fmt::format("motor and carriage oscillate at {:.0f} Hz, or are damped so hard that steps of 100 "
-                       "us cannot follow",
-                       resonance(data.gear, motor_inertia(data), load) / turn),
-           "a softer drive, less damping or more mass");
-  // Stiff spring and damper on a mass, explicit steps: k h2 + 2 c h < 4 m.
-  const auto bounces = [&](double stiffness, double damping) {
-    return stiffness * usual_step * usual_step + 2 * damping * usual_step >= 4 * data.mass;
-  };
-  if (bounces(data.stop.stiffness, data.stop.damping))
-    object("stop.stiffness", "the carriage bounces off the end stop faster than steps of 100 us can follow",
-           "a softer stop, less damping or more mass");
-  if (bounces(data.blade.stiffness, data.blade.damping))
-    object("blade.stiffness", "the carriage bounces off the blade faster than steps of 100 us can follow",
-           "a softer blade, less damping or more mass");
-  const auto viscous = [&](const char* name, const Friction& friction, double inertia, const char* unit) {
-    if (friction.viscous * usual_step > inertia)
-      object(name,
-             fmt::format("{:g} {} brakes faster than steps of 100 us can follow", friction.viscous, unit),
-             fmt::format("at most {:g} {}", inertia / usual_step, unit));
-  };
-  viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
-  viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "N s/m");
-  if (data.travel_max <= data.travel_min)
-    object("travel_max", "it is not above travel_min", "leave room between the end stops");
-  else if (data.start < data.travel_min || data.start > data.travel_max)
-    object("start", fmt::format("the carriage starts at {:g} mm, in an end stop", data.start * 1000),
-           fmt::format("between {:g} and {:g} mm", data.travel_min * 1000, data.travel_max * 1000));
-  if (data.sensors.limit_max <= data.sensors.limit_min)
-    object("limit_max", "it is not above limit_min", "leave room between the limit switches");
+  AxisObjections found("carriage");
+  found.gear(data.gear, motor_inertia(data), reflected_inertia(data));
+  found.contact("stop.stiffness", data.stop, data.mass, "end stop");
+  found.contact("blade.stiffness", {data.blade.stiffness, data.blade.damping}, data.mass, "blade");
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
+  found.viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "N s/m");
+  found.travel(data.travel_min, data.travel_max, data.start);
+  found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
   if (return_speed(data.head) <= 0)
-    object("head.up_force", fmt::format("it does not lift the head of {:g} kg", data.head.mass),
-           fmt::format("more than {:.0f} N", data.head.mass * 9.80665));
-  for (Objection& o : servo_axis_objections(data.drive)) found.push_back(std::move(o));
-  return found;
+    found.object("head.up_force", fmt::format("it does not lift the head of {:g} kg", data.head.mass),
+                 fmt::format("more than {:.0f} N", data.head.mass * 9.80665));
+  found.add(servo_axis_objections(data.drive));
+  return found.take();
 }
 
 Objections FlyingSawDefinition::objections_with(const FindDefinition& find) {

@@ -2,13 +2,13 @@
 
 #include <stdexcept>
 
+#include "plants/axis_objections.hpp"
 #include "plants/linear_axis.hpp"
 
 namespace drycut::plants {
 
 namespace {
 
-constexpr double usual_step = 100e-6;  // [s]
 constexpr double turn = 2 * std::numbers::pi;
 
 Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
@@ -108,38 +108,15 @@ Parameters LinearAxisDefinition::parameters() {
 }
 
 std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections() {
-  std::vector<Objection> found;
-  const auto object = [&found](const char* name, std::string what, std::string remedy) {
-    found.push_back({name, std::move(what), std::move(remedy)});
-  };
-  const double load = reflected_inertia(data);
-  if (!stable(data.gear, motor_inertia(data), load, usual_step))
-    object("gear.stiffness",
-           fmt::format("motor and carriage oscillate at {:.0f} Hz, or are damped so hard that steps of 100 "
-                       "us cannot follow",
-                       resonance(data.gear, motor_inertia(data), load) / turn),
-           "a softer drive, less damping or more mass");
-  if (data.stop.stiffness * usual_step * usual_step + 2 * data.stop.damping * usual_step >= 4 * data.mass)
-    object("stop.stiffness", "the carriage bounces off the end stop faster than steps of 100 us can follow",
-           "a softer stop, less damping or more mass");
-  const auto viscous = [&](const char* name, const Friction& friction, double inertia, const char* unit) {
-    if (friction.viscous * usual_step > inertia)
-      object(name,
-             fmt::format("{:g} {} brakes faster than steps of 100 us can follow", friction.viscous, unit),
-             fmt::format("at most {:g} {}", inertia / usual_step, unit));
-  };
-  viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
-  viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "N s/m");
-  if (data.travel_max <= data.travel_min)
-    object("travel_max", "it is not above travel_min", "leave room between the end stops");
-  else if (data.start < data.travel_min || data.start > data.travel_max)
-    object("start", fmt::format("the carriage starts at {:g} mm, in an end stop", data.start * 1000),
-           fmt::format("between {:g} and {:g} mm", data.travel_min * 1000, data.travel_max * 1000));
-  if (data.sensors.limit_max <= data.sensors.limit_min)
-    object("limit_max", "it is not above limit_min", "leave room between the limit switches");
-  for (Objection& objection : axis_drive_objections(data.drive, motor_inertia(data), usual_step))
-    found.push_back(std::move(objection));
-  return found;
+  AxisObjections found("carriage");
+  found.gear(data.gear, motor_inertia(data), reflected_inertia(data));
+  found.contact("stop.stiffness", data.stop, data.mass, "end stop");
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
+  found.viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "N s/m");
+  found.travel(data.travel_min, data.travel_max, data.start);
+  found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
+  found.add(axis_drive_objections(data.drive, motor_inertia(data), usual_step));
+  return found.take();
 }
 
 std::unique_ptr<Plant> LinearAxisDefinition::build(World& world,

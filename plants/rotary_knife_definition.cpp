@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "plants/axis_objections.hpp"
 #include "plants/rotary_knife.hpp"
 
 namespace drycut::plants {
@@ -69,31 +70,16 @@ Parameters RotaryKnifeDefinition::parameters() {
 }
 
 std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections() {
-  std::vector<Objection> found;
-  const double usual_step = 100e-6;
-  const double jm = data.drive.servo.rotor_inertia;
-  if (!stable(data.gear, jm, data.drum_inertia, usual_step))
-    found.push_back(
-        {"gear.stiffness",
-         fmt::format("motor and drum on this gear oscillate at {:.0f} Hz, or are damped so hard that steps "
-                     "of 100 us cannot follow",
-                     resonance(data.gear, jm, data.drum_inertia) / (2 * std::numbers::pi)),
-         "a softer gear, less damping or more inertia"});
-  const auto viscous = [&](const char* name, const Friction& friction, double inertia) {
-    if (friction.viscous * usual_step > inertia)
-      found.push_back(
-          {name,
-           fmt::format("{:g} N m s/rad on {:g} kg m2 brakes faster than steps of 100 us can follow",
-                       friction.viscous, inertia),
-           fmt::format("at most {:g} N m s/rad", inertia / usual_step)});
-  };
-  viscous("motor_friction.viscous", data.motor_friction, jm);
-  viscous("drum_friction.viscous", data.drum_friction, data.drum_inertia);
-  for (Objection& o : servo_axis_objections(data.drive)) found.push_back(std::move(o));
+  const double motor_inertia = data.drive.servo.rotor_inertia;
+  AxisObjections found("drum");
+  found.gear(data.gear, motor_inertia, data.drum_inertia);
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia, "N m s/rad");
+  found.viscous("drum_friction.viscous", data.drum_friction, data.drum_inertia, "N m s/rad");
+  found.add(servo_axis_objections(data.drive));
   if (data.home.width + 2 * data.home.hysteresis >= 2 * std::numbers::pi)
-    found.push_back({"home.width", "target and hysteresis cover the whole turn: the switch never lets go",
-                     "a narrower target"});
-  return found;
+    found.object("home.width", "target and hysteresis cover the whole turn: the switch never lets go",
+                 "a narrower target");
+  return found.take();
 }
 
 namespace {

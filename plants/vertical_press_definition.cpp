@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
+#include "plants/axis_objections.hpp"
 #include "plants/vertical_press.hpp"
 
 namespace drycut::plants {
 
 namespace {
 
-constexpr double usual_step = 100e-6;  // [s]
 constexpr double turn = 2 * std::numbers::pi;
 
 Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
@@ -97,45 +97,19 @@ Parameters VerticalPressDefinition::parameters() {
 }
 
 std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections() {
-  std::vector<Objection> found;
-  const auto object = [&found](const char* name, std::string what, std::string remedy) {
-    found.push_back({name, std::move(what), std::move(remedy)});
-  };
   const double metre = data.lead / turn;
-  const double load = data.mass * metre * metre;
-  if (!stable(data.gear, motor_inertia(data), load, usual_step))
-    object("gear.stiffness",
-           fmt::format("motor and ram oscillate at {:.0f} Hz, or are damped so hard that steps of 100 us "
-                       "cannot follow",
-                       resonance(data.gear, motor_inertia(data), load) / turn),
-           "a softer drive, less damping or more mass");
-  const auto contact = [&](const char* name, const EndStopData& stop, const char* what) {
-    if (stop.stiffness * usual_step * usual_step + 2 * stop.damping * usual_step >= 4 * data.mass)
-      object(name, fmt::format("the ram bounces off the {} faster than steps of 100 us can follow", what),
-             "softer, less damping or more mass");
-  };
-  contact("stop.stiffness", data.stop, "end stop");
-  contact("workpiece.stiffness", data.workpiece, "workpiece");
-  const auto viscous = [&](const char* name, const Friction& friction, double inertia, const char* unit) {
-    if (friction.viscous * usual_step > inertia)
-      object(name,
-             fmt::format("{:g} {} brakes faster than steps of 100 us can follow", friction.viscous, unit),
-             fmt::format("at most {:g} {}", inertia / usual_step, unit));
-  };
-  viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
-  viscous("ram_friction.viscous", data.ram_friction, data.mass, "N s/m");
-  if (data.travel_max <= data.travel_min)
-    object("travel_max", "it is not above travel_min", "leave room between the end stops");
-  else if (data.start < data.travel_min || data.start > data.travel_max)
-    object("start", fmt::format("the ram starts at {:g} mm, in an end stop", data.start * 1000),
-           fmt::format("between {:g} and {:g} mm", data.travel_min * 1000, data.travel_max * 1000));
-  if (data.sensors.limit_max <= data.sensors.limit_min)
-    object("limit_max", "it is not above limit_min", "leave room between the limit switches");
+  AxisObjections found("ram");
+  found.gear(data.gear, motor_inertia(data), data.mass * metre * metre);
+  found.contact("stop.stiffness", data.stop, data.mass, "end stop");
+  found.contact("workpiece.stiffness", data.workpiece, data.mass, "workpiece");
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
+  found.viscous("ram_friction.viscous", data.ram_friction, data.mass, "N s/m");
+  found.travel(data.travel_min, data.travel_max, data.start);
+  found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
   if (data.workpiece.stiffness > 0 && data.start < data.workpiece_height)
-    object("workpiece.height", "the ram starts in the workpiece", "below start");
-  for (Objection& objection : axis_drive_objections(data.drive, motor_inertia(data), usual_step))
-    found.push_back(std::move(objection));
-  return found;
+    found.object("workpiece.height", "the ram starts in the workpiece", "below start");
+  found.add(axis_drive_objections(data.drive, motor_inertia(data), usual_step));
+  return found.take();
 }
 
 std::unique_ptr<Plant> VerticalPressDefinition::build(World& world,

@@ -1,11 +1,10 @@
 #pragma once
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include <gtest/gtest.h>
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim::bode_axis {
 
@@ -14,29 +13,12 @@ namespace fs = std::filesystem;
 /// EPICPOS with its loop closed round an ideal axis: 1 m/s at 10 V and at maxvel, 10 um a count, TCamp 4 ms.
 /// The loop is then L(z) = pgain / 1000 / (z - 1): speed is voltage, and the count of a sampling instant
 /// makes the voltage of the same instant.
-struct Folder {
+struct Folder : TestFolder {
   Folder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path = fs::temp_directory_path() / (std::string("drycut_bode_") + info->test_suite_name() + "_" +
-                                        info->name() + "_" + std::to_string(getpid()));
-    fs::remove_all(path);
-    fs::create_directories(path);
-    write("axis.cnf",
-          "BUS\n1 1CPUB 02\n2 1MIXA 00\n\nINTDEVICE\nAxis EPICPOS 4 2.CNT01 X X.X 2.AN01\n\nEND\n");
-    write("axis.mod", program("LOOPON Axis\n"));
-    write("axis.yaml", scenario(""));
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  /// Writes a file of the folder.
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name) << text;
-    return path / name;
+    file("axis.cnf",
+         "BUS\n1 1CPUB 02\n2 1MIXA 00\n\nINTDEVICE\nAxis EPICPOS 4 2.CNT01 X X.X 2.AN01\n\nEND\n");
+    file("axis.mod", program("LOOPON Axis\n"));
+    file("axis.yaml", scenario(""));
   }
   static std::string program(const std::string& loop) {
     return "Axis:cntratio = 100000\nAxis:maxpos = 999999\nAxis:minpos = -999999\n"
@@ -64,8 +46,6 @@ struct Folder {
            "record: {channels: [Axis.posit]}\n" +
            more;
   }
-
-  fs::path path;
 };
 
 }  // namespace drycut::sim::bode_axis

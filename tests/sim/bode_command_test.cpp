@@ -6,6 +6,7 @@
 
 #include "sim/commands/commands.hpp"
 #include "tests/sim/bode_axis.hpp"
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -15,19 +16,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-struct BodeCommand : testing::Test {
+struct BodeCommand : CommandTest {
   BodeCommand() {
     options.scenario = folder.path / "axis.yaml";
     options.loop.points = 12;
     options.loop.amplitude = 1;
   }
   int run() {
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    const int status = measure_bode(options);
-    out = testing::internal::GetCapturedStdout();
-    err = testing::internal::GetCapturedStderr();
-    return status;
+    return captured([&] { return measure_bode(options); });
   }
   /// Expects bad input told by `message`, and nothing else.
   void refuses(const std::string& message) {
@@ -35,16 +31,9 @@ struct BodeCommand : testing::Test {
     EXPECT_EQ(err, message + "\n");
     EXPECT_THAT(out, IsEmpty());
   }
-  static std::string content(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-  }
 
   bode_axis::Folder folder;
   BodeOptions options;
-  std::string out;
-  std::string err;
 };
 
 TEST_F(BodeCommand, JudgesTheLoop) {
@@ -83,7 +72,7 @@ TEST_F(BodeCommand, FailsOnAnUnstableLoop) {
 
 TEST_F(BodeCommand, FailsOnAnOpenLoop) {
   options.loop.at = "0.001";
-  folder.write("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
+  folder.file("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
   EXPECT_EQ(run(), check_failed);
   EXPECT_THAT(out,
               HasSubstr("2.AN01 does not answer to 1 V at 0.001 s: either the loop is open there (let the "
@@ -248,14 +237,14 @@ TEST_F(BodeCommand, RefusesAnOverrideThatIsNone) {
 TEST_F(BodeCommand, RefusesAScenarioWithoutAnalogueOutput) {
   auto text = bode_axis::Folder::scenario("");
   text.replace(text.find(", 2.AN01: axis.reference"), 24, "");
-  folder.write("axis.yaml", text);
+  folder.file("axis.yaml", text);
   refuses(
       options.scenario.string() +
       ":1:1: no analogue output is wired; a position loop needs one, such as 2.AN01: knife.servo.reference");
 }
 
 TEST_F(BodeCommand, TellsProblemsOfTheScenario) {
-  folder.write("axis.yaml", bode_axis::Folder::scenario("cheks: []\n"));
+  folder.file("axis.yaml", bode_axis::Folder::scenario("cheks: []\n"));
   EXPECT_EQ(run(), bad_input);
   EXPECT_THAT(err, HasSubstr("axis.yaml:11:1: unknown key 'cheks'"));
 }

@@ -49,8 +49,8 @@ END
 
 struct BodeLimitCycle : testing::TestWithParam<Machine> {
   BodeLimitCycle() {
-    folder.write("axis.cnf", configuration);
-    folder.write("axis.mod", program);
+    folder.file("axis.cnf", configuration);
+    folder.file("axis.mod", program);
   }
   [[nodiscard]] Scenario scenario(double gain, double lost, devices::Problems& problems) const {
     const auto text = "scene: {step: 100 us, duration: 2 s}\nplants:\n  axis: {type: backlash_axis, gap: " +

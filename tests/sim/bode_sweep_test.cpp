@@ -90,8 +90,8 @@ TEST_F(BodeSweep, AnAxisInMotionMeasuresAsOneAtRest) {
   const auto tones = plan_tones(1, 60, 8, sampling, 2);
   const auto moving = bode_axis::Folder::scenario(
       "timeline: [{at: 200 ms, set: {Axis.feedfw: 1000, Axis.setvel: 1000, Axis.setpos: 900000}}]\n");
-  folder.write("axis.mod",
-               bode_axis::Folder::program("LOOPON Axis\nWAIT Axis:setpos EQ 900000\nSTART Axis\n"));
+  folder.file("axis.mod",
+              bode_axis::Folder::program("LOOPON Axis\nWAIT Axis:setpos EQ 900000\nSTART Axis\n"));
   const auto runs = sweep(moving, 100, 1, tones);
   ASSERT_EQ(runs.loop, Sweep::Loop::closed);
   ASSERT_EQ(runs.points.size(), tones.size());
@@ -102,7 +102,7 @@ TEST_F(BodeSweep, AnAxisInMotionMeasuresAsOneAtRest) {
 }
 
 TEST_F(BodeSweep, TellsAnOpenLoop) {
-  folder.write("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
+  folder.file("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
   const auto result = sweep(ideal, 100, 1, plan_tones(1, 100, 3, sampling, 2));
   EXPECT_EQ(result.loop, Sweep::Loop::open);
   EXPECT_TRUE(result.points.empty());

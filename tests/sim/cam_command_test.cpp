@@ -9,6 +9,7 @@
 #include "sim/cam/camming4/plot.hpp"
 #include "sim/commands/commands.hpp"
 #include "tests/sim/cam_bench.hpp"
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -21,38 +22,10 @@ using testing::StartsWith;
 
 const fs::path shipped = fs::path(DRYCUT_SOURCE_DIR) / "scenes/cams";
 
-struct CamCommand : testing::Test {
-  CamCommand() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() /
-             (std::string("drycut_cam_") + info->name() + "_" + std::to_string(getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  ~CamCommand() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-  CamCommand(const CamCommand&) = delete;
-  CamCommand& operator=(const CamCommand&) = delete;
-
-  fs::path file(const std::string& text) {
-    const auto path = folder / "cam.csv";
-    std::ofstream(path) << text;
-    return path;
-  }
+struct CamCommand : CommandTest {
+  fs::path file(const std::string& text) const { return test_folder.file("cam.csv", text); }
   int run(const CamOptions& options) {
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    const int status = validate_cam(options);
-    out = testing::internal::GetCapturedStdout();
-    err = testing::internal::GetCapturedStderr();
-    return status;
-  }
-  static std::string content(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
+    return captured([&] { return validate_cam(options); });
   }
   static CamOptions options(const fs::path& table) {
     CamOptions made;
@@ -60,9 +33,8 @@ struct CamCommand : testing::Test {
     return made;
   }
 
-  fs::path folder;
-  std::string out;
-  std::string err;
+  TestFolder test_folder;
+  const fs::path& folder = test_folder.path;
 };
 
 TEST_F(CamCommand, TheShippedCamsAreSound) {

@@ -8,6 +8,7 @@
 
 #include "sim/commands/commands.hpp"
 #include "tests/sim/cam_ecam_bench.hpp"
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -18,44 +19,18 @@ using testing::IsEmpty;
 
 const fs::path shipped = fs::path(DRYCUT_SOURCE_DIR) / "scenes/cams";
 
-struct EcamCommand : testing::Test {
-  EcamCommand() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() /
-             (std::string("drycut_ecam_") + info->name() + "_" + std::to_string(getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  ~EcamCommand() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-  EcamCommand(const EcamCommand&) = delete;
-  EcamCommand& operator=(const EcamCommand&) = delete;
-
+struct EcamCommand : CommandTest {
   CamOptions options(const std::string& text) {
     CamOptions made;
-    made.table = folder / "cam.csv";
-    std::ofstream(made.table) << text;
+    made.table = test_folder.file("cam.csv", text);
     return made;
   }
   int run(const CamOptions& options) {
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    const int status = validate_cam(options);
-    out = testing::internal::GetCapturedStdout();
-    err = testing::internal::GetCapturedStderr();
-    return status;
-  }
-  static std::string content(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
+    return captured([&] { return validate_cam(options); });
   }
 
-  fs::path folder;
-  std::string out;
-  std::string err;
+  TestFolder test_folder;
+  const fs::path& folder = test_folder.path;
 };
 
 TEST_F(EcamCommand, TheShippedCamsAreSound) {

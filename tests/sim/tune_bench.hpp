@@ -2,14 +2,12 @@
 // A tuning with a known answer: an axis without mass, 10 V = maxvel exactly, so that feed-forward 1000 leaves
 // no following error.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "sim/commands/commands.hpp"
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim::tuning {
 
@@ -64,48 +62,24 @@ wiring: {2.CNT01: axis.encoder, 2.AN01: axis.reference}
 record: {every: 2 ms, channels: [AxisX.follerr, axis.position]}
 )";
 
-struct Bench : testing::Test {
+struct Bench : CommandTest {
   Bench() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() /
-             (std::string("drycut_tune_") + info->name() + "_" + std::to_string(getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    std::ofstream(folder / "axis.cnf") << configuration;
-    std::ofstream(folder / "axis.mod") << program;
-    std::ofstream(folder / "axis.yaml") << scenario;
-    options.scenarios = {folder / "axis.yaml"};
+    test_folder.file("axis.cnf", configuration);
+    test_folder.file("axis.mod", program);
+    options.scenarios = {test_folder.file("axis.yaml", scenario)};
     options.vary = {feedfw + "=700..1250"};
     options.minimise = "rms(AxisX.follerr)";
     options.budget = 40;
     options.pictures = false;
     options.out = folder / "out";
   }
-  ~Bench() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-
   int run() {
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    const int status = tune_scenarios(options);
-    out = testing::internal::GetCapturedStdout();
-    err = testing::internal::GetCapturedStderr();
-    return status;
-  }
-  static std::string content(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
+    return captured([&] { return tune_scenarios(options); });
   }
 
-  fs::path folder;
+  TestFolder test_folder;
+  const fs::path& folder = test_folder.path;
   TuneOptions options;
-  std::string out;
-  std::string err;
 };
 
 }  // namespace drycut::sim::tuning

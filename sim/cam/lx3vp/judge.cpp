@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+
+#include "sim/cam/lx3vp/remedies.hpp"
 
 namespace drycut::sim {
 
@@ -14,78 +15,8 @@ using devices::lx3vp::EcamError;
 using devices::lx3vp::EcamType;
 using Grade = CamFinding::Grade;
 
-constexpr double within = 1 + 1e-9;  // what rounding may add to a limit that is just met
-constexpr int table_error = 6782;    // of DECAM: the table is out of range
+constexpr int table_error = 6782;  // of DECAM: the table is out of range
 constexpr std::size_t most_rows = 512;
-
-std::string number(double value) { return number_text(value, 6); }
-
-/// A speed that a remedy names: rounded down, so that it is sound itself.
-std::string number_below(double value) {
-  constexpr int digits = 6;
-  const double rounded = std::strtod(number(value).c_str(), nullptr);
-  if (rounded <= value * within) return number(value);
-  return number(rounded - std::pow(10.0, std::floor(std::log10(value)) + 1 - digits));
-}
-
-/// The steepest of the straight pieces between rows, by the row that ends it.
-std::size_t steepest_row(const std::vector<devices::lx3vp::CamTableRow>& rows) {
-  const auto steepness = [&](std::size_t row) {
-    return std::abs(static_cast<double>(rows[row].slave) - rows[row - 1].slave) /
-           (static_cast<double>(rows[row].master) - rows[row - 1].master);
-  };
-  std::size_t worst = 1;
-  for (std::size_t i = 2; i < rows.size(); ++i)
-    if (steepness(i) > steepness(worst)) worst = i;
-  return worst;
-}
-
-/// What no type of table has: "P6L 7", "P6H 4" or both.
-std::string wrong_words(const EcamTable& table) {
-  const auto curve = table.saw.curve & ~devices::lx3vp::return_square;
-  const bool no_law = table.saw.acceleration > 2;
-  const bool no_curve = table.type == EcamType::rotary_saw && (curve > 5 || curve == 4);
-  std::string told;
-  if (no_law) told = fmt::format("P6L {}", table.saw.acceleration);
-  if (no_curve) told += fmt::format("{}P6H {}", no_law ? ", " : "", table.saw.curve);
-  return told;
-}
-
-/// What a fault of ECAMTBX asks to be changed, with the list's own numbers.
-std::string remedy_of(EcamError error, const EcamTable& table) {
-  const auto& p = table.saw;
-  const double k = static_cast<double>(p.sync_ratio);
-  const double slave = std::abs(static_cast<double>(p.slave_length));
-  const double sync = p.sync_length;
-  switch (error) {
-    case EcamError::type:
-      if (table.saw.acceleration <= 2) return "give P6H 0, 1, 2, 3 or 5, with 4096 (H1000) added to return";
-      if (wrong_words(table).find("P6H") == std::string::npos) return "give P6L 0, 1 or 2";
-      return "give P6L 0, 1 or 2 and P6H 0, 1, 2, 3 or 5, with 4096 (H1000) added to return";
-    case EcamError::length:
-      return table.is_s_curve() ? "give P1 other than 0 and short enough for its speed"
-                                : "give P1 above 0, P2 other than 0 and P3 from 0 on";
-    case EcamError::sync_zone:
-      if (sync > slave) return fmt::format("give P3 {} at most", number(slave));
-      if (table.type == EcamType::fly_saw)
-        return fmt::format("give P1 {} at least, or a larger P4", std::ceil((2 * slave - sync) / k));
-      return fmt::format("give P1 above {}, or a shorter P3", number(sync / k));
-    case EcamError::ratio:
-      if (p.max_ratio < p.sync_ratio) return fmt::format("give P5 {} at least", number(k));
-      return fmt::format(
-          "outside the synchronous zone the mean ratio is {}; give P5 well above it, or a longer P1",
-          number((slave - sync) / (p.master_length - sync / k)));
-    case EcamError::resolution:
-      return table.is_s_curve() ? "give P6 from 51 to 512, and the ramps more time"
-                                : "give P7 0 (automatic) or 10 to 512, and the ramps more than a pulse each";
-    case EcamError::speed:
-      return "give P2 from 1 to 150000 Hz, P4 and P5 from 0 to 32767 ms";
-    case EcamError::number:
-      return "give P4 and P5 above 0";
-    default:
-      return "choose fewer rows";
-  }
-}
 
 class Judge {
  public:
@@ -188,7 +119,8 @@ class Judge {
   }
 
   [[nodiscard]] std::string ratio_remedy() const {
-    if (table_.is_s_curve()) return top_speed_remedy(*table_.max_ratio * *run_.master_speed);
+    if (table_.is_s_curve())
+      return top_speed_remedy(table_, *run_.master_speed, *table_.max_ratio * *run_.master_speed);
     return fmt::format("give P5 {} at most, which ECAMTBX keeps to", number_below(*table_.max_ratio));
   }
 
@@ -217,26 +149,6 @@ class Judge {
     return played.ratio > law.ratio * within ? played : law;
   }
 
-  /// The largest P2 whose law and rows both keep to a speed [Hz], looked for downwards: rows round anew.
-  [[nodiscard]] std::string top_speed_remedy(double limit) const {
-    constexpr int most_turns = 2000;  // rounding may ask for many small steps
-    auto parameters = table_.s_curve;
-    for (int turn = 0; turn < most_turns && parameters.top_speed > 0; ++turn) {
-      const auto made = make_s_curve(*table_.type, parameters);
-      if (!made.ok()) break;
-      double most = 0;
-      for (const auto& piece : made.profile.pieces) most = std::max(most, peak_ratio(piece));
-      const auto row = steepest_row(made.rows);
-      most = std::max(most, std::abs(static_cast<double>(made.rows[row].slave) - made.rows[row - 1].slave) /
-                                (static_cast<double>(made.rows[row].master) - made.rows[row - 1].master));
-      most *= *run_.master_speed;
-      if (most <= limit * within) return fmt::format("give P2 {} Hz at most", parameters.top_speed);
-      parameters.top_speed =
-          std::min(parameters.top_speed - 1, static_cast<std::int32_t>(parameters.top_speed * limit / most));
-    }
-    return "give P2 less";
-  }
-
   void judge_speed() {
     if (!run_.master_speed) return;
     const auto most = peak();
@@ -244,7 +156,8 @@ class Judge {
     const auto remedy = [&](double limit) {
       if (table_.time_axis == 0)
         return fmt::format("run the master at {} pulses/s at most", number_below(limit / most.ratio));
-      return table_.is_s_curve() ? top_speed_remedy(limit) : std::string("give the same way more time");
+      return table_.is_s_curve() ? top_speed_remedy(table_, *run_.master_speed, limit)
+                                 : std::string("give the same way more time");
     };
     if (frequency > table_.max_frequency * within)
       add(Grade::limit, most.where,

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim/cam/lx3vp/table.hpp"
+
+namespace drycut::sim {
+
+/// What rounding may add to a limit that is just met, as a factor.
+inline constexpr double within = 1 + 1e-9;
+
+/// A number as findings tell it.
+std::string number(double value);
+/// A speed that a remedy names: rounded down, so that it is sound itself.
+std::string number_below(double value);
+
+/// |ratio| of the straight piece that ends with `row`, 1 or more.
+double steepness(const std::vector<devices::lx3vp::CamTableRow>& rows, std::size_t row);
+/// The steepest of the straight pieces between rows, by the row that ends it.
+std::size_t steepest_row(const std::vector<devices::lx3vp::CamTableRow>& rows);
+
+/// What no type of table has: "P6L 7", "P6H 4" or both; "" if both are known.
+std::string wrong_words(const EcamTable& table);
+/// What a fault of ECAMTBX asks to be changed, with the list's own numbers.
+std::string remedy_of(devices::lx3vp::EcamError error, const EcamTable& table);
+/// The largest P2 whose law and rows both keep to a speed [Hz], behind a master of `master_speed` [pulses/s].
+std::string top_speed_remedy(const EcamTable& table, double master_speed, double limit);
+
+}  // namespace drycut::sim
