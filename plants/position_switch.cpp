@@ -20,10 +20,17 @@ double PositionSwitch::distance(double position) const {
 }
 
 void PositionSwitch::sense(double before, double now, double h) {
+  if (before == now && !pending_) {
+    port.edge_count = 0;
+    return;
+  }
+  follow(distance(now), h);
+}
+
+void PositionSwitch::follow(double distance, double h) {
   port.edge_count = 0;
-  if (before == now && !pending_) return;
   const double was = distance_;
-  distance_ = distance(now);
+  distance_ = distance;
   const double edge = data_.width / 2 + (raw_ ? data_.hysteresis : 0);
   if ((distance_ <= edge) != raw_) {
     const double fraction = was != distance_ ? std::clamp((edge - was) / (distance_ - was), 0.0, 1.0) : 1.0;

@@ -25,6 +25,8 @@ class PositionSwitch {
 
   /// Follows the motion over the last step of `h` seconds.
   void sense(double before, double now, double h);
+  /// The same for a target that is not at one place: `distance` from its centre now.
+  void follow(double distance, double h);
 
   /// stuck and dead under the component name `component`. 0 clears each.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);

@@ -69,12 +69,14 @@ void RotaryKnife::report(const Cutter::Outcome& outcome) {
     last_length_ = web_.separate(outcome.fraction);
     last_mismatch_ = outcome.mismatch;
     ++cuts_;
-    happened({"cut",
-              outcome.fraction,
-              {{"length", last_length_ * millimetres, "mm"},
-               {"mismatch", last_mismatch_ * millimetres, "mm/s"},
-               {"force", outcome.force, "N"},
-               {"number", static_cast<double>(cuts_), ""}}});
+    Event cut = {"cut",
+                 outcome.fraction,
+                 {{"length", last_length_ * millimetres, "mm"},
+                  {"mismatch", last_mismatch_ * millimetres, "mm/s"},
+                  {"force", outcome.force, "N"},
+                  {"number", static_cast<double>(cuts_), ""}}};
+    if (web_.marks().printed()) cut.values.push_back({"register", web_.register_error() * millimetres, "mm"});
+    happened(std::move(cut));
   }
   if (outcome.tore || outcome.buckled)
     happened({outcome.tore ? "tear" : "buckle", 1, {{"mismatch", outcome.excess * millimetres, "mm/s"}}});
@@ -123,14 +125,16 @@ std::vector<Channel> RotaryKnife::channels() {
 }
 
 std::vector<EventType> RotaryKnife::event_types() {
-  return {
-      {"cut",
-       {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
-       "a blade went through the web at bottom dead centre: length of the piece, largest speed mismatch in "
-       "the web, largest vertical force, number since the start"},
-      {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
-      {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"},
-      ServoAxis::trip_event()};
+  EventType cut = {"cut",
+                   {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
+                   "a blade went through the web at bottom dead centre: length of the piece, largest speed "
+                   "mismatch in the web, largest vertical force, number since the start; on a printed web "
+                   "register, how far the cut lies behind the nearest mark"};
+  if (web_.marks().printed()) cut.values.push_back({"register", "mm"});
+  return {cut,
+          {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
+          {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"},
+          ServoAxis::trip_event()};
 }
 
 std::vector<Fault> RotaryKnife::faults() {

@@ -16,6 +16,7 @@ Web::Web(const WebData& data, World& world)
       material_(world.add_slide({.name = "web", .mass = data.mass, .speed = data.drive.speed})),
       drive_(data.drive),
       wheel_(data.wheel, world.random("wheel")),
+      marks_(data.marks, world.random("marks")),
       outfeed_(data.outfeed, section_area(data.cross_section()) * data.density, world),
       lead_end_(-data.lead) {}
 
@@ -27,6 +28,7 @@ void Web::drive(double h) {
 void Web::sense(double h) {
   h_ = h;
   wheel_.sense(material_.position_before, material_.position);
+  marks_.sense(material_.position, h);
 }
 
 double Web::travel(double fraction) const {
@@ -47,7 +49,8 @@ double Web::separate(double fraction, double mark) {
 
 std::vector<Port> Web::ports() {
   return {{"wheel", &wheel_.pulses.port, "encoder of the measuring wheel"},
-          {"wheel.index", &wheel_.index, "its index pulse, once a turn of the wheel"}};
+          {"wheel.index", &wheel_.index, "its index pulse, once a turn of the wheel"},
+          {"photocell", &marks_.photocell().port, "photocell over the printed marks"}};
 }
 
 std::vector<Channel> Web::channels() {
@@ -63,6 +66,8 @@ std::vector<Channel> Web::channels() {
       {"lead", "mm", [this] { return (material_.position - lead_end_) * millimetres; },
        "web beyond the cut: the length of a piece cut now"},
       {"pieces", "", [this] { return static_cast<double>(pieces_); }, "pieces cut since the start"},
+      {"photocell", "", [this] { return marks_.photocell().port.level ? 1.0 : 0.0; },
+       "photocell over the printed marks"},
       {"outfeed.pieces", "", [this] { return static_cast<double>(outfeed_.on_belt()); },
        "pieces on the outfeed belt"},
   };
@@ -76,6 +81,7 @@ std::vector<Setting> Web::settings() {
 std::vector<Fault> Web::faults() {
   std::vector<Fault> faults;
   wheel_.offer_faults(faults, "wheel");
+  marks_.offer_faults(faults, "marks", "photocell");
   return faults;
 }
 
@@ -122,6 +128,7 @@ Parameters WebDefinition::parameters() {
           "estimate"),
   };
   for (Parameter& p : wheel_parameters(data.wheel, "wheel.")) table.push_back(std::move(p));
+  for (Parameter& p : print_mark_parameters(data.marks, "marks.")) table.push_back(std::move(p));
   return table;
 }
 
@@ -138,6 +145,13 @@ std::vector<PlantDefinition::Objection> WebDefinition::objections() {
         {"thickness",
          fmt::format("a tube of {:g} mm has no wall of {:g} mm", data.width * 1000, data.thickness * 1000),
          fmt::format("at most {:g} mm", data.width * 500)});
+  const auto& marks = data.marks;
+  if (marks.pitch > 0 && marks.pitch <= marks.width + 2 * marks.hysteresis + 6 * marks.scatter)
+    found.push_back(
+        {"marks.pitch",
+         fmt::format("marks of {:g} mm at {:g} mm leave no gap", marks.width * 1000, marks.pitch * 1000),
+         fmt::format("more than {:g} mm (width, twice the hysteresis, six times the scatter)",
+                     (marks.width + 2 * marks.hysteresis + 6 * marks.scatter) * 1000)});
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include "plants/measuring_wheel.hpp"
 #include "plants/outfeed.hpp"
 #include "plants/plant.hpp"
+#include "plants/print_marks.hpp"
 #include "plants/section.hpp"
 
 namespace drycut::plants {
@@ -18,6 +19,7 @@ struct WebData {
   double lead = 0;   ///< web beyond the cut at the start [m]
   LineDriveData drive;
   MeasuringWheelData wheel;
+  PrintMarkData marks;
   OutfeedData outfeed;
 
   [[nodiscard]] Section cross_section() const { return {width, thickness, section == "tube"}; }
@@ -43,6 +45,7 @@ class Web : public Plant {
   [[nodiscard]] const WebData& data() const { return data_; }
   [[nodiscard]] Slide& material() { return material_; }
   [[nodiscard]] const Outfeed& outfeed() const { return outfeed_; }
+  [[nodiscard]] const PrintMarks& marks() const { return marks_; }
   /// Cuts the web off at x = 0 at `fraction` of the last step; the piece goes to the outfeed belt. Returns
   /// its length [m]: the travel since the last cut, of the first piece since the lead end.
   double separate(double fraction);
@@ -50,12 +53,15 @@ class Web : public Plant {
   double separate(double fraction, double mark);
   /// Travel since the start at `fraction` of the last step [m].
   [[nodiscard]] double travel(double fraction) const;
+  /// How far the present lead end lies behind the nearest printed mark, where there are marks [m].
+  [[nodiscard]] double register_error() const { return marks_.behind_mark(lead_end_); }
 
  private:
   WebData data_;
   Slide& material_;  // position: travel since the start
   LineDrive drive_;
   MeasuringWheel wheel_;
+  PrintMarks marks_;
   Outfeed outfeed_;
   double h_ = 0;     // of the last step [s]
   double lead_end_;  // mark of the present lead end [m]

@@ -1,0 +1,77 @@
+#include "plants/print_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double kept_behind = 6;  // [m] a travelling cut may still look at them
+constexpr double far_away = 1e6;
+
+PositionSwitchData reader(const PrintMarkData& data) { return {0, data.width, data.hysteresis, data.delay}; }
+
+}  // namespace
+
+Parameters print_mark_parameters(PrintMarkData& data, const std::string& prefix) {
+  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
+                             double min, double max, std::string_view source) {
+    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
+  };
+  return {
+      row("pitch", "mm", "nominal distance of two printed marks; 0: nothing is printed", &data.pitch, 0, 1e5,
+          "plain web"),
+      row("offset", "mm", "shifts all marks against the direction of travel", &data.offset, -1e5, 1e5,
+          "the first mark is one pitch behind the start"),
+      row("stretch", "", "true pitch = pitch * (1 + stretch)", &data.stretch, -0.5, 0.5,
+          "printed as nominal"),
+      row("scatter", "mm", "standard deviation of each mark from its place", &data.scatter, 0, 1000,
+          "a perfect press"),
+      row("width", "mm", "of a mark along the web", &data.width, 0.1, 1000, "a usual register mark"),
+      row("photocell", "mm", "place of the photocell before the cut", &data.photocell, 0, 1e5,
+          "between measuring wheel and pull rolls"),
+      row("hysteresis", "mm", "the photocell lets go this far behind the edge of a mark", &data.hysteresis, 0,
+          100, "estimate"),
+      row("delay", "ms", "delay of the photocell", &data.delay, 0, 100, "estimate: a fast contrast sensor"),
+  };
+}
+
+PrintMarks::PrintMarks(const PrintMarkData& data, Random noise)
+    : data_(data), noise_(noise), photocell_(reader(data), 0, far_away) {
+  if (!printed()) return;
+  next_ = data.pitch + data.offset;
+  while (places_.empty() || places_.back() <= data.photocell) print();
+  photocell_ = PositionSwitch(reader(data), 0, std::abs(behind_mark(data.photocell)));
+}
+
+void PrintMarks::print() {
+  places_.push_back(next_ + shift_ + data_.scatter * noise_.gaussian());
+  next_ += data_.pitch * (1 + data_.stretch);
+}
+
+double PrintMarks::nearest(double place) const {
+  // Scatter may bring two marks out of order where it is as large as the pitch: all are looked at.
+  return *std::min_element(places_.begin(), places_.end(),
+                           [place](double a, double b) { return std::abs(a - place) < std::abs(b - place); });
+}
+
+double PrintMarks::behind_mark(double place) const { return place - nearest(place); }
+
+void PrintMarks::sense(double now, double h) {
+  if (!printed()) return;
+  const double under = now + data_.photocell;
+  while (places_.back() <= under) print();
+  while (places_.size() > 2 && places_.front() < now - kept_behind - data_.pitch) places_.pop_front();
+  photocell_.follow(std::abs(behind_mark(under)), h);
+}
+
+void PrintMarks::offer_faults(std::vector<Fault>& faults, const std::string& marks,
+                              const std::string& photocell) {
+  if (!printed()) return;
+  faults.push_back({marks, "shift", "mm", [this](double v) { shift_ = v; },
+                    "the marks after the next one lie this much further back: a splice"});
+  photocell_.offer_faults(faults, photocell);
+}
+
+}  // namespace drycut::plants
