@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "devices/cards.hpp"
@@ -23,8 +24,14 @@ struct ControllerValue {
 /// Something that happened inside the controller: a refused command, a run-time error, a device warning.
 struct ControllerEvent {
   std::string source;  ///< device or task name
-  std::string event;   ///< "refused", "out_of_range", "error", "warning", "stopped"
+  std::string event;   ///< "refused", "out_of_range", "error", "warning", "stopped", "errorstop"
   std::string text;
+};
+
+/// Why a text is no terminal of a controller.
+struct TerminalFault {
+  std::string what;
+  std::string remedy;
 };
 
 /// A controller with its devices and programs, as the simulation sees it. Time is in integer nanoseconds.
@@ -36,15 +43,18 @@ class Controller {
   Controller& operator=(const Controller&) = delete;
 
   virtual Cards& cards() = 0;
-  /// A wire wants a terminal that nothing inside uses yet: true if the controller has it; it is in cards()
-  /// then.
-  virtual bool offer(const Address& address) {
+  /// The terminal that wiring calls `text`, any case, in this controller's own spelling: it is in cards()
+  /// then, an interrupt line apart. Else why it is none.
+  virtual std::variant<Address, TerminalFault> terminal(const std::string& text) = 0;
+  /// How wiring writes the terminal.
+  [[nodiscard]] virtual std::string terminal_name(const Address& address) const { return to_string(address); }
+  /// False for a terminal to which nothing is wired.
+  [[nodiscard]] virtual bool takes_wire(const Address& address) const {
     (void)address;
-    return false;
+    return true;
   }
-  /// How the terminals of a controller that has them built in are written, for messages; "" if a
-  /// configuration names them.
-  [[nodiscard]] virtual std::string_view base_terminals() const { return {}; }
+  /// The terminals that give pulses, for messages; "" if there is none.
+  [[nodiscard]] virtual std::string_view pulse_terminals() const { return {}; }
   /// Every period that something inside runs at [ns], with its name for messages ("AxisX TCamp").
   struct Period {
     std::string name;

@@ -58,8 +58,11 @@ bool Lx3vpController::offer(const Address& address) {
   return false;
 }
 
-std::string_view Lx3vpController::base_terminals() const {
-  return "write X0 to X377, Y0 to Y377 (octal), or C235 to C255 for a high-speed counter";
+std::variant<Address, TerminalFault> Lx3vpController::terminal(const std::string& text) {
+  const auto address = parse_base_terminal(text);
+  if (address && offer(*address)) return *address;
+  return TerminalFault{fmt::format("'{}' is not a terminal of the controller", text),
+                       "write X0 to X377, Y0 to Y377 (octal), or C235 to C255 for a high-speed counter"};
 }
 
 std::vector<Controller::Period> Lx3vpController::periods() const {

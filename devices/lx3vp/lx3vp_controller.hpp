@@ -33,8 +33,10 @@ class Lx3vpController : public Controller, private Instructions {
   Lx3vpController(il::Program program, std::int64_t scan_ns);
 
   Cards& cards() override { return cards_; }
-  bool offer(const Address& address) override;
-  [[nodiscard]] std::string_view base_terminals() const override;
+  /// A terminal of the base unit that nothing in the program uses: true if there is one, in cards() then.
+  bool offer(const Address& address);
+  std::variant<Address, TerminalFault> terminal(const std::string& text) override;
+  [[nodiscard]] std::string_view pulse_terminals() const override { return "Y0, Y1, Y2 or Y3"; }
   [[nodiscard]] std::vector<Period> periods() const override;
   void run_devices(std::int64_t time_ns) override;
   void run_tasks(std::int64_t time_ns) override;

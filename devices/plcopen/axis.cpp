@@ -93,6 +93,20 @@ Order Axis::home(double position) {
   return begin(verdict.to);
 }
 
+ErrorId Axis::set_position(double position, bool relative) {
+  const Verdict verdict = judge(state_, Command::set_position);
+  if (verdict.error != ErrorId::none) return verdict.error;
+  if (!(std::abs(position) <= pin_max)) return ErrorId::position_range;
+  move_zero(relative ? position : position - actual_.part);
+  return ErrorId::none;
+}
+
+ErrorId Axis::set_override(double factor) {
+  if (!(factor >= 0 && factor <= 1)) return ErrorId::override_range;
+  program_override_ = factor;
+  return ErrorId::none;
+}
+
 Order Axis::move_absolute(double position, const Dynamics& dynamics, Direction direction) {
   const Verdict verdict = judge(state_, Command::move_absolute);
   if (verdict.error != ErrorId::none) return {verdict.error};
@@ -118,6 +132,23 @@ Order Axis::move_absolute(double position, const Dynamics& dynamics, Direction d
   const Order order = begin(verdict.to);
   run(*to_position(now, way, limits));
   target_ = position;
+  return order;
+}
+
+Order Axis::move_relative(double distance, const Dynamics& dynamics) {
+  const Verdict verdict = judge(state_, Command::move_relative);
+  if (verdict.error != ErrorId::none) return {verdict.error};
+  JerkLimits limits;
+  if (!in_range(dynamics.velocity, 1)) return {ErrorId::velocity_range};
+  if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
+  if (!(std::abs(distance) <= pin_max)) return {ErrorId::position_range};
+  const double target = advanced(set_.position, distance, modulo()).part;
+  if (limited() && (target < parameters_.swe_neg || target > parameters_.swe_pos))
+    return {ErrorId::position_range};
+  const MotionState now = state_for_plan();
+  const Order order = begin(verdict.to);
+  run(*to_position(now, distance, limits));
+  target_ = target;
   return order;
 }
 

@@ -19,9 +19,11 @@ struct AxisRef {
 
 /// What the drive tells the axis; the owner of the kernel writes it before each cycle.
 struct DriveInputs {
-  std::int64_t counts = 0;      ///< of the encoder, x4 edges, never wraps
-  bool ready = true;            ///< false: the drive no longer follows
-  bool emergency_stop = false;  ///< seen over the drive interface; the drive still follows setpoints
+  std::int64_t counts = 0;        ///< of the encoder, x4 edges, never wraps
+  bool ready = true;              ///< false: the drive no longer follows
+  bool emergency_stop = false;    ///< seen over the drive interface; the drive still follows setpoints
+  std::int64_t probe_counts = 0;  ///< of the encoder at the last rising edge of the probe
+  std::uint32_t probe_edges = 0;  ///< rising edges of the probe so far
 };
 /// What the axis tells the drive, valid after each cycle.
 struct DriveOutputs {
@@ -86,6 +88,10 @@ class Axis {
   [[nodiscard]] double modulo() const { return parameters_.modulo; }
   /// Commanded motion at the end of the last cycle.
   [[nodiscard]] const AxisMotion& set() const { return set_; }
+  /// Change of the commanded acceleration in the last cycle, over its time [inc/s3].
+  [[nodiscard]] double set_jerk() const {
+    return cycle_time_ > 0 ? (set_.acceleration - acceleration_before_) / cycle_time_ : 0;
+  }
   [[nodiscard]] const Position& actual() const { return actual_; }
   [[nodiscard]] double actual_velocity() const { return actual_velocity_; }
   [[nodiscard]] double following_error() const { return difference(set_.position, actual_, modulo()); }
@@ -102,7 +108,14 @@ class Axis {
   Order power(bool on);
   /// The present actual position becomes `position`; takes one cycle.
   Order home(double position);
+  /// The present actual position becomes `position`, or with `relative` more by it; nothing moves. The caller
+  /// has seen to it that no slave follows.
+  ErrorId set_position(double position, bool relative);
+  /// MC_SetOverride: share of the speeds of movements, 0..1, together with the operator's.
+  ErrorId set_override(double factor);
   Order move_absolute(double position, const Dynamics& dynamics, Direction direction);
+  /// By `distance` from the commanded position of this moment.
+  Order move_relative(double distance, const Dynamics& dynamics);
   Order move_velocity(double velocity, const Dynamics& dynamics, Direction direction);
   Order halt(const Dynamics& dynamics);
   Order stop(const Dynamics& dynamics);
@@ -113,6 +126,12 @@ class Axis {
   Order couple(Coupling coupling, const CouplingLink& link, Command command);
   /// The slave goes on at its present speed.
   Order uncouple(Command command);
+
+  /// Touch probe: a new order, or an abortion, takes it from the order before.
+  std::uint64_t take_probe() { return ++probe_ticket_; }
+  [[nodiscard]] std::uint64_t probe_ticket() const { return probe_ticket_; }
+  /// Where the axis was at the last rising edge of its probe.
+  [[nodiscard]] Position probe_position() const { return position_of(drive.probe_counts); }
 
   [[nodiscard]] const Coupling* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
   Coupling* coupling() { return coupling_ ? &*coupling_ : nullptr; }
@@ -145,13 +164,17 @@ class Axis {
   void run_profile(double dt);
   void finish_profile();
   void brake(double dt);
+  void move_zero(double shift);
   void stand_on_actual();
 
   std::string name_;
   AxisParameters parameters_;
   std::uint64_t ticket_ = 0;
+  std::uint64_t probe_ticket_ = 0;
 
   AxisMotion set_;
+  double acceleration_before_ = 0;  ///< set_.acceleration at the end of the cycle before
+  double cycle_time_ = 0;           ///< [s], 0 before the first cycle
   Position actual_;
   double home_offset_ = 0;
   double home_to_ = 0;
@@ -161,7 +184,8 @@ class Axis {
   std::optional<JerkProfile> profile_;
   Position profile_origin_;
   double profile_time_ = 0;
-  double override_ = 1;
+  double override_ = 1;           ///< in force
+  double program_override_ = 1;   ///< of MC_SetOverride
   std::optional<double> target_;  ///< of a discrete movement, for the window
 
   std::optional<Coupling> coupling_;

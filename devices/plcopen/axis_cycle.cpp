@@ -13,6 +13,8 @@ constexpr double microseconds = 1e-6;
 }  // namespace
 
 void Axis::latch(double dt) {
+  acceleration_before_ = set_.acceleration;
+  cycle_time_ = dt;
   if (parameters_.kind == static_cast<int>(AxisKind::virtual_axis)) return;
   const Position before = actual_;
   actual_ = position_of(drive.counts);
@@ -57,10 +59,7 @@ void Axis::move(double dt) {
   if (state_ == AxisState::disabled) return stand_on_actual();
   if (state_ == AxisState::errorstop) return brake(dt);
   if (state_ == AxisState::homing) {
-    const double shift = home_to_ - actual_.part;
-    home_offset_ += shift;
-    actual_ = advanced(actual_, shift, modulo());
-    set_.position = advanced(set_.position, shift, modulo());
+    move_zero(home_to_ - actual_.part);
     homed_ = true;
     done_ = true;
     state_ = AxisState::standstill;
@@ -69,10 +68,16 @@ void Axis::move(double dt) {
   if (profile_) run_profile(dt);
 }
 
+void Axis::move_zero(double shift) {
+  home_offset_ += shift;
+  actual_ = advanced(actual_, shift, modulo());
+  set_.position = advanced(set_.position, shift, modulo());
+}
+
 void Axis::run_profile(double dt) {
   // The override slews so slowly that it takes no more than half of a_max by itself.
   const bool held = control.feed_hold || !control.feed_enable;
-  const double wanted = held ? 0 : std::clamp(control.override_percent / 100, 0.0, 1.0);
+  const double wanted = held ? 0 : std::clamp(control.override_percent / 100, 0.0, 1.0) * program_override_;
   const double slew =
       parameters_.a_max / 2 * increments_per_acceleration * dt / (parameters_.vb_max * increments_per_speed);
   override_ = std::clamp(wanted, override_ - slew, override_ + slew);

@@ -90,6 +90,12 @@ const AxisParameter* find_axis_parameter(std::string_view name) {
   return nullptr;
 }
 
+std::string_view unit_of(const AxisParameter& parameter, Measure measure) {
+  const auto comma = parameter.unit.find(", ");
+  if (comma == std::string_view::npos) return parameter.unit;
+  return measure == Measure::length ? parameter.unit.substr(0, comma) : parameter.unit.substr(comma + 2);
+}
+
 bool set_parameter(AxisParameters& parameters, const AxisParameter& parameter, double value) {
   if (!(value >= parameter.min && value <= parameter.max)) return false;
   if (parameter.whole && value != std::round(value)) return false;

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace drycut::devices::plcopen {
@@ -65,6 +67,18 @@ struct AxisParameter {
   bool whole = false;
   double AxisParameters::*member = nullptr;
   std::string_view meaning;
+};
+
+/// What an axis measures: its units for people are mm or deg.
+enum class Measure : std::uint8_t { length, angle };
+/// Of "um/s, 0.001 deg/s" the unit that goes with `measure`.
+std::string_view unit_of(const AxisParameter& parameter, Measure measure);
+
+/// An axis as the machine data describe it.
+struct AxisConfiguration {
+  std::string name;
+  AxisParameters parameters;
+  Measure measure = Measure::angle;
 };
 
 /// All parameters; the default is what AxisParameters{} holds.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/plcopen/any_case.hpp"
+
 namespace drycut::devices::plcopen {
 namespace {
 
@@ -49,7 +51,7 @@ AxisRef MotionKernel::add_axis(std::string name, const AxisParameters& parameter
 
 AxisRef MotionKernel::find_axis(std::string_view name) const {
   for (std::size_t i = 0; i < axes_.size(); ++i)
-    if (axes_[i].name() == name) return {static_cast<int>(i)};
+    if (lower(axes_[i].name()) == lower(name)) return {static_cast<int>(i)};
   return {};
 }
 
@@ -182,6 +184,16 @@ Order MotionKernel::gear_in(const GearInRequest& request) {
   const GearFollow gear{request.numerator, request.denominator, axis(request.master)->modulo()};
   slave.set_gear_dynamics(request.dynamics);
   return slave.couple(Coupling(gear, slave.modulo()), link, Command::gear_in);
+}
+
+ErrorId MotionKernel::set_position(AxisRef ref, double position, bool relative) {
+  Axis* moved = axis(ref);
+  if (moved == nullptr) return ErrorId::no_such_axis;
+  const auto follows_it = [&](const Axis& slave) {
+    return slave.coupling() != nullptr && slave.link().master == ref;
+  };
+  if (std::any_of(axes_.begin(), axes_.end(), follows_it)) return ErrorId::in_synchronized_motion;
+  return moved->set_position(position, relative);
 }
 
 ErrorId MotionKernel::phase(AxisRef master, AxisRef slave_ref, double shift, const Dynamics& dynamics) {

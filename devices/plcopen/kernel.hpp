@@ -70,7 +70,7 @@ class MotionKernel {
 
   [[nodiscard]] std::int64_t cycle_ns() const { return cycle_ns_; }
   AxisRef add_axis(std::string name, const AxisParameters& parameters);
-  /// By its name, not connected if there is none.
+  /// By its name, any case; not connected if there is none.
   [[nodiscard]] AxisRef find_axis(std::string_view name) const;
   [[nodiscard]] int axes() const { return static_cast<int>(axes_.size()); }
   /// nullptr if the reference is not one of this kernel's.
@@ -90,6 +90,8 @@ class MotionKernel {
   /// pass under way is then given one pass more instead of being engaged anew.
   Order cam_in(const CamInRequest& request, std::uint64_t again = 0);
   Order gear_in(const GearInRequest& request);
+  /// MC_SetPosition, see Axis::set_position. 44020 while a slave follows the axis: it would leap.
+  ErrorId set_position(AxisRef axis, double position, bool relative);
   /// MC_Phasing: shifts the apparent master of the slave; does not take the axis from its coupling.
   ErrorId phase(AxisRef master, AxisRef slave, double shift, const Dynamics& dynamics);
 

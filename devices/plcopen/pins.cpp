@@ -79,6 +79,15 @@ constexpr std::tuple move_absolute{
     DONE(McMoveAbsolute, "at the target, the actual position within the window"),
     ABORTED(McMoveAbsolute),
     ERRORS(McMoveAbsolute)};
+constexpr std::tuple move_relative{
+    AXIS(McMoveRelative),
+    EXECUTE(McMoveRelative),
+    PIN(McMoveRelative, "LREAL", in, Distance, "from the commanded position [0.1 um or 0.0001 deg]"),
+    PIN(McMoveRelative, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
+    SLOPES(McMoveRelative),
+    DONE(McMoveRelative, "at the target, the actual position within the window"),
+    ABORTED(McMoveRelative),
+    ERRORS(McMoveRelative)};
 constexpr std::tuple move_velocity{
     AXIS(McMoveVelocity),
     EXECUTE(McMoveVelocity),
@@ -88,6 +97,20 @@ constexpr std::tuple move_velocity{
     PIN(McMoveVelocity, "BOOL", out, InVelocity, "the speed is reached"),
     ABORTED(McMoveVelocity),
     ERRORS(McMoveVelocity)};
+constexpr std::tuple set_position{
+    AXIS(McSetPosition),
+    EXECUTE(McSetPosition),
+    PIN(McSetPosition, "LREAL", in, Position, "the actual position's new value [0.1 um or 0.0001 deg]"),
+    PIN(McSetPosition, "BOOL", in, Relative, "TRUE: Position is added to the present one"),
+    DONE(McSetPosition, "the position has its new value"),
+    ERRORS(McSetPosition)};
+constexpr std::tuple set_override{
+    AXIS(McSetOverride),
+    PIN(McSetOverride, "BOOL", in, Enable, "TRUE takes the factor; it stays when FALSE"),
+    PIN(McSetOverride, "LREAL", in, VelFactor, "share of the speed of movements, 0..1"),
+    PIN(McSetOverride, "BOOL", out, Enabled, "the factor is in force"),
+    PIN(McSetOverride, "BOOL", out, Error, "refused"),
+    PIN(McSetOverride, "UDINT", out, ErrorID, "which; see the table of errors")};
 constexpr std::tuple cam_table_select{
     MASTER_SLAVE(McCamTableSelect),
     EXECUTE(McCamTableSelect),
@@ -134,6 +157,61 @@ constexpr std::tuple phasing{MASTER_SLAVE(McPhasing),
                              ABORTED(McPhasing),
                              ERRORS(McPhasing)};
 
+constexpr std::tuple cam_table_write{
+    PIN(CamTableWrite, "UINT", in, CamTableID, "the table"),
+    EXECUTE(CamTableWrite),
+    PIN(CamTableWrite, "BOOL", in, Change, "TRUE: a longer change, until its end MC_CamIn refuses the table"),
+    PIN(CamTableWrite, "UDINT", in, Line, "of the element, from 1"),
+    PIN(CamTableWrite, "UINT", in, Column, "of the element, from 1"),
+    PIN(CamTableWrite, "LREAL", in, Value, "the element's new value"),
+    DONE(CamTableWrite, "written"),
+    PIN(CamTableWrite, "BOOL", out, Changing, "the change has begun"),
+    PIN(CamTableWrite, "BOOL", out, Error, "not written, or the change has not begun"),
+    PIN(CamTableWrite, "UDINT", out, ErrorID, "which; see the table of errors")};
+
+#define READING(block)                                                \
+  AXIS(block), PIN(block, "BOOL", in, Enable, "TRUE reads"),          \
+      PIN(block, "BOOL", out, Valid, "the outputs are of this call"), \
+      PIN(block, "BOOL", out, Error, "there is no such axis"),        \
+      PIN(block, "UDINT", out, ErrorID, "which; see the table of errors")
+#define STATE(name, meaning) PIN(McReadStatus, "BOOL", out, name, meaning)
+
+constexpr std::tuple read_position{
+    READING(McReadActualPosition),
+    PIN(McReadActualPosition, "LREAL", out, Position, "of the encoder [0.1 um or 0.0001 deg]")};
+constexpr std::tuple read_velocity{
+    READING(McReadActualVelocity),
+    PIN(McReadActualVelocity, "LREAL", out, Velocity, "of the encoder, with sign [um/s or 0.001 deg/s]")};
+constexpr std::tuple read_status{READING(McReadStatus),
+                                 STATE(Errorstop, "stopped by an error, until MC_Reset"),
+                                 STATE(Disabled, "without power"),
+                                 STATE(Stopping, "MC_Stop is in force"),
+                                 STATE(Homing, "MC_Home is at work"),
+                                 STATE(Standstill, "ready"),
+                                 STATE(DiscreteMotion, "on the way to an end"),
+                                 STATE(ContinuousMotion, "moves without end"),
+                                 STATE(SynchronizedMotion, "coupled, even while it stands")};
+constexpr std::tuple read_error{
+    READING(McReadAxisError),
+    PIN(McReadAxisError, "UDINT", out, AxisErrorID, "of the axis, 0 = none; see the table of errors")};
+constexpr std::tuple touch_probe{
+    AXIS(McTouchProbe),
+    PIN(McTouchProbe, "UINT", in, TriggerInput, "0, the axis' own probe"),
+    EXECUTE(McTouchProbe),
+    PIN(McTouchProbe, "BOOL", in, WindowOnly, "TRUE: edges outside the window do not count"),
+    PIN(McTouchProbe, "LREAL", in, FirstPosition, "where the window begins [0.1 um or 0.0001 deg]"),
+    PIN(McTouchProbe, "LREAL", in, LastPosition,
+        "where it ends; of a modulo axis it may lie before FirstPosition, over the end of the turn"),
+    DONE(McTouchProbe, "recorded"),
+    ABORTED(McTouchProbe),
+    ERRORS(McTouchProbe),
+    PIN(McTouchProbe, "LREAL", out, RecordedPosition, "where the axis was at the edge itself")};
+constexpr std::tuple abort_trigger{
+    AXIS(McAbortTrigger), PIN(McAbortTrigger, "UINT", in, TriggerInput, "0, the axis' own probe"),
+    EXECUTE(McAbortTrigger), DONE(McAbortTrigger, "no block waits any more"), ERRORS(McAbortTrigger)};
+
+#undef READING
+#undef STATE
 #undef PIN
 #undef EXECUTE
 #undef DONE
@@ -173,6 +251,7 @@ const std::array types{
     BlockType{"MC_Stop", "stops and keeps the axis from moving", pins<stop>, &make<McStop>},
     BlockType{"MC_Halt", "stops", pins<halt>, &make<McHalt>},
     BlockType{"MC_MoveAbsolute", "moves to a position", pins<move_absolute>, &make<McMoveAbsolute>},
+    BlockType{"MC_MoveRelative", "moves by a distance", pins<move_relative>, &make<McMoveRelative>},
     BlockType{"MC_MoveVelocity", "moves at a speed", pins<move_velocity>, &make<McMoveVelocity>},
     BlockType{"MC_CamTableSelect", "finds a cam table", pins<cam_table_select>, &make<McCamTableSelect>},
     BlockType{"MC_CamIn", "couples by a cam", pins<cam_in>, &make<McCamIn>},
@@ -180,6 +259,20 @@ const std::array types{
     BlockType{"MC_GearIn", "couples by a ratio of speeds", pins<gear_in>, &make<McGearIn>},
     BlockType{"MC_GearOut", "uncouples from a gear", pins<gear_out>, &make<McGearOut>},
     BlockType{"MC_Phasing", "shifts the master as the slave sees it", pins<phasing>, &make<McPhasing>},
+    BlockType{"MC_SetPosition", "gives the actual position another value, without homing", pins<set_position>,
+              &make<McSetPosition>},
+    BlockType{"MC_SetOverride", "makes movements slower", pins<set_override>, &make<McSetOverride>},
+    BlockType{"MC_ReadActualPosition", "reads the encoder's position", pins<read_position>,
+              &make<McReadActualPosition>},
+    BlockType{"MC_ReadActualVelocity", "reads the encoder's speed", pins<read_velocity>,
+              &make<McReadActualVelocity>},
+    BlockType{"MC_ReadStatus", "reads the state", pins<read_status>, &make<McReadStatus>},
+    BlockType{"MC_ReadAxisError", "reads the error of an axis", pins<read_error>, &make<McReadAxisError>},
+    BlockType{"MC_TouchProbe", "records the position at an edge of the probe", pins<touch_probe>,
+              &make<McTouchProbe>},
+    BlockType{"MC_AbortTrigger", "ends a waiting MC_TouchProbe", pins<abort_trigger>, &make<McAbortTrigger>},
+    BlockType{"CAM_TABLE_WRITE", "writes into a cam table while the controller runs (not of ISG)",
+              pins<cam_table_write>, &make<CamTableWrite>},
 };
 
 bool same_name(std::string_view a, std::string_view b) {
@@ -195,6 +288,7 @@ PinValue McReset::pin(std::size_t number) { return value_of(*this, reset, number
 PinValue McStop::pin(std::size_t number) { return value_of(*this, stop, number); }
 PinValue McHalt::pin(std::size_t number) { return value_of(*this, halt, number); }
 PinValue McMoveAbsolute::pin(std::size_t number) { return value_of(*this, move_absolute, number); }
+PinValue McMoveRelative::pin(std::size_t number) { return value_of(*this, move_relative, number); }
 PinValue McMoveVelocity::pin(std::size_t number) { return value_of(*this, move_velocity, number); }
 PinValue McCamTableSelect::pin(std::size_t number) { return value_of(*this, cam_table_select, number); }
 PinValue McCamIn::pin(std::size_t number) { return value_of(*this, cam_in, number); }
@@ -202,6 +296,15 @@ PinValue McCamOut::pin(std::size_t number) { return value_of(*this, cam_out, num
 PinValue McGearIn::pin(std::size_t number) { return value_of(*this, gear_in, number); }
 PinValue McGearOut::pin(std::size_t number) { return value_of(*this, gear_out, number); }
 PinValue McPhasing::pin(std::size_t number) { return value_of(*this, phasing, number); }
+PinValue McSetPosition::pin(std::size_t number) { return value_of(*this, set_position, number); }
+PinValue McSetOverride::pin(std::size_t number) { return value_of(*this, set_override, number); }
+PinValue McReadActualPosition::pin(std::size_t number) { return value_of(*this, read_position, number); }
+PinValue McReadActualVelocity::pin(std::size_t number) { return value_of(*this, read_velocity, number); }
+PinValue McReadStatus::pin(std::size_t number) { return value_of(*this, read_status, number); }
+PinValue McReadAxisError::pin(std::size_t number) { return value_of(*this, read_error, number); }
+PinValue McTouchProbe::pin(std::size_t number) { return value_of(*this, touch_probe, number); }
+PinValue McAbortTrigger::pin(std::size_t number) { return value_of(*this, abort_trigger, number); }
+PinValue CamTableWrite::pin(std::size_t number) { return value_of(*this, cam_table_write, number); }
 
 std::span<const BlockType> block_types() { return types; }
 

@@ -52,7 +52,10 @@ Verdict judge(AxisState from, Command command) {
     case Command::home:
       if (from == AxisState::homing) return {from, ErrorId::home_again};
       return if_allowed(from == AxisState::standstill, AxisState::homing);
+    case Command::set_position:
+      return if_allowed(from == AxisState::standstill || from == AxisState::disabled, from);
     case Command::move_absolute:
+    case Command::move_relative:
       return if_allowed(moves_or_stands(from) || stopping, AxisState::discrete_motion);
     case Command::move_velocity:
       return if_allowed(moves_or_stands(from) || stopping, AxisState::continuous_motion);

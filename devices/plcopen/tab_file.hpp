@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "devices/plcopen/cam_laws.hpp"
 #include "devices/plcopen/cam_table.hpp"
@@ -12,22 +13,52 @@ namespace drycut::devices::plcopen {
 /// Reads a cam table of the ISG kernel, `*.tab`: header lines `Tablename = ...`, `Tabletype`, `Table-ID`,
 /// `Functiontype` (may be missing) and `Lines`, then `Begintable`, one line a row of numbers between blanks,
 /// with decimal comma or point, and `EndTable`. `#` begins a comment. Faults go to `problems`; nullopt if
-/// there is one.
-std::optional<CamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems);
+/// there is one. `lines` gets the line of each row.
+std::optional<CamTable> parse_tab(std::string_view text, const std::string& file, Problems& problems,
+                                  std::vector<int>* lines = nullptr);
 
-/// A cam as CSV, for use without a controller: the table and the axes that it is meant for.
-struct CamCsv {
-  CamTable table;
-  Interpolation interpolation = Interpolation::linear;
-  Endless endless = Endless::no;
-  double master_modulo = 3'600'000;  ///< [0.0001 deg]
-  double slave_modulo = 3'600'000;   ///< 0 = linear slave
+/// What a slave may do, as far as a file says it, in mm or deg and s; positions in 0.1 um or 0.0001 deg.
+struct CamLimits {
+  std::optional<double> velocity;      ///< maxvel
+  std::optional<double> acceleration;  ///< maxacc
+  std::optional<double> jerk;          ///< maxjerk
+  std::optional<double> least;         ///< minpos
+  std::optional<double> most;          ///< maxpos
 };
 
-/// Reads a cam as CSV: `# key: value` lines (interpolation, endless, master_modulo, slave_modulo, name, id),
-/// a header `slave`, `master,slave` or `a0,a1,a2,a3`, then the rows; with `;` between the columns a decimal
-/// comma is taken too. The table is checked as MC_CamIn does, with its error ids. Nullopt if there is a
-/// fault.
-std::optional<CamCsv> parse_cam_csv(std::string_view text, const std::string& file, Problems& problems);
+/// A cam as a file, for use without a controller: the table and the axes that it is meant for.
+struct CamFile {
+  CamTable table;
+  Interpolation interpolation = Interpolation::linear;  ///< table_defined: a .tab file that says none
+  Endless endless = Endless::no;
+  double master_modulo = 3'600'000;  ///< [0.0001 deg or 0.1 um]
+  double slave_modulo = 3'600'000;   ///< 0 = linear slave
+  bool periodic = true;              ///< StartMode F_PERIODIC
+  std::string master_unit = "deg";   ///< or "mm": what the master's increments are 10000 to one of
+  std::string slave_unit = "deg";
+  CamLimits limits;
+  std::vector<int> lines;  ///< of the file, for each row
+  int header = 1;          ///< line of the header, or of the first row's columns
+};
+
+/// Reads a cam as CSV or .tab file, without MC_CamIn's own checks. CSV has `# key: value` lines, a header
+/// `slave`, `master,slave` or `a0,a1,a2,a3`, then the rows; with `;` between the columns a decimal comma is
+/// taken too. Keys: interpolation, endless, master_modulo, slave_modulo, periodic, master_unit, slave_unit,
+/// maxvel, maxacc, maxjerk, minpos, maxpos, of CSV name and id too; `##` begins a remark. In a .tab file all
+/// other comments are remarks. Nullopt if there is a fault.
+std::optional<CamFile> read_cam(std::string_view text, const std::string& file, Problems& problems);
+
+/// Reads a cam as CSV; the table is checked as MC_CamIn does, with its error ids, too.
+std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& file, Problems& problems);
+
+/// One thing that MC_CamIn would refuse.
+struct CamRefusal {
+  ErrorId error = ErrorId::none;
+  std::size_t row = 0;  ///< 1-based; 0 = of the whole table
+  std::string remedy;
+};
+/// All that MC_CamIn would refuse in the file with the axes that it names; a master that does not ascend is
+/// told for each row.
+std::vector<CamRefusal> refusals(const CamFile& cam);
 
 }  // namespace drycut::devices::plcopen

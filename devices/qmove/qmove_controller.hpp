@@ -16,6 +16,7 @@
 #include "devices/qmove/machine.hpp"
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/symbols.hpp"
+#include "devices/slot_terminals.hpp"
 
 namespace drycut::devices::qmove {
 
@@ -36,6 +37,10 @@ class QmoveController : public Controller {
                   std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns);
 
   Cards& cards() override { return cards_; }
+  std::variant<Address, TerminalFault> terminal(const std::string& text) override {
+    return find_slot_terminal(cards_, text);
+  }
+  [[nodiscard]] bool takes_wire(const Address& address) const override { return slot_takes_wire(address); }
   [[nodiscard]] std::vector<Period> periods() const override;
   [[nodiscard]] std::int64_t output_period(const Address& analogue) const override;
   void run_devices(std::int64_t time_ns) override;

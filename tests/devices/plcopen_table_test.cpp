@@ -99,7 +99,8 @@ TEST(PlcopenTable, ACsvGivesTheTableItsLawsAndItsAxes) {
 
 TEST(PlcopenTable, ACsvsFaultsAreAllToldAtTheirPlace) {
   EXPECT_THAT(csv_faults("# interpolaton: LINEAR\n# endless: up\n# interpolation: SPLINE\nslave\n1,2\nx\n"),
-              ElementsAre("c.csv:1:3: unknown key 'interpolaton'; did you mean interpolation?",
+              ElementsAre("c.csv:1:3: unknown key 'interpolaton'; did you mean interpolation?; a "
+                          "remark begins with ##",
                           "c.csv:2:12: endless cannot be 'up'; write positive, negative or no",
                           "c.csv:3:18: 'SPLINE' is no interpolation (error 42006); write STEP_DIRECT, "
                           "LINEAR, POLYNOM_3, POLYNOM_3_KOEFF, "

@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "devices/plcopen/tab_file.hpp"
+#include "devices/plcopen/table_text.hpp"
+
+// Cams as files of their own: CSV, and what comments say of the axes.
+namespace drycut::devices::plcopen {
+namespace {
+
+constexpr int most_modulo = 2147483647;
+
+class CamReader {
+ public:
+  CamReader(std::string file, Problems& problems) : reader_(std::move(file), problems) {}
+
+  std::optional<CamFile> csv(std::string_view text) {
+    cam_.table = {.file = {}, .name = {}, .id = 1, .type = 0, .values = {}};
+    read_csv(text);
+    if (!seen_.contains("interpolation") && cam_.table.type == 7)
+      cam_.interpolation = Interpolation::poly5_line;
+    if (!seen_.contains("interpolation") && cam_.table.type == 5)
+      cam_.interpolation = Interpolation::polynom_3_koeff;
+    cam_.table.interpolation = cam_.interpolation;
+    cam_.lines = reader_.rows();
+    return finished();
+  }
+
+  /// What the comments of a .tab file say, for its table.
+  std::optional<CamFile> tab(std::string_view text, CamTable table, std::vector<int> lines) {
+    tab_ = true;
+    cam_.interpolation = table.interpolation;
+    cam_.table = std::move(table);
+    cam_.header = lines.empty() ? 1 : lines.front();
+    cam_.lines = std::move(lines);
+    int number = 0;
+    for (const std::string_view line : lines_of(text)) {
+      ++number;
+      if (const std::size_t sign = line.find('#'); sign != std::string_view::npos)
+        read_key(line.substr(sign), static_cast<int>(sign), number);
+    }
+    return finished();
+  }
+
+  /// Nullopt if the comments had a fault.
+  std::optional<CamFile> finished() {
+    if (!reader_.sound()) return std::nullopt;
+    if (!seen_.contains("slave_unit") && cam_.slave_modulo == 0) cam_.slave_unit = "mm";
+    return std::move(cam_);
+  }
+
+ private:
+  void read_csv(std::string_view text) {
+    constexpr const char* columns = "write slave, or master,slave, or a0,a1,a2,a3";
+    char separator = ',';
+    bool header = false;
+    int number = 0;
+    for (const std::string_view line : lines_of(text)) {
+      ++number;
+      const Word whole = trimmed(line, 0, line.size());
+      if (whole.text.empty()) continue;
+      if (whole.text.front() == '#') {
+        read_key(whole.text, whole.column - 1, number);
+      } else if (!header) {
+        header = true;
+        cam_.header = number;
+        separator = line.find(';') != std::string_view::npos ? ';' : ',';
+        cam_.table.type = type_of(split(line, separator));
+        if (cam_.table.type == 0)
+          return reader_.fault(number, whole.column, fmt::format("unknown header '{}'", whole.text), columns);
+      } else {
+        reader_.row(cam_.table, split(line, separator), number, separator == ';');
+      }
+    }
+    if (!header) reader_.fault(number + 1, 1, "there is no header", columns);
+  }
+
+  /// The table's type by its header; 0 if it is none.
+  static int type_of(const std::vector<Word>& header) {
+    std::string joined;
+    for (const Word& word : header) joined += lower(word.text) + ' ';
+    if (joined == "slave ") return 3;
+    if (joined == "master slave ") return 7;
+    return joined == "a0 a1 a2 a3 " ? 5 : 0;
+  }
+
+  [[nodiscard]] std::vector<std::string> keys() const {
+    std::vector<std::string> keys{"interpolation", "endless",     "master_modulo", "slave_modulo",
+                                  "periodic",      "master_unit", "slave_unit",    "maxvel",
+                                  "maxacc",        "maxjerk",     "minpos",        "maxpos"};
+    // A .tab file has these two in its header.
+    if (!tab_) keys.insert(keys.end(), {"name", "id"});
+    return keys;
+  }
+
+  /// A comment, which stands `before` characters from the line's beginning.
+  void read_key(std::string_view comment, int before, int line) {
+    const std::size_t colon = comment.find(':');
+    if (colon == std::string_view::npos || comment.starts_with("##")) return;
+    Word key = trimmed(comment, 1, colon);
+    Word value = trimmed(comment, colon + 1, comment.size());
+    key.column += before;
+    value.column += before;
+    const std::string name = lower(key.text);
+    const auto known = keys();
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      if (!tab_ && key.text.find(' ') == std::string_view::npos) refuse(key, known, line);
+      return;
+    }
+    if (const auto [first, is_new] = seen_.try_emplace(name, line); !is_new)
+      return reader_.fault(line, key.column, fmt::format("a second {}", name),
+                           fmt::format("the first is in line {}", first->second));
+    take(name, value, line);
+  }
+
+  void refuse(const Word& key, const std::vector<std::string>& known, int line) {
+    const std::string guess = nearest(lower(key.text), known);
+    std::string all;
+    for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+    reader_.fault(line, key.column, fmt::format("unknown key '{}'", key.text),
+                  (guess.empty() ? "known are " + all : fmt::format("did you mean {}?", guess)) +
+                      "; a remark begins with ##");
+  }
+
+  void take(const std::string& name, const Word& value, int line) {
+    CamLimits& limits = cam_.limits;
+    constexpr double most = 1e12;
+    if (name == "name") cam_.table.name = std::string(value.text);
+    if (name == "id")
+      cam_.table.id = static_cast<std::uint16_t>(reader_.whole(value, line, 1, 65535).value_or(1));
+    if (name == "master_modulo") take_modulo(value, line, 1, cam_.master_modulo);
+    if (name == "slave_modulo") take_modulo(value, line, 0, cam_.slave_modulo);
+    if (name == "endless") take_endless(value, line);
+    if (name == "periodic") cam_.periodic = one_of(name, value, line, {"yes", "no"}) != "no";
+    if (name == "master_unit") cam_.master_unit = one_of(name, value, line, {"deg", "mm"});
+    if (name == "slave_unit") cam_.slave_unit = one_of(name, value, line, {"deg", "mm"});
+    if (name == "maxvel") limits.velocity = reader_.real(value, line, 1e-9, most);
+    if (name == "maxacc") limits.acceleration = reader_.real(value, line, 1e-9, most);
+    if (name == "maxjerk") limits.jerk = reader_.real(value, line, 1e-9, most);
+    if (name == "minpos") limits.least = reader_.real(value, line, -most, most);
+    if (name == "maxpos") limits.most = reader_.real(value, line, -most, most);
+    if (name == "interpolation") take_interpolation(value, line);
+  }
+
+  void take_modulo(const Word& value, int line, int least, double& modulo) {
+    if (const auto number = reader_.whole(value, line, least, most_modulo)) modulo = *number;
+  }
+
+  void take_endless(const Word& value, int line) {
+    const std::string direction = one_of("endless", value, line, {"positive", "negative", "no"});
+    if (direction == "positive") cam_.endless = Endless::positive;
+    if (direction == "negative") cam_.endless = Endless::negative;
+  }
+
+  void take_interpolation(const Word& value, int line) {
+    const std::optional<Interpolation> type = parse_interpolation(value.text);
+    if (!type || *type == Interpolation::table_defined)
+      reader_.fault(line, value.column, fmt::format("'{}' is no interpolation (error 42006)", value.text),
+                    "write STEP_DIRECT, LINEAR, POLYNOM_3, POLYNOM_3_KOEFF, LINE_POLY5 or POLY5_LINE");
+    cam_.interpolation = type.value_or(Interpolation::linear);
+  }
+
+  /// The word in small letters; the first of the choice, with a fault, if it is none of them.
+  std::string one_of(std::string_view name, const Word& value, int line,
+                     const std::vector<std::string>& choice) {
+    const std::string word = lower(value.text);
+    if (std::find(choice.begin(), choice.end(), word) != choice.end()) return word;
+    std::string all;
+    for (std::size_t i = 0; i < choice.size(); ++i)
+      all += (i == 0 ? "" : i + 1 == choice.size() ? " or " : ", ") + choice[i];
+    reader_.fault(line, value.column, fmt::format("{} cannot be '{}'", name, value.text), "write " + all);
+    return choice.front();
+  }
+
+  TableReader reader_;
+  CamFile cam_;
+  std::map<std::string, int> seen_;
+  bool tab_ = false;
+};
+
+std::string remedy_of(ErrorId error) {
+  switch (error) {
+    case ErrorId::table_type_mismatch:
+      return "STEP_DIRECT, LINEAR, POLYNOM_3 take one column, POLYNOM_3_KOEFF a0..a3, LINE_POLY5 and "
+             "POLY5_LINE "
+             "master and slave";
+    case ErrorId::unknown_interpolation:
+      return "write Functiontype = 0..5, or # interpolation: LINEAR for the block's TableFctType";
+    case ErrorId::table_master_order:
+      return "let the masters ascend inside one turn";
+    case ErrorId::table_line_count:
+      return "add or take away a line";
+    case ErrorId::position_range:
+      return "keep positions within +-1e12";
+    case ErrorId::too_few_lines:
+      return "write one line at least";
+    case ErrorId::not_modulo:
+      return "give slave_modulo a length";
+    default:
+      return "";
+  }
+}
+
+/// Rows whose master is not far enough from the one before: the first is also compared over the wrap.
+std::vector<std::size_t> disordered(const CamTable& table, double modulo) {
+  constexpr double least_gap = 1000;
+  std::vector<std::size_t> rows;
+  const std::size_t lines = table.lines();
+  for (std::size_t i = 0; i < lines; ++i) {
+    const double here = table.value(i, 0);
+    const bool close = i > 0 && here - table.value(i - 1, 0) < least_gap;
+    const bool closing = i + 1 == lines && table.value(0, 0) + modulo - here < least_gap;
+    const bool begins = i == 0 && (here < 0 || here >= modulo);
+    if (close || closing || begins) rows.push_back(i + 1);
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<CamRefusal> refusals(const CamFile& cam) {
+  std::vector<CamRefusal> found;
+  const auto add = [&](ErrorId error, std::size_t row = 0) {
+    found.push_back({error, row, remedy_of(error)});
+  };
+  const bool pairs = cam.table.type == 7;
+  if (cam.slave_modulo == 0 && (pairs || cam.endless != Endless::no)) add(ErrorId::not_modulo);
+  if (cam.interpolation == Interpolation::table_defined) {
+    add(ErrorId::unknown_interpolation);
+    return found;
+  }
+  const ErrorId error = check(cam.table, cam.interpolation, cam.master_modulo);
+  const bool right_type = error != ErrorId::table_type_mismatch && pairs;
+  const auto rows = right_type ? disordered(cam.table, cam.master_modulo) : std::vector<std::size_t>{};
+  for (const std::size_t row : rows) add(ErrorId::table_master_order, row);
+  if (error != ErrorId::none && (error != ErrorId::table_master_order || rows.empty())) add(error);
+  return found;
+}
+
+std::optional<CamFile> read_cam(std::string_view text, const std::string& file, Problems& problems) {
+  bool csv = true;
+  for (const std::string_view line : lines_of(text)) {
+    const Word word = trimmed(line, 0, line.size());
+    if (word.text.empty() || word.text.front() == '#') continue;
+    csv = word.text.find('=') == std::string_view::npos && lower(word.text) != "begintable";
+    break;
+  }
+  CamReader reader(file, problems);
+  if (csv) {
+    std::optional<CamFile> cam = reader.csv(text);
+    if (cam) cam->table.file = file;
+    return cam;
+  }
+  std::vector<int> lines;
+  std::optional<CamTable> table = parse_tab(text, file, problems, &lines);
+  // The comments' faults are told even where the table has its own.
+  std::optional<CamFile> cam = reader.tab(text, table.value_or(CamTable{}), std::move(lines));
+  return table ? cam : std::nullopt;
+}
+
+std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& file, Problems& problems) {
+  std::optional<CamFile> cam = CamReader(file, problems).csv(text);
+  if (!cam) return std::nullopt;
+  cam->table.file = file;
+  const std::vector<CamRefusal> refused = refusals(*cam);
+  for (const CamRefusal& refusal : refused)
+    problems.push_back(
+        {file, refusal.row == 0 ? cam->header : cam->lines[refusal.row - 1], 1,
+         fmt::format("error {}: {}", static_cast<unsigned>(refusal.error), meaning_of(refusal.error)),
+         refusal.remedy});
+  return refused.empty() ? std::move(cam) : std::nullopt;
+}
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,305 @@
+#include "devices/plcopen/controller.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "devices/plcopen/any_case.hpp"
+
+namespace drycut::devices::plcopen {
+namespace {
+
+MotionKernel make_kernel(const Configuration& configuration) {
+  MotionKernel kernel(configuration.cycle_ns);
+  for (const AxisConfiguration& axis : configuration.axes) kernel.add_axis(axis.name, axis.parameters);
+  for (const CamTable& table : configuration.tables) {
+    [[maybe_unused]] const ErrorId error = kernel.add_table(table);
+    assert(error == ErrorId::none);
+  }
+  return kernel;
+}
+
+std::string error_text(ErrorId id) {
+  return fmt::format("{} {}", static_cast<std::uint32_t>(id), meaning_of(id));
+}
+
+std::string joined(const std::vector<std::string>& names, std::string_view none) {
+  if (names.empty()) return std::string(none);
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string_view kind_text(AxisKind kind) {
+  switch (kind) {
+    case AxisKind::drive:
+      return "a drive axis";
+    case AxisKind::virtual_axis:
+      return "a virtual axis";
+    case AxisKind::encoder:
+      return "an encoder axis";
+  }
+  return "an axis";
+}
+
+AxisKind kind_of(const AxisConfiguration& axis) { return static_cast<AxisKind>(axis.parameters.kind); }
+
+}  // namespace
+
+PlcopenController::PlcopenController(st::Program program, std::string file, Configuration configuration)
+    : program_(std::move(program)),
+      file_(std::move(file)),
+      configuration_(std::move(configuration)),
+      kernel_(make_kernel(configuration_)),
+      plugs_(configuration_.axes.size()),
+      runtime_(program_, kernel_) {
+  assert(configuration_.cycle_ns > 0 && configuration_.task_ns % configuration_.cycle_ns == 0);
+  add_axes();
+  add_located();
+  const auto symbols = runtime_.symbols();
+  for (std::size_t i = 0; i < symbols.size(); ++i) symbols_.emplace(lower(symbols[i].name), i);
+  find_error_pins();
+}
+
+// What an axis cannot do without has a terminal from the start, so that a missing wire is told.
+void PlcopenController::add_axes() {
+  for (std::size_t i = 0; i < configuration_.axes.size(); ++i)
+    for (const AxisTerminal& terminal : axis_terminal_table())
+      if ((terminal.kind == Kind::counter || terminal.kind == Kind::analogue) &&
+          terminal.offered_by(kind_of(configuration_.axes[i])))
+        plug_in(static_cast<int>(i), terminal);
+}
+
+void PlcopenController::add_located() {
+  for (const auto& located : program_.located()) {
+    const Address address = located_address(located.output, located.byte, located.bit);
+    if (located.output)
+      cards_.outputs.try_emplace(address);
+    else
+      cards_.inputs.try_emplace(address);
+  }
+}
+
+void PlcopenController::find_error_pins() {
+  constexpr std::string_view pin = ".error";
+  for (const auto& [name, symbol] : symbols_) {
+    if (!name.ends_with(pin)) continue;
+    const auto id = symbols_.find(name + "id");
+    if (id == symbols_.end()) continue;
+    const std::string& spelled = runtime_.symbols()[symbol].name;
+    blocks_.push_back({spelled.substr(0, spelled.size() - pin.size()), symbol, id->second, false});
+  }
+}
+
+void PlcopenController::plug_in(int number, const AxisTerminal& terminal) {
+  const Address address = terminal.address(number);
+  AxisPlugs& plugs = plugs_[static_cast<std::size_t>(number)];
+  switch (terminal.kind) {
+    case Kind::counter:
+      plugs.encoder = &cards_.counters[address];
+      break;
+    case Kind::analogue:
+      plugs.reference = &cards_.analogue_outputs[address];
+      break;
+    case Kind::output:
+      plugs.enable = &cards_.outputs[address];
+      break;
+    case Kind::input: {
+      const DigitalInput* input = &cards_.inputs[address];
+      if (terminal.number == ready_input) plugs.ready = input;
+      if (terminal.number == emergency_stop_input) plugs.emergency_stop = input;
+      if (terminal.number == feed_enable_input) plugs.feed_enable = input;
+      if (terminal.number == feed_hold_input) plugs.feed_hold = input;
+      break;
+    }
+    case Kind::interrupt:
+      break;
+  }
+}
+
+std::optional<int> PlcopenController::find_axis(std::string_view name) const {
+  for (std::size_t i = 0; i < configuration_.axes.size(); ++i)
+    if (lower(configuration_.axes[i].name) == lower(name)) return static_cast<int>(i);
+  return std::nullopt;
+}
+
+std::variant<Address, TerminalFault> PlcopenController::terminal(const std::string& text) {
+  const auto name = parse_terminal(text);
+  if (!name)
+    return TerminalFault{
+        fmt::format("'{}' is not a terminal of the controller", text),
+        "write axis.encoder, axis.reference, axis.enable, ..., or IX0.0, QX0.7 for a BOOL of the "
+        "program"};
+  if (!name->axis.empty()) return axis_terminal(*name, text);
+  const bool output = name->address.kind == Kind::output;
+  if (output ? cards_.outputs.contains(name->address) : cards_.inputs.contains(name->address))
+    return name->address;
+  std::vector<std::string> known;
+  for (const auto& located : program_.located())
+    if (located.output == output)
+      known.push_back(located_name(located_address(output, located.byte, located.bit)));
+  return TerminalFault{fmt::format("the program has no variable AT %{}", located_name(name->address)),
+                       fmt::format("its {} are: {}", output ? "outputs" : "inputs", joined(known, "none"))};
+}
+
+std::variant<Address, TerminalFault> PlcopenController::axis_terminal(const TerminalName& name,
+                                                                      const std::string& text) {
+  const auto number = find_axis(name.axis);
+  if (!number) {
+    std::vector<std::string> axes;
+    for (const auto& axis : configuration_.axes) axes.push_back(axis.name);
+    const auto near = nearest(name.axis, axes);
+    return TerminalFault{
+        fmt::format("'{}' is no terminal: there is no axis '{}'", text, name.axis),
+        near.empty() ? fmt::format("axes: {}", joined(axes, "none")) : fmt::format("did you mean {}?", near)};
+  }
+  const AxisConfiguration& axis = configuration_.axes[static_cast<std::size_t>(*number)];
+  if (name.terminal != nullptr && name.terminal->offered_by(kind_of(axis))) {
+    plug_in(*number, *name.terminal);
+    return name.terminal->address(*number);
+  }
+  std::vector<std::string> offered;
+  for (const AxisTerminal& candidate : axis_terminal_table())
+    if (candidate.offered_by(kind_of(axis)))
+      offered.push_back(fmt::format("{}.{}", axis.name, candidate.name));
+  return TerminalFault{fmt::format("{} is {} and has no terminal '{}'", axis.name, kind_text(kind_of(axis)),
+                                   text.substr(name.axis.size() + 1)),
+                       fmt::format("it has: {}", joined(offered, "none"))};
+}
+
+std::string PlcopenController::terminal_name(const Address& address) const {
+  if (address.slot == 0) return located_name(address);
+  const int number = address.slot - 1;
+  for (const AxisTerminal& terminal : axis_terminal_table())
+    if (terminal.address(number) == address)
+      return fmt::format("{}.{}", configuration_.axes[static_cast<std::size_t>(number)].name, terminal.name);
+  return {};
+}
+
+std::vector<Controller::Period> PlcopenController::periods() const {
+  return {{"cycle", configuration_.cycle_ns}, {"task_cycle", configuration_.task_ns}};
+}
+
+std::int64_t PlcopenController::output_period(const Address& analogue) const {
+  return cards_.analogue_outputs.contains(analogue) ? configuration_.cycle_ns : 0;
+}
+
+// Called every step of the simulation: most calls end at the first line.
+void PlcopenController::run_devices(std::int64_t time_ns) {
+  if (time_ns < next_cycle_ns_) return;
+  next_cycle_ns_ = (time_ns / configuration_.cycle_ns + 1) * configuration_.cycle_ns;
+  if (!powered_) return;
+  if (std::exchange(power_up_due_, false)) latch_power_up();
+  latch_inputs();
+  kernel_.cycle();
+  give_outputs();
+  tell_errorstops();
+}
+
+void PlcopenController::run_tasks(std::int64_t time_ns) {
+  if (time_ns < next_task_ns_) return;
+  next_task_ns_ = (time_ns / configuration_.task_ns + 1) * configuration_.task_ns;
+  if (!powered_) return;
+  const auto& located = program_.located();
+  for (std::size_t i = 0; i < located.size(); ++i)
+    if (!located[i].output)
+      runtime_.set_located(i,
+                           cards_.inputs.at(located_address(false, located[i].byte, located[i].bit)).level);
+  runtime_.scan(time_ns);
+  for (std::size_t i = 0; i < located.size(); ++i)
+    if (located[i].output)
+      cards_.outputs.at(located_address(true, located[i].byte, located[i].bit)).level = runtime_.located(i);
+  tell_errorstops();
+  tell_blocks();
+}
+
+void PlcopenController::interrupt(int line, bool rising) {
+  const auto number = static_cast<std::size_t>(line - 1);
+  if (!powered_ || power_up_due_ || !rising || line < 1 || number >= plugs_.size()) return;
+  if (plugs_[number].encoder == nullptr) return;
+  DriveInputs& drive = axis(line - 1).drive;
+  drive.probe_counts = plugs_[number].encoder->latched - plugs_[number].counts_at_power_up;
+  ++drive.probe_edges;
+}
+
+void PlcopenController::power(bool on) {
+  if (on == powered_) return;
+  powered_ = on;
+  if (!on) {
+    for (auto& [address, output] : cards_.outputs) output.level = false;
+    for (auto& [address, output] : cards_.analogue_outputs) output.word = 0;
+    return;
+  }
+  MotionKernel fresh = make_kernel(configuration_);
+  for (int i = 0; i < kernel_.axes(); ++i) {
+    Axis& made = *fresh.axis({i});
+    made.control = axis(i).control;
+    made.drive.ready = axis(i).drive.ready;
+    made.drive.emergency_stop = axis(i).drive.emergency_stop;
+  }
+  kernel_ = std::move(fresh);
+  runtime_.cold_start();
+  power_up_due_ = true;
+  fault_told_ = false;
+  for (ErrorPins& block : blocks_) block.seen = false;
+  for (AxisPlugs& plugs : plugs_) plugs.in_errorstop = false;
+}
+
+// An incremental encoder's counter begins at 0, an absolute encoder knows where it is.
+void PlcopenController::latch_power_up() {
+  for (std::size_t i = 0; i < plugs_.size(); ++i) {
+    AxisPlugs& plugs = plugs_[i];
+    const bool absolute = configuration_.axes[i].parameters.homed_at_start != 0;
+    plugs.counts_at_power_up = absolute || plugs.encoder == nullptr ? 0 : plugs.encoder->count;
+  }
+}
+
+void PlcopenController::latch_inputs() {
+  for (std::size_t i = 0; i < plugs_.size(); ++i) {
+    const AxisPlugs& plugs = plugs_[i];
+    Axis& present = axis(static_cast<int>(i));
+    if (plugs.encoder != nullptr) present.drive.counts = plugs.encoder->count - plugs.counts_at_power_up;
+    if (plugs.ready != nullptr) present.drive.ready = plugs.ready->level;
+    if (plugs.emergency_stop != nullptr) present.drive.emergency_stop = plugs.emergency_stop->level;
+    if (plugs.feed_enable != nullptr) present.control.feed_enable = plugs.feed_enable->level;
+    if (plugs.feed_hold != nullptr) present.control.feed_hold = plugs.feed_hold->level;
+  }
+}
+
+void PlcopenController::give_outputs() {
+  for (std::size_t i = 0; i < plugs_.size(); ++i) {
+    const DriveOutputs& outputs = axis(static_cast<int>(i)).outputs();
+    if (plugs_[i].reference != nullptr) plugs_[i].reference->word = outputs.reference;
+    if (plugs_[i].enable != nullptr) plugs_[i].enable->level = outputs.enable;
+  }
+}
+
+void PlcopenController::tell_errorstops() {
+  for (std::size_t i = 0; i < plugs_.size(); ++i) {
+    const Axis& present = axis(static_cast<int>(i));
+    const bool now = present.state() == AxisState::errorstop;
+    if (now && !plugs_[i].in_errorstop)
+      events_.push_back({present.name(), "errorstop", error_text(present.error())});
+    plugs_[i].in_errorstop = now;
+  }
+}
+
+// Once for each rising Error pin, and why the program stands.
+void PlcopenController::tell_blocks() {
+  for (ErrorPins& block : blocks_) {
+    const bool now = runtime_.read(block.error) != 0;
+    if (now && !block.seen) {
+      const auto id = static_cast<ErrorId>(static_cast<std::uint32_t>(runtime_.read(block.id)));
+      events_.push_back({block.instance, "refused", error_text(id)});
+    }
+    block.seen = now;
+  }
+  const auto& fault = runtime_.fault();
+  if (!fault || fault_told_) return;
+  fault_told_ = true;
+  events_.push_back(
+      {"program", "error", fmt::format("{}:{}:{}: {}", file_, fault->line, fault->column, fault->text)});
+}
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,96 @@
+#include "devices/plcopen/coupling_blocks.hpp"
+
+namespace drycut::devices::plcopen {
+
+void McCamTableSelect::call(MotionKernel& kernel) {
+  if (edge_.rising(Execute)) {
+    const plcopen::CamTable* table =
+        CamTable.file.empty() ? kernel.tables().find(CamTable.id) : kernel.tables().find_file(CamTable.file);
+    const bool axes = kernel.axis(Master) != nullptr && kernel.axis(Slave) != nullptr;
+    ErrorId error = table == nullptr ? ErrorId::selected_table_missing : ErrorId::none;
+    if (!axes) error = ErrorId::no_such_axis;
+    answered(error);
+    CamTableID = error == ErrorId::none ? table->id : std::uint16_t{0};
+  }
+  show();
+}
+
+void McCamIn::call(MotionKernel& kernel) {
+  const plcopen::Axis* axis = kernel.axis(Slave);
+  EndOfProfile = false;
+  if (edge_.rising(Execute)) {
+    const std::uint64_t own = axis != nullptr && axis->ticket() == ticket_ ? ticket_ : 0;
+    taken(kernel.cam_in({Master, Slave, MasterOffset, SlaveOffset, MasterScaling, SlaveScaling, StartMode,
+                         CamTableID, TableFctType},
+                        own));
+    if (axis != nullptr && own == 0) ends_seen_ = axis->profile_ends();
+  }
+  watch(axis, true);
+  if (axis != nullptr && axis->ticket() == ticket_) {
+    EndOfProfile = axis->profile_ends() != ends_seen_;
+    ends_seen_ = axis->profile_ends();
+  }
+  show();
+  // A pass that has ended leaves its command in force, but nothing follows it any more.
+  InSync = Done && axis != nullptr && axis->state() == AxisState::synchronized_motion;
+}
+
+void McGearIn::call(MotionKernel& kernel) {
+  const plcopen::Axis* axis = kernel.axis(Slave);
+  if (edge_.rising(Execute)) {
+    taken(kernel.gear_in(
+        {Master, Slave, RatioNumerator, RatioDenominator, {0, Acceleration, Deceleration, Jerk}, Mode}));
+  }
+  watch(axis, true);
+  show();
+  InGear = Done;
+}
+
+void Uncoupling::call(MotionKernel& kernel) {
+  plcopen::Axis* axis = kernel.axis(Slave);
+  if (edge_.rising(Execute)) taken(axis == nullptr ? Order{ErrorId::no_such_axis} : axis->uncouple(command_));
+  watch(axis);
+  show();
+}
+
+void McPhasing::call(MotionKernel& kernel) {
+  const plcopen::Axis* axis = kernel.axis(Slave);
+  if (edge_.rising(Execute)) {
+    taken({kernel.phase(Master, Slave, PhaseShift, {Velocity, Acceleration, Deceleration, Jerk}),
+           axis != nullptr ? axis->ticket() : 0});
+    if (watch_ == Watch::busy && axis != nullptr) shift_ = axis->coupling()->shifts();
+  }
+  if (watch_ == Watch::busy && axis != nullptr) {
+    if (axis->ticket() != ticket_ || axis->coupling() == nullptr || axis->coupling()->shifts() != shift_) {
+      watch_ = Watch::aborted;
+    } else if (axis->coupling()->phase_shifted()) {
+      watch_ = Watch::done;
+    }
+  }
+  show();
+}
+
+void CamTableWrite::change(MotionKernel& kernel) {
+  if (change_edge_.rising(Change)) {
+    change_error_ = kernel.begin_table_change(CamTableID);
+    changed_ = change_error_ == ErrorId::none ? CamTableID : std::uint16_t{0};
+  }
+  if (Change) return;
+  // It ends for the table for which it began, whatever CamTableID says now.
+  if (changed_ != 0) kernel.end_table_change(changed_);
+  changed_ = 0;
+  change_error_ = ErrorId::none;
+}
+
+void CamTableWrite::call(MotionKernel& kernel) {
+  change(kernel);
+  // The program counts from 1; a 0 wraps to a line or column that no table has.
+  if (edge_.rising(Execute)) answered(kernel.write_table(CamTableID, Line - 1U, Column - 1, Value));
+  show();
+  Changing = changed_ != 0;
+  if (Error || change_error_ == ErrorId::none) return;
+  Error = true;
+  ErrorID = static_cast<std::uint32_t>(change_error_);
+}
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,91 @@
+#include "devices/plcopen/reading_blocks.hpp"
+
+#include <cmath>
+
+namespace drycut::devices::plcopen {
+namespace {
+
+/// Each axis with an encoder has one probe, number 0.
+ErrorId check_probe(const Axis* axis, std::uint16_t number) {
+  if (axis == nullptr) return ErrorId::no_such_axis;
+  const bool has_encoder = axis->parameters().kind != static_cast<int>(AxisKind::virtual_axis);
+  return has_encoder && number == 0 ? ErrorId::none : ErrorId::no_such_probe;
+}
+
+double within_turn(double position, double modulo) {
+  return position - modulo * std::floor(position / modulo);
+}
+
+}  // namespace
+
+void McReadActualPosition::read(const plcopen::Axis* axis) {
+  Position = axis == nullptr ? 0 : axis->actual().part;
+}
+
+void McReadActualVelocity::read(const plcopen::Axis* axis) {
+  Velocity = axis == nullptr ? 0 : axis->actual_velocity() / increments_per_speed;
+}
+
+void McReadStatus::read(const plcopen::Axis* axis) {
+  const auto is = [&](AxisState state) { return axis != nullptr && axis->state() == state; };
+  Errorstop = is(AxisState::errorstop);
+  Disabled = is(AxisState::disabled);
+  Stopping = is(AxisState::stopping);
+  Homing = is(AxisState::homing);
+  Standstill = is(AxisState::standstill);
+  DiscreteMotion = is(AxisState::discrete_motion);
+  ContinuousMotion = is(AxisState::continuous_motion);
+  SynchronizedMotion = is(AxisState::synchronized_motion);
+}
+
+void McReadAxisError::read(const plcopen::Axis* axis) {
+  AxisErrorID = axis == nullptr ? 0 : static_cast<std::uint32_t>(axis->error());
+}
+
+ErrorId McTouchProbe::check(const plcopen::Axis* axis) const {
+  constexpr double most = 2147483648.0;
+  if (const ErrorId error = check_probe(axis, TriggerInput); error != ErrorId::none) return error;
+  if (!WindowOnly) return ErrorId::none;
+  const bool in_range = std::abs(FirstPosition) <= most && std::abs(LastPosition) <= most;
+  return in_range && (axis->modulo() > 0 || FirstPosition <= LastPosition) ? ErrorId::none
+                                                                           : ErrorId::position_range;
+}
+
+bool McTouchProbe::wanted(double position, double modulo) const {
+  if (!WindowOnly) return true;
+  if (modulo <= 0) return position >= FirstPosition && position <= LastPosition;
+  return within_turn(position - FirstPosition, modulo) <= within_turn(LastPosition - FirstPosition, modulo);
+}
+
+void McTouchProbe::call(MotionKernel& kernel) {
+  plcopen::Axis* axis = kernel.axis(Axis);
+  if (edge_.rising(Execute)) {
+    const ErrorId error = check(axis);
+    taken(error != ErrorId::none ? Order{error} : Order{ErrorId::none, axis->take_probe()});
+    if (error == ErrorId::none) edges_ = axis->drive.probe_edges;
+  }
+  if (watch_ == Watch::busy && axis != nullptr) {
+    if (axis->probe_ticket() != ticket_) {
+      watch_ = Watch::aborted;
+    } else if (axis->drive.probe_edges != edges_) {
+      edges_ = axis->drive.probe_edges;
+      const double position = axis->probe_position().part;
+      if (wanted(position, axis->modulo())) {
+        RecordedPosition = position;
+        watch_ = Watch::done;
+      }
+    }
+  }
+  show();
+}
+
+void McAbortTrigger::call(MotionKernel& kernel) {
+  plcopen::Axis* axis = kernel.axis(Axis);
+  if (edge_.rising(Execute)) {
+    answered(check_probe(axis, TriggerInput));
+    if (!Error) axis->take_probe();
+  }
+  show();
+}
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,75 @@
+#pragma once
+#include "devices/plcopen/function_block.hpp"
+
+// The blocks that read an axis, and its touch probe, in the units of the movement blocks.
+namespace drycut::devices::plcopen {
+
+struct McReadActualPosition final : AxisReading {
+  double Position = 0;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  void read(const plcopen::Axis* axis) override;
+};
+
+struct McReadActualVelocity final : AxisReading {
+  double Velocity = 0;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  void read(const plcopen::Axis* axis) override;
+};
+
+/// One output for each state: one of them is TRUE while Valid is.
+struct McReadStatus final : AxisReading {
+  bool Errorstop = false;
+  bool Disabled = false;
+  bool Stopping = false;
+  bool Homing = false;
+  bool Standstill = false;
+  bool DiscreteMotion = false;
+  bool ContinuousMotion = false;
+  bool SynchronizedMotion = false;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  void read(const plcopen::Axis* axis) override;
+};
+
+struct McReadAxisError final : AxisReading {
+  std::uint32_t AxisErrorID = 0;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  void read(const plcopen::Axis* axis) override;
+};
+
+/// Records where the axis was when its probe's signal rose: the exact count, not the one of the next cycle.
+/// The axis' own movement and state do not matter. Of several edges in one cycle the last counts.
+struct McTouchProbe final : ExecutedBlock {
+  AxisRef Axis;
+  std::uint16_t TriggerInput = 0;
+  bool WindowOnly = false;
+  double FirstPosition = 0;
+  double LastPosition = 0;
+  double RecordedPosition = 0;
+  void call(MotionKernel& kernel) override;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  [[nodiscard]] ErrorId check(const plcopen::Axis* axis) const;
+  /// From FirstPosition in positive direction to LastPosition, of a modulo axis over the turn's end too.
+  [[nodiscard]] bool wanted(double position, double modulo) const;
+
+  std::uint32_t edges_ = 0;  ///< of the probe seen so far
+};
+
+/// Ends the order of an MC_TouchProbe that still waits.
+struct McAbortTrigger final : ExecutedBlock {
+  AxisRef Axis;
+  std::uint16_t TriggerInput = 0;
+  void call(MotionKernel& kernel) override;
+  PinValue pin(std::size_t number) override;
+};
+
+}  // namespace drycut::devices::plcopen

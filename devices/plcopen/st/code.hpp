@@ -1,0 +1,189 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/plcopen/st/program.hpp"
+#include "devices/plcopen/st/runtime.hpp"
+#include "devices/plcopen/st/types.hpp"
+
+// A compiled program: a tree of typed nodes over a flat memory of cells. Variables are places in that memory:
+// those of the PROGRAM, of VAR_GLOBAL and of FUNCTIONs (which cannot call themselves) at fixed places, those
+// of a function block from the beginning of its instance on.
+namespace drycut::devices::plcopen::st {
+
+/// What a node does; `a`, `b`, `c` are nodes unless it says otherwise.
+enum class Op : std::uint8_t {
+  // Values.
+  constant,  ///< imm
+  load,      ///< the cell at imm
+  load_own,  ///< the cell at imm of the block's own instance
+  load_at,   ///< the cell at address a
+  /// POU c; from list a on: how many inputs, for each its node, its place and the cells to copy (1: a value,
+  ///
+  /// -n: n cells from the address that the node is, 2 + n: a STRING of n characters), how many outputs, and
+  /// their statements.
+  call_function,
+
+  // Addresses.
+  address,       ///< imm
+  address_own,   ///< imm in the block's own instance
+  address_pool,  ///< imm among literals and scratch; an `address` once compiled
+  follow,        ///< imm behind the address that the cell at address a holds: VAR_IN_OUT
+  element,       ///< imm behind element b of the array at address a; c its Span
+
+  // Of the values of a and b, without effects; `basic` is the result's type.
+  add,
+  subtract,
+  multiply,
+  divide,
+  modulo,
+  negate,
+  add_real,
+  subtract_real,
+  multiply_real,
+  divide_real,
+  negate_real,
+  scale_time,   ///< TIME a times LREAL b
+  divide_time,  ///< TIME a by LREAL b
+  bit_and,
+  bit_or,
+  bit_xor,
+  bit_not,
+  equal,
+  not_equal,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal_real,
+  not_equal_real,
+  less_real,
+  less_equal_real,
+  greater_real,
+  greater_equal_real,
+  shift_left,
+  shift_right,
+  rotate_left,
+  rotate_right,
+  wrap,          ///< a whole number into the width of `basic`
+  to_real,       ///< a whole number to REAL or LREAL
+  round_real,    ///< LREAL to REAL
+  to_whole,      ///< to the nearest whole number, halves to the even one
+  truncate,      ///< towards zero
+  nonzero,       ///< a whole number to BOOL
+  nonzero_real,  ///< REAL or LREAL to BOOL
+  absolute,
+  absolute_real,
+  square_root,
+  sine,
+  cosine,
+  tangent,
+  arc_sine,
+  arc_cosine,
+  arc_tangent,
+  arc_tangent_2,
+  exponential,
+  logarithm,
+  logarithm_10,
+  power,
+  minimum,
+  maximum,
+  minimum_real,
+  maximum_real,
+
+  // Values that need more than a and b.
+  and_then,
+  or_else,
+  select,           ///< b if a, else c
+  multiplex,        ///< input a of c inputs from list b on
+  compare_strings,  ///< -1, 0, 1 for the strings at addresses a and b
+  time_now,         ///< of the controller [ms]
+  passes,           ///< FOR: a is not yet beyond b with step c
+
+  // Statements.
+  nothing,
+  evaluate,     ///< a value that nobody wants
+  store,        ///< value a to the cell at imm
+  store_own,    ///< value a to the cell at imm of the own instance
+  store_at,     ///< value b to the cell at address a
+  copy,         ///< imm cells from address b to address a
+  copy_string,  ///< from address b to address a, imm characters at most
+  sequence,     ///< b statements from list a on
+  call_block,   ///< the instance at address a: POU b, or a motion block if b < 0
+  branch,       ///< b conditions and bodies from list a on, c the ELSE or -1
+  choose,       ///< CASE a: c Choices from b on, imm the ELSE or -1
+  loop,         ///< while a: b, then c (-1: nothing)
+  repeat,       ///< a until b
+  leave_loop,
+  next_turn,
+  leave_pou,
+};
+
+struct Node {
+  Op op = Op::nothing;
+  Basic basic = Basic::unknown;
+  int line = 0;
+  int column = 0;
+  int a = -1;
+  int b = -1;
+  int c = -1;
+  std::int64_t imm = 0;
+};
+
+/// Bounds of an array and the size of its elements.
+struct Span {
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+  int cells = 0;
+};
+
+/// One label of a CASE.
+struct Choice {
+  Range range;
+  int body = -1;
+};
+
+/// A body: of the PROGRAM, a FUNCTION or a user's function block.
+struct Pou {
+  std::string name;
+  int body = -1;
+  int frame = 0;              ///< where the variables of a PROGRAM or FUNCTION are
+  int result = 0;             ///< FUNCTION: offset of its result
+  std::vector<Range> resets;  ///< offsets that get their initial values at each call, the last included
+  const Type* type = nullptr;
+};
+
+/// Where a symbol's cell is.
+struct SymbolPlace {
+  int cell = 0;
+  Basic basic = Basic::unknown;
+};
+
+struct Compiled {
+  std::vector<Program::Name> externals;
+  std::vector<int> external_cells;
+  std::vector<Program::Located> located;
+  std::vector<int> located_cells;
+  std::vector<Program::Name> tables;
+
+  std::vector<std::unique_ptr<Type>> types;
+  std::vector<Node> nodes;
+  std::vector<int> lists;
+  std::vector<Span> spans;
+  std::vector<Choice> choices;
+  std::vector<Pou> pous;
+  int program = -1;
+  std::vector<Cell> image;    ///< the memory with all initial values
+  std::vector<Range> retain;  ///< cells, the last included
+  struct Motion {
+    int cell = 0;  ///< where the instance begins
+    const Type* type = nullptr;
+  };
+  std::vector<Motion> motions;
+  std::vector<Symbol> symbols;
+  std::vector<SymbolPlace> places;
+};
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,319 @@
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/keywords.hpp"
+
+// The VAR sections of POUs and VAR_GLOBAL.
+namespace drycut::devices::plcopen::st {
+namespace {
+
+constexpr int most_cells = 1'000'000;
+
+std::string_view name_of(Section section) {
+  switch (section) {
+    case Section::input:
+      return "VAR_INPUT";
+    case Section::output:
+      return "VAR_OUTPUT";
+    case Section::in_out:
+      return "VAR_IN_OUT";
+    case Section::temp:
+      return "VAR_TEMP";
+    default:
+      return "VAR";
+  }
+}
+
+/// An AXIS_REF or a function block, in whatever it is packed.
+const Type* holds(const Type& type, Basic basic) {
+  if (type.basic == basic) return &type;
+  if (type.basic == Basic::array) return holds(*type.element, basic);
+  if (type.basic != Basic::structure) return nullptr;
+  for (const Variable& member : type.members)
+    if (const Type* inside = holds(*member.type, basic)) return inside;
+  return nullptr;
+}
+
+}  // namespace
+
+void Compiler::declare_pou(Unit& unit) {
+  if (unit.kind == Unit::Kind::globals) {
+    unit.type = globals_;
+    while (variable_section(unit, *globals_)) {
+    }
+    return;
+  }
+  Type& type = new_type(Basic::block, std::string(unit.name.text));
+  type.cells = 0;
+  type.initial.clear();
+  type.standard = unit.standard;
+  unit.type = &type;
+  unit.pou = static_cast<int>(code_->pous.size());
+  type.pou = unit.pou;
+  code_->pous.emplace_back().name = unit.name.text;
+  if (unit.kind == Unit::Kind::function) declare_function_result(unit, type);
+  while (variable_section(unit, type)) {
+  }
+  Pou& pou = code_->pous[static_cast<std::size_t>(unit.pou)];
+  pou.type = &type;
+  if (unit.kind == Unit::Kind::function) {
+    if (type.cells > 0) pou.resets.push_back({0, type.cells - 1});
+  } else {
+    for (const Variable& member : type.members)
+      if (member.section == Section::temp)
+        pou.resets.push_back({member.offset, member.offset + member.type->cells - 1});
+  }
+  unit.body = at_;
+}
+
+void Compiler::declare_function_result(Unit& unit, Type& type) {
+  Variable result;
+  result.name = unit.name.text;
+  result.place = unit.name.place;
+  result.type = type_of(Basic::unknown);
+  try {
+    expect(":", fmt::format("and a type are the result: FUNCTION {} : LREAL", unit.name.text));
+    const Place place = peek().place;
+    result.type = parse_type();
+    accept(";");
+    if (!is_elementary(result.type->basic) && result.type->basic != Basic::unknown) {
+      complain(place, fmt::format("a FUNCTION does not return {}", result.type->name),
+               "return a number, BOOL, TIME or an enumeration, the rest by VAR_IN_OUT");
+      result.type = type_of(Basic::unknown);
+    }
+  } catch (const GiveUp&) {
+    while (at_ < stop_ && !qmove::upper(peek().text).starts_with("VAR") && !take().is(";")) {
+    }
+  }
+  unit.result = result.type;
+  append(type, std::move(result), unit.result->initial);
+}
+
+std::optional<Compiler::VarSection> Compiler::section_header() {
+  VarSection section;
+  if (peek().word("VAR_INPUT"))
+    section.section = Section::input;
+  else if (peek().word("VAR_OUTPUT"))
+    section.section = Section::output;
+  else if (peek().word("VAR_IN_OUT"))
+    section.section = Section::in_out;
+  else if (peek().word("VAR_TEMP"))
+    section.section = Section::temp;
+  else if (peek().word("VAR_EXTERNAL"))
+    section.external = true;
+  else if (peek().word("VAR_GLOBAL"))
+    section.global = true;
+  else if (!peek().word("VAR"))
+    return std::nullopt;
+  take();
+  while (true) {
+    if (accept_word("CONSTANT"))
+      section.constant = true;
+    else if (accept_word("RETAIN") || accept_word("PERSISTENT"))
+      section.retain = true;
+    else
+      return section;
+  }
+}
+
+bool Compiler::variable_section(Unit& unit, Type& owner) {
+  if (at_ >= stop_) return false;
+  const Token opening = peek();
+  const std::optional<VarSection> section = section_header();
+  if (!section) return false;
+  while (at_ < stop_ && !peek().word("END_VAR")) {
+    // VAR without END_VAR runs into the next section or the statements.
+    if (peek().kind == Token::Kind::name && qmove::upper(peek().text).starts_with("VAR") &&
+        is_keyword(peek().text))
+      break;
+    try {
+      declare_variables(unit, owner, *section);
+    } catch (const GiveUp&) {
+      owner.broken = true;
+      while (at_ < stop_ && !peek().word("END_VAR") && !take().is(";")) {
+      }
+    }
+  }
+  if (!accept_word("END_VAR") && unit.kind != Unit::Kind::globals)
+    complain(opening.place, fmt::format("{} has no END_VAR", qmove::upper(opening.text)),
+             "write END_VAR behind its last variable");
+  return true;
+}
+
+void Compiler::declare_variables(Unit& unit, Type& owner, const VarSection& section) {
+  std::vector<Token> names{expect_name("the name of a variable")};
+  while (accept(",")) names.push_back(expect_name("the name of a variable"));
+  try {
+    declare_named(unit, owner, section, names);
+  } catch (const GiveUp&) {
+    // Known, so that their uses are not told again.
+    const Type* unknown = type_of(Basic::unknown);
+    for (const Token& name : names)
+      if (find_member(owner, name.text) == nullptr)
+        add_variable(unit, owner, {}, name, unknown, std::nullopt, unknown->initial);
+    throw;
+  }
+}
+
+void Compiler::declare_named(Unit& unit, Type& owner, const VarSection& section,
+                             const std::vector<Token>& names) {
+  std::optional<Program::Located> place;
+  if (accept_word("AT")) place = location();
+  expect(":", "stands between a variable's name and its type");
+  const Type* type = parse_type();
+  if (section.external) {
+    expect(";", "ends a declaration");
+    for (const Token& name : names) external(name, type);
+    return;
+  }
+  const Token value = peek(peek().is(":=") ? 1 : 0);
+  std::vector<Cell> initial = type->initial;
+  if (accept(":=")) {
+    if (section.section == Section::in_out)
+      give_up(value.place, "a VAR_IN_OUT has no initial value", "it is the caller's variable");
+    initial = initial_value(*type);
+  } else if (section.constant) {
+    complain(names.front().place, qmove::quoted(names.front().text) + " is a constant without a value",
+             ":= value behind its type");
+  }
+  expect(";", "ends a declaration");
+  if (place && names.size() > 1)
+    give_up(names[1].place, "two variables at one place", "declare each with its own AT");
+  for (const Token& name : names) add_variable(unit, owner, section, name, type, place, initial);
+}
+
+bool Compiler::check_section(const Unit& unit, const VarSection& section, const Token& name, const Type& type,
+                             const std::optional<Program::Located>& located) {
+  const auto refuse = [&](std::string what, std::string remedy) {
+    complain(name.place, std::move(what), std::move(remedy));
+    return false;
+  };
+  const std::string_view in = section.global ? "VAR_GLOBAL" : name_of(section.section);
+  if (holds(type, Basic::axis) != nullptr &&
+      (section.section != Section::in_out || type.basic != Basic::axis))
+    return refuse(fmt::format("the AXIS_REF {} in {} has no axis", qmove::quoted(name.text), in),
+                  "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
+  const bool keeps = section.section == Section::in_out ||
+                     (section.section == Section::local && unit.kind != Unit::Kind::function &&
+                      unit.kind != Unit::Kind::type);
+  if (const Type* block = holds(type, Basic::block); block != nullptr && (!keeps || section.constant))
+    return refuse(fmt::format("the function block {} cannot be in {} here", qmove::quoted(name.text),
+                              unit.kind == Unit::Kind::type ? "a STRUCT" : in),
+                  "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
+  if (!located) return true;
+  if (type.basic != Basic::boolean)
+    return refuse(fmt::format("{} at a terminal is a BOOL, not {}", qmove::quoted(name.text), type.name),
+                  "start AT %IX0.0 : BOOL;");
+  if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
+      section.section != Section::local)
+    return refuse(fmt::format("{} cannot have a terminal here", qmove::quoted(name.text)),
+                  "AT stands in VAR of the PROGRAM or in VAR_GLOBAL");
+  for (const Program::Located& other : code_->located)
+    if (other.output == located->output && other.byte == located->byte && other.bit == located->bit)
+      return refuse(
+          fmt::format("{} and {} are at one terminal", qmove::quoted(name.text), qmove::quoted(other.name)),
+          "each terminal has one variable");
+  return true;
+}
+
+void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name,
+                            const Type* type, const std::optional<Program::Located>& located,
+                            std::span<const Cell> initial) {
+  if (!name_is_free(unit, owner, name) || !check_section(unit, section, name, *type, located)) {
+    // Known, so that its uses are not told again.
+    if (find_member(owner, name.text) == nullptr)
+      type = type_of(Basic::unknown);
+    else
+      return;
+    initial = type->initial;
+  }
+  Variable variable;
+  variable.name = name.text;
+  variable.place = name.place;
+  variable.type = type;
+  variable.section = section.section;
+  variable.constant = section.constant;
+  variable.retain = section.retain;
+  if (section.constant && (is_elementary(type->basic))) variable.value = initial.front();
+  if (owner.cells + type->cells > most_cells)
+    give_up(name.place, "the variables take too much memory", "8 MB at most");
+  if (located && type->basic == Basic::boolean) {
+    variable.reads_terminal = !located->output;
+    code_->located.push_back(*located);
+    code_->located.back().name = name.text;
+    code_->located.back().line = name.place.line;
+    code_->located.back().column = name.place.column;
+    code_->located_cells.push_back(owner.cells);
+    located_in_globals_.push_back(&owner == globals_);
+  }
+  const std::vector<Cell> pointer(1, 0);
+  append(owner, std::move(variable),
+         section.section == Section::in_out ? std::span<const Cell>(pointer) : initial);
+}
+
+bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& name) {
+  const Variable* other = find_member(owner, name.text);
+  if (other == nullptr && unit.type != &owner) return true;
+  if (other == nullptr) return true;
+  const bool result = unit.kind == Unit::Kind::function && qmove::same_word(unit.name.text, name.text);
+  complain(name.place,
+           qmove::quoted(name.text) + (result ? " is the function's result" : " is declared twice"),
+           result ? "choose another name" : fmt::format("the first one is in line {}", other->place.line));
+  return false;
+}
+
+void Compiler::external(const Token& name, const Type* type) {
+  const Variable* global = find_member(*globals_, name.text);
+  if (type->basic == Basic::axis) {
+    if (axes_.contains(qmove::lower(name.text))) return;
+    if (global != nullptr) {
+      complain(name.place,
+               fmt::format("{} is a {} in VAR_GLOBAL", qmove::quoted(name.text), global->type->name),
+               "choose another name");
+      return;
+    }
+    axes_.emplace(qmove::lower(name.text), globals_->cells);
+    code_->externals.push_back({std::string(name.text), name.place.line, name.place.column});
+    code_->external_cells.push_back(globals_->cells);
+    Variable axis;
+    axis.name = name.text;
+    axis.type = type;
+    axis.place = name.place;
+    append(*globals_, std::move(axis), type->initial);
+    return;
+  }
+  if (type->basic == Basic::unknown || (global != nullptr && same_type(*global->type, *type))) return;
+  if (global != nullptr) {
+    complain(name.place,
+             fmt::format("{} is {} here and {} in VAR_GLOBAL", qmove::quoted(name.text), type->name,
+                         global->type->name),
+             "declare both alike");
+    return;
+  }
+  complain(name.place, fmt::format("there is no VAR_GLOBAL {}", qmove::quoted(name.text)),
+           "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
+}
+
+std::optional<Program::Located> Compiler::location() {
+  const Token token = take();
+  const std::string text = qmove::upper(token.text);
+  Program::Located located;
+  const auto refuse = [&] {
+    give_up(token.place, qmove::quoted(token.text) + " is no terminal that is known",
+            "%IX0.0 is an input, %QX0.0 an output: byte and bit 0 to 7");
+  };
+  if (token.kind != Token::Kind::address || (!text.starts_with("%IX") && !text.starts_with("%QX"))) refuse();
+  located.output = text[1] == 'Q';
+  const char* const end = text.data() + text.size();
+  const auto byte = std::from_chars(text.data() + 3, end, located.byte);
+  if (byte.ec != std::errc{} || byte.ptr == end || *byte.ptr != '.') refuse();
+  const auto bit = std::from_chars(byte.ptr + 1, end, located.bit);
+  if (bit.ec != std::errc{} || bit.ptr != end || located.bit < 0 || located.bit > 7 || located.byte < 0)
+    refuse();
+  return located;
+}
+
+}  // namespace drycut::devices::plcopen::st

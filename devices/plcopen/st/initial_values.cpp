@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "devices/plcopen/st/compiler.hpp"
+
+// What stands behind := in a declaration.
+namespace drycut::devices::plcopen::st {
+
+std::vector<Cell> Compiler::initial_value(const Type& type) {
+  std::vector<Cell> cells = type.initial;
+  initial_into(type, cells);
+  return cells;
+}
+
+void Compiler::initial_into(const Type& type, std::span<Cell> cells) {
+  switch (type.basic) {
+    case Basic::array:
+      initial_array(type, cells);
+      return;
+    case Basic::structure:
+    case Basic::block:
+      initial_members(type, cells);
+      return;
+    case Basic::axis:
+      give_up(peek().place, "an AXIS_REF has no initial value", "its axis comes from the configuration");
+    case Basic::unknown:
+      throw GiveUp{};
+    case Basic::string:
+      break;
+    default:
+      cells[0] = constant_expression(type).value;
+      return;
+  }
+  const Token text = take();
+  if (text.kind != Token::Kind::string)
+    give_up(text.place, "a STRING begins with a text, not " + qmove::quoted(text.text), "'text'");
+  if (text.string.size() > type.length)
+    give_up(text.place, fmt::format("{} characters do not fit in {}", text.string.size(), type.name),
+            fmt::format("{} at most", type.length));
+  std::fill(cells.begin(), cells.end(), 0);
+  std::memcpy(cells.data(), text.string.data(), text.string.size());
+}
+
+void Compiler::initial_array(const Type& type, std::span<Cell> cells) {
+  const Place opening = peek().place;
+  expect("[", fmt::format("opens the values of an {}", type.name));
+  const auto size = static_cast<std::size_t>(type.element->cells);
+  const std::size_t count = cells.size() / size;
+  std::size_t given = 0;
+  const auto too_many = [&](Place place) {
+    give_up(place, fmt::format("more values than the {} elements of the {}", count, type.name),
+            "leave the rest out");
+  };
+  do {
+    const Place place = peek().place;
+    // 4(0.5) is four times 0.5.
+    if (peek().kind == Token::Kind::integer && peek(1).is("(")) {
+      const std::int64_t times = take().number;
+      take();
+      const std::size_t first = given;
+      if (times < 1 || static_cast<std::uint64_t>(times) > count - given) too_many(place);
+      initial_into(*type.element, cells.subspan(first * size, size));
+      expect(")", "ends a repeated value");
+      for (given = first + 1; given < first + static_cast<std::size_t>(times); ++given)
+        std::copy_n(cells.begin() + static_cast<std::ptrdiff_t>(first * size), size,
+                    cells.begin() + static_cast<std::ptrdiff_t>(given * size));
+      continue;
+    }
+    if (given == count) too_many(place);
+    initial_into(*type.element, cells.subspan(given++ * size, size));
+  } while (accept(","));
+  expect("]", fmt::format("closes the values opened in line {}", opening.line));
+}
+
+void Compiler::initial_members(const Type& type, std::span<Cell> cells) {
+  expect("(", fmt::format("opens the values of a {}", type.name));
+  do {
+    const Token name = expect_name("the name of a member");
+    const Variable* member =
+        type.basic == Basic::block ? pin_of(type, name, false) : find_member(type, name.text);
+    if (member == nullptr && type.basic == Basic::block) throw GiveUp{};
+    if (member == nullptr) {
+      std::vector<std::string> names;
+      for (const Variable& known : type.members) names.push_back(known.name);
+      give_up(name.place, fmt::format("{} has no member {}", type.name, qmove::quoted(name.text)),
+              qmove::suggestion(name.text, names, "it has " + qmove::listed(names)));
+    }
+    if (member->section == Section::in_out)
+      give_up(name.place, qmove::quoted(name.text) + " has no initial value", "it is connected in a call");
+    expect(":=", "stands between a member and its value");
+    if (&type == cam_ref_ && member == type.members.data()) cam_file(peek());
+    initial_into(*member->type, cells.subspan(static_cast<std::size_t>(member->offset),
+                                              static_cast<std::size_t>(member->type->cells)));
+  } while (accept(","));
+  expect(")", "ends the values");
+}
+
+void Compiler::cam_file(const Token& text) {
+  const auto known = std::any_of(code_->tables.begin(), code_->tables.end(),
+                                 [&](const Program::Name& table) { return table.name == text.string; });
+  if (text.kind == Token::Kind::string && !text.string.empty() && !known)
+    code_->tables.push_back({text.string, text.place.line, text.place.column});
+}
+
+Expression Compiler::constant_expression(const Type& wanted) {
+  const Token first = peek();
+  Expression value = expression();
+  if (value.unknown()) throw GiveUp{};
+  if (!value.constant)
+    give_up(first.place, "a value that is not constant", "use literals, constants and functions of them");
+  const std::size_t before = problems_.size();
+  value = converted(value, wanted);
+  if (problems_.size() != before) throw GiveUp{};
+  return value;
+}
+
+std::int64_t Compiler::constant_integer(std::string_view what) {
+  const Place place = peek().place;
+  const Expression value = expression();
+  if (value.unknown()) throw GiveUp{};
+  if (!value.constant || !is_integer(value.type->basic))
+    give_up(place, fmt::format("{} is not a constant whole number", what),
+            "give a literal or a VAR CONSTANT of integers");
+  return value.value;
+}
+
+}  // namespace drycut::devices::plcopen::st

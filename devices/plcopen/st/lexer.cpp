@@ -1,0 +1,333 @@
+#include "devices/plcopen/st/lexer.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace drycut::devices::plcopen::st {
+namespace {
+
+using qmove::is_digit;
+using qmove::is_letter;
+using qmove::quoted;
+
+bool belongs_to_name(char c) { return is_letter(c) || is_digit(c); }
+
+int digit_of(char c) {
+  if (is_digit(c)) return c - '0';
+  const char small = static_cast<char>(c | 0x20);
+  return small >= 'a' && small <= 'f' ? small - 'a' + 10 : 99;
+}
+
+std::string without_underscores(std::string_view text) {
+  std::string result;
+  for (const char c : text)
+    if (c != '_') result += c;
+  return result;
+}
+
+class Lexer {
+ public:
+  Lexer(std::string_view text, const std::string& file, Problems& problems)
+      : text_(text), file_(file), problems_(problems) {}
+
+  std::vector<Token> run() {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark
+    line_start_ = at_;
+    while (skip_blank(), at_ < text_.size()) next();
+    add(Token::Kind::end, 0);
+    return std::move(tokens_);
+  }
+
+ private:
+  [[nodiscard]] char peek(std::size_t ahead = 0) const {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
+  [[nodiscard]] bool starts(std::string_view sign) const { return text_.substr(at_).starts_with(sign); }
+  [[nodiscard]] Place place() const { return {line_, static_cast<int>(at_ - line_start_) + 1}; }
+
+  void advance(std::size_t count) {
+    for (; count > 0 && at_ < text_.size(); --count) {
+      if (text_[at_++] != '\n') continue;
+      ++line_;
+      line_start_ = at_;
+    }
+  }
+
+  template <typename Predicate>
+  [[nodiscard]] std::size_t length(Predicate belongs, std::size_t from = 0) const {
+    std::size_t end = at_ + from;
+    while (end < text_.size() && belongs(text_[end])) ++end;
+    return end - at_;
+  }
+
+  Token& add(Token::Kind kind, std::size_t size) {
+    Token token;
+    token.kind = kind;
+    token.text = text_.substr(at_, size);
+    token.place = place();
+    tokens_.push_back(std::move(token));
+    advance(size);
+    return tokens_.back();
+  }
+
+  void complain(Place at, const std::string& what, const std::string& remedy) {
+    problems_.push_back({file_, at.line, at.column, what, remedy});
+  }
+  void complain(Token& token, const std::string& what, const std::string& remedy) {
+    token.kind = Token::Kind::bad;
+    complain(token.place, what, remedy);
+  }
+
+  void skip_blank() {
+    while (at_ < text_.size()) {
+      const char c = peek();
+      if (c == ' ' || (c >= '\t' && c <= '\r'))
+        advance(1);
+      else if (starts("//"))
+        advance(length([](char x) { return x != '\n'; }));
+      else if (starts("(*"))
+        skip_nested("(*", "*)");
+      else if (starts("/*"))
+        skip_nested("/*", "*/");
+      else if (c == '{')
+        skip_nested("{", "}");
+      else
+        return;
+    }
+  }
+
+  void skip_nested(std::string_view open, std::string_view close) {
+    const Place begin = place();
+    int depth = 0;
+    while (at_ < text_.size()) {
+      if (starts(open)) {
+        ++depth;
+        advance(open.size());
+      } else if (starts(close)) {
+        advance(close.size());
+        if (--depth == 0) return;
+      } else {
+        advance(1);
+      }
+    }
+    complain(begin, fmt::format("'{}' is never closed", open), fmt::format("end it with '{}'", close));
+  }
+
+  void next() {
+    const char c = peek();
+    if (is_letter(c))
+      word();
+    else if (is_digit(c))
+      number();
+    else if (c == '\'')
+      string();
+    else if (c == '%')
+      add(Token::Kind::address, length([](char x) { return belongs_to_name(x) || x == '.' || x == '%'; }));
+    else
+      sign();
+  }
+
+  void sign() {
+    constexpr std::array<std::string_view, 7> pairs{":=", "=>", "**", "<=", ">=", "<>", ".."};
+    for (const std::string_view pair : pairs)
+      if (starts(pair)) {
+        add(Token::Kind::sign, 2);
+        return;
+      }
+    if (std::string_view("()[],;:.+-*/<>=&#").find(peek()) != std::string_view::npos)
+      add(Token::Kind::sign, 1);
+    else
+      stranger();
+  }
+
+  void stranger() {
+    // Bytes of one non-ASCII character are one stranger.
+    const bool ascii = static_cast<unsigned char>(peek()) < 128;
+    const bool quote = peek() == '"';
+    const std::size_t size = ascii ? 1 : length([](char x) { return static_cast<unsigned char>(x) >= 128; });
+    Token& token = add(Token::Kind::bad, size);
+    complain(token, "unexpected character " + quoted(token.text),
+             quote ? "a string stands between single quotes" : "comments are (* ... *) or // ...");
+  }
+
+  void word() {
+    const std::size_t size = length(belongs_to_name);
+    const std::string_view name = text_.substr(at_, size);
+    const bool time = qmove::same_word(name, "T") || qmove::same_word(name, "TIME");
+    if (time && peek(size) == '#')
+      time_literal(size + 1);
+    else
+      add(Token::Kind::name, size);
+  }
+
+  void number() {
+    const auto digit = [](char x) { return is_digit(x) || x == '_'; };
+    std::size_t size = length(digit);
+    if (peek(size) == '#') {
+      based(size);
+      return;
+    }
+    bool real = false;
+    if (peek(size) == '.' && is_digit(peek(size + 1))) {
+      real = true;
+      size = length(digit, size + 1);
+    }
+    if (peek(size) == 'e' || peek(size) == 'E') {
+      const std::size_t sign = peek(size + 1) == '+' || peek(size + 1) == '-' ? 1 : 0;
+      if (is_digit(peek(size + 1 + sign))) {
+        real = true;
+        size = length(is_digit, size + 1 + sign);
+      }
+    }
+    const std::size_t whole = length(belongs_to_name, size);
+    Token& token = add(real ? Token::Kind::real : Token::Kind::integer, whole);
+    if (whole != size) {
+      complain(token, quoted(token.text) + " is neither a number nor a name",
+               "names begin with a letter; 16#FF is hexadecimal");
+      return;
+    }
+    const std::string digits = without_underscores(token.text);
+    if (real) {
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), token.real);
+      if (error != std::errc{})
+        complain(token, quoted(token.text) + " is out of range", "an LREAL goes to 1.8e308");
+    } else {
+      read_integer(token, digits, 10);
+    }
+  }
+
+  void based(std::size_t base_size) {
+    const std::string base = without_underscores(text_.substr(at_, base_size));
+    Token& token = add(Token::Kind::integer, length(belongs_to_name, base_size + 1));
+    if (base != "2" && base != "8" && base != "16") {
+      complain(token, quoted(token.text) + " has no base that is known", "2#1010, 8#17 or 16#FF");
+      return;
+    }
+    read_integer(token, without_underscores(token.text.substr(base_size + 1)), std::stoi(base));
+  }
+
+  void read_integer(Token& token, const std::string& digits, int base) {
+    constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+    if (digits.empty()) {
+      complain(token, quoted(token.text) + " has no digits", "16#FF");
+      return;
+    }
+    for (const char c : digits) {
+      const int digit = digit_of(c);
+      if (digit >= base) {
+        complain(token, fmt::format("{} has a digit that base {} does not have", quoted(token.text), base),
+                 "2#1010, 8#17 or 16#FF");
+        return;
+      }
+      if (token.number > (largest - digit) / base) {
+        complain(token, quoted(token.text) + " is out of range", "a LINT goes to 9223372036854775807");
+        return;
+      }
+      token.number = token.number * base + digit;
+    }
+  }
+
+  void time_literal(std::size_t prefix) {
+    const std::size_t size =
+        length([](char x) { return belongs_to_name(x) || x == '.' || x == '-'; }, prefix);
+    Token& token = add(Token::Kind::time, size);
+    const std::optional<double> ms = milliseconds(without_underscores(token.text.substr(prefix)));
+    if (!ms)
+      complain(token, quoted(token.text) + " is no time",
+               "parts with d, h, m, s or ms, the largest first: T#1s500ms");
+    else if (*ms > std::numeric_limits<std::uint32_t>::max())
+      complain(token, quoted(token.text) + " is out of range", "a TIME goes to T#49d17h2m47s295ms");
+    else if (std::abs(*ms - std::round(*ms)) > 1e-6)
+      complain(token, quoted(token.text) + " is finer than a TIME", "a TIME counts whole milliseconds");
+    else
+      token.number = std::llround(*ms);
+  }
+
+  static std::optional<double> milliseconds(std::string_view text) {
+    struct Unit {
+      std::string_view name;
+      double ms;
+    };
+    constexpr std::array<Unit, 5> units{{{"d", 86400e3}, {"h", 3600e3}, {"m", 60e3}, {"s", 1e3}, {"ms", 1}}};
+    if (text.empty()) return std::nullopt;
+    double sum = 0;
+    std::size_t largest = 0;
+    while (!text.empty()) {
+      double value = 0;
+      if (!is_digit(text.front())) return std::nullopt;
+      const auto [end, error] =
+          std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+      if (error != std::errc{}) return std::nullopt;
+      text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+      std::size_t letters = 0;
+      while (letters < text.size() && is_letter(text[letters])) ++letters;
+      std::size_t unit = largest;
+      while (unit < units.size() && !qmove::same_word(units[unit].name, text.substr(0, letters))) ++unit;
+      if (unit == units.size()) return std::nullopt;
+      sum += value * units[unit].ms;
+      largest = unit + 1;
+      text.remove_prefix(letters);
+    }
+    return sum;
+  }
+
+  void string() {
+    const Place begin = place();
+    std::size_t size = 1;
+    while (at_ + size < text_.size() && peek(size) != '\'' && peek(size) != '\n')
+      size += peek(size) == '$' && peek(size + 1) != '\n' ? 2 : 1;
+    const bool closed = peek(size) == '\'';
+    Token& token = add(Token::Kind::string, std::min(size + (closed ? 1 : 0), text_.size() - at_));
+    if (!closed) {
+      complain(token, "a string is not closed on its line", "end it with '");
+      return;
+    }
+    unescape(token, token.text.substr(1, size - 1), begin);
+  }
+
+  void unescape(Token& token, std::string_view text, Place begin) {
+    constexpr std::string_view names = "$'LlNnPpRrTt";
+    constexpr std::string_view values = "$'\n\n\n\n\f\f\r\r\t\t";
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] != '$') {
+        token.string += text[i];
+        continue;
+      }
+      const char c = i + 1 < text.size() ? text[i + 1] : '\0';
+      const std::size_t known = c == '\0' ? std::string_view::npos : names.find(c);
+      if (known != std::string_view::npos) {
+        token.string += values[known];
+        ++i;
+      } else if (i + 2 < text.size() && digit_of(text[i + 1]) < 16 && digit_of(text[i + 2]) < 16) {
+        token.string += static_cast<char>(digit_of(text[i + 1]) * 16 + digit_of(text[i + 2]));
+        i += 2;
+      } else {
+        const Place at{begin.line, begin.column + 1 + static_cast<int>(i)};
+        token.kind = Token::Kind::bad;
+        complain(at, "'$' begins no character that is known", "$$, $', $L, $N, $P, $R, $T or $41");
+        return;
+      }
+    }
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  Problems& problems_;
+  std::vector<Token> tokens_;
+  std::size_t at_ = 0;
+  std::size_t line_start_ = 0;
+  int line_ = 1;
+};
+
+}  // namespace
+
+std::vector<Token> tokens_of(std::string_view text, const std::string& file, Problems& problems) {
+  return Lexer(text, file, problems).run();
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/problem.hpp"
+#include "devices/qmove/text.hpp"
+
+namespace drycut::devices::plcopen::st {
+
+using qmove::Place;
+
+/// A word, literal or sign of a Structured Text file.
+struct Token {
+  enum class Kind : std::uint8_t {
+    name,     ///< identifier or keyword
+    integer,  ///< `number`, decimal or based
+    real,     ///< `real`
+    time,     ///< `number` in ms
+    string,   ///< `string`, without quotes and escapes
+    address,  ///< %IX0.0
+    sign,     ///< ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> ..
+    bad,      ///< already reported; its statement is given up
+    end,
+  };
+  Kind kind = Kind::end;
+  std::string_view text;
+  Place place;
+  std::int64_t number = 0;
+  double real = 0;
+  std::string string;
+
+  [[nodiscard]] bool is(std::string_view sign) const { return kind == Kind::sign && text == sign; }
+  /// The keyword or name, any case.
+  [[nodiscard]] bool word(std::string_view keyword) const {
+    return kind == Kind::name && qmove::same_word(text, keyword);
+  }
+};
+
+/// The tokens of a file, comments and pragmas `{...}` left out, ended by one of Kind::end.
+std::vector<Token> tokens_of(std::string_view text, const std::string& file, Problems& problems);
+
+}  // namespace drycut::devices::plcopen::st

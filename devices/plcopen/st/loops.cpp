@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include "devices/plcopen/st/compiler.hpp"
+
+// FOR, WHILE, REPEAT, EXIT, CONTINUE, RETURN.
+namespace drycut::devices::plcopen::st {
+
+int Compiler::for_statement() {
+  const Token opened = take();
+  const Place place = opened.place;
+  int start = -1;
+  int test = -1;
+  int step_on = -1;
+  std::vector<int> all;
+  try {
+    const Token name = peek();
+    if (name.kind != Token::Kind::name) give_up(name.place, "FOR counts no variable", "FOR i := 0 TO 9 DO");
+    Expression counter = name_expression();
+    counter.place = name.place;
+    if (!counter.unknown() && !is_integer(counter.type->basic)) {
+      complain(name.place,
+               fmt::format("FOR counts {}, which is {}", qmove::quoted(counter.name), counter.type->name),
+               "a variable of whole numbers");
+      counter = Expression{type_of(Basic::unknown), name.place};
+    }
+    expect(":=", "stands behind the variable of a FOR");
+    const Expression from = expression();
+    start = assign(counter, from);
+    expect_word("TO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
+    Expression to = converted(expression(), *counter.type);
+    Expression step = constant(counter.type, 1, place);
+    if (accept_word("BY")) step = converted(expression(), *counter.type);
+    if (step.constant && step.value == 0)
+      complain(step.place, "FOR with a step of 0 never ends", "BY 1 or BY -1");
+    expect_word("DO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
+    if (!counter.unknown() && !to.unknown() && !step.unknown() && counter.address) {
+      // The end and the step are computed once.
+      const auto kept = [&](const Expression& value) {
+        if (value.constant) return value;
+        Expression cell{counter.type, value.place};
+        cell.address = true;
+        cell.node = add_node(Op::address_pool, counter.type->basic, value.place, -1, -1, -1, scratch());
+        all.push_back(add_node(Op::store_at, counter.type->basic, value.place, cell.node, value_node(value)));
+        return cell;
+      };
+      to = kept(to);
+      step = kept(step);
+      const int current = value_node(counter);
+      const int end = value_node(to);
+      test = add_node(Op::passes, Basic::boolean, place, current, end, value_node(step));
+      step_on = assign(counter, apply_op(Op::add, counter.type, place, counter, step));
+    }
+  } catch (const GiveUp&) {
+    while (at_ < stop_ && !peek().word("DO") && !peek().is(";")) ++at_;
+    accept_word("DO");
+  }
+  ++loops_;
+  const int body = statements({"END_FOR"});
+  --loops_;
+  close(opened, "END_FOR");
+  all.insert(all.begin(), start);
+  all.push_back(add_node(Op::loop, Basic::unknown, place, test, body, step_on));
+  const int first = add_list(all);
+  return add_node(Op::sequence, Basic::unknown, place, first, static_cast<int>(all.size()));
+}
+
+int Compiler::while_statement() {
+  const Token opened = take();
+  const int test = condition("DO");
+  ++loops_;
+  const int body = statements({"END_WHILE"});
+  --loops_;
+  close(opened, "END_WHILE");
+  return add_node(Op::loop, Basic::unknown, opened.place, test, body);
+}
+
+int Compiler::repeat_statement() {
+  const Token opened = take();
+  ++loops_;
+  const int body = statements({"UNTIL", "END_REPEAT"});
+  --loops_;
+  int test = -1;
+  if (accept_word("UNTIL")) {
+    const Place place = peek().place;
+    const Expression value = expression();
+    accept(";");
+    if (!value.unknown() && value.type->basic != Basic::boolean)
+      complain(place, fmt::format("the condition is {}, not BOOL", value.type->name), "compare it: <> 0");
+    else if (!value.unknown())
+      test = value_node(value);
+  } else if (peek().word("END_REPEAT")) {
+    complain(peek().place, "UNTIL is missing before 'END_REPEAT'",
+             fmt::format("REPEAT of line {} ends with UNTIL condition END_REPEAT", opened.place.line));
+  }
+  close(opened, "END_REPEAT");
+  return add_node(Op::repeat, Basic::unknown, opened.place, body, test);
+}
+
+int Compiler::jump(Op op) {
+  const Token word = take();
+  if (op != Op::leave_pou && loops_ == 0)
+    complain(word.place, fmt::format("{} stands in no loop", qmove::upper(word.text)),
+             "it leaves or goes on with a FOR, WHILE or REPEAT");
+  expect(";", "ends a statement");
+  return add_node(op, Basic::unknown, word.place);
+}
+
+}  // namespace drycut::devices::plcopen::st

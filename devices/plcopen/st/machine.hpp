@@ -1,0 +1,72 @@
+#pragma once
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "devices/plcopen/st/code.hpp"
+
+namespace drycut::devices::plcopen::st {
+
+/// An error of a program while it runs; told as Runtime::fault.
+struct RuntimeError : std::runtime_error {
+  RuntimeError(const Node& at, const std::string& text)
+      : std::runtime_error(text), line(at.line), column(at.column) {}
+  int line;
+  int column;
+};
+
+/// The memory of a program and what runs on it.
+class Machine {
+ public:
+  /// Statements of one scan above which it is taken for endless.
+  static constexpr int most_statements = 1'000'000;
+
+  Machine(const Compiled& code, MotionKernel& kernel);
+
+  /// Initial values and new motion blocks; RETAIN variables keep theirs unless `all`.
+  void start(bool all);
+  /// Runs the PROGRAM once; throws RuntimeError.
+  void run(std::int64_t time_ms);
+
+  [[nodiscard]] Cell cell(int place) const { return memory_[static_cast<std::size_t>(place)]; }
+  void set_cell(int place, Cell value) { memory_[static_cast<std::size_t>(place)] = value; }
+
+ private:
+  enum class Flow : std::uint8_t { next, leave_loop, next_turn, leave_pou };
+  struct Motion {
+    std::unique_ptr<FunctionBlock> block;
+    std::vector<PinValue> pins;
+    const Type* type = nullptr;
+  };
+
+  [[nodiscard]] const Node& node(int number) const { return code_.nodes[static_cast<std::size_t>(number)]; }
+  [[nodiscard]] Cell& at(std::int64_t place) { return memory_[static_cast<std::size_t>(place)]; }
+  Cell value(int number);
+  Cell quotient(const Node& node);
+  Cell multiplex(const Node& node);
+  std::int64_t element(const Node& node);
+  Cell call_function(const Node& node);
+  [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
+
+  Flow execute(int number);
+  Flow sequence(const Node& node);
+  Flow branch(const Node& node);
+  Flow choose(const Node& node);
+  Flow loop(const Node& node);
+  Flow repeat(const Node& node);
+  void call_block(const Node& node);
+  void call_motion(std::int64_t instance);
+  void copy_string(std::int64_t from, std::int64_t to, std::size_t length);
+  void count(const Node& node);
+
+  const Compiled& code_;
+  MotionKernel& kernel_;
+  std::vector<Cell> memory_;
+  std::vector<Motion> motions_;
+  std::int64_t own_ = 0;  ///< where the instance begins whose block runs
+  std::int64_t time_ms_ = 0;
+  int statements_ = 0;
+};
+
+}  // namespace drycut::devices::plcopen::st

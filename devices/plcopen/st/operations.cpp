@@ -1,0 +1,174 @@
+#include "devices/plcopen/st/operations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drycut::devices::plcopen::st {
+namespace {
+
+std::uint64_t bits(Cell cell) { return static_cast<std::uint64_t>(cell); }
+Cell cell(std::uint64_t value) { return static_cast<Cell>(value); }
+
+/// A rounded number as a whole one; beyond 64 bit the nearest there is, 0 for no number.
+std::int64_t whole(double value) {
+  constexpr double limit = 9223372036854775808.0;
+  if (std::isnan(value)) return 0;
+  if (value >= limit) return std::numeric_limits<std::int64_t>::max();
+  if (value < -limit) return std::numeric_limits<std::int64_t>::min();
+  return static_cast<std::int64_t>(value);
+}
+
+/// Division towards zero; the one quotient that does not fit wraps.
+std::int64_t quotient(std::int64_t a, std::int64_t b) { return b == -1 ? cell(0 - bits(a)) : a / b; }
+std::int64_t remainder(std::int64_t a, std::int64_t b) { return b == -1 ? 0 : a % b; }
+
+/// The bits of the number in its type's width.
+std::uint64_t in_width(Basic basic, Cell a) {
+  const int width = bits_of(basic);
+  return width == 64 ? bits(a) : bits(a) & ((std::uint64_t{1} << width) - 1);
+}
+
+Cell shifted(Op op, Basic basic, Cell a, Cell count) {
+  const int width = bits_of(basic);
+  const std::uint64_t value = in_width(basic, a);
+  const bool rotates = op == Op::rotate_left || op == Op::rotate_right;
+  std::int64_t by = rotates ? count % width : count;
+  if (rotates && by < 0) by += width;
+  if (rotates && by != 0) {
+    const std::int64_t left = op == Op::rotate_left ? by : width - by;
+    return wrapped(basic, cell((value << left) | (value >> (width - left))));
+  }
+  if (by <= 0 && (rotates || by == 0)) return a;
+  if (by < 0 || by >= width) return 0;
+  return wrapped(basic, cell(op == Op::shift_left ? value << by : value >> by));
+}
+
+double real_result(Op op, double a, double b) {
+  switch (op) {
+    case Op::add_real:
+      return a + b;
+    case Op::subtract_real:
+      return a - b;
+    case Op::multiply_real:
+      return a * b;
+    case Op::divide_real:
+      return a / b;
+    case Op::negate_real:
+      return -a;
+    case Op::round_real:
+      return a;
+    case Op::absolute_real:
+      return std::abs(a);
+    case Op::square_root:
+      return std::sqrt(a);
+    case Op::sine:
+      return std::sin(a);
+    case Op::cosine:
+      return std::cos(a);
+    case Op::tangent:
+      return std::tan(a);
+    case Op::arc_sine:
+      return std::asin(a);
+    case Op::arc_cosine:
+      return std::acos(a);
+    case Op::arc_tangent:
+      return std::atan(a);
+    case Op::arc_tangent_2:
+      return std::atan2(a, b);
+    case Op::exponential:
+      return std::exp(a);
+    case Op::logarithm:
+      return std::log(a);
+    case Op::logarithm_10:
+      return std::log10(a);
+    case Op::power:
+      return std::pow(a, b);
+    case Op::minimum_real:
+      return b < a ? b : a;
+    default:
+      return a < b ? b : a;  // maximum_real
+  }
+}
+
+}  // namespace
+
+Cell apply(Op op, Basic basic, Cell a, Cell b) {
+  switch (op) {
+    case Op::add:
+      return wrapped(basic, cell(bits(a) + bits(b)));
+    case Op::subtract:
+      return wrapped(basic, cell(bits(a) - bits(b)));
+    case Op::multiply:
+      return wrapped(basic, cell(bits(a) * bits(b)));
+    case Op::divide:
+      return wrapped(basic, quotient(a, b));
+    case Op::modulo:
+      return wrapped(basic, remainder(a, b));
+    case Op::negate:
+      return wrapped(basic, cell(0 - bits(a)));
+    case Op::scale_time:
+      return wrapped(basic, whole(std::nearbyint(static_cast<double>(a) * real_of(b))));
+    case Op::divide_time:
+      return wrapped(basic, whole(std::nearbyint(static_cast<double>(a) / real_of(b))));
+    case Op::bit_and:
+      return a & b;
+    case Op::bit_or:
+      return a | b;
+    case Op::bit_xor:
+      return a ^ b;
+    case Op::bit_not:
+      return wrapped(basic, ~a);
+    case Op::equal:
+      return a == b ? 1 : 0;
+    case Op::not_equal:
+      return a != b ? 1 : 0;
+    case Op::less:
+      return a < b ? 1 : 0;
+    case Op::less_equal:
+      return a <= b ? 1 : 0;
+    case Op::greater:
+      return a > b ? 1 : 0;
+    case Op::greater_equal:
+      return a >= b ? 1 : 0;
+    case Op::equal_real:
+      return real_of(a) == real_of(b) ? 1 : 0;
+    case Op::not_equal_real:
+      return real_of(a) != real_of(b) ? 1 : 0;
+    case Op::less_real:
+      return real_of(a) < real_of(b) ? 1 : 0;
+    case Op::less_equal_real:
+      return real_of(a) <= real_of(b) ? 1 : 0;
+    case Op::greater_real:
+      return real_of(a) > real_of(b) ? 1 : 0;
+    case Op::greater_equal_real:
+      return real_of(a) >= real_of(b) ? 1 : 0;
+    case Op::shift_left:
+    case Op::shift_right:
+    case Op::rotate_left:
+    case Op::rotate_right:
+      return shifted(op, basic, a, b);
+    case Op::wrap:
+      return wrapped(basic, a);
+    case Op::to_real:
+      return cell_of(rounded(basic, static_cast<double>(a)));
+    case Op::to_whole:
+      return wrapped(basic, whole(std::nearbyint(real_of(a))));
+    case Op::truncate:
+      return wrapped(basic, whole(std::trunc(real_of(a))));
+    case Op::nonzero:
+      return a != 0 ? 1 : 0;
+    case Op::nonzero_real:
+      return real_of(a) != 0 ? 1 : 0;
+    case Op::absolute:
+      return a < 0 ? wrapped(basic, cell(0 - bits(a))) : a;
+    case Op::minimum:
+      return std::min(a, b);
+    case Op::maximum:
+      return std::max(a, b);
+    default:
+      return cell_of(rounded(basic, real_result(op, real_of(a), real_of(b))));
+  }
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,99 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/keywords.hpp"
+
+// The compiler's hands: tokens, complaints, giving up and going on.
+namespace drycut::devices::plcopen::st {
+
+namespace {
+
+const Token no_more{};
+
+}  // namespace
+
+const Token& Compiler::peek(std::size_t ahead) const {
+  if (at_ + ahead < stop_) return tokens_[at_ + ahead];
+  // The END_ keyword of the unit, or the end of the file.
+  return stop_ < tokens_.size() ? tokens_[stop_] : no_more;
+}
+
+const Token& Compiler::take() {
+  const Token& token = peek();
+  if (at_ < stop_) ++at_;
+  return token;
+}
+
+bool Compiler::accept(std::string_view sign) {
+  if (at_ >= stop_ || !peek().is(sign)) return false;
+  ++at_;
+  return true;
+}
+
+bool Compiler::accept_word(std::string_view keyword) {
+  if (at_ >= stop_ || !peek().word(keyword)) return false;
+  ++at_;
+  return true;
+}
+
+Place Compiler::behind() const {
+  if (at_ == 0) return peek().place;
+  const Token& last = tokens_[at_ - 1];
+  return {last.place.line, last.place.column + static_cast<int>(last.text.size())};
+}
+
+void Compiler::complain(Place place, std::string what, std::string remedy) {
+  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+}
+
+void Compiler::give_up(Place place, std::string what, std::string remedy) {
+  // What the lexer could not read has been told.
+  if (peek().kind != Token::Kind::bad) complain(place, std::move(what), std::move(remedy));
+  throw GiveUp{};
+}
+
+namespace {
+
+std::string found(const Token& token) {
+  return token.kind == Token::Kind::end ? "the end of the file" : qmove::quoted(token.text);
+}
+
+}  // namespace
+
+void Compiler::expect(std::string_view sign, std::string_view where) {
+  if (accept(sign)) return;
+  if (peek().kind == Token::Kind::bad) throw GiveUp{};
+  if (sign == ":=" && peek().is("=")) give_up(peek().place, "'=' compares", "':=' assigns");
+  // A sign that is missing at a line's end is missing there, not where the next line begins.
+  const bool next_line = at_ > 0 && tokens_[at_ - 1].place.line != peek().place.line;
+  const std::string what = fmt::format("'{}' is missing before {}", sign, found(peek()));
+  const std::string remedy = fmt::format("'{}' {}", sign, where);
+  if (!next_line) give_up(peek().kind == Token::Kind::end ? behind() : peek().place, what, remedy);
+  complain(behind(), what, remedy);
+  // The next line is a statement of its own.
+  if (sign != ";") throw GiveUp{};
+}
+
+void Compiler::expect_word(std::string_view keyword, std::string_view where) {
+  if (accept_word(keyword)) return;
+  give_up(peek().place, fmt::format("{} is missing before {}", keyword, found(peek())), std::string(where));
+}
+
+Token Compiler::expect_name(const std::string& what) {
+  if (at_ < stop_ && peek().kind == Token::Kind::name && !is_keyword(peek().text)) return take();
+  const bool keyword = peek().kind == Token::Kind::name && is_keyword(peek().text);
+  give_up(peek().place, fmt::format("{} is missing before {}", what, found(peek())),
+          keyword ? fmt::format("{} is a word of the language, no name", qmove::upper(peek().text))
+                  : "a name begins with a letter");
+}
+
+void Compiler::skip_statement() {
+  while (at_ < stop_) {
+    if (peek().kind == Token::Kind::name && closes_block(peek().text)) return;
+    if (take().is(";")) return;
+  }
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,17 @@
+#include "devices/plcopen/st/program.hpp"
+
+#include "devices/plcopen/st/compiler.hpp"
+
+namespace drycut::devices::plcopen::st {
+
+Program::Program() : compiled_(std::make_shared<const Compiled>()) {}
+Program::Program(std::shared_ptr<const Compiled> compiled) : compiled_(std::move(compiled)) {}
+const std::vector<Program::Name>& Program::externals() const { return compiled_->externals; }
+const std::vector<Program::Located>& Program::located() const { return compiled_->located; }
+const std::vector<Program::Name>& Program::tables() const { return compiled_->tables; }
+
+Program compile(std::string_view text, const std::string& file, Problems& problems) {
+  return Program(Compiler(text, file, problems).run());
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "devices/plcopen/kernel.hpp"
+#include "devices/plcopen/st/program.hpp"
+
+namespace drycut::devices::plcopen::st {
+
+/// A scalar of the program by the name that people give it: "count", "CamIn.InSync", "pos[3]", "state".
+struct Symbol {
+  std::string name;
+  std::string type;       ///< "BOOL", "LREAL", ..., or the name of its enumeration
+  bool writable = false;  ///< not a constant, an output pin or a located input
+  bool retain = false;
+  double min = 0;  ///< range of the type; TIME in s
+  double max = 0;
+};
+
+/// Why the program stands.
+struct Fault {
+  int line = 0;
+  int column = 0;
+  std::string text;
+};
+
+/// A program in a controller: its variables and function blocks, and its scans.
+class Runtime {
+ public:
+  /// Binds the externals by their names; an axis that the kernel does not have stays unconnected.
+  Runtime(Program program, MotionKernel& kernel);
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+  ~Runtime();
+
+  /// Initial values, new function blocks, no fault. RETAIN variables keep theirs unless `all`.
+  void cold_start(bool all = false);
+  /// One task cycle at the controller's time; nothing after a fault.
+  void scan(std::int64_t time_ns);
+
+  [[nodiscard]] std::span<const Symbol> symbols() const;
+  /// BOOL as 0 and 1, TIME in s, an enumeration as its number.
+  [[nodiscard]] double read(std::size_t symbol) const;
+  /// Rounded and limited to the type's range; nothing if the symbol is not writable.
+  void write(std::size_t symbol, double value);
+  /// By index into Program::located().
+  [[nodiscard]] bool located(std::size_t i) const;
+  void set_located(std::size_t i, bool level);
+  /// Set: the program stands until the next cold start.
+  [[nodiscard]] const std::optional<Fault>& fault() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,260 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/keywords.hpp"
+
+// TYPE sections, and what may stand behind a ':'.
+namespace drycut::devices::plcopen::st {
+namespace {
+
+/// 8 MB of variables, far above what such controllers have.
+constexpr std::int64_t most_cells = 1'000'000;
+
+const Type* type_of_pin(const Pin& pin, const PinValue& value, const Type* cam_ref) {
+  if (std::holds_alternative<CamRef*>(value)) return cam_ref;
+  if (std::holds_alternative<AxisRef*>(value)) return type_of(Basic::axis);
+  if (const Type* type = elementary_type(pin.type)) return type;
+  constexpr std::array basics{Basic::boolean, Basic::int_,  Basic::uint,
+                              Basic::dint,    Basic::udint, Basic::lreal};
+  return type_of(basics.at(value.index()));
+}
+
+}  // namespace
+
+Type& Compiler::new_type(Basic basic, std::string name) {
+  code_->types.push_back(std::make_unique<Type>());
+  Type& type = *code_->types.back();
+  type.basic = basic;
+  type.name = std::move(name);
+  type.initial.assign(1, 0);
+  return type;
+}
+
+void Compiler::append(Type& owner, Variable variable, std::span<const Cell> initial) {
+  variable.offset = owner.cells;
+  owner.cells += static_cast<int>(initial.size());
+  owner.initial.insert(owner.initial.end(), initial.begin(), initial.end());
+  owner.members.push_back(std::move(variable));
+}
+
+void Compiler::declare_type(Unit& unit) {
+  try {
+    if (accept_word("STRUCT")) {
+      Type& type = new_type(Basic::structure, std::string(unit.name.text));
+      type.cells = 0;
+      type.initial.clear();
+      unit.type = &type;
+      declare_structure(type);
+    } else if (peek().is("(")) {
+      Type& type = new_type(Basic::enumeration, std::string(unit.name.text));
+      unit.type = &type;
+      declare_enumeration(type);
+    } else {
+      unit.type = parse_type();
+    }
+    if (at_ < stop_) {
+      const bool initial = peek().is(":=");
+      give_up(peek().place, qmove::quoted(peek().text) + " is not expected behind a type",
+              initial ? "give the initial value where a variable is declared" : "a type ends with ';'");
+    }
+  } catch (const GiveUp&) {
+    if (unit.type == nullptr) unit.type = type_of(Basic::unknown);
+  }
+}
+
+void Compiler::declare_structure(Type& type) {
+  Unit* const unit = unit_;
+  while (at_ < stop_ && !peek().word("END_STRUCT")) {
+    try {
+      declare_variables(*unit, type, {});
+    } catch (const GiveUp&) {
+      while (at_ < stop_ && !peek().word("END_STRUCT") && !take().is(";")) {
+      }
+    }
+  }
+  expect_word("END_STRUCT", "a STRUCT ends with END_STRUCT");
+}
+
+void Compiler::declare_enumeration(Type& type) {
+  expect("(", "begins an enumeration");
+  std::int64_t next = 0;
+  do {
+    const Token name = expect_name("the name of a value");
+    const auto twice = std::any_of(type.values.begin(), type.values.end(),
+                                   [&](const EnumValue& v) { return qmove::same_word(v.name, name.text); });
+    if (twice)
+      complain(name.place, qmove::quoted(name.text) + " is in the enumeration twice", "name each value once");
+    if (accept(":=")) next = constant_expression(*type_of(Basic::int_)).value;
+    if (next > range_of(Basic::int_).high)
+      give_up(name.place, qmove::quoted(name.text) + " is above 32767", "an enumeration is kept as an INT");
+    type.values.push_back({std::string(name.text), next++});
+  } while (accept(","));
+  expect(")", "ends an enumeration");
+  type.initial.assign(1, type.values.front().value);
+  enumerations_.emplace_back(type.name, &type);
+}
+
+const Type* Compiler::parse_type() {
+  if (peek().word("ARRAY")) {
+    constexpr int deepest = 40;
+    if (nesting_ > deepest)
+      give_up(peek().place, "the type is nested too deeply", "give its inner types names");
+    take();
+    ++nesting_;
+    // Also when the declaration is given up.
+    struct Leave {
+      int& count;
+      ~Leave() { --count; }
+    } const leave{nesting_};
+    return array_type();
+  }
+  if (peek().word("STRING")) return string_type();
+  if (peek().is("(")) {
+    Type& type = new_type(Basic::enumeration, "enumeration");
+    declare_enumeration(type);
+    return &type;
+  }
+  return named_type();
+}
+
+const Type* Compiler::array_type() {
+  expect("[", "opens the bounds: ARRAY [0..7] OF LREAL");
+  struct Bounds {
+    std::int64_t low = 0;
+    std::int64_t high = 0;
+    Place place;
+  };
+  std::vector<Bounds> dimensions;
+  do {
+    Bounds bounds;
+    bounds.place = peek().place;
+    bounds.low = constant_integer("a bound");
+    expect("..", "stands between the bounds: ARRAY [0..7] OF LREAL");
+    bounds.high = constant_integer("a bound");
+    if (bounds.high < bounds.low)
+      give_up(bounds.place, fmt::format("an array from {} to {} is empty", bounds.low, bounds.high),
+              "the lower bound stands first");
+    dimensions.push_back(bounds);
+  } while (accept(","));
+  expect("]", "closes the bounds");
+  expect_word("OF", "ARRAY [0..7] OF LREAL");
+  const Place place = peek().place;
+  const Type* element = parse_type();
+  if (element->basic == Basic::axis) give_up(place, "an array of AXIS_REF", "name each axis in VAR_EXTERNAL");
+  for (auto bounds = dimensions.rbegin(); bounds != dimensions.rend(); ++bounds) {
+    const std::int64_t most = most_cells / std::max(element->cells, 1);
+    if (bounds->high - bounds->low < 0 || bounds->high - bounds->low >= most)
+      give_up(bounds->place, "the array is too large", fmt::format("{} elements of this type at most", most));
+    const std::int64_t count = bounds->high - bounds->low + 1;
+    Type& type =
+        new_type(Basic::array, fmt::format("ARRAY [{}..{}] OF {}", bounds->low, bounds->high, element->name));
+    type.element = element;
+    type.low = bounds->low;
+    type.high = bounds->high;
+    type.cells = static_cast<int>(count) * element->cells;
+    type.initial.clear();
+    for (std::int64_t i = 0; i < count; ++i)
+      type.initial.insert(type.initial.end(), element->initial.begin(), element->initial.end());
+    element = &type;
+  }
+  return element;
+}
+
+const Type* Compiler::string_type() {
+  take();
+  const bool round = peek().is("(");
+  if (!round && !peek().is("[")) return elementary_type("STRING");
+  take();
+  const Place place = peek().place;
+  const std::int64_t length = constant_integer("the length");
+  expect(round ? ")" : "]", "closes the length");
+  if (length < 1 || length > 255)
+    give_up(place, fmt::format("a STRING of {} characters", length), "1 to 255");
+  Type& type = new_type(Basic::string, fmt::format("STRING[{}]", length));
+  type.length = static_cast<std::size_t>(length);
+  type.cells = string_cells(type.length);
+  type.initial.assign(static_cast<std::size_t>(type.cells), 0);
+  return &type;
+}
+
+const Type* Compiler::named_type() {
+  const Token name = expect_name("a type");
+  if (const Type* type = elementary_type(name.text)) {
+    if (peek().is("(")) {
+      give_up(peek().place, "a range of a type is not known here", "take the type as it is");
+    }
+    return type;
+  }
+  if (Unit* unit = find_unit(name.text)) {
+    const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block;
+    if (!type)
+      give_up(name.place, qmove::quoted(name.text) + " is no type",
+              "a PROGRAM or FUNCTION has no variables of its kind");
+    if (unit->state == Unit::State::open)
+      give_up(name.place, qmove::quoted(name.text) + " contains itself",
+              "a type is made of types that do not need it");
+    declare(*unit);
+    return unit->type;
+  }
+  if (qmove::same_word(name.text, "MC_CAM_REF")) return cam_ref();
+  if (const BlockType* block = find_block_type(name.text)) return motion_type(*block);
+  std::vector<std::string> known = elementary_names();
+  for (const BlockType& block : block_types()) known.emplace_back(block.name);
+  for (const auto& unit : units_)
+    if (unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block)
+      known.emplace_back(unit->name.text);
+  known.emplace_back("MC_CAM_REF");
+  const bool wide = qmove::same_word(name.text, "ULINT") || qmove::same_word(name.text, "LWORD");
+  give_up(name.place, fmt::format("there is no type {}", qmove::quoted(name.text)),
+          wide ? "UDINT or LINT is as wide as it gets"
+               : qmove::suggestion(name.text, known, "BOOL, INT, LREAL, TIME, MC_CamIn, TON ..."));
+}
+
+const Type* Compiler::cam_ref() {
+  if (cam_ref_ != nullptr) return cam_ref_;
+  Type& type = new_type(Basic::structure, "MC_CAM_REF");
+  type.cells = 0;
+  type.initial.clear();
+  for (const auto& [name, basic] : {std::pair{"File", Basic::string}, std::pair{"ID", Basic::uint}}) {
+    Variable member;
+    member.name = name;
+    member.type = type_of(basic);
+    append(type, member, member.type->initial);
+  }
+  return cam_ref_ = &type;
+}
+
+const Type* Compiler::motion_type(const BlockType& block) {
+  if (const auto known = motions_.find(&block); known != motions_.end()) return known->second;
+  Type& type = new_type(Basic::block, std::string(block.name));
+  // The first cell is the number of the block at run time.
+  type.motion = &block;
+  const auto instance = block.make();
+  for (std::size_t i = 0; i < block.pins.size(); ++i) {
+    const Pin& pin = block.pins[i];
+    const PinValue value = instance->pin(i);
+    Variable member;
+    member.name = pin.name;
+    member.type = type_of_pin(pin, value, cam_ref());
+    member.section = pin.direction == PinDirection::input    ? Section::input
+                     : pin.direction == PinDirection::output ? Section::output
+                                                             : Section::in_out;
+    std::vector<Cell> initial = member.type->initial;
+    std::visit(
+        [&](const auto* pointer) {
+          using T = std::remove_cvref_t<decltype(*pointer)>;
+          if constexpr (std::is_same_v<T, double>)
+            initial[0] = cell_of(*pointer);
+          else if constexpr (std::is_arithmetic_v<T>)
+            initial[0] = static_cast<Cell>(*pointer);
+        },
+        value);
+    append(type, std::move(member), initial);
+  }
+  motions_.emplace(&block, &type);
+  return &type;
+}
+
+}  // namespace drycut::devices::plcopen::st

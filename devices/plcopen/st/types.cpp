@@ -1,0 +1,166 @@
+#include "devices/plcopen/st/types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace drycut::devices::plcopen::st {
+namespace {
+
+struct Row {
+  Basic basic;
+  std::string_view name;
+  int bits;
+  bool sign;
+};
+// In the order of Basic.
+constexpr std::array<Row, 17> rows{{
+    {Basic::unknown, "?", 64, true},
+    {Basic::boolean, "BOOL", 1, false},
+    {Basic::sint, "SINT", 8, true},
+    {Basic::int_, "INT", 16, true},
+    {Basic::dint, "DINT", 32, true},
+    {Basic::lint, "LINT", 64, true},
+    {Basic::usint, "USINT", 8, false},
+    {Basic::uint, "UINT", 16, false},
+    {Basic::udint, "UDINT", 32, false},
+    {Basic::byte, "BYTE", 8, false},
+    {Basic::word, "WORD", 16, false},
+    {Basic::dword, "DWORD", 32, false},
+    {Basic::real, "REAL", 32, true},
+    {Basic::lreal, "LREAL", 64, true},
+    {Basic::time, "TIME", 32, false},
+    {Basic::string, "STRING", 0, false},
+    {Basic::axis, "AXIS_REF", 32, true},
+}};
+
+std::vector<Type> make_elementary() {
+  std::vector<Type> types;
+  for (const Row& row : rows) {
+    Type type;
+    type.basic = row.basic;
+    type.name = row.name;
+    if (row.basic == Basic::string) {
+      type.length = default_string_length;
+      type.cells = string_cells(type.length);
+    }
+    const Cell initial = row.basic == Basic::axis ? -1 : is_real(row.basic) ? cell_of(0) : 0;
+    type.initial.assign(static_cast<std::size_t>(type.cells), initial);
+    types.push_back(std::move(type));
+  }
+  return types;
+}
+
+const std::vector<Type>& elementary() {
+  static const std::vector<Type> types = make_elementary();
+  return types;
+}
+
+const Row& row_of(Basic basic) {
+  return rows.at(basic == Basic::enumeration ? static_cast<std::size_t>(Basic::int_)
+                                             : static_cast<std::size_t>(basic));
+}
+
+}  // namespace
+
+bool is_integer(Basic basic) { return basic >= Basic::sint && basic <= Basic::dword; }
+bool is_bits(Basic basic) {
+  return basic == Basic::boolean || (basic >= Basic::byte && basic <= Basic::dword);
+}
+bool is_real(Basic basic) { return basic == Basic::real || basic == Basic::lreal; }
+bool is_number(Basic basic) { return is_integer(basic) || is_real(basic); }
+bool is_whole(Basic basic) {
+  return is_integer(basic) || basic == Basic::boolean || basic == Basic::time || basic == Basic::enumeration;
+}
+bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
+
+int bits_of(Basic basic) { return row_of(basic).bits; }
+
+Range range_of(Basic basic) {
+  const Row& row = row_of(basic);
+  if (row.sign) {
+    const std::int64_t high = std::numeric_limits<std::int64_t>::max() >> (64 - row.bits);
+    return {-high - 1, high};
+  }
+  return {0, static_cast<std::int64_t>((std::uint64_t{1} << row.bits) - 1)};
+}
+
+std::int64_t wrapped(Basic basic, std::int64_t value) {
+  switch (basic) {
+    case Basic::boolean:
+      return value & 1;
+    case Basic::sint:
+      return static_cast<std::int8_t>(value);
+    case Basic::int_:
+    case Basic::enumeration:
+      return static_cast<std::int16_t>(value);
+    case Basic::dint:
+      return static_cast<std::int32_t>(value);
+    case Basic::usint:
+    case Basic::byte:
+      return static_cast<std::uint8_t>(value);
+    case Basic::uint:
+    case Basic::word:
+      return static_cast<std::uint16_t>(value);
+    case Basic::udint:
+    case Basic::dword:
+    case Basic::time:
+      return static_cast<std::uint32_t>(value);
+    default:
+      return value;
+  }
+}
+
+double rounded(Basic basic, double value) {
+  return basic == Basic::real ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
+bool widens(Basic from, Basic to) {
+  // Structures, arrays, blocks and enumerations are alike by their names, not by their kinds.
+  if (from == to) return is_elementary(from) && from != Basic::enumeration;
+  if (from == Basic::enumeration) from = Basic::int_;
+  if (from == Basic::real) return to == Basic::lreal;
+  if (!is_integer(from)) return false;
+  // A REAL holds whole numbers of 24 bit exactly, an LREAL of 53.
+  if (to == Basic::real) return bits_of(from) <= 16;
+  if (to == Basic::lreal) return bits_of(from) <= 32;
+  if (!is_integer(to)) return false;
+  return range_of(from).low >= range_of(to).low && range_of(from).high <= range_of(to).high;
+}
+
+bool same_type(const Type& a, const Type& b) {
+  if (&a == &b) return true;
+  if (a.basic != b.basic) return false;
+  if (a.basic == Basic::array) return a.low == b.low && a.high == b.high && same_type(*a.element, *b.element);
+  if (a.basic == Basic::string) return a.length == b.length;
+  return a.basic != Basic::enumeration && a.basic != Basic::structure && a.basic != Basic::block;
+}
+
+const Type* elementary_type(std::string_view name) {
+  for (const Type& type : elementary())
+    if (qmove::same_word(type.name, name)) return &type;
+  return nullptr;
+}
+
+const Type* type_of(Basic basic) { return &elementary().at(static_cast<std::size_t>(basic)); }
+
+int string_cells(std::size_t length) { return static_cast<int>(length / sizeof(Cell)) + 1; }
+
+const std::vector<std::string>& elementary_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const Type& type : elementary())
+      if (type.basic != Basic::unknown) result.push_back(type.name);
+    return result;
+  }();
+  return names;
+}
+
+const Variable* find_member(const Type& type, std::string_view name) {
+  const auto found = std::find_if(type.members.begin(), type.members.end(), [&](const Variable& member) {
+    return qmove::same_word(member.name, name);
+  });
+  return found == type.members.end() ? nullptr : &*found;
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,118 @@
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/plcopen/pins.hpp"
+#include "devices/plcopen/st/lexer.hpp"
+
+namespace drycut::devices::plcopen::st {
+
+/// One place of the memory. BOOL, integers, TIME [ms] and enumerations are numbers, REAL and LREAL the bits
+/// of a double, AXIS_REF the axis' number; a STRING takes eight characters a cell.
+using Cell = std::int64_t;
+inline double real_of(Cell cell) { return std::bit_cast<double>(cell); }
+inline Cell cell_of(double value) { return std::bit_cast<Cell>(value); }
+
+enum class Basic : std::uint8_t {
+  unknown,  ///< of something that has been complained of
+  boolean,
+  sint,
+  int_,
+  dint,
+  lint,
+  usint,
+  uint,
+  udint,
+  byte,
+  word,
+  dword,
+  real,
+  lreal,
+  time,  ///< whole ms in 32 bit, wraps after 49 days, as on CODESYS and TwinCAT
+  string,
+  axis,
+  enumeration,
+  structure,
+  array,
+  block,
+};
+
+/// Smallest and largest value of a type of whole numbers, BOOL, TIME included.
+struct Range {
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+};
+
+struct Type;
+
+/// Where a variable is declared: it decides who may write it.
+enum class Section : std::uint8_t { local, input, output, in_out, temp };
+
+/// A variable of a POU, or a member of a structure.
+struct Variable {
+  std::string name;
+  const Type* type = nullptr;
+  Section section = Section::local;
+  int offset = 0;  ///< in cells from the beginning of its owner
+  bool constant = false;
+  bool retain = false;
+  bool reads_terminal = false;  ///< AT %IX
+  std::optional<Cell> value;    ///< of an elementary constant
+  Place place;
+};
+
+struct EnumValue {
+  std::string name;
+  std::int64_t value = 0;
+};
+
+struct Type {
+  Basic basic = Basic::unknown;
+  std::string name;
+  int cells = 1;
+  std::vector<Cell> initial;  ///< `cells` of them
+
+  std::size_t length = 0;  ///< of a STRING
+  const Type* element = nullptr;
+  std::int64_t low = 0;  ///< bounds of an array
+  std::int64_t high = 0;
+  std::vector<EnumValue> values;
+  std::vector<Variable> members;  ///< of a structure or function block
+  const BlockType* motion = nullptr;
+  int pou = -1;           ///< number of a user's function block
+  bool standard = false;  ///< TON and its like
+  bool broken = false;    ///< a declaration was given up: what is missing has been told
+};
+
+bool is_integer(Basic basic);  ///< SINT..UDINT, BYTE..DWORD
+bool is_bits(Basic basic);     ///< BOOL, BYTE, WORD, DWORD
+bool is_real(Basic basic);
+bool is_number(Basic basic);
+bool is_whole(Basic basic);  ///< what is kept as a whole number: integers, BOOL, TIME, enumerations
+bool is_elementary(Basic basic);
+/// Of a type that is_whole.
+Range range_of(Basic basic);
+int bits_of(Basic basic);
+/// `value` in the width of the type, as a machine drops the bits above.
+std::int64_t wrapped(Basic basic, std::int64_t value);
+/// `value` as a REAL or LREAL keeps it.
+double rounded(Basic basic, double value);
+/// Whether every value of `from` is one of `to`: the conversions that IEC 61131-3 makes by itself.
+bool widens(Basic from, Basic to);
+bool same_type(const Type& a, const Type& b);
+
+/// BOOL..STRING and AXIS_REF by name, any case; nullptr if there is none.
+const Type* elementary_type(std::string_view name);
+const Type* type_of(Basic basic);
+/// Of a STRING of so many characters.
+int string_cells(std::size_t length);
+inline constexpr std::size_t default_string_length = 80;
+const std::vector<std::string>& elementary_names();
+/// The member called `name`, any case; nullptr if there is none.
+const Variable* find_member(const Type& type, std::string_view name);
+
+}  // namespace drycut::devices::plcopen::st

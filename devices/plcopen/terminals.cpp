@@ -1,0 +1,90 @@
+#include "devices/plcopen/terminals.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <charconv>
+
+#include "devices/plcopen/any_case.hpp"
+
+namespace drycut::devices::plcopen {
+namespace {
+
+constexpr std::array table{
+    AxisTerminal{"encoder", Kind::counter, 1, true, false, true, "actual position, counts x4"},
+    AxisTerminal{"reference", Kind::analogue, 1, true, false, false, "speed reference of the drive, +-10 V"},
+    AxisTerminal{"enable", Kind::output, 1, true, false, false, "on while the axis regulates"},
+    AxisTerminal{"ready", Kind::input, ready_input, true, false, false,
+                 "off: the drive no longer follows; not wired: on"},
+    AxisTerminal{"emergency_stop", Kind::input, emergency_stop_input, true, true, false,
+                 "on: the axis brakes into Errorstop; not wired: off"},
+    AxisTerminal{"feed_enable", Kind::input, feed_enable_input, true, true, false,
+                 "off: movements slow down to a stop, couplings let go; not wired: on"},
+    AxisTerminal{"feed_hold", Kind::input, feed_hold_input, true, true, false,
+                 "on: movements slow down to a stop; not wired: off"},
+    AxisTerminal{"probe", Kind::interrupt, 1, true, false, true,
+                 "a rising edge latches the exact count for MC_TouchProbe"},
+};
+
+constexpr int bits_per_byte = 8;
+
+// "IX0.3", "%QX1.0".
+std::optional<Address> parse_located(std::string_view text) {
+  if (text.starts_with('%')) text.remove_prefix(1);
+  if (text.size() < 5 || std::toupper(static_cast<unsigned char>(text[1])) != 'X') return std::nullopt;
+  const int letter = std::toupper(static_cast<unsigned char>(text[0]));
+  if (letter != 'I' && letter != 'Q') return std::nullopt;
+  const char* const end = text.data() + text.size();
+  unsigned byte = 0;
+  unsigned bit = 0;
+  constexpr unsigned last_byte = 65535;
+  const auto first = std::from_chars(text.data() + 2, end, byte);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '.' || byte > last_byte)
+    return std::nullopt;
+  const auto second = std::from_chars(first.ptr + 1, end, bit);
+  if (second.ec != std::errc() || second.ptr != end || bit >= bits_per_byte) return std::nullopt;
+  return located_address(letter == 'Q', static_cast<int>(byte), static_cast<int>(bit));
+}
+
+}  // namespace
+
+bool AxisTerminal::offered_by(AxisKind axis) const {
+  switch (axis) {
+    case AxisKind::drive:
+      return on_drive;
+    case AxisKind::virtual_axis:
+      return on_virtual;
+    case AxisKind::encoder:
+      return on_encoder;
+  }
+  return false;
+}
+
+Address AxisTerminal::address(int axis) const {
+  return {kind, axis + 1, kind == Kind::interrupt ? axis + 1 : number};
+}
+
+std::span<const AxisTerminal> axis_terminal_table() { return table; }
+
+std::optional<TerminalName> parse_terminal(std::string_view text) {
+  if (const auto located = parse_located(text)) return TerminalName{"", nullptr, *located};
+  const auto dot = text.find('.');
+  if (dot == std::string_view::npos || dot == 0 || dot + 1 == text.size()) return std::nullopt;
+  if (std::isdigit(static_cast<unsigned char>(text[dot + 1])) != 0) return std::nullopt;  // IX0.8
+  TerminalName name{std::string(text.substr(0, dot)), nullptr, {}};
+  for (const AxisTerminal& terminal : table)
+    if (terminal.name == lower(text.substr(dot + 1))) name.terminal = &terminal;
+  return name;
+}
+
+std::string located_name(const Address& address) {
+  return fmt::format("{}X{}.{}", address.kind == Kind::output ? 'Q' : 'I', address.number / bits_per_byte,
+                     address.number % bits_per_byte);
+}
+
+Address located_address(bool output, int byte, int bit) {
+  return {output ? Kind::output : Kind::input, 0, bits_per_byte * byte + bit};
+}
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,47 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "devices/cards.hpp"
+#include "devices/plcopen/axis_parameters.hpp"
+
+namespace drycut::devices::plcopen {
+
+/// What wires may lead to at an axis: `Knife.encoder`. The address of a terminal has the axis' number from 1
+/// as its slot; a probe is the interrupt line of that number.
+struct AxisTerminal {
+  std::string_view name;
+  Kind kind = Kind::input;
+  int number = 1;  ///< tells the inputs of an axis apart
+  bool on_drive = false;
+  bool on_virtual = false;
+  bool on_encoder = false;
+  std::string_view meaning;
+
+  [[nodiscard]] bool offered_by(AxisKind axis) const;
+  [[nodiscard]] Address address(int axis) const;
+};
+std::span<const AxisTerminal> axis_terminal_table();
+
+/// Numbers of the inputs of an axis.
+inline constexpr int ready_input = 1;
+inline constexpr int emergency_stop_input = 2;
+inline constexpr int feed_enable_input = 3;
+inline constexpr int feed_hold_input = 4;
+
+/// A terminal as wiring writes it, its axis not looked up yet.
+struct TerminalName {
+  std::string axis;                        ///< "" for a BOOL of the program
+  const AxisTerminal* terminal = nullptr;  ///< nullptr: the axis has no terminal called so
+  Address address;                         ///< of a BOOL of the program: %IX0.3 is input 3, %QX1.0 output 8
+};
+/// Reads `Knife.encoder`, `IX0.0` or `%QX0.1`, any case; nullopt if `text` is written as none of them.
+std::optional<TerminalName> parse_terminal(std::string_view text);
+/// "IX0.0", "QX1.7".
+std::string located_name(const Address& address);
+/// Address of the program's BOOL at a byte and bit.
+Address located_address(bool output, int byte, int bit);
+
+}  // namespace drycut::devices::plcopen

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include "sim/commands/arguments.hpp"
+#include "sim/commands/commands.hpp"
+#include "sim/compare/report.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<double> from_of(const CompareOptions& options, devices::Problems& problems) {
+  if (options.from.empty()) return {};
+  Findings findings({"--from"});
+  const auto time = read_time({options.from, {1, 1}}, "--from", Sign::not_negative, findings);
+  for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
+  if (!time) return {};
+  return seconds(*time);
+}
+
+std::vector<RunFolder> read_runs(const CompareOptions& options, devices::Problems& problems) {
+  if (options.runs.size() < 2) {
+    problems.push_back({options.runs.empty() ? "compare" : options.runs[0].string(), 1, 1,
+                        "one run alone is nothing to compare", "name two folders of runs or more"});
+  }
+  const auto labels = labels_of(options.runs, problems);
+  std::vector<RunFolder> runs;
+  for (std::size_t i = 0; i < options.runs.size(); ++i) {
+    std::error_code ignored;
+    if (fs::equivalent(options.out, options.runs[i], ignored))
+      problems.push_back({"--out", 1, 1, fmt::format("{} is one of the runs", options.out.string()),
+                          "the comparison would replace its report; name another folder"});
+    runs.push_back(read_run(options.runs[i], problems));
+    runs.back().label = labels[i];
+  }
+  return runs;
+}
+
+}  // namespace
+
+int compare_runs(const CompareOptions& options) {
+  devices::Problems problems;
+  auto runs = read_runs(options, problems);
+  const auto from = from_of(options, problems);
+  if (problems.empty()) make_folder(options.out, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  const auto comparison = compare(std::move(runs), from);
+  ComparisonPage page;
+  for (const auto& run : comparison.runs) {
+    page.title += (page.title.empty() ? "" : " against ") + run.label;
+    page.source += (page.source.empty() ? "" : ", ") + run.folder.string();
+  }
+  page.verdict = difference_text(comparison);
+  try {
+    write_comparison(comparison, page, options.out, options.pictures);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return simulation_failed;
+  }
+  fmt::print("{}: {}", page.title, comparison_text(comparison));
+  fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
+                                        : "results: " + options.out.string());
+  return options.fail_on_difference && !same(comparison) ? check_failed : all_passed;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,81 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/plcopen/kernel.hpp"
+#include "devices/plcopen/st/runtime.hpp"
+
+namespace drycut::devices::plcopen::st {
+
+/// A program behind a kernel with the axes Web (encoder) and Knife, 2 ms a scan.
+class Bench {
+ public:
+  explicit Bench(const std::string& text) {
+    const Program program = compile(text, "test.st", problems);
+    for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
+    AxisParameters web;
+    web.kind = static_cast<double>(AxisKind::encoder);
+    kernel.add_axis("Web", web);
+    kernel.add_axis("Knife", AxisParameters{});
+    runtime = std::make_unique<Runtime>(program, kernel);
+  }
+
+  void scan(int times = 1) {
+    for (int i = 0; i < times; ++i, time_ns += 2'000'000) {
+      kernel.cycle();
+      runtime->scan(time_ns);
+    }
+    if (const auto& fault = runtime->fault())
+      FAIL() << fault->line << ":" << fault->column << ": " << fault->text;
+  }
+  [[nodiscard]] int find(const std::string& name) const {
+    const auto symbols = runtime->symbols();
+    for (std::size_t i = 0; i < symbols.size(); ++i)
+      if (symbols[i].name == name) return static_cast<int>(i);
+    return -1;
+  }
+  [[nodiscard]] double operator[](const std::string& name) const {
+    const int symbol = find(name);
+    if (symbol < 0) ADD_FAILURE() << "no symbol " << name;
+    return symbol < 0 ? -1e99 : runtime->read(static_cast<std::size_t>(symbol));
+  }
+  void set(const std::string& name, double value) {
+    const int symbol = find(name);
+    ASSERT_GE(symbol, 0) << "no symbol " << name;
+    runtime->write(static_cast<std::size_t>(symbol), value);
+  }
+
+  Problems problems;
+  MotionKernel kernel;
+  std::unique_ptr<Runtime> runtime;
+  std::int64_t time_ns = 0;
+};
+
+/// The problems of a text as "line:column: what; remedy".
+inline std::vector<std::string> problems_of(const std::string& text) {
+  Problems problems;
+  compile(text, "f", problems);
+  std::vector<std::string> lines;
+  for (const Problem& problem : problems) lines.push_back(to_string(problem).substr(2));
+  return lines;
+}
+
+/// The value of an expression in a variable of type `type`; `vars` are further declarations.
+inline double value_of(const std::string& type, const std::string& expression, const std::string& vars = "") {
+  Bench bench("PROGRAM main VAR x : " + type + "; " + vars + " END_VAR x := " + expression + "; END_PROGRAM");
+  bench.scan();
+  return bench["x"];
+}
+
+/// Statements after declarations, run once; the value of `x`.
+inline double run(const std::string& vars, const std::string& statements, const std::string& units = "") {
+  Bench bench(units + " PROGRAM main VAR " + vars + " END_VAR " + statements + " END_PROGRAM");
+  bench.scan();
+  return bench["x"];
+}
+
+}  // namespace drycut::devices::plcopen::st
