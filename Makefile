@@ -4,11 +4,11 @@
 #   make test    builds and runs all tests
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
-#   make sanitize, make lint, make format: for those who change the code
+#   make sanitize, make lint, make format, make meshes: for those who change the code
 
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
-PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libyaml-cpp-dev \
+PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libassimp-dev libyaml-cpp-dev \
             libmuparser-dev libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev gnuplot-nox \
             fonts-dejavu-core libjs-dygraphs ffmpeg
 TEST_PACKAGES  := libgtest-dev libgmock-dev
@@ -29,7 +29,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test bench sanitize lint format clean
+.PHONY: all setup demo test bench sanitize lint format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -71,6 +71,14 @@ lint: setup
 format:
 	$(call install,$(LINT_PACKAGES))
 	clang-format -i $(SOURCES)
+
+# The models of the machines' parts, made anew where their OpenSCAD sources are newer (-B: all).
+MODELS := $(patsubst %.scad,%.stl,$(filter-out %/common.scad,$(wildcard scenes/meshes/*.scad)))
+meshes:
+	$(call install,openscad)
+	$(MAKE) $(MODELS)
+scenes/meshes/%.stl: scenes/meshes/%.scad scenes/meshes/common.scad
+	openscad -q --export-format binstl -o $@ $<
 
 clean:
 	rm -rf $(BUILD) $(BUILD)-sanitize out

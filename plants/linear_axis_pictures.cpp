@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plants/linear_axis.hpp"
+#include "plants/pose_math.hpp"
 
 namespace drycut::plants {
 
@@ -14,7 +15,6 @@ namespace {
 
 using Shape = Part::Shape;
 using Point = std::array<double, 3>;
-using Quaternion = std::array<double, 4>;
 
 constexpr double floor_y = -0.9;
 constexpr double belt_lead = 0.06;   // no screw has such a lead [m]
@@ -27,19 +27,9 @@ constexpr std::array<float, 3> steel = {0.74F, 0.76F, 0.78F};
 constexpr std::array<float, 3> carriage_colour = {0.93F, 0.55F, 0.13F};
 constexpr std::array<float, 3> dark = {0.12F, 0.12F, 0.13F};
 constexpr std::array<float, 3> red = {0.86F, 0.12F, 0.10F};
+constexpr std::array<float, 3> brass = {0.80F, 0.66F, 0.30F};
 constexpr std::array<float, 3> white = {0.95F, 0.95F, 0.95F};
 constexpr std::array<float, 3> ink_colour = {0.05F, 0.25F, 0.75F};
-
-Quaternion about_x(double angle) { return {std::sin(angle / 2), 0, 0, std::cos(angle / 2)}; }
-Quaternion about_y(double angle) { return {0, std::sin(angle / 2), 0, std::cos(angle / 2)}; }
-Quaternion about_z(double angle) { return {0, 0, std::sin(angle / 2), std::cos(angle / 2)}; }
-
-Quaternion product(const Quaternion& a, const Quaternion& b) {
-  return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
-          a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
-          a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
-          a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
-}
 
 double carriage_length(const LinearAxisData& data) {
   return std::clamp(0.2 * (data.travel_max - data.travel_min), 0.07, 0.2);
@@ -109,47 +99,70 @@ std::vector<LinearAxis::Item> LinearAxis::items() const {
   };
   const bool belt = data_.lead >= belt_lead;
   const Quaternion lying = about_y(right_angle);
+  const Quaternion facing = data_.motor == "upper" ? about_y(-right_angle) : lying;  // towards the axis
   const double angle = 2 * std::numbers::pi * rotor_.part;
+  const double screw_angle = 2 * std::numbers::pi * std::fmod(rotor_.revolutions() / data_.gear.ratio, 1.0);
   const double mark = 0.026 * k;
   std::vector<Item> all = {
-      {{"beam", Shape::box, {beam, 0.07 * k, 0.14 * k}, beam_colour, "paint"}, mid, 0.035 * k, 0},
-      {{"rail 1", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel"},
+      {{"beam", Shape::box, {beam, 0.07 * k, 0.14 * k}, beam_colour, "paint", "beam"}, mid, 0.035 * k, 0},
+      {{"rail 1", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel", "rail"},
        mid,
        0.085 * k,
        0.05 * k},
-      {{"rail 2", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel"},
+      {{"rail 2", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel", "rail"},
        mid,
        0.085 * k,
        -0.05 * k},
-      {{"end block 1", Shape::box, {0.03 * k, 0.1 * k, 0.15 * k}, beam_colour, "paint"}, low, 0.05 * k, 0},
-      {{"end block 2", Shape::box, {0.03 * k, 0.1 * k, 0.15 * k}, beam_colour, "paint"}, high, 0.05 * k, 0},
-      {{"coupling", Shape::cylinder, {0.05 * k, 0.05 * k, 0.05 * k}, steel, "steel"},
+      {{"end block 1", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, beam_colour, "paint", "end_block"},
+       low,
+       0.07 * k,
+       0},
+      {{"end block 2", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, beam_colour, "paint", "end_block"},
+       high,
+       0.07 * k,
+       0},
+      {{"coupling", Shape::cylinder, {0.05 * k, 0.05 * k, 0.05 * k}, steel, "steel", "coupling"},
        beside(0.04),
        0.085 * k,
        0,
        false,
-       lying},
+       product(about_x(angle), lying)},
       {{"coupling mark", Shape::box, {0.03 * k, 0.006 * k, 0.014 * k}, red, "paint"},
        beside(0.04),
        0.085 * k + mark * std::cos(angle),
        mark * std::sin(angle),
        false,
        about_x(angle)},
-      {{"motor", Shape::box, {0.16 * k, 0.11 * k, 0.11 * k}, dark, "paint"}, beside(0.145), 0.085 * k, 0},
-      {{"encoder", Shape::cylinder, {0.085 * k, 0.085 * k, 0.04 * k}, steel, "steel"},
-       beside(0.245),
+      {{"motor", Shape::box, {0.11 * k, 0.11 * k, 0.16 * k}, dark, "paint", "servo_motor"},
+       beside(0.145),
        0.085 * k,
        0,
        false,
-       lying},
-      {{"stop 1", Shape::box, {0.03 * k, 0.035 * k, 0.1 * k}, red, "rubber"},
+       facing},
+      {{"encoder disc", Shape::cylinder, {0.1 * k, 0.1 * k, 0.008 * k}, brass, "steel", "encoder_disc"},
+       beside(0.236),
+       0.085 * k,
+       0,
+       false,
+       product(about_x(angle), lying)},
+      {{"encoder", Shape::cylinder, {0.085 * k, 0.085 * k, 0.04 * k}, steel, "steel", "encoder"},
+       beside(0.264),
+       0.085 * k,
+       0,
+       false,
+       facing},
+      {{"stop 1", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
        data_.travel_min - c / 2 - 0.015 * k,
        0.116 * k,
-       0},
-      {{"stop 2", Shape::box, {0.03 * k, 0.035 * k, 0.1 * k}, red, "rubber"},
+       0,
+       false,
+       lying},
+      {{"stop 2", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
        data_.travel_max + c / 2 + 0.015 * k,
        0.116 * k,
-       0},
+       0,
+       false,
+       about_y(-right_angle)},
       {{"home switch", Shape::box, {0.035 * k, 0.025 * k, 0.025 * k}, white, "paint"},
        data_.sensors.home.centre,
        0.045 * k,
@@ -159,25 +172,31 @@ std::vector<LinearAxis::Item> LinearAxis::items() const {
        0.09 * k,
        0.083 * k,
        true},
-      {{"carriage", Shape::box, {c, 0.03 * k, 0.16 * k}, carriage_colour, "paint"}, 0, 0.117 * k, 0, true},
+      {{"carriage", Shape::box, {c, 0.03 * k, 0.16 * k}, carriage_colour, "paint", "carriage"},
+       0,
+       0.117 * k,
+       0,
+       true},
   };
   if (belt)
     all.push_back(
         {{"belt", Shape::box, {beam - 0.05 * k, 0.008 * k, 0.05 * k}, dark, "rubber"}, mid, 0.085 * k, 0});
   else
-    all.push_back({{"screw", Shape::cylinder, {0.025 * k, 0.025 * k, beam - 0.02 * k}, steel, "steel"},
-                   mid,
-                   0.085 * k,
-                   0,
-                   false,
-                   lying});
+    all.push_back(
+        {{"screw", Shape::cylinder, {0.025 * k, 0.025 * k, beam - 0.02 * k}, steel, "steel", "screw"},
+         mid,
+         0.085 * k,
+         0,
+         false,
+         product(about_x(screw_angle), lying)});
   if (carrier_ == nullptr && beam > 0.6) {
     const double height = data_.place_y - floor_y;
     for (const double at : {-0.38, 0.38})
-      all.push_back({{at < 0 ? "leg 1" : "leg 2", Shape::box, {0.09, height, 0.1}, beam_colour, "paint"},
-                     mid + at * beam,
-                     -height / 2,
-                     0});
+      all.push_back(
+          {{at < 0 ? "leg 1" : "leg 2", Shape::box, {0.09, height, 0.1}, beam_colour, "paint", "frame_post"},
+           mid + at * beam,
+           -height / 2,
+           0});
   }
   const double stroke = tool_.level ? 0 : 1;
   if (data_.tool == "blade") {

@@ -12,8 +12,8 @@ struct Pose {
   std::array<double, 4> rotation = {0, 0, 0, 1};
 };
 
-/// What a machine part looks like: primitives for now, a mesh file where one is named. For pictures only,
-/// physics never reads it.
+/// What a machine part looks like: a primitive, or a model of scenes/meshes/ stretched to the same size. For
+/// pictures only, physics never reads it.
 struct Part {
   enum class Shape { box, cylinder, wedge };  ///< cylinder axis: z; wedge: a blade, edge towards -y
   std::string name;                           ///< unique in its plant: "drum", "blade 1"
@@ -22,7 +22,7 @@ struct Part {
                                 1};  ///< box: x y z; cylinder: diameter, diameter, length; wedge: x y z [m]
   std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
   std::string material = "steel";  ///< "steel", "paint", "rubber", "web", "blade"
-  std::string mesh = {};           ///< file that replaces the primitive, "" = none
+  std::string model = {};          ///< drawn in place of the shape: "servo_motor"; "" = none
 };
 
 /// Where a part is now. Parts that come and go (cut pieces) are of a fixed set and hidden while unused.

@@ -60,6 +60,11 @@ class RotaryKnife : public Plant {
  private:
   void report(const Cutter::Outcome& outcome);
 
+  struct Item;  // of the pictures
+  [[nodiscard]] std::vector<Item> items() const;
+  void add_frame(std::vector<Item>& all, int side) const;
+  void add_drive(std::vector<Item>& all) const;
+
   RotaryKnifeData data_;
   Web& web_;
   double radius_;

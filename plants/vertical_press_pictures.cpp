@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plants/pose_math.hpp"
 #include "plants/vertical_press.hpp"
 
 namespace drycut::plants {
@@ -12,7 +13,6 @@ namespace {
 
 using Shape = Part::Shape;
 using Colour = std::array<float, 3>;
-using Quaternion = std::array<double, 4>;
 
 constexpr double floor_y = -0.9;
 constexpr double bed_height = 0.22;
@@ -39,10 +39,9 @@ constexpr Colour white = {0.95F, 0.95F, 0.95F};
 constexpr Colour brass = {0.80F, 0.66F, 0.30F};
 
 // A cylinder stands along z; this stands it up.
-const Quaternion upright = {std::sin(-std::numbers::pi / 4), 0, 0, std::cos(std::numbers::pi / 4)};
+const Quaternion upright = about_x(-std::numbers::pi / 2);
+const Quaternion downward = about_x(std::numbers::pi / 2);
 const Quaternion level = {0, 0, 0, 1};
-
-Quaternion about_y(double angle) { return {0, std::sin(angle / 2), 0, std::cos(angle / 2)}; }
 
 }  // namespace
 
@@ -62,31 +61,36 @@ struct VerticalPress::Item {
 std::vector<VerticalPress::Item> VerticalPress::items() const {
   const double crown = data_.travel_max + ram_top + clearance;  // lower side
   const double top = crown + crown_height;
-  const auto rod = [](const char* name, double diameter, double length, Colour colour,
-                      const char* material) -> Part {
-    return {name, Shape::cylinder, {diameter, diameter, length}, colour, material};
+  const auto rod = [](const char* name, double diameter, double length, Colour colour, const char* material,
+                      const char* model = "") -> Part {
+    return {name, Shape::cylinder, {diameter, diameter, length}, colour, material, model};
   };
   const auto box = [](const char* name, double x, double y, double z, Colour colour,
-                      const char* material = "paint") -> Part {
-    return {name, Shape::box, {x, y, z}, colour, material};
+                      const char* material = "paint", const char* model = "") -> Part {
+    return {name, Shape::box, {x, y, z}, colour, material, model};
   };
 
   std::vector<Item> all = {
-      {box("bed", 1.04, bed_height, 0.56, frame_colour), 0, -0.05 - bed_height / 2, 0},
-      {box("foot 1", 0.22, foot_height, 0.56, frame_colour), -0.41, floor_y + foot_height / 2, 0},
-      {box("foot 2", 0.22, foot_height, 0.56, frame_colour), 0.41, floor_y + foot_height / 2, 0},
-      {box("table", 0.84, 0.05, 0.52, steel, "steel"), 0, -0.025, 0},
-      {box("upright 1", 0.1, crown, 0.3, frame_colour), -upright_x, crown / 2, -0.1},
-      {box("upright 2", 0.1, crown, 0.3, frame_colour), upright_x, crown / 2, -0.1},
-      {box("crown", 1.04, crown_height, 0.44, frame_colour), 0, crown + crown_height / 2, -0.03},
+      {box("bed", 1.04, bed_height, 0.56, frame_colour, "paint", "press_bed"), 0, -0.05 - bed_height / 2, 0},
+      {box("foot 1", 0.22, foot_height, 0.56, frame_colour, "paint", "leg"), -0.41, floor_y + foot_height / 2,
+       0},
+      {box("foot 2", 0.22, foot_height, 0.56, frame_colour, "paint", "leg"), 0.41, floor_y + foot_height / 2,
+       0},
+      {box("table", 0.84, 0.05, 0.52, steel, "steel", "press_table"), 0, -0.025, 0},
+      {box("upright 1", 0.1, crown, 0.3, frame_colour, "paint", "press_upright"), -upright_x, crown / 2,
+       -0.1},
+      {box("upright 2", 0.1, crown, 0.3, frame_colour, "paint", "press_upright"), upright_x, crown / 2, -0.1},
+      {box("crown", 1.04, crown_height, 0.44, frame_colour, "paint", "press_crown"), 0,
+       crown + crown_height / 2, -0.03},
       {rod("column 1", 0.06, crown, steel, "steel"), -column_x, crown / 2, 0.04, false, upright},
       {rod("column 2", 0.06, crown, steel, "steel"), column_x, crown / 2, 0.04, false, upright},
-      {box("ram", 0.8, ram_height, 0.3, ram_colour), 0, tool_height + ram_height / 2, 0.02, true},
-      {rod("bush 1", 0.11, ram_height + 0.06, brass, "steel"), -column_x, tool_height + ram_height / 2, 0.04,
-       true, upright},
-      {rod("bush 2", 0.11, ram_height + 0.06, brass, "steel"), column_x, tool_height + ram_height / 2, 0.04,
-       true, upright},
-      {box("tool", 0.22, tool_height, 0.22, dark, "steel"), 0, tool_height / 2, 0.04, true},
+      {box("ram", 0.8, ram_height, 0.3, ram_colour, "paint", "press_ram"), 0, tool_height + ram_height / 2,
+       0.02, true},
+      {rod("bush 1", 0.11, ram_height + 0.06, brass, "steel", "bush"), -column_x,
+       tool_height + ram_height / 2, 0.04, true, upright},
+      {rod("bush 2", 0.11, ram_height + 0.06, brass, "steel", "bush"), column_x, tool_height + ram_height / 2,
+       0.04, true, upright},
+      {box("tool", 0.22, tool_height, 0.22, dark, "steel", "tool"), 0, tool_height / 2, 0.04, true},
   };
 
   // The screw reaches the nut at the lowest position.
@@ -94,16 +98,19 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
   const double angle = 2 * std::numbers::pi * rotor_.part;
   const double nut_angle = 2 * std::numbers::pi * std::fmod(rotor_.revolutions() / data_.gear.ratio, 1.0);
   const std::vector<Item> driven = {
-      {rod("screw", 0.05, screw, steel, "steel"), 0, ram_top + screw / 2, 0.02, true, upright},
-      {rod("nut", 2 * nut_radius, 0.07, brass, "steel"), 0, top + 0.035, 0.02, false, upright},
+      {rod("screw", 0.05, screw, steel, "steel", "screw"), 0, ram_top + screw / 2, 0.02, true, upright},
+      {rod("nut", 2 * nut_radius, 0.07, brass, "steel", "pulley"), 0, top + 0.035, 0.02, false,
+       product(about_y(nut_angle), upright)},
       {box("nut mark", 0.06, 0.074, 0.012, red), 0.06 * std::cos(nut_angle), top + 0.037,
        0.02 - 0.06 * std::sin(nut_angle), false, about_y(nut_angle)},
-      {box("belt", motor_x, 0.03, 0.11, dark, "rubber"), motor_x / 2, top + 0.035, 0.02},
-      {rod("pulley", 0.11, 0.05, steel, "steel"), motor_x, top + 0.035, 0.02, false, upright},
-      {rod("motor", 0.18, 0.26, dark, "paint"), motor_x, top + 0.2, 0.02, false, upright},
+      {box("belt", motor_x + nut_radius + 0.065, 0.03, 2 * nut_radius + 0.01, dark, "rubber", "drive_belt"),
+       (motor_x + 0.055 - nut_radius) / 2, top + 0.035, 0.02},
+      {rod("pulley", 0.11, 0.05, steel, "steel", "pulley"), motor_x, top + 0.035, 0.02, false,
+       product(about_y(angle), upright)},
+      {rod("motor", 0.18, 0.26, dark, "paint", "induction_motor"), motor_x, top + 0.2, 0.02, false, downward},
       {rod("fan", 0.19, 0.05, grey, "paint"), motor_x, top + 0.355, 0.02, false, upright},
       {rod("brake", 0.15, 0.06, red, "paint"), motor_x, top + 0.41, 0.02, false, upright},
-      {rod("encoder", 0.08, 0.05, steel, "steel"), motor_x, top + 0.465, 0.02, false, upright},
+      {rod("encoder", 0.08, 0.05, steel, "steel", "encoder"), motor_x, top + 0.465, 0.02, false, downward},
       {box("encoder mark", 0.03, 0.006, 0.008, red), motor_x + 0.018 * std::cos(angle), top + 0.493,
        0.02 - 0.018 * std::sin(angle), false, about_y(angle)},
   };
@@ -123,10 +130,10 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
     }
   for (const double side : {-1.0, 1.0}) {
     const double low = data_.travel_min + tool_height;
-    all.push_back({rod(side < 0 ? "stop 1" : "stop 2", 0.06, low, red, "rubber"), side * 0.2, low / 2, 0.13,
-                   false, upright});
-    all.push_back({rod(side < 0 ? "stop 3" : "stop 4", 0.06, clearance, red, "rubber"), side * 0.2,
-                   crown - clearance / 2, 0.13, false, upright});
+    all.push_back({rod(side < 0 ? "stop 1" : "stop 2", 0.06, low, red, "rubber", "bumper"), side * 0.2,
+                   low / 2, 0.13, false, upright});
+    all.push_back({rod(side < 0 ? "stop 3" : "stop 4", 0.06, clearance, red, "rubber", "bumper"), side * 0.2,
+                   crown - clearance / 2, 0.13, false, downward});
   }
   const double switch_x = upright_x - 0.07;
   const double flag_y = tool_height + ram_height / 2;
@@ -148,12 +155,12 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
   const double load = ram_.mass - data_.mass;
   const double stack = std::max(load, 1e-6) * weight_plate;
   for (const double side : {-1.0, 1.0})
-    all.push_back({box(side < 0 ? "load 1" : "load 2", 0.2, 1, 0.2, grey, "steel"), side * 0.19,
+    all.push_back({box(side < 0 ? "load 1" : "load 2", 0.2, 1, 0.2, grey, "steel", "weight"), side * 0.19,
                    ram_top + stack / 4, 0.06, true, level, stack / 2, load > 0});
   if (data_.workpiece.stiffness > 0) {
     const double height = std::min(data_.workpiece_height, ram_.position);
-    all.push_back({box("workpiece", 0.3, 1, 0.26, brass, "steel"), 0, height / 2, 0.04, false, level,
-                   std::max(height, 1e-3)});
+    all.push_back({box("workpiece", 0.3, 1, 0.26, brass, "steel", "workpiece"), 0, height / 2, 0.04, false,
+                   level, std::max(height, 1e-3)});
   }
   return all;
 }

@@ -17,7 +17,12 @@ constexpr double least_look = 3e-3;  // thinner web would vanish in the picture 
 constexpr double pull_x = -1.25;     // line drive
 constexpr double wheel_x = -0.7;
 constexpr double roll_diameter = 0.14;
-constexpr int cleats = 8;  // marks on the belt that show its motion
+constexpr double stand_low = -0.24;  // foot of the pull rolls' stands
+constexpr double belt_height = 0.11;
+constexpr double outfeed_leg = 0.795;
+constexpr int tube_rollers = 4;
+constexpr double tube_roller = 0.09;  // outer diameter [m]
+constexpr int cleats = 8;             // marks on the belt that show its motion
 
 constexpr std::array<float, 3> steel = {0.62F, 0.64F, 0.67F};
 constexpr std::array<float, 3> paint = {0.16F, 0.30F, 0.42F};
@@ -29,10 +34,17 @@ using Shape = Part::Shape;
 
 /// How high the material looks [m].
 double look_of(const WebData& data) { return std::max(section_height(data.cross_section()), least_look); }
+std::array<double, 3> stand_size(double look) { return {0.06, look + roll_diameter - stand_low, 0.024}; }
 /// Width of rolls, tables and belt [m]: a tube needs more than its own.
 double machine_width(const WebData& data) {
   return data.cross_section().tube ? std::max(4 * data.width, 0.16) : data.width;
 }
+/// Where the measuring wheel's axle is, and the arm on the operator's side that carries it.
+double wheel_y_of(const WebData& data) {
+  return look_of(data) + data.wheel.circumference / (2 * std::numbers::pi);
+}
+double wheel_z_of(const WebData& data) { return data.cross_section().tube ? 0 : machine_width(data) * 0.4; }
+double wheel_arm_z(const WebData& data) { return machine_width(data) * 0.55 + 0.04; }
 
 }  // namespace
 
@@ -49,23 +61,51 @@ std::vector<Part> Web::parts() {
   };
   std::vector<Part> parts = {
       material("web"),
-      {"upper pull roll", Shape::cylinder, {roll_diameter, roll_diameter, w * 1.15}, rubber, "rubber"},
-      {"lower pull roll", Shape::cylinder, {roll_diameter, roll_diameter, w * 1.15}, steel, "steel"},
+      {"upper pull roll",
+       Shape::cylinder,
+       {roll_diameter, roll_diameter, w * 1.15},
+       rubber,
+       "rubber",
+       "roller"},
+      {"lower pull roll",
+       Shape::cylinder,
+       {roll_diameter, roll_diameter, w * 1.15},
+       steel,
+       "steel",
+       "roller"},
       {"pull roll mark", Shape::box, {0.012, 0.05, 0.006}, mark_colour, "paint"},
-      {"measuring wheel", Shape::cylinder, {wheel, wheel, 0.03}, rubber, "rubber"},
+      {"measuring wheel", Shape::cylinder, {wheel, wheel, 0.03}, rubber, "rubber", "measuring_wheel"},
       {"measuring wheel mark", Shape::box, {0.012, wheel * 0.38, 0.006}, mark_colour, "paint"},
-      {"wheel arm", Shape::box, {0.26, 0.025, 0.02}, steel, "steel"},
-      {"table", Shape::box, {upstream - 0.25, 0.02, w * 1.1}, steel, "steel"},
-      {"infeed frame", Shape::box, {upstream - 0.3, 0.22, w * 0.8}, paint, "paint"},
-      {"infeed leg 1", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint"},
-      {"infeed leg 2", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint"},
-      {"outfeed belt", Shape::box, {belt, 0.03, w * 1.15}, rubber, "rubber"},
-      {"outfeed roll 1", Shape::cylinder, {0.1, 0.1, w * 1.16}, steel, "steel"},
-      {"outfeed roll 2", Shape::cylinder, {0.1, 0.1, w * 1.16}, steel, "steel"},
-      {"outfeed frame", Shape::box, {belt - 0.15, 0.09, w * 0.9}, paint, "paint"},
-      {"outfeed leg 1", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint"},
-      {"outfeed leg 2", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint"},
+      {"wheel arm", Shape::box, {0.26, 0.025, 0.02}, steel, "steel", "wheel_arm"},
+      {"wheel axle", Shape::cylinder, {0.018, 0.018, wheel_arm_z(data_) - wheel_z_of(data_)}, steel, "steel"},
+      {"wheel post",
+       Shape::box,
+       {0.05, wheel_y_of(data_) + 0.035 - stand_low, 0.024},
+       paint,
+       "paint",
+       "frame_post"},
+      {"roll stand 1", Shape::box, stand_size(look), paint, "paint", "frame_post"},
+      {"roll stand 2", Shape::box, stand_size(look), paint, "paint", "frame_post"},
+      {"infeed frame", Shape::box, {upstream - 0.3, 0.22, w * 0.8}, paint, "paint", "hollow_frame"},
+      {"infeed leg 1", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint", "leg"},
+      {"infeed leg 2", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint", "leg"},
+      {"outfeed belt", Shape::box, {belt, belt_height, w * 1.15}, rubber, "rubber", "conveyor_belt"},
+      {"outfeed roll 1", Shape::cylinder, {0.1, 0.1, w * 1.16}, steel, "steel", "roller"},
+      {"outfeed roll 2", Shape::cylinder, {0.1, 0.1, w * 1.16}, steel, "steel", "roller"},
+      {"outfeed frame", Shape::box, {belt - 0.15, 0.1, w * 1.15 + 0.04}, paint, "paint", "hollow_frame"},
+      {"outfeed leg 1", Shape::box, {0.09, outfeed_leg, w}, paint, "paint", "leg"},
+      {"outfeed leg 2", Shape::box, {0.09, outfeed_leg, w}, paint, "paint", "leg"},
   };
+  if (!tube)
+    parts.push_back({"table", Shape::box, {upstream - 0.25, 0.02, w * 1.1}, steel, "steel", "table"});
+  if (tube)
+    for (int i = 0; i < tube_rollers; ++i)
+      parts.push_back({fmt::format("tube roller {}", i + 1),
+                       Shape::cylinder,
+                       {tube_roller, tube_roller, w},
+                       steel,
+                       "steel",
+                       "tube_roller"});
   for (int i = 0; i < cleats; ++i)
     parts.push_back(
         {fmt::format("belt mark {}", i + 1), Shape::box, {0.02, 0.004, w * 1.15}, mark_colour, "paint"});
@@ -100,23 +140,35 @@ void Web::poses(std::vector<PartPose>& out) {
   out.push_back({.pose = turned(pull_x, -roll_diameter / 2, 0, -roll_angle)});
   out.push_back({.pose = turned(pull_x - 0.035 * std::sin(roll_angle), upper_y + 0.035 * std::cos(roll_angle),
                                 near_side * 1.15 + 0.003, roll_angle)});
-  const double wheel_y = look + wheel_radius;
-  const double wheel_z = tube ? 0 : near_side * 0.8;
+  const double wheel_y = wheel_y_of(data_);
+  const double wheel_z = wheel_z_of(data_);
   out.push_back({.pose = turned(wheel_x, wheel_y, wheel_z, wheel_angle)});
   out.push_back(
       {.pose = turned(wheel_x - wheel_radius * 0.55 * std::sin(wheel_angle),
                       wheel_y + wheel_radius * 0.55 * std::cos(wheel_angle), wheel_z + 0.018, wheel_angle)});
-  out.push_back(at(wheel_x - 0.13, wheel_y + 0.02, wheel_z - 0.03));
-  out.push_back(at(-(upstream + 0.25) / 2, -0.011));
+  const double arm_z = wheel_arm_z(data_);
+  out.push_back(at(wheel_x - 0.118, wheel_y, arm_z));
+  out.push_back(at(wheel_x, wheel_y, (wheel_z + arm_z) / 2));
+  out.push_back(at(wheel_x - 0.236, (wheel_y + 0.035 + stand_low) / 2, arm_z - 0.02));
+  const double stand_y = stand_low + stand_size(look)[1] / 2;
+  for (const double side : {1.0, -1.0}) out.push_back(at(pull_x, stand_y, side * (near_side * 1.15 + 0.02)));
   out.push_back(at(-(upstream + 0.3) / 2, -0.13));
   out.push_back(at(-upstream + 0.25, leg_y));
   out.push_back(at(-0.45, leg_y));
-  out.push_back(at(belt_x + belt / 2, -0.016));
-  out.push_back(at(belt_x + 0.02, -0.052));
-  out.push_back(at(belt_x + belt - 0.02, -0.052));
-  out.push_back(at(belt_x + belt / 2, -0.13));
-  out.push_back(at(belt_x + 0.45, leg_y));
-  out.push_back(at(belt_x + belt - 0.3, leg_y));
+  const double belt_y = -0.001 - belt_height / 2;
+  const double belt_angle = std::fmod(outfeed_.belt_travel() / 0.05, 2 * std::numbers::pi);
+  out.push_back(at(belt_x + belt / 2, belt_y));
+  out.push_back({.pose = turned(belt_x + belt_height / 2, belt_y, 0, -belt_angle)});
+  out.push_back({.pose = turned(belt_x + belt - belt_height / 2, belt_y, 0, -belt_angle)});
+  out.push_back(at(belt_x + belt / 2, belt_y - 0.01));
+  out.push_back(at(belt_x + 0.45, floor_y + outfeed_leg / 2));
+  out.push_back(at(belt_x + belt - 0.3, floor_y + outfeed_leg / 2));
+  if (!tube) out.push_back(at(-(upstream + 0.25) / 2, -0.011));
+  const double rest = tube_roller / 3;  // radius of a roller's waist, on which the tube lies
+  const double roller_angle = std::fmod(material_.position / rest, 2 * std::numbers::pi);
+  if (tube)
+    for (int i = 0; i < tube_rollers; ++i)
+      out.push_back({.pose = turned(-1.55 + 0.4 * i, -rest, 0, -roller_angle)});
   for (int i = 0; i < cleats; ++i)
     out.push_back(at(belt_x + std::fmod(outfeed_.belt_travel() + belt * i / cleats, belt), -0.002));
   for (const Outfeed::Piece& piece : outfeed_.pieces()) {

@@ -93,6 +93,14 @@ Extent grown(const Extent& extent, double border) {
 
 std::vector<Vec3> outline(const SolidPart& part, const Placement& placement) {
   std::vector<Vec3> points;
+  if (part.mesh) {
+    for (const Vec3& corner : part.mesh->hull) {
+      const Vec3 scaled = {corner[0] * placement.scale[0], corner[1] * placement.scale[1],
+                           corner[2] * placement.scale[2]};
+      points.push_back(placement.position + rotated(placement.rotation, scaled));
+    }
+    return points;
+  }
   const Vec3 half = {part.size[0] * placement.scale[0] / 2, part.size[1] * placement.scale[1] / 2,
                      part.size[2] * placement.scale[2] / 2};
   const auto add = [&](double x, double y) {

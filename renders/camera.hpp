@@ -12,7 +12,8 @@ struct Extent {
   Vec3 high = {0, 0, 0};
 };
 
-/// Points [m, world] whose hull is the part as placed: corners of a box or wedge, rims of a cylinder.
+/// Points [m, world] whose hull is the part as placed: corners of a box or wedge, rims of a
+/// cylinder, outstanding corners of a mesh.
 std::vector<Vec3> outline(const SolidPart& part, const Placement& placement);
 
 /// Where the mechanism is over the whole film: the parts that are visible in every frame, are not of the

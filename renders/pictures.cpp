@@ -33,6 +33,32 @@ void require(bool good, const std::string& otherwise) {
   if (!good) throw std::invalid_argument("pictures: " + otherwise);
 }
 
+std::filesystem::path frame_file(const std::filesystem::path& directory, std::size_t number) {
+  return directory / fmt::format("frame_{:05}.png", number);
+}
+
+/// Draws the frames whose number is taken from `next`, until none is left, in a context of its own.
+void draw_frames(const Film& film, const CaptionLayout& caption, const std::filesystem::path& directory,
+                 std::atomic<std::size_t>& next, const std::function<void()>& drawn) {
+  GlRenderer renderer(
+      {film.camera, mechanism_extent(film), floor_level(film), film.width, film.height - caption.height()});
+  Image image(film.width, film.height);
+  std::vector<Vertex> triangles;
+  for (auto number = next++; number < film.frames.size(); number = next++) {
+    const Frame& frame = film.frames[number];
+    triangles.clear();
+    for (std::size_t i = 0; i < film.parts.size(); ++i) {
+      if (frame.placements[i].visible) append_solid(triangles, film.parts[i], frame.placements[i]);
+    }
+    renderer.draw(triangles, image);
+    caption.draw(frame, image);
+    write_file(frame_file(directory, number), png_bytes(image));
+    drawn();
+  }
+}
+
+}  // namespace
+
 void require_drawable(const Film& film) {
   require(film.width >= kSmallest && film.width <= kLargest && film.height >= kSmallest &&
               film.height <= kLargest,
@@ -65,32 +91,6 @@ void require_drawable(const Film& film) {
     }
   }
 }
-
-std::filesystem::path frame_file(const std::filesystem::path& directory, std::size_t number) {
-  return directory / fmt::format("frame_{:05}.png", number);
-}
-
-/// Draws the frames whose number is taken from `next`, until none is left, in a context of its own.
-void draw_frames(const Film& film, const CaptionLayout& caption, const std::filesystem::path& directory,
-                 std::atomic<std::size_t>& next, const std::function<void()>& drawn) {
-  GlRenderer renderer(
-      {film.camera, mechanism_extent(film), floor_level(film), film.width, film.height - caption.height()});
-  Image image(film.width, film.height);
-  std::vector<Vertex> triangles;
-  for (auto number = next++; number < film.frames.size(); number = next++) {
-    const Frame& frame = film.frames[number];
-    triangles.clear();
-    for (std::size_t i = 0; i < film.parts.size(); ++i) {
-      if (frame.placements[i].visible) append_solid(triangles, film.parts[i], frame.placements[i]);
-    }
-    renderer.draw(triangles, image);
-    caption.draw(frame, image);
-    write_file(frame_file(directory, number), png_bytes(image));
-    drawn();
-  }
-}
-
-}  // namespace
 
 std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
                                              const std::function<void(int)>& progress, int threads) {

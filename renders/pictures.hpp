@@ -8,6 +8,9 @@
 
 namespace drycut::renders {
 
+/// Throws std::invalid_argument if the film cannot be drawn: sizes, materials, poses that are not finite.
+void require_drawable(const Film& film);
+
 /// Draws every frame of `film` to `directory`/frame_00000.png ... and returns the paths. `progress` is called
 /// with the number of frames done, by one thread at a time. Same film, same bytes on the same machine,
 /// whatever the number of `threads` that draw. Throws std::runtime_error if the context cannot be made or a

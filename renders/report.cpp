@@ -16,6 +16,15 @@ namespace {
 
 const char* state(bool passed) { return passed ? "pass" : "fail"; }
 
+/// What the page is headed with, and its colour.
+std::string verdict_word(const Report& report) {
+  if (!report.word.empty()) return report.word;
+  return report.passed ? "PASS" : "FAIL";
+}
+const char* verdict_state(const Report& report) {
+  return report.word.empty() ? state(report.passed) : "told";
+}
+
 std::string picture(const ReportFigure& figure) {
   const std::string bytes = read_file(figure.png);
   if (bytes.rfind("\x89PNG\r\n", 0) != 0)
@@ -55,11 +64,11 @@ void write_head(std::string& page, const Report& report) {
   page += "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
   page += fmt::format("<title>{}: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-                      report.passed ? "PASS" : "FAIL", html_text(report.title), kReportStyle);
+                      html_text(verdict_word(report)), html_text(report.title), kReportStyle);
   page += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n", html_text(report.title),
                       html_text(report.scenario));
   page += fmt::format("<p class=\"verdict {}\"><strong>{}</strong> <span>{}</span></p>\n",
-                      state(report.passed), report.passed ? "PASS" : "FAIL", html_text(report.verdict));
+                      verdict_state(report), html_text(verdict_word(report)), html_text(report.verdict));
 }
 
 void write_facts(std::string& page, const std::vector<ReportRow>& facts) {
@@ -128,12 +137,26 @@ void write_plots(std::string& page, const Report& report) {
   }
 }
 
+/// "PASS 0.05 mm left\n10 cuts": the badge, the rest, and the second line small.
+std::string verdict_cell(const std::string& cell) {
+  const bool judged = cell.starts_with("PASS") || cell.starts_with("FAIL");
+  const std::size_t word = judged ? 4 : 0;
+  const std::size_t end = std::min(cell.find('\n'), cell.size());
+  std::string html;
+  if (judged)
+    html = fmt::format("<span class=\"badge {}\">{}</span>", state(cell[0] == 'P'), cell.substr(0, word));
+  html += html_text(cell.substr(word, end - word));
+  if (end < cell.size()) html += fmt::format("<small>{}</small>", html_text(cell.substr(end + 1)));
+  return html;
+}
+
 void write_rows(std::string& page, const ReportTable& table) {
   const std::vector<bool> numbers = number_columns(table);
   const auto kind = [&](std::size_t column) {
     return column < numbers.size() && numbers[column] ? " class=\"number\"" : "";
   };
-  page += "<div class=\"scroll\">\n<table>\n<thead><tr>";
+  // Verdicts are read whole, as checks are.
+  page += fmt::format("<div class=\"scroll{}\">\n<table>\n<thead><tr>", table.verdicts ? " checks" : "");
   for (std::size_t i = 0; i < table.headings.size(); ++i) {
     page += fmt::format("<th{}>{}</th>", kind(i), html_text(table.headings[i]));
   }
@@ -141,7 +164,8 @@ void write_rows(std::string& page, const ReportTable& table) {
   for (const ReportRow& row : table.rows) {
     page += "<tr>";
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
-      page += fmt::format("<td{}>{}</td>", kind(i), html_text(row.cells[i]));
+      const std::string& cell = row.cells[i];
+      page += fmt::format("<td{}>{}</td>", kind(i), table.verdicts ? verdict_cell(cell) : html_text(cell));
     }
     page += "</tr>\n";
   }
@@ -188,6 +212,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   write_head(page, report);
   write_facts(page, report.facts);
   write_checks(page, report.checks);
+  for (const ReportTable& table : report.summary) write_table(page, table);
   write_frames(page, report);
   write_plots(page, report);
   // What is folded goes to the end: first what is read, then what is looked up.

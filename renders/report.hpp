@@ -23,6 +23,8 @@ struct ReportTable {
   std::vector<std::string> headings;
   std::vector<ReportRow> rows;
   bool folded = false;  ///< shown closed, to be opened by a click
+  /// Cells that begin with PASS or FAIL show the word as a badge; what follows a line end is shown small.
+  bool verdicts = false;
 };
 
 struct ReportFigure {
@@ -35,9 +37,11 @@ struct Report {
   std::string title;
   std::string scenario;  ///< file name
   bool passed = false;
+  std::string word;     ///< in place of PASS or FAIL where nothing was judged: "SAME", "DIFFERENT"
   std::string verdict;  ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
   std::vector<ReportCheck> checks;
+  std::vector<ReportTable> summary;  ///< what is read before the pictures: a comparison
   std::vector<ReportFigure> frames;  ///< chosen frames, shown as a strip
   std::filesystem::path video;       ///< MP4 of all frames, "" = none
   std::vector<ReportFigure> plots;

@@ -23,6 +23,7 @@ header p { margin: 0; color: var(--soft); overflow-wrap: anywhere; }
 .verdict strong { font-size: 1.6rem; letter-spacing: 0.05em; }
 .verdict.pass { color: var(--pass); background: var(--pass-ground); border-color: var(--pass); }
 .verdict.fail { color: var(--fail); background: var(--fail-ground); border-color: var(--fail); }
+.verdict.told { color: var(--accent); background: var(--card); border-color: var(--accent); }
 .verdict span { color: var(--ink); overflow-wrap: anywhere; }
 dl.facts { display: flex; flex-wrap: wrap; gap: 1px; margin: 20px 0 0; background: var(--line);
   border: 1px solid var(--line); border-radius: 10px; overflow: hidden; }

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,13 +9,24 @@ namespace drycut::renders {
 // What the renderer draws: plain data, filled by the simulation from recorded poses. Metres; x along the line
 // in web direction, y up, z across the line towards the operator.
 
+/// A surface of triangles in a part's own coordinates [m].
+struct Mesh {
+  struct Corner {
+    std::array<float, 3> position;
+    std::array<float, 3> normal;
+  };
+  std::vector<Corner> corners;              ///< three a triangle, counter-clockwise seen from outside
+  std::vector<std::array<double, 3>> hull;  ///< those that stand out: what a camera must see
+};
+
 struct SolidPart {
   enum class Shape { box, cylinder, wedge };  ///< cylinder axis: z; wedge: a blade, edge towards -y
   std::string name;
   Shape shape = Shape::box;
   std::array<double, 3> size = {1, 1, 1};  ///< box: x y z; cylinder: diameter, diameter, length; wedge: x y z
   std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
-  std::string material = "steel";  ///< "steel", "paint", "rubber", "web", "blade"
+  std::string material = "steel";         ///< "steel", "paint", "rubber", "web", "blade"
+  std::shared_ptr<const Mesh> mesh = {};  ///< drawn in place of the shape; null = none
 };
 
 /// Where a part is in one frame.

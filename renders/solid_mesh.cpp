@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renders/geometry.hpp"
+#include "renders/mesh.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -178,6 +179,29 @@ void wedge(Builder& build, const Vec3& half, const Colour& colour) {
   build.polygon({right_back, edge_back, left_back}, colour);
 }
 
+/// The part's mesh as it is placed. Thousands of corners turn alike, so the rotation is made a matrix once.
+void append_mesh(std::vector<Vertex>& triangles, const SolidPart& part, const Placement& placement,
+                 const Material& material) {
+  std::array<Vec3, 3> axes{};  // the part's own, in the world
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3 axis = {0, 0, 0};
+    axis[i] = 1;
+    axes[i] = rotated(placement.rotation, axis);
+  }
+  const auto turned = [&](double x, double y, double z) { return x * axes[0] + y * axes[1] + z * axes[2]; };
+  const auto& s = placement.scale;
+  const bool even = s[0] == s[1] && s[1] == s[2];
+  for (const auto& corner : part.mesh->corners) {
+    const auto& p = corner.position;
+    const auto& n = corner.normal;
+    const Vec3 position = placement.position + turned(s[0] * p[0], s[1] * p[1], s[2] * p[2]);
+    const Vec3 normal =
+        even ? turned(n[0], n[1], n[2]) : normalised(turned(n[0] / s[0], n[1] / s[1], n[2] / s[2]));
+    triangles.push_back(
+        {as_floats(position), as_floats(normal), part.colour, {material.reflection, material.gloss}});
+  }
+}
+
 }  // namespace
 
 const Material* find_material(std::string_view name) {
@@ -192,6 +216,7 @@ std::string_view material_names() { return "steel, paint, rubber, web, blade"; }
 void append_solid(std::vector<Vertex>& triangles, const SolidPart& part, const Placement& placement) {
   const Material* material = find_material(part.material);
   assert(material != nullptr);
+  if (part.mesh) return append_mesh(triangles, part, placement, *material);
   Builder build(triangles, placement, *material);
   const Vec3 half = {part.size[0] * placement.scale[0] / 2, part.size[1] * placement.scale[1] / 2,
                      part.size[2] * placement.scale[2] / 2};

@@ -69,12 +69,11 @@ class Connector {
     const auto address = terminal(wire.terminal);
     if (!address) return;
     if (!bus_.wired_.insert(*address).second) {
-      problem(wire.terminal.place, fmt::format("{} is wired already", to_string(*address)),
+      problem(wire.terminal.place, fmt::format("{} is wired already", controller_.terminal_name(*address)),
               "a terminal takes one wire; remove this one");
       return;
     }
-    const auto looped = address->kind == Kind::counter ? devices::parse_base_terminal(wire.plug.text)
-                                                       : std::optional<Address>();
+    const auto looped = address->kind == Kind::counter ? own_terminal(wire.plug) : std::nullopt;
     if (looped) {
       connect_loop(*address, wire, *looped);
     } else if (wire.plug.text.starts_with("panel.")) {
@@ -89,49 +88,21 @@ class Connector {
     problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 
-  /// The terminal, if it is one and the controller uses it.
+  /// The terminal, if it is one of the controller.
   std::optional<Address> terminal(const Text& text) {
-    if (const auto base = controller_.base_terminals(); !base.empty()) {
-      const auto built_in = devices::parse_base_terminal(text.text);
-      if (built_in && controller_.offer(*built_in)) return built_in;
-      problem(text.place, fmt::format("'{}' is not a terminal of the controller", text.text),
-              std::string(base));
-      return {};
-    }
-    const auto address = devices::parse_address(text.text);
-    if (!address) {
-      problem(text.place, fmt::format("'{}' is not a terminal of the controller", text.text),
-              "write slot.CNTnn, slot.INPnn, slot.OUTnn, slot.ANnn or INTn");
-      return {};
-    }
-    if (address->kind == Kind::counter && address->slot == 1) {
-      problem(text.place, fmt::format("{} is a simulated counter of the CPU", to_string(*address)),
-              "nothing is wired to slot 1; wire a counter of another slot");
-      return {};
-    }
-    if (address->kind == Kind::interrupt) return address;
-    const auto known = used_terminals(address->kind);
-    if (std::find(known.begin(), known.end(), to_string(*address)) == known.end()) {
-      problem(text.place, fmt::format("the configuration uses no {}", to_string(*address)),
-              fmt::format("its {} terminals are: {}", name_of(address->kind), list(known, "none")));
-      return {};
-    }
-    return address;
+    const auto found = controller_.terminal(text.text);
+    if (const auto* address = std::get_if<Address>(&found)) return *address;
+    const auto& fault = std::get<devices::TerminalFault>(found);
+    problem(text.place, fault.what, fault.remedy);
+    return {};
   }
 
-  std::vector<std::string> used_terminals(Kind kind) {
-    std::vector<std::string> names;
-    const auto collect = [&](const auto& terminals) {
-      for (const auto& [address, terminal] : terminals) {
-        if (address.kind == kind && !(kind == Kind::counter && address.slot == 1))
-          names.push_back(to_string(address));
-      }
-    };
-    collect(controller_.cards().counters);
-    collect(controller_.cards().inputs);
-    collect(controller_.cards().outputs);
-    collect(controller_.cards().analogue_outputs);
-    return names;
+  /// A plug that is no plug of a plant but a terminal of the controller itself.
+  std::optional<Address> own_terminal(const Text& plug) {
+    if (ports_.contains(plug.text)) return {};
+    const auto found = controller_.terminal(plug.text);
+    const auto* address = std::get_if<Address>(&found);
+    return address == nullptr ? std::nullopt : std::optional(*address);
   }
 
   const plants::Port* plug(const Text& text) {
@@ -168,9 +139,10 @@ class Connector {
   /// A pulse output of the controller, counted by one of its own counters: the manual's way to have a master.
   void connect_loop(const Address& address, const Wire& wire, const Address& from) {
     auto& cards = controller_.cards();
-    if (from.kind != Kind::output || !controller_.offer(from) || !cards.pulse_outputs.contains(from)) {
+    if (!cards.pulse_outputs.contains(from)) {
       problem(wire.plug.place,
-              fmt::format("{} gives no pulses that {} could count", wire.plug.text, to_string(address)),
+              fmt::format("{} gives no pulses that {} could count", wire.plug.text,
+                          controller_.terminal_name(address)),
               "wire an encoder to it, or a pulse output of the controller");
       return;
     }
@@ -182,8 +154,11 @@ class Connector {
     auto& trains = controller_.cards().pulse_outputs;
     if (const auto found = trains.find(address); found == trains.end()) {
       problem(wire.plug.place,
-              fmt::format("{} gives no pulses, {} is a pulse train", to_string(address), wire.plug.text),
-              address.slot == 0 ? "wire it to Y0, Y1, Y2 or Y3" : "this controller has no pulse outputs");
+              fmt::format("{} gives no pulses, {} is a pulse train", controller_.terminal_name(address),
+                          wire.plug.text),
+              controller_.pulse_terminals().empty()
+                  ? "this controller has no pulse outputs"
+                  : fmt::format("wire it to {}", controller_.pulse_terminals()));
     } else if (sole_driver(address, wire)) {
       bus_.pulses_.push_back({&found->second, port});
     }
@@ -194,8 +169,8 @@ class Connector {
       return connect_pulses(address, wire, std::get<plants::PulsePort*>(port.plug));
     if (port.plug.index() != plug_for(address.kind)) {
       problem(wire.plug.place,
-              fmt::format("{} is a {}, {} is {}", to_string(address), name_of(address.kind), wire.plug.text,
-                          kind_of(port)),
+              fmt::format("{} is a {}, {} is {}", controller_.terminal_name(address), name_of(address.kind),
+                          wire.plug.text, kind_of(port)),
               fmt::format("wire it to one of: {}",
                           list(plugs_of_kind(plug_for(address.kind)), "no plug of that kind here")));
       return;
@@ -218,7 +193,8 @@ class Connector {
         break;
       case Kind::analogue:
         if (sole_driver(address, wire)) {
-          bus_.analogue_outputs_.push_back({address, wire.plug.text, &cards.analogue_outputs.at(address),
+          bus_.analogue_outputs_.push_back({address, controller_.terminal_name(address), wire.plug.text,
+                                            &cards.analogue_outputs.at(address),
                                             std::get<plants::ReferencePort*>(port.plug)});
         }
         break;
@@ -247,8 +223,8 @@ class Connector {
       case Kind::counter:
       case Kind::analogue:
         problem(wire.plug.place,
-                fmt::format("{} is a {}, the panel has switches and lamps", to_string(address),
-                            name_of(address.kind)),
+                fmt::format("{} is a {}, the panel has switches and lamps",
+                            controller_.terminal_name(address), name_of(address.kind)),
                 fmt::format("wire it to one of: {}",
                             list(plugs_of_kind(plug_for(address.kind)), "no plug of that kind here")));
         return;
@@ -263,8 +239,9 @@ class Connector {
   bool sole_driver(const Address& address, const Wire& wire) {
     const auto [at, fresh] = drivers_.emplace(wire.plug.text, address);
     if (!fresh) {
-      problem(wire.plug.place, fmt::format("{} already drives {}", to_string(at->second), wire.plug.text),
-              fmt::format("wire {} elsewhere: a plug has one driver", to_string(address)));
+      problem(wire.plug.place,
+              fmt::format("{} already drives {}", controller_.terminal_name(at->second), wire.plug.text),
+              fmt::format("wire {} elsewhere: a plug has one driver", controller_.terminal_name(address)));
     }
     return fresh;
   }
@@ -289,8 +266,9 @@ std::vector<std::string> Bus::unwired() const {
   std::vector<std::string> names;
   const auto collect = [&](const auto& terminals) {
     for (const auto& [address, terminal] : terminals) {
-      if (address.kind == Kind::counter && address.slot == 1) continue;
-      if (!wired_.contains(address) && !looped_.contains(address)) names.push_back(to_string(address));
+      if (!controller_->takes_wire(address)) continue;
+      if (!wired_.contains(address) && !looped_.contains(address))
+        names.push_back(controller_->terminal_name(address));
     }
   };
   if (controller_ == nullptr) return names;

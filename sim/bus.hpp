@@ -38,7 +38,7 @@ class Bus {
   void connect(const Scenario& scenario, devices::Controller& controller,
                const std::vector<NamedPlant>& plants, devices::Problems& problems);
 
-  /// Counters, inputs and outputs that the controller uses and nothing is wired to, simulated counters apart.
+  /// Terminals that the controller uses and nothing is wired to.
   [[nodiscard]] std::vector<std::string> unwired() const;
 
   /// Controller outputs to plant commands and references.
@@ -51,6 +51,7 @@ class Bus {
   /// would.
   struct AnalogueWire {
     devices::Address terminal;
+    std::string terminal_name;
     std::string plug;
     const devices::AnalogueOutput* from;
     plants::ReferencePort* to;

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "devices/catalogue.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
+#include "devices/plcopen/any_case.hpp"
+#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/tab_file.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"
@@ -16,6 +21,8 @@ namespace {
 namespace qmove = devices::qmove;
 
 namespace lx3vp = devices::lx3vp;
+
+namespace plcopen = devices::plcopen;
 
 /// Values that the scenario sets before power-up.
 void set_values(const std::vector<std::pair<Text, double>>& values, const Scenario& scenario,
@@ -111,13 +118,145 @@ std::unique_ptr<devices::Controller> load_lx3vp(const Lx3vpSection& section, con
   return controller;
 }
 
-}  // namespace
+/// The cam tables, each under its file's name and its own id.
+std::vector<plcopen::CamTable> read_tables(const PlcopenSection& section, const Scenario& scenario,
+                                           devices::Problems& problems) {
+  std::vector<plcopen::CamTable> tables;
+  for (const auto& entry : section.tables) {
+    const auto path = scenario.file.parent_path() / entry.file.text;
+    const auto complain = [&](std::string what, std::string remedy) {
+      problems.push_back(problem_at(scenario, entry.file.place, std::move(what), std::move(remedy)));
+    };
+    if (path.extension() != ".tab" && path.extension() != ".csv") {
+      complain(fmt::format("'{}' is no kind of cam table that is known", entry.file.text),
+               "give a table of the kernel (.tab) or a cam as CSV (.csv)");
+      continue;
+    }
+    const auto text = read_file(path, problems, problem_at(scenario, entry.file.place, "", ""));
+    if (!text) continue;
+    std::optional<plcopen::CamTable> table;
+    if (path.extension() == ".tab") {
+      table = plcopen::parse_tab(*text, path.string(), problems);
+    } else if (auto cam = plcopen::parse_cam_csv(*text, path.string(), problems)) {
+      table = std::move(cam->table);
+    }
+    if (!table) continue;
+    table->file = path.filename().string();
+    if (entry.id != 0) table->id = static_cast<std::uint16_t>(entry.id);
+    for (const auto& other : tables) {
+      if (other.id == table->id)
+        complain(fmt::format("{} has id {}, as {} has", table->file, table->id, other.file),
+                 fmt::format("give one an id of its own: {{file: {}, id: {}}}", entry.file.text,
+                             tables.size() + 1));
+      else if (other.file == table->file)
+        complain(fmt::format("two tables are called {}", table->file),
+                 "programs find them by name: rename one");
+    }
+    tables.push_back(std::move(*table));
+  }
+  return tables;
+}
 
-std::optional<std::filesystem::path> retentive_file(const Scenario& scenario) {
+/// What the program names must be there: axes and tables.
+void check_names(const plcopen::st::Program& program, const std::string& file,
+                 const plcopen::Configuration& configuration, devices::Problems& problems) {
+  const auto check = [&](const std::vector<plcopen::st::Program::Name>& wanted,
+                         const std::vector<std::string>& there, bool any_case, std::string_view what,
+                         std::string_view section) {
+    for (const auto& name : wanted) {
+      const auto same = [&](const std::string& other) {
+        return any_case ? plcopen::lower(other) == plcopen::lower(name.name) : other == name.name;
+      };
+      if (std::any_of(there.begin(), there.end(), same)) continue;
+      const auto near = devices::nearest(name.name, there);
+      problems.push_back(
+          {file, name.line, name.column, fmt::format("the scenario has no {} '{}'", what, name.name),
+           near.empty()
+               ? fmt::format("add it to controller.plcopen.{}", section)
+               : fmt::format("did you mean {}? Else add it to controller.plcopen.{}", near, section)});
+    }
+  };
+  std::vector<std::string> axes;
+  std::vector<std::string> tables;
+  for (const auto& axis : configuration.axes) axes.push_back(axis.name);
+  for (const auto& table : configuration.tables) tables.push_back(table.file);
+  check(program.externals(), axes, true, "axis", "axes");
+  check(program.tables(), tables, false, "cam table", "tables");
+}
+
+/// A value takes only what it holds.
+void check_ranges(const PlcopenSection& section, const Scenario& scenario, devices::Controller& controller,
+                  devices::Problems& problems) {
+  for (const auto& [name, number] : section.set) {
+    const auto value = controller.find(name.text);
+    if (!value || !value->write || !value->range) continue;  // told by set_values, or any number fits
+    if (number >= value->range->first && number <= value->range->second) continue;
+    problems.push_back(problem_at(scenario, name.place,
+                                  fmt::format("{} does not hold {}", value->name, number),
+                                  fmt::format("write {} to {}{}{}", value->range->first, value->range->second,
+                                              value->unit.empty() ? "" : " ", value->unit)));
+  }
+}
+
+std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section, const Scenario& scenario,
+                                                  devices::Problems& problems) {
+  const auto before = problems.size();
+  const auto file = (scenario.file.parent_path() / section.program.text).string();
+  plcopen::Configuration configuration;
+  configuration.cycle_ns = section.cycle;
+  configuration.task_ns = section.task_cycle;
+  for (const auto& axis : section.axes) configuration.axes.push_back(axis.configuration);
+  configuration.tables = read_tables(section, scenario, problems);
+  const bool tables_sound = problems.size() == before;
+  plcopen::st::Program program;
+  if (const auto text = read_file(file, problems, problem_at(scenario, section.program.place, "", ""))) {
+    program = plcopen::st::compile(*text, file, problems);
+    // A table that could not be read is not missing.
+    if (tables_sound) check_names(program, file, configuration, problems);
+  }
+  if (problems.size() != before) return nullptr;
+  auto controller =
+      std::make_unique<plcopen::PlcopenController>(std::move(program), file, std::move(configuration));
+  restore(section.retentive, scenario, *controller, problems);
+  check_ranges(section, scenario, *controller, problems);
+  set_values(section.set, scenario, *controller,
+             "name a variable of the program, or a value or parameter of an axis (drycut devices AXIS)",
+             problems);
+  return controller;
+}
+
+/// nullptr if the scenario names none.
+const Text* retentive_text(const Scenario& scenario) {
   const Text* path = nullptr;
   if (const auto* section = std::get_if<QmoveSection>(&scenario.controller)) path = &section->retentive;
   if (const auto* section = std::get_if<Lx3vpSection>(&scenario.controller)) path = &section->retentive;
-  if (path == nullptr || path->text.empty()) return {};
+  if (const auto* section = std::get_if<PlcopenSection>(&scenario.controller)) path = &section->retentive;
+  return path == nullptr || path->text.empty() ? nullptr : path;
+}
+
+}  // namespace
+
+std::vector<Text> controller_files(const Scenario& scenario) {
+  std::vector<Text> files;
+  if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) {
+    files = qmove->tasks;
+    files.push_back(qmove->configuration);
+  }
+  if (const auto* lx3vp = std::get_if<Lx3vpSection>(&scenario.controller)) {
+    files.push_back(lx3vp->program);
+    if (!lx3vp->registers.text.empty()) files.push_back(lx3vp->registers);
+  }
+  if (const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller)) {
+    files.push_back(plcopen->program);
+    for (const auto& table : plcopen->tables) files.push_back(table.file);
+  }
+  if (const auto* retentive = retentive_text(scenario)) files.push_back(*retentive);
+  return files;
+}
+
+std::optional<std::filesystem::path> retentive_file(const Scenario& scenario) {
+  const auto* path = retentive_text(scenario);
+  if (path == nullptr) return {};
   return scenario.file.parent_path() / path->text;
 }
 
@@ -126,6 +265,8 @@ std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, d
     return load_qmove(*section, scenario, problems);
   if (const auto* section = std::get_if<Lx3vpSection>(&scenario.controller))
     return load_lx3vp(*section, scenario, problems);
+  if (const auto* section = std::get_if<PlcopenSection>(&scenario.controller))
+    return load_plcopen(*section, scenario, problems);
   return nullptr;
 }
 

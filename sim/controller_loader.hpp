@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "devices/controller.hpp"
 #include "devices/problem.hpp"
@@ -14,6 +15,9 @@ namespace drycut::sim {
 /// Retentive values come from the scenario's retentive file where it names one that exists; what the scenario
 /// sets itself comes after.
 std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems);
+
+/// The files that the controller is made of, as the scenario names them.
+std::vector<Text> controller_files(const Scenario& scenario);
 
 /// The file that keeps the controller's retentive values from run to run, if the scenario names one.
 std::optional<std::filesystem::path> retentive_file(const Scenario& scenario);

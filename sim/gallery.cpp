@@ -11,9 +11,12 @@
 
 #include "renders/caption_bar.hpp"
 #include "renders/filmstrip.hpp"
+#include "renders/mesh.hpp"
+#include "renders/part_models.hpp"
 #include "renders/pictures.hpp"
 #include "renders/video.hpp"
 #include "sim/results.hpp"
+#include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/parameter_text.hpp"
 
 namespace drycut::sim {
@@ -26,11 +29,25 @@ constexpr auto* video_file = "film.mp4";
 constexpr auto* strip_file = "filmstrip.png";
 constexpr auto* report_file = "report.html";
 
+/// Models that are used more than once are read once.
+class Models {
+ public:
+  std::shared_ptr<const renders::Mesh> stretched(const plants::Part& part) {
+    if (part.model.empty()) return nullptr;
+    auto found = read_.find(part.model);
+    if (found == read_.end()) found = read_.emplace(part.model, renders::part_model(part.model)).first;
+    return std::make_shared<const renders::Mesh>(renders::stretched(found->second, part.size));
+  }
+
+ private:
+  std::map<std::string, renders::Mesh> read_;
+};
+
 renders::SolidPart solid(const std::string& plant, const plants::Part& part) {
   const auto shape = part.shape == plants::Part::Shape::box        ? renders::SolidPart::Shape::box
                      : part.shape == plants::Part::Shape::cylinder ? renders::SolidPart::Shape::cylinder
                                                                    : renders::SolidPart::Shape::wedge;
-  return {plant + "." + part.name, shape, part.size, part.colour, part.material};
+  return {plant + "." + part.name, shape, part.size, part.colour, part.material, {}};
 }
 
 /// A caption's number with as many digits as an operator's panel would show.
@@ -73,6 +90,21 @@ renders::ReportTable parameter_table(const PlantEntry& entry) {
   for (const auto& parameter : entry.definition->parameters()) {
     table.rows.push_back({{parameter.name, value_text(parameter), std::string(parameter.meaning),
                            given(parameter.name) ? "the scenario" : std::string(parameter.source)}});
+  }
+  return table;
+}
+
+renders::ReportTable axis_table(const PlcopenSection::Axis& axis) {
+  renders::ReportTable table{fmt::format("Parameters of axis {} at the start", axis.name.text),
+                             {"parameter", "value", "meaning", "from"},
+                             {},
+                             true};
+  const auto& [name, parameters, measure] = axis.configuration;
+  for (const auto& row : devices::plcopen::axis_parameter_table()) {
+    const bool given = std::any_of(axis.places.begin(), axis.places.end(),
+                                   [&](const auto& p) { return p.first == row.name; });
+    table.rows.push_back({{std::string(row.name), axis_value_text(row, parameters.*row.member, measure),
+                           std::string(row.meaning), given ? "the scenario" : std::string(row.number)}});
   }
   return table;
 }
@@ -156,13 +188,18 @@ std::vector<renders::CaptionItem> film_caption(const PicturesSection& pictures,
 
 }  // namespace
 
-renders::Film film_of(const Scenario& scenario, const Simulation& simulation) {
+renders::Film film_of(const Scenario& scenario, const Simulation& simulation, const PartMeshes& meshes) {
   renders::Film film;
   film.title = scenario.scene.title;
   film.width = scenario.pictures.width;
   film.height = scenario.pictures.height;
+  Models models;
   for (const auto& [name, plant] : simulation.plants()) {
-    for (const auto& part : plant->parts()) film.parts.push_back(solid(name, part));
+    for (const auto& part : plant->parts()) {
+      auto& drawn = film.parts.emplace_back(solid(name, part));
+      const auto own = meshes.find(drawn.name);
+      drawn.mesh = own == meshes.end() ? models.stretched(part) : own->second;
+    }
   }
   for (const auto& shot : simulation.snapshots()) {
     renders::Frame frame;
@@ -222,18 +259,19 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   if (!others.rows.empty()) report.tables.push_back(std::move(others));
   if (auto table = controller_table(simulation); !table.rows.empty())
     report.tables.push_back(std::move(table));
+  if (const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller))
+    for (const auto& axis : plcopen->axes) report.tables.push_back(axis_table(axis));
   for (const auto& entry : scenario.plants) report.tables.push_back(parameter_table(entry));
   report.scenario_expanded = expand(scenario);
   return report;
 }
 
-void write_pictures(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                    const std::filesystem::path& directory, int threads,
+void write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
+                    const Outcome& outcome, const std::filesystem::path& directory, int threads,
                     const std::function<void(const char*, double)>& progress) {
   Drawn drawn;
   std::exception_ptr no_film;
-  if (!simulation.snapshots().empty()) {
-    const auto film = film_of(scenario, simulation);
+  if (!film.frames.empty()) {
     const auto count = static_cast<double>(film.frames.size());
     drawn.frames = renders::draw_film(
         film, directory / frames_folder, [&](int done) { progress("drawing", done / count); }, threads);

@@ -6,14 +6,15 @@
 #include "renders/plots.hpp"
 #include "renders/report.hpp"
 #include "renders/scene3d.hpp"
+#include "sim/part_meshes.hpp"
 #include "sim/simulation.hpp"
 
 namespace drycut::sim {
 
 // From what was recorded to what is shown: fills the structs of renders/.
 
-/// The frames of a run, with captions.
-renders::Film film_of(const Scenario& scenario, const Simulation& simulation);
+/// The frames of a run, with captions. A part is drawn by the user's mesh, else by its model.
+renders::Film film_of(const Scenario& scenario, const Simulation& simulation, const PartMeshes& meshes = {});
 
 /// The plots that the scenario asks for; where it asks for none, one with the recorded channels, a panel a
 /// unit.
@@ -29,11 +30,11 @@ struct Drawn {
 renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
                           Drawn drawn);
 
-/// Everything that is drawn of a run: frames/, film.mp4, filmstrip.png, plots/ and report.html in
-/// `directory`. `progress` is told what is being done and which share of it is. Throws std::runtime_error if
-/// something cannot be drawn or written.
-void write_pictures(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                    const std::filesystem::path& directory, int threads,
+/// Everything that is drawn of a run and its `film`: frames/, film.mp4, filmstrip.png, plots/ and report.html
+/// in `directory`. `progress` is told what is being done and which share of it is. Throws std::runtime_error
+/// if something cannot be drawn or written.
+void write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
+                    const Outcome& outcome, const std::filesystem::path& directory, int threads,
                     const std::function<void(const char*, double)>& progress);
 /// Removes what write_pictures left in an earlier run.
 void remove_pictures(const std::filesystem::path& directory);

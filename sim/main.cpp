@@ -21,6 +21,7 @@ void add_cam(CLI::App& app, CamOptions& options, int& status) {
       "Validate a cam table without a machine: its sectors or rows, errors, warnings and violated limits.\n"
       "CAMMING4: positions in Um, speeds in 10^decpt Um per minute or second (unitvel), as maxvel.\n"
       "LX3VP: positions in pulses, speeds in pulses per second.\n"
+      "MC_CamIn: positions in 0.1 um or 0.0001 deg, speeds in mm/s or deg/s.\n"
       "Exit status: 0 sound (warnings are printed), 1 an error or a violated limit, 2 bad input");
   std::string headers;
   std::vector<std::string> devices;
@@ -28,15 +29,15 @@ void add_cam(CLI::App& app, CamOptions& options, int& status) {
     headers += (headers.empty() ? "" : "; ") + std::string(kind.header);
     devices.emplace_back(kind.name);
   }
-  cam->add_option("table", options.table, "Cam table (.csv): " + headers)->required();
+  cam->add_option("table", options.table, "Cam table (.csv, .tab): " + headers)->required();
   cam->add_option("--device", options.device, "Device that runs the cam; else by the table's header")
       ->check(CLI::IsMember(devices));
   cam->add_option("--master-speed", options.duty.master_speed,
                   "Speed of the master: results in time too, and what depends on it is judged");
   cam->add_option("--max-velocity", options.duty.max_velocity, "Limit of the slave's velocity");
   cam->add_option("--max-acceleration", options.duty.max_acceleration,
-                  "Limit of the slave's acceleration [Um/s2, pulses/s2]");
-  cam->add_option("--at", options.at, "Sample at these master positions [Um, pulses], M1,M2,...")
+                  "Limit of the slave's acceleration [Um/s2, pulses/s2, mm/s2 or deg/s2]");
+  cam->add_option("--at", options.at, "Sample at these master positions, in the table's unit, M1,M2,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   cam->add_option("--csv", options.csv, "Write the samples; - prints them, the report to standard error");
@@ -129,6 +130,24 @@ void add_tune(CLI::App& app, TuneOptions& options, int& status) {
   tune->callback([&] { status = tune_scenarios(options); });
 }
 
+void add_compare(CLI::App& app, CompareOptions& options, int& status) {
+  auto* compare = app.add_subcommand(
+      "compare",
+      "Compare runs: checks, cuts and other events, channels, parameters in force; report.html, plots and\n"
+      "comparison.csv.\n"
+      "Exit status: 0 compared, 1 different and --fail-on-difference, 2 bad input");
+  compare->add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
+      ->required();
+  compare->add_option("--out", options.out, "Directory for the results")->capture_default_str();
+  compare->add_option(
+      "--from", options.from,
+      "Figures look from this time on, as \"4 s\"; else where the plot with the limits begins");
+  compare->add_flag("--fail-on-difference", options.fail_on_difference,
+                    "Exit status 1 where the runs are not the same");
+  compare->add_flag("!--no-pictures", options.pictures, "No plots and no report");
+  compare->callback([&] { status = compare_runs(options); });
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
   app.require_subcommand(1);
@@ -148,6 +167,7 @@ int run(int argc, char** argv) {
   auto* seed_option =
       run->add_option("--seed", seed, "Seed of every random source, in place of the scenarios'");
   run->add_flag("--no-pictures", no_pictures, "No frames, plots or report");
+  run->add_flag("--gltf", run_options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
   run->add_option("--set", run_options.set, "Override a value of the scenarios: path=value, may be repeated")
       ->allow_extra_args(false);
   run->callback([&] {
@@ -179,6 +199,9 @@ int run(int argc, char** argv) {
 
   BodeOptions bode_options;
   add_bode(app, bode_options, status);
+
+  CompareOptions compare_options;
+  add_compare(app, compare_options, status);
 
   std::string name;
   bool json = false;

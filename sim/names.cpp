@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "devices/plcopen/terminals.hpp"
+
 namespace drycut::sim {
 
 namespace {
@@ -34,6 +36,8 @@ void Names::assume_controller(const std::vector<Wire>& wiring) {
     const auto name = plug.text.substr(panel_prefix.size());
     auto address = devices::parse_address(terminal.text);
     if (!address) address = devices::parse_base_terminal(terminal.text);
+    if (const auto other = devices::plcopen::parse_terminal(terminal.text); other && !address)
+      address = other->terminal != nullptr ? other->terminal->address(0) : other->address;
     const bool lamp = address && address->kind == devices::Kind::output;
     // What is wrong with a terminal is told once there is a controller to ask.
     if (lamp)

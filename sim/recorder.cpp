@@ -16,6 +16,13 @@ const RecordedEvent::Value* RecordedEvent::find(const std::string& name) const {
   return found == values.end() ? nullptr : &*found;
 }
 
+Recording Recording::restored(std::vector<Time> times, std::vector<Column> columns) {
+  Recording recording;
+  recording.times_ = std::move(times);
+  recording.columns_ = std::move(columns);
+  return recording;
+}
+
 bool Recording::add(Watch& watch, const std::string& name) {
   if (column(name) != nullptr) return true;
   const auto* slot = watch.slot(name);

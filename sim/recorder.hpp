@@ -36,6 +36,9 @@ class Recording {
     std::vector<double> values;
   };
 
+  /// A recording that was read back from its files: columns as long as `times`. Nothing is sampled into it.
+  static Recording restored(std::vector<Time> times, std::vector<Column> columns);
+
   /// Adds a channel; false if nothing has this name. A channel added twice is recorded once.
   bool add(Watch& watch, const std::string& name);
   void reserve(std::size_t rows);

@@ -63,6 +63,7 @@ std::string verdict_text(const Outcome& outcome) {
 
 void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
+  json["drycut"] = DRYCUT_VERSION;
   json["passed"] = outcome.passed();
   json["end"] = seconds(outcome.end);
   json["failure"] = outcome.failure;
@@ -78,6 +79,13 @@ void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
   }
   OutputFile out(file);
   out.write(json.dump(2) + "\n");
+  out.finish();
+}
+
+void write_scenario(const Scenario& scenario, const std::filesystem::path& file) {
+  OutputFile out(file);
+  out.write("# The scenario of this run with every default in force. Paths are relative to the original file.\n" +
+            expand(scenario));
   out.finish();
 }
 

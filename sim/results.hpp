@@ -16,8 +16,12 @@ struct RunResult {
   bool has_report = false;
 };
 
-/// checks.json: name, expectation, passed, margin, unit, at, detail of every check.
+/// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check.
 void write_checks(const Outcome& outcome, const std::filesystem::path& file);
+
+/// scenario.yaml: the scenario as it ran, with every default and override in force, to be compared with other
+/// runs' and kept. Paths in it are relative to the scenario's own file.
+void write_scenario(const Scenario& scenario, const std::filesystem::path& file);
 
 /// junit.xml over all scenarios: a suite a scenario, a case a check; a run that stopped is an error.
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file);

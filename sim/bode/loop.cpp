@@ -155,7 +155,7 @@ std::optional<LoopResult> measure_loop(const Scenario& scenario, const LoopReque
   result.plan = *twins.plan;
   const auto& wire = twins.excited->bus().analogue_wires()[result.plan.wire];
   result.wire = wire.plug;
-  result.terminal = devices::to_string(wire.terminal);
+  result.terminal = wire.terminal_name;
   result.speed = result.plan.speed;
   if (!result.speed.empty()) result.speed_unit = twins.excited->names().reading(result.speed)->unit;
   result.sweep = measure(*twins.excited, *twins.still, result.plan, progress);

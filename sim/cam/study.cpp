@@ -9,12 +9,13 @@
 #include "sim/cam/camming4/study.hpp"
 #include "sim/cam/csv.hpp"
 #include "sim/cam/lx3vp/study.hpp"
+#include "sim/cam/mc_camin/study.hpp"
 
 namespace drycut::sim {
 
 namespace {
 
-constexpr std::array kinds = {camming4_cams, lx3vp_cams};
+constexpr std::array kinds = {camming4_cams, mc_camin_cams, lx3vp_cams};
 
 /// Whether a cell of a header is a column of a kind of table, or nearly so.
 bool has_column_of(const CamKind& kind, std::string_view header) {
@@ -34,9 +35,11 @@ bool check_no_kind(std::string_view text, const std::string& file, devices::Prob
   const auto column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
   problems.push_back(
       {file, line, column, fmt::format("{} is the header of no cam table", quoted(trimmed({header}).text)),
-       fmt::format("CAMMING4's is {}; LX3VP's is master,slave, or parameter,value below a line "
-                   "# ecamtbx: K100 (K101, K0, K1)",
-                   camming4_cams.header)});
+       fmt::format(
+           "CAMMING4's is {}; LX3VP's is master,slave, or parameter,value below a line "
+           "# ecamtbx: K100 (K101, K0, K1); MC_CamIn's is slave, or a0,a1,a2,a3, or master,slave below a "
+           "line # interpolation: POLY5_LINE",
+           camming4_cams.header)});
   return false;
 }
 

@@ -5,12 +5,15 @@
 #include "devices/catalogue.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/register_file.hpp"
+#include "devices/plcopen/st/program.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "sim/cam/study.hpp"
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
+#include "sim/compare/scene_run.hpp"
 #include "sim/file.hpp"
+#include "sim/part_meshes.hpp"
 #include "sim/simulation.hpp"
 
 namespace drycut::sim {
@@ -37,23 +40,54 @@ class Checker {
     } else if (kind == ".il") {
       if (const auto text = read_file(file, problems_))
         devices::lx3vp::il::compile(*text, file.string(), problems_);
+    } else if (kind == ".st") {
+      if (const auto text = read_file(file, problems_))
+        devices::plcopen::st::compile(*text, file.string(), problems_);
     } else if (kind == ".csv") {
       if (const auto text = read_file(file, problems_)) check_table(*text, file.string());
+    } else if (kind == ".tab") {
+      if (const auto text = read_file(file, problems_))
+        cam_kind("mc_camin", *text).check(*text, file.string(), problems_);
     } else {
       problems_.push_back(
           {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
            "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an instruction "
-           "list (.il), a cam table or registers (.csv)"});
+           "list (.il), Structured Text (.st), a cam table (.csv, .tab) or registers (.csv)"});
     }
   }
 
   [[nodiscard]] const devices::Problems& problems() const { return problems_; }
 
  private:
+  /// A comparing scene: its members, then what it asks of them.
+  void check_comparing(const ComparisonScene& scene) {
+    std::vector<MemberNames> names;
+    for (const auto& member : scene.members) {
+      devices::Problems own;
+      const auto scenario = read_member(scene, member, overrides_, own);
+      if (scenario.buildable) {
+        const Simulation simulation(scenario, own);
+        load_part_meshes(scenario, simulation.plants(), own);
+        if (own.empty()) names.push_back(names_of(simulation));
+      }
+      place_in_scene(scene, member, own);
+      problems_.insert(problems_.end(), own.begin(), own.end());
+    }
+    if (names.size() == scene.members.size()) sim::check_comparison(scene, names, problems_);
+  }
+
   void check_scenario(const std::filesystem::path& file) {
     const auto before = problems_.size();
+    if (const auto scene = read_comparison(file, problems_)) {
+      if (problems_.size() == before) check_comparing(*scene);
+      if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(*scene));
+      return;
+    }
     const auto scenario = read_scenario(file, overrides_, problems_);
-    if (scenario.buildable) Simulation simulation(scenario, problems_);
+    if (scenario.buildable) {
+      const Simulation simulation(scenario, problems_);
+      load_part_meshes(scenario, simulation.plants(), problems_);
+    }
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
   }
 

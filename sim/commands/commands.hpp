@@ -25,6 +25,7 @@ struct RunOptions {
   int jobs = 1;
   std::optional<std::uint64_t> seed;  ///< in place of the scenarios'
   bool pictures = true;
+  bool gltf = false;             ///< the run as an animated .glb file, with or without pictures
   std::vector<std::string> set;  ///< "plants.web.speed=80 m/min"
 };
 /// drycut run
@@ -88,6 +89,16 @@ struct TuneOptions {
 /// drycut tune: 0 the tuned values keep all limits, 1 no values were found that do, 2 bad input, 3 nothing
 /// could be simulated or written
 int tune_scenarios(const TuneOptions& options);
+
+struct CompareOptions {
+  std::vector<std::filesystem::path> runs;  ///< folders that drycut run made of scenarios, two or more
+  std::filesystem::path out = "out/compare";
+  std::string from = {};            ///< "4 s": figures look from here on; "" = as the runs' plots say
+  bool fail_on_difference = false;  ///< exit status 1 where the runs differ
+  bool pictures = true;
+};
+/// drycut compare: 0 compared, 1 different and --fail-on-difference, 2 bad input, 3 cannot be written
+int compare_runs(const CompareOptions& options);
 
 /// drycut devices, drycut plants: the tables; of one type if `name` is given.
 int list_devices(const std::string& name, bool json);

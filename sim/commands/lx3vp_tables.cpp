@@ -1,5 +1,4 @@
-#include "sim/commands/lx3vp_tables.hpp"
-
+// `drycut devices` for the LX3VP.
 #include <fmt/format.h>
 
 #include <string>
@@ -9,6 +8,7 @@
 #include "devices/lx3vp/ecamtbx.hpp"
 #include "devices/lx3vp/ecamtbx_words.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
+#include "sim/commands/controller_table.hpp"
 #include "sim/commands/text_table.hpp"
 
 namespace drycut::sim {
@@ -192,13 +192,10 @@ ordered_json lx3vp_json() {
 
 }  // namespace
 
-std::span<const Lx3vpTable> lx3vp_tables() {
-  static constexpr Lx3vpTable tables[] = {
-      {"DECAM", decam_summary, print_decam, decam_json},
-      {"ECAMTBX", ecamtbx_summary, print_ecamtbx, ecamtbx_json},
-      {"LX3VP", lx3vp_summary, print_lx3vp, lx3vp_json},
-  };
-  return tables;
+std::vector<ControllerTable> lx3vp_tables() {
+  return {{"DECAM", decam_summary, print_decam, decam_json},
+          {"ECAMTBX", ecamtbx_summary, print_ecamtbx, ecamtbx_json},
+          {"LX3VP", lx3vp_summary, print_lx3vp, lx3vp_json}};
 }
 
 }  // namespace drycut::sim

@@ -9,7 +9,7 @@
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 #include "sim/commands/commands.hpp"
-#include "sim/commands/lx3vp_tables.hpp"
+#include "sim/commands/controller_table.hpp"
 #include "sim/commands/text_table.hpp"
 #include "sim/scenario/parameter_text.hpp"
 
@@ -211,6 +211,9 @@ class Specimens {
       return a.component == b.component && same_name_and_unit(a, b);
     });
   }
+  [[nodiscard]] auto parts() const {
+    return offered(&plants::Plant::parts, [](const auto& a, const auto& b) { return a.name == b.name; });
+  }
   [[nodiscard]] auto events() const {
     return offered(&plants::Plant::event_types,
                    [](const auto& a, const auto& b) { return a.name == b.name; });
@@ -258,6 +261,12 @@ ordered_json with_drives(ordered_json json, const Offered<Item>& offered) {
   return json;
 }
 
+/// "600 x 75 x 40 mm" of the part with the default parameters.
+std::string part_size(const plants::Part& part) {
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", part.size[0] * 1e3, part.size[1] * 1e3,
+                     part.size[2] * 1e3);
+}
+
 ordered_json plant_json(const plants::PlantType& type) {
   ordered_json json = {{"name", type.name}, {"summary", type.summary}};
   const Specimens specimens(type);
@@ -289,7 +298,36 @@ ordered_json plant_json(const plants::PlantType& type) {
     json["events"].push_back(
         with_drives({{"name", o.item.name}, {"values", values}, {"meaning", o.item.meaning}}, o));
   }
+  for (const auto& o : specimens.parts())
+    json["parts"].push_back(with_drives({{"name", o.item.name}, {"size", part_size(o.item)}}, o));
   return json;
+}
+
+/// "blade 3": what is before the number; the number, 0 = none.
+std::pair<std::string, int> stem_of(const std::string& name) {
+  const auto space = name.find_last_not_of("0123456789");
+  if (space == std::string::npos || space + 1 == name.size() || name[space] != ' ') return {name, 0};
+  return {name.substr(0, space), std::stoi(name.substr(space + 1))};
+}
+
+/// Parts that differ only in their number share a row: "piece 1..24".
+void print_parts(const Specimens& specimens) {
+  TextTable table({"part", "size x y z"});
+  const auto parts = specimens.parts();
+  for (std::size_t i = 0; i < parts.size();) {
+    const auto& first = parts[i].item;
+    const auto [stem, number] = stem_of(first.name);
+    std::size_t next = i + 1;
+    const auto follows = [&](const plants::Part& part) {
+      return number > 0 && stem_of(part.name) == std::pair(stem, number + static_cast<int>(next - i)) &&
+             part.size == first.size;
+    };
+    while (next < parts.size() && follows(parts[next].item)) ++next;
+    const auto last = number + static_cast<int>(next - i) - 1;
+    table.add({last > number ? fmt::format("{}..{}", first.name, last) : first.name, part_size(first)});
+    i = next;
+  }
+  table.print("Parts, for pictures.meshes, from their middle");
 }
 
 void print_plant(const plants::PlantType& type) {
@@ -326,6 +364,7 @@ void print_plant(const plants::PlantType& type) {
     events.add({std::string(o.item.name), values, meaning_text(o)});
   }
   events.print("Events, for checks");
+  print_parts(specimens);
 }
 
 bool same_name(std::string_view a, std::string_view b) {
@@ -352,10 +391,12 @@ int list_devices(const std::string& name, bool json) {
       return all_passed;
     }
   }
-  for (const auto& table : lx3vp_tables()) {
+  auto tables = plcopen_tables();
+  for (auto& table : lx3vp_tables()) tables.push_back(std::move(table));
+  for (const auto& table : tables) {
     names.emplace_back(table.name);
     if (name.empty() && json) all.push_back(table.json());
-    if (name.empty() && !json) fmt::print("{:<14} {}\n", table.name, table.summary);
+    if (name.empty() && !json && table.listed) fmt::print("{:<14} {}\n", table.name, table.summary);
     if (!name.empty() && same_name(table.name, name)) {
       if (json)
         fmt::print("{}\n", table.json().dump(2));

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <iterator>
 
+#include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/units.hpp"
@@ -39,6 +40,7 @@ class Writer {
     for (const auto& entry : scenario.plants) plant(entry);
     if (const auto* section = std::get_if<QmoveSection>(&scenario.controller)) qmove(*section);
     if (const auto* section = std::get_if<Lx3vpSection>(&scenario.controller)) lx3vp(*section);
+    if (const auto* section = std::get_if<PlcopenSection>(&scenario.controller)) plcopen(*section);
     wiring(scenario.wiring);
     if (!scenario.timeline.empty()) line(0, "timeline:");
     for (const auto& stimulus : scenario.timeline) timeline(stimulus);
@@ -115,6 +117,30 @@ class Writer {
     line(2, fmt::format("program: {}", yaml_text(section.program.text)));
     line(2, fmt::format("registers: {}", yaml_text(section.registers.text)));
     line(2, fmt::format("scan: {}", format_time(section.scan)));
+    line(2, fmt::format("retentive: {}", yaml_text(section.retentive.text)));
+    preset(section.set);
+  }
+
+  void plcopen(const PlcopenSection& section) {
+    line(0, "controller:");
+    line(1, "plcopen:");
+    line(2, fmt::format("program: {}", yaml_text(section.program.text)));
+    line(2, fmt::format("cycle: {}", format_time(section.cycle)));
+    line(2, fmt::format("task_cycle: {}", format_time(section.task_cycle)));
+    line(2, section.axes.empty() ? "axes: {}" : "axes:");
+    for (const auto& axis : section.axes) {
+      line(3, fmt::format("{}:", axis.name.text));
+      const auto& [name, parameters, measure] = axis.configuration;
+      for (const auto& row : devices::plcopen::axis_parameter_table())
+        line(4, fmt::format("{}: {}", yaml_text(row.name),
+                            axis_value_text(row, parameters.*row.member, measure)));
+    }
+    std::vector<std::string> tables;
+    for (const auto& table : section.tables)
+      tables.push_back(table.id == 0
+                           ? yaml_text(table.file.text)
+                           : fmt::format("{{file: {}, id: {}}}", yaml_text(table.file.text), table.id));
+    line(2, fmt::format("tables: [{}]", fmt::join(tables, ", ")));
     line(2, fmt::format("retentive: {}", yaml_text(section.retentive.text)));
     preset(section.set);
   }
@@ -205,9 +231,25 @@ class Writer {
       line(1, fmt::format("video: {}", section.video ? "on" : "off"));
     }
     line(1, fmt::format("caption: {}", texts(section.caption)));
+    if (!section.meshes.empty()) line(1, "meshes:");
+    for (const auto& one : section.meshes) mesh(one);
     if (section.plots.empty()) line(1, "plots: []");
     if (!section.plots.empty()) line(1, "plots:");
     for (const auto& one : section.plots) plot(one);
+  }
+
+  void mesh(const PicturesSection::MeshRequest& one) {
+    const auto triple = [](const std::array<double, 3>& values, std::string_view unit) {
+      std::string text;
+      for (const double value : values)
+        text += (text.empty() ? "" : ", ") + yaml_text(format_quantity(value, unit));
+      return "[" + text + "]";
+    };
+    line(2, fmt::format("{}:", yaml_text(one.part.text)));
+    line(3, "file: " + yaml_text(one.file.text));
+    line(3, fmt::format("scale: {}", one.scale));
+    line(3, "at: " + triple(one.at, "mm"));
+    line(3, "rotate: " + triple(one.rotate, "deg"));
   }
 
   void frame_window(const PicturesSection& section) {

@@ -35,7 +35,8 @@ void read_size(const Text& text, PicturesSection& pictures, Findings& findings) 
 }
 
 // around: "cut[3]", or cut for the first
-void read_around(const Text& text, PicturesSection::Around& around, Findings& findings) {
+void read_around(const Text& text, const std::string& name, PicturesSection::Around& around,
+                 Findings& findings) {
   around.event = text;
   const auto open = text.text.find('[');
   if (open == std::string::npos) return;
@@ -44,27 +45,15 @@ void read_around(const Text& text, PicturesSection::Around& around, Findings& fi
   const auto number = std::from_chars(text.text.data() + open + 1, end, around.number);
   const bool closed = number.ec == std::errc() && end - number.ptr == 1 && *number.ptr == ']';
   if (closed && around.number >= 1 && open > 0) return;
-  findings.add(text.place, fmt::format("pictures.frames.around: '{}' is no event", text.text),
+  findings.add(text.place, fmt::format("{}: '{}' is no event", name, text.text),
                "write its name and its number from 1: \"cut[3]\"");
 }
 
 void read_window(MapReader& reader, PicturesSection& pictures, Findings& findings) {
   reader.time("from", pictures.from, Sign::not_negative);
   reader.time("until", pictures.until, Sign::positive);
-  PicturesSection::Around around;
-  const auto* event = reader.scalar("around");
-  reader.time("before", around.before, Sign::not_negative);
-  reader.time("after", around.after, Sign::not_negative);
-  if (event != nullptr) {
-    read_around(*event, around, findings);
-    pictures.around = around;
-  }
+  pictures.around = read_around_window(reader, findings);
   refuse_empty_window(reader, pictures.from, pictures.until, findings);
-  for (const auto* key : {"before", "after"}) {
-    if (reader.has("around") || !reader.has(key)) continue;
-    findings.add(reader.place(key), fmt::format("{} stands without around", reader.full(key)),
-                 "add around: \"cut[3]\", or write from and until");
-  }
   for (const auto* key : {"from", "until"}) {
     if (!reader.has("around") || !reader.has(key)) continue;
     findings.add(reader.place(key), fmt::format("{} does not go with around", reader.full(key)),
@@ -90,6 +79,21 @@ void read_frames(const YamlNode& node, PicturesSection& pictures, Findings& find
 
 }  // namespace
 
+std::optional<PicturesSection::Around> read_around_window(MapReader& reader, Findings& findings) {
+  PicturesSection::Around around;
+  const auto* event = reader.scalar("around");
+  reader.time("before", around.before, Sign::not_negative);
+  reader.time("after", around.after, Sign::not_negative);
+  if (event != nullptr) read_around(*event, reader.full("around"), around, findings);
+  for (const auto* key : {"before", "after"}) {
+    if (reader.has("around") || !reader.has(key)) continue;
+    findings.add(reader.place(key), fmt::format("{} stands without around", reader.full(key)),
+                 "add around: \"cut[3]\", or write from and until");
+  }
+  if (event == nullptr) return {};
+  return around;
+}
+
 void refuse_empty_window(MapReader& reader, Time from, const std::optional<Time>& until, Findings& findings) {
   if (!until || *until > from || *until == 0) return;
   findings.add(reader.place("until"), fmt::format("{} is not after from", reader.full("until")),
@@ -108,6 +112,7 @@ PicturesSection read_pictures(const YamlNode& node, Findings& findings) {
     }
   }
   reader.texts("caption", pictures.caption);
+  if (const auto* meshes = reader.map("meshes")) pictures.meshes = read_meshes(*meshes, findings);
   if (const auto* list = reader.list("plots")) {
     for (std::size_t i = 0; i < list->items.size(); ++i) {
       auto plot = read_plot(list->items[i], fmt::format("pictures.plots.{}", i), findings);

@@ -68,21 +68,6 @@ SceneSection read_scene(const YamlNode& node, Findings& findings) {
   return scene;
 }
 
-void read_preset(MapReader& reader, const std::string& of, std::vector<std::pair<Text, double>>& values,
-                 Findings& findings) {
-  const auto* set = reader.map("set");
-  if (set == nullptr) return;
-  refuse_duplicates(*set, of + ".set", findings);
-  for (const auto& entry : set->entries) {
-    const auto name = fmt::format("{}.set.{}", of, entry.key.text);
-    if (entry.value.kind != YamlNode::Kind::scalar) {
-      refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
-    } else if (const auto number = read_si(entry.value.text, name, "", findings)) {
-      values.emplace_back(entry.key, *number);
-    }
-  }
-}
-
 QmoveSection read_qmove(const YamlNode& node, const Place& place, Findings& findings) {
   QmoveSection qmove;
   qmove.place = place;
@@ -117,24 +102,27 @@ ControllerSection read_controller(const YamlNode& node, Findings& findings) {
   refuse_duplicates(node, "controller", findings);
   ControllerSection section;
   for (const auto& entry : node.entries) {
-    const bool qmove = entry.key.text == "qmove";
-    if (!qmove && entry.key.text != "lx3vp") {
-      findings.add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text),
-                   "known: qmove, lx3vp");
+    const auto& kind = entry.key.text;
+    if (kind != "qmove" && kind != "lx3vp" && kind != "plcopen") {
+      findings.add(entry.key.place, fmt::format("unknown controller '{}'", kind),
+                   "known: qmove, lx3vp, plcopen");
     } else if (!is_repeated(node, entry)) {
       if (&entry != &node.entries.front()) {
         findings.add(entry.key.place,
                      fmt::format("a second controller, after {}", node.entries.front().key.text), "keep one");
-      } else if (qmove) {
+      } else if (kind == "qmove") {
         section = read_qmove(entry.value, entry.key.place, findings);
-      } else {
+      } else if (kind == "lx3vp") {
         section = read_lx3vp(entry.value, entry.key.place, findings);
+      } else {
+        section = read_plcopen(entry.value, entry.key.place, findings);
       }
     }
   }
   if (node.entries.empty()) {
     findings.add(node.text.place, "controller names none",
-                 "write controller: {qmove: {configuration: ...}} or {lx3vp: {program: ...}}");
+                 "write controller: {qmove: {configuration: ...}}, {lx3vp: {program: ...}} or {plcopen: "
+                 "{program: ...}}");
   }
   return section;
 }
@@ -213,6 +201,9 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
   if (const auto* lx3vp = std::get_if<Lx3vpSection>(&scenario.controller)) {
     require_multiple(root, {"controller", "lx3vp", "scan"}, lx3vp->scan, step, findings);
   }
+  if (const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller)) {
+    require_multiple(root, {"controller", "plcopen", "cycle"}, plcopen->cycle, step, findings);
+  }
   if (scenario.scene.duration < step) {
     findings.add(place_at(root, {"scene", "duration"}),
                  fmt::format("scene.duration {} is shorter than scene.step {}",
@@ -240,6 +231,16 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
   const auto singly = findings.count();
   check_together(scenario, root, findings);
   scenario.buildable = machine_sound && findings.count() == singly;
+}
+
+// A scene that compares scenarios (sim/compare/scene.hpp) is none itself.
+bool refuse_comparison(const YamlNode& root, Findings& findings) {
+  const auto found = std::find_if(root.entries.begin(), root.entries.end(),
+                                  [](const YamlNode::Entry& entry) { return entry.key.text == "compare"; });
+  if (found == root.entries.end()) return false;
+  findings.add(found->key.place, "this scene compares scenarios and is none itself",
+               "drycut run and drycut check take it; name one of its scenarios here");
+  return true;
 }
 
 // The tree of the file, or a map without entries where nothing can be read.
@@ -275,6 +276,21 @@ devices::Problem problem_at(const Scenario& scenario, const Place& place, std::s
   return {name, place.line, place.column, std::move(what), std::move(remedy)};
 }
 
+void read_preset(MapReader& reader, const std::string& of, std::vector<std::pair<Text, double>>& values,
+                 Findings& findings) {
+  const auto* set = reader.map("set");
+  if (set == nullptr) return;
+  refuse_duplicates(*set, of + ".set", findings);
+  for (const auto& entry : set->entries) {
+    const auto name = fmt::format("{}.set.{}", of, entry.key.text);
+    if (entry.value.kind != YamlNode::Kind::scalar) {
+      refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
+    } else if (const auto number = read_si(entry.value.text, name, "", findings)) {
+      values.emplace_back(entry.key, *number);
+    }
+  }
+}
+
 const std::vector<std::string>& section_names() {
   static const std::vector<std::string> names = {"scene",    "plants", "controller", "wiring",
                                                  "timeline", "record", "checks",     "pictures"};
@@ -299,7 +315,7 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
       apply_override(root, overrides[i], static_cast<int>(i) + 1, findings);
     }
     if (root.kind == YamlNode::Kind::map) {
-      read_sections(root, types, scenario, findings);
+      if (!refuse_comparison(root, findings)) read_sections(root, types, scenario, findings);
     } else {
       refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "devices/plcopen/axis_parameters.hpp"
 #include "devices/problem.hpp"
 #include "plants/plant.hpp"
 #include "sim/time.hpp"
@@ -71,7 +73,27 @@ struct Lx3vpSection {
       set;  ///< after the CSV and the retentive file: {D100: 5, DD2044: 50000}
   Place place;
 };
-using ControllerSection = std::variant<std::monostate, QmoveSection, Lx3vpSection>;
+/// controller: plcopen: ...
+struct PlcopenSection {
+  Text program;                       ///< path of the Structured Text, relative to the scenario
+  Time cycle = 2 * millisecond;       ///< of the axes
+  Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
+  struct Axis {
+    Text name;
+    devices::plcopen::AxisConfiguration configuration;
+    std::vector<std::pair<std::string, Place>> places;  ///< of the parameters that the file gives
+  };
+  std::vector<Axis> axes;
+  struct Table {
+    Text file;   ///< .tab or .csv, relative to the scenario
+    int id = 0;  ///< in place of the file's own; 0 = that
+  };
+  std::vector<Table> tables;
+  Text retentive;                            ///< as of QmoveSection
+  std::vector<std::pair<Text, double>> set;  ///< values before power-up, after the retentive file
+  Place place;
+};
+using ControllerSection = std::variant<std::monostate, QmoveSection, Lx3vpSection, PlcopenSection>;
 
 /// wiring: {2.CNT01: knife.encoder}
 struct Wire {
@@ -186,6 +208,15 @@ struct PicturesSection {
   int width = 960;
   int height = 540;
   std::vector<Text> caption;  ///< channels in the caption bar
+  /// A user's own mesh in place of a part.
+  struct MeshRequest {
+    Text part;                                 ///< "knife.drum"
+    Text file;                                 ///< relative to the scenario
+    double scale = 1;                          ///< on the file's unit
+    std::array<double, 3> at = {0, 0, 0};      ///< of its origin, from the part's middle [m]
+    std::array<double, 3> rotate = {0, 0, 0};  ///< about x, then y, then z [rad]
+  };
+  std::vector<MeshRequest> meshes;
   std::vector<PlotRequest> plots;
   Place camera_place;
 };

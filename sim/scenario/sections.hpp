@@ -1,5 +1,7 @@
 #pragma once
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/scenario/scenario.hpp"
@@ -13,11 +15,19 @@ namespace drycut::sim {
 /// Plants with their parameters, each after the plants that it refers to.
 std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types,
                                     Findings& findings);
+PlcopenSection read_plcopen(const YamlNode& node, const Place& place, Findings& findings);
+/// The `set` of a controller called `of`: values before power-up.
+void read_preset(MapReader& reader, const std::string& of, std::vector<std::pair<Text, double>>& values,
+                 Findings& findings);
 std::vector<Stimulus> read_timeline(const YamlNode& node, Findings& findings);
 std::vector<Check> read_checks(const YamlNode& node, Findings& findings);
 PicturesSection read_pictures(const YamlNode& node, Findings& findings);
+/// pictures.meshes
+std::vector<PicturesSection::MeshRequest> read_meshes(const YamlNode& node, Findings& findings);
 /// One of pictures.plots; `name` is its full name in messages.
 PlotRequest read_plot(const YamlNode& node, const std::string& name, Findings& findings);
+/// around, before and after of a map: a window about an event; absent without `around`.
+std::optional<PicturesSection::Around> read_around_window(MapReader& reader, Findings& findings);
 /// Says that a window ends before it begins.
 void refuse_empty_window(MapReader& reader, Time from, const std::optional<Time>& until, Findings& findings);
 

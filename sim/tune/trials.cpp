@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "sim/controller_loader.hpp"
 #include "sim/file.hpp"
 
 namespace drycut::sim {
@@ -110,12 +111,7 @@ std::string Trials::fingerprint() const {
     devices::Problems problems;
     const auto scenario = read_scenario_text(entry.text, entry.file, study_.set, problems);
     hash.add(expand(scenario));
-    const auto* qmove = std::get_if<QmoveSection>(&scenario.controller);
-    if (qmove == nullptr) continue;
-    auto files = qmove->tasks;
-    files.push_back(qmove->configuration);
-    if (!qmove->retentive.text.empty()) files.push_back(qmove->retentive);
-    for (const auto& name : files) {
+    for (const auto& name : controller_files(scenario)) {
       const auto text = read_file(entry.file.parent_path() / name.text, problems);
       hash.add(text ? *text : "");
     }

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "sim/commands/commands.hpp"
+#include "sim/compare/scene.hpp"
 #include "sim/recorder.hpp"
 #include "sim/simulation.hpp"
 
@@ -17,10 +19,14 @@ namespace fs = std::filesystem;
 
 const fs::path root = DRYCUT_SOURCE_DIR;
 
-std::vector<std::string> scenarios(const fs::path& folder) {
+/// The scenarios of a folder, or the scenes there that compare some.
+std::vector<std::string> scenarios(const fs::path& folder, bool comparing = false) {
   std::vector<std::string> names;
+  devices::Problems ignored;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".yaml" &&
+        read_comparison(entry.path(), ignored).has_value() == comparing)
+      names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -57,6 +63,19 @@ TEST_P(Scenes, PassTheirChecks) {
     EXPECT_TRUE(check.passed) << check.name << ": " << check.detail;
 }
 
+class ComparingScenes : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ComparingScenes, PassTheirChecks) {
+  const fs::path out = fs::path(::testing::TempDir()) / ("drycut_comparing_" + GetParam());
+  RunOptions options;
+  options.scenarios = {root / "scenes" / (GetParam() + ".yaml")};
+  options.out = out;
+  options.pictures = false;
+  EXPECT_EQ(run_scenarios(options), all_passed);
+  EXPECT_TRUE(fs::exists(out / GetParam() / "comparison.csv"));
+  fs::remove_all(out);
+}
+
 class FailingScenes : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(FailingScenes, FailACheckAndNothingElse) {
@@ -68,6 +87,8 @@ TEST_P(FailingScenes, FailACheckAndNothingElse) {
 
 const auto own_name = [](const auto& info) { return info.param; };
 INSTANTIATE_TEST_SUITE_P(All, Scenes, ::testing::ValuesIn(scenarios(root / "scenes")), own_name);
+INSTANTIATE_TEST_SUITE_P(All, ComparingScenes, ::testing::ValuesIn(scenarios(root / "scenes", true)),
+                         own_name);
 INSTANTIATE_TEST_SUITE_P(All, FailingScenes, ::testing::ValuesIn(scenarios(root / "tests/scenes/failing")),
                          own_name);
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/controller.hpp"
+#include "devices/slot_terminals.hpp"
 #include "plants/plant.hpp"
 #include "sim/names.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -14,6 +14,12 @@ namespace drycut::sim::fakes {
 class FakeController : public devices::Controller {
  public:
   devices::Cards& cards() override { return cards_; }
+  std::variant<devices::Address, devices::TerminalFault> terminal(const std::string& text) override {
+    return devices::find_slot_terminal(cards_, text);
+  }
+  [[nodiscard]] bool takes_wire(const devices::Address& address) const override {
+    return devices::slot_takes_wire(address);
+  }
   [[nodiscard]] std::vector<Period> periods() const override { return {{"Axis TCamp", 2'000'000}}; }
   void run_devices(std::int64_t) override {}
   void run_tasks(std::int64_t) override {}

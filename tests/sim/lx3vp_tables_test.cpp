@@ -1,10 +1,9 @@
-#include "sim/commands/lx3vp_tables.hpp"
-
 #include <gmock/gmock.h>
 
 #include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
 #include "sim/commands/commands.hpp"
+#include "sim/commands/controller_table.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -251,7 +251,7 @@ TEST(ScenarioProblems, PlantsTakenTogether) {
 
 TEST(ScenarioProblems, Controller) {
   expect_problems({
-      {"controller: {s7: {program: a.il}}\n", {"1:14: unknown controller 's7'; known: qmove, lx3vp"}},
+      {"controller: {s7: {program: a.il}}\n", {"1:14: unknown controller 's7'; known: qmove, lx3vp, plcopen"}},
       {"controller: {}\n",
        {"1:13: controller names none; write controller: {qmove: {configuration: ...}} or {lx3vp: {program: "
         "...}}"}},

@@ -1,0 +1,67 @@
+#include "renders/gltf_track.hpp"
+
+#include <cmath>
+
+namespace drycut::renders {
+namespace {
+
+constexpr double blink = 1e-3;  ///< in which a part appears or goes, in times between two frames
+constexpr std::array<double, 3> nothing = {0, 0, 0};
+
+/// The rotation of unit length, with the sign that is nearer to `before`.
+std::array<double, 4> beside(const std::array<double, 4>& before, std::array<double, 4> rotation) {
+  double norm = 0;
+  double along = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    norm += rotation[i] * rotation[i];
+    along += rotation[i] * before[i];
+  }
+  for (auto& x : rotation) x *= (along < 0 ? -1 : 1) / std::sqrt(norm);
+  return rotation;
+}
+
+bool same(const Placement& a, const Placement& b) {
+  return a.position == b.position && a.rotation == b.rotation && a.scale == b.scale;
+}
+
+}  // namespace
+
+Track track_of(const Film& film, std::size_t part, int slow) {
+  Track track;
+  const auto add = [&](double time_s, const Placement& placement) {
+    const auto size = track.size();
+    const bool still =
+        size > 1 && same(track[size - 1].placement, placement) && same(track[size - 2].placement, placement);
+    if (still)
+      track.back().time_s = time_s;
+    else
+      track.push_back({time_s, placement});
+  };
+  double last_s = 0;
+  Placement last;
+  bool seen = false;
+  for (std::size_t i = 0; i < film.frames.size(); ++i) {
+    const double time_s = (film.frames[i].time_s - film.frames.front().time_s) * slow;
+    Placement now = film.frames[i].placements[part];
+    if (!now.visible) {
+      now = seen ? last : Placement{};
+      now.visible = false;
+      now.scale = nothing;
+    }
+    now.rotation = beside(last.rotation, now.rotation);
+    if (i > 0 && now.visible != last.visible) {
+      // Until just before it stays as it was; what appears does so in its new place.
+      Placement until = now.visible ? now : last;
+      until.scale = last.visible ? last.scale : nothing;
+      add(time_s - blink * (time_s - last_s), until);
+    }
+    add(time_s, now);
+    seen = seen || now.visible;
+    last = now;
+    last_s = time_s;
+  }
+  if (track.size() == 2 && same(track[0].placement, track[1].placement)) track.pop_back();
+  return track;
+}
+
+}  // namespace drycut::renders

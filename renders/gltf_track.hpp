@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "renders/scene3d.hpp"
+
+namespace drycut::renders {
+
+/// Where a part is at a time of an animation, which goes straight from one key to the next.
+struct Key {
+  double time_s = 0;    ///< from the first frame, at the film's pace
+  Placement placement;  ///< scale 0 = not visible; rotation of unit length
+};
+/// At least one key; only one for a part that stays where it is.
+using Track = std::vector<Key>;
+
+/// The keys of part number `part` over the film, which must have frames: a key a frame, at `slow` times the
+/// time that has passed since the first one. Rotations turn the short way; stretches without change keep only
+/// their first and last key. A part that comes or goes does so in a thousandth of the time between two
+/// frames.
+Track track_of(const Film& film, std::size_t part, int slow);
+
+}  // namespace drycut::renders

@@ -1,0 +1,165 @@
+#include "renders/mesh_file.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <optional>
+
+#include "renders/geometry.hpp"
+#include "renders/mesh.hpp"
+
+namespace drycut::renders {
+namespace {
+
+constexpr float smooth_up_to = 30;  // [deg]
+constexpr double millimetre = 1e-3;
+
+/// Kinds of files, and how long their unit is [m].
+struct Kind {
+  std::string_view extension;
+  double unit;
+};
+constexpr std::array<Kind, 7> kinds = {{{".stl", millimetre},
+                                        {".obj", millimetre},
+                                        {".ply", millimetre},
+                                        {".off", millimetre},
+                                        {".gltf", 1},
+                                        {".glb", 1},
+                                        {".dae", 1}}};
+
+const Kind* kind_of(const std::filesystem::path& file) {
+  auto extension = file.extension().string();
+  for (auto& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto* const found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.extension == extension; });
+  return found == kinds.end() ? nullptr : found;
+}
+
+std::optional<MeshProblem> refused_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    return MeshProblem{"there is no such file", "name a mesh file relative to the scenario"};
+  if (kind_of(file) == nullptr)
+    return MeshProblem{fmt::format("'{}' is not a kind of mesh that is known", file.extension().string()),
+                       "export STL, OBJ, PLY, OFF, glTF, GLB or DAE from the CAD program"};
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) return MeshProblem{"its size cannot be found out", "name a file that can be read"};
+  if (size == 0) return MeshProblem{"the file is empty", "export the part again"};
+  if (size > mesh_bytes_max)
+    return MeshProblem{fmt::format("the file has {} MB, more than {}", size >> 20U, mesh_bytes_max >> 20U),
+                       "export it with a coarser tolerance"};
+  return std::nullopt;
+}
+
+/// assimp's words for what is wrong, on one line.
+std::string in_a_line(std::string text) {
+  if (const auto end = text.find_first_of("\r\n"); end != std::string::npos) text.resize(end);
+  return text;
+}
+
+MeshProblem broken(const Assimp::Importer& importer) {
+  return {fmt::format("the mesh cannot be read: {}", in_a_line(importer.GetErrorString())),
+          "export the part again, as STL or OBJ"};
+}
+
+std::optional<MeshProblem> refused_scene(const aiScene& scene) {
+  const MeshProblem empty = {"the mesh has no triangles", "export a surface, not points, curves or a sketch"};
+  if ((scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 || scene.mNumMeshes == 0) return empty;
+  std::uint64_t faces = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+      faces += mesh.mFaces[f].mNumIndices < 3 ? 0 : mesh.mFaces[f].mNumIndices - 2;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& p = mesh.mVertices[v];
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      return MeshProblem{fmt::format("corner {} is not at a finite place", v + 1), "export the part again"};
+    }
+  }
+  if (faces == 0) return empty;
+  if (faces > mesh_triangles_max)
+    return MeshProblem{fmt::format("the mesh has {} triangles, more than {}", faces, mesh_triangles_max),
+                       "export it with a coarser tolerance"};
+  return std::nullopt;
+}
+
+/// The triangles of a scene in metres, scaled, turned and moved.
+Mesh placed(const aiScene& scene, double unit, const MeshPlacing& placing) {
+  const double scale = unit * placing.scale;
+  const auto turn = [&](Vec3 v) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Quaternion q = {0, 0, 0, std::cos(placing.rotate[axis] / 2)};
+      q[axis] = std::sin(placing.rotate[axis] / 2);
+      v = rotated(q, v);
+    }
+    return v;
+  };
+  Mesh all;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      if (mesh.mFaces[f].mNumIndices != 3) continue;
+      for (unsigned c = 0; c < 3; ++c) {
+        const unsigned index = mesh.mFaces[f].mIndices[c];
+        const aiVector3D& p = mesh.mVertices[index];
+        const aiVector3D& n = mesh.mNormals[index];
+        all.corners.push_back(
+            {as_floats(turn(scale * Vec3{p.x, p.y, p.z}) + placing.at), as_floats(turn({n.x, n.y, n.z}))});
+      }
+    }
+  }
+  return all;
+}
+
+void choose_settings(Assimp::Importer& importer) {
+  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, smooth_up_to);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  importer.SetPropertyBool(AI_CONFIG_PP_FD_REMOVE, true);
+  // Its limit of area is a fixed number, whatever the unit.
+  importer.SetPropertyBool(AI_CONFIG_PP_FD_CHECKAREA, false);
+}
+
+std::variant<Mesh, MeshProblem> mesh_of(Assimp::Importer& importer, const aiScene* scene, double unit,
+                                        const MeshPlacing& placing) {
+  if (scene == nullptr) return broken(importer);
+  if (auto problem = refused_scene(*scene)) return *problem;
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_FindDegenerates |
+                                       aiProcess_SortByPType | aiProcess_PreTransformVertices |
+                                       aiProcess_GenSmoothNormals | aiProcess_ForceGenNormals);
+  if (scene == nullptr) return broken(importer);
+  Mesh mesh = placed(*scene, unit, placing);
+  if (mesh.corners.empty())
+    return MeshProblem{"all triangles of the mesh are without area", "export the part again"};
+  find_hull(mesh);
+  const Vec3 size = extent_of(mesh).high - extent_of(mesh).low;
+  const double longest = *std::max_element(size.begin(), size.end());
+  if (!(longest >= mesh_smallest && longest <= mesh_largest))
+    return MeshProblem{
+        fmt::format("its longest side is {:.4g} mm; parts have {} to {} mm", longest / millimetre,
+                    mesh_smallest / millimetre, mesh_largest / millimetre),
+        unit == 1 ? "the file is taken in metres; set scale" : "the file is taken in millimetres; set scale"};
+  return mesh;
+}
+
+}  // namespace
+
+std::variant<Mesh, MeshProblem> load_mesh(const std::filesystem::path& file, const MeshPlacing& placing) {
+  if (auto problem = refused_file(file)) return *problem;
+  Assimp::Importer importer;
+  choose_settings(importer);
+  return mesh_of(importer, importer.ReadFile(file.string(), aiProcess_ValidateDataStructure),
+                 kind_of(file)->unit, placing);
+}
+
+std::variant<Mesh, MeshProblem> read_stl(std::string_view bytes) {
+  Assimp::Importer importer;
+  choose_settings(importer);
+  return mesh_of(importer, importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "stl"), millimetre, {});
+}
+
+}  // namespace drycut::renders

@@ -1,0 +1,289 @@
+#include "sim/cam/mc_camin/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/cam/travel.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+using devices::plcopen::CamLimits;
+using devices::plcopen::CamSegment;
+using devices::plcopen::Endless;
+using Grade = CamFinding::Grade;
+
+constexpr double rounding = 1 + 1e-9;
+
+std::string number(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
+
+/// The largest of a kind of finding, and how many there are.
+struct Worst {
+  int count = 0;
+  double value = 0;
+  int row = 0;
+
+  void take(double size, int at) {
+    ++count;
+    if (std::abs(size) <= std::abs(value)) return;
+    value = size;
+    row = at;
+  }
+  [[nodiscard]] std::string others() const { return count < 2 ? "" : fmt::format("; so at {} rows", count); }
+};
+
+class Judge {
+ public:
+  Judge(const CamInRun& run, const CamDuty& duty)
+      : run_(run), cam_(run.cam), limits_(limits_of(run, duty)), unit_(run.cam.slave_unit) {}
+
+  std::vector<CamFinding> findings() {
+    for (const auto& refusal : run_.refused)
+      add(Grade::error, refusal.row == 0 ? "" : where(static_cast<int>(refusal.row)),
+          std::string(meaning_of(refusal.error)), refusal.remedy, static_cast<int>(refusal.error));
+    if (!run_.runs()) return std::move(found_);
+    judge_limits();
+    judge_travel();
+    judge_jumps();
+    judge_rest();
+    judge_closing();
+    judge_overshoot();
+    judge_return();
+    judge_range();
+    remarks();
+    return std::move(found_);
+  }
+
+ private:
+  void add(Grade grade, std::string where, std::string text, std::string remedy = "", int id = 0) {
+    found_.push_back({grade, id, std::move(where), std::move(text), std::move(remedy)});
+  }
+  [[nodiscard]] std::string where(int row) const {
+    return fmt::format("row {} (line {})", row, cam_.lines[static_cast<std::size_t>(row) - 1]);
+  }
+  [[nodiscard]] std::string per(int order) const {
+    return unit_ + (order == 1 ? "/s" : fmt::format("/s{}", order));
+  }
+
+  void judge_limits() {
+    judge_limit(CamOrder::velocity, "velocity", limits_.velocity);
+    judge_limit(CamOrder::acceleration, "acceleration", limits_.acceleration);
+    judge_limit(CamOrder::jerk, "jerk", limits_.jerk);
+  }
+
+  /// The peak of the polynomials; where they jump there is no limit to the next derivative.
+  void judge_limit(CamOrder order, const char* name, std::optional<double> limit) {
+    if (!limit || !run_.master_speed) return;
+    const int power = static_cast<int>(order);
+    const double in_time = std::pow(*run_.master_speed, power) / increments_per_unit;
+    Worst worst;
+    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
+      const Extremes extremes = extremes_of(run_.curve.segments[i], order);
+      const double peak = std::max(-extremes.low, extremes.high) * in_time;
+      if (peak > *limit * rounding) worst.take(peak, run_.row_of(i));
+    }
+    const double speed = *run_.master_speed / increments_per_unit;
+    if (worst.count > 0)
+      add(Grade::limit, where(worst.row),
+          fmt::format("{} {} {} above {}{}", name, number(worst.value), per(power), number(*limit),
+                      worst.others()),
+          fmt::format("give the piece more of the master, or run it at {} {}/s at most",
+                      number(speed * std::pow(*limit / worst.value, 1.0 / power)), cam_.master_unit));
+    judge_steps(power, name);
+  }
+
+  void judge_steps(int power, const char* name) {
+    Worst worst;
+    for (const CamKnot& knot : knots_of(run_))
+      if (knot.smooth < power - 1)
+        worst.take(knot.jumps[static_cast<std::size_t>(knot.smooth) + 1], knot.row);
+    if (worst.count > 0)
+      add(Grade::limit, where(worst.row),
+          fmt::format("{} without end: what it is the derivative of jumps there{}", name, worst.others()),
+          "see the table of knots");
+  }
+
+  void judge_travel() {
+    const CamTravel travel{limits_.least, limits_.most};
+    if (!travel.is_given()) return;
+    double low = 0;
+    double high = 0;
+    range(low, high);
+    const std::string unit = increments_of(unit_);
+    for (const TravelFault& fault : travel_faults(travel, low, high, {"minpos", "maxpos", unit, ""}))
+      add(Grade::limit, "", fault.text, fault.remedy);
+  }
+
+  void range(double& low, double& high) const {
+    low = high = run_.curve.segments.front().c[0];
+    for (const CamSegment& segment : run_.curve.segments) {
+      const Extremes extremes = extremes_of(segment, CamOrder::position);
+      low = std::min(low, extremes.low);
+      high = std::max(high, extremes.high);
+    }
+  }
+
+  void judge_jumps() {
+    Worst position;
+    Worst velocity;
+    Worst acceleration;
+    for (const CamKnot& knot : knots_of(run_)) {
+      if (knot.smooth == -1) position.take(knot.jumps[0], knot.row);
+      if (knot.smooth == 0) velocity.take(knot.jumps[1], knot.row);
+      if (knot.smooth == 1) acceleration.take(knot.jumps[2], knot.row);
+    }
+    const bool steps = cam_.interpolation == devices::plcopen::Interpolation::step_direct;
+    if (position.count > 0)
+      add(Grade::caution, where(position.row),
+          fmt::format("the position jumps by {} {}{}", number_text(position.value), increments_of(unit_),
+                      position.others()),
+          turns_on(position.value) ? "it is a turn of the slave: write # endless: positive or negative"
+          : steps                  ? "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"
+                                   : "let each row end where the next one begins");
+    if (velocity.count > 0)
+      add(Grade::caution, where(velocity.row),
+          fmt::format("the velocity jumps by {}{}{}", in_time(velocity.value, 1), velocity_unit(),
+                      velocity.others()),
+          "POLYNOM_3, or POLY5 between lines, has no such jumps");
+    if (acceleration.count > 0)
+      add(Grade::remark, where(acceleration.row),
+          fmt::format("the acceleration jumps by {} {}{}", in_time(acceleration.value, 2),
+                      acceleration_unit(), acceleration.others()));
+  }
+
+  [[nodiscard]] bool turns_on(double jump) const {
+    return cam_.slave_modulo > 0 && cam_.endless == Endless::no &&
+           std::abs(std::abs(jump) - cam_.slave_modulo) < 1;
+  }
+  /// A derivative in deg or mm: in time if the master's speed is known.
+  [[nodiscard]] std::string in_time(double derivative, int order) const {
+    if (run_.master_speed)
+      return number(derivative * std::pow(*run_.master_speed, order) / increments_per_unit);
+    return number(derivative * std::pow(increments_per_unit, order - 1));
+  }
+  [[nodiscard]] std::string velocity_unit() const {
+    return run_.master_speed ? " " + per(1) : " (slave/master)";
+  }
+  [[nodiscard]] std::string acceleration_unit() const {
+    return run_.master_speed ? per(2) : fmt::format("{}/{}2", unit_, cam_.master_unit);
+  }
+
+  /// A single pass ends with a stop without ramp (004 "periodic").
+  void judge_rest() {
+    if (cam_.periodic) return;
+    const auto& last = run_.curve.segments.back();
+    const double begin = at(run_.curve, 0).velocity;
+    const double end = last.start + last.length > run_.curve.modulo * rounding ? begin : at(last, 1).velocity;
+    const auto tell = [&](double velocity, const char* place) {
+      if (std::abs(velocity) <= 1e-6 * run_.peak(CamOrder::velocity)) return;
+      add(Grade::caution, "",
+          fmt::format("not periodic, and {} velocity {}{}: the slave {} without a ramp", place,
+                      in_time(velocity, 1), velocity_unit(), *place == 'b' ? "starts" : "is stopped"),
+          "let the cam begin and end at rest, at master 0");
+    };
+    tell(begin, "begins at");
+    tell(end, "ends at");
+  }
+
+  void judge_closing() {
+    if (cam_.endless != Endless::no || cam_.slave_modulo <= 0) return;
+    if (cam_.table.columns() == 4) return;  // its jumps are told
+    if (cam_.interpolation == devices::plcopen::Interpolation::step_direct) return;
+    Worst worst;
+    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
+      const CamSegment& segment = run_.curve.segments[i];
+      const double way = at(segment, 1).position - segment.c[0];
+      if (segment.start >= 0 && std::abs(way) > cam_.slave_modulo / 2) worst.take(way, run_.row_of(i));
+    }
+    if (worst.count > 0)
+      add(Grade::caution, where(worst.row),
+          fmt::format("goes {} by {} {}, more than half a turn{}", worst.value < 0 ? "back" : "on",
+                      number_text(std::abs(worst.value)), increments_of(unit_), worst.others()),
+          "if the slave is to turn on instead, write # endless: positive or negative");
+  }
+
+  /// Pieces that leave the range between their two ends.
+  void judge_overshoot() {
+    if (cam_.table.columns() == 4) return;
+    Worst worst;
+    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
+      const CamSegment& segment = run_.curve.segments[i];
+      if (segment.start < 0) continue;
+      const Extremes reached = extremes_of(segment, CamOrder::position);
+      const double end = at(segment, 1).position;
+      const double above = reached.high - std::max(segment.c[0], end);
+      const double below = std::min(segment.c[0], end) - reached.low;
+      if (std::max(above, below) > 1) worst.take(above > below ? above : -below, run_.row_of(i));
+    }
+    if (worst.count > 0)
+      add(Grade::caution, where(worst.row),
+          fmt::format("overshoots its two rows by {} {}{}", number(std::abs(worst.value)),
+                      increments_of(unit_), worst.others()),
+          "give it more of the master, or lines before and after it that are less steep");
+  }
+
+  /// An endless cam that runs against its direction.
+  void judge_return() {
+    if (cam_.endless == Endless::no) return;
+    const double direction = cam_.endless == Endless::positive ? 1 : -1;
+    Worst worst;
+    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
+      const Extremes v = extremes_of(run_.curve.segments[i], CamOrder::velocity);
+      const double back = direction > 0 ? v.low : v.high;
+      if (direction * back < -1e-6 * run_.peak(CamOrder::velocity)) worst.take(back, run_.row_of(i));
+    }
+    if (worst.count > 0)
+      add(Grade::caution, where(worst.row),
+          fmt::format("runs against its direction, at {}{} at most{}", in_time(worst.value, 1),
+                      velocity_unit(), worst.others()),
+          "if it must not turn back, bring its rows nearer to a steady rise");
+  }
+
+  void judge_range() {
+    if (cam_.slave_modulo <= 0 || cam_.endless != Endless::no) return;
+    double low = 0;
+    double high = 0;
+    range(low, high);
+    if (low >= -1 && high < cam_.slave_modulo + 1) return;
+    add(Grade::caution, "",
+        fmt::format("the slave leaves its turn: {} to {} of 0 to {} {}", number_text(low), number_text(high),
+                    number_text(cam_.slave_modulo), increments_of(unit_)),
+        "keep positions inside the turn, or write # endless: positive or negative");
+  }
+
+  void remarks() {
+    const auto remark = [&](std::string text) { add(Grade::remark, "", std::move(text)); };
+    int smooth = 3;
+    for (const CamKnot& knot : knots_of(run_)) smooth = std::min(smooth, knot.smooth);
+    if (smooth >= 0) remark(fmt::format("C{} at every knot and where the table closes", smooth));
+    if (!run_.curve.even && run_.cam.table.value(0, 0) > 0)
+      remark(fmt::format("the first point is at master {}: before it the last piece goes on",
+                         number_text(run_.cam.table.value(0, 0))));
+    if ((limits_.velocity || limits_.acceleration || limits_.jerk) && !run_.master_speed)
+      remark("maxvel, maxacc and maxjerk are judged with --master-speed only");
+  }
+
+  const CamInRun& run_;
+  const devices::plcopen::CamFile& cam_;
+  CamLimits limits_;
+  const std::string& unit_;
+  std::vector<CamFinding> found_;
+};
+
+}  // namespace
+
+devices::plcopen::CamLimits limits_of(const CamInRun& run, const CamDuty& duty) {
+  CamLimits limits = run.cam.limits;
+  if (duty.max_velocity) limits.velocity = duty.max_velocity;
+  if (duty.max_acceleration) limits.acceleration = duty.max_acceleration;
+  return limits;
+}
+
+std::vector<CamFinding> judge_cam_in(const CamInRun& run, const CamDuty& duty) {
+  return Judge(run, duty).findings();
+}
+
+}  // namespace drycut::sim

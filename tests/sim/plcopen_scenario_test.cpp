@@ -1,0 +1,387 @@
+// A scenario with a PLCopen controller: reading, writing back, putting together, running a cam.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sim/controller_loader.hpp"
+#include "sim/scenario/axis_units.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim/simulation.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace plcopen = devices::plcopen;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// A folder with the files of a scenario, gone with the test.
+struct PlcopenScenario : testing::Test {
+  PlcopenScenario() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder = std::filesystem::temp_directory_path() / (std::string("drycut_plcopen_") + test->name());
+    std::filesystem::create_directories(folder);
+    write("line.st", program);
+    write("cam.csv", "# interpolation: POLYNOM_3\n# endless: positive\nslave\n0\n700000\n1800000\n2900000\n");
+  }
+  ~PlcopenScenario() override { std::filesystem::remove_all(folder); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+  Scenario read(const std::string& text, const std::vector<Override>& overrides = {}) {
+    return read_scenario_text(text, folder / "line.yaml", overrides, problems);
+  }
+  /// A scenario with these lines under `plcopen:`.
+  static std::string with(const std::string& lines) {
+    return "scene: {step: 500 us, duration: 1 s}\ncontroller:\n  plcopen:\n" + lines;
+  }
+  static const PlcopenSection& section(const Scenario& scenario) {
+    return std::get<PlcopenSection>(scenario.controller);
+  }
+  /// Problems, without the folder's name.
+  std::vector<std::string> told() const {
+    std::vector<std::string> texts;
+    for (const auto& problem : problems) {
+      auto one = problem;
+      one.file = std::filesystem::path(one.file).filename().string();
+      texts.push_back(to_string(one));
+    }
+    return texts;
+  }
+  std::vector<std::string> build(const std::string& text) {
+    const auto scenario = read(text);
+    if (scenario.buildable) Simulation simulation(scenario, problems);
+    return told();
+  }
+
+  // A virtual line shaft that the knife follows by a cam.
+  static constexpr const char* program = R"(PROGRAM line
+VAR_EXTERNAL Line : AXIS_REF; Knife : AXIS_REF; END_VAR
+VAR
+  start AT %IX0.0 : BOOL;
+  locked AT %QX0.0 : BOOL;
+  speed : LREAL := 100000.0;
+  cam : MC_CAM_REF := (File := 'cam.csv');
+  PowerLine : MC_Power;
+  PowerKnife : MC_Power;
+  Home : MC_Home;
+  Run : MC_MoveVelocity;
+  Select : MC_CamTableSelect;
+  CamIn : MC_CamIn;
+END_VAR
+VAR RETAIN starts : DINT; END_VAR
+PowerLine(Axis := Line, Enable := TRUE);
+PowerKnife(Axis := Knife, Enable := start);
+Home(Axis := Knife, Execute := PowerKnife.Status);
+Run(Axis := Line, Execute := Home.Done, Velocity := speed);
+Select(Master := Line, Slave := Knife, CamTable := cam, Execute := Home.Done);
+CamIn(Master := Line, Slave := Knife, Execute := Run.InVelocity AND Select.Done, CamTableID := Select.CamTableID,
+      StartMode := HLI_CI_F_PERIODIC OR HLI_CI_ENDLESS_POSITIVE, InSync => locked);
+IF PowerKnife.Status AND starts = 0 THEN starts := 1; END_IF
+END_PROGRAM
+)";
+  static constexpr const char* line = R"(scene: {title: Cam, step: 500 us, duration: 8 s}
+plants:
+  knife: {type: ideal_axis, speed_at_10v: 1000 mm/s, resolution: 0.1 mm}
+controller:
+  plcopen:
+    program: line.st
+    cycle: 2 ms
+    axes:
+      Line: {kind: virtual, cam_gear.is_master: on}
+      Knife:
+        path: [360 deg, 10000]
+        antr.v_at_10v: 360 deg/s
+        dynamik: {vb_max: 1000 deg/s, a_max: 5000 deg/s2, tr_min: 10 ms}
+        cam_gear: {v_phasing: 50 deg/s, a_phasing: 500 deg/s2, d_phasing: 500 deg/s2, j_phasing: 5000 deg/s3,
+                   j_vel_sync: 5000 deg/s3}
+    tables: [cam.csv]
+    retentive: kept.txt
+wiring: {Knife.encoder: knife.encoder, Knife.reference: knife.reference, IX0.0: panel.start, QX0.0: panel.locked}
+timeline:
+  - {at: 0.2 s, set: {panel.start: 1}}
+record: {every: 10 ms, channels: [Knife.set_position, Knife.following_error, CamIn.InSync, Knife.coupling_phase]}
+checks:
+  - {name: locks on, eventually: "panel.locked == 1", within: 6 s}
+  - {name: coupled, always: "CamIn.InSync == 0 || Knife.coupling_phase == 5"}
+  - {name: follows, always: "abs(Knife.following_error) < 0.5", from: 1 s}
+  - {name: no stop, always: "Knife.state != 7 && CamIn.Error == 0"}
+)";
+  std::filesystem::path folder;
+  devices::Problems problems;
+};
+
+TEST_F(PlcopenScenario, ACamLocksOnBehindALineShaft) {
+  const auto scenario = read(line);
+  ASSERT_THAT(told(), IsEmpty());
+  Simulation simulation(scenario, problems);
+  ASSERT_THAT(told(), IsEmpty());
+  const auto outcome = simulation.run();
+  EXPECT_EQ(outcome.failure, "");
+  for (const auto& check : outcome.checks) EXPECT_TRUE(check.passed) << check.name << ": " << check.detail;
+  EXPECT_THAT(simulation.notes(), IsEmpty()) << "everything is wired, nothing was refused";
+  EXPECT_THAT(simulation.retentive_state(), HasSubstr("starts = 1"));
+}
+
+TEST_F(PlcopenScenario, QuantitiesAreConvertedAndBareNumbersAreTheKernels) {
+  const auto scenario =
+      read(with("    program: line.st\n    axes:\n"
+                "      Web: {kind: encoder, modulo: 0.8 m, path: [500 mm, 10000], dynamik.vb_max: "
+                "60 m/min, dynamik.a_max: 20 m/s2, dynamik.tr_min: 50 ms, kv: 12.5 1/s, "
+                "feed_forward: 98 %, cam_gear.j_phasing: 3 m/s^3, cam_gear.filter_cycles: 4}\n"
+                "      Knife: {modulo: 1 rev, path_increments: 3600000, dynamik.vb_max: 90 rpm}\n"
+                "      Shaft: {modulo: 0}\n"
+                "      Bare: {dynamik.vb_max: 1234.5, cam_gear: {is_master: 1, v_phasing: 7}}\n"));
+  ASSERT_THAT(told(), IsEmpty());
+  const auto& axes = section(scenario).axes;
+  ASSERT_EQ(axes.size(), 4U);
+  const auto& web = axes[0].configuration;
+  EXPECT_EQ(web.measure, plcopen::Measure::length);
+  EXPECT_EQ(web.parameters.kind, 2);
+  EXPECT_EQ(web.parameters.modulo, 8'000'000);
+  EXPECT_EQ(web.parameters.path_increments, 5'000'000);
+  EXPECT_EQ(web.parameters.path_counts, 10'000);
+  EXPECT_EQ(web.parameters.vb_max, 1'000'000);
+  EXPECT_EQ(web.parameters.a_max, 20'000);
+  EXPECT_EQ(web.parameters.tr_min, 50'000);
+  EXPECT_EQ(web.parameters.kv, 1'250);
+  EXPECT_EQ(web.parameters.feed_forward, 980);
+  EXPECT_EQ(web.parameters.j_phasing, 3'000);
+  EXPECT_EQ(web.parameters.filter_cycles, 4);
+  EXPECT_EQ(axes[1].configuration.measure, plcopen::Measure::angle);
+  EXPECT_EQ(axes[1].configuration.parameters.modulo, 3'600'000);
+  EXPECT_EQ(axes[1].configuration.parameters.vb_max, 540'000);
+  EXPECT_EQ(axes[2].configuration.measure, plcopen::Measure::length) << "a linear axis";
+  EXPECT_EQ(axes[3].configuration.measure, plcopen::Measure::angle);
+  EXPECT_EQ(axes[3].configuration.parameters.vb_max, 1234.5);
+  EXPECT_EQ(axes[3].configuration.parameters.is_master, 1);
+  EXPECT_EQ(axes[3].configuration.parameters.v_phasing, 7);
+  EXPECT_EQ(section(scenario).cycle, 2 * millisecond);
+  EXPECT_EQ(section(scenario).task_cycle, 2 * millisecond);
+}
+
+TEST_F(PlcopenScenario, EveryParameterWithAUnitTellsWhichOne) {
+  for (const auto& row : plcopen::axis_parameter_table()) {
+    const auto length = axis_unit(row, plcopen::Measure::length);
+    const auto angle = axis_unit(row, plcopen::Measure::angle);
+    const bool bare = row.unit.empty() || row.unit == "counts x4" || row.unit == "cycles";
+    EXPECT_EQ(length.unit.empty(), bare) << row.name << " is in " << row.unit;
+    EXPECT_EQ(angle.unit.empty(), bare) << row.name;
+  }
+}
+
+TEST_F(PlcopenScenario, FaultsOfTheAxesAreToldAllAtOnce) {
+  read(
+      with("    program: line.st\n    axes:\n"
+           "      Web: {kind: servo, path: 500 mm, modulo: 800 mm, dynamik.vb_max: 10 deg/s}\n"
+           "      web: {}\n"
+           "      2x: {}\n"
+           "      Knife:\n"
+           "        v_phasing: 1\n"
+           "        kw: 5\n"
+           "        dynamik: {vb_max: 0 mm/s, tr_min: 5 mm, a_mx: 1}\n"
+           "        dynamik.vb_max: 5 mm/s\n"
+           "        cam_gear.filter_cycles: 1.5\n"
+           "        cam_gear.is_master: yes\n"
+           "        kv:\n"
+           "        path_counts: 10 mm\n"
+           "        modulo: 0.00001 mm\n"
+           "      Other: 5\n"));
+  EXPECT_THAT(
+      told(),
+      ElementsAre(
+          "line.yaml:6:19: controller.plcopen.axes.Web.kind: unknown choice 'servo'; known: drive, virtual, "
+          "encoder",
+          "line.yaml:6:32: controller.plcopen.axes.Web.path is not a way and its counts; write [500 mm, "
+          "10000]: the "
+          "way of so many counts (x4) of the encoder",
+          "line.yaml:6:75: controller.plcopen.axes.Web.dynamik.vb_max is a rotational speed, but modulo is a "
+          "length; "
+          "an axis measures lengths or angles: give all its quantities in one of them",
+          "line.yaml:7:7: axis web is Web already: names are the same in any case; keep one",
+          "line.yaml:8:7: '2x' is no name of an axis; letters, digits and underscores, as the program's "
+          "VAR_EXTERNAL "
+          "spells it",
+          "line.yaml:10:9: unknown key 'v_phasing' in controller.plcopen.axes.Knife; did you mean "
+          "cam_gear.v_phasing?",
+          "line.yaml:11:9: unknown key 'kw' in controller.plcopen.axes.Knife; did you mean kv?",
+          "line.yaml:12:27: controller.plcopen.axes.Knife.dynamik.vb_max is 0 mm/s, out of range; 0.001 mm/s "
+          "to "
+          "2147483.647 mm/s",
+          "line.yaml:12:45: controller.plcopen.axes.Knife.dynamik.tr_min is a time, not a length (mm); for "
+          "example 1 "
+          "us",
+          "line.yaml:12:49: unknown key 'a_mx' in controller.plcopen.axes.Knife.dynamik; did you mean "
+          "dynamik.a_max?",
+          "line.yaml:13:9: controller.plcopen.axes.Knife.dynamik.vb_max is given twice; keep one; the first "
+          "is at "
+          "line 12",
+          "line.yaml:14:33: controller.plcopen.axes.Knife.cam_gear.filter_cycles is 1.5, not a whole number "
+          "of "
+          "cycles; 1 to 1000",
+          "line.yaml:15:29: controller.plcopen.axes.Knife.cam_gear.is_master: 'yes' is not a switch "
+          "position; write "
+          "on or off (or true, false)",
+          "line.yaml:16:9: controller.plcopen.axes.Knife.kv has no value; give it one, or leave the key out",
+          "line.yaml:17:25: controller.plcopen.axes.Knife.path_counts is a pure number, not a length (mm); "
+          "write a "
+          "number without unit",
+          "line.yaml:18:17: controller.plcopen.axes.Knife.modulo is 0.00001 mm, not a whole number of 0.1 "
+          "um, 0.0001 "
+          "deg; 0 mm to 214748.3647 mm",
+          HasSubstr("line.yaml:19:14: controller.plcopen.axes.Other")));
+}
+
+TEST_F(PlcopenScenario, FaultsOfTheSectionAreToldAllAtOnce) {
+  read(
+      with("    cycle: 700 us\n    task_cycle: 1 ms\n    tables: [{id: 70000}, {file: a.tab, name: x}]\n"
+           "    programm: a.st\n"));
+  EXPECT_THAT(
+      told(),
+      ElementsAre(
+          HasSubstr("program is missing; add program: programs/knife.st"),
+          "line.yaml:4:12: controller.plcopen.cycle 700 us is not a whole multiple of scene.step 500 "
+          "us; for example 500 us or 1 ms",
+          "line.yaml:5:5: controller.plcopen.task_cycle 1 ms is not a whole multiple of the cycle 700 "
+          "us; for example 700 us",
+          "line.yaml:6:14: controller.plcopen.tables.0.file is missing; add file: cams/knife.tab",
+          HasSubstr("line.yaml:6:19: controller.plcopen.tables.0.id is 70000, out of range"),
+          HasSubstr("unknown key 'name' in controller.plcopen.tables.1"),
+          "line.yaml:7:5: unknown key 'programm' in controller.plcopen; did you mean program?"));
+}
+
+TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
+  auto text = std::string(line);
+  text.replace(text.find("tables: [cam.csv]"), 17, "tables: [{file: cam.csv, id: 3}]");
+  text.replace(text.find("vb_max: 1000 deg/s"), 18, "vb_max: 1234.56789");
+  const auto scenario = read(text, {{"controller.plcopen.set.speed", "5"}});
+  ASSERT_THAT(told(), IsEmpty());
+  const auto expanded = expand(scenario);
+  EXPECT_THAT(expanded,
+              HasSubstr("    axes:\n      Line:\n        kind: virtual\n        modulo: 360 deg\n"));
+  EXPECT_THAT(expanded, HasSubstr("        cam_gear.v_phasing: 50 deg/s\n"));
+  EXPECT_THAT(
+      expanded,
+      HasSubstr("    tables: [{file: cam.csv, id: 3}]\n    retentive: kept.txt\n    set: {speed: 5}"));
+  const auto again = read(expanded);
+  ASSERT_THAT(told(), IsEmpty());
+  EXPECT_EQ(expand(again), expanded);
+  for (const auto& row : plcopen::axis_parameter_table())
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_EQ(section(again).axes[i].configuration.parameters.*row.member,
+                section(scenario).axes[i].configuration.parameters.*row.member)
+          << row.name;
+}
+
+TEST_F(PlcopenScenario, OverridesReachParametersOfAxesAndValues) {
+  const auto scenario = read(line, {{"controller.plcopen.axes.Knife.kv", "30 1/s"},
+                                    {"controller.plcopen.axes.Knife.cam_gear.v_phasing", "60 deg/s"},
+                                    {"controller.plcopen.axes.Line.dynamik.a_max", "300"},
+                                    {"controller.plcopen.set.Knife.kv", "4000"}});
+  ASSERT_THAT(told(), IsEmpty());
+  EXPECT_EQ(section(scenario).axes[1].configuration.parameters.kv, 3'000);
+  EXPECT_EQ(section(scenario).axes[1].configuration.parameters.v_phasing, 60'000);
+  EXPECT_EQ(section(scenario).axes[0].configuration.parameters.a_max, 300);
+  const auto controller = load_controller(scenario, problems);
+  ASSERT_TRUE(controller);
+  EXPECT_EQ(controller->find("Knife.kv")->read(), 4'000);
+}
+
+TEST_F(PlcopenScenario, WhatTheProgramNamesMustBeThere) {
+  EXPECT_THAT(
+      build(with("    program: line.st\n    axes: {Line: {kind: virtual}, Knive: {}}\n    tables: []\n")),
+      ElementsAre("line.st:2:31: the scenario has no axis 'Knife'; did you mean Knive? Else add it to "
+                  "controller.plcopen.axes",
+                  HasSubstr("the scenario has no cam table 'cam.csv'; add it to controller.plcopen.tables")));
+}
+
+TEST_F(PlcopenScenario, TablesAreReadAndHaveNamesAndIdsOfTheirOwn) {
+  std::filesystem::create_directories(folder / "other");
+  write("b.csv", "slave\n0\n1\n");
+  write("other/cam.csv", "slave\n0\n1\n");
+  write("wrong.tab", "Tablename = x\n");
+  EXPECT_THAT(
+      build(
+          with("    program: line.st\n    axes: {Line: {kind: virtual}, Knife: {}}\n"
+               "    tables: [cam.csv, b.csv, {file: other/cam.csv, id: 7}, cam.txt, gone.tab, wrong.tab]\n")),
+      testing::AllOf(
+          Contains("line.yaml:6:23: b.csv has id 1, as cam.csv has; give one an id of its own: {file: b.csv, "
+                   "id: 2}"),
+          Contains("line.yaml:6:37: two tables are called cam.csv; programs find them by name: rename one"),
+          Contains("line.yaml:6:60: 'cam.txt' is no kind of cam table that is known; give a table of the "
+                   "kernel (.tab) or a cam as CSV (.csv)"),
+          Contains(HasSubstr("line.yaml:6:69: ")), Contains(HasSubstr("wrong.tab:"))));
+}
+
+TEST_F(PlcopenScenario, ValuesBeforePowerUpAreChecked) {
+  EXPECT_THAT(
+      build(with(
+          "    program: line.st\n    axes: {Line: {kind: virtual}, Knife: {}}\n    tables: [cam.csv]\n"
+          "    set: {Knife.kv: 1e9, spede: 1, CamIn.InSync: 1, Knife.state: 1, speed: 5, Knife.override: "
+          "50}\n")),
+      ElementsAre(
+          HasSubstr("line.yaml:7:11: Knife.kv does not hold 1000000000; write 0 to 100000 0.01/s"),
+          "line.yaml:7:26: the controller has nothing called 'spede'; did you mean speed?",
+          "line.yaml:7:36: 'CamIn.InSync' can only be read; name a variable of the program, or a value "
+          "or parameter of an axis (drycut devices AXIS)",
+          HasSubstr("line.yaml:7:53: 'Knife.state' can only be read")));
+}
+
+TEST_F(PlcopenScenario, WiresAreCheckedByWhatTheControllerHas) {
+  auto text = std::string(line);
+  const auto wiring = text.find("wiring:");
+  text.replace(
+      wiring, text.find('\n', wiring) - wiring,
+      "wiring: {Knife.encoder: knife.reference, Knif.encoder: knife.encoder, 2.AN01: knife.reference, "
+      "QX0.0: panel.locked, IX0.0: panel.start, Knife.ready: knife.switch1}");
+  const auto problems_told = build(text);
+  EXPECT_THAT(
+      problems_told,
+      ElementsAre(HasSubstr("Knife.encoder is a counter, knife.reference is a reference; wire it to one of: "
+                            "knife.encoder"),
+                  HasSubstr("'Knif.encoder' is no terminal: there is no axis 'Knif'; did you mean Knife?"),
+                  HasSubstr("'2.AN01' is no terminal: there is no axis '2'; axes: Line, Knife")));
+}
+
+TEST_F(PlcopenScenario, WhatADriveNeedsAndNothingIsWiredToIsNoted) {
+  auto text = std::string(line);
+  text.replace(text.find("Knife.encoder: knife.encoder, "), 30, "");
+  text.replace(text.find("Knife.reference: knife.reference, "), 34, "");
+  const auto scenario = read(text);
+  Simulation simulation(scenario, problems);
+  ASSERT_THAT(told(), IsEmpty());
+  EXPECT_THAT(simulation.notes(), ElementsAre("not wired: Knife.encoder, Knife.reference"));
+}
+
+TEST_F(PlcopenScenario, AProgramThatDoesNotLoadMakesNoSwitchOrLampOfThePanelUnknown) {
+  auto text = std::string(line);
+  text.replace(text.find("program: line.st"), 16, "program: gone.st");
+  const auto all = build(text);
+  ASSERT_EQ(all.size(), 1U) << all.back();
+  EXPECT_THAT(all.front(), HasSubstr("gone.st"));
+}
+
+TEST_F(PlcopenScenario, ItsFilesAreThoseOfTheScenario) {
+  const auto scenario = read(line);
+  std::vector<std::string> names;
+  for (const auto& file : controller_files(scenario)) names.push_back(file.text);
+  EXPECT_THAT(names, ElementsAre("line.st", "cam.csv", "kept.txt"));
+  EXPECT_EQ(retentive_file(scenario)->filename(), "kept.txt");
+}
+
+TEST_F(PlcopenScenario, RetainVariablesComeFromTheirFile) {
+  write("kept.txt", "starts = 12\n");
+  const auto scenario = read(line);
+  auto controller = load_controller(scenario, problems);
+  ASSERT_THAT(told(), IsEmpty());
+  EXPECT_EQ(controller->find("starts")->read(), 12);
+  write("kept.txt", "stars = 12\n");
+  load_controller(scenario, problems);
+  EXPECT_THAT(told(),
+              ElementsAre("kept.txt:1:1: the program has no RETAIN variable 'stars'; remove the line"));
+}
+
+}  // namespace
+}  // namespace drycut::sim

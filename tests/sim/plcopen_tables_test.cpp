@@ -1,0 +1,63 @@
+// `drycut devices` for the PLCopen controller: the device room's own tables, nothing left out.
+#include <gmock/gmock.h>
+
+#include "devices/plcopen/axis_values.hpp"
+#include "devices/plcopen/errors.hpp"
+#include "devices/plcopen/pins.hpp"
+#include "devices/plcopen/terminals.hpp"
+#include "sim/commands/commands.hpp"
+#include "sim/commands/controller_table.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace plcopen = devices::plcopen;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string printed(const std::string& name, bool json) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(list_devices(name, json), all_passed);
+  return testing::internal::GetCapturedStdout();
+}
+
+TEST(PlcopenTables, TheShortListNamesTheAxisAndTheBlocksTogether) {
+  const auto list = printed("", false);
+  EXPECT_THAT(list, HasSubstr("\nPLCOPEN        PLCopen motion controller"));
+  EXPECT_THAT(list, HasSubstr("\nAXIS           axis of the PLCopen controller"));
+  EXPECT_THAT(list, Not(HasSubstr("MC_CamIn")));
+}
+
+TEST(PlcopenTables, AnAxisIsItsParametersValuesAndTerminals) {
+  const auto text = printed("axis", false);
+  const auto json = nlohmann::json::parse(printed("AXIS", true));
+  EXPECT_EQ(json.at("parameters").size(), plcopen::axis_parameter_table().size());
+  EXPECT_EQ(json.at("values").size(), plcopen::axis_value_table().size());
+  EXPECT_EQ(json.at("terminals").size(), plcopen::axis_terminal_table().size());
+  for (const auto& row : plcopen::axis_parameter_table()) EXPECT_THAT(text, HasSubstr(std::string(row.name)));
+  for (const auto& row : plcopen::axis_value_table()) EXPECT_THAT(text, HasSubstr(std::string(row.name)));
+  EXPECT_THAT(text, HasSubstr("drive | virtual | encoder"));
+  const auto& modulo = json.at("parameters").at(1);
+  EXPECT_EQ(modulo.at("name"), "modulo");
+  EXPECT_EQ(modulo.at("default"), "360 deg");
+  EXPECT_EQ(modulo.at("unit"), "mm or deg");
+  EXPECT_EQ(modulo.at("kernel_unit"), "0.1 um, 0.0001 deg");
+}
+
+TEST(PlcopenTables, EveryBlockListsItsPins) {
+  for (const auto& type : plcopen::block_types()) {
+    const auto json = nlohmann::json::parse(printed(std::string(type.name), true));
+    ASSERT_EQ(json.at("pins").size(), type.pins.size()) << type.name;
+    const auto text = printed(std::string(type.name), false);
+    for (const auto& pin : type.pins) EXPECT_THAT(text, HasSubstr(std::string(pin.name))) << type.name;
+  }
+  const auto json = nlohmann::json::parse(printed("plcopen", true));
+  EXPECT_EQ(json.at("blocks").size(), plcopen::block_types().size());
+  EXPECT_EQ(json.at("errors").size(), plcopen::error_table.size());
+  const auto text = printed("PLCOPEN", false);
+  EXPECT_THAT(text, HasSubstr("60251   the slave of a cam must be homed"));
+  EXPECT_THAT(text, HasSubstr("HLI_CI_F_PERIODIC"));
+}
+
+}  // namespace
+}  // namespace drycut::sim
