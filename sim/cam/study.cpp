@@ -17,13 +17,13 @@ namespace {
 
 constexpr std::array kinds = {camming4_cams, mc_camin_cams, lx3vp_cams};
 
-/// Whether a cell of a header is a column of a kind of table, or nearly so.
-bool has_column_of(const CamKind& kind, std::string_view header) {
+/// How many cells of a header are columns of a kind of table, or nearly so.
+auto near_columns(const CamKind& kind, std::string_view header) {
   std::vector<std::string> names;
   for (const auto& column : split_cells(kind.header.substr(0, kind.header.find(" ("))))
     names.emplace_back(column.text);
   const auto cells = split_cells(header);
-  return std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) {
+  return std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
     return !devices::nearest(std::string(cell.text.substr(0, 40)), names).empty();
   });
 }
@@ -66,9 +66,10 @@ const CamKind& cam_kind(std::string_view name, std::string_view text) {
   const auto header = header_line(text);
   const bool numbers = !header.empty() && std::isdigit(static_cast<unsigned char>(header.front())) != 0;
   if (!name.empty() || header.empty() || numbers) return kinds.front();
-  const auto near = std::find_if(kinds.begin(), kinds.end(),
-                                 [&](const CamKind& kind) { return has_column_of(kind, header); });
-  return near == kinds.end() ? no_kind : *near;
+  const auto near = std::max_element(kinds.begin(), kinds.end(), [&](const CamKind& a, const CamKind& b) {
+    return near_columns(a, header) < near_columns(b, header);
+  });
+  return near_columns(*near, header) == 0 ? no_kind : *near;
 }
 
 std::string cam_report(const CamStudy& study) {

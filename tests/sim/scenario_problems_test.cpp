@@ -251,10 +251,11 @@ TEST(ScenarioProblems, PlantsTakenTogether) {
 
 TEST(ScenarioProblems, Controller) {
   expect_problems({
-      {"controller: {s7: {program: a.il}}\n", {"1:14: unknown controller 's7'; known: qmove, lx3vp, plcopen"}},
+      {"controller: {s7: {program: a.il}}\n",
+       {"1:14: unknown controller 's7'; known: qmove, lx3vp, plcopen"}},
       {"controller: {}\n",
-       {"1:13: controller names none; write controller: {qmove: {configuration: ...}} or {lx3vp: {program: "
-        "...}}"}},
+       {"1:13: controller names none; write controller: {qmove: {configuration: ...}}, {lx3vp: {program: "
+        "...}} or {plcopen: {program: ...}}"}},
       {"controller: {lx3vp: {}, qmove: {configuration: a.cnf}}\n",
        {"1:21: controller.lx3vp.program is missing; add program: programs/saw.il",
         "1:25: a second controller, after lx3vp; keep one"}},
