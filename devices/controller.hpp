@@ -24,7 +24,8 @@ struct ControllerValue {
 /// Something that happened inside the controller: a refused command, a run-time error, a device warning.
 struct ControllerEvent {
   std::string source;  ///< device or task name
-  std::string event;   ///< "refused", "out_of_range", "error", "warning", "stopped", "errorstop"
+  std::string
+      event;  ///< "refused", "out_of_range", "error", "warning", "stopped", "errorstop", "block_error"
   std::string text;
 };
 

@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 
 #include "renders/caption_bar.hpp"
@@ -47,7 +48,7 @@ renders::SolidPart solid(const std::string& plant, const plants::Part& part) {
   const auto shape = part.shape == plants::Part::Shape::box        ? renders::SolidPart::Shape::box
                      : part.shape == plants::Part::Shape::cylinder ? renders::SolidPart::Shape::cylinder
                                                                    : renders::SolidPart::Shape::wedge;
-  return {plant + "." + part.name, shape, part.size, part.colour, part.material, {}};
+  return {plant + "." + part.name, shape, part.size, part.colour, part.material, {}, part.tip};
 }
 
 /// A caption's number with as many digits as an operator's panel would show.
@@ -174,6 +175,31 @@ renders::Film shown(const renders::Film& film, const std::string& camera) {
   return view;
 }
 
+std::vector<renders::Callout> chosen_callouts(const PicturesSection::Overlays& overlays,
+                                              const std::vector<plants::Callout>& callouts) {
+  std::vector<renders::Callout> chosen;
+  for (const auto& [kind, text, at, to] : callouts) {
+    const bool length = kind == plants::Callout::Kind::length;
+    if (length ? !overlays.lengths : !overlays.forces) continue;
+    chosen.push_back({length ? renders::Callout::Kind::length : renders::Callout::Kind::force, text, at, to});
+  }
+  return chosen;
+}
+
+std::vector<renders::LiveCurve> live_curves(const PicturesSection& pictures, const Recording& recording) {
+  std::vector<renders::LiveCurve> curves;
+  for (const auto& name : pictures.live) {
+    const auto* column = recording.column(name.text);
+    auto& curve = curves.emplace_back(renders::LiveCurve{name.text, column->unit, {}, column->values});
+    for (const auto time : recording.times()) curve.times_s.push_back(seconds(time));
+  }
+  return curves;
+}
+
+renders::Camera own_camera(const PicturesSection::Eye& eye) {
+  return {eye.eye, eye.target, eye.field_of_view * 180 / std::numbers::pi};
+}
+
 /// What a film in slow motion about an event tells beside the channels.
 std::vector<renders::CaptionItem> film_caption(const PicturesSection& pictures,
                                                std::optional<double> event_at, double at) {
@@ -208,13 +234,21 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
       frame.placements.push_back({pose.pose.position, pose.pose.rotation, pose.scale, pose.visible});
     }
     frame.caption = film_caption(scenario.pictures, simulation.frames_event(), frame.time_s);
-    for (std::size_t i = 0; i < shot.caption.size(); ++i) {
-      frame.caption.push_back({scenario.pictures.caption[i].text,
-                               caption_number(shot.caption[i], simulation.caption_units()[i])});
-    }
+    const auto& numbers = scenario.pictures.caption;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      frame.caption.push_back(
+          {numbers[i].text, caption_number(shot.caption[i], simulation.caption_units()[i])});
+    for (std::size_t i = numbers.size(); i < shot.caption.size(); ++i)
+      frame.caption.push_back({scenario.pictures.lamps[i - numbers.size()].text, "", shot.caption[i] != 0});
+    frame.callouts = chosen_callouts(scenario.pictures.overlays, shot.callouts);
     film.frames.push_back(std::move(frame));
   }
-  film.camera = renders::operator_camera(shown(film, scenario.pictures.camera));
+  film.trails = scenario.pictures.overlays.trail;
+  film.live = live_curves(scenario.pictures, simulation.recording());
+  film.live_window_s /= scenario.pictures.slow;
+  film.camera = scenario.pictures.own_camera
+                    ? own_camera(*scenario.pictures.own_camera)
+                    : renders::operator_camera(shown(film, scenario.pictures.camera));
   return film;
 }
 

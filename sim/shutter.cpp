@@ -40,6 +40,7 @@ Snapshot* Shutter::hold(Time now) {
   auto& shot = held_.back();
   shot.poses.clear();
   shot.caption.clear();
+  shot.callouts.clear();
   return &shot;
 }
 

@@ -13,7 +13,8 @@ namespace drycut::sim {
 struct Snapshot {
   Time time = 0;
   std::vector<plants::PartPose> poses;  ///< of all plants, in order
-  std::vector<double> caption;          ///< one a caption channel
+  std::vector<double> caption;          ///< one a caption channel, then one a lamp
+  std::vector<plants::Callout> callouts;
 };
 
 /// Decides when a frame's poses are taken and keeps them: between two times, or around an event. As nobody

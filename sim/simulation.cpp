@@ -39,7 +39,9 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
       known_events_.push_back(std::move(event));
     }
   }
-  checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, known_events_, problems);
+  all_events_ = known_events_;
+  for (auto& event : events_of_every_run()) all_events_.push_back(std::move(event));
+  checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, all_events_, problems);
   bind_recording(problems);
   bind_pictures(problems);
 }
@@ -117,8 +119,7 @@ void Simulation::add_motor(const Text& plant, devices::Problems& problems) {
                                 "name a plant with parameters servo.rated_torque, servo.peak_torque, ..."));
 }
 
-void Simulation::bind_plot(const PlotRequest& plot, const std::vector<KnownEvent>& events,
-                           devices::Problems& problems) {
+void Simulation::bind_plot(const PlotRequest& plot, devices::Problems& problems) {
   for (const auto& panel : plot.panels) {
     check_plot_event(panel, problems);
     for (const auto& name : panel.lanes) add_lane(name, problems);
@@ -128,13 +129,13 @@ void Simulation::bind_plot(const PlotRequest& plot, const std::vector<KnownEvent
     if (!panel.motor.text.empty()) add_motor(panel.motor, problems);
   }
   if (!plot.marks) return;
-  for (const auto& mark : *plot.marks) find_event(events, mark, scenario_, problems);
+  for (const auto& mark : *plot.marks) find_event(all_events_, mark, scenario_, problems);
 }
 
-void Simulation::bind_frames(const std::vector<KnownEvent>& events, devices::Problems& problems) const {
+void Simulation::bind_frames(devices::Problems& problems) const {
   const auto& pictures = scenario_.pictures;
   if (!pictures.frames) return;
-  if (pictures.around) find_event(events, pictures.around->event, scenario_, problems);
+  if (pictures.around) find_event(all_events_, pictures.around->event, scenario_, problems);
   if (pictures.every % pictures.slow == 0 && pictures.every / pictures.slow % step_ == 0) return;
   problems.push_back(problem_at(
       scenario_, pictures.slow_place,
@@ -152,11 +153,15 @@ void Simulation::bind_pictures(devices::Problems& problems) {
                                   fmt::format("there is no camera '{}'", camera),
                                   fmt::format("cameras: {}", fmt::join(cameras, ", "))));
   }
-  auto events = known_events_;
-  for (auto& event : events_of_every_run()) events.push_back(std::move(event));
-  bind_frames(events, problems);
-  for (const auto& plot : scenario_.pictures.plots) bind_plot(plot, events, problems);
-  for (const auto& name : scenario_.pictures.caption) {
+  bind_frames(problems);
+  for (const auto& plot : scenario_.pictures.plots) bind_plot(plot, problems);
+  for (const auto& name : scenario_.pictures.live) add_channel(name, problems);
+  bind_caption(scenario_.pictures.caption, problems);
+  bind_caption(scenario_.pictures.lamps, problems);
+}
+
+void Simulation::bind_caption(const std::vector<Text>& names, devices::Problems& problems) {
+  for (const auto& name : names) {
     const auto* slot = watch_->slot(name.text);
     if (slot == nullptr) {
       problems.push_back(problem_at(scenario_, name.place, fmt::format("there is no channel '{}'", name.text),
@@ -240,6 +245,7 @@ void Simulation::snapshot() {
     poses.clear();
     plant->poses(poses);
     shot->poses.insert(shot->poses.end(), poses.begin(), poses.end());
+    plant->callouts(shot->callouts);
   }
   for (const auto* slot : caption_) shot->caption.push_back(*slot);
 }

@@ -82,8 +82,9 @@ class Simulation {
   void check_periods(devices::Problems& problems) const;
   void bind_recording(devices::Problems& problems);
   void bind_pictures(devices::Problems& problems);
-  void bind_plot(const PlotRequest& plot, const std::vector<KnownEvent>& events, devices::Problems& problems);
-  void bind_frames(const std::vector<KnownEvent>& events, devices::Problems& problems) const;
+  void bind_caption(const std::vector<Text>& names, devices::Problems& problems);
+  void bind_plot(const PlotRequest& plot, devices::Problems& problems);
+  void bind_frames(devices::Problems& problems) const;
   void check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const;
   void add_motor(const Text& plant, devices::Problems& problems);
   void add_lane(const Text& name, devices::Problems& problems);
@@ -114,7 +115,8 @@ class Simulation {
   Shutter shutter_;
   std::vector<const double*> caption_;
   std::vector<std::string> caption_units_;
-  std::vector<KnownEvent> known_events_;
+  std::vector<KnownEvent> known_events_;  ///< of the plants
+  std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;
   std::string program_error_;  ///< first run-time error of the controller's program
 };

@@ -291,7 +291,7 @@ void PlcopenController::tell_blocks() {
     const bool now = runtime_.read(block.error) != 0;
     if (now && !block.seen) {
       const auto id = static_cast<ErrorId>(static_cast<std::uint32_t>(runtime_.read(block.id)));
-      events_.push_back({block.instance, "refused", error_text(id)});
+      events_.push_back({block.instance, "block_error", error_text(id)});
     }
     block.seen = now;
   }

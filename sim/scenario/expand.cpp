@@ -226,11 +226,12 @@ class Writer {
       line(2, fmt::format("every: {}", format_time(section.every)));
       frame_window(section);
       line(2, fmt::format("slow: {}", section.slow));
-      line(2, fmt::format("camera: {}", section.camera));
+      camera(section);
       line(2, fmt::format("size: {}x{}", section.width, section.height));
       line(1, fmt::format("video: {}", section.video ? "on" : "off"));
     }
     line(1, fmt::format("caption: {}", texts(section.caption)));
+    if (section.frames) overlays(section);
     if (!section.meshes.empty()) line(1, "meshes:");
     for (const auto& one : section.meshes) mesh(one);
     if (section.plots.empty()) line(1, "plots: []");
@@ -238,13 +239,36 @@ class Writer {
     for (const auto& one : section.plots) plot(one);
   }
 
+  static std::string triple(const std::array<double, 3>& values, std::string_view unit) {
+    std::string text;
+    for (const double value : values)
+      text += (text.empty() ? "" : ", ") + yaml_text(format_quantity(value, unit));
+    return "[" + text + "]";
+  }
+
+  void camera(const PicturesSection& section) {
+    if (const auto& own = section.own_camera) {
+      line(2, "camera:");
+      line(3, "eye: " + triple(own->eye, "m"));
+      line(3, "target: " + triple(own->target, "m"));
+      line(3, "field_of_view: " + yaml_text(format_quantity(own->field_of_view, "deg")));
+    } else {
+      line(2, fmt::format("camera: {}", section.camera));
+    }
+    if (!section.follow.text.empty()) line(2, "follow: " + yaml_text(section.follow.text));
+  }
+
+  void overlays(const PicturesSection& section) {
+    std::vector<std::string> names;
+    if (section.overlays.trail) names.emplace_back("trail");
+    if (section.overlays.lengths) names.emplace_back("lengths");
+    if (section.overlays.forces) names.emplace_back("forces");
+    line(1, fmt::format("lamps: {}", texts(section.lamps)));
+    line(1, fmt::format("overlays: [{}]", fmt::join(names, ", ")));
+    line(1, fmt::format("live: {}", texts(section.live)));
+  }
+
   void mesh(const PicturesSection::MeshRequest& one) {
-    const auto triple = [](const std::array<double, 3>& values, std::string_view unit) {
-      std::string text;
-      for (const double value : values)
-        text += (text.empty() ? "" : ", ") + yaml_text(format_quantity(value, unit));
-      return "[" + text + "]";
-    };
     line(2, fmt::format("{}:", yaml_text(one.part.text)));
     line(3, "file: " + yaml_text(one.file.text));
     line(3, fmt::format("scale: {}", one.scale));

@@ -2,33 +2,12 @@
 // the machine is built (sim/part_meshes.cpp).
 #include <fmt/format.h>
 
-#include <array>
-
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim {
 
 namespace {
-
-// at: [0 mm, 20 mm, 0 mm]
-void read_triple(MapReader& reader, std::string_view key, std::string_view unit,
-                 std::array<double, 3>& values, Findings& findings) {
-  std::vector<Text> texts;
-  if (!reader.has(key)) return reader.texts(key, texts);
-  const auto before = findings.count();
-  reader.texts(key, texts);
-  if (findings.count() != before) return;
-  if (texts.size() != values.size()) {
-    findings.add(reader.place(key), fmt::format("{} has {} numbers", reader.full(key), texts.size()),
-                 fmt::format("write three, along x, y and z: [0 {0}, 20 {0}, 0 {0}]", unit));
-    return;
-  }
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto name = fmt::format("{}.{}", reader.full(key), i);
-    if (const auto value = read_si(texts[i], name, unit, findings)) values[i] = *value;
-  }
-}
 
 PicturesSection::MeshRequest read_mesh(const YamlNode::Entry& entry, const std::string& name,
                                        Findings& findings) {
@@ -50,6 +29,24 @@ PicturesSection::MeshRequest read_mesh(const YamlNode::Entry& entry, const std::
 }
 
 }  // namespace
+
+void read_triple(MapReader& reader, std::string_view key, std::string_view unit,
+                 std::array<double, 3>& values, Findings& findings) {
+  std::vector<Text> texts;
+  if (!reader.has(key)) return reader.texts(key, texts);
+  const auto before = findings.count();
+  reader.texts(key, texts);
+  if (findings.count() != before) return;
+  if (texts.size() != values.size()) {
+    findings.add(reader.place(key), fmt::format("{} has {} numbers", reader.full(key), texts.size()),
+                 fmt::format("write three, along x, y and z: [0 {0}, 20 {0}, 0 {0}]", unit));
+    return;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto name = fmt::format("{}.{}", reader.full(key), i);
+    if (const auto value = read_si(texts[i], name, unit, findings)) values[i] = *value;
+  }
+}
 
 std::vector<PicturesSection::MeshRequest> read_meshes(const YamlNode& node, Findings& findings) {
   const std::string name = "pictures.meshes";

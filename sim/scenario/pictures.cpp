@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numbers>
 
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_reader.hpp"
@@ -13,6 +14,9 @@ namespace {
 
 constexpr int smallest = 64;
 constexpr int largest = 4096;
+constexpr std::size_t most_live = 2;
+constexpr double narrowest = 1 * std::numbers::pi / 180;  // field of view [rad]
+constexpr double widest = 150 * std::numbers::pi / 180;
 
 // "960x540"
 void read_size(const Text& text, PicturesSection& pictures, Findings& findings) {
@@ -61,6 +65,68 @@ void read_window(MapReader& reader, PicturesSection& pictures, Findings& finding
   }
 }
 
+// camera: operator, or {eye: [0 m, 1 m, 2 m], target: [0 m, 0 m, 0 m]}
+void read_camera(MapReader& frames, PicturesSection& pictures, Findings& findings) {
+  const auto* entry = frames.find("camera");
+  if (entry == nullptr) return;
+  pictures.camera_place = entry->value.text.place;
+  if (entry->value.kind != YamlNode::Kind::map) {
+    if (const auto* name = frames.scalar("camera")) pictures.camera = name->text;
+    return;
+  }
+  MapReader reader(entry->value, "pictures.frames.camera", findings);
+  PicturesSection::Eye own;
+  for (const auto* key : {"eye", "target"})
+    if (!reader.has(key))
+      reader.missing(key, fmt::format("write {}: [0 m, 1 m, 2 m], along x, y and z", key));
+  const auto before = findings.count();
+  read_triple(reader, "eye", "m", own.eye, findings);
+  read_triple(reader, "target", "m", own.target, findings);
+  if (const auto* angle = reader.scalar("field_of_view")) {
+    own.field_of_view =
+        read_si(*angle, reader.full("field_of_view"), "deg", findings).value_or(own.field_of_view);
+    if (own.field_of_view < narrowest || own.field_of_view > widest)
+      findings.add(angle->place,
+                   fmt::format("{} is {}, out of range", reader.full("field_of_view"), angle->text),
+                   "1 deg to 150 deg; 35 deg is the default");
+  }
+  if (findings.count() == before && reader.has("eye") && reader.has("target") && own.eye == own.target)
+    findings.add(reader.place("target"), "pictures.frames.camera looks at the place where it stands",
+                 "let target be another point than eye");
+  reader.finish();
+  pictures.own_camera = own;
+}
+
+// overlays: [trail, lengths, forces]
+void read_overlays(MapReader& reader, PicturesSection& pictures, Findings& findings) {
+  std::vector<Text> names;
+  const bool given = reader.has("overlays");
+  reader.texts("overlays", names);
+  if (!given) return;
+  auto& overlays = pictures.overlays;
+  overlays = {false, false, false};
+  for (const auto& name : names) {
+    bool* chosen = name.text == "trail"     ? &overlays.trail
+                   : name.text == "lengths" ? &overlays.lengths
+                   : name.text == "forces"  ? &overlays.forces
+                                            : nullptr;
+    if (chosen != nullptr)
+      *chosen = true;
+    else
+      findings.add(name.place, fmt::format("pictures.overlays: there is no overlay '{}'", name.text),
+                   "overlays: trail, lengths, forces");
+  }
+}
+
+// live: [knife.motor.torque, AxisX.follerr]
+void read_live(MapReader& reader, PicturesSection& pictures, Findings& findings) {
+  reader.texts("live", pictures.live);
+  if (pictures.live.size() > most_live)
+    findings.add(pictures.live[most_live].place,
+                 fmt::format("pictures.live has {} channels", pictures.live.size()),
+                 "one or two have room in the corner; show more in plots");
+}
+
 void read_frames(const YamlNode& node, PicturesSection& pictures, Findings& findings) {
   MapReader reader(node, "pictures.frames", findings);
   pictures.frames = true;
@@ -69,10 +135,8 @@ void read_frames(const YamlNode& node, PicturesSection& pictures, Findings& find
   reader.integer("slow", pictures.slow, 1, 10000);
   const auto* slow = reader.scalar("slow");
   pictures.slow_place = slow == nullptr ? reader.place("every") : slow->place;
-  if (const auto* camera = reader.scalar("camera")) {
-    pictures.camera_place = camera->place;
-    pictures.camera = camera->text;
-  }
+  read_camera(reader, pictures, findings);
+  reader.text("follow", pictures.follow);
   if (const auto* size = reader.scalar("size")) read_size(*size, pictures, findings);
   reader.finish();
 }
@@ -112,6 +176,9 @@ PicturesSection read_pictures(const YamlNode& node, Findings& findings) {
     }
   }
   reader.texts("caption", pictures.caption);
+  reader.texts("lamps", pictures.lamps);
+  read_overlays(reader, pictures, findings);
+  read_live(reader, pictures, findings);
   if (const auto* meshes = reader.map("meshes")) pictures.meshes = read_meshes(*meshes, findings);
   if (const auto* list = reader.list("plots")) {
     for (std::size_t i = 0; i < list->items.size(); ++i) {

@@ -205,9 +205,26 @@ struct PicturesSection {
   bool video = false;  ///< the frames as a film file too
   Place slow_place;
   std::string camera = "operator";  ///< what it shows: operator = the whole line, else one plant by its name
+  /// A camera of the user's own in place of a named one.
+  struct Eye {
+    std::array<double, 3> eye = {0, 0, 0};     ///< [m]
+    std::array<double, 3> target = {0, 0, 0};  ///< [m]
+    double field_of_view = 0.61086523819801;   ///< vertical, 35 degrees [rad]
+  };
+  std::optional<Eye> own_camera;
+  Text follow;  ///< part that the camera goes with ("saw.carriage"), "" = it stands
   int width = 960;
   int height = 540;
   std::vector<Text> caption;  ///< channels in the caption bar
+  std::vector<Text> lamps;    ///< channels shown there as lamps: lit unless 0
+  /// What is drawn over the frames.
+  struct Overlays {
+    bool trail = true;    ///< where a tool's tip has just been
+    bool lengths = true;  ///< of the cut pieces, from cut to cut
+    bool forces = true;   ///< as arrows, while they act
+  };
+  Overlays overlays;
+  std::vector<Text> live;  ///< one or two channels that run along in the corner
   /// A user's own mesh in place of a part.
   struct MeshRequest {
     Text part;                                 ///< "knife.drum"

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,6 +23,9 @@ void read_preset(MapReader& reader, const std::string& of, std::vector<std::pair
 std::vector<Stimulus> read_timeline(const YamlNode& node, Findings& findings);
 std::vector<Check> read_checks(const YamlNode& node, Findings& findings);
 PicturesSection read_pictures(const YamlNode& node, Findings& findings);
+/// Three quantities along x, y and z, in SI: at: [0 mm, 20 mm, 0 mm]
+void read_triple(MapReader& reader, std::string_view key, std::string_view unit,
+                 std::array<double, 3>& values, Findings& findings);
 /// pictures.meshes
 std::vector<PicturesSection::MeshRequest> read_meshes(const YamlNode& node, Findings& findings);
 /// One of pictures.plots; `name` is its full name in messages.

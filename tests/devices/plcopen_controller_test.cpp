@@ -282,12 +282,12 @@ END_PROGRAM
   EXPECT_THAT(rig.told(), IsEmpty());
   rig.write("go", 1);
   rig.run(10);
-  EXPECT_THAT(rig.told(), ElementsAre("Move refused: 44028 not allowed in Disabled"));
+  EXPECT_THAT(rig.told(), ElementsAre("Move block_error: 44028 not allowed in Disabled"));
   rig.write("go", 0);
   rig.run(10);
   rig.write("go", 1);
   rig.run(10);
-  EXPECT_THAT(rig.told(), ElementsAre("Move refused: 44028 not allowed in Disabled"));
+  EXPECT_THAT(rig.told(), ElementsAre("Move block_error: 44028 not allowed in Disabled"));
 }
 
 TEST(PlcopenController, AFaultOfTheProgramNamesItsPlaceOnce) {

@@ -125,6 +125,22 @@ TEST_F(PlcopenScenario, ACamLocksOnBehindALineShaft) {
   EXPECT_THAT(simulation.retentive_state(), HasSubstr("starts = 1"));
 }
 
+TEST_F(PlcopenScenario, ChecksMayNameWhatTheControllerReports) {
+  auto text = std::string(line);
+  text.replace(text.find("timeline:\n"), 10, "timeline:\n  - {at: 4 s, set: {Knife.emergency_stop: 1}}\n");
+  text.resize(text.find("checks:"));
+  text +=
+      "checks:\n  - {name: no stop, never: errorstop}\n  - {name: no complaint, never: block_error, until: 3 "
+      "s}\n";
+  const auto scenario = read(text);
+  Simulation simulation(scenario, problems);
+  ASSERT_THAT(told(), IsEmpty());
+  const auto outcome = simulation.run();
+  ASSERT_EQ(outcome.checks.size(), 2U);
+  EXPECT_FALSE(outcome.checks[0].passed);
+  EXPECT_TRUE(outcome.checks[1].passed) << outcome.checks[1].detail;
+}
+
 TEST_F(PlcopenScenario, QuantitiesAreConvertedAndBareNumbersAreTheKernels) {
   const auto scenario =
       read(with("    program: line.st\n    axes:\n"

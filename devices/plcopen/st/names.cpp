@@ -40,7 +40,7 @@ std::optional<Expression> Compiler::predefined(const Token& name) {
     return constant(type_of(Basic::lint), value, name.place, true);
   };
   for (const StartModeRow& row : start_mode_table)
-    if (name.word(row.name)) return number(row.bit);
+    if (name.word(row.name)) return constant(type_of(Basic::dword), row.bit, name.place, false);
   for (const DirectionName& direction : directions)
     if (name.word(direction.name)) return number(static_cast<std::int64_t>(direction.value));
   for (int i = 0; i <= static_cast<int>(Interpolation::table_defined); ++i)
