@@ -195,6 +195,8 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
     const auto shown = unit.empty() ? std::string("-") : unit;
     if (std::find(distinct.begin(), distinct.end(), shown) == distinct.end()) distinct.push_back(shown);
   }
+  // Of pure numbers a title may say more than [-]: "distance in pulses".
+  if (!title.empty() && distinct == std::vector<std::string>{"-"}) return title;
   std::string text;
   for (const auto& unit : distinct) text += (text.empty() ? "" : ", ") + unit;
   return fmt::format("{}{}[{}]", title, title.empty() ? "" : " ", text);

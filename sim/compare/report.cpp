@@ -19,8 +19,11 @@ using renders::ReportTable;
 constexpr auto* csv_file = "comparison.csv";
 constexpr std::size_t most_rows = 200;  ///< of events that differ; a page must stay readable
 
+/// Seven digits at most, four of them behind the point where that tells a thousandth.
 std::string number_text(double number) {
-  return std::isnan(number) ? "" : fmt::format("{:.7g}", without_noise(number));
+  if (std::isnan(number)) return "";
+  const double shown = std::abs(number) < 0.1 ? number : std::round(number * 1e4) / 1e4;
+  return fmt::format("{:.{}g}", without_noise(shown), std::abs(number) < 0.1 ? 3 : 7);
 }
 
 std::vector<std::string> headings(const Comparison& comparison, std::vector<std::string> first) {
