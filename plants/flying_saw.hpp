@@ -69,6 +69,7 @@ class FlyingSaw : public Plant {
   std::vector<EventType> event_types() override;
   std::vector<Part> parts() override;
   void poses(std::vector<PartPose>& out) override;
+  void callouts(std::vector<Callout>& out) override;
 
   [[nodiscard]] Slide& carriage() { return carriage_; }
   [[nodiscard]] Shaft& rotor() { return rotor_; }

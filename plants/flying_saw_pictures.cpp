@@ -176,8 +176,15 @@ void FlyingSaw::add_head(std::vector<Item>& all) const {
                  {0, axis, 0},
                  true,
                  product(about_x(blade_turn_), along_line)});
-  const double guard = disc * 0.58;  // height of the guard, which ends a little below the axis
-  all.push_back({{"saw guard", Shape::box, {0.034, guard, disc * 1.1}, carriage_colour, "paint", "saw_guard"},
+  const double guard = disc * 0.58;                // height of the guard, which ends a little below the axis
+  const double lowest = -disc * 1.05 + guard / 2;  // the blade's lowest point, from the guard's middle
+  all.push_back({{"saw guard",
+                  Shape::box,
+                  {0.034, guard, disc * 1.1},
+                  carriage_colour,
+                  "paint",
+                  "saw_guard",
+                  std::array{0.0, lowest, 0.0}},
                  {0, axis + disc * 0.55 - guard / 2, 0},
                  true});
   for (const double side : {0.0, std::numbers::pi}) {
@@ -211,6 +218,20 @@ void FlyingSaw::poses(std::vector<PartPose>& out) {
     const double x = item.at[0] + (item.carried ? carriage_.position : 0);
     out.push_back({.pose = {{x, item.at[1], item.at[2]}, item.turned}});
   }
+}
+
+void FlyingSaw::callouts(std::vector<Callout>& out) {
+  const double height = section_height(web_.data().cross_section());
+  const double x = carriage_.position;
+  const double axis = height + data_.head.clearance - head_.body().position + disc / 2;
+  const auto force = [&](const char* what, const std::array<double, 3>& at, const std::array<double, 3>& f) {
+    if (f != std::array<double, 3>{0, 0, 0}) out.push_back({Callout::Kind::force, what, at, f});
+  };
+  force("cut", {x, std::max(0.0, axis - disc / 2), 0}, {0, cut_.force(), 0});
+  force("pinch", {x, height / 2, disc / 3}, {cut_.sideways(), 0, 0});
+  if (clamp_.closed.level)
+    for (const double side : {-1.0, 1.0})
+      force("clamp", {x + side * vice_x, height + 0.05, 0.05}, {0, -clamp_.normal(), 0});
 }
 
 }  // namespace drycut::plants

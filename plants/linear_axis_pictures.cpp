@@ -211,7 +211,11 @@ std::vector<LinearAxis::Item> LinearAxis::items() const {
                    (reach + 0.18) / 2,
                    true});
     all.push_back({{"ram", Shape::box, {0.05, 0.3, 0.05}, steel, "steel"}, 0, blade + 0.18, reach, true});
-    all.push_back({{"blade", Shape::wedge, {0.03, 0.1, 0.34}, red, "blade"}, 0, blade, reach, true});
+    all.push_back({{"blade", Shape::wedge, {0.03, 0.1, 0.34}, red, "blade", "", std::array{0.0, -0.05, 0.17}},
+                   0,
+                   blade,
+                   reach,
+                   true});
   } else if (data_.tool == "guide") {
     all.push_back(
         {{"post", Shape::box, {0.04 * k, 0.2 * k, 0.04 * k}, steel, "steel"}, 0, 0.23 * k, 0, true});

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Part {
   std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
   std::string material = "steel";  ///< "steel", "paint", "rubber", "web", "blade"
   std::string model = {};          ///< drawn in place of the shape: "servo_motor"; "" = none
+  std::optional<std::array<double, 3>> tip =
+      {};  ///< in its own coordinates [m]: what leaves a trail in pictures
 };
 
 /// Where a part is now. Parts that come and go (cut pieces) are of a fixed set and hidden while unused.
@@ -30,6 +33,15 @@ struct PartPose {
   Pose pose;
   bool visible = true;
   std::array<double, 3> scale = {1, 1, 1};
+};
+
+/// What a picture points out on the machine at this instant.
+struct Callout {
+  enum class Kind { length, force };
+  Kind kind = Kind::length;
+  std::string text;                      ///< of a length: "800.0 mm"; of a force: what it is, "cut"
+  std::array<double, 3> at = {0, 0, 0};  ///< one end of the length, or where the force acts [m, world]
+  std::array<double, 3> to = {0, 0, 0};  ///< the other end [m, world], or the force [N]
 };
 
 }  // namespace drycut::plants

@@ -94,6 +94,8 @@ class Plant {
   virtual std::vector<Part> parts() { return {}; }
   /// Poses of parts(), same order; called only when a frame is taken.
   virtual void poses(std::vector<PartPose>& out) { (void)out; }
+  /// Adds what a picture points out now; called only when a frame is taken.
+  virtual void callouts(std::vector<Callout>& out) { (void)out; }
 
   [[nodiscard]] bool has_events() const { return !events_.empty(); }
   [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }

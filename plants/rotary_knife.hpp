@@ -51,6 +51,7 @@ class RotaryKnife : public Plant {
   std::vector<EventType> event_types() override;
   std::vector<Part> parts() override;
   void poses(std::vector<PartPose>& out) override;
+  void callouts(std::vector<Callout>& out) override;
 
   [[nodiscard]] Shaft& rotor() { return rotor_; }
   [[nodiscard]] Shaft& drum() { return drum_; }

@@ -131,7 +131,8 @@ std::vector<RotaryKnife::Item> RotaryKnife::items() const {
                     {0.022, blade_height, w},
                     blade_colour,
                     "blade",
-                    "knife_blade"},
+                    "knife_blade",
+                    std::array{0.0, -blade_height / 2, end}},
                    turned(middle * std::sin(theta), axis - middle * std::cos(theta), 0, theta)});
   }
   return all;
@@ -146,6 +147,11 @@ std::vector<Part> RotaryKnife::parts() {
 void RotaryKnife::poses(std::vector<PartPose>& out) {
   out.clear();
   for (const Item& item : items()) out.push_back({.pose = item.pose});
+}
+
+void RotaryKnife::callouts(std::vector<Callout>& out) {
+  const double force = cutter_.force();
+  if (force > 0) out.push_back({Callout::Kind::force, "cut", {0, 0, data_.blade_width / 2}, {0, force, 0}});
 }
 
 }  // namespace drycut::plants

@@ -41,6 +41,7 @@ class Web : public Plant {
   std::vector<Fault> faults() override;
   std::vector<Part> parts() override;
   void poses(std::vector<PartPose>& out) override;
+  void callouts(std::vector<Callout>& out) override;
 
   [[nodiscard]] const WebData& data() const { return data_; }
   [[nodiscard]] Slide& material() { return material_; }
@@ -57,6 +58,8 @@ class Web : public Plant {
   [[nodiscard]] double register_error() const { return marks_.behind_mark(lead_end_); }
 
  private:
+  void pose_prints(std::vector<PartPose>& out) const;
+
   WebData data_;
   Slide& material_;  // position: travel since the start
   LineDrive drive_;

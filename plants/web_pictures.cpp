@@ -29,6 +29,10 @@ constexpr std::array<float, 3> paint = {0.16F, 0.30F, 0.42F};
 constexpr std::array<float, 3> rubber = {0.14F, 0.15F, 0.16F};
 constexpr std::array<float, 3> web_colour = {0.96F, 0.62F, 0.12F};
 constexpr std::array<float, 3> mark_colour = {0.85F, 0.87F, 0.88F};
+constexpr std::array<float, 3> print_colour = {0.10F, 0.09F, 0.09F};
+constexpr double print_look = 6e-3;  // a narrower mark would vanish in the picture [m]
+constexpr std::size_t most_prints = 40;
+constexpr double beyond_cut = 0.3;  // of the web before it is cut, where marks are shown [m]
 
 using Shape = Part::Shape;
 
@@ -45,6 +49,12 @@ double wheel_y_of(const WebData& data) {
 }
 double wheel_z_of(const WebData& data) { return data.cross_section().tube ? 0 : machine_width(data) * 0.4; }
 double wheel_arm_z(const WebData& data) { return machine_width(data) * 0.55 + 0.04; }
+
+/// So many marks can be in sight.
+std::size_t prints_of(const PrintMarkData& marks) {
+  if (marks.pitch <= 0) return 0;
+  return std::min(most_prints, static_cast<std::size_t>((upstream + beyond_cut) / marks.pitch) + 2);
+}
 
 }  // namespace
 
@@ -110,6 +120,12 @@ std::vector<Part> Web::parts() {
     parts.push_back(
         {fmt::format("belt mark {}", i + 1), Shape::box, {0.02, 0.004, w * 1.15}, mark_colour, "paint"});
   for (int i = 0; i < Outfeed::pool_size; ++i) parts.push_back(material(fmt::format("piece {}", i + 1)));
+  for (std::size_t i = 0; i < prints_of(data_.marks); ++i)
+    parts.push_back({fmt::format("print mark {}", i + 1),
+                     Shape::box,
+                     {std::max(data_.marks.width, print_look), 1e-3, 0.16 * data_.width},
+                     print_colour,
+                     "web"});
   return parts;
 }
 
@@ -174,6 +190,40 @@ void Web::poses(std::vector<PartPose>& out) {
   for (const Outfeed::Piece& piece : outfeed_.pieces()) {
     out.push_back(material(piece.body->position, std::max(piece.length, 1e-3)));
     out.back().visible = piece.body->awake;
+  }
+  pose_prints(out);
+}
+
+/// The marks from where the web comes into sight to its end: before the photocell, where none is decided yet,
+/// at the true pitch.
+void Web::pose_prints(std::vector<PartPose>& out) const {
+  const std::size_t count = prints_of(data_.marks);
+  const double above = look_of(data_);
+  const double lead = std::max(0.0, material_.position - lead_end_);
+  std::vector<double> places(marks_.places().begin(), marks_.places().end());
+  const double pitch = data_.marks.pitch * (1 + data_.marks.stretch);
+  while (count > 0 && !places.empty() && material_.position - places.back() > -upstream)
+    places.push_back(places.back() + pitch);
+  std::size_t shown = 0;
+  for (const double place : places) {
+    const double x = material_.position - place;
+    if (shown == count || x < -upstream || x > lead) continue;
+    out.push_back({.pose = turned(x, above, 0.36 * data_.width, 0)});
+    ++shown;
+  }
+  for (; shown < count; ++shown) out.push_back({.pose = {}, .visible = false});
+}
+
+void Web::callouts(std::vector<Callout>& out) {
+  const double height = look_of(data_) / 2;
+  const double side = data_.width / 2;
+  for (const Outfeed::Piece& piece : outfeed_.pieces()) {
+    if (!piece.body->awake) continue;
+    const double middle = piece.body->position;
+    out.push_back({Callout::Kind::length,
+                   fmt::format("{:.1f} mm", piece.length * 1e3),
+                   {middle - piece.length / 2, height, side},
+                   {middle + piece.length / 2, height, side}});
   }
 }
 

@@ -161,6 +161,16 @@ double floor_level(const Film& film) {
   return std::isfinite(level) ? level : -0.5;
 }
 
+Camera camera_of(const Film& film, std::size_t frame) {
+  Camera camera = film.camera;
+  if (!film.follow) return camera;
+  const Vec3 way = film.frames[frame].placements[*film.follow].position -
+                   film.frames.front().placements[*film.follow].position;
+  camera.eye = camera.eye + way;
+  camera.target = camera.target + way;
+  return camera;
+}
+
 Matrix4 view_projection(const Camera& camera, double aspect, const Extent& extent) {
   const double radius = length(extent.high - extent.low) / 2;
   const double distance = length((0.5 * (extent.low + extent.high)) - camera.eye);

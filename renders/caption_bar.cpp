@@ -1,13 +1,12 @@
 #include "renders/caption_bar.hpp"
 
-#include <cairo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
+#include <numbers>
 
+#include "renders/cairo_image.hpp"
 #include "renders/text.hpp"
 
 namespace drycut::renders {
@@ -26,24 +25,14 @@ constexpr Colour kRule = {0.92, 0.46, 0.10};
 constexpr Colour kTitle = {0.97, 0.98, 0.99};
 constexpr Colour kLabel = {0.62, 0.68, 0.74};
 constexpr Colour kValue = {0.97, 0.98, 0.99};
+constexpr Colour kLampOn = {0.25, 0.88, 0.35};
+constexpr Colour kLampOff = {0.17, 0.20, 0.24};
+constexpr double kLamp = 0.85;  ///< diameter / font size
 
 /// A cairo picture to write on.
 class Page {
  public:
-  Page(int width, int height)
-      : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy),
-        cairo_(cairo_create(surface_.get()), cairo_destroy) {
-    if (cairo_status(cairo_.get()) != CAIRO_STATUS_SUCCESS) {
-      throw std::runtime_error("pictures: cairo cannot make a caption bar");
-    }
-    // Without hinting, widths are proportional to the font size and the same on every machine.
-    const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(
-        cairo_font_options_create(), cairo_font_options_destroy);
-    cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
-    cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-    cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
-    cairo_set_font_options(cairo_.get(), options.get());
-  }
+  Page(int width, int height) : surface_(cairo_surface(width, height)), cairo_(cairo_pen(surface_.get())) {}
 
   void font(double size, bool bold = false) {
     cairo_select_font_face(cairo_.get(), kFont, CAIRO_FONT_SLANT_NORMAL,
@@ -76,24 +65,22 @@ class Page {
     cairo_fill(cairo_.get());
   }
 
-  void copy_to(Image& image, int first_row, int rows) {
-    cairo_surface_flush(surface_.get());
-    const unsigned char* pixels = cairo_image_surface_get_data(surface_.get());
-    const int stride = cairo_image_surface_get_stride(surface_.get());
-    for (int y = 0; y < rows; ++y) {
-      std::uint8_t* to = image.row(first_row + y);
-      const unsigned char* from = pixels + static_cast<std::ptrdiff_t>(y) * stride;
-      for (int x = 0; x < image.width; ++x, to += 3, from += 4) {
-        to[0] = from[2];
-        to[1] = from[1];
-        to[2] = from[0];
-      }
-    }
+  /// A lamp of that diameter; dark with a ring if it is off.
+  void lamp(double x, double y, double diameter, bool on) {
+    cairo_arc(cairo_.get(), x, y, diameter / 2, 0, 2 * std::numbers::pi);
+    const Colour& colour = on ? kLampOn : kLampOff;
+    cairo_set_source_rgb(cairo_.get(), colour.red, colour.green, colour.blue);
+    cairo_fill_preserve(cairo_.get());
+    cairo_set_source_rgb(cairo_.get(), kLabel.red, kLabel.green, kLabel.blue);
+    cairo_set_line_width(cairo_.get(), diameter / 10);
+    cairo_stroke(cairo_.get());
   }
 
+  void copy_to(Image& image, int first_row, int rows) { copy_rows(surface_.get(), rows, image, first_row); }
+
  private:
-  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
-  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
+  CairoSurface surface_;
+  Cairo cairo_;
 };
 
 }  // namespace
@@ -112,7 +99,9 @@ CaptionLayout::CaptionLayout(const Film& film) : title_(one_line(film.title)), w
     if (frame.caption.size() > items.size()) items.resize(frame.caption.size());
     for (std::size_t i = 0; i < frame.caption.size(); ++i) {
       items[i].label = std::max(items[i].label, page.width(one_line(frame.caption[i].label)) / kMeasure);
-      items[i].value = std::max(items[i].value, page.width(one_line(frame.caption[i].value)) / kMeasure);
+      const double value =
+          frame.caption[i].lamp ? kLamp : page.width(one_line(frame.caption[i].value)) / kMeasure;
+      items[i].value = std::max(items[i].value, value);
     }
   }
 
@@ -197,6 +186,11 @@ void CaptionLayout::draw(const Frame& frame, Image& image) const {
     const std::string label = page.fitted(one_line(frame.caption[i].label), cell.label_width + 0.01);
     const std::string value = page.fitted(one_line(frame.caption[i].value), value_room + 0.01);
     page.text(cell.left, cell.baseline, label, kLabel);
+    if (const auto lamp = frame.caption[i].lamp) {
+      const double diameter = kLamp * font_size_;
+      page.lamp(cell.right - diameter / 2, cell.baseline - 0.36 * font_size_, diameter, *lamp);
+      continue;
+    }
     page.text(cell.right - page.width(value), cell.baseline, value, kValue);
   }
   page.copy_to(image, image.height - height_, height_);

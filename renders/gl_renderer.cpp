@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "renders/antialias.hpp"
 #include "renders/gl_shaders.hpp"
 
 namespace drycut::renders {
@@ -66,13 +66,12 @@ void set(GLuint program, const char* name, double value) {
   glUniform1f(glGetUniformLocation(program, name), static_cast<float>(value));
 }
 
-GLuint renderbuffer(GLenum attachment, GLenum format, int samples, int width, int height) {
+void renderbuffer(GLenum attachment, GLenum format, int width, int height) {
   GLuint buffer = 0;
   glGenRenderbuffers(1, &buffer);
   glBindRenderbuffer(GL_RENDERBUFFER, buffer);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+  glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
-  return buffer;
 }
 
 void require_complete(const char* what) {
@@ -93,11 +92,11 @@ double floor_spacing(double radius) {
 
 }  // namespace
 
-GlRenderer::GlRenderer(const Stage& stage) : stage_(stage) {
+GlRenderer::GlRenderer(const Stage& stage, const std::vector<SolidPart>& parts)
+    : stage_(stage), parts_(parts) {
   radius_ = std::max(1e-3, length(stage.extent.high - stage.extent.low) / 2);
   centre_ = 0.5 * (stage.extent.low + stage.extent.high);
   to_light_ = normalised(kToLight);
-  view_matrix_ = view_projection(stage.camera, static_cast<double>(stage.width) / stage.height, stage.extent);
 
   // Parts may be far from the mechanism (a coil stand), so the lamp sees some way around it.
   const double seen = 2.0 * radius_;
@@ -106,20 +105,28 @@ GlRenderer::GlRenderer(const Stage& stage) : stage_(stage) {
 
   make_programs();
   make_targets();
-  make_solids();
   make_backdrop();
   if (glGetError() != GL_NO_ERROR) throw std::runtime_error("pictures: OpenGL could not be set up");
 }
 
+/// The backdrop is drawn anew only for another camera.
+void GlRenderer::look_through(const Camera& camera) {
+  if (camera_ == camera) return;
+  camera_ = camera;
+  view_matrix_ = view_projection(camera, static_cast<double>(stage_.width) / stage_.height, stage_.extent);
+  for (const Name program : {solids_program_, shadowed_program_, backdrop_program_}) set_stage(program);
+  draw_backdrop();
+}
+
 /// What every program that looks from the camera wants to know.
 void GlRenderer::set_stage(Name program) const {
-  const Vec3 forward = normalised(stage_.camera.target - stage_.camera.eye);
-  const Matrix4 look = look_at(stage_.camera.eye, stage_.camera.target);
-  const double tangent = std::tan(stage_.camera.field_of_view_deg * std::numbers::pi / 360);
+  const Vec3 forward = normalised(camera_->target - camera_->eye);
+  const Matrix4 look = look_at(camera_->eye, camera_->target);
+  const double tangent = std::tan(camera_->field_of_view_deg * std::numbers::pi / 360);
   glUseProgram(program);
   set(program, "matrix", view_matrix_);
   set(program, "light_matrix", light_matrix_);
-  set(program, "eye", stage_.camera.eye);
+  set(program, "eye", camera_->eye);
   set(program, "to_light", to_light_);
   set(program, "centre", Vec3{centre_[0], stage_.floor_level, centre_[2]});
   set(program, "reach", kFloorReach * radius_);
@@ -136,8 +143,8 @@ void GlRenderer::make_programs() {
   solids_program_ = link(kSolidVertex, shown + kShadow + kSolidFragment);
   shadowed_program_ = link(kBackdropVertex, std::string(kShadow) + kFloorPoint + kShadowedFragment);
   depth_program_ = link(kDepthVertex, kDepthFragment);
-  set_stage(solids_program_);
-  set_stage(shadowed_program_);
+  backdrop_program_ = link(kBackdropVertex, shown + kFloorPoint + kBackdropFragment);
+  glUseProgram(shadowed_program_);
   glUniform1i(glGetUniformLocation(shadowed_program_, "backdrop"), 1);
   glUseProgram(depth_program_);
   set(depth_program_, "matrix", light_matrix_);
@@ -164,35 +171,12 @@ void GlRenderer::make_targets() {
   glReadBuffer(GL_NONE);
   require_complete("shadows");
 
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_SAMPLES, &most);
-  glGenFramebuffers(1, &sampled_target_);
-  glBindFramebuffer(GL_FRAMEBUFFER, sampled_target_);
-  renderbuffer(GL_COLOR_ATTACHMENT0, GL_RGBA8, std::min(4, most), stage_.width, stage_.height);
-  renderbuffer(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, std::min(4, most), stage_.width, stage_.height);
-  require_complete("picture");
-
-  glGenFramebuffers(1, &resolved_target_);
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_target_);
-  renderbuffer(GL_COLOR_ATTACHMENT0, GL_RGBA8, 0, stage_.width, stage_.height);
+  glGenFramebuffers(1, &picture_target_);
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_target_);
+  renderbuffer(GL_COLOR_ATTACHMENT0, GL_RGBA8, stage_.width, stage_.height);
+  renderbuffer(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, stage_.width, stage_.height);
   require_complete("picture");
   pixels_.resize(static_cast<std::size_t>(stage_.width) * static_cast<std::size_t>(stage_.height) * 4);
-}
-
-void GlRenderer::make_solids() {
-  glGenVertexArrays(1, &solids_array_);
-  glBindVertexArray(solids_array_);
-  glGenBuffers(1, &solids_buffer_);
-  glBindBuffer(GL_ARRAY_BUFFER, solids_buffer_);
-  const auto attribute = [](GLuint index, GLint size, std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, offsetof(Vertex, position));
-  attribute(1, 3, offsetof(Vertex, normal));
-  attribute(2, 3, offsetof(Vertex, colour));
-  attribute(3, 2, offsetof(Vertex, surface));
 }
 
 void GlRenderer::make_backdrop() {
@@ -204,54 +188,48 @@ void GlRenderer::make_backdrop() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glActiveTexture(GL_TEXTURE0);
 
-  Name target = 0;
-  glGenFramebuffers(1, &target);
-  glBindFramebuffer(GL_FRAMEBUFFER, target);
+  glGenFramebuffers(1, &backdrop_target_);
+  glBindFramebuffer(GL_FRAMEBUFFER, backdrop_target_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, backdrop_, 0);
   require_complete("backdrop");
-  const Name program = link(shaders::kBackdropVertex,
-                            std::string(shaders::kShown) + shaders::kFloorPoint + shaders::kBackdropFragment);
-  set_stage(program);
   glGenVertexArrays(1, &empty_array_);
-  glBindVertexArray(empty_array_);
+}
+
+void GlRenderer::draw_backdrop() {
+  glBindFramebuffer(GL_FRAMEBUFFER, backdrop_target_);
   glViewport(0, 0, stage_.width, stage_.height);
+  glDisable(GL_DEPTH_TEST);
+  glUseProgram(backdrop_program_);
+  glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void GlRenderer::draw(const std::vector<Vertex>& triangles, Image& image) {
-  glBindBuffer(GL_ARRAY_BUFFER, solids_buffer_);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(Vertex)), triangles.data(),
-               GL_STREAM_DRAW);
-  const int vertices = static_cast<int>(triangles.size());
-  draw_shadows(vertices);
-  draw_picture(vertices);
+void GlRenderer::draw(const std::vector<Placement>& placements, const Camera& camera, Image& image) {
+  look_through(camera);
+  draw_shadows(placements);
+  draw_picture(placements);
   read_into(image);
+  antialias(image, stage_.height);
   if (glGetError() != GL_NO_ERROR) throw std::runtime_error("pictures: OpenGL failed to draw a frame");
 }
 
-void GlRenderer::draw_shadows(int vertices) {
+void GlRenderer::draw_shadows(const std::vector<Placement>& placements) {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
   glViewport(0, 0, kShadowSize, kShadowSize);
   glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_CULL_FACE);
+  glEnable(GL_CULL_FACE);
   glClear(GL_DEPTH_BUFFER_BIT);
   glUseProgram(depth_program_);
-  glBindVertexArray(solids_array_);
-  glDrawArrays(GL_TRIANGLES, 0, vertices);
+  parts_.draw(depth_program_, placements, centre_ + (10 * radius_) * to_light_);
 }
 
-void GlRenderer::draw_picture(int vertices) {
-  glBindFramebuffer(GL_FRAMEBUFFER, sampled_target_);
+void GlRenderer::draw_picture(const std::vector<Placement>& placements) {
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_target_);
   glViewport(0, 0, stage_.width, stage_.height);
-  glEnable(GL_MULTISAMPLE);
   glClear(GL_DEPTH_BUFFER_BIT);
-
   glBindTexture(GL_TEXTURE_2D, shadow_map_);
-  glEnable(GL_CULL_FACE);
   glUseProgram(solids_program_);
-  glBindVertexArray(solids_array_);
-  glDrawArrays(GL_TRIANGLES, 0, vertices);
+  parts_.draw(solids_program_, placements, camera_->eye);
 
   // Last, so that only what is still empty gets shaded. No part is below the floor, so it needs no depth.
   glDepthFunc(GL_LEQUAL);
@@ -259,15 +237,10 @@ void GlRenderer::draw_picture(int vertices) {
   glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthFunc(GL_LESS);
-
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled_target_);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_target_);
-  glBlitFramebuffer(0, 0, stage_.width, stage_.height, 0, 0, stage_.width, stage_.height, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
 }
 
 void GlRenderer::read_into(Image& image) {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_target_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_target_);
   glReadPixels(0, 0, stage_.width, stage_.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   for (int y = 0; y < stage_.height; ++y) {
     // GL counts rows from the bottom.

@@ -18,14 +18,14 @@ float lit(vec3 world, float bias, bool wanted) {
   vec4 p = light_matrix * vec4(world, 1.0);
   vec3 at = p.xyz * 0.5 + 0.5;
   float edge = max(abs(p.x), abs(p.y));
-  int taps = wanted && edge < 1.0 ? 4 : 0;
+  int taps = wanted && edge < 1.0 ? 2 : 0;
   float texel = 1.0 / float(textureSize(shadow_map, 0).x);
   float sum = 0.0;
   for (int i = 0; i < taps; ++i) {
-    vec2 offset = vec2((i & 1) == 0 ? -0.8 : 0.8, (i & 2) == 0 ? -0.8 : 0.8) * texel;
+    vec2 offset = i == 0 ? vec2(-0.75, 0.25) * texel : vec2(0.75, -0.25) * texel;
     sum += texture(shadow_map, vec3(at.xy + offset, at.z - bias));
   }
-  return taps == 0 ? 1.0 : mix(sum / 4.0, 1.0, smoothstep(0.85, 1.0, edge));
+  return taps == 0 ? 1.0 : mix(sum / 2.0, 1.0, smoothstep(0.85, 1.0, edge));
 }
 )";
 
@@ -35,16 +35,18 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 colour;
 layout(location = 3) in vec2 surface;
 uniform mat4 matrix;
+uniform mat4 model;
+uniform mat3 turn;
 out vec3 world;
 out vec3 facing;
 out vec3 paint;
 out vec2 gloss;
 void main() {
-  world = position;
-  facing = normal;
+  world = (model * vec4(position, 1.0)).xyz;
+  facing = turn * normal;
   paint = colour;
   gloss = surface;
-  gl_Position = matrix * vec4(position, 1.0);
+  gl_Position = matrix * vec4(world, 1.0);
 }
 )";
 
@@ -141,7 +143,8 @@ void main() {
 inline constexpr const char* kDepthVertex = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 matrix;
-void main() { gl_Position = matrix * vec4(position, 1.0); }
+uniform mat4 model;
+void main() { gl_Position = matrix * (model * vec4(position, 1.0)); }
 )";
 inline constexpr const char* kDepthFragment = "void main() {}\n";
 

@@ -14,6 +14,8 @@
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"
 #include "renders/gl_renderer.hpp"
+#include "renders/overlays.hpp"
+#include "renders/solid_mesh.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -40,17 +42,14 @@ std::filesystem::path frame_file(const std::filesystem::path& directory, std::si
 /// Draws the frames whose number is taken from `next`, until none is left, in a context of its own.
 void draw_frames(const Film& film, const CaptionLayout& caption, const std::filesystem::path& directory,
                  std::atomic<std::size_t>& next, const std::function<void()>& drawn) {
-  GlRenderer renderer(
-      {film.camera, mechanism_extent(film), floor_level(film), film.width, film.height - caption.height()});
+  GlRenderer renderer({mechanism_extent(film), floor_level(film), film.width, film.height - caption.height()},
+                      film.parts);
+  const Overlays overlays(film, caption.height());
   Image image(film.width, film.height);
-  std::vector<Vertex> triangles;
   for (auto number = next++; number < film.frames.size(); number = next++) {
     const Frame& frame = film.frames[number];
-    triangles.clear();
-    for (std::size_t i = 0; i < film.parts.size(); ++i) {
-      if (frame.placements[i].visible) append_solid(triangles, film.parts[i], frame.placements[i]);
-    }
-    renderer.draw(triangles, image);
+    renderer.draw(frame.placements, camera_of(film, number), image);
+    overlays.draw(number, image);
     caption.draw(frame, image);
     write_file(frame_file(directory, number), png_bytes(image));
     drawn();
@@ -65,6 +64,7 @@ void require_drawable(const Film& film) {
           fmt::format("size {}x{} cannot be drawn; width and height are {} to {} pixels", film.width,
                       film.height, kSmallest, kLargest));
   const Camera& camera = film.camera;
+  require(!film.follow || *film.follow < film.parts.size(), "the camera follows a part that is not there");
   require(all_finite(camera.eye) && all_finite(camera.target) && length(camera.target - camera.eye) > 0,
           "the camera's eye and target must be two different points");
   require(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150,

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct SolidPart {
   std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
   std::string material = "steel";         ///< "steel", "paint", "rubber", "web", "blade"
   std::shared_ptr<const Mesh> mesh = {};  ///< drawn in place of the shape; null = none
+  std::optional<std::array<double, 3>> tip =
+      {};  ///< point of it that leaves a trail [m, its own coordinates]
 };
 
 /// Where a part is in one frame.
@@ -37,22 +40,42 @@ struct Placement {
   bool visible = true;
 };
 
-/// One number of the caption bar.
+/// One number of the caption bar, or a lamp.
 struct CaptionItem {
-  std::string label;  ///< "web.speed"
-  std::string value;  ///< "60.0 m/min"
+  std::string label;              ///< "web.speed"
+  std::string value = {};         ///< "60.0 m/min"
+  std::optional<bool> lamp = {};  ///< a lamp in place of the value: on or off
+};
+
+/// Something pointed out in the picture: a length between two points, or a force.
+struct Callout {
+  enum class Kind { length, force };
+  Kind kind = Kind::length;
+  std::string text;                      ///< "800.0 mm"; of a force: what it is
+  std::array<double, 3> at = {0, 0, 0};  ///< one end of the length, or where the force acts [m]
+  std::array<double, 3> to = {0, 0, 0};  ///< the other end [m], or the force [N]
+};
+
+/// A channel that runs along in the corner of the picture.
+struct LiveCurve {
+  std::string label;
+  std::string unit;
+  std::vector<double> times_s;  ///< in ascending order
+  std::vector<double> values;   ///< as many
 };
 
 struct Frame {
   double time_s = 0;
   std::vector<Placement> placements;  ///< one a part, same order
   std::vector<CaptionItem> caption;
+  std::vector<Callout> callouts;
 };
 
 struct Camera {
   std::array<double, 3> eye = {1, 1, 2};
   std::array<double, 3> target = {0, 0, 0};
   double field_of_view_deg = 35;  ///< vertical
+  bool operator==(const Camera&) const = default;
 };
 
 /// A run as the renderer sees it.
@@ -60,9 +83,13 @@ struct Film {
   std::string title;
   std::vector<SolidPart> parts;
   std::vector<Frame> frames;
-  Camera camera;
-  int width = 960;   ///< pixels
-  int height = 540;  ///< pixels
+  Camera camera;                      ///< in the first frame, if it follows a part
+  std::optional<std::size_t> follow;  ///< number of the part with which the camera goes
+  bool trails = false;                ///< parts with a tip draw where it has just been
+  std::vector<LiveCurve> live;        ///< drawn in the corner
+  double live_window_s = 2;           ///< how much of them
+  int width = 960;                    ///< pixels
+  int height = 540;                   ///< pixels
 };
 
 }  // namespace drycut::renders

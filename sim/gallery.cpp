@@ -164,9 +164,11 @@ std::string frame_label(const Simulation& simulation, std::size_t index) {
   return fmt::format("{:.3f} s ({:+.1f} ms)", time, (time - *event) * 1e3);
 }
 
-/// The film as the camera sees it: of one plant only its own parts, unless it shows the whole line.
+/// The film as the camera sees it: of one plant only its own parts, unless it shows the whole line. A camera
+/// that goes along needs no room for what the machine does later.
 renders::Film shown(const renders::Film& film, const std::string& camera) {
   auto view = film;
+  if (film.follow && !film.frames.empty()) view.frames.resize(1);
   if (camera == "operator") return view;
   for (std::size_t i = 0; i < view.parts.size(); ++i) {
     if (view.parts[i].name.starts_with(camera + ".")) continue;
@@ -194,6 +196,12 @@ std::vector<renders::LiveCurve> live_curves(const PicturesSection& pictures, con
     for (const auto time : recording.times()) curve.times_s.push_back(seconds(time));
   }
   return curves;
+}
+
+std::optional<std::size_t> followed(const renders::Film& film, const std::string& part) {
+  for (std::size_t i = 0; i < film.parts.size(); ++i)
+    if (film.parts[i].name == part) return i;
+  return std::nullopt;
 }
 
 renders::Camera own_camera(const PicturesSection::Eye& eye) {
@@ -243,6 +251,7 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
     frame.callouts = chosen_callouts(scenario.pictures.overlays, shot.callouts);
     film.frames.push_back(std::move(frame));
   }
+  film.follow = followed(film, scenario.pictures.follow.text);
   film.trails = scenario.pictures.overlays.trail;
   film.live = live_curves(scenario.pictures, simulation.recording());
   film.live_window_s /= scenario.pictures.slow;

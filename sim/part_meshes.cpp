@@ -42,13 +42,15 @@ bool is_known(const Text& part, const std::vector<NamedPlant>& plants) {
 PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPlant>& plants,
                             devices::Problems& problems) {
   PartMeshes meshes;
+  const auto must_exist = [&](const Text& part) {
+    if (is_known(part, plants)) return true;
+    problems.push_back(problem_at(scenario, part.place, fmt::format("there is no part '{}'", part.text),
+                                  remedy_for(part.text, plants)));
+    return false;
+  };
+  if (const auto& follow = scenario.pictures.follow; !follow.text.empty()) must_exist(follow);
   for (const auto& request : scenario.pictures.meshes) {
-    if (!is_known(request.part, plants)) {
-      problems.push_back(problem_at(scenario, request.part.place,
-                                    fmt::format("there is no part '{}'", request.part.text),
-                                    remedy_for(request.part.text, plants)));
-      continue;
-    }
+    if (!must_exist(request.part)) continue;
     const auto file = scenario.file.parent_path() / request.file.text;
     auto loaded = renders::load_mesh(file, {request.scale, request.rotate, request.at});
     if (const auto* problem = std::get_if<renders::MeshProblem>(&loaded)) {

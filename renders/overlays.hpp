@@ -1,0 +1,24 @@
+#pragma once
+#include "renders/png_image.hpp"
+#include "renders/scene3d.hpp"
+
+namespace drycut::renders {
+
+/// What is written over the picture of the machine: trails of tips, lengths, forces, and the live curves in
+/// the corner. Nothing of it hides behind parts.
+class Overlays {
+ public:
+  /// For a picture whose lowest `caption_height` pixels belong to the caption. `film` must outlive it.
+  Overlays(const Film& film, int caption_height);
+
+  /// Draws what belongs to that frame of the film.
+  void draw(std::size_t frame, Image& image) const;
+
+ private:
+  const Film& film_;
+  int height_;          ///< of the picture of the machine [pixels]
+  double largest_ = 0;  ///< of all forces of the film [N]
+  bool empty_ = true;
+};
+
+}  // namespace drycut::renders

@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "renders/antialias.hpp"
+#include "renders/camera.hpp"
+#include "renders/overlays.hpp"
+
+namespace drycut::renders {
+namespace {
+
+constexpr int kCaption = 60;
+
+/// A tool that turns on a circle of 0.5 m about the z axis, seen from the front, 20 degrees a frame.
+Film turning_tool() {
+  Film film;
+  film.width = 480;
+  film.height = 360;
+  SolidPart tool;
+  tool.size = {0.1, 0.1, 0.1};
+  tool.tip = std::array{0.0, -0.1, 0.0};
+  film.parts = {tool};
+  film.camera.eye = {0, 0, 4};
+  film.camera.target = {0, 0, 0};
+  for (int i = 0; i < 6; ++i) {
+    const double angle = i * std::numbers::pi / 9;
+    Frame frame;
+    frame.time_s = 0.04 * i;
+    frame.placements.resize(1);
+    frame.placements[0].position = {0.4 * std::sin(angle), -0.4 * std::cos(angle), 0};
+    frame.placements[0].rotation = {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
+    film.frames.push_back(frame);
+  }
+  return film;
+}
+
+Image grey(const Film& film) {
+  Image image(film.width, film.height);
+  std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{128});
+  return image;
+}
+
+Image drawn(const Film& film, std::size_t frame) {
+  Image image = grey(film);
+  Overlays(film, kCaption).draw(frame, image);
+  return image;
+}
+
+std::array<int, 3> pixel(const Film& film, const Image& image, const Vec3& point) {
+  const auto at = projected(film.camera, film.width, film.height - kCaption, point);
+  const std::uint8_t* p = image.row(static_cast<int>(at[1])) + 3 * static_cast<int>(at[0]);
+  return {p[0], p[1], p[2]};
+}
+
+TEST(RendersOverlays, NothingToDrawLeavesThePictureAlone) {
+  const Film film = turning_tool();
+  EXPECT_EQ(drawn(film, 5).rgb, grey(film).rgb);
+}
+
+TEST(RendersOverlays, TrailFollowsTheCircleBetweenFrames) {
+  Film film = turning_tool();
+  film.trails = true;
+  const Image image = drawn(film, 5);
+  for (const double degrees : {50.0, 70.0, 90.0}) {  // half way between two frames
+    const double angle = degrees * std::numbers::pi / 180;
+    const auto p = pixel(film, image, {0.5 * std::sin(angle), -0.5 * std::cos(angle), 0});
+    EXPECT_GT(p[2], p[0] + 60) << degrees;
+  }
+  const auto ahead = pixel(film, image, {0.5 * std::sin(2.1), -0.5 * std::cos(2.1), 0});
+  EXPECT_EQ(ahead, (std::array{128, 128, 128})) << "it has not been there yet";
+}
+
+TEST(RendersOverlays, LengthIsMarkedFromEndToEnd) {
+  Film film = turning_tool();
+  film.frames[2].callouts = {{Callout::Kind::length, "800.0 mm", {-0.6, 0.2, 0}, {0.6, 0.2, 0}}};
+  const Image image = drawn(film, 2);
+  for (const double x : {-0.6, -0.4, 0.4, 0.6}) EXPECT_GT(pixel(film, image, {x, 0.2, 0})[1], 220) << x;
+  EXPECT_EQ(pixel(film, image, {0.7, 0.2, 0})[1], 128);
+  EXPECT_LT(pixel(film, image, {0, 0.24, 0})[1], 60) << "the plate of the words";
+  EXPECT_EQ(drawn(film, 1).rgb, grey(film).rgb) << "another frame has none";
+}
+
+TEST(RendersOverlays, ArrowPointsAlongTheForceAndGrowsWithIt) {
+  Film film = turning_tool();
+  film.frames[0].callouts = {{Callout::Kind::force, "cut", {0, 0, 0}, {0, 400, 0}}};
+  film.frames[1].callouts = {{Callout::Kind::force, "cut", {0, 0, 0}, {0, 25, 0}}};
+  const auto red = [&](std::size_t frame) {
+    const Image image = drawn(film, frame);
+    int rows = 0;
+    for (int y = 0; y < film.height - kCaption; ++y) {
+      const std::uint8_t* p = image.row(y) + 3 * (film.width / 2);
+      if (p[0] > p[1] + 80) ++rows;
+      if (y > (film.height - kCaption) / 2 + 4) {
+        EXPECT_LE(p[0], p[1] + 80) << "below where it acts";
+      }
+    }
+    return rows;
+  };
+  EXPECT_NEAR(red(0), 0.18 * (film.height - kCaption), 4);
+  EXPECT_NEAR(red(1), (0.04 + 0.14 * 0.25) * (film.height - kCaption), 4);
+}
+
+TEST(RendersOverlays, LiveCurveHasItsLastValueAtTheRightEdge) {
+  Film film = turning_tool();
+  LiveCurve curve{"knife.motor.torque", "N m", {}, {}};
+  for (int i = 0; i <= 200; ++i) {
+    curve.times_s.push_back(0.001 * i);
+    curve.values.push_back(i < 100 ? 0 : 1);
+  }
+  film.live = {curve};
+  film.live_window_s = 0.1;
+  const int view = film.height - kCaption;
+  const auto lit_rows = [&](const Image& image) {  // of amber pixels a little left of the plot's right edge
+    double sum = 0, count = 0;
+    const double scale = film.height / 540.0;
+    const int x = static_cast<int>(film.width - 20 * scale - 4);
+    for (int y = static_cast<int>(0.745 * view); y < view; ++y) {
+      const std::uint8_t* p = image.row(y) + 3 * x;
+      if (p[0] > 150 && p[2] < 130) sum += y, ++count;
+    }
+    return count > 0 ? sum / count : -1;
+  };
+  const double low = lit_rows(drawn(film, 2));   // t = 0.08 s
+  const double high = lit_rows(drawn(film, 5));  // t = 0.20 s
+  EXPECT_GT(low, 0);
+  EXPECT_GT(high, 0);
+  EXPECT_LT(high, low - 20);
+}
+
+TEST(RendersOverlays, CameraGoesWithThePartItFollows) {
+  Film film = turning_tool();
+  EXPECT_EQ(camera_of(film, 3), film.camera);
+  film.follow = 0;
+  const auto first = projected(camera_of(film, 0), 480, 300, film.frames[0].placements[0].position);
+  const auto later = projected(camera_of(film, 3), 480, 300, film.frames[3].placements[0].position);
+  EXPECT_NEAR(first[0], later[0], 1e-9);
+  EXPECT_NEAR(first[1], later[1], 1e-9);
+}
+
+TEST(RendersAntialias, FlatAreasAndStraightEdgesStayAsTheyAre) {
+  Image image(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) image.row(y)[x] = 200;  // the left half
+  Image smooth = image;
+  antialias(smooth, 40);
+  EXPECT_EQ(smooth.rgb, image.rgb);
+}
+
+TEST(RendersAntialias, StairsOfASlantedEdgeGetTheShareThatTheyCover) {
+  // The edge y = 20 + x / 8: in every pixel beside it the true cover is known.
+  Image image(64, 48);
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64 * 3; ++x) image.row(y)[x] = y + 0.5 < 20 + (x / 3 + 0.5) / 8 ? 240 : 0;
+  const auto error_of = [](const Image& shown) {
+    double sum = 0;
+    for (int x = 8; x < 56; ++x) {
+      double column = 0;
+      for (int y = 10; y < 40; ++y) column += shown.row(y)[3 * x];
+      sum += std::abs(column / 240 - (10 + (x + 0.5) / 8));
+    }
+    return sum / 48;
+  };
+  Image smooth = image;
+  antialias(smooth, 48);
+  EXPECT_GT(error_of(image), 0.2);
+  EXPECT_LT(error_of(smooth), 0.08);
+}
+
+}  // namespace
+}  // namespace drycut::renders
