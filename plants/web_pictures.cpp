@@ -30,7 +30,7 @@ constexpr std::array<float, 3> rubber = {0.14F, 0.15F, 0.16F};
 constexpr std::array<float, 3> web_colour = {0.96F, 0.62F, 0.12F};
 constexpr std::array<float, 3> mark_colour = {0.85F, 0.87F, 0.88F};
 constexpr std::array<float, 3> print_colour = {0.10F, 0.09F, 0.09F};
-constexpr double print_look = 6e-3;  // a narrower mark would vanish in the picture [m]
+constexpr double print_look = 15e-3;  // a narrower mark would vanish in the picture [m]
 constexpr std::size_t most_prints = 40;
 constexpr double beyond_cut = 0.3;  // of the web before it is cut, where marks are shown [m]
 
@@ -123,7 +123,7 @@ std::vector<Part> Web::parts() {
   for (std::size_t i = 0; i < prints_of(data_.marks); ++i)
     parts.push_back({fmt::format("print mark {}", i + 1),
                      Shape::box,
-                     {std::max(data_.marks.width, print_look), 1e-3, 0.16 * data_.width},
+                     {std::max(data_.marks.width, print_look), 1e-3, 0.3 * data_.width},
                      print_colour,
                      "web"});
   return parts;
@@ -208,7 +208,7 @@ void Web::pose_prints(std::vector<PartPose>& out) const {
   for (const double place : places) {
     const double x = material_.position - place;
     if (shown == count || x < -upstream || x > lead) continue;
-    out.push_back({.pose = turned(x, above, 0.36 * data_.width, 0)});
+    out.push_back({.pose = turned(x, above, 0.33 * data_.width, 0)});
     ++shown;
   }
   for (; shown < count; ++shown) out.push_back({.pose = {}, .visible = false});

@@ -67,6 +67,7 @@ class Page {
 
   /// A lamp of that diameter; dark with a ring if it is off.
   void lamp(double x, double y, double diameter, bool on) {
+    cairo_new_path(cairo_.get());  // words leave the pen where they end
     cairo_arc(cairo_.get(), x, y, diameter / 2, 0, 2 * std::numbers::pi);
     const Colour& colour = on ? kLampOn : kLampOff;
     cairo_set_source_rgb(cairo_.get(), colour.red, colour.green, colour.blue);

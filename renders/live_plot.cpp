@@ -30,6 +30,7 @@ void draw_curve(cairo_t* pen, const LiveCurve& curve, const Box& box, double fro
   const auto [low, high] = range_of(curve);
   const auto first = std::lower_bound(curve.times_s.begin(), curve.times_s.end(), from);
   const auto last = std::upper_bound(first, curve.times_s.end(), until);
+  cairo_new_path(pen);  // words leave the pen where they end
   for (auto at = first; at != last; ++at) {
     const double value = curve.values[static_cast<std::size_t>(at - curve.times_s.begin())];
     cairo_line_to(pen, box.left + box.width * (*at - from) / (until - from),

@@ -129,6 +129,23 @@ TEST(RendersFilm, EdgesAreAntialiased) {
   EXPECT_GE(between, 6);
 }
 
+TEST(RendersFilm, LampsOfTheCaptionAreLitOrDark) {
+  Film film = two_parts();
+  film.frames[0].caption = {{"in sync", "", true}};
+  film.frames[1].caption = {{"in sync", "", false}};
+  const CaptionLayout caption(film);
+  const auto green = [&](std::size_t frame) {
+    Image image(film.width, film.height);
+    caption.draw(film.frames[frame], image);
+    int count = 0;
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
+      if (image.rgb[i + 1] > image.rgb[i] + 80) ++count;
+    return count;
+  };
+  EXPECT_GT(green(0), 30);
+  EXPECT_EQ(green(1), 0);
+}
+
 TEST(RendersFilm, SameFilmSameBytes) {
   const Scratch scratch;
   const Film film = two_parts();
