@@ -28,7 +28,8 @@ struct Vertex {
 
 /// Adds the part's surface as triangles (three vertices each, counter-clockwise seen from outside). Edges are
 /// broken a little, as on real parts, so that they catch the light; a cylinder's ends carry an index mark so
-/// that one sees it turn. A part with a mesh is drawn by its mesh. The part's material must be known and its sizes positive.
+/// that one sees it turn. A part with a mesh is drawn by its mesh. The part's material must be known and its
+/// sizes positive.
 void append_solid(std::vector<Vertex>& triangles, const SolidPart& part, const Placement& placement);
 
 }  // namespace drycut::renders

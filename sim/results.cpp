@@ -84,8 +84,9 @@ void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
 
 void write_scenario(const Scenario& scenario, const std::filesystem::path& file) {
   OutputFile out(file);
-  out.write("# The scenario of this run with every default in force. Paths are relative to the original file.\n" +
-            expand(scenario));
+  out.write(
+      "# The scenario of this run with every default in force. Paths are relative to the original file.\n" +
+      expand(scenario));
   out.finish();
 }
 

@@ -19,10 +19,6 @@ using camming4::CodeClass;
 using camming4::Row;
 using Grade = CamFinding::Grade;
 
-constexpr double within = 1 + 1e-9;  // what rounding may add to a limit that is just met
-
-std::string number(double value) { return number_text(value, 6); }
-
 class Judge {
  public:
   Judge(const CamTable& table, const CamDuty& duty, const CamRun& run)
@@ -170,7 +166,7 @@ class Judge {
          fmt::format("master space too small: {} Um are over in {} ms, less than a sampling time of {} ms",
                      number(length), number(length / master_ * 1000), table_.TCamp),
          fmt::format("give it at least {} Um, or run the master at {} {} at most", number(advance),
-                     number(length * 1000 / table_.TCamp / um_per_second(table_)), speed_unit(table_)));
+                     number_below(length * 1000 / table_.TCamp / um_per_second(table_)), speed_unit(table_)));
   }
 
   template <typename Tell>
@@ -181,13 +177,13 @@ class Judge {
       tell(Grade::limit, 0,
            fmt::format("velocity {} {} above {}", number(speed), unit, number(*duty_.max_velocity)),
            fmt::format("lower its ratio {} to {}, or run the master at {} {} at most", number(peak),
-                       number(*duty_.max_velocity / *duty_.master_speed), number(*duty_.max_velocity / peak),
-                       unit));
+                       number_below(*duty_.max_velocity / *duty_.master_speed),
+                       number_below(*duty_.max_velocity / peak), unit));
     if (table_.maxvel > 0 && speed > table_.maxvel * within)
       tell(Grade::limit, 0,
            fmt::format("velocity {} {} above maxvel {}: the output saturates (warning 3 or 4)", number(speed),
                        unit, table_.maxvel),
-           fmt::format("run the master at {} {} at most", number(table_.maxvel / peak), unit));
+           fmt::format("run the master at {} {} at most", number_below(table_.maxvel / peak), unit));
   }
 
   template <typename Tell>
@@ -198,7 +194,7 @@ class Judge {
     tell(Grade::limit, 0,
          fmt::format("acceleration {} Um/s2 above {}", number(acceleration), number(*duty_.max_acceleration)),
          fmt::format("give it more master space, or run the master at {} {} at most",
-                     number(std::sqrt(*duty_.max_acceleration / gradient) / um_per_second(table_)),
+                     number_below(std::sqrt(*duty_.max_acceleration / gradient) / um_per_second(table_)),
                      speed_unit(table_)));
   }
 

@@ -14,8 +14,6 @@ namespace {
 namespace camming4 = devices::camming4;
 using camming4::Row;
 
-std::string number(double value) { return number_text(value, 6); }
-
 /// The columns of the sector's two-phase law: spaces and the speeds that it joins.
 struct TwoPhase {
   const char* column = "codeQs";
@@ -97,7 +95,7 @@ CamAdvice too_steep(bool acceleration, const CamVisit& visit, const CamTable& ta
                       acceleration ? "acceleration" : "deceleration", acceleration ? "taccmax" : "tdecmax",
                       number(peak), number(most)),
           fmt::format("give it more master space, or run the master at {} {} at most",
-                      number(std::sqrt(most / gradient) / um_per_second(table)), speed_unit(table))};
+                      number_below(std::sqrt(most / gradient) / um_per_second(table)), speed_unit(table))};
 }
 
 CamAdvice turned_back(const CamVisit& visit) {
