@@ -13,6 +13,7 @@
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 #include "sim/file.hpp"
+#include "sim/scenario/axis_units.hpp"
 
 namespace drycut::sim {
 
@@ -198,8 +199,41 @@ void check_ranges(const PlcopenSection& section, const Scenario& scenario, devic
   }
 }
 
+/// True if the scenario sets the value, before power-up or in its timeline.
+bool sets(const Scenario& scenario, const PlcopenSection& section, const std::string& value) {
+  const auto names_it = [name = plcopen::lower(value)](const auto& list) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const auto& entry) { return plcopen::lower(entry.first.text) == name; });
+  };
+  return names_it(section.set) ||
+         std::any_of(scenario.timeline.begin(), scenario.timeline.end(), [&](const Stimulus& stimulus) {
+           return names_it(stimulus.set) || names_it(stimulus.ramp);
+         });
+}
+
+/// The kernel's own v_phasing is so slow that a slave seems to hang on its way to the cam. MC_GearIn does not
+/// need it: a gear has no place to go to.
+void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection& section,
+                       const Scenario& scenario, std::vector<std::string>& notes) {
+  if (!program.has_motion_block("MC_CamIn")) return;
+  const auto& phasing = *plcopen::find_axis_parameter("cam_gear.v_phasing");
+  for (const auto& axis : section.axes) {
+    const auto& parameters = axis.configuration.parameters;
+    const bool encoder = parameters.kind == static_cast<double>(plcopen::AxisKind::encoder);
+    if (encoder || parameters.is_master != 0) continue;  // masters
+    const auto name = fmt::format("{}.{}", axis.name.text, phasing.name);
+    if (parameters.v_phasing != plcopen::AxisParameters{}.v_phasing || sets(scenario, section, name))
+      continue;
+    notes.push_back(fmt::format(
+        "{} is at its default, {}: MC_CamIn will hardly reach its cam; give v_phasing, a_phasing, "
+        "d_phasing and j_phasing",
+        name, axis_value_text(phasing, parameters.v_phasing, axis.configuration.measure)));
+  }
+}
+
 std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section, const Scenario& scenario,
-                                                  devices::Problems& problems) {
+                                                  devices::Problems& problems,
+                                                  std::vector<std::string>* notes) {
   const auto before = problems.size();
   const auto file = (scenario.file.parent_path() / section.program.text).string();
   plcopen::Configuration configuration;
@@ -215,6 +249,7 @@ std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section,
     if (tables_sound) check_names(program, file, configuration, problems);
   }
   if (problems.size() != before) return nullptr;
+  if (notes != nullptr) note_slow_phasing(program, section, scenario, *notes);
   auto controller =
       std::make_unique<plcopen::PlcopenController>(std::move(program), file, std::move(configuration));
   restore(section.retentive, scenario, *controller, problems);
@@ -260,13 +295,14 @@ std::optional<std::filesystem::path> retentive_file(const Scenario& scenario) {
   return scenario.file.parent_path() / path->text;
 }
 
-std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems) {
+std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems,
+                                                     std::vector<std::string>* notes) {
   if (const auto* section = std::get_if<QmoveSection>(&scenario.controller))
     return load_qmove(*section, scenario, problems);
   if (const auto* section = std::get_if<Lx3vpSection>(&scenario.controller))
     return load_lx3vp(*section, scenario, problems);
   if (const auto* section = std::get_if<PlcopenSection>(&scenario.controller))
-    return load_plcopen(*section, scenario, problems);
+    return load_plcopen(*section, scenario, problems, notes);
   return nullptr;
 }
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "devices/controller.hpp"
@@ -13,8 +14,9 @@ namespace drycut::sim {
 /// The controller that the scenario names, with its programs read and compiled and its values set; nullptr if
 /// there is none or it has problems, which are told in `problems` by the program's own file, line and column.
 /// Retentive values come from the scenario's retentive file where it names one that exists; what the scenario
-/// sets itself comes after.
-std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems);
+/// sets itself comes after. `notes` takes what a reader should know that is no fault.
+std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems,
+                                                     std::vector<std::string>* notes = nullptr);
 
 /// The files that the controller is made of, as the scenario names them.
 std::vector<Text> controller_files(const Scenario& scenario);

@@ -49,7 +49,7 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
 Simulation::~Simulation() = default;
 
 void Simulation::load_controller(devices::Problems& problems) {
-  controller_ = sim::load_controller(scenario_, problems);
+  controller_ = sim::load_controller(scenario_, problems, &notes_of_setup_);
 }
 
 void Simulation::build_plants() {
@@ -255,6 +255,7 @@ std::vector<std::string> Simulation::notes() const {
   std::vector<std::string> notes;
   if (const auto open = bus_.unwired(); !open.empty())
     notes.push_back(fmt::format("not wired: {}", fmt::join(open, ", ")));
+  notes.insert(notes.end(), notes_of_setup_.begin(), notes_of_setup_.end());
   const auto& around = scenario_.pictures.around;
   if (around && scenario_.pictures.frames && !shutter_.event_at()) {
     notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,

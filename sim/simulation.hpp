@@ -56,9 +56,11 @@ class Simulation {
     return controller_ ? controller_->output_period(analogue) : 0;
   }
 
-  /// What a reader should know that is no fault: terminals without a wire, remarks of the controller during
-  /// the run.
+  /// What a reader should know that is no fault: terminals without a wire, how the controller is set
+  /// up, remarks of it during the run.
   [[nodiscard]] std::vector<std::string> notes() const;
+  /// Those of them that are known before the run: how the controller is set up.
+  [[nodiscard]] const std::vector<std::string>& notes_of_setup() const { return notes_of_setup_; }
   /// The controller's values as they are now, by name, with units; rows of cam tables only where they are not
   /// 0.
   [[nodiscard]] std::vector<Reading> controller_values();
@@ -118,6 +120,7 @@ class Simulation {
   std::vector<KnownEvent> known_events_;  ///< of the plants
   std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;
+  std::vector<std::string> notes_of_setup_;
   std::string program_error_;  ///< first run-time error of the controller's program
 };
 

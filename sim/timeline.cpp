@@ -33,7 +33,7 @@ class Binder {
     if (unit.empty()) {
       if (quantity.unit.empty()) return quantity.number;
       problem(quantity.place, fmt::format("{} takes a plain number, not '{}'", name, quantity.unit),
-              "leave the unit away");
+              bare_number(name));
       return {};
     }
     if (quantity.unit.empty()) {
@@ -47,6 +47,13 @@ class Binder {
       return {};
     }
     return to_si(quantity.number, quantity.unit);
+  }
+
+  /// A controller's value is set as its device counts it, whatever scenarios call its unit elsewhere.
+  std::string bare_number(const std::string& name) {
+    const auto reading = names_.reading(name);
+    if (!reading || reading->unit.empty()) return "leave the unit away";
+    return fmt::format("write the number of {} without the unit", reading->unit);
   }
 
   std::optional<Target> target(const Text& name) {

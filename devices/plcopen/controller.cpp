@@ -229,8 +229,12 @@ void PlcopenController::power(bool on) {
   if (!on) {
     for (auto& [address, output] : cards_.outputs) output.level = false;
     for (auto& [address, output] : cards_.analogue_outputs) output.word = 0;
-    return;
   }
+  // When power is lost too: an axis without power is Disabled and takes its machine data.
+  start_anew();
+}
+
+void PlcopenController::start_anew() {
   MotionKernel fresh = make_kernel(configuration_);
   for (int i = 0; i < kernel_.axes(); ++i) {
     Axis& made = *fresh.axis({i});

@@ -32,8 +32,9 @@ struct Configuration {
 /// What the program commands moves the axes from the next cycle on.
 ///
 /// Power off loses everything but RETAIN variables, axis parameters and the operator's hand (override, feed
-/// hold). An incremental encoder counts from 0 at power-up; with homed_at_start it is absolute and keeps its
-/// counts. Tables come from their files again.
+/// hold); until power is back, the variables and what the axes report read 0. An incremental encoder counts
+/// from 0 at power-up; with homed_at_start it is absolute and keeps its counts. Tables come from their files
+/// again.
 class PlcopenController : public Controller {
  public:
   /// `program` is free of problems and names no axis that `configuration` lacks; `file` names it in messages.
@@ -96,6 +97,7 @@ class PlcopenController : public Controller {
   [[nodiscard]] const Axis& axis(int number) const { return *kernel_.axis({number}); }
   [[nodiscard]] std::optional<int> find_axis(std::string_view name) const;
   std::variant<Address, TerminalFault> axis_terminal(const TerminalName& name, const std::string& text);
+  void start_anew();
   void latch_power_up();
   void latch_inputs();
   void give_outputs();

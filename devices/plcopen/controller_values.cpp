@@ -62,7 +62,10 @@ std::optional<ControllerValue> PlcopenController::axis_value(int number, std::st
     if (row.name != wanted) continue;
     ControllerValue value{fmt::format("{}.{}", configured.name, row.name),
                           std::string(unit_of(row.quantity, configured.measure)),
-                          [this, number, read = row.read] { return read(axis(number)); },
+                          [this, number, &row] {
+                            const bool off = !powered_ && row.write == nullptr;
+                            return off ? 0 : row.read(axis(number));
+                          },
                           {},
                           {}};
     const auto wired = [&](const AxisTerminal& terminal) {
@@ -143,7 +146,11 @@ std::optional<ControllerValue> PlcopenController::table_value(std::string_view n
 ControllerValue PlcopenController::symbol_value(std::size_t symbol) {
   const st::Symbol& of = runtime_.symbols()[symbol];
   ControllerValue value{
-      of.name, of.type == "TIME" ? "s" : "", [this, symbol] { return runtime_.read(symbol); }, {}, {}};
+      of.name,
+      of.type == "TIME" ? "s" : "",
+      [this, symbol, retain = of.retain] { return powered_ || retain ? runtime_.read(symbol) : 0; },
+      {},
+      {}};
   if (!of.writable) return value;
   value.range = {of.min, of.max};
   value.write = [this, symbol](double number) { runtime_.write(symbol, number); };

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 namespace drycut::sim {
 
@@ -54,6 +56,20 @@ std::string number_text(double number, int digits) {
   auto text = fmt::format("{:.{}g}", number, digits);
   if (text == "-0") text = "0";
   return text;
+}
+
+namespace {
+constexpr int digits_told = 6;
+}
+
+std::string number(double value) { return number_text(value, digits_told); }
+
+std::string number_below(double value) {
+  // Finer than `within`: limits grow with up to the third power of a speed.
+  constexpr double same = 1 + 1e-12;
+  const double rounded = std::strtod(number(value).c_str(), nullptr);
+  if (rounded <= value * same) return number(value);
+  return number(rounded - std::pow(10.0, std::floor(std::log10(value)) + 1 - digits_told));
 }
 
 }  // namespace drycut::sim

@@ -32,4 +32,11 @@ std::string findings_text(const std::vector<CamFinding>& findings);
 /// A number for a reader: up to ten significant digits, no "-0".
 std::string number_text(double number, int digits = 10);
 
+/// What rounding may add to a limit that is just met, as a factor.
+inline constexpr double within = 1 + 1e-9;
+/// A number as findings tell it: six digits.
+std::string number(double value);
+/// A positive number that a remedy names as the most: rounded down, so that it is sound itself.
+std::string number_below(double value);
+
 }  // namespace drycut::sim

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "sim/cam/findings.hpp"
 
 namespace drycut::sim {
@@ -10,21 +12,31 @@ namespace {
 
 constexpr double same = 1e-6;  // what rounding may add to a limit that is just met [units]
 
-std::string number(double value) { return number_text(value, 9); }
+std::string place_text(double value) { return number_text(value, 9); }
+
+/// A way that a remedy names: within `same`, so that a limit that it brings about is met.
+std::string way_text(double value) { return number_text(std::round(value * 1e6) / 1e6, 15); }
+
+std::string moved_begin(double shift, const TravelWords& words) {
+  return fmt::format("let the cam begin {} {} further {}", way_text(std::abs(shift)), words.unit,
+                     shift < 0 ? "back" : "on");
+}
 
 std::string remedy_of(const CamTravel& travel, double low, double high, bool above,
                       const TravelWords& words) {
   const double stroke = high - low;
   const bool both = travel.least && travel.most;
-  if (both && stroke > *travel.most - *travel.least + same)
-    return fmt::format("{} {} {} at most; it is {}",
+  if (both && stroke > *travel.most - *travel.least + same) {
+    // The nearer end stays where the cam has it; a stroke that just fits has no other place than its travel.
+    const double shift = std::abs(low) <= std::abs(high) ? *travel.least - low : *travel.most - high;
+    return fmt::format("{} {} {} at most{}; it is {}",
                        words.stroke.empty() ? std::string("shorten the stroke to")
                                             : fmt::format("shorten the stroke ({}) to", words.stroke),
-                       number(*travel.most - *travel.least), words.unit, number(stroke));
-  return above ? fmt::format("shorten the stroke, or let the cam begin {} {} further back",
-                             number(high - *travel.most), words.unit)
-               : fmt::format("shorten the stroke, or let the cam begin {} {} further on",
-                             number(*travel.least - low), words.unit);
+                       way_text(*travel.most - *travel.least), words.unit,
+                       std::abs(shift) <= same ? "" : " and " + moved_begin(shift, words),
+                       place_text(stroke));
+  }
+  return "shorten the stroke, or " + moved_begin(above ? *travel.most - high : *travel.least - low, words);
 }
 
 }  // namespace
@@ -35,8 +47,8 @@ std::vector<TravelFault> travel_faults(const CamTravel& travel, double low, doub
   const auto tell = [&](bool above, double reached, double limit) {
     faults.push_back(
         {above,
-         fmt::format("the stroke does not fit the travel: slave at {} {}, {} is {}", number(reached),
-                     words.unit, above ? words.most : words.least, number(limit)),
+         fmt::format("the stroke does not fit the travel: slave at {} {}, {} is {}", place_text(reached),
+                     words.unit, above ? words.most : words.least, place_text(limit)),
          remedy_of(travel, low, high, above, words)});
   };
   if (travel.most && high > *travel.most + same) tell(true, high, *travel.most);

@@ -57,8 +57,14 @@ class Checker {
   }
 
   [[nodiscard]] const devices::Problems& problems() const { return problems_; }
+  /// What is no fault and worth knowing.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  void take_notes(const std::string& of, const Simulation& simulation) {
+    for (const auto& note : simulation.notes_of_setup()) notes_.push_back(fmt::format("{}: {}", of, note));
+  }
+
   /// A comparing scene: its members, then what it asks of them.
   void check_comparing(const ComparisonScene& scene) {
     std::vector<MemberNames> names;
@@ -68,6 +74,7 @@ class Checker {
       if (scenario.buildable) {
         const Simulation simulation(scenario, own);
         load_part_meshes(scenario, simulation.plants(), own);
+        take_notes(member.name.text, simulation);
         if (own.empty()) names.push_back(names_of(simulation));
       }
       place_in_scene(scene, member, own);
@@ -87,6 +94,7 @@ class Checker {
     if (scenario.buildable) {
       const Simulation simulation(scenario, problems_);
       load_part_meshes(scenario, simulation.plants(), problems_);
+      take_notes(file.string(), simulation);
     }
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
   }
@@ -123,6 +131,7 @@ class Checker {
   }
 
   bool expand_;
+  std::vector<std::string> notes_;
   devices::Problems problems_;
   std::vector<Override> overrides_;
   std::optional<qmove::Configuration> configuration_;
@@ -141,8 +150,9 @@ int check_files(const CheckOptions& options) {
                options.files.size() == 1 ? "" : "s");
     return bad_input;
   }
-  if (!options.expand)
-    fmt::print("{} file{} checked, no problem\n", options.files.size(), options.files.size() == 1 ? "" : "s");
+  if (options.expand) return all_passed;
+  for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
+  fmt::print("{} file{} checked, no problem\n", options.files.size(), options.files.size() == 1 ? "" : "s");
   return all_passed;
 }
 

@@ -196,6 +196,12 @@ std::optional<Expression> compile_check(const ComparisonScene::Check& check,
   return Expression::compile(check.expect.text, resolve, known, faults);
 }
 
+std::string operand_text(const CheckOperand& operand) {
+  if (std::isnan(operand.number)) return fmt::format("{} has no value in the time looked at", operand.name);
+  return fmt::format("{}={:.6g}{}{}", operand.name, without_noise(operand.number),
+                     operand.unit.empty() ? "" : " ", operand.unit);
+}
+
 CheckResult result_of(const ComparisonScene::Check& check, const std::deque<CheckOperand>& operands) {
   std::vector<const CheckOperand*> used;
   std::vector<ExpressionFault> faults;
@@ -203,9 +209,7 @@ CheckResult result_of(const ComparisonScene::Check& check, const std::deque<Chec
   const auto evaluation = expression ? expression->evaluate() : Evaluation{};
   CheckResult result{check.name.text, check.expect.text, evaluation.holds, evaluation.margin, "", {}, ""};
   for (const auto* operand : used) {
-    result.detail +=
-        fmt::format("{}{}={:.6g}{}{}", result.detail.empty() ? "" : "; ", operand->name,
-                    without_noise(operand->number), operand->unit.empty() ? "" : " ", operand->unit);
+    result.detail += (result.detail.empty() ? "" : "; ") + operand_text(*operand);
     const bool mixed = operand != used.front() && operand->unit != result.unit;
     result.unit = mixed ? "" : operand->unit;
     if (mixed) break;

@@ -29,7 +29,9 @@ class AxisReader {
       : axis_(axis), full_(axes_name + "." + axis.name.text), findings_(findings) {}
 
   void read(const YamlNode& node) {
+    const auto before = findings_.count();
     read_level(node, "");
+    if (findings_.count() == before) check_software_limits();
     AxisParameters& parameters = axis_.configuration.parameters;
     if (measured_by_)
       axis_.configuration.measure = measure_;
@@ -79,6 +81,23 @@ class AxisReader {
     const auto near = devices::nearest(name, names);
     return near.empty() ? "'drycut devices AXIS' lists the parameters"
                         : fmt::format("did you mean {}?", near);
+  }
+
+  // Equal limits are none.
+  void check_software_limits() {
+    const auto& [name, parameters, measure] = axis_.configuration;
+    if (parameters.swe_neg <= parameters.swe_pos) return;
+    const auto& low = *plcopen::find_axis_parameter("kenngr.swe_neg");
+    const auto& high = *plcopen::find_axis_parameter("kenngr.swe_pos");
+    // One of them has been given: the defaults are equal.
+    const auto place = std::find_if(axis_.places.begin(), axis_.places.end(), [&](const auto& given) {
+      return given.first == low.name || given.first == high.name;
+    });
+    findings_.add(place->second,
+                  fmt::format("{}: {} {} is above {} {}", full_, low.name,
+                              axis_value_text(low, parameters.swe_neg, Measure::length), high.name,
+                              axis_value_text(high, parameters.swe_pos, Measure::length)),
+                  "give the lower limit as kenngr.swe_neg; equal limits are none");
   }
 
   // False if the parameter was given before: nested in one place and dotted in another.

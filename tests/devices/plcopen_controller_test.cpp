@@ -366,6 +366,35 @@ TEST(PlcopenController, WithoutPowerItsOutputsAreOffAndOnlyRetainVariablesAndMac
   EXPECT_EQ(rig.read("Knife.actual_position"), 0) << "counted from power-up";
 }
 
+TEST(PlcopenController, WithoutPowerItsVariablesAndAxesReadZero) {
+  auto made = Rig::configuration();
+  made.axes[1].parameters.homed_at_start = 1;
+  Rig rig(turning, made);
+  rig.input("IX0.0") = true;
+  rig.run(1000);
+  rig.write("Knife.override", 50);
+  EXPECT_EQ(rig.read("Power.Status"), 1);
+  EXPECT_EQ(rig.read("Move.InVelocity"), 1);
+  EXPECT_EQ(rig.read("Knife.state"), 5);
+  EXPECT_EQ(rig.read("Knife.homed"), 1);
+  rig.controller.power(false);
+  for (int once = 0; once < 2; ++once, rig.run(10))
+    for (const std::string name :
+         {"Power.Status", "Move.InVelocity", "start", "lamp", "speed", "late", "quotient", "Knife.state",
+          "Knife.powered", "Knife.homed", "Knife.set_velocity", "Knife.actual_velocity", "Knife.set_position",
+          "Knife.reference"})
+      EXPECT_EQ(rig.read(name), 0) << name;
+  EXPECT_EQ(rig.read("pieces"), 5) << "RETAIN";
+  EXPECT_EQ(rig.read("Knife.override"), 50) << "the operator's";
+  rig.write("Knife.modulo", 1'000'000);
+  EXPECT_THAT(rig.told(), IsEmpty()) << "an axis without power takes its machine data";
+  rig.write("speed", 20'000);
+  rig.controller.power(true);
+  EXPECT_EQ(rig.read("speed"), 10'000) << "what was written without power is lost";
+  rig.run(1000);
+  EXPECT_EQ(rig.read("Move.InVelocity"), 1);
+}
+
 TEST(PlcopenController, AnAbsoluteEncoderKnowsWhereItIsAtPowerUp) {
   auto made = Rig::configuration();
   made.axes[0].parameters.homed_at_start = 1;

@@ -27,7 +27,10 @@ struct Row {
 TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
   for (const Row& row : {
            Row{"i := d + 1;",
-               "2:8: is DINT, which does not go into INT by itself; DINT_TO_INT(...) converts"},
+               "2:8: a value of type DINT does not go into INT by itself; DINT_TO_INT(...) converts"},
+           {"x := TRUE;",
+            "2:6: a value of type BOOL does not go into LREAL by itself; BOOL_TO_LREAL(...) converts"},
+           {"t(IN := T#5s);", "2:9: a value of type TIME does not go into BOOL by itself; TIME_TO_BOOL"},
            {"r := x;",
             "2:6: 'x' is LREAL, which does not go into REAL by itself; LREAL_TO_REAL(...) converts"},
            {"r := 1E39;", "2:6: the constant 1e+39 is out of the range of REAL"},
@@ -42,6 +45,9 @@ TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
            {"i[1] := 2;", "2:3: 'i' is INT and has no elements; only an ARRAY has an index"},
            {"i.q := 2;", "2:3: 'i' is INT and has no members; use it without '.'"},
            {"i := j.3;", "2:8: single bits are not known here"},
+           {"x := SQRT(-1);", "2:6: SQRT of -1; it takes 0 and more: test the value before"},
+           {"x := LN(0);", "2:6: LN of 0; it takes more than 0"},
+           {"x := 0 ** -1;", "2:8: 0 to the power of -1 is no finite number"},
            {"i := 1 MOD 0;", "2:8: division by the constant 0"},
            {"x := 1.0 / 0.0;", "2:10: division by the constant 0"},
            {"x := x MOD 2.0;", "2:8: 'MOD' does not go with LREAL and a real number; it takes whole numbers"},
@@ -56,7 +62,7 @@ TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
            {"i := TRUNC(i);", "2:12: TRUNC does not take INT; it takes REAL and LREAL"},
            {"i := MUX(5, i, j);", "2:10: MUX has no value 5; 0 to 1"},
            {"TON(IN := b);", "2:1: there is no function 'TON'; it is a kind of function block"},
-           {"t(b);", "2:3: an argument of 't' without a name; Execute := value"},
+           {"t(b);", "2:3: an argument of 't' without a name; name its input: IN := value"},
            {"t(IN := b, IN := b);", "2:12: 'IN' is given twice; once a call"},
            {"t(Q => 5);", "2:8: the output Q"},
            {"t(IN => b);", "2:3: 'IN' is an input of TON; IN := value gives it"},
@@ -77,7 +83,10 @@ TEST(StErrors, OfStatementsAreToldOnceAtTheirPlace) {
            {"s := 'abc;", "2:6: a string is not closed on its line; end it with '"},
            {"s := 'a$qb';", "2:8: '$' begins no character that is known"},
            {"i := 99999999999999999999;", "2:6: '99999999999999999999' is out of range"},
-           {"i := 5x;", "2:6: '5x' is neither a number nor a name"},
+           {"i := 5x;", "2:6: '5x' is neither a number nor a name; names begin with a letter"},
+           {"t(PT := 5s);", "2:9: '5s' is neither a number nor a name; a TIME is written T#5s"},
+           {"t(PT := 1.5s);", "2:9: '1.5s' is neither a number nor a name; a TIME is written T#1.5s"},
+           {"t(PT := 5);", "2:9: the number 5 is no TIME; a TIME is written T#500ms"},
            {"i := INT#x;", "2:10: INT# has no number"},
            {"b := T#0.5ms > T#1s;", "2:6: 'T#0.5ms' is finer than a TIME"},
            {"i := 3#12;", "2:6: '3#12' has no base that is known"},
@@ -104,6 +113,12 @@ TEST(StErrors, StructuresOfDifferentTypesAreNotAssigned) {
                           StartsWith("4:6: 'f' is F, which does not go into E"),
                           StartsWith("5:6: 'h' is ARRAY [0..2] OF INT"), StartsWith("6:6: "),
                           StartsWith("7:6: '=' does not go with E and F")));
+}
+
+TEST(StErrors, AnArgumentWithoutANameIsToldTheBlocksOwnInput) {
+  EXPECT_THAT(problems_of("PROGRAM m VAR_EXTERNAL Slide : AXIS_REF; END_VAR VAR pwS : MC_Power; END_VAR\n"
+                          "pwS(Slide, Enable := TRUE);\nEND_PROGRAM"),
+              ElementsAre("2:5: an argument of 'pwS' without a name; name its input: Axis := value"));
 }
 
 TEST(StErrors, OfWholeFiles) {
@@ -137,6 +152,7 @@ TEST(StErrors, OfDeclarations) {
               ElementsAre(HasSubstr("more values than the 2 elements")));
   EXPECT_THAT(declared("a : INT; b : INT := a;"),
               ElementsAre(StartsWith("1:35: a value that is not constant")));
+  EXPECT_THAT(declared("a : LREAL := SQRT(-1);"), ElementsAre(StartsWith("1:28: SQRT of -1; it takes 0")));
   EXPECT_THAT(declared("if : INT;"),
               ElementsAre(StartsWith(
                   "1:15: the name of a variable is missing before 'if'; IF is a word of the language")));

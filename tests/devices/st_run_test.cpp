@@ -213,13 +213,54 @@ std::string fault_of(const std::string& text) {
   return fault ? std::to_string(fault->line) + ":" + std::to_string(fault->column) + ": " + fault->text : "";
 }
 
+/// The fault of `x := expression`, with variables that the compiler does not know the values of.
+std::string fault_of_value(const std::string& type, const std::string& expression) {
+  return fault_of("PROGRAM p VAR x, null : " + type + "; minus : " + type + " := -2; big : " + type +
+                  " := 500; i : INT; t : TIME := T#1s; END_VAR\nx := " + expression + ";\nEND_PROGRAM");
+}
+
 TEST(StFault, DivisionByZeroStopsTheProgram) {
   EXPECT_EQ(fault_of("PROGRAM p VAR a, b : INT; END_VAR\na := 5 / b;\nEND_PROGRAM"),
             "2:8: division by 0; test the divisor before");
   EXPECT_EQ(fault_of("PROGRAM p VAR a, b : INT; END_VAR\na := 5 MOD b;\nEND_PROGRAM"),
             "2:8: division by 0; test the divisor before");
-  EXPECT_EQ(fault_of("PROGRAM p VAR a, b : LREAL; END_VAR\na := 5 / b;\nEND_PROGRAM"), "")
-      << "a real number becomes infinite";
+  for (const std::string type : {"REAL", "LREAL"}) {
+    EXPECT_EQ(fault_of_value(type, "5 / null"), "2:8: division by 0; test the divisor before");
+    EXPECT_EQ(fault_of_value(type, "null / -null"), "2:11: division by 0; test the divisor before");
+    EXPECT_EQ(fault_of_value(type, "null / minus"), "");
+  }
+  EXPECT_EQ(fault_of("PROGRAM p VAR t : TIME; x : REAL; END_VAR\nt := t / x;\nEND_PROGRAM"),
+            "2:8: division by 0; test the divisor before");
+}
+
+TEST(StFault, AFunctionOutsideOfWhatItTakesStopsTheProgram) {
+  struct Row {
+    const char* expression;
+    const char* fault;
+  };
+  for (const std::string type : {"REAL", "LREAL"})
+    for (const Row& row :
+         {Row{"SQRT(minus)", "2:6: SQRT of -2; it takes 0 and more: test the value before"},
+          {"SQRT(null)", ""},
+          {"LN(null)", "2:6: LN of 0; it takes more than 0: test the value before"},
+          {"LN(minus)", "2:6: LN of -2; it takes more than 0: test the value before"},
+          {"LOG(null)", "2:6: LOG of 0; it takes more than 0: test the value before"},
+          {"1 + ASIN(minus)", "2:10: ASIN of -2; it takes -1 to 1: test the value before"},
+          {"ASIN(big)", "2:6: ASIN of 500; it takes -1 to 1: test the value before"},
+          {"ASIN(minus / 2)", ""},
+          {"ACOS(big)", "2:6: ACOS of 500; it takes -1 to 1: test the value before"},
+          {"ACOS(big / 500)", ""},
+          {"EXPT(null, -1)", "2:6: 0 to the power of -1 is no finite number; test both before"},
+          {"minus ** 0.5", "2:12: -2 to the power of 0.5 is no finite number; test both before"},
+          {"big ** big", "2:10: 500 to the power of 500 is no finite number; test both before"},
+          {"null ** 0", ""},
+          {"EXP(big * 2)", "2:6: EXP of 1000 is no finite number; test the value before"}})
+      EXPECT_EQ(fault_of_value(type, row.expression), row.fault) << type << " " << row.expression;
+  EXPECT_EQ(fault_of_value("REAL", "EXP(big / 5)"),
+            "2:6: EXP of 100 is no finite number; test the value before")
+      << "beyond REAL, not beyond LREAL";
+  EXPECT_EQ(fault_of_value("LREAL", "EXP(big / 5)"), "");
+  EXPECT_EQ(fault_of_value("LREAL", "LN(i)"), "2:6: LN of 0; it takes more than 0: test the value before");
 }
 
 TEST(StFault, IndexOutOfBoundsStopsTheProgram) {

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "tests/sim/cam_camin_bench.hpp"
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -46,16 +48,66 @@ TEST(CamInFindings, LimitsAreJudgedByTheLawsPeaksAndTheRemedyIsTheLimit) {
               ElementsAre(HasSubstr("velocity 360 deg/s above 350")));
 }
 
+/// The least of the speeds that the findings' remedies name.
+double speed_told(const std::vector<std::string>& told) {
+  const std::string words = "run it at ";
+  double least = INFINITY;
+  for (const auto& one : told)
+    if (const auto at = one.find(words); at != std::string::npos)
+      least = std::min(least, std::stod(one.substr(at + words.size())));
+  return least;
+}
+
 TEST(CamInFindings, TheRemedysSpeedIsSoundItself) {
-  for (const char* setting : {"# maxvel: 20\n", "# maxacc: 500\n"}) {
-    const auto text = camin::knife(std::string("# endless: positive\n") + setting);
-    const auto told = camin::findings(text, {.master_speed = 5'000});
-    ASSERT_THAT(told, testing::SizeIs(1));
-    const auto at = told[0].find("run it at ");
-    const double speed = std::stod(told[0].substr(at + 10));
-    EXPECT_THAT(camin::findings(text, {.master_speed = speed * 0.99999}), IsEmpty()) << told[0];
-    EXPECT_THAT(camin::findings(text, {.master_speed = speed * 1.001}), Not(IsEmpty())) << told[0];
+  std::vector<std::string> cams;
+  for (const char* limits : {"# maxvel: 359\n", "# maxvel: 20\n", "# maxacc: 500\n", "# maxacc: 70\n",
+                             "# maxjerk: 777\n", "# maxvel: 77\n# maxacc: 11\n# maxjerk: 13\n"})
+    cams.push_back(camin::knife(std::string("# endless: positive\n") + limits));
+  for (const char* name : {"mc_eject.csv", "mc_flying_saw.csv"})
+    cams.push_back(content(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/cams" / name));
+  for (const auto& text : cams) {
+    const auto unsound = [&](double speed) {
+      auto told = camin::findings(text, {.master_speed = speed});
+      std::erase_if(told, [](const auto& one) { return one.find("limit: ") == std::string::npos; });
+      return told;
+    };
+    const auto told = unsound(50'000);
+    const double speed = speed_told(told);
+    ASSERT_TRUE(std::isfinite(speed)) << text;
+    EXPECT_THAT(unsound(speed), IsEmpty()) << told[0];
+    EXPECT_THAT(unsound(speed * 1.00002), Not(IsEmpty())) << told[0];
   }
+}
+
+TEST(CamInFindings, WhatTheTravelsRemedyAsksForIsEnough) {
+  const auto told = [](const std::string& travel, double low, double high) {
+    return camin::findings(fmt::format(
+        "# slave_modulo: 0\n# interpolation: POLYNOM_3_KOEFF\n{}a0,a1,a2,a3\n"
+        "{},0,{},{}\n{},0,{},{}\n",
+        travel, low, 3 * (high - low), -2 * (high - low), high, 3 * (low - high), -2 * (low - high)));
+  };
+  const std::string travel = "# minpos: -100.5\n# maxpos: 1000\n";
+  EXPECT_THAT(told(travel, 0, 2000),
+              ElementsAre("limit: the stroke does not fit the travel: slave at 2000 0.1 um, maxpos is 1000; "
+                          "shorten the stroke to 1100.5 0.1 um at most and let the cam begin 100.5 0.1 um "
+                          "further back; it is 2000"));
+  EXPECT_THAT(told(travel, -100.5, 1000), IsEmpty());
+  // From above: the end that the cam begins at is the upper one.
+  EXPECT_THAT(
+      told("# minpos: -1000\n# maxpos: -200\n", -2000, 0),
+      ElementsAre(HasSubstr("shorten the stroke to 800 0.1 um at most and let the cam begin 200 0.1 um "
+                            "further back; it is 2000"),
+                  HasSubstr("further back; it is 2000")));
+  // Where the begin is right a shorter stroke is enough.
+  EXPECT_THAT(told("# minpos: 0\n# maxpos: 1000\n", 0, 2000),
+              ElementsAre(HasSubstr("shorten the stroke to 1000 0.1 um at most; it is 2000")));
+  // Ten digits and more are needed to meet the limit.
+  EXPECT_THAT(told("# minpos: -100000000.125\n# maxpos: 1000000000\n", 0, 1000000000.0625),
+              ElementsAre(HasSubstr("let the cam begin 0.0625 0.1 um further back")));
+  EXPECT_THAT(
+      told("# minpos: -100000000.125\n# maxpos: 1000000000\n", 0, 1123456789.0625),
+      ElementsAre(HasSubstr("shorten the stroke to 1100000000.125 0.1 um at most and let the cam begin "
+                            "100000000.125 0.1 um further back; it is ")));
 }
 
 TEST(CamInFindings, WhereTheVelocityJumpsNoAccelerationIsEnough) {

@@ -282,7 +282,7 @@ TEST(EcamFindings, AStrokeThatDoesNotFitTheTravel) {
   EXPECT_THAT(told("# min_position: -30\n# max_position: 290\n"),
               ElementsAre(HasSubstr("row 1 (line 5): limit: the stroke does not fit the travel: slave at "
                                     "300 pulses, max_position is 290; shorten the stroke to 320 pulses at "
-                                    "most; it is 340"),
+                                    "most and let the cam begin 10 pulses further on; it is 340"),
                           HasSubstr("row 3 (line 7): limit: ")));
 }
 
@@ -307,8 +307,8 @@ TEST(EcamFindings, ASawsStrokeAndItsRemedy) {
   EXPECT_THAT(found[0], testing::StartsWith("row "));
   EXPECT_THAT(found[0],
               testing::EndsWith(": limit: the stroke does not fit the travel: slave at 12900 pulses, "
-                                "max_position is 12000; shorten the stroke (P2) to 12500 pulses at most; it "
-                                "is 12900"));
+                                "max_position is 12000; shorten the stroke (P2) to 12500 pulses at most and "
+                                "let the cam begin 500 pulses further back; it is 12900"));
   EXPECT_THAT(saw(travel, 12500), ElementsAre(HasSubstr("let the cam begin 500 pulses further back")));
   EXPECT_THAT(saw(travel, 12000), IsEmpty());
 }

@@ -38,8 +38,9 @@ TEST(CamFindings, AStrokeThatDoesNotFitTheTravel) {
                           "maxpos is 299; shorten the stroke, or let the cam begin 1 Um further back"));
   EXPECT_THAT(told("# minpos: 10\n# maxpos: 200\n"),
               ElementsAre(HasSubstr("sector 1 (132 AZM): limit: the stroke does not fit the travel: slave at "
-                                    "0 Um, minpos is 10; shorten the stroke to 190 Um at most; it is 300"),
-                          HasSubstr("maxpos is 200; ")));
+                                    "0 Um, minpos is 10; shorten the stroke to 190 Um at most and "
+                                    "let the cam begin 10 Um further on; it is 300"),
+                          HasSubstr("maxpos is 200; shorten the stroke to 190 Um at most and let the cam")));
   EXPECT_THAT(cams::faults("# maxpos: 5\n# minpos: 6\n" + text),
               ElementsAre("2:1: minpos is above maxpos; give the lower end of the travel as minpos"));
 }
@@ -163,12 +164,12 @@ TEST(CamFindings, Warnings1And2NeedTheMastersSpeed) {
   EXPECT_THAT(
       findings(table, {.master_speed = 400.0}),
       ElementsAre("sector 2 (135 DZC): warning 2: deceleration above tdecmax: 1600 Um/s2 at its peak, 1000 "
-                  "allowed; give it more master space, or run the master at 316.228 Um/s at most"));
+                  "allowed; give it more master space, or run the master at 316.227 Um/s at most"));
   EXPECT_THAT(
       findings(table, {.master_speed = 500.0}),
       Contains(
           "sector 1 (132 AZM): warning 1: acceleration above taccmax: 2500 Um/s2 at its peak, 2000 allowed; "
-          "give it more master space, or run the master at 447.214 Um/s at most"));
+          "give it more master space, or run the master at 447.213 Um/s at most"));
 }
 
 TEST(CamFindings, Warning5TurningBack) {
@@ -243,11 +244,13 @@ TEST(CamFindings, LimitsNameTheSectorAndItsPeak) {
       findings(table, {.master_speed = 100.0, .max_velocity = 110.0, .max_acceleration = 200.0}),
       ElementsAre(
           "sector 1 (231 AZLE): limit: velocity 120 Um/s above 110; lower its ratio 1.2 to 1.1, or run "
-          "the master at 91.6667 Um/s at most",
+          "the master at 91.6666 Um/s at most",
           "sector 1 (231 AZLE): limit: acceleration 240 Um/s2 above 200; give it more master space, or "
-          "run the master at 91.2871 Um/s at most",
+          "run the master at 91.287 Um/s at most",
           HasSubstr("sector 2 (133 RSC): limit: velocity 120 Um/s above 110"),
           HasSubstr("sector 3 (135 DZC): limit: velocity 120 Um/s above 110")));
+  EXPECT_THAT(findings(table, {.master_speed = 91.6666, .max_velocity = 110.0}), IsEmpty());
+  EXPECT_THAT(findings(table, {.master_speed = 91.287, .max_acceleration = 200.0}), IsEmpty());
 }
 
 TEST(CamFindings, MaxvelSaturatesTheOutput) {

@@ -132,6 +132,13 @@ TEST_F(CompareScene, AFailedCheckOfItsOwnIsStatusOneWithItsNumbers) {
           "<strong>FAIL</strong> <span>every run passed, 1 of the comparison&#39;s own 2 checks failed"));
 }
 
+TEST_F(CompareScene, AFigureWithoutAValueSaysSo) {
+  EXPECT_EQ(run(with(two, "from: 100 ms", "from: 1000 s")), check_failed);
+  EXPECT_THAT(out, HasSubstr("FAIL the good one follows: good.largest has no value in the time looked at; "
+                             "bad.largest has no value in the time looked at"));
+  EXPECT_THAT(out, Not(HasSubstr("nan")));
+}
+
 TEST_F(CompareScene, AFailedMemberFailsTheScene) {
   test_folder.file("axis.yaml", std::string(tuning::scenario) +
                                     "checks: [{name: still, always: abs(AxisX.follerr) < 100}]\n");

@@ -136,7 +136,7 @@ TEST_F(PlcopenScenario, ChecksMayNameWhatTheControllerReports) {
   Simulation simulation(scenario, problems);
   ASSERT_THAT(told(), IsEmpty());
   const auto outcome = simulation.run();
-  ASSERT_EQ(outcome.checks.size(), 2U);
+  ASSERT_EQ(outcome.checks.size(), 3U);  // the last: the program runs
   EXPECT_FALSE(outcome.checks[0].passed);
   EXPECT_TRUE(outcome.checks[1].passed) << outcome.checks[1].detail;
 }
@@ -369,6 +369,68 @@ TEST_F(PlcopenScenario, WhatADriveNeedsAndNothingIsWiredToIsNoted) {
   Simulation simulation(scenario, problems);
   ASSERT_THAT(told(), IsEmpty());
   EXPECT_THAT(simulation.notes(), ElementsAre("not wired: Knife.encoder, Knife.reference"));
+}
+
+TEST_F(PlcopenScenario, ASlaveThatWouldCreepToItsCamIsNoted) {
+  const auto notes = [&](const std::string& axes, const std::string& more = "") {
+    problems.clear();
+    const auto scenario = read(
+        "scene: {step: 500 us, duration: 1 s}\ncontroller:\n  plcopen:\n    program: "
+        "line.st\n    tables: [cam.csv]\n" +
+        more + "    axes:\n      Line: {kind: virtual, cam_gear.is_master: on}\n" + axes);
+    Simulation simulation(scenario, problems);
+    EXPECT_THAT(told(), IsEmpty());
+    EXPECT_THAT(simulation.notes(), testing::IsSupersetOf(simulation.notes_of_setup()));
+    const auto again = read(expand(scenario));
+    EXPECT_EQ(Simulation(again, problems).notes(), simulation.notes()) << "as it is written back";
+    return simulation.notes_of_setup();
+  };
+  const std::string told_of =
+      ".cam_gear.v_phasing is at its default, 0.001 deg/s: MC_CamIn will hardly reach its cam; give "
+      "v_phasing, "
+      "a_phasing, d_phasing and j_phasing";
+  EXPECT_THAT(notes("      Knife: {}\n"), ElementsAre("Knife" + told_of));
+  EXPECT_THAT(notes("      Knife: {kind: virtual}\n      Count: {kind: encoder}\n"),
+              ElementsAre("Knife" + told_of));
+  EXPECT_THAT(notes("      Knife: {modulo: 0}\n"), ElementsAre(HasSubstr("default, 0.001 mm/s: ")));
+  EXPECT_THAT(notes("      Knife: {cam_gear.v_phasing: 5 deg/s}\n"), IsEmpty());
+  EXPECT_THAT(notes("      Knife: {}\n", "    set: {knife.cam_gear.v_phasing: 5000}\n"), IsEmpty());
+  EXPECT_THAT(notes("      Knife: {}\n" + std::string("timeline: [{at: 0 s, set: {Knife.cam_gear.v_phasing: "
+                                                      "5000}}]\n")),
+              IsEmpty());
+  write("line.st",
+        "PROGRAM line\nVAR_EXTERNAL Line, Knife : AXIS_REF; END_VAR\nVAR Gear : MC_GearIn; END_VAR\n"
+        "Gear(Master := Line, Slave := Knife);\nEND_PROGRAM\n");
+  EXPECT_THAT(notes("      Knife: {}\n"), IsEmpty()) << "no cam";
+}
+
+TEST_F(PlcopenScenario, SoftwareLimitsAreInOrder) {
+  const auto told_of = [&](const std::string& limits) {
+    problems.clear();
+    read(with("    program: line.st\n    axes:\n      Saw: {modulo: 0, " + limits + "}\n"));
+    return told();
+  };
+  const std::string remedy = "give the lower limit as kenngr.swe_neg; equal limits are none";
+  EXPECT_THAT(told_of("kenngr: {swe_pos: -10 mm, swe_neg: 10 mm}"),
+              ElementsAre("line.yaml:6:33: controller.plcopen.axes.Saw: kenngr.swe_neg 10 mm is above "
+                          "kenngr.swe_pos -10 mm; " +
+                          remedy));
+  EXPECT_THAT(told_of("kenngr.swe_neg: 1"),
+              ElementsAre("line.yaml:6:24: controller.plcopen.axes.Saw: kenngr.swe_neg 0.0001 mm is above "
+                          "kenngr.swe_pos 0 mm; " +
+                          remedy));
+  EXPECT_THAT(told_of("kenngr: {swe_neg: 10 mm, swe_pos: 10 mm}"), IsEmpty());
+  EXPECT_THAT(told_of("kenngr: {swe_neg: -10 mm, swe_pos: 10 mm}"), IsEmpty());
+  EXPECT_THAT(told_of("kenngr: {swe_neg: 1e9 m, swe_pos: -1 mm}"), ElementsAre(HasSubstr("out of range")));
+}
+
+TEST_F(PlcopenScenario, ATimelineSetsParametersInTheKernelsUnits) {
+  auto text = std::string(line);
+  text.replace(text.find("timeline:\n"), 10,
+               "timeline:\n  - {at: 4 s, set: {Knife.cam_gear.v_phasing: 90 deg/s}}\n");
+  EXPECT_THAT(build(text),
+              ElementsAre(HasSubstr("Knife.cam_gear.v_phasing takes a plain number, not 'deg/s'; "
+                                    "write the number of 0.001 deg/s without the unit")));
 }
 
 TEST_F(PlcopenScenario, AProgramThatDoesNotLoadMakesNoSwitchOrLampOfThePanelUnknown) {

@@ -110,26 +110,26 @@ TEST_F(TimelineTest, SwitchesThePower) {
 
 TEST_F(TimelineTest, SaysWhatDoesNotFit) {
   auto& wrong = at(0);
-  wrong.set = {{text("web.sped", 1, 5), quantity(1, "m/min")},
-               {text("web.speed", 2, 5), quantity(1)},
-               {text("web.speed", 3, 5), quantity(1, "kg")},
-               {text("slLength", 4, 5), quantity(1, "mm")},
-               {text("panel.stop", 5, 5), quantity(1)}};
+  wrong.set = {{text("web.sped", 1, 5), quantity(1, "m/min")},  {text("web.speed", 2, 5), quantity(1)},
+               {text("web.speed", 3, 5), quantity(1, "kg")},    {text("slLength", 4, 5), quantity(1, "mm")},
+               {text("panel.start", 4, 20), quantity(1, "mm")}, {text("panel.stop", 5, 5), quantity(1)}};
   wrong.faults = {{text("web.encoder", 6, 5), text("explode", 6, 20), quantity(1)},
                   {text("web.motor", 8, 5), text("stuck", 8, 20), quantity(1)}};
   make();
   std::vector<std::string> all;
   for (const auto& problem : problems) all.push_back(to_string(problem));
-  EXPECT_THAT(all,
-              testing::ElementsAre(
-                  "line.yaml:1:5: nothing called 'web.sped' can be set; did you mean web.speed?",
-                  "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min",
-                  "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min",
-                  "line.yaml:7:9: slLength takes a plain number, not 'mm'; leave the unit away",
-                  "line.yaml:5:5: nothing called 'panel.stop' can be set; wire an input to panel.stop first; "
-                  "switches: panel.start",
-                  "line.yaml:6:20: web.encoder offers no fault 'explode'; web.encoder offers: lose_counts",
-                  "line.yaml:8:20: web.motor offers no fault 'stuck'; components with faults: web.encoder"));
+  EXPECT_THAT(
+      all,
+      testing::ElementsAre(
+          "line.yaml:1:5: nothing called 'web.sped' can be set; did you mean web.speed?",
+          "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min",
+          "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min",
+          "line.yaml:7:9: slLength takes a plain number, not 'mm'; write the number of Um without the unit",
+          "line.yaml:7:9: panel.start takes a plain number, not 'mm'; leave the unit away",
+          "line.yaml:5:5: nothing called 'panel.stop' can be set; wire an input to panel.stop first; "
+          "switches: panel.start",
+          "line.yaml:6:20: web.encoder offers no fault 'explode'; web.encoder offers: lose_counts",
+          "line.yaml:8:20: web.motor offers no fault 'stuck'; components with faults: web.encoder"));
 }
 
 }  // namespace

@@ -28,6 +28,15 @@ std::vector<Compiler::Argument> Compiler::arguments() {
   return result;
 }
 
+std::vector<std::string> Compiler::pins_of(const Type& type, bool output) {
+  std::vector<std::string> names;
+  for (const Variable& member : type.members) {
+    const bool input = member.section == Section::input || member.section == Section::in_out;
+    if (output ? member.section == Section::output : input) names.push_back(member.name);
+  }
+  return names;
+}
+
 const Variable* Compiler::pin_of(const Type& type, const Token& name, bool output) {
   const Variable* pin = find_member(type, name.text);
   const bool is_output = pin != nullptr && pin->section == Section::output;
@@ -43,11 +52,7 @@ const Variable* Compiler::pin_of(const Type& type, const Token& name, bool outpu
     return nullptr;
   }
   if (type.broken) return nullptr;
-  std::vector<std::string> names;
-  for (const Variable& member : type.members) {
-    const bool input = member.section == Section::input || member.section == Section::in_out;
-    if (output ? member.section == Section::output : input) names.push_back(member.name);
-  }
+  const std::vector<std::string> names = pins_of(type, output);
   const std::string all = names.empty() ? fmt::format("it has no {}", output ? "outputs" : "inputs")
                                         : fmt::format("it has {}", qmove::listed(names));
   complain(name.place,
@@ -96,9 +101,12 @@ int Compiler::output_store(const Type& owner, const Variable& pin, const Argumen
 void Compiler::input_of(const Expression& instance, const Type& type, const Argument& argument,
                         std::set<std::string>& given, std::vector<int>& before, std::vector<int>& after) {
   if (argument.name.kind == Token::Kind::end) {
+    const std::vector<std::string> inputs = pins_of(type, false);
     complain(argument.value.place,
              fmt::format("an argument of {} without a name", qmove::quoted(instance.name)),
-             "Execute := value");
+             inputs.empty() ? fmt::format("{} has no inputs", type.name)
+                            : fmt::format("name its input: {} := value", inputs.front()));
+    given.insert("?");
     return;
   }
   const Variable* pin = pin_of(type, argument.name, argument.output);

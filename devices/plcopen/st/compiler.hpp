@@ -165,6 +165,7 @@ class Compiler {
   Expression string_comparison(Op op, const Token& sign, const Expression& a, const Expression& b);
   Expression apply_op(Op op, const Type* type, Place place, const Expression& a, const Expression& b);
   Expression apply_op(Op op, const Type* type, Place place, const Expression& a);
+  Expression folded(Op op, const Type* type, Place place, Cell a, Cell b, bool untyped);
   Expression mismatch(const Token& sign, const Expression& a, const Expression& b, const std::string& remedy);
   /// The type that both take by themselves; nullptr if there is none.
   const Type* common_type(const Expression& a, const Expression& b) const;
@@ -181,7 +182,6 @@ class Compiler {
   int literal_string(const std::string& text);
   int scratch();
   Expression constant(const Type* type, Cell value, Place place, bool untyped = false) const;
-  static std::string spelled(const Expression& expression);
 
   // functions.cpp, calls.cpp
   struct Argument {
@@ -206,6 +206,7 @@ class Compiler {
   int in_out_store(const Type& type, const Variable& pin, const Argument& argument, int place);
   int output_store(const Type& owner, const Variable& pin, const Argument& argument, int place);
   const Variable* pin_of(const Type& type, const Token& name, bool output);
+  static std::vector<std::string> pins_of(const Type& type, bool output);
 
   // statements.cpp, loops.cpp
   void compile_body(Unit& unit);

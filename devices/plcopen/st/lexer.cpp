@@ -188,7 +188,9 @@ class Lexer {
     Token& token = add(real ? Token::Kind::real : Token::Kind::integer, whole);
     if (whole != size) {
       complain(token, quoted(token.text) + " is neither a number nor a name",
-               "names begin with a letter; 16#FF is hexadecimal");
+               milliseconds(without_underscores(token.text))
+                   ? fmt::format("a TIME is written T#{}", token.text)
+                   : "names begin with a letter; 16#FF is hexadecimal");
       return;
     }
     const std::string digits = without_underscores(token.text);

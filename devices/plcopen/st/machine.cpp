@@ -70,10 +70,11 @@ std::int64_t Machine::element(const Node& n) {
   return value(n.a) + (index - span.low) * span.cells + n.imm;
 }
 
-Cell Machine::quotient(const Node& n) {
+Cell Machine::operation(const Node& n) {
   const Cell a = value(n.a);
-  const Cell b = value(n.b);
-  if (b == 0) throw RuntimeError(n, "division by 0; test the divisor before");
+  const Cell b = n.b >= 0 ? value(n.b) : 0;
+  if (const auto none = no_result(n.op, n.basic, a, b))
+    throw RuntimeError(n, none->what + "; " + none->remedy);
   return apply(n.op, n.basic, a, b);
 }
 
@@ -141,9 +142,6 @@ Cell Machine::value(int number) {
       return element(n);
     case Op::call_function:
       return call_function(n);
-    case Op::divide:
-    case Op::modulo:
-      return quotient(n);
     case Op::and_then:
       return value(n.a) != 0 ? value(n.b) : 0;
     case Op::or_else:
@@ -166,10 +164,8 @@ Cell Machine::value(int number) {
       const Cell step = value(n.c);
       return step >= 0 ? value(n.a) <= value(n.b) : value(n.a) >= value(n.b);
     }
-    default: {
-      const Cell a = value(n.a);
-      return apply(n.op, n.basic, a, n.b >= 0 ? value(n.b) : 0);
-    }
+    default:
+      return operation(n);
   }
 }
 

@@ -43,7 +43,7 @@ class Machine {
   [[nodiscard]] const Node& node(int number) const { return code_.nodes[static_cast<std::size_t>(number)]; }
   [[nodiscard]] Cell& at(std::int64_t place) { return memory_[static_cast<std::size_t>(place)]; }
   Cell value(int number);
-  Cell quotient(const Node& node);
+  Cell operation(const Node& node);
   Cell multiplex(const Node& node);
   std::int64_t element(const Node& node);
   Cell call_function(const Node& node);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace drycut::devices::plcopen::st {
 namespace {
 
@@ -91,7 +93,48 @@ double real_result(Op op, double a, double b) {
   }
 }
 
+NoResult division_by_zero() { return {"division by 0", "test the divisor before"}; }
+
+/// Of a function that takes what `taken` says only; no number is not taken either.
+std::optional<NoResult> outside(std::string_view function, double value, bool takes, std::string_view taken) {
+  if (takes) return std::nullopt;
+  return NoResult{fmt::format("{} of {}", function, value),
+                  fmt::format("it takes {}: test the value before", taken)};
+}
+
 }  // namespace
+
+std::optional<NoResult> no_result(Op op, Basic basic, Cell a, Cell b) {
+  switch (op) {
+    case Op::divide:
+    case Op::modulo:
+      if (b == 0) return division_by_zero();
+      return std::nullopt;
+    case Op::divide_real:
+    case Op::divide_time:
+      if (real_of(b) == 0) return division_by_zero();
+      return std::nullopt;
+    case Op::square_root:
+      return outside("SQRT", real_of(a), real_of(a) >= 0, "0 and more");
+    case Op::logarithm:
+      return outside("LN", real_of(a), real_of(a) > 0, "more than 0");
+    case Op::logarithm_10:
+      return outside("LOG", real_of(a), real_of(a) > 0, "more than 0");
+    case Op::arc_sine:
+      return outside("ASIN", real_of(a), std::abs(real_of(a)) <= 1, "-1 to 1");
+    case Op::arc_cosine:
+      return outside("ACOS", real_of(a), std::abs(real_of(a)) <= 1, "-1 to 1");
+    case Op::power:
+      if (std::isfinite(rounded(basic, std::pow(real_of(a), real_of(b))))) return std::nullopt;
+      return NoResult{fmt::format("{} to the power of {} is no finite number", real_of(a), real_of(b)),
+                      "test both before"};
+    case Op::exponential:
+      if (std::isfinite(rounded(basic, std::exp(real_of(a))))) return std::nullopt;
+      return NoResult{fmt::format("EXP of {} is no finite number", real_of(a)), "test the value before"};
+    default:
+      return std::nullopt;
+  }
+}
 
 Cell apply(Op op, Basic basic, Cell a, Cell b) {
   switch (op) {

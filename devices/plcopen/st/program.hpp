@@ -38,6 +38,8 @@ class Program {
   [[nodiscard]] const std::vector<Located>& located() const;
   /// Cam table files that initial values and assignments of MC_CAM_REF.File name.
   [[nodiscard]] const std::vector<Name>& tables() const;
+  /// True if it has an instance of this motion block ("MC_CamIn").
+  [[nodiscard]] bool has_motion_block(std::string_view name) const;
   [[nodiscard]] const Compiled& compiled() const { return *compiled_; }
 
  private:

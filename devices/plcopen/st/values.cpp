@@ -67,12 +67,6 @@ int Compiler::scratch() {
   return static_cast<int>(pool_.size()) - 1;
 }
 
-std::string Compiler::spelled(const Expression& expression) {
-  if (!expression.constant) return expression.name.empty() ? "" : qmove::quoted(expression.name) + " ";
-  if (is_real(expression.type->basic)) return fmt::format("{} ", real_of(expression.value));
-  return fmt::format("{} ", expression.value);
-}
-
 Expression Compiler::literal_as(Expression literal, const Type& to) {
   const Basic basic = to.basic;
   const bool real = is_real(literal.type->basic);
@@ -98,7 +92,9 @@ Expression Compiler::literal_as(Expression literal, const Type& to) {
                          : basic == Basic::boolean     ? "TRUE or FALSE"
                          : basic == Basic::string      ? "a text stands between single quotes"
                                                        : "give a variable of that type";
-    complain(literal.place, fmt::format("the number {}is no {}", spelled(literal), to.name), remedy);
+    const std::string number =
+        real ? fmt::format("{}", real_of(literal.value)) : fmt::format("{}", literal.value);
+    complain(literal.place, fmt::format("the number {} is no {}", number, to.name), remedy);
   }
   literal.type = &to;
   literal.untyped = false;
@@ -124,11 +120,12 @@ Expression Compiler::converted(Expression expression, const Type& to) {
     return cast(expression, to.basic, expression.place);
   const bool casts = is_elementary(from.basic) && is_elementary(to.basic) && to.basic != Basic::enumeration;
   const std::string from_name = from.basic == Basic::enumeration ? "INT" : from.name;
-  complain(
-      expression.place,
-      fmt::format("{}is {}, which does not go into {} by itself", spelled(expression), from.name, to.name),
-      casts ? fmt::format("{}_TO_{}(...) converts", from_name, to.name)
-            : fmt::format("a value of type {} is wanted", to.name));
+  const std::string what = expression.name.empty() ? fmt::format("a value of type {} does not", from.name)
+                                                   : fmt::format("{} is {}, which does not",
+                                                                 qmove::quoted(expression.name), from.name);
+  complain(expression.place, fmt::format("{} go into {} by itself", what, to.name),
+           casts ? fmt::format("{}_TO_{}(...) converts", from_name, to.name)
+                 : fmt::format("a value of type {} is wanted", to.name));
   Expression unknown = constant(type_of(Basic::unknown), 0, expression.place);
   unknown.constant = false;
   return unknown;
@@ -161,13 +158,20 @@ Expression Compiler::cast(const Expression& expression, Basic to, Place place) {
   return result;
 }
 
+Expression Compiler::folded(Op op, const Type* type, Place place, Cell a, Cell b, bool untyped) {
+  if (const auto none = no_result(op, type->basic, a, b)) {
+    complain(place, none->what, none->remedy);
+    return {type_of(Basic::unknown), place};
+  }
+  return constant(type, apply(op, type->basic, a, b), place, untyped);
+}
+
 Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expression& a,
                               const Expression& b) {
   constexpr int deepest = 400;
   if (a.unknown() || b.unknown()) return {type_of(Basic::unknown), place};
   if (a.constant && b.constant && is_pure(op)) {
-    Expression result =
-        constant(type, apply(op, type->basic, a.value, b.value), place, a.untyped && b.untyped);
+    Expression result = folded(op, type, place, a.value, b.value, a.untyped && b.untyped);
     if (type->basic == Basic::boolean) result.untyped = false;
     return result;
   }
@@ -181,8 +185,7 @@ Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expres
 
 Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expression& a) {
   if (a.unknown()) return {type_of(Basic::unknown), place};
-  if (a.constant)
-    return constant(type, apply(op, type->basic, a.value, 0), place, a.untyped && op != Op::round_real);
+  if (a.constant) return folded(op, type, place, a.value, 0, a.untyped && op != Op::round_real);
   Expression result{type, place};
   result.depth = a.depth + 1;
   result.node = add_node(op, type->basic, place, value_node(a));

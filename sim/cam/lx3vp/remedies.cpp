@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "sim/cam/findings.hpp"
 
@@ -12,15 +11,6 @@ namespace drycut::sim {
 
 using devices::lx3vp::EcamError;
 using devices::lx3vp::EcamType;
-
-std::string number(double value) { return number_text(value, 6); }
-
-std::string number_below(double value) {
-  constexpr int digits = 6;
-  const double rounded = std::strtod(number(value).c_str(), nullptr);
-  if (rounded <= value * within) return number(value);
-  return number(rounded - std::pow(10.0, std::floor(std::log10(value)) + 1 - digits));
-}
 
 double steepness(const std::vector<devices::lx3vp::CamTableRow>& rows, std::size_t row) {
   return std::abs(static_cast<double>(rows[row].slave) - rows[row - 1].slave) /

@@ -7,14 +7,6 @@
 
 namespace drycut::sim {
 
-/// What rounding may add to a limit that is just met, as a factor.
-inline constexpr double within = 1 + 1e-9;
-
-/// A number as findings tell it.
-std::string number(double value);
-/// A speed that a remedy names: rounded down, so that it is sound itself.
-std::string number_below(double value);
-
 /// |ratio| of the straight piece that ends with `row`, 1 or more.
 double steepness(const std::vector<devices::lx3vp::CamTableRow>& rows, std::size_t row);
 /// The steepest of the straight pieces between rows, by the row that ends it.

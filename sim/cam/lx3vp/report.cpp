@@ -19,7 +19,7 @@ using devices::lx3vp::Transition;
 
 constexpr std::size_t most_lines = 60;  // of pieces between given rows
 
-std::string number(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
+std::string plain(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
 
 std::string type_text(const EcamTable& table) {
   constexpr const char* laws[] = {"uniform", "uniform acceleration", "B type"};
@@ -66,7 +66,7 @@ std::string what_it_does(const EcamRun& run, const RatioPiece& piece) {
 
 /// What the master counts in.
 std::string master_unit(const EcamTable& table) {
-  return table.time_axis == 0 ? "pulses" : fmt::format("{} us", number(100.0 * table.time_axis));
+  return table.time_axis == 0 ? "pulses" : fmt::format("{} us", plain(100.0 * table.time_axis));
 }
 
 std::string heading(const EcamTable& table, const EcamRun& run) {
@@ -76,9 +76,9 @@ std::string heading(const EcamTable& table, const EcamRun& run) {
   text += fmt::format(", {}\n", table.cyclic ? "cyclic" : "not cyclic");
   if (table.time_axis > 0)
     text +=
-        fmt::format("master is the time axis K{}: {} counts/s", table.time_axis, number(*run.master_speed));
+        fmt::format("master is the time axis K{}: {} counts/s", table.time_axis, plain(*run.master_speed));
   else if (run.master_speed)
-    text += fmt::format("master at {} pulses/s", number(*run.master_speed));
+    text += fmt::format("master at {} pulses/s", plain(*run.master_speed));
   if (run.master_speed) text += fmt::format(", output at {} Hz at most\n", table.max_frequency);
   return text;
 }
@@ -103,12 +103,12 @@ std::string sections(const EcamTable& table, const EcamRun& run) {
   const auto shown = std::min(pieces.size(), most_lines);
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& piece = pieces[i];
-    std::vector<std::string> cells = {std::to_string(i + 1), number(piece.length),
-                                      number(travel(piece)), number(piece.r0),
-                                      number(piece.r1),      number(peak_gradient(piece))};
+    std::vector<std::string> cells = {std::to_string(i + 1), plain(piece.length),
+                                      plain(travel(piece)),  plain(piece.r0),
+                                      plain(piece.r1),       plain(peak_gradient(piece))};
     if (timed) {
-      cells.push_back(number(piece.length / *run.master_speed));
-      cells.push_back(number(peak_ratio(piece) * *run.master_speed));
+      cells.push_back(plain(piece.length / *run.master_speed));
+      cells.push_back(plain(peak_ratio(piece) * *run.master_speed));
     }
     cells.push_back(what_it_does(run, piece));
     columns.add(std::move(cells));
@@ -122,7 +122,7 @@ std::string totals(const EcamTable& table, const EcamRun& run) {
   auto text = fmt::format("master total {} {}, slave total {} pulses", number_text(run.master_total()),
                           table.time_axis == 0 ? "pulses" : "counts", number_text(run.slave_total()));
   if (run.loops > 1) text += fmt::format(" in {} cycles", run.loops);
-  if (run.master_speed) text += fmt::format(", {} s", number(run.master_total() / *run.master_speed));
+  if (run.master_speed) text += fmt::format(", {} s", plain(run.master_total() / *run.master_speed));
   return text + '\n';
 }
 
@@ -160,7 +160,7 @@ renders::Plot ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamR
   how.name = name;
   how.title = "Cam " + std::filesystem::path(table.file).filename().string();
   if (table.is_made()) how.title += ", ECAMTBX " + type_text(table);
-  if (timed && table.time_axis == 0) how.title += fmt::format(", master at {} pulses/s", number(speed));
+  if (timed && table.time_axis == 0) how.title += fmt::format(", master at {} pulses/s", plain(speed));
   how.position = "pulses";
   if (table.time_axis > 0) how.master_position = master_unit(table);
   how.velocity = {timed ? "Hz" : "slave/master", speed};

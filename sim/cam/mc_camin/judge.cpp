@@ -16,10 +16,6 @@ using devices::plcopen::CamSegment;
 using devices::plcopen::Endless;
 using Grade = CamFinding::Grade;
 
-constexpr double rounding = 1 + 1e-9;
-
-std::string number(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
-
 /// The largest of a kind of finding, and how many there are.
 struct Worst {
   int count = 0;
@@ -83,7 +79,7 @@ class Judge {
     for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
       const Extremes extremes = extremes_of(run_.curve.segments[i], order);
       const double peak = std::max(-extremes.low, extremes.high) * in_time;
-      if (peak > *limit * rounding) worst.take(peak, run_.row_of(i));
+      if (peak > *limit * within) worst.take(peak, run_.row_of(i));
     }
     const double speed = *run_.master_speed / increments_per_unit;
     if (worst.count > 0)
@@ -91,7 +87,7 @@ class Judge {
           fmt::format("{} {} {} above {}{}", name, number(worst.value), per(power), number(*limit),
                       worst.others()),
           fmt::format("give the piece more of the master, or run it at {} {}/s at most",
-                      number(speed * std::pow(*limit / worst.value, 1.0 / power)), cam_.master_unit));
+                      number_below(speed * std::pow(*limit / worst.value, 1.0 / power)), cam_.master_unit));
     judge_steps(power, name);
   }
 
@@ -176,7 +172,7 @@ class Judge {
     if (cam_.periodic) return;
     const auto& last = run_.curve.segments.back();
     const double begin = at(run_.curve, 0).velocity;
-    const double end = last.start + last.length > run_.curve.modulo * rounding ? begin : at(last, 1).velocity;
+    const double end = last.start + last.length > run_.curve.modulo * within ? begin : at(last, 1).velocity;
     const auto tell = [&](double velocity, const char* place) {
       if (std::abs(velocity) <= 1e-6 * run_.peak(CamOrder::velocity)) return;
       add(Grade::caution, "",

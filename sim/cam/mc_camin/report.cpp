@@ -20,7 +20,7 @@ using devices::plcopen::Interpolation;
 
 constexpr std::size_t most_lines = 60;  // of pieces, and of knots
 
-std::string number(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
+std::string plain(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
 
 /// What turns derivatives in increments into deg or mm: of time if the master's speed is known, else of the
 /// master.
@@ -79,7 +79,7 @@ std::string heading(const CamInRun& run) {
                   turn_text(cam.master_modulo, cam.master_unit), turn_text(cam.slave_modulo, cam.slave_unit));
   if (run.master_speed)
     text +=
-        fmt::format("; master at {} {}/s", number(*run.master_speed / increments_per_unit), cam.master_unit);
+        fmt::format("; master at {} {}/s", plain(*run.master_speed / increments_per_unit), cam.master_unit);
   return text + '\n';
 }
 
@@ -102,11 +102,11 @@ std::string pieces(const CamInRun& run) {
     const auto peak = [&](CamOrder order) {
       const Extremes extremes = extremes_of(segment, order);
       const double most = -extremes.low > extremes.high ? extremes.low : extremes.high;
-      return number(most * scale.of(static_cast<int>(order)));
+      return plain(most * scale.of(static_cast<int>(order)));
     };
     columns.add({std::to_string(run.row_of(i)), number_text(segment.start), number_text(segment.c[0]),
-                 law_of(run, segment), number(at(segment, 0).velocity * scale.of(1)),
-                 number(at(segment, 1).velocity * scale.of(1)), peak(CamOrder::velocity),
+                 law_of(run, segment), plain(at(segment, 0).velocity * scale.of(1)),
+                 plain(at(segment, 1).velocity * scale.of(1)), peak(CamOrder::velocity),
                  peak(CamOrder::acceleration), peak(CamOrder::jerk)});
   }
   return columns.text() + more(run.cam.table.lines());
@@ -126,7 +126,7 @@ std::string knots(const CamInRun& run) {
     // A jump below what counts as one is rounding.
     for (int k = 0; k < 4; ++k) {
       const double jump = k <= knot.smooth ? 0 : knot.jumps[static_cast<std::size_t>(k)];
-      cells.push_back(number(jump * (k == 0 ? 1 : scale.of(k))));
+      cells.push_back(plain(jump * (k == 0 ? 1 : scale.of(k))));
     }
     cells.emplace_back(knot.closes ? "the table closes" : "");
     columns.add(std::move(cells));
@@ -142,7 +142,7 @@ std::string totals(const CamInRun& run) {
   if (run.curve.turns != 0)
     text += fmt::format(" ({} turn{} for each of the master)", run.curve.turns,
                         std::abs(run.curve.turns) == 1 ? "" : "s");
-  if (run.master_speed) text += fmt::format(", {} s", number(run.master_total() / *run.master_speed));
+  if (run.master_speed) text += fmt::format(", {} s", plain(run.master_total() / *run.master_speed));
   return text + '\n';
 }
 
@@ -161,7 +161,7 @@ renders::Plot cam_in_plot(const CamInRun& run, const CamDuty& duty, const std::s
       fmt::format("Cam {}, MC_CamIn {}", std::filesystem::path(run.cam.table.file).filename().string(),
                   name_of(run.cam.interpolation));
   if (scale.timed)
-    how.title += fmt::format(", master at {} {}/s", number(scale.speed / increments_per_unit), scale.master);
+    how.title += fmt::format(", master at {} {}/s", plain(scale.speed / increments_per_unit), scale.master);
   how.position = scale.slave;
   how.master_position = scale.master;
   how.velocity = {scale.unit(1).empty() ? "slave/master" : scale.unit(1), 1};
