@@ -14,7 +14,7 @@ PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev
 TEST_PACKAGES  := libgtest-dev libgmock-dev
 BENCH_PACKAGES := libmujoco-dev
 LINT_PACKAGES  := clang-format clang-tidy
-SOURCES := $(wildcard devices/*.?pp devices/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*/*.?pp)
+SOURCES := $(wildcard devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp)
 
 CONFIGURE := cmake -G Ninja -DCMAKE_BUILD_TYPE=Release
 

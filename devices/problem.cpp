@@ -6,14 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "devices/text.hpp"
+
 namespace drycut::devices {
 
 namespace {
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 // Edits that turn `a` into `b`: insert, delete, replace, or swap two neighbours (the typist's slip).
 std::size_t edit_distance(const std::string& a, const std::string& b) {

@@ -6,12 +6,12 @@
 
 #include "devices/catalogue.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
-#include "devices/plcopen/any_case.hpp"
 #include "devices/plcopen/controller.hpp"
 #include "devices/plcopen/tab_file.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"
+#include "devices/text.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/axis_units.hpp"
 
@@ -166,7 +166,7 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
                          std::string_view section) {
     for (const auto& name : wanted) {
       const auto same = [&](const std::string& other) {
-        return any_case ? plcopen::lower(other) == plcopen::lower(name.name) : other == name.name;
+        return any_case ? devices::same_word(other, name.name) : other == name.name;
       };
       if (std::any_of(there.begin(), there.end(), same)) continue;
       const auto near = devices::nearest(name.name, there);
@@ -201,9 +201,9 @@ void check_ranges(const PlcopenSection& section, const Scenario& scenario, devic
 
 /// True if the scenario sets the value, before power-up or in its timeline.
 bool sets(const Scenario& scenario, const PlcopenSection& section, const std::string& value) {
-  const auto names_it = [name = plcopen::lower(value)](const auto& list) {
+  const auto names_it = [&](const auto& list) {
     return std::any_of(list.begin(), list.end(),
-                       [&](const auto& entry) { return plcopen::lower(entry.first.text) == name; });
+                       [&](const auto& entry) { return devices::same_word(entry.first.text, value); });
   };
   return names_it(section.set) ||
          std::any_of(scenario.timeline.begin(), scenario.timeline.end(), [&](const Stimulus& stimulus) {

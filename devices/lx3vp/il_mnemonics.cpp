@@ -4,6 +4,8 @@
 #include <array>
 #include <map>
 
+#include "devices/text.hpp"
+
 namespace drycut::devices::lx3vp::il {
 
 namespace {
@@ -138,9 +140,7 @@ const Spelling* find_spelling(std::string_view text) {
     for (const auto& spelling : spellings()) names.emplace(spelling.text, &spelling);
     return names;
   }();
-  std::string upper(text);
-  for (auto& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const auto found = by_name.find(upper);
+  const auto found = by_name.find(upper(text));
   return found == by_name.end() ? nullptr : found->second;
 }
 
@@ -155,12 +155,11 @@ bool is_not_simulated(std::string_view text) {
       "TAN",  "SWAP", "REF",  "REFF", "MTR",  "IST",  "SER",  "ABSD", "INCD", "TTMR", "STMR", "RAMP",
       "ROTC", "SORT", "TKY",  "HKY",  "DSW",  "SEGD", "SEGL", "ARWS", "ASC",  "PR",   "VRRD", "VRSC",
       "TCMP", "TZCP", "TADD", "TSUB", "TRD",  "TWR",  "HOUR", "GRY",  "GBIN", "CRC"};
-  std::string upper(text);
-  for (auto& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const auto told = upper(text);
   const auto is_name = [](std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
   };
-  const std::string_view whole = upper;
+  const std::string_view whole = told;
   const auto without_p = whole.ends_with('P') ? whole.substr(0, whole.size() - 1) : whole;
   const auto without_d = [](std::string_view name) { return name.starts_with('D') ? name.substr(1) : name; };
   return is_name(whole) || is_name(without_p) || is_name(without_d(whole)) || is_name(without_d(without_p));

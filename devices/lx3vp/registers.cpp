@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "devices/text.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -65,12 +67,11 @@ void Registers::set_u32(int index, std::uint32_t value) {
 void Registers::set_f32(int index, float value) { set_u32(index, std::bit_cast<std::uint32_t>(value)); }
 
 std::optional<RegisterName> parse_register(std::string_view text) {
-  std::string upper;
-  for (const char c : text) upper += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const auto name_text = upper(text);
   for (const Prefix& prefix : prefixes) {
-    if (!upper.starts_with(prefix.text)) continue;
-    const char* const first = upper.data() + prefix.text.size();
-    const char* const last = upper.data() + upper.size();
+    if (!name_text.starts_with(prefix.text)) continue;
+    const char* const first = name_text.data() + prefix.text.size();
+    const char* const last = name_text.data() + name_text.size();
     RegisterName name{prefix.kind};
     const auto [end, error] = std::from_chars(first, last, name.number, prefix.base);
     if (first == last || *first == '-' || error != std::errc{} || name.number >= prefix.count)

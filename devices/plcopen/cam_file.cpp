@@ -37,7 +37,7 @@ class CamReader {
     cam_.header = lines.empty() ? 1 : lines.front();
     cam_.lines = std::move(lines);
     int number = 0;
-    for (const std::string_view line : lines_of(text)) {
+    for (const std::string_view line : split_lines(text)) {
       ++number;
       if (const std::size_t sign = line.find('#'); sign != std::string_view::npos)
         read_key(line.substr(sign), static_cast<int>(sign), number);
@@ -58,7 +58,7 @@ class CamReader {
     char separator = ',';
     bool header = false;
     int number = 0;
-    for (const std::string_view line : lines_of(text)) {
+    for (const std::string_view line : split_lines(text)) {
       ++number;
       const Word whole = trimmed(line, 0, line.size());
       if (whole.text.empty()) continue;
@@ -242,7 +242,7 @@ std::vector<CamRefusal> refusals(const CamFile& cam) {
 
 std::optional<CamFile> read_cam(std::string_view text, const std::string& file, Problems& problems) {
   bool csv = true;
-  for (const std::string_view line : lines_of(text)) {
+  for (const std::string_view line : split_lines(text)) {
     const Word word = trimmed(line, 0, line.size());
     if (word.text.empty() || word.text.front() == '#') continue;
     csv = word.text.find('=') == std::string_view::npos && lower(word.text) != "begintable";

@@ -1,5 +1,7 @@
 #include "devices/plcopen/cam_table.hpp"
 
+#include "devices/text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -31,11 +33,6 @@ constexpr double farthest = 1e12;
 /// Least distance of two masters: 0.1 deg.
 constexpr double least_gap = 1000;
 constexpr std::size_t most_pairs = 360;
-
-bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
-}
 
 ErrorId check_pairs(const CamTable& table, double modulo) {
   const std::size_t lines = table.lines();

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "devices/plcopen/any_case.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

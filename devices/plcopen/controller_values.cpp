@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "devices/plcopen/any_case.hpp"
 #include "devices/plcopen/controller.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

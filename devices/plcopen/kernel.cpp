@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "devices/plcopen/any_case.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "devices/plcopen/function_blocks.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -275,11 +276,6 @@ const std::array types{
               pins<cam_table_write>, &make<CamTableWrite>},
 };
 
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
-}
-
 }  // namespace
 
 PinValue McPower::pin(std::size_t number) { return value_of(*this, power, number); }
@@ -310,13 +306,13 @@ std::span<const BlockType> block_types() { return types; }
 
 const BlockType* find_block_type(std::string_view name) {
   for (const BlockType& type : types)
-    if (same_name(type.name, name)) return &type;
+    if (same_word(type.name, name)) return &type;
   return nullptr;
 }
 
 int find_pin(const BlockType& type, std::string_view name) {
   for (std::size_t i = 0; i < type.pins.size(); ++i)
-    if (same_name(type.pins[i].name, name)) return static_cast<int>(i);
+    if (same_word(type.pins[i].name, name)) return static_cast<int>(i);
   return -1;
 }
 

@@ -13,13 +13,6 @@ bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 }  // namespace
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
 Word trimmed(std::string_view line, std::size_t begin, std::size_t end) {
   while (begin < end && blank(line[begin])) ++begin;
   while (end > begin && blank(line[end - 1])) --end;
@@ -47,16 +40,6 @@ std::vector<Word> words_of(std::string_view line) {
     if (i > begin) words.push_back({line.substr(begin, i - begin), static_cast<int>(begin) + 1});
   }
   return words;
-}
-
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
 }
 
 std::optional<double> number_of(std::string_view text, bool decimal_comma) {

@@ -6,6 +6,7 @@
 
 #include "devices/plcopen/cam_table.hpp"
 #include "devices/problem.hpp"
+#include "devices/text.hpp"
 
 // What the readers of cam files share: lines, words with their places, numbers, rows.
 namespace drycut::devices::plcopen {
@@ -16,14 +17,11 @@ struct Word {
   int column = 0;  ///< 1-based
 };
 
-/// In small letters.
-std::string lower(std::string_view text);
 /// line[begin, end) without the blanks around it.
 Word trimmed(std::string_view line, std::size_t begin, std::size_t end);
 std::vector<Word> split(std::string_view line, char separator);
 /// Words between blanks.
 std::vector<Word> words_of(std::string_view line);
-std::vector<std::string_view> lines_of(std::string_view text);
 /// A finite number, or nullopt.
 std::optional<double> number_of(std::string_view text, bool decimal_comma);
 

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <charconv>
 
-#include "devices/plcopen/any_case.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

@@ -3,25 +3,10 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "devices/text.hpp"
 
-// What the readers of .CNF and .MOD texts have in common: places, words of a line, complaints.
+// What the readers of .CNF and .MOD texts have in common: words of a line, reserved words.
 namespace drycut::devices::qmove {
-
-/// Where something stands in a text, both 1-based; a tab is one column.
-struct Place {
-  int line = 0;
-  int column = 0;
-};
-
-/// The text in small letters: names and keywords are case-insensitive (spec D4).
-std::string lower(std::string_view text);
-std::string upper(std::string_view text);
-bool same_word(std::string_view a, std::string_view b);
-bool is_letter(char c);  ///< a..z, A..Z or _
-bool is_digit(char c);
-/// A letter or _ followed by letters, digits and _.
-bool is_identifier(std::string_view text);
 
 /// One blank-separated field of a line.
 struct Word {
@@ -30,21 +15,8 @@ struct Word {
 };
 using Words = std::vector<Word>;
 
-/// The lines of a text, LF or CRLF, without their ends.
-std::vector<std::string_view> split_lines(std::string_view text);
 /// The fields of a line up to its comment (`;`).
 Words split_words(std::string_view line, int number);
-
-/// `text` between quotes for a message: cut if long, unprintable bytes as \xNN.
-std::string quoted(std::string_view text);
-/// "did you mean 'posit'?" for the nearest candidate, or `otherwise` if none is near.
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates,
-                       const std::string& otherwise);
-/// "A, B, C".
-std::string listed(const std::vector<std::string>& items);
-
-/// Sorts the problems from index `first` on by line and column, keeping the order of equals.
-void sort_from(Problems& problems, std::size_t first);
 
 /// The words of the language: no variable, device or label may have such a name.
 const std::vector<std::string>& reserved_words();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "devices/text.hpp"
+
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 #include "sim/commands/commands.hpp"
@@ -272,7 +274,7 @@ int list_plants(const std::string& name, bool json) {
     names.emplace_back(type.name);
     if (name.empty() && json) all.push_back(plant_json(type));
     if (name.empty() && !json) fmt::print("{:<14} {}\n", type.name, type.summary);
-    if (!name.empty() && same_name(type.name, name)) {
+    if (!name.empty() && devices::same_word(type.name, name)) {
       if (json) {
         fmt::print("{}\n", plant_json(type).dump(2));
       } else {

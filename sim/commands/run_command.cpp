@@ -156,7 +156,9 @@ void run_job(Job& job, const RunOptions& options, int threads,
     out.finish();
   }
   if (!options.pictures && !options.gltf) return;
-  const auto film = film_of(job.scenario, *job.simulation, job.meshes);
+  const auto film = job.simulation->snapshots().empty()
+                        ? renders::Film{}
+                        : film_of(job.scenario, *job.simulation, job.meshes);
   if (options.gltf && !film.frames.empty()) {
     renders::write_gltf(film, scene_file, job.scenario.pictures.slow);
     job.scene = scene_file;

@@ -1,22 +1,13 @@
 #pragma once
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "devices/problem.hpp"
 #include "sim/commands/commands.hpp"
 
 namespace drycut::sim {
-
-/// The name that somebody asks for, in any case.
-inline bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 /// Says that there is no `kind` of that name, "device" or "plant", and which there are.
 inline int unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& names) {

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "devices/text.hpp"
+
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/sections.hpp"
@@ -229,31 +231,18 @@ class AxisReader {
   std::string measured_unit_;
 };
 
-// IEC 61131-3: letters, digits, underscores; the same in any case.
-bool is_identifier(const std::string& name) {
-  const auto letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
-  return !name.empty() && letter(static_cast<unsigned char>(name.front())) &&
-         std::all_of(name.begin(), name.end(),
-                     [&](unsigned char c) { return letter(c) || std::isdigit(c) != 0; });
-}
-
-bool same_in_any_case(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 void read_axes(const YamlNode& node, std::vector<PlcopenSection::Axis>& axes, Findings& findings) {
   refuse_duplicates(node, axes_name, findings);
   for (const auto& entry : node.entries) {
     if (is_repeated(node, entry)) continue;
     const auto& name = entry.key;
-    if (!is_identifier(name.text) || name.text == "panel") {
+    if (!devices::is_identifier(name.text) || name.text == "panel") {
       findings.add(name.place, fmt::format("'{}' is no name of an axis", name.text),
                    "letters, digits and underscores, as the program's VAR_EXTERNAL spells it");
       continue;
     }
     const auto same = std::find_if(axes.begin(), axes.end(), [&](const PlcopenSection::Axis& other) {
-      return same_in_any_case(other.name.text, name.text);
+      return devices::same_word(other.name.text, name.text);
     });
     if (same != axes.end()) {
       findings.add(

@@ -8,8 +8,6 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
-
 /// One axis with a block of each kind.
 struct One {
   MotionKernel kernel;
@@ -32,10 +30,7 @@ struct One {
   double part() { return axis().set().position.part; }
   template <typename Block>
   void execute(Block& block) {
-    block.Execute = false;
-    block.call(kernel);
-    block.Execute = true;
-    block.call(kernel);
+    plcopen::execute(block, kernel);
   }
   template <typename Block>
   void finish(Block& block) {

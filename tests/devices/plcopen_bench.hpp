@@ -13,6 +13,18 @@ namespace drycut::devices::plcopen {
 inline constexpr double turn = 3'600'000;
 inline constexpr double cycle_s = 0.002;
 
+/// As the blocks' ErrorID pins have it.
+inline unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
+
+/// Gives a block a rising edge of Execute.
+template <typename Block>
+void execute(Block& block, MotionKernel& kernel) {
+  block.Execute = false;
+  block.call(kernel);
+  block.Execute = true;
+  block.call(kernel);
+}
+
 /// A virtual master and a virtual slave, both turning, with the ramp-in set to usable values.
 struct Bench {
   MotionKernel kernel;

@@ -7,16 +7,6 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
-
-template <typename Block>
-void execute(Block& block, MotionKernel& kernel) {
-  block.Execute = false;
-  block.call(kernel);
-  block.Execute = true;
-  block.call(kernel);
-}
-
 /// Calls the block and the kernel until the block is done or fails; the number of cycles.
 template <typename Block>
 int finish(Block& block, Bench& b) {

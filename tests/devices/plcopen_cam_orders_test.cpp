@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::uint32_t turning = hli_ci_f_periodic | hli_ci_endless_positive;
 
-unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
-
 TEST(PlcopenCamOrders, EmergencyStopReleasesTheCouplingUnlessItIsKept) {
   for (const double keep : {0.0, 1.0}) {
     Bench b;

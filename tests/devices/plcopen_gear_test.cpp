@@ -8,8 +8,6 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
-
 /// A slave geared to an encoder, or to a virtual master.
 struct Geared : Bench {
   McGearIn gear;

@@ -7,8 +7,6 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
-
 /// An encoder axis of 10000 counts a turn, 360 increments each, with a probe.
 struct Probe : Bench {
   McTouchProbe touch;
@@ -23,10 +21,7 @@ struct Probe : Bench {
   }
   template <typename Block>
   void execute(Block& block) {
-    block.Execute = false;
-    block.call(kernel);
-    block.Execute = true;
-    block.call(kernel);
+    plcopen::execute(block, kernel);
   }
   /// The probe's signal rises at `edge`; the next cycle sees the axis at `counts`.
   void rise(std::int64_t edge, std::int64_t counts) {

@@ -5,16 +5,6 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
-
-template <typename Block>
-void execute(Block& block, MotionKernel& kernel) {
-  block.Execute = false;
-  block.call(kernel);
-  block.Execute = true;
-  block.call(kernel);
-}
-
 TEST(PlcopenReading, PositionAndSpeedAreThoseOfTheEncoder) {
   AxisParameters parameters;
   parameters.kind = static_cast<int>(AxisKind::encoder);

@@ -11,8 +11,6 @@ namespace {
 
 using enum AxisState;
 
-unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
-
 /// A slave brought into each state, and the blocks that act on it, made and bound by name as a program does.
 struct Walk : Bench {
   McStop stopper;

@@ -86,7 +86,7 @@ TEST(RendersFilm, HiddenPartIsNotDrawn) {
   film.frames.resize(1);
   film.frames[0].placements[0].visible = false;
   film.frames[0].placements[0].position[0] = std::numeric_limits<double>::quiet_NaN();  // nobody asks for it
-  const Image image = read_png(draw_film(film, scratch.path()).at(0));
+  const Image image = read_png(draw_film(film, scratch.path).at(0));
   const int view = film.height - CaptionLayout(film).height();
   const auto there = colour_at(image, projected(film.camera, film.width, view, {-0.4, 0.2, 0.2}));
   EXPECT_LT(std::abs(there[0] - there[1]), 40);
@@ -99,7 +99,7 @@ TEST(RendersFilm, FloorCatchesShadow) {
   film.camera.eye = {0, 3, 2};
   film.camera.target = {0, 0, 0};
   const int view = film.height - CaptionLayout(film).height();
-  const Image image = read_png(draw_film(film, scratch.path()).at(0));
+  const Image image = read_png(draw_film(film, scratch.path).at(0));
   // The lamp is upstream and on the operator's side, so the shadow falls downstream and away from him.
   const auto shadow = colour_at(image, projected(film.camera, film.width, view, {-0.25, 0, -0.1}));
   const auto light = colour_at(image, projected(film.camera, film.width, view, {-0.9, 0, 0.3}));
@@ -111,7 +111,7 @@ TEST(RendersFilm, EdgesAreAntialiased) {
   Film film = two_parts();
   film.frames.resize(1);
   film.frames[0].placements[0].rotation = {0, 0, 0.1, 1};
-  const Image image = read_png(draw_film(film, scratch.path()).at(0));
+  const Image image = read_png(draw_film(film, scratch.path).at(0));
   // Left alone, a slanted edge between red and grey knows two colours; smoothed, each of its six stairs has
   // steps in between.
   const int view = film.height - CaptionLayout(film).height();
@@ -182,7 +182,7 @@ TEST(RendersFilm, FilmsDrawnInTwoThreadsDoNotMix) {
 TEST(RendersFilm, TellsItsProgress) {
   const Scratch scratch;
   std::vector<int> told;
-  draw_film(two_parts(), scratch.path(), [&](int done) { told.push_back(done); });
+  draw_film(two_parts(), scratch.path, [&](int done) { told.push_back(done); });
   EXPECT_EQ(told, (std::vector<int>{1, 2, 3}));
 }
 
@@ -223,7 +223,7 @@ TEST(RendersFilm, RefusesWhatCannotBeDrawn) {
 TEST(RendersFilm, SaysWhichFileCannotBeWritten) {
   const Scratch scratch;
   std::filesystem::create_directories(scratch / "frame_00000.png");  // a directory is in the way
-  EXPECT_THAT(message_of<std::runtime_error>([&] { draw_film(two_parts(), scratch.path()); }),
+  EXPECT_THAT(message_of<std::runtime_error>([&] { draw_film(two_parts(), scratch.path); }),
               HasSubstr("frame_00000.png: cannot be written"));
 }
 

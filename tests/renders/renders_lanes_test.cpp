@@ -101,7 +101,7 @@ TEST(LanePanel, HighIsFilledAndLowIsNot) {
   const Scratch scratch;
   const Plot plot = with_lanes(2);
   const auto layout = laid_out(plot);
-  const Image image = read_png(draw_plots({plot}, scratch.path()).at(0));
+  const Image image = read_png(draw_plots({plot}, scratch.path).at(0));
   const PanelLayout& place = layout.panels[0];
   const auto filled = [&](double time, int lane) {
     const double x = layout.left + time / 10 * (layout.right - layout.left);
@@ -121,7 +121,7 @@ TEST(LanePanel, PhasesAreBandsOfTheirOwnColour) {
   Lane& lane = plot.panels[0].lanes[0];
   for (std::size_t k = 0; k < lane.y.size(); ++k) lane.y[k] = std::floor(lane.x[k] / 2.5);
   const auto layout = laid_out(plot);
-  const Image image = read_png(draw_plots({plot}, scratch.path()).at(0));
+  const Image image = read_png(draw_plots({plot}, scratch.path).at(0));
   const auto colour = [&](double time) {
     const double x = layout.left + time / 10 * (layout.right - layout.left);
     const auto y = static_cast<int>((layout.panels[0].top + layout.panels[0].bottom) / 2);
@@ -140,18 +140,18 @@ TEST(LanePanel, SamePlotSameBytesAndNoDataIsSaid) {
             read_file(draw_plots({plot}, scratch / "b").at(0)));
   Plot empty = with_lanes(1);
   empty.panels[0].lanes[0] = {"nothing", {}, {}};
-  EXPECT_EQ(draw_plots({empty}, scratch.path()).size(), 1U);
+  EXPECT_EQ(draw_plots({empty}, scratch.path).size(), 1U);
 }
 
 TEST(LanePanel, RefusesWhatCannotBeDrawn) {
   const Scratch scratch;
   Plot plot = with_lanes(1);
   plot.panels[0].lanes[0].y.pop_back();
-  EXPECT_THAT(message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path()); }),
+  EXPECT_THAT(message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path); }),
               HasSubstr("lane '2.OUT01' has 1001 x and 1000 states"));
   plot = with_lanes(1);
   plot.panels[0].lanes[0].x[5] = 7;
-  EXPECT_THAT(message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path()); }),
+  EXPECT_THAT(message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path); }),
               HasSubstr("lane '2.OUT01' does not run from left to right"));
 }
 

@@ -85,11 +85,11 @@ TEST(LiveData, PathsAndDecadesStayPictures) {
 
 TEST(LiveData, WithoutTheLibraryThePicturesStay) {
   const Scratch scratch;
-  EXPECT_EQ(live_plots({sine(10)}, scratch.path().string()),
+  EXPECT_EQ(live_plots({sine(10)}, scratch.path.string()),
             "<!-- plots to zoom need libjs-dygraphs, which was not installed -->\n");
   write_file(scratch / "dygraph.min.js", "/* the library */");
   write_file(scratch / "dygraph.min.css", "/* its style */");
-  EXPECT_THAT(live_plots({sine(10)}, scratch.path().string()),
+  EXPECT_THAT(live_plots({sine(10)}, scratch.path.string()),
               AllOf(HasSubstr("<script>/* the library */</script>"),
                     HasSubstr("<style>/* its style */</style>"), HasSubstr("id=\"plot-data\">{\"plots\"")));
 }

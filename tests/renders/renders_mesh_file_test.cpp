@@ -141,7 +141,7 @@ TEST_F(RendersMeshFile, TheSameFileGivesTheSameMesh) {
 TEST_F(RendersMeshFile, WhatIsNoMeshIsRefused) {
   const auto missing = load_mesh(scratch_ / "none.stl", {});
   EXPECT_EQ(std::get<MeshProblem>(missing).what, "there is no such file");
-  const auto folder = load_mesh(scratch_.path(), {});
+  const auto folder = load_mesh(scratch_.path, {});
   EXPECT_EQ(std::get<MeshProblem>(folder).what, "there is no such file");
   EXPECT_EQ(
       refusal("part.step", "ISO-10303-21;"),

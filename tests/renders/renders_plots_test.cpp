@@ -46,7 +46,7 @@ Plot plot_of(std::vector<Curve> curves) {
 
 Image drawn(const Plot& plot) {
   const Scratch scratch;
-  return read_png(draw_plots({plot}, scratch.path()).at(0));
+  return read_png(draw_plots({plot}, scratch.path).at(0));
 }
 
 /// Pixels of nearly that colour.
@@ -168,7 +168,7 @@ TEST(RendersPlots, TextIsOnlyText) {
     plot.title = plot.x_label = evil;
     plot.panels[0].title = plot.panels[0].y_label = evil;
     plot.panels[0].bands = {{evil, 0, 1}};
-    EXPECT_EQ(draw_plots({plot}, scratch.path()).size(), 1U) << evil;
+    EXPECT_EQ(draw_plots({plot}, scratch.path).size(), 1U) << evil;
     EXPECT_FALSE(std::filesystem::exists(scratch / "pwned")) << evil;
   }
 }
@@ -283,7 +283,7 @@ TEST(RendersPlots, RefusesWhatCannotBeDrawn) {
   const auto refusal = [&](const auto& change) {
     Plot plot = plot_of({ramp(5)});
     change(plot);
-    return message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path()); });
+    return message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path); });
   };
   EXPECT_THAT(refusal([](Plot& p) { p.panels[0].curves[0].y.pop_back(); }),
               HasSubstr("plot 'axis_x': curve 'AxisX.posit_now' has 5 x and 4 y values"));

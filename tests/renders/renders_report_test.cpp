@@ -170,7 +170,7 @@ TEST(RendersReport, ReplacesTheOldReportAndLeavesNothingBeside) {
   write_file(scratch / "report.html", "old");
   written(Report{}, scratch);
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(scratch.path())) {
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path)) {
     EXPECT_EQ(entry.path().filename(), "report.html");
     ++files;
   }

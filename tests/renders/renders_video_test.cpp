@@ -84,9 +84,9 @@ TEST(Process, SaysWhichPackageBringsAMissingProgram) {
 TEST(Process, RunsWithItsArgumentsInItsFolder) {
   const Scratch scratch;
   write_file(scratch / "a file.txt", "in the folder");
-  EXPECT_EQ(run_process({"cat", "coreutils", {"a file.txt", "-"}, scratch.path()}, ", from the input").output,
+  EXPECT_EQ(run_process({"cat", "coreutils", {"a file.txt", "-"}, scratch.path}, ", from the input").output,
             "in the folder, from the input");
-  const auto bad = run_process({"cat", "coreutils", {"no such file"}, scratch.path()}, "");
+  const auto bad = run_process({"cat", "coreutils", {"no such file"}, scratch.path}, "");
   EXPECT_FALSE(bad.good);
   EXPECT_THAT(bad.words, HasSubstr("no such file"));
 }

@@ -2,13 +2,12 @@
 // program) and with fewer frequencies: a third of the following error at most, limits kept, few runs, the
 // same answer for any number of jobs.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "sim/commands/commands.hpp"
+#include "tests/test_folder.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -23,16 +22,8 @@ struct Line {
 };
 void PrintTo(const Line& line, std::ostream* out) { *out << line.scene; }
 
-std::string content(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 struct TuneScenes : testing::TestWithParam<Line> {
   TuneScenes() {
-    folder = fs::temp_directory_path() / folder_name();
-    fs::remove_all(folder);
     const std::string set = std::string("controller.qmove.set.") + GetParam().axis + ".";
     options.scenarios = {fs::path(DRYCUT_SOURCE_DIR) / "scenes" / GetParam().scene};
     options.set = {set + "pgain=10", set + "feedfw=1000"};
@@ -46,13 +37,6 @@ struct TuneScenes : testing::TestWithParam<Line> {
     options.loop.points = 12;
     options.loop.to = 100;
     options.loop.settle = 0.2;
-  }
-  ~TuneScenes() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-  static std::string folder_name() {
-    return "drycut_tune_scene_" + fs::path(GetParam().scene).stem().string() + "_" + std::to_string(getpid());
   }
   std::string run(int jobs) {
     options.jobs = jobs;
@@ -69,7 +53,7 @@ struct TuneScenes : testing::TestWithParam<Line> {
     return std::stod(word);
   }
 
-  fs::path folder;
+  TestFolder folder;
   TuneOptions options;
 };
 
@@ -81,7 +65,7 @@ TEST_P(TuneScenes, AThirdOfTheFollowingErrorAtMostWithinTheLimits) {
   EXPECT_LT(number(text, "simulated runs: search", 0) + number(text, ", surroundings", 0), 200);
   run(2);
   for (const auto* name : {"evaluations.csv", "patch.txt"})
-    EXPECT_EQ(content(folder / "1" / name), content(folder / "2" / name)) << name;
+    EXPECT_EQ(content(folder.path / "1" / name), content(folder.path / "2" / name)) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, TuneScenes,

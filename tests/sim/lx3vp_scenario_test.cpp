@@ -7,6 +7,7 @@
 #include "sim/controller_loader.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/simulation.hpp"
+#include "tests/sim/scenario_folder.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -16,31 +17,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A folder with the files of a scenario, gone with the test.
-struct Lx3vpScenario : testing::Test {
+struct Lx3vpScenario : ScenarioFolder {
   Lx3vpScenario() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::temp_directory_path() / (std::string("drycut_lx3vp_") + test->name());
-    std::filesystem::create_directories(folder);
     write("saw.il", "LD M8000\nOUT C251 K0\nDECAM C251 D2000 X2 Y0 Y4\nLD X0\nOUT Y10\nEND\n");
     write("saw.csv",
           "address,value\nD2005,1\nD2006:L,200000\nD2023,1\nD2024,1\nD2029,1\nD2030,1\nD2038,2\nD2039,40\n"
           "D2044:L,1000\nD2046:L,500\n");
-  }
-  ~Lx3vpScenario() override { std::filesystem::remove_all(folder); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
-  Scenario read(const std::string& text, const std::vector<Override>& overrides = {}) {
-    return read_scenario_text(text, folder / "line.yaml", overrides, problems);
-  }
-  /// Problems, without the folder's name.
-  std::vector<std::string> told() const {
-    std::vector<std::string> texts;
-    for (const auto& problem : problems) {
-      auto one = problem;
-      one.file = std::filesystem::path(one.file).filename().string();
-      texts.push_back(to_string(one));
-    }
-    return texts;
   }
 
   static constexpr const char* line = R"(scene: {title: Saw, step: 50 us, duration: 2 s}
@@ -57,8 +39,6 @@ checks:
   - {name: lamp, eventually: "bench.output1 == 1", within: 2 s}
   - {name: preset, always: "D100 == 5 && DD102 == -70000 && FD104 == 1.5"}
 )";
-  std::filesystem::path folder;
-  devices::Problems problems;
 };
 
 TEST_F(Lx3vpScenario, AProgramThatDoesNotLoadMakesNoSwitchOfThePanelUnknown) {

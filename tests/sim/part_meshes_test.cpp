@@ -12,6 +12,7 @@
 #include "renders/part_models.hpp"
 #include "sim/gallery.hpp"
 #include "tests/sim/scenario_fake_plants.hpp"
+#include "tests/test_folder.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -74,9 +75,6 @@ TEST(MeshRequests, WhatIsWrong) {
 
 class PartMeshesTest : public ::testing::Test {
  protected:
-  PartMeshesTest() { std::filesystem::create_directories(folder_); }
-  ~PartMeshesTest() override { std::filesystem::remove_all(folder_); }
-
   PartMeshes load(const std::string& meshes) {
     devices::Problems problems;
     scenario_ = read_scenario_text(
@@ -97,9 +95,7 @@ class PartMeshesTest : public ::testing::Test {
     return loaded;
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::path(::testing::TempDir()) /
-      ("drycut_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  TestFolder folder_;
   Scenario scenario_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::string> problems_;

@@ -8,6 +8,7 @@
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/simulation.hpp"
+#include "tests/sim/scenario_folder.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -19,19 +20,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A folder with the files of a scenario, gone with the test.
-struct PlcopenScenario : testing::Test {
+struct PlcopenScenario : ScenarioFolder {
   PlcopenScenario() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::temp_directory_path() / (std::string("drycut_plcopen_") + test->name());
-    std::filesystem::create_directories(folder);
     write("line.st", program);
     write("cam.csv", "# interpolation: POLYNOM_3\n# endless: positive\nslave\n0\n700000\n1800000\n2900000\n");
-  }
-  ~PlcopenScenario() override { std::filesystem::remove_all(folder); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
-  Scenario read(const std::string& text, const std::vector<Override>& overrides = {}) {
-    return read_scenario_text(text, folder / "line.yaml", overrides, problems);
   }
   /// A scenario with these lines under `plcopen:`.
   static std::string with(const std::string& lines) {
@@ -39,16 +31,6 @@ struct PlcopenScenario : testing::Test {
   }
   static const PlcopenSection& section(const Scenario& scenario) {
     return std::get<PlcopenSection>(scenario.controller);
-  }
-  /// Problems, without the folder's name.
-  std::vector<std::string> told() const {
-    std::vector<std::string> texts;
-    for (const auto& problem : problems) {
-      auto one = problem;
-      one.file = std::filesystem::path(one.file).filename().string();
-      texts.push_back(to_string(one));
-    }
-    return texts;
   }
   std::vector<std::string> build(const std::string& text) {
     const auto scenario = read(text);
@@ -109,8 +91,6 @@ checks:
   - {name: follows, always: "abs(Knife.following_error) < 0.5", from: 1 s}
   - {name: no stop, always: "Knife.state != 7 && CamIn.Error == 0"}
 )";
-  std::filesystem::path folder;
-  devices::Problems problems;
 };
 
 TEST_F(PlcopenScenario, ACamLocksOnBehindALineShaft) {

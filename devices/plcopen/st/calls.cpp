@@ -44,20 +44,19 @@ const Variable* Compiler::pin_of(const Type& type, const Token& name, bool outpu
   if (is_input && !output) return pin;
   if (is_output && output) return pin;
   if (is_input || is_output) {
-    complain(
-        name.place,
-        fmt::format("{} is an {} of {}", qmove::quoted(pin->name), is_output ? "output" : "input", type.name),
-        is_output ? fmt::format("{} => variable reads it", pin->name)
-                  : fmt::format("{} := value gives it", pin->name));
+    complain(name.place,
+             fmt::format("{} is an {} of {}", quoted(pin->name), is_output ? "output" : "input", type.name),
+             is_output ? fmt::format("{} => variable reads it", pin->name)
+                       : fmt::format("{} := value gives it", pin->name));
     return nullptr;
   }
   if (type.broken) return nullptr;
   const std::vector<std::string> names = pins_of(type, output);
   const std::string all = names.empty() ? fmt::format("it has no {}", output ? "outputs" : "inputs")
-                                        : fmt::format("it has {}", qmove::listed(names));
+                                        : fmt::format("it has {}", listed(names));
   complain(name.place,
-           fmt::format("{} has no {} {}", type.name, output ? "output" : "input", qmove::quoted(name.text)),
-           qmove::suggestion(name.text, names, all));
+           fmt::format("{} has no {} {}", type.name, output ? "output" : "input", quoted(name.text)),
+           suggestion(name.text, names, all));
   return nullptr;
 }
 
@@ -68,15 +67,15 @@ int Compiler::in_out_store(const Type& type, const Variable& pin, const Argument
   const bool by_value = type.motion != nullptr;
   if (!value.address || !same_type(*value.type, *pin.type)) {
     complain(value.place,
-             value.address ? fmt::format("{} is {}, not {}", qmove::quoted(value.name), value.type->name,
-                                         pin.type->name)
-                           : fmt::format("{} takes a variable", qmove::quoted(pin.name)),
+             value.address
+                 ? fmt::format("{} is {}, not {}", quoted(value.name), value.type->name, pin.type->name)
+                 : fmt::format("{} takes a variable", quoted(pin.name)),
              fmt::format("connect a variable of type {}", pin.type->name));
     return -1;
   }
   if (!value.locked.empty()) {
-    complain(value.place, fmt::format("{} {}", qmove::quoted(value.name), value.locked),
-             fmt::format("{} may write it: connect a variable", qmove::quoted(pin.name)));
+    complain(value.place, fmt::format("{} {}", quoted(value.name), value.locked),
+             fmt::format("{} may write it: connect a variable", quoted(pin.name)));
     return -1;
   }
   if (by_value) return add_node(Op::store_at, pin.type->basic, value.place, place, value_node(value));
@@ -87,7 +86,7 @@ int Compiler::output_store(const Type& owner, const Variable& pin, const Argumen
   const Expression& target = argument.value;
   if (target.unknown()) return -1;
   if (!target.address) {
-    complain(target.place, fmt::format("the output {} goes into a variable", qmove::quoted(pin.name)),
+    complain(target.place, fmt::format("the output {} goes into a variable", quoted(pin.name)),
              fmt::format("{} => variable", pin.name));
     return -1;
   }
@@ -102,8 +101,7 @@ void Compiler::input_of(const Expression& instance, const Type& type, const Argu
                         std::set<std::string>& given, std::vector<int>& before, std::vector<int>& after) {
   if (argument.name.kind == Token::Kind::end) {
     const std::vector<std::string> inputs = pins_of(type, false);
-    complain(argument.value.place,
-             fmt::format("an argument of {} without a name", qmove::quoted(instance.name)),
+    complain(argument.value.place, fmt::format("an argument of {} without a name", quoted(instance.name)),
              inputs.empty() ? fmt::format("{} has no inputs", type.name)
                             : fmt::format("name its input: {} := value", inputs.front()));
     given.insert("?");
@@ -116,7 +114,7 @@ void Compiler::input_of(const Expression& instance, const Type& type, const Argu
     return;
   }
   if (!given.insert(pin->name).second) {
-    complain(argument.name.place, fmt::format("{} is given twice", qmove::quoted(pin->name)), "once a call");
+    complain(argument.name.place, fmt::format("{} is given twice", quoted(pin->name)), "once a call");
     return;
   }
   const int place = address_plus(instance.node, pin->offset);
@@ -146,8 +144,8 @@ int Compiler::block_call(const Expression& instance) {
     if (member.section == Section::in_out && !given.contains(member.name)) missing.push_back(member.name);
   if (!missing.empty() && !given.contains("?"))
     complain(place,
-             fmt::format("{} {} not connected in the call of {}", qmove::listed(missing),
-                         missing.size() == 1 ? "is" : "are", qmove::quoted(instance.name)),
+             fmt::format("{} {} not connected in the call of {}", listed(missing),
+                         missing.size() == 1 ? "is" : "are", quoted(instance.name)),
              fmt::format("each call connects them: {} := variable", missing.front()));
   if (type.motion == nullptr && unit_ != nullptr) unit_->calls.insert(type.pou);
   std::vector<int> all = before;
@@ -185,8 +183,7 @@ Expression Compiler::user_call(Unit& unit, const Token& name) {
     const Variable* pin = named ? pin_of(*unit.type, argument.name, argument.output) : inputs[number++];
     if (pin == nullptr || argument.value.unknown()) return unknown;
     if (!connected.insert(pin).second) {
-      complain(argument.value.place, fmt::format("{} is given twice", qmove::quoted(pin->name)),
-               "once a call");
+      complain(argument.value.place, fmt::format("{} is given twice", quoted(pin->name)), "once a call");
       return unknown;
     }
     depth = std::max(depth, argument.value.depth + 1);
@@ -218,9 +215,8 @@ Expression Compiler::user_call(Unit& unit, const Token& name) {
     }
   // All inputs, as IEC 61131-3 lets them be left out only where names are given.
   if (sound && !given.empty() && given.front().name.kind == Token::Kind::end && number < inputs.size()) {
-    complain(
-        name.place, fmt::format("{} has {} inputs, not {}", unit.name.text, inputs.size(), number),
-        fmt::format("{} is missing; by name inputs may be left out", qmove::quoted(inputs[number]->name)));
+    complain(name.place, fmt::format("{} has {} inputs, not {}", unit.name.text, inputs.size(), number),
+             fmt::format("{} is missing; by name inputs may be left out", quoted(inputs[number]->name)));
     sound = false;
   }
   if (!sound || unit.result->basic == Basic::unknown) return unknown;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -211,6 +212,7 @@ class Compiler {
   // statements.cpp, loops.cpp
   void compile_body(Unit& unit);
   int statements(std::initializer_list<std::string_view> closing);
+  int statements_until(const std::function<bool()>& closes);
   int statement();
   int assignment_or_call();
   int assign(const Expression& target, const Expression& value);
@@ -218,7 +220,6 @@ class Compiler {
   int case_statement();
   void case_labels(const Type& selector, std::vector<std::pair<Range, Place>>& labels);
   [[nodiscard]] bool at_label() const;
-  int case_body();
   int for_statement();
   int while_statement();
   int repeat_statement();

@@ -85,7 +85,7 @@ void Compiler::declare_function_result(Unit& unit, Type& type) {
       result.type = type_of(Basic::unknown);
     }
   } catch (const GiveUp&) {
-    while (at_ < stop_ && !qmove::upper(peek().text).starts_with("VAR") && !take().is(";")) {
+    while (at_ < stop_ && !upper(peek().text).starts_with("VAR") && !take().is(";")) {
     }
   }
   unit.result = result.type;
@@ -126,8 +126,7 @@ bool Compiler::variable_section(Unit& unit, Type& owner) {
   if (!section) return false;
   while (at_ < stop_ && !peek().word("END_VAR")) {
     // VAR without END_VAR runs into the next section or the statements.
-    if (peek().kind == Token::Kind::name && qmove::upper(peek().text).starts_with("VAR") &&
-        is_keyword(peek().text))
+    if (peek().kind == Token::Kind::name && upper(peek().text).starts_with("VAR") && is_keyword(peek().text))
       break;
     try {
       declare_variables(unit, owner, *section);
@@ -138,7 +137,7 @@ bool Compiler::variable_section(Unit& unit, Type& owner) {
     }
   }
   if (!accept_word("END_VAR") && unit.kind != Unit::Kind::globals)
-    complain(opening.place, fmt::format("{} has no END_VAR", qmove::upper(opening.text)),
+    complain(opening.place, fmt::format("{} has no END_VAR", upper(opening.text)),
              "write END_VAR behind its last variable");
   return true;
 }
@@ -176,7 +175,7 @@ void Compiler::declare_named(Unit& unit, Type& owner, const VarSection& section,
       give_up(value.place, "a VAR_IN_OUT has no initial value", "it is the caller's variable");
     initial = initial_value(*type);
   } else if (section.constant) {
-    complain(names.front().place, qmove::quoted(names.front().text) + " is a constant without a value",
+    complain(names.front().place, quoted(names.front().text) + " is a constant without a value",
              ":= value behind its type");
   }
   expect(";", "ends a declaration");
@@ -194,28 +193,27 @@ bool Compiler::check_section(const Unit& unit, const VarSection& section, const 
   const std::string_view in = section.global ? "VAR_GLOBAL" : name_of(section.section);
   if (holds(type, Basic::axis) != nullptr &&
       (section.section != Section::in_out || type.basic != Basic::axis))
-    return refuse(fmt::format("the AXIS_REF {} in {} has no axis", qmove::quoted(name.text), in),
+    return refuse(fmt::format("the AXIS_REF {} in {} has no axis", quoted(name.text), in),
                   "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
   const bool keeps = section.section == Section::in_out ||
                      (section.section == Section::local && unit.kind != Unit::Kind::function &&
                       unit.kind != Unit::Kind::type);
   if (const Type* block = holds(type, Basic::block); block != nullptr && (!keeps || section.constant))
-    return refuse(fmt::format("the function block {} cannot be in {} here", qmove::quoted(name.text),
+    return refuse(fmt::format("the function block {} cannot be in {} here", quoted(name.text),
                               unit.kind == Unit::Kind::type ? "a STRUCT" : in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
   if (!located) return true;
   if (type.basic != Basic::boolean)
-    return refuse(fmt::format("{} at a terminal is a BOOL, not {}", qmove::quoted(name.text), type.name),
+    return refuse(fmt::format("{} at a terminal is a BOOL, not {}", quoted(name.text), type.name),
                   "start AT %IX0.0 : BOOL;");
   if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
       section.section != Section::local)
-    return refuse(fmt::format("{} cannot have a terminal here", qmove::quoted(name.text)),
+    return refuse(fmt::format("{} cannot have a terminal here", quoted(name.text)),
                   "AT stands in VAR of the PROGRAM or in VAR_GLOBAL");
   for (const Program::Located& other : code_->located)
     if (other.output == located->output && other.byte == located->byte && other.bit == located->bit)
-      return refuse(
-          fmt::format("{} and {} are at one terminal", qmove::quoted(name.text), qmove::quoted(other.name)),
-          "each terminal has one variable");
+      return refuse(fmt::format("{} and {} are at one terminal", quoted(name.text), quoted(other.name)),
+                    "each terminal has one variable");
   return true;
 }
 
@@ -258,9 +256,8 @@ bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& na
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr && unit.type != &owner) return true;
   if (other == nullptr) return true;
-  const bool result = unit.kind == Unit::Kind::function && qmove::same_word(unit.name.text, name.text);
-  complain(name.place,
-           qmove::quoted(name.text) + (result ? " is the function's result" : " is declared twice"),
+  const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
+  complain(name.place, quoted(name.text) + (result ? " is the function's result" : " is declared twice"),
            result ? "choose another name" : fmt::format("the first one is in line {}", other->place.line));
   return false;
 }
@@ -268,14 +265,13 @@ bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& na
 void Compiler::external(const Token& name, const Type* type) {
   const Variable* global = find_member(*globals_, name.text);
   if (type->basic == Basic::axis) {
-    if (axes_.contains(qmove::lower(name.text))) return;
+    if (axes_.contains(lower(name.text))) return;
     if (global != nullptr) {
-      complain(name.place,
-               fmt::format("{} is a {} in VAR_GLOBAL", qmove::quoted(name.text), global->type->name),
+      complain(name.place, fmt::format("{} is a {} in VAR_GLOBAL", quoted(name.text), global->type->name),
                "choose another name");
       return;
     }
-    axes_.emplace(qmove::lower(name.text), globals_->cells);
+    axes_.emplace(lower(name.text), globals_->cells);
     code_->externals.push_back({std::string(name.text), name.place.line, name.place.column});
     code_->external_cells.push_back(globals_->cells);
     Variable axis;
@@ -287,22 +283,22 @@ void Compiler::external(const Token& name, const Type* type) {
   }
   if (type->basic == Basic::unknown || (global != nullptr && same_type(*global->type, *type))) return;
   if (global != nullptr) {
-    complain(name.place,
-             fmt::format("{} is {} here and {} in VAR_GLOBAL", qmove::quoted(name.text), type->name,
-                         global->type->name),
-             "declare both alike");
+    complain(
+        name.place,
+        fmt::format("{} is {} here and {} in VAR_GLOBAL", quoted(name.text), type->name, global->type->name),
+        "declare both alike");
     return;
   }
-  complain(name.place, fmt::format("there is no VAR_GLOBAL {}", qmove::quoted(name.text)),
+  complain(name.place, fmt::format("there is no VAR_GLOBAL {}", quoted(name.text)),
            "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
 }
 
 std::optional<Program::Located> Compiler::location() {
   const Token token = take();
-  const std::string text = qmove::upper(token.text);
+  const std::string text = upper(token.text);
   Program::Located located;
   const auto refuse = [&] {
-    give_up(token.place, qmove::quoted(token.text) + " is no terminal that is known",
+    give_up(token.place, quoted(token.text) + " is no terminal that is known",
             "%IX0.0 is an input, %QX0.0 an output: byte and bit 0 to 7");
   };
   if (token.kind != Token::Kind::address || (!text.starts_with("%IX") && !text.starts_with("%QX"))) refuse();

@@ -24,9 +24,8 @@ constexpr std::array<Level, 7> levels{{{{"OR", "OR_ELSE", "", ""}},
 
 bool belongs(const Token& token, const Level& level) {
   if (token.kind != Token::Kind::name && token.kind != Token::Kind::sign) return false;
-  return std::any_of(level.signs.begin(), level.signs.end(), [&](std::string_view sign) {
-    return !sign.empty() && qmove::same_word(sign, token.text);
-  });
+  return std::any_of(level.signs.begin(), level.signs.end(),
+                     [&](std::string_view sign) { return !sign.empty() && same_word(sign, token.text); });
 }
 
 /// Counts how deep the reader is in parentheses.
@@ -80,7 +79,7 @@ Expression Compiler::unary() {
     if (sign.is("+")) return operand;
     return apply_op(is_real(basic) ? Op::negate_real : Op::negate, operand.type, sign.place, operand);
   }
-  complain(sign.place, fmt::format("{} does not go with {}", qmove::quoted(sign.text), operand.type->name),
+  complain(sign.place, fmt::format("{} does not go with {}", quoted(sign.text), operand.type->name),
            sign.word("NOT") ? "it takes BOOL and whole numbers" : "it takes numbers");
   return {type_of(Basic::unknown), sign.place};
 }
@@ -131,19 +130,18 @@ Expression Compiler::primary() {
       Expression named = name_expression();
       if (!peek().is("(") || named.unknown()) return named;
       const bool block = named.type->basic == Basic::block;
-      give_up(place,
-              fmt::format("{} is {} and cannot be called here", qmove::quoted(named.name), named.type->name),
+      give_up(place, fmt::format("{} is {} and cannot be called here", quoted(named.name), named.type->name),
               block ? "call it in a statement of its own and read its outputs"
                     : "a variable hides a function of its name: choose another one");
     }
     case Token::Kind::address:
-      give_up(token.place, qmove::quoted(token.text) + " stands in an expression",
+      give_up(token.place, quoted(token.text) + " stands in an expression",
               "declare a variable at it: start AT %IX0.0 : BOOL;");
     default:
       break;
   }
   if (!accept("("))
-    give_up(token.place, fmt::format("an expression is missing before {}", qmove::quoted(token.text)),
+    give_up(token.place, fmt::format("an expression is missing before {}", quoted(token.text)),
             "a value stands here");
   const Token opening = tokens_[at_ - 1];
   Expression inner = expression();
@@ -162,8 +160,8 @@ Expression Compiler::mismatch(const Token& sign, const Expression& a, const Expr
     if (!e.untyped) return e.type->name;
     return std::string(is_real(e.type->basic) ? "a real number" : "a whole number");
   };
-  complain(sign.place,
-           fmt::format("{} does not go with {} and {}", qmove::quoted(sign.text), name(a), name(b)), remedy);
+  complain(sign.place, fmt::format("{} does not go with {} and {}", quoted(sign.text), name(a), name(b)),
+           remedy);
   return {type_of(Basic::unknown), sign.place};
 }
 

@@ -44,7 +44,7 @@ constexpr std::array<std::string_view, 9> special{"MIN",   "MAX",  "LIMIT",     
 
 /// "REAL_TO_INT" or "TO_INT"; the first is unknown in the second.
 std::optional<std::pair<Basic, Basic>> conversion(std::string_view name) {
-  const std::string text = qmove::upper(name);
+  const std::string text = upper(name);
   const std::size_t at = text.starts_with("TO_") ? 0 : text.find("_TO_");
   if (at == std::string::npos) return std::nullopt;
   const Type* from = at == 0 ? type_of(Basic::unknown) : elementary_type(text.substr(0, at));
@@ -91,11 +91,10 @@ Expression Compiler::call(const Token& name) {
   for (const Variable& member : unit_->type != nullptr ? unit_->type->members : globals_->members)
     if (member.type->basic == Basic::block) known.push_back(member.name);
   const bool block = find_block_type(name.text) != nullptr || find_unit(name.text) != nullptr;
-  if (told_.insert(qmove::lower(name.text)).second)
-    complain(name.place, fmt::format("there is no function {}", qmove::quoted(name.text)),
+  if (told_.insert(lower(name.text)).second)
+    complain(name.place, fmt::format("there is no function {}", quoted(name.text)),
              block ? "it is a kind of function block: declare an instance of it in VAR and call that"
-                   : qmove::suggestion(name.text, known,
-                                       "declare FUNCTION " + std::string(name.text) + " : type"));
+                   : suggestion(name.text, known, "declare FUNCTION " + std::string(name.text) + " : type"));
   arguments();
   return {type_of(Basic::unknown), name.place};
 }
@@ -105,15 +104,14 @@ std::vector<Expression> Compiler::plain_arguments(const Token& name, std::size_t
   for (Argument& argument : arguments()) {
     if (argument.name.kind != Token::Kind::end)
       give_up(argument.name.place,
-              fmt::format("{} has no input {}", qmove::upper(name.text), qmove::quoted(argument.name.text)),
+              fmt::format("{} has no input {}", upper(name.text), quoted(argument.name.text)),
               "give the values in their order, without names");
     values.push_back(std::move(argument.value));
   }
   if (values.size() < least || values.size() > most)
     give_up(
         name.place,
-        fmt::format("{} has {} value{}", qmove::upper(name.text), values.size(),
-                    values.size() == 1 ? "" : "s"),
+        fmt::format("{} has {} value{}", upper(name.text), values.size(), values.size() == 1 ? "" : "s"),
         least == most ? fmt::format("it takes {}", least) : fmt::format("it takes {} to {}", least, most));
   return values;
 }
@@ -162,8 +160,8 @@ std::optional<std::vector<Expression>> Compiler::to_common(const std::vector<Exp
     const Type* type = common_type(common, value);
     if (type == nullptr || !is_elementary(type->basic)) {
       complain(value.place,
-               fmt::format("{} takes values of one type, not {} and {}", qmove::upper(name.text),
-                           common.type->name, value.type->name),
+               fmt::format("{} takes values of one type, not {} and {}", upper(name.text), common.type->name,
+                           value.type->name),
                "convert one: X_TO_Y(...)");
       return std::nullopt;
     }
@@ -254,7 +252,7 @@ Expression Compiler::conversion_call(Basic from, Basic to, const Token& name, bo
   if (value.unknown()) return value;
   const Basic basic = value.type->basic;
   if (!is_elementary(basic) || (truncates && !is_real(basic))) {
-    complain(value.place, fmt::format("{} does not take {}", qmove::upper(name.text), value.type->name),
+    complain(value.place, fmt::format("{} does not take {}", upper(name.text), value.type->name),
              truncates ? "it takes REAL and LREAL" : "it takes numbers, BOOL and TIME");
     return {type_of(Basic::unknown), name.place};
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "devices/qmove/text.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 template <std::size_t count>
 bool is_one(const std::array<std::string_view, count>& words, std::string_view word) {
   return std::any_of(words.begin(), words.end(),
-                     [word](std::string_view known) { return qmove::same_word(known, word); });
+                     [word](std::string_view known) { return same_word(known, word); });
 }
 
 constexpr std::array<std::string_view, 9> closers{

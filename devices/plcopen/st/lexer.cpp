@@ -11,9 +11,6 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-using qmove::is_digit;
-using qmove::is_letter;
-using qmove::quoted;
 
 bool belongs_to_name(char c) { return is_letter(c) || is_digit(c); }
 
@@ -158,7 +155,7 @@ class Lexer {
   void word() {
     const std::size_t size = length(belongs_to_name);
     const std::string_view name = text_.substr(at_, size);
-    const bool time = qmove::same_word(name, "T") || qmove::same_word(name, "TIME");
+    const bool time = same_word(name, "T") || same_word(name, "TIME");
     if (time && peek(size) == '#')
       time_literal(size + 1);
     else
@@ -269,7 +266,7 @@ class Lexer {
       std::size_t letters = 0;
       while (letters < text.size() && is_letter(text[letters])) ++letters;
       std::size_t unit = largest;
-      while (unit < units.size() && !qmove::same_word(units[unit].name, text.substr(0, letters))) ++unit;
+      while (unit < units.size() && !same_word(units[unit].name, text.substr(0, letters))) ++unit;
       if (unit == units.size()) return std::nullopt;
       sum += value * units[unit].ms;
       largest = unit + 1;

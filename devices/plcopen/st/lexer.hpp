@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "devices/problem.hpp"
-#include "devices/qmove/text.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
-
-using qmove::Place;
 
 /// A word, literal or sign of a Structured Text file.
 struct Token {
@@ -34,7 +32,7 @@ struct Token {
   [[nodiscard]] bool is(std::string_view sign) const { return kind == Kind::sign && text == sign; }
   /// The keyword or name, any case.
   [[nodiscard]] bool word(std::string_view keyword) const {
-    return kind == Kind::name && qmove::same_word(text, keyword);
+    return kind == Kind::name && same_word(text, keyword);
   }
 };
 

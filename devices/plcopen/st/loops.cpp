@@ -19,7 +19,7 @@ int Compiler::for_statement() {
     counter.place = name.place;
     if (!counter.unknown() && !is_integer(counter.type->basic)) {
       complain(name.place,
-               fmt::format("FOR counts {}, which is {}", qmove::quoted(counter.name), counter.type->name),
+               fmt::format("FOR counts {}, which is {}", quoted(counter.name), counter.type->name),
                "a variable of whole numbers");
       counter = Expression{type_of(Basic::unknown), name.place};
     }
@@ -99,7 +99,7 @@ int Compiler::repeat_statement() {
 int Compiler::jump(Op op) {
   const Token word = take();
   if (op != Op::leave_pou && loops_ == 0)
-    complain(word.place, fmt::format("{} stands in no loop", qmove::upper(word.text)),
+    complain(word.place, fmt::format("{} stands in no loop", upper(word.text)),
              "it leaves or goes on with a FOR, WHILE or REPEAT");
   expect(";", "ends a statement");
   return add_node(op, Basic::unknown, word.place);

@@ -8,7 +8,7 @@
 
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/operations.hpp"
-#include "devices/qmove/text.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 AxisRef axis_called(const MotionKernel& kernel, const std::string& name) {
   if (const AxisRef exact = kernel.find_axis(name); exact.number >= 0) return exact;
   for (int i = 0; i < kernel.axes(); ++i)
-    if (qmove::same_word(kernel.axis(AxisRef{i})->name(), name)) return {i};
+    if (same_word(kernel.axis(AxisRef{i})->name(), name)) return {i};
   return {};
 }
 

@@ -81,7 +81,7 @@ std::optional<Expression> Compiler::variable(const Token& name) {
   Expression result = variable_of(*found, node, found->name);
   result.place = name.place;
   if (own && found->section == Section::input)
-    result.locked = fmt::format("is an input of {}", qmove::quoted(unit_->name.text));
+    result.locked = fmt::format("is an input of {}", quoted(unit_->name.text));
   return result;
 }
 
@@ -93,7 +93,7 @@ Expression Compiler::name_expression() {
   }
   const Token& next = peek(1);
   if (is_keyword(name.text))
-    give_up(name.place, fmt::format("an expression is missing before {}", qmove::quoted(name.text)),
+    give_up(name.place, fmt::format("an expression is missing before {}", quoted(name.text)),
             "a value stands here");
   take();
   if (next.is("#")) return typed_literal(name);
@@ -111,13 +111,12 @@ Expression Compiler::name_expression() {
   if (std::optional<Expression> found = enum_value(name)) return *found;
   if (std::optional<Expression> found = predefined(name)) return *found;
   // Told once a POU; what hangs on it is passed over.
-  if (told_.insert(qmove::lower(name.text)).second) {
+  if (told_.insert(lower(name.text)).second) {
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
                       find_block_type(name.text) != nullptr;
-    complain(name.place,
-             fmt::format("{} is {}", qmove::quoted(name.text), type ? "no variable" : "not declared"),
-             qmove::suggestion(name.text, known_names(),
-                               type ? "declare an instance of it in VAR" : "declare it in VAR ... END_VAR"));
+    complain(name.place, fmt::format("{} is {}", quoted(name.text), type ? "no variable" : "not declared"),
+             suggestion(name.text, known_names(),
+                        type ? "declare an instance of it in VAR" : "declare it in VAR ... END_VAR"));
   }
   return selected({type_of(Basic::unknown), name.place});
 }
@@ -128,8 +127,8 @@ Expression Compiler::qualified_enum(const Type& type) {
     if (name.word(value.name)) return constant(&type, value.value, name.place);
   std::vector<std::string> names;
   for (const EnumValue& value : type.values) names.push_back(value.name);
-  complain(name.place, fmt::format("{} has no value {}", type.name, qmove::quoted(name.text)),
-           qmove::suggestion(name.text, names, "it has " + qmove::listed(names)));
+  complain(name.place, fmt::format("{} has no value {}", type.name, quoted(name.text)),
+           suggestion(name.text, names, "it has " + listed(names)));
   return {type_of(Basic::unknown), name.place};
 }
 
@@ -140,8 +139,7 @@ std::optional<Expression> Compiler::enum_value(const Token& name) {
       if (!name.word(value.name)) continue;
       if (found)
         give_up(name.place,
-                fmt::format("{} is a value of {} and of {}", qmove::quoted(name.text), found->type->name,
-                            type_name),
+                fmt::format("{} is a value of {} and of {}", quoted(name.text), found->type->name, type_name),
                 fmt::format("write {}#{}", type_name, value.name));
       found = constant(type, value.value, name.place);
     }
@@ -154,7 +152,7 @@ Expression Compiler::typed_literal(const Token& name) {
     if (name.word(type_name)) return qualified_enum(*type);
   const Type* type = elementary_type(name.text);
   if (type == nullptr || !is_elementary(type->basic) || type->basic == Basic::time)
-    give_up(name.place, fmt::format("{} is no type of a literal", qmove::quoted(name.text)),
+    give_up(name.place, fmt::format("{} is no type of a literal", quoted(name.text)),
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
   Token value = peek();
   if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE"))) {
@@ -164,8 +162,7 @@ Expression Compiler::typed_literal(const Token& name) {
   const bool negative = accept("-");
   value = take();
   if (value.kind != Token::Kind::integer && value.kind != Token::Kind::real)
-    give_up(value.place, fmt::format("{}# has no number", qmove::upper(name.text)),
-            "INT#5, WORD#16#FF, LREAL#1.5");
+    give_up(value.place, fmt::format("{}# has no number", upper(name.text)), "INT#5, WORD#16#FF, LREAL#1.5");
   const bool real = value.kind == Token::Kind::real;
   const Cell cell =
       real ? cell_of(negative ? -value.real : value.real) : (negative ? -value.number : value.number);
@@ -200,7 +197,7 @@ Expression Compiler::member_of(const Expression& owner) {
       member != nullptr && type.basic == Basic::block && member->section == Section::in_out;
   if (connected || inside) {
     complain(name.place,
-             fmt::format("{} of {} is {}", qmove::quoted(member->name), type.name,
+             fmt::format("{} of {} is {}", quoted(member->name), type.name,
                          inside ? "a variable of its own" : "connected in a call"),
              inside ? "only its pins are seen from outside" : "use the variable that is connected to it");
     return {type_of(Basic::unknown), name.place};
@@ -213,13 +210,13 @@ Expression Compiler::member_of(const Expression& owner) {
           known.section == Section::output)
         names.push_back(known.name);
     if (names.empty())
-      complain(name.place, fmt::format("{} is {} and has no members", qmove::quoted(owner.name), type.name),
+      complain(name.place, fmt::format("{} is {} and has no members", quoted(owner.name), type.name),
                "use it without '.'");
     else
       complain(name.place,
                fmt::format("{} has no {} {}", type.name, type.basic == Basic::block ? "pin" : "member",
-                           qmove::quoted(name.text)),
-               qmove::suggestion(name.text, names, "it has " + qmove::listed(names)));
+                           quoted(name.text)),
+               suggestion(name.text, names, "it has " + listed(names)));
     return {type_of(Basic::unknown), name.place};
   }
   Expression result =
@@ -242,7 +239,7 @@ Expression Compiler::element_of(const Expression& owner) {
     }
     const Type& type = *result.type;
     if (type.basic != Basic::array)
-      give_up(index.place, fmt::format("{} is {} and has no elements", qmove::quoted(result.name), type.name),
+      give_up(index.place, fmt::format("{} is {} and has no elements", quoted(result.name), type.name),
               "only an ARRAY has an index");
     if (!is_integer(index.type->basic)) {
       complain(index.place, fmt::format("the index is {}", index.type->name), "an index is a whole number");
@@ -251,10 +248,9 @@ Expression Compiler::element_of(const Expression& owner) {
     }
     const Place place = index.place;
     if (index.constant && (index.value < type.low || index.value > type.high)) {
-      complain(
-          place,
-          fmt::format("the index {} is out of the bounds of {}", index.value, qmove::quoted(result.name)),
-          fmt::format("{} to {}", type.low, type.high));
+      complain(place,
+               fmt::format("the index {} is out of the bounds of {}", index.value, quoted(result.name)),
+               fmt::format("{} to {}", type.low, type.high));
       result.type = type_of(Basic::unknown);
       continue;
     }

@@ -57,7 +57,7 @@ void Compiler::give_up(Place place, std::string what, std::string remedy) {
 namespace {
 
 std::string found(const Token& token) {
-  return token.kind == Token::Kind::end ? "the end of the file" : qmove::quoted(token.text);
+  return token.kind == Token::Kind::end ? "the end of the file" : quoted(token.text);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ Token Compiler::expect_name(const std::string& what) {
   if (at_ < stop_ && peek().kind == Token::Kind::name && !is_keyword(peek().text)) return take();
   const bool keyword = peek().kind == Token::Kind::name && is_keyword(peek().text);
   give_up(peek().place, fmt::format("{} is missing before {}", what, found(peek())),
-          keyword ? fmt::format("{} is a word of the language, no name", qmove::upper(peek().text))
+          keyword ? fmt::format("{} is a word of the language, no name", upper(peek().text))
                   : "a name begins with a letter");
 }
 

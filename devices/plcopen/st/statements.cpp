@@ -19,7 +19,7 @@ void Compiler::compile_body(Unit& unit) {
     if (at_ >= stop_) break;
     const Token stray = take();
     if (stray.kind == Token::Kind::bad) continue;
-    complain(stray.place, fmt::format("{} closes nothing", qmove::quoted(stray.text)),
+    complain(stray.place, fmt::format("{} closes nothing", quoted(stray.text)),
              "what it belongs to does not stand before it, or has been closed");
     skip_statement();
   }
@@ -29,12 +29,15 @@ void Compiler::compile_body(Unit& unit) {
 }
 
 int Compiler::statements(std::initializer_list<std::string_view> closing) {
-  std::vector<int> all;
-  const Place place = peek().place;
-  const auto closes = [&] {
+  return statements_until([&] {
     return std::any_of(closing.begin(), closing.end(),
                        [&](std::string_view word) { return peek().word(word); });
-  };
+  });
+}
+
+int Compiler::statements_until(const std::function<bool()>& closes) {
+  std::vector<int> all;
+  const Place place = peek().place;
   while (at_ < stop_ && !closes()) {
     if (peek().kind == Token::Kind::name && closes_block(peek().text)) break;
     const std::size_t before = at_;
@@ -79,8 +82,8 @@ int Compiler::statement() {
 int Compiler::assignment_or_call() {
   const Token first = peek();
   if (first.kind != Token::Kind::name || is_keyword(first.text)) {
-    const bool declares = first.kind == Token::Kind::name && qmove::upper(first.text).starts_with("VAR");
-    give_up(first.place, fmt::format("{} begins no statement", qmove::quoted(first.text)),
+    const bool declares = first.kind == Token::Kind::name && upper(first.text).starts_with("VAR");
+    give_up(first.place, fmt::format("{} begins no statement", quoted(first.text)),
             declares ? "variables are declared before the statements"
                      : "a statement is an assignment, a call, IF, CASE, FOR, WHILE or REPEAT");
   }
@@ -94,7 +97,7 @@ int Compiler::assignment_or_call() {
     }
     if (target.type->basic != Basic::block)
       give_up(first.place,
-              fmt::format("{} is {} and cannot be called", qmove::quoted(target.name), target.type->name),
+              fmt::format("{} is {} and cannot be called", quoted(target.name), target.type->name),
               "a function block is called by its instance");
     const int call = block_call(target);
     expect(";", "ends a call");
@@ -123,7 +126,7 @@ int Compiler::assign(const Expression& target, const Expression& value) {
   if (!target.locked.empty() || !target.address) {
     complain(target.place,
              target.locked.empty() ? "this is no variable"
-                                   : fmt::format("{} {}", qmove::quoted(target.name), target.locked),
+                                   : fmt::format("{} {}", quoted(target.name), target.locked),
              target.locked.empty() ? "a variable stands before ':='"
                                    : "only variables and input pins are assigned");
     return -1;
@@ -132,7 +135,7 @@ int Compiler::assign(const Expression& target, const Expression& value) {
   if ((type.basic == Basic::axis && target.place.line > 0 &&
        find_member(*globals_, target.name) != nullptr) ||
       type.basic == Basic::block) {
-    complain(target.place, fmt::format("{} is {} and is not assigned", qmove::quoted(target.name), type.name),
+    complain(target.place, fmt::format("{} is {} and is not assigned", quoted(target.name), type.name),
              type.basic == Basic::axis ? "connect it in a call" : "assign its inputs");
     return -1;
   }
@@ -187,8 +190,8 @@ void Compiler::close(const Token& opened, std::string_view closing) {
   }
   complain(peek().place,
            fmt::format("{} is missing before {}", closing,
-                       peek().kind == Token::Kind::end ? "the end of the file" : qmove::quoted(peek().text)),
-           fmt::format("it closes the {} of line {}", qmove::upper(opened.text), opened.place.line));
+                       peek().kind == Token::Kind::end ? "the end of the file" : quoted(peek().text)),
+           fmt::format("it closes the {} of line {}", upper(opened.text), opened.place.line));
 }
 
 int Compiler::if_statement() {
@@ -278,7 +281,7 @@ int Compiler::case_statement() {
         ++at_;
       if (!accept(":")) accept(";");
     }
-    const int body = case_body();
+    const int body = statements_until([&] { return at_label(); });
     for (std::size_t i = before; i < labels.size(); ++i) choices.push_back({labels[i].first, body});
   }
   close(opened, "END_CASE");
@@ -299,23 +302,6 @@ bool Compiler::at_label() const {
     if (!part) return false;
   }
   return false;
-}
-
-int Compiler::case_body() {
-  std::vector<int> all;
-  const Place place = peek().place;
-  while (at_ < stop_ && !at_label() && !(peek().kind == Token::Kind::name && closes_block(peek().text))) {
-    const std::size_t before = at_;
-    try {
-      all.push_back(statement());
-    } catch (const GiveUp&) {
-      skip_statement();
-      if (at_ == before) ++at_;
-    }
-  }
-  std::erase(all, -1);
-  const int first = add_list(all);
-  return add_node(Op::sequence, Basic::unknown, place, first, static_cast<int>(all.size()));
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -56,7 +56,7 @@ void Compiler::declare_type(Unit& unit) {
     }
     if (at_ < stop_) {
       const bool initial = peek().is(":=");
-      give_up(peek().place, qmove::quoted(peek().text) + " is not expected behind a type",
+      give_up(peek().place, quoted(peek().text) + " is not expected behind a type",
               initial ? "give the initial value where a variable is declared" : "a type ends with ';'");
     }
   } catch (const GiveUp&) {
@@ -83,12 +83,12 @@ void Compiler::declare_enumeration(Type& type) {
   do {
     const Token name = expect_name("the name of a value");
     const auto twice = std::any_of(type.values.begin(), type.values.end(),
-                                   [&](const EnumValue& v) { return qmove::same_word(v.name, name.text); });
+                                   [&](const EnumValue& v) { return same_word(v.name, name.text); });
     if (twice)
-      complain(name.place, qmove::quoted(name.text) + " is in the enumeration twice", "name each value once");
+      complain(name.place, quoted(name.text) + " is in the enumeration twice", "name each value once");
     if (accept(":=")) next = constant_expression(*type_of(Basic::int_)).value;
     if (next > range_of(Basic::int_).high)
-      give_up(name.place, qmove::quoted(name.text) + " is above 32767", "an enumeration is kept as an INT");
+      give_up(name.place, quoted(name.text) + " is above 32767", "an enumeration is kept as an INT");
     type.values.push_back({std::string(name.text), next++});
   } while (accept(","));
   expect(")", "ends an enumeration");
@@ -190,15 +190,15 @@ const Type* Compiler::named_type() {
   if (Unit* unit = find_unit(name.text)) {
     const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block;
     if (!type)
-      give_up(name.place, qmove::quoted(name.text) + " is no type",
+      give_up(name.place, quoted(name.text) + " is no type",
               "a PROGRAM or FUNCTION has no variables of its kind");
     if (unit->state == Unit::State::open)
-      give_up(name.place, qmove::quoted(name.text) + " contains itself",
+      give_up(name.place, quoted(name.text) + " contains itself",
               "a type is made of types that do not need it");
     declare(*unit);
     return unit->type;
   }
-  if (qmove::same_word(name.text, "MC_CAM_REF")) return cam_ref();
+  if (same_word(name.text, "MC_CAM_REF")) return cam_ref();
   if (const BlockType* block = find_block_type(name.text)) return motion_type(*block);
   std::vector<std::string> known = elementary_names();
   for (const BlockType& block : block_types()) known.emplace_back(block.name);
@@ -206,10 +206,10 @@ const Type* Compiler::named_type() {
     if (unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block)
       known.emplace_back(unit->name.text);
   known.emplace_back("MC_CAM_REF");
-  const bool wide = qmove::same_word(name.text, "ULINT") || qmove::same_word(name.text, "LWORD");
-  give_up(name.place, fmt::format("there is no type {}", qmove::quoted(name.text)),
+  const bool wide = same_word(name.text, "ULINT") || same_word(name.text, "LWORD");
+  give_up(name.place, fmt::format("there is no type {}", quoted(name.text)),
           wide ? "UDINT or LINT is as wide as it gets"
-               : qmove::suggestion(name.text, known, "BOOL, INT, LREAL, TIME, MC_CamIn, TON ..."));
+               : suggestion(name.text, known, "BOOL, INT, LREAL, TIME, MC_CamIn, TON ..."));
 }
 
 const Type* Compiler::cam_ref() {

@@ -138,7 +138,7 @@ bool same_type(const Type& a, const Type& b) {
 
 const Type* elementary_type(std::string_view name) {
   for (const Type& type : elementary())
-    if (qmove::same_word(type.name, name)) return &type;
+    if (same_word(type.name, name)) return &type;
   return nullptr;
 }
 
@@ -157,9 +157,8 @@ const std::vector<std::string>& elementary_names() {
 }
 
 const Variable* find_member(const Type& type, std::string_view name) {
-  const auto found = std::find_if(type.members.begin(), type.members.end(), [&](const Variable& member) {
-    return qmove::same_word(member.name, name);
-  });
+  const auto found = std::find_if(type.members.begin(), type.members.end(),
+                                  [&](const Variable& member) { return same_word(member.name, name); });
   return found == type.members.end() ? nullptr : &*found;
 }
 

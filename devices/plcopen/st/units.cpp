@@ -35,7 +35,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
     if (unit->pou >= 0 && unit->state == Unit::State::done) compile_body(*unit);
   check_calls();
   finish();
-  qmove::sort_from(problems_, first_problem_);
+  sort_from(problems_, first_problem_);
   return code_;
 }
 
@@ -63,17 +63,17 @@ void Compiler::find_units(bool standard) {
                                              : Unit::Kind::function_block;
       take();
       try {
-        unit.name = expect_name(fmt::format("the name of the {}", qmove::upper(opening.text)));
+        unit.name = expect_name(fmt::format("the name of the {}", upper(opening.text)));
       } catch (const GiveUp&) {
-        end_of_unit(first, "END_" + qmove::upper(opening.text));
+        end_of_unit(first, "END_" + upper(opening.text));
         continue;
       }
       unit.first = at_;
-      unit.end = end_of_unit(first, "END_" + qmove::upper(opening.text));
+      unit.end = end_of_unit(first, "END_" + upper(opening.text));
       add_unit(std::move(unit));
     } else {
       if (opening.kind != Token::Kind::bad && !opening.is(";"))
-        complain(opening.place, qmove::quoted(opening.text) + " stands outside of all units",
+        complain(opening.place, quoted(opening.text) + " stands outside of all units",
                  "statements stand in PROGRAM ... END_PROGRAM, variables of all in VAR_GLOBAL ... END_VAR");
       while (at_ < stop_ && !peek().is(";") && !(peek().kind == Token::Kind::name && opens_unit(peek().text)))
         ++at_;
@@ -93,8 +93,8 @@ std::size_t Compiler::end_of_unit(std::size_t opening, std::string_view closing)
     ++at_;
   }
   const Token& begin = tokens_[opening];
-  complain(begin.place, fmt::format("{} has no {}", qmove::upper(begin.text), closing),
-           at_ < stop_ ? fmt::format("write {} before the {} of line {}", closing, qmove::upper(peek().text),
+  complain(begin.place, fmt::format("{} has no {}", upper(begin.text), closing),
+           at_ < stop_ ? fmt::format("write {} before the {} of line {}", closing, upper(peek().text),
                                      peek().place.line)
                        : fmt::format("write {} at the end", closing));
   return at_;
@@ -145,13 +145,13 @@ void Compiler::add_unit(Unit unit) {
     if (const Unit* other = find_unit(unit.name.text)) {
       // A user's own TON stands instead of the standard one.
       if (!unit.standard)
-        complain(unit.name.place, qmove::quoted(unit.name.text) + " is declared twice",
+        complain(unit.name.place, quoted(unit.name.text) + " is declared twice",
                  fmt::format("the first one is in line {}", other->name.place.line));
       return;
     }
     if (!unit.standard && (elementary_type(unit.name.text) != nullptr || find_block_type(unit.name.text) ||
-                           qmove::same_word(unit.name.text, "MC_CAM_REF"))) {
-      complain(unit.name.place, qmove::quoted(unit.name.text) + " is a type of the controller",
+                           same_word(unit.name.text, "MC_CAM_REF"))) {
+      complain(unit.name.place, quoted(unit.name.text) + " is a type of the controller",
                "choose another name");
       return;
     }
@@ -161,7 +161,7 @@ void Compiler::add_unit(Unit unit) {
 
 Unit* Compiler::find_unit(std::string_view name) {
   const auto found = std::find_if(units_.begin(), units_.end(), [&](const auto& unit) {
-    return unit->kind != Unit::Kind::globals && qmove::same_word(unit->name.text, name);
+    return unit->kind != Unit::Kind::globals && same_word(unit->name.text, name);
   });
   return found == units_.end() ? nullptr : found->get();
 }
@@ -186,9 +186,9 @@ void Compiler::check_programs() {
   for (const auto& unit : units_) {
     if (unit->kind != Unit::Kind::program) continue;
     if (program != nullptr)
-      complain(unit->name.place, "a second PROGRAM, " + qmove::quoted(unit->name.text),
+      complain(unit->name.place, "a second PROGRAM, " + quoted(unit->name.text),
                fmt::format("one PROGRAM a file: the other is {}; make this one a FUNCTION_BLOCK",
-                           qmove::quoted(program->name.text)));
+                           quoted(program->name.text)));
     else
       program = unit.get();
   }
@@ -205,7 +205,7 @@ void Compiler::check_calls() {
   for (const auto& unit : units_) {
     std::set<int> seen;
     if (unit->pou < 0 || !calls_itself(unit->pou, seen, unit->pou)) continue;
-    complain(unit->name.place, qmove::quoted(unit->name.text) + " calls itself",
+    complain(unit->name.place, quoted(unit->name.text) + " calls itself",
              "IEC 61131-3 has no recursion: use a loop");
   }
 }

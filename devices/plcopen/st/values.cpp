@@ -120,9 +120,9 @@ Expression Compiler::converted(Expression expression, const Type& to) {
     return cast(expression, to.basic, expression.place);
   const bool casts = is_elementary(from.basic) && is_elementary(to.basic) && to.basic != Basic::enumeration;
   const std::string from_name = from.basic == Basic::enumeration ? "INT" : from.name;
-  const std::string what = expression.name.empty() ? fmt::format("a value of type {} does not", from.name)
-                                                   : fmt::format("{} is {}, which does not",
-                                                                 qmove::quoted(expression.name), from.name);
+  const std::string what = expression.name.empty()
+                               ? fmt::format("a value of type {} does not", from.name)
+                               : fmt::format("{} is {}, which does not", quoted(expression.name), from.name);
   complain(expression.place, fmt::format("{} go into {} by itself", what, to.name),
            casts ? fmt::format("{}_TO_{}(...) converts", from_name, to.name)
                  : fmt::format("a value of type {} is wanted", to.name));
