@@ -65,8 +65,8 @@ sanitize: setup
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
 	clang-format --dry-run -Werror $(SOURCES)
-	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON
-	printf '%s\n' $(filter %.cpp,$(SOURCES)) | xargs -P $(JOBS) -n 4 clang-tidy -quiet -p $(BUILD)
+	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+	printf '%s\n' $(filter %.cpp,$(SOURCES)) | xargs -P $(JOBS) -n 4 clang-tidy -quiet -p $(BUILD)-lint
 
 format:
 	$(call install,$(LINT_PACKAGES))
@@ -81,4 +81,4 @@ scenes/meshes/%.stl: scenes/meshes/%.scad scenes/meshes/common.scad
 	openscad -q --export-format binstl -o $@ $<
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-sanitize out
+	rm -rf $(BUILD) $(BUILD)-sanitize $(BUILD)-lint out

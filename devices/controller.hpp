@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
 
 namespace drycut::devices {
@@ -85,6 +86,9 @@ class Controller {
   virtual std::optional<ControllerValue> find(const std::string& name) = 0;
   /// All names that `find` knows, for suggestions.
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
+
+  /// The axes that can play cams.
+  [[nodiscard]] virtual std::vector<CamAxis> cam_axes() { return {}; }
 
   [[nodiscard]] virtual bool has_events() const = 0;
   virtual std::vector<ControllerEvent> take_events() = 0;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
 
 namespace drycut::devices {
@@ -161,6 +162,9 @@ class Device {
   virtual void interrupt(int line, bool rising);
   /// Power lost and restored: everything not retentive goes to its power-up value, st_init to 0.
   virtual void power_up();
+
+  /// Its cam, if it has one; the owner gives it its name.
+  [[nodiscard]] virtual std::optional<CamAxis> cam_axis() { return std::nullopt; }
 
   [[nodiscard]] std::vector<Diagnostic> take_diagnostics();
   [[nodiscard]] bool has_diagnostics() const { return !diagnostics_.empty(); }

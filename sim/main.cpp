@@ -135,7 +135,8 @@ void add_compare(CLI::App& app, CompareOptions& options, int& status) {
       "compare",
       "Compare runs: checks, cuts and other events, channels, parameters in force; report.html, plots and\n"
       "comparison.csv.\n"
-      "Exit status: 0 compared, 1 different and --fail-on-difference, 2 bad input");
+      "Exit status: 0 compared, 1 different and --fail-on-difference, 2 bad input, 3 a result could not be\n"
+      "written");
   compare->add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
       ->required();
   compare->add_option("--out", options.out, "Directory for the results")->capture_default_str();
@@ -182,7 +183,7 @@ int run(int argc, char** argv) {
       ->add_option(
           "files", check_options.files,
           "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
-          "lists (.il), cam tables and registers (.csv)")
+          "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)")
       ->required();
   check->add_flag("--expand", check_options.expand, "Print scenarios with every default in force");
   check

@@ -24,6 +24,7 @@ class Camming4 final : public Device {
   [[nodiscard]] int period_ms() const override { return period_ms_; }
   void interrupt(int line, bool rising) override;
   void power_up() override;
+  [[nodiscard]] std::optional<CamAxis> cam_axis() override;
 
  protected:
   void latch() override;
@@ -82,6 +83,10 @@ class Camming4 final : public Device {
   void warn(int code, int row);
   [[nodiscard]] std::int32_t clamped(std::int32_t quota) const;
 
+  // The cam as others see it (camming4_cam_axis.cpp).
+  [[nodiscard]] CamMoment cam_moment() const;
+  [[nodiscard]] std::string cam_table() const;
+
   // Inputs and presets (camming4_inputs.cpp).
   void sample_inputs();
   void run_function(int function, const Capture& capture, std::string_view subject);
@@ -128,6 +133,8 @@ class Camming4 final : public Device {
   double master_rate_ = 0;         ///< at the cam's last step, smoothed [bits x4 a sample]
 
   Cam cam_;
+  CamStart cam_start_;            ///< of the last cam
+  std::uint64_t cam_starts_ = 0;  ///< so far
   std::int64_t slip_ = 0;  ///< LOOPON in a cam: the axis runs so far off its table [bits x4]
   bool slip_due_ = false;
   axis::Profile recovery_;             ///< RSV: the correction that runs beside the cam

@@ -136,7 +136,9 @@ void Camming4::start_cam(std::int64_t master) {
     --slave.whole;
     slave.part = std::min(slave.part + 1, 1 - 1e-12);
   }
-  cam_.start({master, slave.whole, slave.part});
+  cam_start_ = {master, slave.whole, slave.part};
+  ++cam_starts_;
+  cam_.start(cam_start_);
   for (int row = 0; row < cam_rows; ++row) value(v_codeQma, row) = cam_.row(row + 1).codeQma;
   set_state(st_camex, true);
 }

@@ -46,6 +46,8 @@ class CamLaw {
   [[nodiscard]] std::int64_t slave_position(const Place& place) const;
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  [[nodiscard]] const Zoom& master_zoom() const { return master_; }
+  [[nodiscard]] const Zoom& slave_zoom() const { return slave_; }
 
  private:
   struct Fraction {

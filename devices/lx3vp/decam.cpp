@@ -178,6 +178,7 @@ void Decam::wait_for_start(CamPort& port, bool edge) {
 
 // The master counts from here; the slave stays where it is, at the place of the table where the run begins.
 void Decam::start(CamPort& port) {
+  ++starts_;
   master_.begin(port);
   const std::uint32_t registered = port.registers.u32(operands_.block + word::master_counts);
   const bool went_on = !ended_ || registered != static_cast<std::uint32_t>(counts_);
@@ -213,6 +214,20 @@ void Decam::run(CamPort& port, std::int64_t counts) {
     raise(port, repeating ? status::completed | status::cycle_completed : status::cycle_completed);
   cycle_ = place_.cycle;
   if (at_end) finish(port);
+}
+
+CamMoment Decam::moment(const PulseOutput& output) const {
+  if (state_ != State::run) return {};
+  const auto ratio = [](const Zoom& zoom) {
+    return static_cast<double>(zoom.numerator) / static_cast<double>(zoom.denominator);
+  };
+  const CamTableRow& first = law_.rows().front();
+  CamMoment moment;
+  moment.follows = true;
+  moment.master =
+      first.master + static_cast<double>(first_) + static_cast<double>(counts_) * ratio(law_.master_zoom());
+  moment.set = first.slave + static_cast<double>(output.position() - base_) / ratio(law_.slave_zoom());
+  return moment;
 }
 
 bool Decam::limit(CamPort& port, CamLaw::Place& place) const {

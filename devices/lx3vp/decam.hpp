@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "devices/cam_axis.hpp"
 #include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/cam_law.hpp"
 #include "devices/lx3vp/instructions.hpp"
@@ -68,6 +69,12 @@ class Decam {
   [[nodiscard]] bool uses(const PulseOutput& output) const {
     return running() || (state_ != State::idle && target_ != output.position());
   }
+  /// Starts of a run so far, and what the last one took from the block.
+  [[nodiscard]] std::uint64_t starts() const { return starts_; }
+  [[nodiscard]] const CamLaw& law() const { return law_; }
+  [[nodiscard]] bool cyclic() const { return cyclic_; }
+  /// The run in table units, from the first row on: the master by its counts, the slave by the pulses given.
+  [[nodiscard]] CamMoment moment(const PulseOutput& output) const;
   /// The plain number of the Y that is now its synchronous output.
   [[nodiscard]] std::optional<int> sync_output() const { return sync_output_; }
 
@@ -135,6 +142,7 @@ class Decam {
   CamMaster master_;
   bool resume_ = false;      ///< the next run goes on where the registers say
   bool ended_ = false;       ///< the last run came to its end
+  std::uint64_t starts_ = 0;
   std::int64_t counts_ = 0;  ///< of the master since the start
   std::int64_t delayed_ = 0;
   std::int64_t cycle_ = 0;   ///< present one

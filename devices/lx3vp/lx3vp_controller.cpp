@@ -209,6 +209,7 @@ void Lx3vpController::error(int step, int code, const std::string& text) {
 void Lx3vpController::cam_table(int step, std::int32_t result, const std::string& text) {
   const auto [last, first] = cam_tables_.try_emplace(step, result);
   const bool changed = std::exchange(last->second, result) != result;
+  if (result > 0) keep_recipe(step);
   if (result < 0 && (first || changed)) events_.push_back({"LX3VP", "warning", text});
 }
 

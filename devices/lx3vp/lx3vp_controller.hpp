@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "devices/controller.hpp"
+#include "devices/lx3vp/ecamtbx.hpp"
 #include "devices/lx3vp/high_speed_counters.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_scan.hpp"
@@ -48,6 +49,9 @@ class Lx3vpController : public Controller, private Instructions {
   /// The registers that the program names, those of its cams' blocks, and the pulse positions.
   [[nodiscard]] std::vector<std::string> names() const override { return names_; }
 
+  /// One a DECAM.
+  [[nodiscard]] std::vector<CamAxis> cam_axes() override;
+
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }
 
@@ -67,6 +71,16 @@ class Lx3vpController : public Controller, private Instructions {
   void high_speed_counter(int number, std::int32_t preset, bool powered) override;
   void error(int step, int code, const std::string& text) override;
   void cam_table(int step, std::int32_t result, const std::string& text) override;
+
+  /// What an ECAMTBX made its last table of.
+  struct CamRecipe {
+    EcamType type = EcamType::rotary_saw;
+    SawParameters saw;
+    SCurveParameters s_curve;
+  };
+  void keep_recipe(int step);
+  [[nodiscard]] std::string cam_table_text(const il::Step& step) const;
+  [[nodiscard]] std::string recipe_text(int block, const std::vector<CamTableRow>& rows) const;
 
   void add_used_terminals();
   void add_names();
@@ -98,6 +112,7 @@ class Lx3vpController : public Controller, private Instructions {
   std::vector<ControllerEvent> events_;
   std::set<std::pair<int, std::string>> said_;  ///< since power-up, by step
   std::map<int, std::int32_t> cam_tables_;      ///< last results of ECAMTBX since power-up, by step
+  std::map<int, CamRecipe> recipes_;            ///< by the block that took the table
 };
 
 }  // namespace drycut::devices::lx3vp

@@ -35,6 +35,14 @@ class PulseUnit {
   [[nodiscard]] std::int64_t pulses(int output) const {
     return lines_[static_cast<std::size_t>(output)].given;
   }
+  /// The cam of the DECAM at `step`; nullptr until the program has passed it.
+  [[nodiscard]] const Decam* cam(int step) const {
+    const auto found = cams_.find(step);
+    return found == cams_.end() ? nullptr : &found->second;
+  }
+  [[nodiscard]] const PulseOutput& output(int output) const {
+    return lines_[static_cast<std::size_t>(output)].output;
+  }
   /// True if the level of this Y is given tick by tick, not at the end of the scan.
   [[nodiscard]] bool holds(int y) const;
 

@@ -204,21 +204,6 @@ std::string remedy_of(ErrorId error) {
   }
 }
 
-/// Rows whose master is not far enough from the one before: the first is also compared over the wrap.
-std::vector<std::size_t> disordered(const CamTable& table, double modulo) {
-  constexpr double least_gap = 1000;
-  std::vector<std::size_t> rows;
-  const std::size_t lines = table.lines();
-  for (std::size_t i = 0; i < lines; ++i) {
-    const double here = table.value(i, 0);
-    const bool close = i > 0 && here - table.value(i - 1, 0) < least_gap;
-    const bool closing = i + 1 == lines && table.value(0, 0) + modulo - here < least_gap;
-    const bool begins = i == 0 && (here < 0 || here >= modulo);
-    if (close || closing || begins) rows.push_back(i + 1);
-  }
-  return rows;
-}
-
 }  // namespace
 
 std::vector<CamRefusal> refusals(const CamFile& cam) {
@@ -234,7 +219,7 @@ std::vector<CamRefusal> refusals(const CamFile& cam) {
   }
   const ErrorId error = check(cam.table, cam.interpolation, cam.master_modulo);
   const bool right_type = error != ErrorId::table_type_mismatch && pairs;
-  const auto rows = right_type ? disordered(cam.table, cam.master_modulo) : std::vector<std::size_t>{};
+  const auto rows = right_type ? disordered_rows(cam.table, cam.master_modulo) : std::vector<std::size_t>{};
   for (const std::size_t row : rows) add(ErrorId::table_master_order, row);
   if (error != ErrorId::none && (error != ErrorId::table_master_order || rows.empty())) add(error);
   return found;

@@ -38,13 +38,7 @@ ErrorId check_pairs(const CamTable& table, double modulo) {
   const std::size_t lines = table.lines();
   // An odd number would put two segments of a kind at both sides of point 0.
   if (lines < 2 || lines > most_pairs || lines % 2 != 0) return ErrorId::table_line_count;
-  for (std::size_t i = 0; i < lines; ++i) {
-    const double here = table.value(i, 0);
-    const double next = i + 1 < lines ? table.value(i + 1, 0) : table.value(0, 0) + modulo;
-    if (next - here < least_gap) return ErrorId::table_master_order;
-  }
-  const double first = table.value(0, 0);
-  return first < 0 || first >= modulo ? ErrorId::table_master_order : ErrorId::none;
+  return disordered_rows(table, modulo).empty() ? ErrorId::none : ErrorId::table_master_order;
 }
 
 }  // namespace
@@ -94,6 +88,19 @@ ErrorId check(const CamTable& table, Interpolation interpolation, double modulo)
   if (std::any_of(table.values.begin(), table.values.end(), too_far)) return ErrorId::position_range;
   if (needed == 2) return check_pairs(table, modulo);
   return table.lines() == 0 ? ErrorId::too_few_lines : ErrorId::none;
+}
+
+std::vector<std::size_t> disordered_rows(const CamTable& table, double modulo) {
+  std::vector<std::size_t> rows;
+  const std::size_t lines = table.lines();
+  for (std::size_t i = 0; i < lines; ++i) {
+    const double here = table.value(i, 0);
+    const bool close = i > 0 && here - table.value(i - 1, 0) < least_gap;
+    const bool closing = i + 1 == lines && table.value(0, 0) + modulo - here < least_gap;
+    const bool begins = i == 0 && (here < 0 || here >= modulo);
+    if (close || closing || begins) rows.push_back(i + 1);
+  }
+  return rows;
 }
 
 ErrorId CamTables::add(CamTable table) {

@@ -61,6 +61,10 @@ std::optional<Interpolation> interpolation_of(const CamTable& table, std::uint32
 /// master's turn [0.0001 deg].
 ErrorId check(const CamTable& table, Interpolation interpolation, double modulo);
 
+/// Rows of a table of masters and slaves, from 1, whose master is outside of the turn or not far enough from
+/// the row before it; the last one also if the first one follows it too closely, a turn later.
+std::vector<std::size_t> disordered_rows(const CamTable& table, double modulo);
+
 /// The tables of the controller, by id.
 class CamTables {
  public:

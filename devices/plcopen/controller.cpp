@@ -73,11 +73,9 @@ void PlcopenController::add_axes() {
 
 void PlcopenController::add_located() {
   for (const auto& located : program_.located()) {
-    const Address address = located_address(located.output, located.byte, located.bit);
-    if (located.output)
-      cards_.outputs.try_emplace(address);
-    else
-      cards_.inputs.try_emplace(address);
+    const bool output = located.address.kind == Kind::output;
+    located_inputs_.push_back(output ? nullptr : &cards_.inputs[located.address]);
+    located_outputs_.push_back(output ? &cards_.outputs[located.address] : nullptr);
   }
 }
 
@@ -118,12 +116,6 @@ void PlcopenController::plug_in(int number, const AxisTerminal& terminal) {
   }
 }
 
-std::optional<int> PlcopenController::find_axis(std::string_view name) const {
-  for (std::size_t i = 0; i < configuration_.axes.size(); ++i)
-    if (lower(configuration_.axes[i].name) == lower(name)) return static_cast<int>(i);
-  return std::nullopt;
-}
-
 std::variant<Address, TerminalFault> PlcopenController::terminal(const std::string& text) {
   const auto name = parse_terminal(text);
   if (!name)
@@ -137,16 +129,15 @@ std::variant<Address, TerminalFault> PlcopenController::terminal(const std::stri
     return name->address;
   std::vector<std::string> known;
   for (const auto& located : program_.located())
-    if (located.output == output)
-      known.push_back(located_name(located_address(output, located.byte, located.bit)));
+    if (located.address.kind == name->address.kind) known.push_back(located_name(located.address));
   return TerminalFault{fmt::format("the program has no variable AT %{}", located_name(name->address)),
                        fmt::format("its {} are: {}", output ? "outputs" : "inputs", joined(known, "none"))};
 }
 
 std::variant<Address, TerminalFault> PlcopenController::axis_terminal(const TerminalName& name,
                                                                       const std::string& text) {
-  const auto number = find_axis(name.axis);
-  if (!number) {
+  const int number = kernel_.find_axis(name.axis).number;
+  if (number < 0) {
     std::vector<std::string> axes;
     for (const auto& axis : configuration_.axes) axes.push_back(axis.name);
     const auto near = nearest(name.axis, axes);
@@ -154,10 +145,10 @@ std::variant<Address, TerminalFault> PlcopenController::axis_terminal(const Term
         fmt::format("'{}' is no terminal: there is no axis '{}'", text, name.axis),
         near.empty() ? fmt::format("axes: {}", joined(axes, "none")) : fmt::format("did you mean {}?", near)};
   }
-  const AxisConfiguration& axis = configuration_.axes[static_cast<std::size_t>(*number)];
+  const AxisConfiguration& axis = configuration_.axes[static_cast<std::size_t>(number)];
   if (name.terminal != nullptr && name.terminal->offered_by(kind_of(axis))) {
-    plug_in(*number, *name.terminal);
-    return name.terminal->address(*number);
+    plug_in(number, *name.terminal);
+    return name.terminal->address(number);
   }
   std::vector<std::string> offered;
   for (const AxisTerminal& candidate : axis_terminal_table())
@@ -201,15 +192,11 @@ void PlcopenController::run_tasks(std::int64_t time_ns) {
   if (time_ns < next_task_ns_) return;
   next_task_ns_ = (time_ns / configuration_.task_ns + 1) * configuration_.task_ns;
   if (!powered_) return;
-  const auto& located = program_.located();
-  for (std::size_t i = 0; i < located.size(); ++i)
-    if (!located[i].output)
-      runtime_.set_located(i,
-                           cards_.inputs.at(located_address(false, located[i].byte, located[i].bit)).level);
+  for (std::size_t i = 0; i < located_inputs_.size(); ++i)
+    if (located_inputs_[i] != nullptr) runtime_.set_located(i, located_inputs_[i]->level);
   runtime_.scan(time_ns);
-  for (std::size_t i = 0; i < located.size(); ++i)
-    if (located[i].output)
-      cards_.outputs.at(located_address(true, located[i].byte, located[i].bit)).level = runtime_.located(i);
+  for (std::size_t i = 0; i < located_outputs_.size(); ++i)
+    if (located_outputs_[i] != nullptr) located_outputs_[i]->level = runtime_.located(i);
   tell_errorstops();
   tell_blocks();
 }

@@ -59,6 +59,8 @@ class PlcopenController : public Controller {
   /// Elements of tables apart.
   [[nodiscard]] std::vector<std::string> names() const override;
 
+  [[nodiscard]] std::vector<CamAxis> cam_axes() override;
+
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }
 
@@ -95,7 +97,6 @@ class PlcopenController : public Controller {
   void plug_in(int axis, const AxisTerminal& terminal);
   Axis& axis(int number) { return *kernel_.axis({number}); }
   [[nodiscard]] const Axis& axis(int number) const { return *kernel_.axis({number}); }
-  [[nodiscard]] std::optional<int> find_axis(std::string_view name) const;
   std::variant<Address, TerminalFault> axis_terminal(const TerminalName& name, const std::string& text);
   void start_anew();
   void latch_power_up();
@@ -103,6 +104,8 @@ class PlcopenController : public Controller {
   void give_outputs();
   void tell_errorstops();
   void tell_blocks();
+  [[nodiscard]] CamMoment cam_moment(int number) const;
+  [[nodiscard]] std::string cam_table(int number) const;
   std::optional<ControllerValue> axis_value(int number, std::string_view name);
   std::optional<ControllerValue> parameter_value(int number, const AxisParameter& parameter);
   std::optional<ControllerValue> table_value(std::string_view name);
@@ -118,7 +121,9 @@ class PlcopenController : public Controller {
   MotionKernel kernel_;
   std::vector<AxisPlugs> plugs_;
   st::Runtime runtime_;
-  std::map<std::string, std::size_t> symbols_;  ///< by name in lower case
+  std::vector<DigitalInput*> located_inputs_;    ///< one a variable AT, nullptr at an output
+  std::vector<DigitalOutput*> located_outputs_;  ///< nullptr at an input
+  std::map<std::string, std::size_t> symbols_;   ///< by name in lower case
   std::vector<ErrorPins> blocks_;
   std::vector<ControllerEvent> events_;
   std::int64_t next_cycle_ns_ = 0;

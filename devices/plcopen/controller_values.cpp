@@ -45,8 +45,8 @@ std::optional<TableElement> parse_element(std::string_view text) {
 
 std::optional<ControllerValue> PlcopenController::find(const std::string& name) {
   if (const auto dot = name.find('.'); dot != std::string::npos) {
-    if (const auto number = find_axis(std::string_view(name).substr(0, dot)))
-      return axis_value(*number, std::string_view(name).substr(dot + 1));
+    if (const AxisRef ref = kernel_.find_axis(std::string_view(name).substr(0, dot)); ref.number >= 0)
+      return axis_value(ref.number, std::string_view(name).substr(dot + 1));
   }
   if (const auto symbol = symbols_.find(lower(name)); symbol != symbols_.end())
     return symbol_value(symbol->second);

@@ -85,12 +85,17 @@ bool Coupling::shift_phase(double shift_by, const JerkLimits& limits) {
   return true;
 }
 
+Position Coupling::place(const CamFollow& cam, const AxisMotion& master) const {
+  const auto scaling = static_cast<double>(cam.master_scaling);
+  return normalised({times(cam.master_scaling, master.position.turns),
+                     scaling * master.position.part + cam.master_offset + shift().position},
+                    cam.curve.modulo);
+}
+
 Coupling::Target Coupling::cam_target(const CamFollow& cam, const AxisMotion& master) const {
   const MotionState phase_shift = shift();
   const auto scaling = static_cast<double>(cam.master_scaling);
-  const Position x = normalised({times(cam.master_scaling, master.position.turns),
-                                 scaling * master.position.part + cam.master_offset + phase_shift.position},
-                                cam.curve.modulo);
+  const Position x = place(cam, master);
   const CamMotion slave = at(cam.curve, x.part);
   const double dx = scaling * master.velocity + phase_shift.velocity;
   const double ddx = scaling * master.acceleration + phase_shift.acceleration;

@@ -89,6 +89,9 @@ class Coupling {
   /// A live change of the table.
   void replace_curve(CamCurve curve) { std::get<CamFollow>(law_).curve = std::move(curve); }
 
+  /// Where the master is for the cam: scaled, with its offset and the phase shift, in turns of the cam.
+  [[nodiscard]] Position place(const CamFollow& cam, const AxisMotion& master) const;
+
   [[nodiscard]] CouplingPhase phase() const { return phase_; }
   [[nodiscard]] bool engaged() const { return phase_ == CouplingPhase::coupled; }
   /// Cam ends passed while engaged, since the start.

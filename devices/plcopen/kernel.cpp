@@ -51,7 +51,7 @@ AxisRef MotionKernel::add_axis(std::string name, const AxisParameters& parameter
 
 AxisRef MotionKernel::find_axis(std::string_view name) const {
   for (std::size_t i = 0; i < axes_.size(); ++i)
-    if (lower(axes_[i].name()) == lower(name)) return {static_cast<int>(i)};
+    if (same_word(axes_[i].name(), name)) return {static_cast<int>(i)};
   return {};
 }
 

@@ -29,8 +29,9 @@ constexpr std::array table{
 
 constexpr int bits_per_byte = 8;
 
-// "IX0.3", "%QX1.0".
-std::optional<Address> parse_located(std::string_view text) {
+}  // namespace
+
+std::optional<Address> located_address(std::string_view text) {
   if (text.starts_with('%')) text.remove_prefix(1);
   if (text.size() < 5 || std::toupper(static_cast<unsigned char>(text[1])) != 'X') return std::nullopt;
   const int letter = std::toupper(static_cast<unsigned char>(text[0]));
@@ -44,10 +45,8 @@ std::optional<Address> parse_located(std::string_view text) {
     return std::nullopt;
   const auto second = std::from_chars(first.ptr + 1, end, bit);
   if (second.ec != std::errc() || second.ptr != end || bit >= bits_per_byte) return std::nullopt;
-  return located_address(letter == 'Q', static_cast<int>(byte), static_cast<int>(bit));
+  return Address{letter == 'Q' ? Kind::output : Kind::input, 0, static_cast<int>(bits_per_byte * byte + bit)};
 }
-
-}  // namespace
 
 bool AxisTerminal::offered_by(AxisKind axis) const {
   switch (axis) {
@@ -68,7 +67,7 @@ Address AxisTerminal::address(int axis) const {
 std::span<const AxisTerminal> axis_terminal_table() { return table; }
 
 std::optional<TerminalName> parse_terminal(std::string_view text) {
-  if (const auto located = parse_located(text)) return TerminalName{"", nullptr, *located};
+  if (const auto located = located_address(text)) return TerminalName{"", nullptr, *located};
   const auto dot = text.find('.');
   if (dot == std::string_view::npos || dot == 0 || dot + 1 == text.size()) return std::nullopt;
   if (std::isdigit(static_cast<unsigned char>(text[dot + 1])) != 0) return std::nullopt;  // IX0.8
@@ -81,10 +80,6 @@ std::optional<TerminalName> parse_terminal(std::string_view text) {
 std::string located_name(const Address& address) {
   return fmt::format("{}X{}.{}", address.kind == Kind::output ? 'Q' : 'I', address.number / bits_per_byte,
                      address.number % bits_per_byte);
-}
-
-Address located_address(bool output, int byte, int bit) {
-  return {output ? Kind::output : Kind::input, 0, bits_per_byte * byte + bit};
 }
 
 }  // namespace drycut::devices::plcopen

@@ -41,7 +41,7 @@ struct TerminalName {
 std::optional<TerminalName> parse_terminal(std::string_view text);
 /// "IX0.0", "QX1.7".
 std::string located_name(const Address& address);
-/// Address of the program's BOOL at a byte and bit.
-Address located_address(bool output, int byte, int bit);
+/// Address of the program's BOOL at "IX0.3" or "%QX1.0", any case; nullopt if `text` is written otherwise.
+std::optional<Address> located_address(std::string_view text);
 
 }  // namespace drycut::devices::plcopen

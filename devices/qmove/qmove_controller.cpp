@@ -181,6 +181,17 @@ void QmoveController::collect_diagnostics(std::size_t device) {
   }
 }
 
+std::vector<CamAxis> QmoveController::cam_axes() {
+  std::vector<CamAxis> axes;
+  for (std::size_t i = 0; i < machine_.devices.size(); ++i) {
+    auto axis = machine_.devices[i]->cam_axis();
+    if (!axis) continue;
+    axis->name = configuration_.devices[i].name;
+    axes.push_back(std::move(*axis));
+  }
+  return axes;
+}
+
 std::vector<ControllerEvent> QmoveController::take_events() { return std::exchange(events_, {}); }
 
 }  // namespace drycut::devices::qmove

@@ -55,6 +55,8 @@ class QmoveController : public Controller {
   /// Arrays and datagroup variables are listed by their first element.
   [[nodiscard]] std::vector<std::string> names() const override;
 
+  [[nodiscard]] std::vector<CamAxis> cam_axes() override;
+
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override;
 

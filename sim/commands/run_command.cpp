@@ -139,6 +139,7 @@ void run_job(Job& job, const RunOptions& options, int threads,
              const std::function<void(const char*, double)>& progress) {
   const auto& directory = job.result.directory;
   const auto duration = static_cast<double>(job.scenario.scene.duration);
+  if (options.pictures) job.simulation->follow_cams();
   job.result.outcome =
       job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
   // What an earlier run left here must not be taken for this one's.
@@ -156,9 +157,8 @@ void run_job(Job& job, const RunOptions& options, int threads,
     out.finish();
   }
   if (!options.pictures && !options.gltf) return;
-  const auto film = job.simulation->snapshots().empty()
-                        ? renders::Film{}
-                        : film_of(job.scenario, *job.simulation, job.meshes);
+  const auto film = job.simulation->snapshots().empty() ? renders::Film{}
+                                                        : film_of(job.scenario, *job.simulation, job.meshes);
   if (options.gltf && !film.frames.empty()) {
     renders::write_gltf(film, scene_file, job.scenario.pictures.slow);
     job.scene = scene_file;

@@ -136,7 +136,7 @@ const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const Reco
   return common;
 }
 
-/// Where the first run begins to judge a value of this event [s].
+/// From where on every run judges the values of this event [s].
 double window_begin(const std::vector<RunFolder>& runs, const RecordedEvent& event) {
   double begin = 0;
   for (const auto& run : runs)

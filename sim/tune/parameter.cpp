@@ -15,7 +15,6 @@ namespace drycut::sim {
 
 namespace {
 
-constexpr std::string_view controller_set = "controller.qmove.set.";
 constexpr std::string_view integer_suffix = ":integer";
 
 std::string_view trimmed(std::string_view text) {
@@ -108,6 +107,14 @@ class Reader {
   devices::Problems& problems_;
 };
 
+/// What the scenario sets before power-up; nullptr without a controller.
+const std::vector<std::pair<Text, double>>* preset_of(const Scenario& scenario) {
+  if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) return &qmove->set;
+  if (const auto* lx3vp = std::get_if<Lx3vpSection>(&scenario.controller)) return &lx3vp->set;
+  if (const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller)) return &plcopen->set;
+  return nullptr;
+}
+
 /// The row of a plant's table that a path names, and the value it holds, in SI.
 struct PlantValue {
   plants::Parameter row;
@@ -146,10 +153,18 @@ std::vector<Override> overrides_of(const TunedParameters& parameters, const Poin
   return overrides;
 }
 
+std::optional<PresetName> preset_name(const std::string& path) {
+  for (const std::string section : {"qmove", "lx3vp", "plcopen"}) {
+    const auto prefix = "controller." + section + ".set.";
+    if (path.starts_with(prefix)) return PresetName{section, path.substr(prefix.size())};
+  }
+  return {};
+}
+
 std::string short_name(const TunedParameter& parameter) {
-  for (const std::string_view section : {controller_set, std::string_view("plants.")})
-    if (parameter.path.starts_with(section)) return parameter.path.substr(section.size());
-  return parameter.path;
+  if (const auto preset = preset_name(parameter.path)) return preset->value;
+  constexpr std::string_view plants = "plants.";
+  return parameter.path.starts_with(plants) ? parameter.path.substr(plants.size()) : parameter.path;
 }
 
 std::optional<double> present_value(TunedParameter& parameter, const Scenario& scenario) {
@@ -159,20 +174,26 @@ std::optional<double> present_value(TunedParameter& parameter, const Scenario& s
     if (!is_unit(parameter.unit) || !same_dimension(parameter.unit, found->row.unit)) return {};
     return from_si(found->si, parameter.unit);
   }
-  if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) {
-    for (const auto& [name, number] : qmove->set)
-      if (std::string(controller_set) + name.text == parameter.path) return number;
-  }
-  return {};
+  const auto preset = preset_name(parameter.path);
+  const auto* values = preset ? preset_of(scenario) : nullptr;
+  if (values == nullptr) return {};
+  for (const auto& [name, number] : *values)
+    if (name.text == preset->value) return number;
+  if (preset->section != "plcopen") return {};
+  // An axis parameter has a value at the start that no program gives it.
+  devices::Problems ignored;  // the scenario's own problems have been told
+  const auto controller = load_controller(scenario, ignored);
+  const auto value = controller ? controller->find(preset->value) : std::nullopt;
+  return value ? std::optional(value->read()) : std::nullopt;
 }
 
 void check_against_controller(TunedParameter& parameter, const Scenario& scenario,
                               devices::Problems& problems) {
-  if (!parameter.path.starts_with(controller_set)) return;
+  const auto preset = preset_name(parameter.path);
+  if (!preset) return;
   devices::Problems ignored;  // the scenario's own problems have been told
   const auto controller = load_controller(scenario, ignored);
-  const auto value =
-      controller ? controller->find(parameter.path.substr(controller_set.size())) : std::nullopt;
+  const auto value = controller ? controller->find(preset->value) : std::nullopt;
   if (!value || !value->write) return;
   constexpr double between = 0.5;  // what no integer variable keeps
   value->write(between);

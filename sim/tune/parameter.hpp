@@ -35,11 +35,17 @@ std::optional<TunedParameter> parse_parameter(const std::string& text, const std
 std::string value_text(const TunedParameter& parameter, double value);
 /// `point` as overrides of the scenario.
 std::vector<Override> overrides_of(const TunedParameters& parameters, const Point& point);
+/// A value of the controller that a path names: below the `set` of its section.
+struct PresetName {
+  std::string section;  ///< "qmove", "lx3vp", "plcopen"
+  std::string value;    ///< "AxisX.pgain", "D100", "Knife.kv"
+};
+std::optional<PresetName> preset_name(const std::string& path);
 /// The name below its section: "AxisX.pgain", "knife.servo.speed_gain".
 std::string short_name(const TunedParameter& parameter);
 
 /// The parameter's value in the scenario as it stands, in its unit (which is filled in from the plant's table
-/// if none was given); nullopt if the scenario does not say it (a gain that the program sets). Also makes an
+/// if none was given); nullopt if the scenario does not say it (a gain that the QCL sets). Also makes an
 /// integer of a parameter that is one.
 std::optional<double> present_value(TunedParameter& parameter, const Scenario& scenario);
 /// Tells bounds that the controller's variable does not take: its range, its size, read-only.

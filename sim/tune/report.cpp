@@ -17,7 +17,6 @@ namespace drycut::sim {
 namespace {
 
 using renders::ReportTable;
-constexpr std::string_view controller_set = "controller.qmove.set.";
 
 std::string metric_text(const Verdict& verdict) {
   return std::isfinite(verdict.metric) ? fmt::format("{:.6g}", verdict.metric) : "none";
@@ -256,16 +255,17 @@ std::string patch_text(const Tuning& tuning) {
   const auto& point = tuning.trials.at(tuning.best).point;
   std::string qcl;
   std::string set;
+  std::string section;
   std::vector<std::pair<std::string, std::string>> plants;
   std::string others;
   std::string arguments;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& path = parameters[i].path;
     const auto value = value_text(parameters[i], point[i]);
-    if (path.starts_with(controller_set)) {
-      const auto name = path.substr(controller_set.size());
-      qcl += qcl_line(name, point[i]);
-      set += fmt::format("{}{}: {}", set.empty() ? "" : ", ", name, value);
+    if (const auto preset = preset_name(path)) {
+      section = preset->section;
+      if (section == "qmove") qcl += qcl_line(preset->value, point[i]);
+      set += fmt::format("{}{}: {}", set.empty() ? "" : ", ", preset->value, value);
     } else if (path.starts_with("plants.")) {
       plants.emplace_back(path, value);
     } else {
@@ -276,7 +276,7 @@ std::string patch_text(const Tuning& tuning) {
   std::string text;
   if (const auto miss = miss_text(tuning); !miss.empty()) text += fmt::format("# {}\n", miss);
   if (!qcl.empty()) text += "; QCL, in the set-up of the axis\n" + qcl;
-  if (!set.empty()) text += "# scenario, below controller: qmove:\n    set: {" + set + "}\n";
+  if (!set.empty()) text += fmt::format("# scenario, below controller: {}:\n    set: {{{}}}\n", section, set);
   if (!plants.empty()) text += "# scenario, into what stands there\n" + nested(std::move(plants));
   if (!others.empty()) text += "# scenario, at these paths\n" + others;
   return text + "# drycut run\n" + arguments.substr(1) + "\n";
@@ -343,7 +343,8 @@ void write_tuning_report(const Tuning& tuning, const std::filesystem::path& fold
   }
   for (const auto& picture : pictures)
     report.plots.push_back({picture, "plots/" + picture.filename().string()});
-  report.tables = {before_after(tuning), values(tuning), patch_table(tuning), around(tuning)};
+  report.summary = {before_after(tuning), values(tuning), patch_table(tuning)};
+  report.tables = {around(tuning)};
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
   if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));
   report.tables.push_back(trials_table(tuning));

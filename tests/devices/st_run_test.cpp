@@ -1,4 +1,5 @@
 // Statements, calls and types of Structured Text step what they do.
+#include "devices/plcopen/terminals.hpp"
 #include "st_bench.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -160,9 +161,7 @@ TEST(StRun, TerminalsAreReadAndWritten) {
       compile("PROGRAM p VAR start AT %IX1.3 : BOOL; END_VAR END_PROGRAM", "f", bench.problems).located()};
   ASSERT_EQ(located.size(), 1U);
   EXPECT_EQ(located[0].name, "start");
-  EXPECT_FALSE(located[0].output);
-  EXPECT_EQ(located[0].byte, 1);
-  EXPECT_EQ(located[0].bit, 3);
+  EXPECT_EQ(located_name(located[0].address), "IX1.3");
   bench.scan();
   EXPECT_TRUE(bench.runtime->located(1));
   bench.runtime->set_located(0, true);

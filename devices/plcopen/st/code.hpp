@@ -147,7 +147,6 @@ struct Choice {
 
 /// A body: of the PROGRAM, a FUNCTION or a user's function block.
 struct Pou {
-  std::string name;
   int body = -1;
   int frame = 0;              ///< where the variables of a PROGRAM or FUNCTION are
   int result = 0;             ///< FUNCTION: offset of its result

@@ -67,7 +67,6 @@ class Compiler {
  private:
   /// Thrown when a statement or a declaration is given up; its problem has been told.
   struct GiveUp {};
-  using Predicate = bool (*)(Basic);
 
   // parser.cpp: tokens and complaints.
   [[nodiscard]] const Token& peek(std::size_t ahead = 0) const;
@@ -109,11 +108,11 @@ class Compiler {
   void declare_variables(Unit& unit, Type& owner, const VarSection& section);
   void declare_named(Unit& unit, Type& owner, const VarSection& section, const std::vector<Token>& names);
   void add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name, const Type* type,
-                    const std::optional<Program::Located>& location, std::span<const Cell> initial);
+                    const std::optional<Address>& location, std::span<const Cell> initial);
   bool check_section(const Unit& unit, const VarSection& section, const Token& name, const Type& type,
-                     const std::optional<Program::Located>& location);
+                     const std::optional<Address>& location);
   void external(const Token& name, const Type* type);
-  std::optional<Program::Located> location();
+  std::optional<Address> location();
   bool name_is_free(const Unit& unit, const Type& owner, const Token& name);
 
   // type_declarations.cpp
@@ -245,17 +244,15 @@ class Compiler {
   std::size_t stop_ = 0;  ///< end of the part that is being read
 
   std::vector<std::unique_ptr<Unit>> units_;
-  Unit* unit_ = nullptr;  ///< whose text is being read
-  Type* globals_ = nullptr;
+  Unit* unit_ = nullptr;     ///< whose text is being read
+  Type* globals_ = nullptr;  ///< its variables are where the memory begins
   std::vector<std::pair<std::string, const Type*>> enumerations_;
   std::map<const BlockType*, const Type*> motions_;
   const Type* cam_ref_ = nullptr;
-  std::map<std::string, int> axes_;  ///< members of globals_ that VAR_EXTERNAL names
-  std::set<std::string> told_;       ///< names that are not known, told once a POU
-  std::vector<Cell> pool_;           ///< literals and scratch, placed last
+  std::set<std::string> told_;  ///< names that are not known, told once a POU
+  std::vector<Cell> pool_;      ///< literals and scratch, placed last
   std::vector<bool> located_in_globals_;
   std::map<std::string, int> strings_;
-  int globals_at_ = 0;
   int program_at_ = 0;
   int memory_ = 0;  ///< cells before the pool
   int nesting_ = 0;

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
 #include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/terminals.hpp"
 
 // The VAR sections of POUs and VAR_GLOBAL.
 namespace drycut::devices::plcopen::st {
@@ -53,7 +53,7 @@ void Compiler::declare_pou(Unit& unit) {
   unit.type = &type;
   unit.pou = static_cast<int>(code_->pous.size());
   type.pou = unit.pou;
-  code_->pous.emplace_back().name = unit.name.text;
+  code_->pous.emplace_back();
   if (unit.kind == Unit::Kind::function) declare_function_result(unit, type);
   while (variable_section(unit, type)) {
   }
@@ -159,7 +159,7 @@ void Compiler::declare_variables(Unit& unit, Type& owner, const VarSection& sect
 
 void Compiler::declare_named(Unit& unit, Type& owner, const VarSection& section,
                              const std::vector<Token>& names) {
-  std::optional<Program::Located> place;
+  std::optional<Address> place;
   if (accept_word("AT")) place = location();
   expect(":", "stands between a variable's name and its type");
   const Type* type = parse_type();
@@ -185,7 +185,7 @@ void Compiler::declare_named(Unit& unit, Type& owner, const VarSection& section,
 }
 
 bool Compiler::check_section(const Unit& unit, const VarSection& section, const Token& name, const Type& type,
-                             const std::optional<Program::Located>& located) {
+                             const std::optional<Address>& located) {
   const auto refuse = [&](std::string what, std::string remedy) {
     complain(name.place, std::move(what), std::move(remedy));
     return false;
@@ -211,14 +211,14 @@ bool Compiler::check_section(const Unit& unit, const VarSection& section, const 
     return refuse(fmt::format("{} cannot have a terminal here", quoted(name.text)),
                   "AT stands in VAR of the PROGRAM or in VAR_GLOBAL");
   for (const Program::Located& other : code_->located)
-    if (other.output == located->output && other.byte == located->byte && other.bit == located->bit)
+    if (other.address == *located)
       return refuse(fmt::format("{} and {} are at one terminal", quoted(name.text), quoted(other.name)),
                     "each terminal has one variable");
   return true;
 }
 
 void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name,
-                            const Type* type, const std::optional<Program::Located>& located,
+                            const Type* type, const std::optional<Address>& located,
                             std::span<const Cell> initial) {
   if (!name_is_free(unit, owner, name) || !check_section(unit, section, name, *type, located)) {
     // Known, so that its uses are not told again.
@@ -239,11 +239,8 @@ void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, 
   if (owner.cells + type->cells > most_cells)
     give_up(name.place, "the variables take too much memory", "8 MB at most");
   if (located && type->basic == Basic::boolean) {
-    variable.reads_terminal = !located->output;
-    code_->located.push_back(*located);
-    code_->located.back().name = name.text;
-    code_->located.back().line = name.place.line;
-    code_->located.back().column = name.place.column;
+    variable.reads_terminal = located->kind == Kind::input;
+    code_->located.push_back({std::string(name.text), *located, name.place.line, name.place.column});
     code_->located_cells.push_back(owner.cells);
     located_in_globals_.push_back(&owner == globals_);
   }
@@ -254,7 +251,6 @@ void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, 
 
 bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& name) {
   const Variable* other = find_member(owner, name.text);
-  if (other == nullptr && unit.type != &owner) return true;
   if (other == nullptr) return true;
   const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
   complain(name.place, quoted(name.text) + (result ? " is the function's result" : " is declared twice"),
@@ -265,13 +261,12 @@ bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& na
 void Compiler::external(const Token& name, const Type* type) {
   const Variable* global = find_member(*globals_, name.text);
   if (type->basic == Basic::axis) {
-    if (axes_.contains(lower(name.text))) return;
+    if (global != nullptr && global->type->basic == Basic::axis) return;
     if (global != nullptr) {
       complain(name.place, fmt::format("{} is a {} in VAR_GLOBAL", quoted(name.text), global->type->name),
                "choose another name");
       return;
     }
-    axes_.emplace(lower(name.text), globals_->cells);
     code_->externals.push_back({std::string(name.text), name.place.line, name.place.column});
     code_->external_cells.push_back(globals_->cells);
     Variable axis;
@@ -293,23 +288,14 @@ void Compiler::external(const Token& name, const Type* type) {
            "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
 }
 
-std::optional<Program::Located> Compiler::location() {
+std::optional<Address> Compiler::location() {
   const Token token = take();
-  const std::string text = upper(token.text);
-  Program::Located located;
-  const auto refuse = [&] {
+  const auto address =
+      token.kind == Token::Kind::address ? located_address(token.text) : std::optional<Address>{};
+  if (!address)
     give_up(token.place, quoted(token.text) + " is no terminal that is known",
-            "%IX0.0 is an input, %QX0.0 an output: byte and bit 0 to 7");
-  };
-  if (token.kind != Token::Kind::address || (!text.starts_with("%IX") && !text.starts_with("%QX"))) refuse();
-  located.output = text[1] == 'Q';
-  const char* const end = text.data() + text.size();
-  const auto byte = std::from_chars(text.data() + 3, end, located.byte);
-  if (byte.ec != std::errc{} || byte.ptr == end || *byte.ptr != '.') refuse();
-  const auto bit = std::from_chars(byte.ptr + 1, end, located.bit);
-  if (bit.ec != std::errc{} || bit.ptr != end || located.bit < 0 || located.bit > 7 || located.byte < 0)
-    refuse();
-  return located;
+            "%IX0.0 is an input, %QX0.0 an output: byte 0 to 65535 and bit 0 to 7");
+  return *address;
 }
 
 }  // namespace drycut::devices::plcopen::st

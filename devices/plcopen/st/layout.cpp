@@ -23,7 +23,7 @@ void Compiler::place_memory() {
 void Compiler::finish() {
   Compiled& code = *code_;
   for (std::size_t i = 0; i < code.located_cells.size(); ++i)
-    code.located_cells[i] += located_in_globals_[i] ? globals_at_ : program_at_;
+    code.located_cells[i] += located_in_globals_[i] ? 0 : program_at_;
   for (Node& node : code.nodes) {
     if (node.op != Op::address_pool) continue;
     node.op = Op::address;
@@ -38,7 +38,7 @@ void Compiler::finish() {
   const auto fill = [&](const Type& type, int at) {
     std::copy(type.initial.begin(), type.initial.end(), code.image.begin() + at);
   };
-  fill(*globals_, globals_at_);
+  fill(*globals_, 0);
   for (const auto& unit : units_)
     if (unit->pou >= 0 && unit->kind != Unit::Kind::function_block)
       fill(*unit->type, code.pous[static_cast<std::size_t>(unit->pou)].frame);
@@ -46,7 +46,7 @@ void Compiler::finish() {
 
   for (const auto& unit : units_)
     if (unit->pou >= 0 && unit->pou == code.program) walk(*unit->type, program_at_, "", false, true);
-  walk(*globals_, globals_at_, "", false, true);
+  walk(*globals_, 0, "", false, true);
 }
 
 void Compiler::walk(const Type& type, int cell, const std::string& prefix, bool retain, bool shown) {

@@ -11,7 +11,6 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-
 bool belongs_to_name(char c) { return is_letter(c) || is_digit(c); }
 
 int digit_of(char c) {

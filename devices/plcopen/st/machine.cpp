@@ -11,17 +11,6 @@
 #include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
-namespace {
-
-/// The axis of that name, any case as ST has it.
-AxisRef axis_called(const MotionKernel& kernel, const std::string& name) {
-  if (const AxisRef exact = kernel.find_axis(name); exact.number >= 0) return exact;
-  for (int i = 0; i < kernel.axes(); ++i)
-    if (same_word(kernel.axis(AxisRef{i})->name(), name)) return {i};
-  return {};
-}
-
-}  // namespace
 
 Machine::Machine(const Compiled& code, MotionKernel& kernel) : code_(code), kernel_(kernel) {}
 
@@ -32,7 +21,7 @@ void Machine::start(bool all) {
       std::copy(memory_.begin() + kept.low, memory_.begin() + kept.high + 1, fresh.begin() + kept.low);
   memory_ = std::move(fresh);
   for (std::size_t i = 0; i < code_.external_cells.size(); ++i)
-    at(code_.external_cells[i]) = axis_called(kernel_, code_.externals[i].name).number;
+    at(code_.external_cells[i]) = kernel_.find_axis(code_.externals[i].name).number;
   motions_.clear();
   for (const Compiled::Motion& place : code_.motions) {
     Motion motion;
@@ -50,10 +39,14 @@ void Machine::run(std::int64_t time_ms) {
   statements_ = 0;
   if (code_.program < 0) return;
   const Pou& program = code_.pous[static_cast<std::size_t>(code_.program)];
-  for (const Range& reset : program.resets)
-    std::copy(program.type->initial.begin() + reset.low, program.type->initial.begin() + reset.high + 1,
-              memory_.begin() + program.frame + reset.low);
+  reset(program, program.frame);
   execute(program.body);
+}
+
+void Machine::reset(const Pou& pou, std::int64_t frame) {
+  for (const Range& cells : pou.resets)
+    std::copy(pou.type->initial.begin() + cells.low, pou.type->initial.begin() + cells.high + 1,
+              memory_.begin() + frame + cells.low);
 }
 
 std::string_view Machine::text(std::int64_t place, std::size_t most) const {
@@ -101,9 +94,7 @@ Cell Machine::call_function(const Node& n) {
   // An input may call the same function: all are computed before the frame is used.
   for (std::size_t i = 0; i < inputs; ++i, list += 3) given[i] = {value(list[0]), list[1], list[2]};
   const Pou& pou = code_.pous[static_cast<std::size_t>(n.c)];
-  for (const Range& reset : pou.resets)
-    std::copy(pou.type->initial.begin() + reset.low, pou.type->initial.begin() + reset.high + 1,
-              memory_.begin() + pou.frame + reset.low);
+  reset(pou, pou.frame);
   for (std::size_t i = 0; i < inputs; ++i) {
     if (given[i].cells == 1)
       at(given[i].place) = given[i].value;
@@ -282,9 +273,7 @@ void Machine::call_block(const Node& n) {
     return;
   }
   const Pou& pou = code_.pous[static_cast<std::size_t>(n.b)];
-  for (const Range& reset : pou.resets)
-    std::copy(pou.type->initial.begin() + reset.low, pou.type->initial.begin() + reset.high + 1,
-              memory_.begin() + instance + reset.low);
+  reset(pou, instance);
   const std::int64_t caller = own_;
   own_ = instance;
   execute(pou.body);

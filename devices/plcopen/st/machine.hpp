@@ -47,6 +47,8 @@ class Machine {
   Cell multiplex(const Node& node);
   std::int64_t element(const Node& node);
   Cell call_function(const Node& node);
+  /// Gives a POU's variables at `frame` that do not outlast a call their initial values.
+  void reset(const Pou& pou, std::int64_t frame);
   [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
 
   Flow execute(int number);

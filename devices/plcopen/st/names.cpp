@@ -74,7 +74,7 @@ std::optional<Expression> Compiler::variable(const Token& name) {
   if (own && unit_->kind == Unit::Kind::function_block) {
     node = add_node(Op::address_own, basic, name.place, -1, -1, -1, found->offset);
   } else {
-    const int base = own ? code_->pous[static_cast<std::size_t>(unit_->pou)].frame : globals_at_;
+    const int base = own ? code_->pous[static_cast<std::size_t>(unit_->pou)].frame : 0;
     node = add_node(Op::address, basic, name.place, -1, -1, -1, base + found->offset);
   }
   if (found->section == Section::in_out) node = add_node(Op::follow, basic, name.place, node);

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "devices/cards.hpp"
 #include "devices/problem.hpp"
 
 // Structured Text (IEC 61131-3) as a cam application on a PLCopen controller uses it.
@@ -23,9 +24,7 @@ class Program {
   /// A BOOL at an input %IXbyte.bit or an output %QXbyte.bit.
   struct Located {
     std::string name;
-    bool output = false;
-    int byte = 0;
-    int bit = 0;  ///< 0..7
+    Address address;
     int line = 0;
     int column = 0;
   };

@@ -214,7 +214,6 @@ int Compiler::if_statement() {
 }
 
 void Compiler::case_labels(const Type& selector, std::vector<std::pair<Range, Place>>& labels) {
-  std::vector<Range> fresh;
   const auto label = [&]() -> std::int64_t {
     const Place place = peek().place;
     const Expression value = expression();

@@ -64,9 +64,6 @@ const Row& row_of(Basic basic) {
 }  // namespace
 
 bool is_integer(Basic basic) { return basic >= Basic::sint && basic <= Basic::dword; }
-bool is_bits(Basic basic) {
-  return basic == Basic::boolean || (basic >= Basic::byte && basic <= Basic::dword);
-}
 bool is_real(Basic basic) { return basic == Basic::real || basic == Basic::lreal; }
 bool is_number(Basic basic) { return is_integer(basic) || is_real(basic); }
 bool is_whole(Basic basic) {

@@ -89,7 +89,6 @@ struct Type {
 };
 
 bool is_integer(Basic basic);  ///< SINT..UDINT, BYTE..DWORD
-bool is_bits(Basic basic);     ///< BOOL, BYTE, WORD, DWORD
 bool is_real(Basic basic);
 bool is_number(Basic basic);
 bool is_whole(Basic basic);  ///< what is kept as a whole number: integers, BOOL, TIME, enumerations
