@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace drycut::plants {
 
@@ -45,15 +46,18 @@ PrintMarks::PrintMarks(const PrintMarkData& data, Random noise)
   photocell_ = PositionSwitch(reader(data), 0, std::abs(behind_mark(data.photocell)));
 }
 
+// Scatter as large as the pitch brings two marks out of order: each goes to its place.
 void PrintMarks::print() {
-  places_.push_back(next_ + shift_ + data_.scatter * noise_.gaussian());
+  const double place = next_ + shift_ + data_.scatter * noise_.gaussian();
+  places_.insert(std::upper_bound(places_.begin(), places_.end(), place), place);
   next_ += data_.pitch * (1 + data_.stretch);
 }
 
 double PrintMarks::nearest(double place) const {
-  // Scatter may bring two marks out of order where it is as large as the pitch: all are looked at.
-  return *std::min_element(places_.begin(), places_.end(),
-                           [place](double a, double b) { return std::abs(a - place) < std::abs(b - place); });
+  const auto after = std::lower_bound(places_.begin(), places_.end(), place);
+  if (after == places_.begin()) return *after;
+  const double before = *std::prev(after);
+  return after == places_.end() || place - before <= *after - place ? before : *after;
 }
 
 double PrintMarks::behind_mark(double place) const { return place - nearest(place); }

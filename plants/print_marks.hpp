@@ -36,7 +36,7 @@ class PrintMarks {
   /// Where on the web the nearest mark is: how far `place` lies behind its middle, against the direction of
   /// travel [m]. A place is the travel at which it passes the cut.
   [[nodiscard]] double behind_mark(double place) const;
-  /// Places of the marks between photocell and a few pitches behind the cut, in ascending order [m].
+  /// Places of the marks from the photocell to some metres behind the cut, in ascending order [m].
   [[nodiscard]] const std::deque<double>& places() const { return places_; }
 
   /// shift under `marks`, and what the photocell offers under `component`.

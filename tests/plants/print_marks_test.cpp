@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "plants/rotary_knife.hpp"
@@ -78,6 +79,24 @@ TEST(PrintMarks, ScatterIsThatOfANormalDistributionAndTheSameForASeed) {
   EXPECT_NEAR(n, 1000, 2);
   EXPECT_NEAR(sum / n, 0, 3 * 0.002 / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(squares / n), 0.002, 0.0002);
+}
+
+TEST(PrintMarks, TheNearestIsToldEvenWhereScatterBringsMarksOutOfOrder) {
+  PrintMarkData data;
+  data.pitch = 0.02;
+  data.scatter = 0.05;
+  PrintMarks marks(data, Random(7, "marks"));
+  for (int i = 0; i < 4000; ++i) {
+    const double travel = i * 1e-3;
+    marks.sense(travel, h);
+    const auto& places = marks.places();
+    ASSERT_TRUE(std::is_sorted(places.begin(), places.end()));
+    for (const double place : {travel, travel + 0.41, places.front() - 1, places.back() + 1}) {
+      double nearest = 1e9;
+      for (const double mark : places) nearest = std::min(nearest, std::abs(place - mark));
+      ASSERT_DOUBLE_EQ(std::abs(marks.behind_mark(place)), nearest) << "at " << place;
+    }
+  }
 }
 
 TEST(PrintMarks, ASpliceShiftsTheMarksThatAreStillToCome) {
