@@ -76,6 +76,12 @@ class LinearAxis : public Plant {
   [[nodiscard]] std::array<double, 3> pen_tip(double carrier_position, double position) const;
   struct Item;
   [[nodiscard]] std::vector<Item> items() const;
+  void add_beam(std::vector<Item>& all) const;
+  void add_drive(std::vector<Item>& all) const;
+  void add_carriage(std::vector<Item>& all) const;
+  void add_blade(std::vector<Item>& all) const;
+  void add_guide(std::vector<Item>& all) const;
+  void add_pen(std::vector<Item>& all) const;
   [[nodiscard]] std::array<double, 3> point(const std::array<double, 3>& origin, double along, double up,
                                             double side) const;
 

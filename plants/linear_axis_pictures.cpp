@@ -37,6 +37,10 @@ double carriage_length(const LinearAxisData& data) {
 /// Size of everything against a carriage of 160 mm.
 double size_factor(const LinearAxisData& data) { return carriage_length(data) / 0.16; }
 double middle(const LinearAxisData& data) { return (data.travel_min + data.travel_max) / 2; }
+double beam_length(const LinearAxisData& data) {
+  return data.travel_max - data.travel_min + carriage_length(data) + 0.1 * size_factor(data);
+}
+const Quaternion lying = about_y(right_angle);  // a cylinder along the axis
 
 }  // namespace
 
@@ -88,22 +92,22 @@ void LinearAxis::draw_ink() {
 }
 
 std::vector<LinearAxis::Item> LinearAxis::items() const {
+  std::vector<Item> all;
+  add_beam(all);
+  add_drive(all);
+  add_carriage(all);
+  if (data_.tool == "blade") add_blade(all);
+  if (data_.tool == "guide") add_guide(all);
+  if (data_.tool == "pen") add_pen(all);
+  return all;
+}
+
+void LinearAxis::add_beam(std::vector<Item>& all) const {
   const double k = size_factor(data_);
-  const double c = carriage_length(data_);
   const double mid = middle(data_);
-  const double beam = data_.travel_max - data_.travel_min + c + 0.1 * k;
-  const double low = mid - beam / 2;
-  const double high = mid + beam / 2;
-  const auto beside = [&](double distance) {  // of the motor's end
-    return data_.motor == "upper" ? high + distance * k : low - distance * k;
-  };
-  const bool belt = data_.lead >= belt_lead;
-  const Quaternion lying = about_y(right_angle);
-  const Quaternion facing = data_.motor == "upper" ? about_y(-right_angle) : lying;  // towards the axis
-  const double angle = 2 * std::numbers::pi * rotor_.part;
-  const double screw_angle = 2 * std::numbers::pi * std::fmod(rotor_.revolutions() / data_.gear.ratio, 1.0);
-  const double mark = 0.026 * k;
-  std::vector<Item> all = {
+  const double beam = beam_length(data_);
+  const double c = carriage_length(data_);
+  all = {
       {{"beam", Shape::box, {beam, 0.07 * k, 0.14 * k}, beam_colour, "paint", "beam"}, mid, 0.035 * k, 0},
       {{"rail 1", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel", "rail"},
        mid,
@@ -114,13 +118,53 @@ std::vector<LinearAxis::Item> LinearAxis::items() const {
        0.085 * k,
        -0.05 * k},
       {{"end block 1", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, beam_colour, "paint", "end_block"},
-       low,
+       mid - beam / 2,
        0.07 * k,
        0},
       {{"end block 2", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, beam_colour, "paint", "end_block"},
-       high,
+       mid + beam / 2,
        0.07 * k,
        0},
+      {{"stop 1", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
+       data_.travel_min - c / 2 - 0.015 * k,
+       0.116 * k,
+       0,
+       false,
+       lying},
+      {{"stop 2", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
+       data_.travel_max + c / 2 + 0.015 * k,
+       0.116 * k,
+       0,
+       false,
+       about_y(-right_angle)},
+      {{"home switch", Shape::box, {0.035 * k, 0.025 * k, 0.025 * k}, white, "paint"},
+       data_.sensors.home.centre,
+       0.045 * k,
+       0.086 * k},
+  };
+  if (carrier_ == nullptr && beam > 0.6) {
+    const double height = data_.place_y - floor_y;
+    for (const double at : {-0.38, 0.38})
+      all.push_back(
+          {{at < 0 ? "leg 1" : "leg 2", Shape::box, {0.09, height, 0.1}, beam_colour, "paint", "frame_post"},
+           mid + at * beam,
+           -height / 2,
+           0});
+  }
+}
+
+void LinearAxis::add_drive(std::vector<Item>& all) const {
+  const double k = size_factor(data_);
+  const double mid = middle(data_);
+  const double beam = beam_length(data_);
+  const bool above = data_.motor == "upper";
+  const auto beside = [&](double distance) {  // of the motor's end
+    return above ? mid + beam / 2 + distance * k : mid - beam / 2 - distance * k;
+  };
+  const Quaternion facing = about_y(above ? -right_angle : right_angle);  // towards the axis
+  const double angle = 2 * std::numbers::pi * rotor_.part;
+  const double mark = 0.026 * k;
+  const std::vector<Item> driven = {
       {{"coupling", Shape::cylinder, {0.05 * k, 0.05 * k, 0.05 * k}, steel, "steel", "coupling"},
        beside(0.04),
        0.085 * k,
@@ -151,34 +195,10 @@ std::vector<LinearAxis::Item> LinearAxis::items() const {
        0,
        false,
        facing},
-      {{"stop 1", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
-       data_.travel_min - c / 2 - 0.015 * k,
-       0.116 * k,
-       0,
-       false,
-       lying},
-      {{"stop 2", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
-       data_.travel_max + c / 2 + 0.015 * k,
-       0.116 * k,
-       0,
-       false,
-       about_y(-right_angle)},
-      {{"home switch", Shape::box, {0.035 * k, 0.025 * k, 0.025 * k}, white, "paint"},
-       data_.sensors.home.centre,
-       0.045 * k,
-       0.086 * k},
-      {{"home flag", Shape::box, {0.02 * k, 0.06 * k, 0.006 * k}, white, "paint"},
-       0,
-       0.09 * k,
-       0.083 * k,
-       true},
-      {{"carriage", Shape::box, {c, 0.03 * k, 0.16 * k}, carriage_colour, "paint", "carriage"},
-       0,
-       0.117 * k,
-       0,
-       true},
   };
-  if (belt)
+  all.insert(all.end(), driven.begin(), driven.end());
+  const double screw_angle = 2 * std::numbers::pi * std::fmod(rotor_.revolutions() / data_.gear.ratio, 1.0);
+  if (data_.lead >= belt_lead)
     all.push_back(
         {{"belt", Shape::box, {beam - 0.05 * k, 0.008 * k, 0.05 * k}, dark, "rubber"}, mid, 0.085 * k, 0});
   else
@@ -189,60 +209,73 @@ std::vector<LinearAxis::Item> LinearAxis::items() const {
          0,
          false,
          product(about_x(screw_angle), lying)});
-  if (carrier_ == nullptr && beam > 0.6) {
-    const double height = data_.place_y - floor_y;
-    for (const double at : {-0.38, 0.38})
-      all.push_back(
-          {{at < 0 ? "leg 1" : "leg 2", Shape::box, {0.09, height, 0.1}, beam_colour, "paint", "frame_post"},
-           mid + at * beam,
-           -height / 2,
-           0});
-  }
+}
+
+void LinearAxis::add_carriage(std::vector<Item>& all) const {
+  const double k = size_factor(data_);
+  const double c = carriage_length(data_);
+  all.push_back({{"home flag", Shape::box, {0.02 * k, 0.06 * k, 0.006 * k}, white, "paint"},
+                 0,
+                 0.09 * k,
+                 0.083 * k,
+                 true});
+  all.push_back({{"carriage", Shape::box, {c, 0.03 * k, 0.16 * k}, carriage_colour, "paint", "carriage"},
+                 0,
+                 0.117 * k,
+                 0,
+                 true});
+}
+
+void LinearAxis::add_blade(std::vector<Item>& all) const {
+  const double k = size_factor(data_);
   const double stroke = tool_.level ? 0 : 1;
-  if (data_.tool == "blade") {
-    const double web = -data_.place_y;  // height of the web over the beam's lower side
-    const double reach = -data_.place_z;
-    const double blade = web + 0.05 + 0.07 * stroke;
+  const double web = -data_.place_y;  // height of the web over the beam's lower side
+  const double reach = -data_.place_z;
+  const double blade = web + 0.05 + 0.07 * stroke;
+  all.push_back(
+      {{"column", Shape::box, {0.1, 0.24, 0.06}, carriage_colour, "paint"}, 0, 0.13 * k + 0.12, 0, true});
+  all.push_back({{"arm", Shape::box, {0.08, 0.06, reach + 0.24}, carriage_colour, "paint"},
+                 0,
+                 0.13 * k + 0.22,
+                 (reach + 0.18) / 2,
+                 true});
+  all.push_back({{"ram", Shape::box, {0.05, 0.3, 0.05}, steel, "steel"}, 0, blade + 0.18, reach, true});
+  all.push_back({{"blade", Shape::wedge, {0.03, 0.1, 0.34}, red, "blade", "", std::array{0.0, -0.05, 0.17}},
+                 0,
+                 blade,
+                 reach,
+                 true});
+}
+
+void LinearAxis::add_guide(std::vector<Item>& all) const {
+  const double k = size_factor(data_);
+  all.push_back({{"post", Shape::box, {0.04 * k, 0.2 * k, 0.04 * k}, steel, "steel"}, 0, 0.23 * k, 0, true});
+  all.push_back(
+      {{"arm", Shape::box, {0.03 * k, 0.025 * k, 0.2 * k}, steel, "steel"}, 0, 0.32 * k, 0.1 * k, true});
+  for (const double at : {-1.0, 1.0})
     all.push_back(
-        {{"column", Shape::box, {0.1, 0.24, 0.06}, carriage_colour, "paint"}, 0, 0.13 * k + 0.12, 0, true});
-    all.push_back({{"arm", Shape::box, {0.08, 0.06, reach + 0.24}, carriage_colour, "paint"},
-                   0,
-                   0.13 * k + 0.22,
-                   (reach + 0.18) / 2,
-                   true});
-    all.push_back({{"ram", Shape::box, {0.05, 0.3, 0.05}, steel, "steel"}, 0, blade + 0.18, reach, true});
-    all.push_back({{"blade", Shape::wedge, {0.03, 0.1, 0.34}, red, "blade", "", std::array{0.0, -0.05, 0.17}},
-                   0,
-                   blade,
-                   reach,
-                   true});
-  } else if (data_.tool == "guide") {
-    all.push_back(
-        {{"post", Shape::box, {0.04 * k, 0.2 * k, 0.04 * k}, steel, "steel"}, 0, 0.23 * k, 0, true});
-    all.push_back(
-        {{"arm", Shape::box, {0.03 * k, 0.025 * k, 0.2 * k}, steel, "steel"}, 0, 0.32 * k, 0.1 * k, true});
-    for (const double at : {-1.0, 1.0})
-      all.push_back(
-          {{at < 0 ? "roller 1" : "roller 2", Shape::cylinder, {0.03 * k, 0.03 * k, 0.08 * k}, dark, "steel"},
-           at * 0.02 * k,
-           0.32 * k,
-           0.23 * k,
-           true,
-           about_x(right_angle)});
-  } else if (data_.tool == "pen") {
-    const double lift = 0.02 * k * stroke;
-    all.push_back({{"pen holder", Shape::box, {0.06 * k, 0.06 * k, 0.1 * k}, carriage_colour, "paint"},
-                   0,
-                   0.13 * k,
-                   -0.08 * k,
-                   true});
-    all.push_back({{"pen", Shape::cylinder, {0.022 * k, 0.022 * k, 0.22 * k}, red, "paint"},
-                   0,
-                   0.13 * k,
-                   -0.13 * k + lift,
-                   true});
-  }
-  return all;
+        {{at < 0 ? "roller 1" : "roller 2", Shape::cylinder, {0.03 * k, 0.03 * k, 0.08 * k}, dark, "steel"},
+         at * 0.02 * k,
+         0.32 * k,
+         0.23 * k,
+         true,
+         about_x(right_angle)});
+}
+
+void LinearAxis::add_pen(std::vector<Item>& all) const {
+  const double k = size_factor(data_);
+  const double stroke = tool_.level ? 0 : 1;
+  const double lift = 0.02 * k * stroke;
+  all.push_back({{"pen holder", Shape::box, {0.06 * k, 0.06 * k, 0.1 * k}, carriage_colour, "paint"},
+                 0,
+                 0.13 * k,
+                 -0.08 * k,
+                 true});
+  all.push_back({{"pen", Shape::cylinder, {0.022 * k, 0.022 * k, 0.22 * k}, red, "paint"},
+                 0,
+                 0.13 * k,
+                 -0.13 * k + lift,
+                 true});
 }
 
 std::vector<Part> LinearAxis::parts() {

@@ -70,6 +70,11 @@ class VerticalPress : public Plant {
   void watch_for_sag(double h);
   struct Item;
   [[nodiscard]] std::vector<Item> items() const;
+  void add_frame(std::vector<Item>& all) const;
+  void add_drive(std::vector<Item>& all) const;
+  void add_counterbalance(std::vector<Item>& all) const;
+  void add_stops_and_switches(std::vector<Item>& all) const;
+  void add_load(std::vector<Item>& all) const;
 
   VerticalPressData data_;
   World& world_;

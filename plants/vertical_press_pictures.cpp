@@ -43,6 +43,18 @@ const Quaternion upright = about_x(-std::numbers::pi / 2);
 const Quaternion downward = about_x(std::numbers::pi / 2);
 const Quaternion level = {0, 0, 0, 1};
 
+Part rod(const char* name, double diameter, double length, Colour colour, const char* material,
+         const char* model = "") {
+  return {name, Shape::cylinder, {diameter, diameter, length}, colour, material, model};
+}
+Part box(const char* name, double x, double y, double z, Colour colour, const char* material = "paint",
+         const char* model = "") {
+  return {name, Shape::box, {x, y, z}, colour, material, model};
+}
+
+/// Lower side of the crown, over the table [m].
+double crown_of(const VerticalPressData& data) { return data.travel_max + ram_top + clearance; }
+
 }  // namespace
 
 /// A part and where its middle is [m]: from the middle of the table's top, or from the tool's face if it goes
@@ -59,18 +71,18 @@ struct VerticalPress::Item {
 };
 
 std::vector<VerticalPress::Item> VerticalPress::items() const {
-  const double crown = data_.travel_max + ram_top + clearance;  // lower side
-  const double top = crown + crown_height;
-  const auto rod = [](const char* name, double diameter, double length, Colour colour, const char* material,
-                      const char* model = "") -> Part {
-    return {name, Shape::cylinder, {diameter, diameter, length}, colour, material, model};
-  };
-  const auto box = [](const char* name, double x, double y, double z, Colour colour,
-                      const char* material = "paint", const char* model = "") -> Part {
-    return {name, Shape::box, {x, y, z}, colour, material, model};
-  };
+  std::vector<Item> all;
+  add_frame(all);
+  add_drive(all);
+  add_counterbalance(all);
+  add_stops_and_switches(all);
+  add_load(all);
+  return all;
+}
 
-  std::vector<Item> all = {
+void VerticalPress::add_frame(std::vector<Item>& all) const {
+  const double crown = crown_of(data_);
+  all = {
       {box("bed", 1.04, bed_height, 0.56, frame_colour, "paint", "press_bed"), 0, -0.05 - bed_height / 2, 0},
       {box("foot 1", 0.22, foot_height, 0.56, frame_colour, "paint", "leg"), -0.41, floor_y + foot_height / 2,
        0},
@@ -92,7 +104,10 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
        0.04, true, upright},
       {box("tool", 0.22, tool_height, 0.22, dark, "steel", "tool"), 0, tool_height / 2, 0.04, true},
   };
+}
 
+void VerticalPress::add_drive(std::vector<Item>& all) const {
+  const double top = crown_of(data_) + crown_height;
   // The screw reaches the nut at the lowest position.
   const double screw = top + 0.12 - (data_.travel_min + ram_top);
   const double angle = 2 * std::numbers::pi * rotor_.part;
@@ -116,18 +131,30 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
   };
   all.insert(all.end(), driven.begin(), driven.end());
 
-  // The counterbalance's rods push the ram from below; their cylinders hang in the bed.
+  // A lamp on the crown: red while the brake holds, else green.
+  const bool released = drive_.brake().released();
+  for (const bool lamp : {false, true})
+    all.push_back({box(lamp ? "lamp released" : "lamp brake", 0.06, 0.06, 0.02, lamp ? green : red), -0.42,
+                   top - crown_height / 2, 0.2, false, level, 1, lamp == released});
+}
+
+/// Its rods push the ram from below; their cylinders hang in the bed.
+void VerticalPress::add_counterbalance(std::vector<Item>& all) const {
+  if (data_.counterbalance <= 0) return;
   const double reach = std::min(data_.travel_max + tool_height + 0.06, -floor_y + tool_height);
-  if (data_.counterbalance > 0)
-    for (const double side : {-1.0, 1.0}) {
-      all.push_back({rod(side < 0 ? "rod 1" : "rod 2", 0.04, reach, steel, "steel"), side * 0.22,
-                     tool_height - reach / 2, -0.09, true, upright});
-      const double body = reach - tool_height + 0.04;
-      all.push_back({rod(side < 0 ? "cylinder 1" : "cylinder 2", 0.1, body, grey, "steel"), side * 0.22,
-                     -0.05 - body / 2, -0.09, false, upright});
-      all.push_back({rod(side < 0 ? "gland 1" : "gland 2", 0.09, 0.05, grey, "steel"), side * 0.22, 0.025,
-                     -0.09, false, upright});
-    }
+  for (const double side : {-1.0, 1.0}) {
+    all.push_back({rod(side < 0 ? "rod 1" : "rod 2", 0.04, reach, steel, "steel"), side * 0.22,
+                   tool_height - reach / 2, -0.09, true, upright});
+    const double body = reach - tool_height + 0.04;
+    all.push_back({rod(side < 0 ? "cylinder 1" : "cylinder 2", 0.1, body, grey, "steel"), side * 0.22,
+                   -0.05 - body / 2, -0.09, false, upright});
+    all.push_back({rod(side < 0 ? "gland 1" : "gland 2", 0.09, 0.05, grey, "steel"), side * 0.22, 0.025,
+                   -0.09, false, upright});
+  }
+}
+
+void VerticalPress::add_stops_and_switches(std::vector<Item>& all) const {
+  const double crown = crown_of(data_);
   for (const double side : {-1.0, 1.0}) {
     const double low = data_.travel_min + tool_height;
     all.push_back({rod(side < 0 ? "stop 1" : "stop 2", 0.06, low, red, "rubber", "bumper"), side * 0.2,
@@ -145,13 +172,9 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
   sensor("limit switch 2", data_.sensors.limit_max);
   all.push_back({box("flag", 0.012, data_.sensors.home.width, 0.05, white), 0.4, flag_y, 0.12, true});
   all.push_back({box("scale", 0.02, crown - 0.1, 0.02, white), -upright_x + 0.06, crown / 2, 0.06});
+}
 
-  // A lamp on the crown: red while the brake holds, else green.
-  const bool released = drive_.brake().released();
-  for (const bool lamp : {false, true})
-    all.push_back({box(lamp ? "lamp released" : "lamp brake", 0.06, 0.06, 0.02, lamp ? green : red), -0.42,
-                   crown + crown_height / 2, 0.2, false, level, 1, lamp == released});
-
+void VerticalPress::add_load(std::vector<Item>& all) const {
   const double load = ram_.mass - data_.mass;
   const double stack = std::max(load, 1e-6) * weight_plate;
   for (const double side : {-1.0, 1.0})
@@ -162,7 +185,6 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
     all.push_back({box("workpiece", 0.3, 1, 0.26, brass, "steel", "workpiece"), 0, height / 2, 0.04, false,
                    level, std::max(height, 1e-3)});
   }
-  return all;
 }
 
 std::vector<Part> VerticalPress::parts() {
