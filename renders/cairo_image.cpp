@@ -1,6 +1,9 @@
 #include "renders/cairo_image.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "renders/text.hpp"
 
 namespace drycut::renders {
 
@@ -56,6 +59,24 @@ Cairo cairo_pen(cairo_surface_t* surface) {
   cairo_set_font_options(pen.get(), options.get());
   cairo_select_font_face(pen.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   return pen;
+}
+
+double text_width(cairo_t* pen, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(pen, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+std::string fitted_text(cairo_t* pen, std::string text, double room) {
+  if (text_width(pen, text) <= room) return text;
+  while (!text.empty() && text_width(pen, text + "…") > room) drop_last_character(text);
+  return text + "…";
+}
+
+double picture_scale(int height) { return std::clamp(height / 540.0, 0.5, 4.0); }
+
+void set_ink(cairo_t* pen, const Ink& ink, double opacity) {
+  cairo_set_source_rgba(pen, ink.red, ink.green, ink.blue, opacity);
 }
 
 }  // namespace drycut::renders

@@ -2,6 +2,7 @@
 #include <cairo.h>
 
 #include <memory>
+#include <string>
 
 #include "renders/png_image.hpp"
 
@@ -22,5 +23,20 @@ void copy_rows(cairo_surface_t* from, int rows, Image& image, int first_row);
 /// A pen for the surface that writes DejaVu Sans without hinting: widths are proportional to the font size
 /// and the same on every machine.
 Cairo cairo_pen(cairo_surface_t* surface);
+
+/// Width of a line as the pen writes it [pixels].
+double text_width(cairo_t* pen, const std::string& text);
+/// `text`, or its beginning and an ellipsis, no wider than `room` [pixels].
+std::string fitted_text(cairo_t* pen, std::string text, double room);
+
+/// How large letters and lines are: 1 for a picture 540 pixels high.
+double picture_scale(int height);
+
+/// Red, green, blue of what words stand on.
+struct Ink {
+  double red, green, blue;
+};
+constexpr Ink kGround = {0.105, 0.125, 0.150};
+void set_ink(cairo_t* pen, const Ink& ink, double opacity = 1);
 
 }  // namespace drycut::renders

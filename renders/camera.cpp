@@ -12,19 +12,11 @@ namespace drycut::renders {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr Extent kNothing = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 constexpr Vec3 kFromOperator = {-0.42, 0.40, 1.0};  ///< towards the eye: upstream, above, operator's side
 constexpr double kBorder = 0.1;                     ///< around the mechanism, in its longest side
 constexpr double kPictureUsed = 0.95;               ///< share of the picture that the mechanism may fill
 
 bool is_empty(const Extent& e) { return e.low[0] > e.high[0]; }
-
-void include(Extent& extent, const Vec3& point) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    extent.low[i] = std::min(extent.low[i], point[i]);
-    extent.high[i] = std::max(extent.high[i], point[i]);
-  }
-}
 
 double longest_side(const SolidPart& part, const Placement& placement) {
   double longest = 0;
@@ -91,22 +83,29 @@ Extent grown(const Extent& extent, double border) {
 
 }  // namespace
 
+void include(Extent& extent, const Vec3& point) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    extent.low[i] = std::min(extent.low[i], point[i]);
+    extent.high[i] = std::max(extent.high[i], point[i]);
+  }
+}
+
+Vec3 placed(const Placement& placement, const Vec3& point) {
+  const auto& scale = placement.scale;
+  return placement.position +
+         rotated(placement.rotation, {point[0] * scale[0], point[1] * scale[1], point[2] * scale[2]});
+}
+
 std::vector<Vec3> outline(const SolidPart& part, const Placement& placement) {
   std::vector<Vec3> points;
   if (part.mesh) {
-    for (const Vec3& corner : part.mesh->hull) {
-      const Vec3 scaled = {corner[0] * placement.scale[0], corner[1] * placement.scale[1],
-                           corner[2] * placement.scale[2]};
-      points.push_back(placement.position + rotated(placement.rotation, scaled));
-    }
+    for (const Vec3& corner : part.mesh->hull) points.push_back(placed(placement, corner));
     return points;
   }
-  const Vec3 half = {part.size[0] * placement.scale[0] / 2, part.size[1] * placement.scale[1] / 2,
-                     part.size[2] * placement.scale[2] / 2};
+  const Vec3 half = 0.5 * part.size;
   const auto add = [&](double x, double y) {
-    for (const double z : {-half[2], half[2]}) {
-      points.push_back(placement.position + rotated(placement.rotation, {x * half[0], y * half[1], z}));
-    }
+    for (const double z : {-half[2], half[2]})
+      points.push_back(placed(placement, {x * half[0], y * half[1], z}));
   };
   if (part.shape == SolidPart::Shape::cylinder) {
     constexpr int kRim = 16;

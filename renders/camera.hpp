@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "renders/geometry.hpp"
@@ -11,6 +12,16 @@ struct Extent {
   Vec3 low = {0, 0, 0};
   Vec3 high = {0, 0, 0};
 };
+/// An extent without points.
+constexpr Extent kNothing = {
+    {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+     std::numeric_limits<double>::infinity()},
+    {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+     -std::numeric_limits<double>::infinity()}};
+void include(Extent& extent, const Vec3& point);
+
+/// A point of a part [m, its own coordinates] in the world.
+Vec3 placed(const Placement& placement, const Vec3& point);
 
 /// Points [m, world] whose hull is the part as placed: corners of a box or wedge, rims of a
 /// cylinder, outstanding corners of a mesh.

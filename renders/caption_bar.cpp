@@ -17,16 +17,12 @@ constexpr double kLine = 1.5;       ///< line height / font size
 constexpr double kValueGap = 0.55;  ///< between label and value / font size
 constexpr double kColumnGap = 2.0;  ///< between columns / font size
 
-struct Colour {
-  double red, green, blue;
-};
-constexpr Colour kGround = {0.105, 0.125, 0.150};
-constexpr Colour kRule = {0.92, 0.46, 0.10};
-constexpr Colour kTitle = {0.97, 0.98, 0.99};
-constexpr Colour kLabel = {0.62, 0.68, 0.74};
-constexpr Colour kValue = {0.97, 0.98, 0.99};
-constexpr Colour kLampOn = {0.25, 0.88, 0.35};
-constexpr Colour kLampOff = {0.17, 0.20, 0.24};
+constexpr Ink kRule = {0.92, 0.46, 0.10};
+constexpr Ink kTitle = {0.97, 0.98, 0.99};
+constexpr Ink kLabel = {0.62, 0.68, 0.74};
+constexpr Ink kValue = {0.97, 0.98, 0.99};
+constexpr Ink kLampOn = {0.25, 0.88, 0.35};
+constexpr Ink kLampOff = {0.17, 0.20, 0.24};
 constexpr double kLamp = 0.85;  ///< diameter / font size
 
 /// A cairo picture to write on.
@@ -40,27 +36,17 @@ class Page {
     cairo_set_font_size(cairo_.get(), size);
   }
 
-  double width(const std::string& text) {
-    cairo_text_extents_t extents;
-    cairo_text_extents(cairo_.get(), text.c_str(), &extents);
-    return extents.x_advance;
-  }
+  double width(const std::string& text) { return text_width(cairo_.get(), text); }
+  std::string fitted(const std::string& text, double room) { return fitted_text(cairo_.get(), text, room); }
 
-  /// `text`, or its beginning and an ellipsis, no wider than `room` [pixels].
-  std::string fitted(std::string text, double room) {
-    if (width(text) <= room) return text;
-    while (!text.empty() && width(text + "…") > room) drop_last_character(text);
-    return text + "…";
-  }
-
-  void text(double x, double baseline, const std::string& words, const Colour& colour) {
-    cairo_set_source_rgb(cairo_.get(), colour.red, colour.green, colour.blue);
+  void text(double x, double baseline, const std::string& words, const Ink& colour) {
+    set_ink(cairo_.get(), colour);
     cairo_move_to(cairo_.get(), x, baseline);
     cairo_show_text(cairo_.get(), words.c_str());
   }
 
-  void fill(double x, double y, double w, double h, const Colour& colour) {
-    cairo_set_source_rgb(cairo_.get(), colour.red, colour.green, colour.blue);
+  void fill(double x, double y, double w, double h, const Ink& colour) {
+    set_ink(cairo_.get(), colour);
     cairo_rectangle(cairo_.get(), x, y, w, h);
     cairo_fill(cairo_.get());
   }
@@ -69,10 +55,10 @@ class Page {
   void lamp(double x, double y, double diameter, bool on) {
     cairo_new_path(cairo_.get());  // words leave the pen where they end
     cairo_arc(cairo_.get(), x, y, diameter / 2, 0, 2 * std::numbers::pi);
-    const Colour& colour = on ? kLampOn : kLampOff;
-    cairo_set_source_rgb(cairo_.get(), colour.red, colour.green, colour.blue);
+    const Ink& colour = on ? kLampOn : kLampOff;
+    set_ink(cairo_.get(), colour);
     cairo_fill_preserve(cairo_.get());
-    cairo_set_source_rgb(cairo_.get(), kLabel.red, kLabel.green, kLabel.blue);
+    set_ink(cairo_.get(), kLabel);
     cairo_set_line_width(cairo_.get(), diameter / 10);
     cairo_stroke(cairo_.get());
   }
@@ -87,7 +73,7 @@ class Page {
 }  // namespace
 
 CaptionLayout::CaptionLayout(const Film& film) : title_(one_line(film.title)), width_(film.width) {
-  const double scale = std::clamp(film.height / 540.0, 0.5, 4.0);
+  const double scale = picture_scale(film.height);
   margin_ = 16 * scale;
   title_size_ = 16 * scale;
 

@@ -11,6 +11,15 @@ using Vec3 = std::array<double, 3>;
 using Quaternion = std::array<double, 4>;  ///< x y z w
 using Matrix4 = std::array<double, 16>;
 
+/// For OpenGL and files.
+template <std::size_t N>
+std::array<float, N> as_floats(const std::array<double, N>& values) {
+  std::array<float, N> floats{};
+  for (std::size_t i = 0; i < N; ++i) floats[i] = static_cast<float>(values[i]);
+  return floats;
+}
+inline Vec3 as_doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }

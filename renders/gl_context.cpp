@@ -32,7 +32,7 @@ GlContext::GlContext() : buffer_(16 * 16 * 4) {
                                           OSMESA_PROFILE,
                                           OSMESA_CORE_PROFILE,
                                           OSMESA_CONTEXT_MAJOR_VERSION,
-                                          3,
+                                          4,
                                           OSMESA_CONTEXT_MINOR_VERSION,
                                           3,
                                           0,
@@ -41,7 +41,7 @@ GlContext::GlContext() : buffer_(16 * 16 * 4) {
   context_.reset(OSMesaCreateContextAttribs(attributes.data(), nullptr));
   if (context_ == nullptr) {
     throw std::runtime_error(
-        "pictures: OSMesa gives no OpenGL 3.3 core context; install libosmesa6 with llvmpipe");
+        "pictures: OSMesa gives no OpenGL 4.3 core context; install libosmesa6 with llvmpipe");
   }
   if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), buffer_.data(), GL_UNSIGNED_BYTE, 16,
                         16) == GL_FALSE) {

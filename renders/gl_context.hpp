@@ -5,7 +5,7 @@
 
 namespace drycut::renders {
 
-/// An OpenGL 3.3 core context without a window, current in the thread that made it. The only place that knows
+/// An OpenGL 4.3 core context without a window, current in the thread that made it. The only place that knows
 /// OSMesa, so that EGL can take its place. Draw into framebuffer objects: it has no picture of its own.
 class GlContext {
  public:

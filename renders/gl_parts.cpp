@@ -8,34 +8,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <string_view>
-#include <unordered_map>
-
-#include "renders/solid_mesh.hpp"
 
 namespace drycut::renders {
 namespace {
-
-static_assert(sizeof(Vertex) == 11 * sizeof(float), "vertices are compared by their bytes");
-
-/// Triangles whose equal corners are one vertex.
-struct Surface {
-  std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;
-};
-
-void append(Surface& surface, const std::vector<Vertex>& corners, std::size_t first_vertex) {
-  std::unordered_map<std::string_view, std::uint32_t> known;
-  known.reserve(corners.size());
-  for (const Vertex& corner : corners) {
-    const std::string_view bytes(reinterpret_cast<const char*>(&corner), sizeof(Vertex));
-    const auto next = static_cast<std::uint32_t>(surface.vertices.size() - first_vertex);
-    const auto [found, fresh] = known.emplace(bytes, next);
-    if (fresh) surface.vertices.push_back(corner);
-    surface.indices.push_back(found->second);
-  }
-}
 
 template <typename Item>
 void upload(GLenum target, const std::vector<Item>& items) {
@@ -73,21 +48,11 @@ std::array<float, 9> turn_of(const Placement& placement, const std::array<Vec3, 
 
 }  // namespace
 
-GlParts::GlParts(const std::vector<SolidPart>& parts) {
-  Surface surface;
-  std::vector<Vertex> corners;
-  for (const SolidPart& part : parts) {
-    corners.clear();
-    append_solid(corners, part, {});
-    const std::size_t first_vertex = surface.vertices.size();
-    ranges_.push_back({static_cast<int>(surface.indices.size()), static_cast<int>(corners.size()),
-                       static_cast<int>(first_vertex)});
-    append(surface, corners, first_vertex);
-  }
+GlParts::GlParts(const Surfaces& surfaces) : ranges_(surfaces.parts) {
   glGenVertexArrays(1, &array_);
   glBindVertexArray(array_);
-  upload(GL_ARRAY_BUFFER, surface.vertices);
-  upload(GL_ELEMENT_ARRAY_BUFFER, surface.indices);
+  upload(GL_ARRAY_BUFFER, surfaces.vertices);
+  upload(GL_ELEMENT_ARRAY_BUFFER, surfaces.indices);
   const auto attribute = [](GLuint index, GLint size, std::size_t offset) {
     glEnableVertexAttribArray(index);
     glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(Vertex),
@@ -99,29 +64,31 @@ GlParts::GlParts(const std::vector<SolidPart>& parts) {
   attribute(3, 2, offsetof(Vertex, surface));
 }
 
-void GlParts::draw(unsigned int program, const std::vector<Placement>& placements, const Vec3& eye) const {
+void GlParts::draw(const GlProgram& program, const std::vector<std::size_t>& parts,
+                   const std::vector<Placement>& placements, const Vec3& eye) const {
   struct Visible {
     double distance;
     std::size_t part;
   };
   std::vector<Visible> order;
-  for (std::size_t i = 0; i < ranges_.size(); ++i)
-    if (placements[i].visible) order.push_back({length(placements[i].position - eye), i});
+  for (const std::size_t part : parts)
+    if (placements[part].visible) order.push_back({length(placements[part].position - eye), part});
   std::stable_sort(order.begin(), order.end(),
                    [](const Visible& a, const Visible& b) { return a.distance < b.distance; });
 
+  program.use();
   glBindVertexArray(array_);
-  const GLint model = glGetUniformLocation(program, "model");
-  const GLint turn = glGetUniformLocation(program, "turn");
+  const GLint model = program.place("model");
+  const GLint turn = program.place("turn");
   for (const Visible& visible : order) {
     const Placement& placement = placements[visible.part];
-    const Range& range = ranges_[visible.part];
+    const Surfaces::Range& range = ranges_[visible.part];
     const auto axes = axes_of(placement);
     glUniformMatrix4fv(model, 1, GL_FALSE, model_of(placement, axes).data());
     if (turn >= 0) glUniformMatrix3fv(turn, 1, GL_FALSE, turn_of(placement, axes).data());
-    const auto offset = static_cast<std::size_t>(range.first_index) * sizeof(std::uint32_t);
-    glDrawElementsBaseVertex(GL_TRIANGLES, range.indices, GL_UNSIGNED_INT,
-                             reinterpret_cast<const void*>(offset), range.first_vertex);
+    glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(range.indices), GL_UNSIGNED_INT,
+                             reinterpret_cast<const void*>(range.first_index * sizeof(std::uint32_t)),
+                             static_cast<GLint>(range.first_vertex));
   }
 }
 

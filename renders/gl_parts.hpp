@@ -1,8 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "renders/geometry.hpp"
+#include "renders/gl_program.hpp"
 #include "renders/scene3d.hpp"
+#include "renders/stage.hpp"
 
 namespace drycut::renders {
 
@@ -10,20 +11,15 @@ namespace drycut::renders {
 /// where they are. The context frees the buffers.
 class GlParts {
  public:
-  explicit GlParts(const std::vector<SolidPart>& parts);
+  explicit GlParts(const Surfaces& surfaces);
 
-  /// Draws the visible parts, those near the eye first, so that what they hide is not shaded. `program` is in
-  /// use; it gets `model` and, if it asks for it, `turn`.
-  void draw(unsigned int program, const std::vector<Placement>& placements, const Vec3& eye) const;
+  /// Draws those of `parts` that are visible, the ones near the eye first, so that what they hide is not
+  /// drawn twice. The program gets `model` and, if it asks for it, `turn`.
+  void draw(const GlProgram& program, const std::vector<std::size_t>& parts,
+            const std::vector<Placement>& placements, const Vec3& eye) const;
 
  private:
-  /// Where a part's triangles are in the buffers.
-  struct Range {
-    int first_index = 0;
-    int indices = 0;
-    int first_vertex = 0;
-  };
-  std::vector<Range> ranges_;
+  std::vector<Surfaces::Range> ranges_;
   unsigned int array_ = 0;
 };
 

@@ -9,53 +9,139 @@ inline constexpr const char* kShown = R"(
 vec3 shown(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }
 )";
 
-/// How much of the key light reaches a point, 0..1. The taps are a loop of a length that depends on the pixel
-/// because the rasteriser skips a loop, but not an `if`, where no pixel needs it.
-inline constexpr const char* kShadow = R"(
-uniform sampler2DShadow shadow_map;
-uniform mat4 light_matrix;
-float lit(vec3 world, float bias, bool wanted) {
-  vec4 p = light_matrix * vec4(world, 1.0);
-  vec3 at = p.xyz * 0.5 + 0.5;
-  float edge = max(abs(p.x), abs(p.y));
-  int taps = wanted && edge < 1.0 ? 2 : 0;
-  float texel = 1.0 / float(textureSize(shadow_map, 0).x);
-  float sum = 0.0;
-  for (int i = 0; i < taps; ++i) {
-    vec2 offset = i == 0 ? vec2(-0.75, 0.25) * texel : vec2(0.75, -0.25) * texel;
-    sum += texture(shadow_map, vec3(at.xy + offset, at.z - bias));
-  }
-  return taps == 0 ? 1.0 : mix(sum / 2.0, 1.0, smoothstep(0.85, 1.0, edge));
-}
-)";
-
-inline constexpr const char* kSolidVertex = R"(
+/// What a part's surface is like, for every pixel that sees it; light comes later, once a pixel.
+inline constexpr const char* kSurfaceVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 colour;
 layout(location = 3) in vec2 surface;
-uniform mat4 matrix;
-uniform mat4 model;
+uniform mat4 matrix, model;
 uniform mat3 turn;
-out vec3 world;
-out vec3 facing;
-out vec3 paint;
-out vec2 gloss;
+uniform vec3 eye, forward;
+out vec4 paint;
+out vec4 facing;
 void main() {
-  world = (model * vec4(position, 1.0)).xyz;
-  facing = turn * normal;
-  paint = colour;
-  gloss = surface;
-  gl_Position = matrix * vec4(world, 1.0);
+  vec4 world = model * vec4(position, 1.0);
+  paint = vec4(colour, surface.x);
+  facing = vec4(surface.y * normalize(turn * normal), dot(world.xyz - eye, forward));
+  gl_Position = matrix * world;
+}
+)";
+inline constexpr const char* kSurfaceFragment = R"(
+in vec4 paint;
+in vec4 facing;
+layout(location = 0) out vec4 paint_reflection;  // colour, share mirrored
+layout(location = 1) out vec4 normal_distance;   // normal as long as its gloss; metres ahead of the eye
+void main() {
+  paint_reflection = paint;
+  normal_distance = facing;
 }
 )";
 
-inline constexpr const char* kSolidFragment = R"(
-in vec3 world;
-in vec3 facing;
-in vec3 paint;
-in vec2 gloss;
-uniform vec3 eye;
+/// Depth only, for the map of what the key light reaches.
+inline constexpr const char* kDepthVertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 matrix, model;
+void main() { gl_Position = matrix * (model * vec4(position, 1.0)); }
+)";
+inline constexpr const char* kDepthFragment = "void main() {}\n";
+
+/// Height above the floor, and its square, as the sky sees it.
+inline constexpr const char* kHeightVertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 matrix, model;
+uniform float floor_level;
+out float height;
+void main() {
+  vec4 world = model * vec4(position, 1.0);
+  height = world.y - floor_level;
+  gl_Position = matrix * world;
+}
+)";
+inline constexpr const char* kHeightFragment = R"(
+in float height;
+out vec2 moments;
+void main() { moments = vec2(height, height * height); }
+)";
+
+/// A triangle that covers the picture.
+inline constexpr const char* kWholeVertex = R"(
+void main() {
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
+}
+)";
+
+/// Means of the heights over four by four texels around: every look reads the mean of four.
+inline constexpr const char* kMeansFragment = R"(
+uniform sampler2D heights;
+uniform float shrink;
+out vec2 moments;
+void main() {
+  vec2 texel = 1.0 / vec2(textureSize(heights, 0));
+  vec2 at = gl_FragCoord.xy * shrink * texel;
+  vec2 sum = vec2(0.0);
+  for (int i = 0; i < 4; ++i)
+    sum += textureLod(heights, at + texel * vec2(i % 2 == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0), 0.0).rg;
+  moments = 0.25 * sum;
+}
+)";
+
+/// How much of the key light and of the sky's light reach a point, 0..1. The look at the map is a loop of a
+/// length that depends on the pixel because the rasteriser skips a loop, but not an `if`, where no pixel
+/// needs it.
+inline constexpr const char* kLamps = R"(
+uniform sampler2DShadow key_map;
+uniform mat4 key_matrix;
+float lit(vec3 world, float bias, bool wanted) {
+  vec4 p = key_matrix * vec4(world, 1.0);
+  vec3 at = p.xyz * 0.5 + 0.5;
+  float edge = max(abs(p.x), abs(p.y));
+  int looks = wanted && edge < 1.0 ? 2 : 0;
+  vec2 aside = vec2(0.75, -0.25) / vec2(textureSize(key_map, 0));
+  float sum = 0.0;
+  for (int i = 0; i < looks; ++i)
+    sum += 0.5 * texture(key_map, vec3(at.xy + (i == 0 ? -aside : aside), at.z - bias));
+  return looks == 0 ? 1.0 : mix(sum, 1.0, smoothstep(0.85, 1.0, edge));
+}
+
+uniform sampler2D sky_map;
+uniform float sky_reach;  // of the map from the centre
+uniform float sky_blur;   // from mean to mean
+// The share of what is around that stands higher, as mean and variance tell (Cantelli's inequality), weighed
+// by how near above it is. A wall asks in front of itself.
+float open_sky(vec3 world, vec3 n) {
+  vec2 at = (world.xz + sky_blur * n.xz - centre.xz) / sky_reach;
+  vec2 mean = textureLod(sky_map, vec2(at.x, -at.y) * 0.5 + 0.5, 0.0).rg;
+  float above = max(mean.x - (world.y - centre.y), 0.0);
+  float spread = max(mean.y - mean.x * mean.x, 0.0) + 1e-4 * sky_blur * sky_blur;
+  float covered = above * above / (spread + above * above);
+  float how_high = (spread + above * above) / max(above, 1e-6);
+  return 1.0 - 0.9 * covered * mix(0.65, 1.0, sky_blur / (sky_blur + how_high));
+}
+)";
+
+/// A patch, from the square of -1 to 1 to clip coordinates.
+inline constexpr const char* kPatchVertex = R"(
+uniform mat4 patch_matrix;
+void main() {
+  vec2 corner = vec2(gl_VertexID % 2, gl_VertexID / 2) * 2.0 - 1.0;
+  gl_Position = patch_matrix * vec4(corner, 0.0, 1.0);
+}
+)";
+
+/// From the eye through the pixel, as long as one metre ahead is away.
+inline constexpr const char* kRay = R"(
+uniform vec3 centre;  // of the mechanism, on the floor
+uniform vec3 eye, forward, right, up;
+uniform vec2 pixel_size;
+vec3 ray() {
+  vec2 at = gl_FragCoord.xy * pixel_size - 1.0;
+  return forward + at.x * right + at.y * up;
+}
+)";
+
+inline constexpr const char* kPartsFragment = R"(
+uniform sampler2D paints, normals;
 uniform vec3 to_light;
 out vec4 pixel;
 // The hall as a shiny surface mirrors it: floor, wall, ceiling with a row of lamps.
@@ -67,48 +153,42 @@ vec3 surroundings(vec3 d) {
   return tone + 0.9 * lamps;
 }
 void main() {
-  vec3 n = normalize(facing);
-  vec3 v = normalize(eye - world);
-  vec3 base = paint * paint;
+  ivec2 place = ivec2(gl_FragCoord.xy);
+  vec4 paint = texelFetch(paints, place, 0);
+  vec4 facing = texelFetch(normals, place, 0);
+  vec3 ahead = facing.a * ray();
+  vec3 world = eye + ahead;
+  float gloss = length(facing.xyz);
+  vec3 n = facing.xyz / gloss;
+  vec3 v = -normalize(ahead);
+  vec3 base = paint.rgb * paint.rgb;
+  float reflection = paint.a;
+  float sky = open_sky(world, n);
   float key = max(dot(n, to_light), 0.0);
-  key *= lit(world, 0.0006 + 0.0022 * (1.0 - key), key > 0.0);
+  key *= lit(world, 0.0006 + 0.0022 * (1.0 - key), key > 0.0) * (0.6 + 0.4 * sky);
   float fill = max(dot(n, normalize(vec3(0.75, 0.25, 0.6))), 0.0);
   vec3 ambient = mix(vec3(0.17, 0.165, 0.16), vec3(0.42, 0.45, 0.49), n.y * 0.5 + 0.5);
-  vec3 diffuse = base * (ambient + vec3(0.92, 0.89, 0.84) * key + vec3(0.15, 0.17, 0.20) * fill);
+  vec3 diffuse = base * (sky * (ambient + vec3(0.15, 0.17, 0.20) * fill) + vec3(0.92, 0.89, 0.84) * key);
   float grazing = 1.0 - max(dot(n, v), 0.0);
-  float fresnel = gloss.x + (1.0 - gloss.x) * 0.35 * grazing * grazing * grazing * grazing;
-  vec3 mirrored = surroundings(reflect(-v, n)) * mix(vec3(1.0), base * 1.5, 0.6);
-  float highlight = key > 0.0 ? pow(max(dot(n, normalize(v + to_light)), 0.0), gloss.y) : 0.0;
-  vec3 seen = mix(diffuse, mirrored, fresnel) + vec3(1.0, 0.97, 0.92) * highlight * key * (0.04 + gloss.x);
+  float fresnel = reflection + (1.0 - reflection) * 0.35 * grazing * grazing * grazing * grazing;
+  vec3 mirrored = sky * surroundings(reflect(-v, n)) * mix(vec3(1.0), base * 1.5, 0.6);
+  float highlight = key > 0.0 ? pow(max(dot(n, normalize(v + to_light)), 0.0), gloss) : 0.0;
+  vec3 seen = mix(diffuse, mirrored, fresnel) + vec3(1.0, 0.97, 0.92) * highlight * key * (0.04 + reflection);
   pixel = vec4(shown(seen), 1.0);
-}
-)";
-
-/// A triangle that covers the picture, behind everything; `ray` goes from the eye through the pixel.
-inline constexpr const char* kBackdropVertex = R"(
-uniform vec3 forward, right, up;
-out vec3 ray;
-void main() {
-  vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  ray = forward + corner.x * right + corner.y * up;
-  gl_Position = vec4(corner, 1.0, 1.0);
 }
 )";
 
 /// Where the ray meets the floor, and how far from the middle in shares of the floor's reach.
 inline constexpr const char* kFloorPoint = R"(
-in vec3 ray;
-uniform vec3 eye, centre;
 uniform float reach;
-out vec4 pixel;
-vec3 floor_point() { return eye + ray * ((centre.y - eye.y) / (abs(ray.y) > 1e-6 ? ray.y : -1e-6)); }
-float away(vec3 at) { return (centre.y - eye.y) * ray.y > 0.0 ? length(at - centre) / reach : 1.0; }
+vec3 floor_point(vec3 ray) { return eye + ray * ((centre.y - eye.y) / (abs(ray.y) > 1e-6 ? ray.y : -1e-6)); }
+float away(vec3 at, vec3 ray) { return (centre.y - eye.y) * ray.y > 0.0 ? length(at - centre) / reach : 1.0; }
 )";
 
-/// Floor with its lines, fading into the background: the same for the whole film, drawn once.
-inline constexpr const char* kBackdropFragment = R"(
+/// Floor with its lines, fading into the background, without shadows: the same until the camera moves.
+inline constexpr const char* kHallFragment = R"(
 uniform float spacing;
-uniform float picture_height;
+out vec4 pixel;
 float lines(vec2 at, float width) {
   vec2 size = max(fwidth(at), vec2(1e-6));
   vec2 distance = abs(fract(at - 0.5) - 0.5);
@@ -120,32 +200,27 @@ vec3 background(float v) {
   return v < 0.55 ? mix(low, horizon, smoothstep(0.0, 0.55, v)) : mix(horizon, high, smoothstep(0.55, 1.15, v));
 }
 void main() {
-  vec3 at = floor_point();
+  vec3 through = ray();
+  vec3 at = floor_point(through);
   vec2 square = at.xz / spacing;
   vec3 tone = vec3(0.56, 0.585, 0.61) * (1.0 - 0.16 * lines(square, 1.2) - 0.14 * lines(square / 5.0, 1.8));
-  vec3 behind = background(gl_FragCoord.y / picture_height);
-  pixel = vec4(shown(mix(tone, behind, smoothstep(0.25, 1.0, away(at)))), 1.0);
+  vec3 behind = background(0.5 * gl_FragCoord.y * pixel_size.y);
+  pixel = vec4(shown(mix(tone, behind, smoothstep(0.25, 1.0, away(at, through)))), 1.0);
 }
 )";
 
-/// The backdrop with the shadows of this frame.
-inline constexpr const char* kShadowedFragment = R"(
-uniform sampler2D backdrop;
+inline constexpr const char* kFloorFragment = R"(
+uniform sampler2D hall;
+out vec4 pixel;
 void main() {
-  vec3 at = floor_point();
-  float far = away(at);
-  float light = sqrt(mix(0.52, 1.0, lit(at, 0.0008, far < 1.0)));
-  pixel = texelFetch(backdrop, ivec2(gl_FragCoord.xy), 0) * mix(light, 1.0, smoothstep(0.25, 1.0, far));
+  vec3 through = ray();
+  vec3 at = floor_point(through);
+  float far = away(at, through);
+  bool near = far < 1.0;
+  float sky = open_sky(at, vec3(0.0, 1.0, 0.0));
+  float light = 0.52 * sky + 0.48 * (0.6 + 0.4 * sky) * lit(at, 0.0008, near);
+  pixel = texelFetch(hall, ivec2(gl_FragCoord.xy), 0) * mix(sqrt(light), 1.0, smoothstep(0.25, 1.0, far));
 }
 )";
-
-/// Depth only, for the shadow map.
-inline constexpr const char* kDepthVertex = R"(
-layout(location = 0) in vec3 position;
-uniform mat4 matrix;
-uniform mat4 model;
-void main() { gl_Position = matrix * (model * vec4(position, 1.0)); }
-)";
-inline constexpr const char* kDepthFragment = "void main() {}\n";
 
 }  // namespace drycut::renders::shaders

@@ -136,9 +136,7 @@ class Builder {
     const Look look = {part.shape, part.size, part.colour, part.material, part.mesh.get()};
     const auto [found, fresh] = mesh_numbers_.emplace(look, meshes_.size());
     if (fresh) {
-      std::vector<Vertex> corners;
-      append_solid(corners, part, {});
-      meshes_.push_back(mesh_of(part, corners, material(part.material)));
+      meshes_.push_back(mesh_of(part, solid_surface(part), material(part.material)));
     }
     return static_cast<unsigned>(found->second);
   }

@@ -39,12 +39,11 @@ Track track_of(const Film& film, std::size_t part, int slow) {
   };
   double last_s = 0;
   Placement last;
-  bool seen = false;
   for (std::size_t i = 0; i < film.frames.size(); ++i) {
     const double time_s = (film.frames[i].time_s - film.frames.front().time_s) * slow;
     Placement now = film.frames[i].placements[part];
     if (!now.visible) {
-      now = seen ? last : Placement{};
+      now = last;
       now.visible = false;
       now.scale = nothing;
     }
@@ -56,7 +55,6 @@ Track track_of(const Film& film, std::size_t part, int slow) {
       add(time_s - blink * (time_s - last_s), until);
     }
     add(time_s, now);
-    seen = seen || now.visible;
     last = now;
     last_s = time_s;
   }

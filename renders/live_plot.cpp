@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "renders/cairo_image.hpp"
 #include "renders/text.hpp"
 
 namespace drycut::renders {
@@ -19,6 +20,7 @@ struct Box {
 
 /// Lowest and highest value, a little apart even if they are equal.
 std::array<double, 2> range_of(const LiveCurve& curve) {
+  if (curve.values.empty()) return {0, 1};
   const auto [low, high] = std::minmax_element(curve.values.begin(), curve.values.end());
   const double least = std::max(1e-9, 1e-6 * std::max(std::abs(*low), std::abs(*high)));
   const double middle = (*low + *high) / 2;
@@ -26,8 +28,9 @@ std::array<double, 2> range_of(const LiveCurve& curve) {
   return {middle - half, middle + half};
 }
 
-void draw_curve(cairo_t* pen, const LiveCurve& curve, const Box& box, double from, double until) {
-  const auto [low, high] = range_of(curve);
+void draw_curve(cairo_t* pen, const LiveCurve& curve, const std::array<double, 2>& range, const Box& box,
+                double from, double until) {
+  const auto [low, high] = range;
   const auto first = std::lower_bound(curve.times_s.begin(), curve.times_s.end(), from);
   const auto last = std::upper_bound(first, curve.times_s.end(), until);
   cairo_new_path(pen);  // words leave the pen where they end
@@ -47,16 +50,22 @@ double value_at(const LiveCurve& curve, double time) {
 
 }  // namespace
 
-void draw_live_plot(cairo_t* pen, const Film& film, double now, int width, int height) {
-  const double scale = std::clamp(film.height / 540.0, 0.5, 4.0);
+LivePlot::LivePlot(const Film& film) : film_(film) {
+  for (const LiveCurve& curve : film.live) ranges_.push_back(range_of(curve));
+}
+
+void LivePlot::draw(cairo_t* pen, double now, int height) const {
+  if (film_.live.empty()) return;
+  const int width = film_.width;
+  const double scale = picture_scale(film_.height);
   const double margin = 10 * scale;
   const double size = 11 * scale;
   const Box frame = {0.70 * width - margin, 0.72 * height - margin, 0.30 * width, 0.28 * height};
-  cairo_set_source_rgba(pen, 0.105, 0.125, 0.150, 0.82);
+  set_ink(pen, kGround, 0.82);
   cairo_rectangle(pen, frame.left, frame.top, frame.width, frame.height);
   cairo_fill(pen);
 
-  const std::size_t count = std::min(film.live.size(), kInks.size());
+  const std::size_t count = std::min(film_.live.size(), kInks.size());
   const double words = 1.5 * size * static_cast<double>(count) + 0.4 * size;
   const Box box = {frame.left + margin, frame.top + words + 0.5 * margin, frame.width - 2 * margin,
                    frame.height - words - 1.5 * margin};
@@ -71,18 +80,18 @@ void draw_live_plot(cairo_t* pen, const Film& film, double now, int width, int h
   cairo_set_font_size(pen, size);
   cairo_set_line_width(pen, 1.6 * scale);
   for (std::size_t i = 0; i < count; ++i) {
-    const LiveCurve& curve = film.live[i];
+    const LiveCurve& curve = film_.live[i];
     if (curve.values.empty()) continue;
     cairo_set_source_rgb(pen, kInks[i][0], kInks[i][1], kInks[i][2]);
-    draw_curve(pen, curve, box, now - film.live_window_s, now);
+    draw_curve(pen, curve, ranges_[i], box, now - film_.live_window_s, now);
     const double baseline = frame.top + 1.5 * size * (static_cast<double>(i) + 0.9);
     const std::string value =
         fmt::format("{:.4g}{}{}", value_at(curve, now), curve.unit.empty() ? "" : " ", curve.unit);
-    const double value_width = text_width(value, size);
+    const double value_width = text_width(pen, value);
     cairo_move_to(pen, box.left + box.width - value_width, baseline);
     cairo_show_text(pen, value.c_str());
     cairo_move_to(pen, box.left, baseline);
-    cairo_show_text(pen, fitted_text(one_line(curve.label), size, box.width - value_width - size).c_str());
+    cairo_show_text(pen, fitted_text(pen, one_line(curve.label), box.width - value_width - size).c_str());
   }
 }
 

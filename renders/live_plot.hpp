@@ -1,12 +1,26 @@
 #pragma once
 #include <cairo.h>
 
+#include <array>
+#include <vector>
+
 #include "renders/scene3d.hpp"
 
 namespace drycut::renders {
 
-/// Draws the film's live curves up to `now` [s] into the lower right corner of a picture of that size. Each
-/// curve has a scale of its own, the same over the whole film, and says its present value.
-void draw_live_plot(cairo_t* pen, const Film& film, double now, int width, int height);
+/// The film's live curves in the lower right corner of the picture of the machine. Each curve has a scale of
+/// its own, the same over the whole film, and says its present value.
+class LivePlot {
+ public:
+  /// `film` must outlive it.
+  explicit LivePlot(const Film& film);
+
+  /// Draws the curves up to `now` [s] into a picture as wide as the film and `height` pixels high.
+  void draw(cairo_t* pen, double now, int height) const;
+
+ private:
+  const Film& film_;
+  std::vector<std::array<double, 2>> ranges_;  ///< lowest and highest value of each curve
+};
 
 }  // namespace drycut::renders

@@ -6,14 +6,8 @@
 namespace drycut::renders {
 
 Extent extent_of(const Mesh& mesh) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Extent extent = {{far, far, far}, {-far, -far, -far}};
-  for (const auto& point : mesh.hull) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      extent.low[i] = std::min(extent.low[i], point[i]);
-      extent.high[i] = std::max(extent.high[i], point[i]);
-    }
-  }
+  Extent extent = kNothing;
+  for (const Vec3& point : mesh.hull) include(extent, point);
   return extent;
 }
 

@@ -15,9 +15,4 @@ void find_hull(Mesh& mesh);
 /// length stays so.
 Mesh stretched(const Mesh& mesh, const Vec3& size);
 
-inline std::array<float, 3> as_floats(const Vec3& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-inline Vec3 as_doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace drycut::renders

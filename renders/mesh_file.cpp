@@ -88,17 +88,22 @@ std::optional<MeshProblem> refused_scene(const aiScene& scene) {
   return std::nullopt;
 }
 
+/// Where the axes come to lie when they are turned about x, y and z in this order.
+std::array<Vec3, 3> turned_axes(const std::array<double, 3>& angles) {
+  std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  for (std::size_t about = 0; about < 3; ++about) {
+    Quaternion q = {0, 0, 0, std::cos(angles[about] / 2)};
+    q[about] = std::sin(angles[about] / 2);
+    for (Vec3& axis : axes) axis = rotated(q, axis);
+  }
+  return axes;
+}
+
 /// The triangles of a scene in metres, scaled, turned and moved.
 Mesh placed(const aiScene& scene, double unit, const MeshPlacing& placing) {
   const double scale = unit * placing.scale;
-  const auto turn = [&](Vec3 v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      Quaternion q = {0, 0, 0, std::cos(placing.rotate[axis] / 2)};
-      q[axis] = std::sin(placing.rotate[axis] / 2);
-      v = rotated(q, v);
-    }
-    return v;
-  };
+  const std::array<Vec3, 3> axes = turned_axes(placing.rotate);
+  const auto turn = [&](const Vec3& v) { return v[0] * axes[0] + v[1] * axes[1] + v[2] * axes[2]; };
   Mesh all;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];

@@ -8,8 +8,6 @@
 #include "renders/cairo_image.hpp"
 #include "renders/camera.hpp"
 #include "renders/geometry.hpp"
-#include "renders/live_plot.hpp"
-#include "renders/text.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -36,16 +34,16 @@ struct Sheet {
 /// Words on a dark plate, their middle at `at`, moved into the picture if they stick out.
 void plate(const Sheet& sheet, Point at, const std::string& words) {
   const double size = 12 * sheet.scale;
-  const double half = text_width(words, size) / 2 + 0.4 * size;
+  cairo_set_font_size(sheet.pen, size);
+  const double half = text_width(sheet.pen, words) / 2 + 0.4 * size;
   const double high = 0.75 * size;
   if (at[0] < -half || at[0] > sheet.width + half || at[1] < -high || at[1] > sheet.height + high) return;
   at[0] = std::clamp(at[0], half, std::max(half, sheet.width - half));
   at[1] = std::clamp(at[1], high, std::max(high, sheet.height - high));
-  cairo_set_source_rgba(sheet.pen, 0.105, 0.125, 0.150, 0.85);
+  set_ink(sheet.pen, kGround, 0.85);
   cairo_rectangle(sheet.pen, at[0] - half, at[1] - high, 2 * half, 2 * high);
   cairo_fill(sheet.pen);
   cairo_set_source_rgb(sheet.pen, 1, 1, 1);
-  cairo_set_font_size(sheet.pen, size);
   cairo_move_to(sheet.pen, at[0] - half + 0.4 * size, at[1] + 0.36 * size);
   cairo_show_text(sheet.pen, words.c_str());
 }
@@ -99,13 +97,6 @@ void draw_force(const Sheet& sheet, const Callout& callout, double largest) {
         fmt::format("{} {:.0f} N", callout.text, force));
 }
 
-Vec3 tip_of(const SolidPart& part, const Placement& placement) {
-  const Vec3& tip = *part.tip;
-  return placement.position +
-         rotated(placement.rotation,
-                 {tip[0] * placement.scale[0], tip[1] * placement.scale[1], tip[2] * placement.scale[2]});
-}
-
 /// A smooth curve (Catmull-Rom) from `b` to `c` that comes from `a` and goes on to `d`: frames show a drum
 /// only every few dozen degrees.
 Vec3 between(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double t) {
@@ -121,7 +112,7 @@ void draw_trail(const Sheet& sheet, const Film& film, std::size_t part, std::siz
   cairo_set_line_cap(sheet.pen, CAIRO_LINE_CAP_ROUND);
   for (std::size_t f = first; f < frame; ++f) {
     const auto tip = [&](std::size_t at) {
-      return tip_of(film.parts[part], film.frames[at].placements[part]);
+      return placed(film.frames[at].placements[part], *film.parts[part].tip);
     };
     if (!film.frames[f].placements[part].visible || !film.frames[f + 1].placements[part].visible) continue;
     const Vec3 from = tip(f);
@@ -144,7 +135,10 @@ void draw_trail(const Sheet& sheet, const Film& film, std::size_t part, std::siz
 }  // namespace
 
 Overlays::Overlays(const Film& film, int caption_height)
-    : film_(film), height_(film.height - caption_height), empty_(!film.trails && film.live.empty()) {
+    : film_(film),
+      live_(film),
+      height_(film.height - caption_height),
+      empty_(!film.trails && film.live.empty()) {
   for (const Frame& frame : film.frames) {
     empty_ = empty_ && frame.callouts.empty();
     for (const Callout& callout : frame.callouts)
@@ -157,14 +151,14 @@ void Overlays::draw(std::size_t frame, Image& image) const {
   const CairoSurface surface = cairo_surface_of(image, height_);
   const Cairo pen = cairo_pen(surface.get());
   const Camera camera = camera_of(film_, frame);
-  const Sheet sheet = {pen.get(), camera, film_.width, height_, std::clamp(film_.height / 540.0, 0.5, 4.0)};
+  const Sheet sheet = {pen.get(), camera, film_.width, height_, picture_scale(film_.height)};
   for (std::size_t part = 0; film_.trails && part < film_.parts.size(); ++part)
     if (film_.parts[part].tip) draw_trail(sheet, film_, part, frame);
   for (const Callout& callout : film_.frames[frame].callouts)
     if (callout.kind == Callout::Kind::length) draw_length(sheet, callout);
   for (const Callout& callout : film_.frames[frame].callouts)
     if (callout.kind == Callout::Kind::force) draw_force(sheet, callout, largest_);
-  if (!film_.live.empty()) draw_live_plot(pen.get(), film_, film_.frames[frame].time_s, film_.width, height_);
+  live_.draw(pen.get(), film_.frames[frame].time_s, height_);
   copy_rows(surface.get(), height_, image, 0);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "renders/live_plot.hpp"
 #include "renders/png_image.hpp"
 #include "renders/scene3d.hpp"
 
@@ -16,6 +17,7 @@ class Overlays {
 
  private:
   const Film& film_;
+  LivePlot live_;
   int height_;          ///< of the picture of the machine [pixels]
   double largest_ = 0;  ///< of all forces of the film [N]
   bool empty_ = true;

@@ -40,11 +40,10 @@ std::filesystem::path frame_file(const std::filesystem::path& directory, std::si
 }
 
 /// Draws the frames whose number is taken from `next`, until none is left, in a context of its own.
-void draw_frames(const Film& film, const CaptionLayout& caption, const std::filesystem::path& directory,
-                 std::atomic<std::size_t>& next, const std::function<void()>& drawn) {
-  GlRenderer renderer({mechanism_extent(film), floor_level(film), film.width, film.height - caption.height()},
-                      film.parts);
-  const Overlays overlays(film, caption.height());
+void draw_frames(const Film& film, const Stage& stage, const Overlays& overlays, const CaptionLayout& caption,
+                 const std::filesystem::path& directory, std::atomic<std::size_t>& next,
+                 const std::function<void()>& drawn) {
+  GlRenderer renderer(stage);
   Image image(film.width, film.height);
   for (auto number = next++; number < film.frames.size(); number = next++) {
     const Frame& frame = film.frames[number];
@@ -102,6 +101,8 @@ std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesy
       film.height - caption.height() >= kSmallest / 4,
       fmt::format("size {}x{} leaves no room above the caption; make it higher", film.width, film.height));
   std::filesystem::create_directories(directory);
+  const Stage stage = stage_of(film, film.height - caption.height());
+  const Overlays overlays(film, caption.height());
 
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
@@ -114,7 +115,7 @@ std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesy
   };
   const auto work = [&] {
     try {
-      draw_frames(film, caption, directory, next, drawn);
+      draw_frames(film, stage, overlays, caption, directory, next, drawn);
     } catch (...) {
       const std::lock_guard lock(mutex);
       trouble = std::current_exception();

@@ -197,7 +197,7 @@ void spread(std::vector<MarkLayout>& marks, double left, double right) {
 
 /// Places the marks and returns the height of their strip of labels.
 double lay_marks(const Plot& plot, PlotLayout& layout) {
-  constexpr double widest_label = 120;
+  constexpr double widest_label = 150;
   const auto [low, high] = layout.x_range;
   for (const Mark& mark : plot.marks) {
     if (!(mark.x >= low && mark.x <= high)) continue;
@@ -251,6 +251,12 @@ PlotLayout laid_out(const Plot& plot) {
   layout.x_ticks = plot.log_x ? decade_ticks(layout.x_range.first, layout.x_range.second)
                               : axis_ticks(layout.x_range.first, layout.x_range.second, x_ticks);
 
+  if (plot.second_x) {
+    const double factor = plot.second_x->factor;
+    layout.second_ticks = axis_ticks(layout.x_range.first * factor, layout.x_range.second * factor, x_ticks);
+    for (Tick& tick : layout.second_ticks) tick.value /= factor;
+  }
+
   const double strip = lay_marks(plot, layout);
   double y = plot.title.empty() ? 10 : kTitleHeight;
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
@@ -263,7 +269,8 @@ PlotLayout laid_out(const Plot& plot) {
     if (i == 0) layout.marks_bottom = here.top - 3;
     y = here.bottom + kPanelGap;
   }
-  layout.height = static_cast<int>(std::ceil(y - kPanelGap + kXAxisHeight));
+  const double second = plot.second_x ? kSecondScale : 0;
+  layout.height = static_cast<int>(std::ceil(y - kPanelGap + kXAxisHeight + second));
   return layout;
 }
 

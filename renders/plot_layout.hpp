@@ -50,12 +50,18 @@ struct PlotLayout {
   double left = 0, right = 0;  ///< of all axes
   Range x_range = {0, 1};
   std::vector<Tick> x_ticks;
+  std::vector<Tick> second_ticks;  ///< of the second scale; values in x
   std::vector<PanelLayout> panels;
   std::vector<MarkLayout> marks;  ///< those inside x_range
   bool marks_across = false;
   double marks_bottom = 0;  ///< of the strip of labels
 };
 
+/// Below the last panel: how much the second scale adds, and from the picture's bottom to its ticks and
+/// numbers [pixels].
+inline constexpr double kSecondScale = 46;
+inline constexpr double kSecondTicks = 52;
+inline constexpr double kSecondNumbers = 40;
 /// Length of a legend's sample and its distance from the label [pixels].
 inline constexpr double kLegendSample = 34;
 inline constexpr double kLegendGap = 7;

@@ -27,8 +27,13 @@ constexpr const char* kMarkTextColour = "#52606d";
 constexpr const char* kStrongColour = "#b3261e";
 constexpr const char* kPointColour = "#1f2933";
 constexpr double kBandOpacity = 0.22;
+constexpr const char* kZoneColour = "#f0f3f6";
+constexpr const char* kStrongZoneColour = "#d3efe2";
+constexpr const char* kFaintColour = "#b9c2cc";
 
-std::string curve_colour(std::size_t index) { return kCurveColours[index % kCurveColours.size()]; }
+std::string curve_colour(const Curve& curve, std::size_t index) {
+  return curve.faint ? kFaintColour : kCurveColours[index % kCurveColours.size()];
+}
 std::size_t dash_type(std::size_t index) { return 1 + (index / kCurveColours.size()) % 5; }
 bool is_limit(const Band& band) { return band.low == band.high; }
 
@@ -67,14 +72,15 @@ std::vector<std::string> write_data(Script& script, const Plot& plot, const Plot
       const std::string name = fmt::format("{}_{}_{}", kind, p, curve);
       write_points(script, name, points);
       lists[p] += fmt::format("{}${} using 1:2 {} lc rgb '{}'", lists[p].empty() ? "" : ", ", name, look,
-                              curve_colour(curve));
+                              curve_colour(plot.panels[p].curves[curve], curve));
     };
     for (std::size_t c = 0; c < plot.panels[p].curves.size(); ++c) {
       const Curve& curve = plot.panels[p].curves[c];
       const bool path = plot.panels[p].equal_scale && curve.style != Curve::Style::points;
       const Points points = path ? thinned_path(curve, grid) : decimated(curve, grid);
       if (curve.style == Curve::Style::points) {
-        plot_block("points", c, points, "with points pointtype 7 pointsize 0.7");
+        plot_block("points", c, points,
+                   fmt::format("with points pointtype 7 pointsize {}", curve.faint ? 0.35 : 0.7));
         continue;
       }
       if (curve.style == Curve::Style::area)
@@ -117,6 +123,39 @@ void write_bands(Script& script, const Panel& panel, const PanelLayout& place) {
   }
 }
 
+void write_zones(Script& script, const Plot& plot, const PlotLayout& layout) {
+  const auto [low, high] = layout.x_range;
+  bool shaded = false;
+  for (const Zone& zone : plot.zones) {
+    shaded = !shaded;
+    const double left = std::max(zone.from, low);
+    const double right = std::min(zone.to, high);
+    if (!(left < right) || !(shaded || zone.strong)) continue;
+    script.line(
+        "set object rectangle from first {}, graph 0 to first {}, graph 1 behind fillcolor rgb '{}' "
+        "fillstyle "
+        "solid 1 noborder",
+        left, right, zone.strong ? kStrongZoneColour : kZoneColour);
+  }
+}
+
+/// The second scale below the first: ticks on a line of its own, with their numbers.
+void write_second_scale(Script& script, const Plot& plot, const PlotLayout& layout) {
+  if (!plot.second_x) return;
+  const double line = layout.height - kSecondTicks;
+  const auto [low, high] = layout.x_range;
+  script.line("set arrow from {} to {} nohead front lw 1 lc rgb '{}'", script.at(layout.left, line),
+              script.at(layout.right, line), kMarkColour);
+  for (const Tick& tick : layout.second_ticks) {
+    const double x = layout.left + (tick.value - low) / (high - low) * (layout.right - layout.left);
+    script.line("set arrow from {} to {} nohead front lw 1 lc rgb '{}'", script.at(x, line),
+                script.at(x, line - 5), kMarkColour);
+    script.text(x, layout.height - kSecondNumbers, tick.label, "center", PlotType::text);
+  }
+  script.text((layout.left + layout.right) / 2, layout.height - 18, plot.second_x->label, "center",
+              PlotType::text);
+}
+
 void write_legend(Script& script, const Panel& panel, const PanelLayout& place) {
   for (const LegendEntry& entry : place.legend) {
     const double right = entry.left + kLegendSample;
@@ -132,11 +171,12 @@ void write_legend(Script& script, const Panel& panel, const PanelLayout& place) 
                   script.at(entry.left, y), script.at(right, y), kLimitColour);
     } else if (panel.curves[entry.index].style == Curve::Style::points) {
       script.line("set label '' at {} point pointtype 7 pointsize 0.9 lc rgb '{}' front",
-                  script.at((entry.left + right) / 2, y), curve_colour(entry.index));
+                  script.at((entry.left + right) / 2, y),
+                  curve_colour(panel.curves[entry.index], entry.index));
     } else {
       script.line("set arrow from {} to {} nohead front lw 2.4 dashtype {} lc rgb '{}'",
                   script.at(entry.left, y), script.at(right, y), dash_type(entry.index),
-                  curve_colour(entry.index));
+                  curve_colour(panel.curves[entry.index], entry.index));
     }
     script.text(right + kLegendGap, y, entry.label, "left", PlotType::text);
   }
@@ -206,13 +246,17 @@ void write_panel(Script& script, const Plot& plot, const PlotLayout& layout, std
   script.text(18, middle, fitted_text(one_line(panel.y_label), PlotType::text, label_room),
               "center rotate by 90", PlotType::text);
   if (last) {
-    script.text((layout.left + layout.right) / 2, layout.height - 18, plot.x_label, "center", PlotType::text);
+    const double below = plot.second_x ? kSecondScale : 0;
+    script.text((layout.left + layout.right) / 2, layout.height - below - 18, plot.x_label, "center",
+                PlotType::text);
+    write_second_scale(script, plot, layout);
   }
   if (curves.empty()) {
     script.text((layout.left + layout.right) / 2, middle, "no data", "center", PlotType::text, false,
                 "#7b8794");
   }
   script.line("set grid {}ytics", panel.lanes.empty() ? "" : "no");
+  write_zones(script, plot, layout);
   write_bands(script, panel, place);
   write_marks(script, layout, place, index == 0);
   write_points_named(script, panel, layout, place);

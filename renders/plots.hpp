@@ -13,6 +13,7 @@ struct Curve {
   std::vector<double> x;
   std::vector<double> y;
   Style style = Style::line;
+  bool faint = false;  ///< pale: what lies behind the curves that matter
 };
 
 /// A horizontal limit or band drawn behind the curves.
@@ -27,6 +28,19 @@ struct Mark {
   double x = 0;
   std::string label;
   bool strong = false;  ///< drawn to catch the eye: a fault, a limit
+};
+
+/// A stretch of x, shaded behind all panels of a plot.
+struct Zone {
+  double from = 0;
+  double to = 0;
+  bool strong = false;  ///< in a colour of its own; of the others every second one is shaded
+};
+
+/// Another scale of the same x axis, drawn below the first: the time of a master that runs evenly.
+struct SecondScale {
+  std::string label;  ///< with unit: "time [s]"
+  double factor = 1;  ///< of a unit of x, above 0
 };
 
 /// A state over time as a timing diagram shows it: high and low if it is only ever 0 or 1, else a labelled
@@ -65,7 +79,9 @@ struct Plot {
   int width = 1200;              ///< pixels
   int panel_height = 300;        ///< pixels
   std::vector<Mark> marks = {};  ///< in ascending order of x
-  bool log_x = false;            ///< decades of x are as wide as each other; all x above 0
+  std::vector<Zone> zones = {};  ///< in ascending order of x
+  std::optional<SecondScale> second_x = {};
+  bool log_x = false;  ///< decades of x are as wide as each other; all x above 0
 };
 
 /// Draws the plots into `directory` as <name>.png and returns the paths. Throws std::runtime_error with the

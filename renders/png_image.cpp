@@ -24,7 +24,7 @@ bool encode(png_structp png, png_infop info, const Image& image, std::string& by
   png_set_write_fn(png, &bytes, append, flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_filter(png, 0, PNG_FILTER_SUB);
+  png_set_filter(png, 0, PNG_FILTER_NONE);
   png_set_compression_level(png, 1);
   png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);
   png_write_info(png, info);

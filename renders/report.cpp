@@ -77,7 +77,10 @@ void write_facts(std::string& page, const std::vector<ReportRow>& facts) {
   for (const ReportRow& fact : facts) {
     std::string value;
     for (std::size_t i = 1; i < fact.cells.size(); ++i) value += (i > 1 ? " " : "") + fact.cells[i];
-    page += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n",
+    // What is long gets room before it is broken.
+    const std::string room =
+        value.size() > 16 ? fmt::format(" style=\"flex-basis:min(100%,{}ch)\"", value.size() + 4) : "";
+    page += fmt::format("<div{}><dt>{}</dt><dd>{}</dd></div>\n", room,
                         html_text(fact.cells.empty() ? "" : fact.cells[0]), html_text(value));
   }
   page += "</dl>\n";
@@ -109,7 +112,7 @@ void write_video(std::string& page, const Report& report) {
     return;
   }
   page += fmt::format(
-      "<figure class=\"film\"><video controls loop muted playsinline preload=\"metadata\" "
+      "<figure class=\"film\"><video controls loop muted playsinline preload=\"auto\" "
       "src=\"data:video/mp4;base64,{}\"></video><figcaption>{}</figcaption></figure>\n",
       base64(bytes), html_text(report.video.filename().string()));
 }
@@ -126,15 +129,22 @@ void write_frames(std::string& page, const Report& report) {
   page += "</div>\n";
 }
 
+/// Figures whose data, if they have any, begin at `first` in the report's.
+void write_figures(std::string& page, const Report& report, const std::vector<ReportFigure>& plots,
+                   std::size_t first) {
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const std::size_t data = first + i;
+    const bool live = data < report.live.size() && can_be_live(report.live[data]);
+    page +=
+        fmt::format("<figure class=\"plot\"{}><div class=\"ground\">{}</div>{}</figure>\n",
+                    live ? fmt::format(" data-plot=\"{}\"", data) : "", picture(plots[i]), caption(plots[i]));
+  }
+}
+
 void write_plots(std::string& page, const Report& report) {
   if (report.plots.empty()) return;
   page += "<h2>Measured</h2>\n";
-  for (std::size_t i = 0; i < report.plots.size(); ++i) {
-    const ReportFigure& plot = report.plots[i];
-    const bool live = i < report.live.size() && can_be_live(report.live[i]);
-    page += fmt::format("<figure class=\"plot\"{}><div class=\"ground\">{}</div>{}</figure>\n",
-                        live ? fmt::format(" data-plot=\"{}\"", i) : "", picture(plot), caption(plot));
-  }
+  write_figures(page, report, report.plots, 0);
 }
 
 /// "PASS 0.05 mm left\n10 cuts": the badge, the rest, and the second line small.
@@ -150,22 +160,33 @@ std::string verdict_cell(const std::string& cell) {
   return html;
 }
 
+/// On a phone a row is a card, in which each cell but the first tells its column.
+std::string column_name(const ReportTable& table, std::size_t column) {
+  if (column == 0 || column >= table.headings.size()) return "";
+  return fmt::format(" data-of=\"{}\"", html_text(table.headings[column]));
+}
+
 void write_rows(std::string& page, const ReportTable& table) {
   const std::vector<bool> numbers = number_columns(table);
-  const auto kind = [&](std::size_t column) {
+  const auto kind = [&](std::size_t column) -> std::string {
     return column < numbers.size() && numbers[column] ? " class=\"number\"" : "";
   };
   // Verdicts are read whole, as checks are.
-  page += fmt::format("<div class=\"scroll{}\">\n<table>\n<thead><tr>", table.verdicts ? " checks" : "");
+  page += table.verdicts ? "<div class=\"scroll checks\">\n<table class=\"checks\">\n"
+                         : "<div class=\"scroll\">\n<table>\n";
+  std::string head;
   for (std::size_t i = 0; i < table.headings.size(); ++i) {
-    page += fmt::format("<th{}>{}</th>", kind(i), html_text(table.headings[i]));
+    head += fmt::format("<th{}>{}</th>", kind(i), html_text(table.headings[i]));
   }
-  page += "</tr></thead>\n<tbody>\n";
+  const bool named = std::any_of(table.headings.begin(), table.headings.end(),
+                                 [](const std::string& heading) { return !heading.empty(); });
+  if (named) page += fmt::format("<thead><tr>{}</tr></thead>\n", head);
+  page += "<tbody>\n";
   for (const ReportRow& row : table.rows) {
     page += "<tr>";
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
-      const std::string& cell = row.cells[i];
-      page += fmt::format("<td{}>{}</td>", kind(i), table.verdicts ? verdict_cell(cell) : html_text(cell));
+      page += fmt::format("<td{}>{}</td>", table.verdicts ? column_name(table, i) : kind(i),
+                          table.verdicts ? verdict_cell(row.cells[i]) : html_text(row.cells[i]));
     }
     page += "</tr>\n";
   }
@@ -181,6 +202,17 @@ void write_table(std::string& page, const ReportTable& table) {
   }
   write_rows(page, table);
   if (table.folded) page += "</details>\n";
+}
+
+void write_sections(std::string& page, const Report& report) {
+  std::size_t data = report.plots.size();
+  for (const ReportSection& section : report.sections) {
+    page += fmt::format("<h2>{}</h2>\n", html_text(section.title));
+    for (const std::string& note : section.notes) page += fmt::format("<p>{}</p>\n", html_text(note));
+    write_figures(page, report, section.plots, data);
+    data += section.plots.size();
+    for (const ReportTable& table : section.tables) write_table(page, table);
+  }
 }
 
 void write_scenario(std::string& page, const std::string& expanded) {
@@ -215,6 +247,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   for (const ReportTable& table : report.summary) write_table(page, table);
   write_frames(page, report);
   write_plots(page, report);
+  write_sections(page, report);
   // What is folded goes to the end: first what is read, then what is looked up.
   for (const bool folded : {false, true}) {
     const bool any = std::any_of(report.tables.begin(), report.tables.end(),

@@ -32,6 +32,14 @@ struct ReportFigure {
   std::string caption;
 };
 
+/// A part of the page about one thing: what to know, plots, tables; what is folded stays with it.
+struct ReportSection {
+  std::string title;
+  std::vector<std::string> notes;
+  std::vector<ReportFigure> plots;
+  std::vector<ReportTable> tables;
+};
+
 /// What a customer gets to read.
 struct Report {
   std::string title;
@@ -45,7 +53,9 @@ struct Report {
   std::vector<ReportFigure> frames;  ///< chosen frames, shown as a strip
   std::filesystem::path video;       ///< MP4 of all frames, "" = none
   std::vector<ReportFigure> plots;
-  std::vector<Plot> live;  ///< the plots as data, one a figure in `plots`, for a browser to zoom; or none
+  std::vector<ReportSection> sections = {};  ///< behind the plots
+  /// The plots as data, one a figure in `plots` and then in `sections`, for a browser to zoom; or none.
+  std::vector<Plot> live;
   std::vector<ReportTable> tables;  ///< pieces, events, parameters in force
   std::string scenario_expanded;    ///< the scenario with every default in force
 };

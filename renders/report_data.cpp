@@ -84,8 +84,9 @@ std::string panel_json(const Panel& panel, Columns& columns) {
     const char* const style = curve.style == Curve::Style::points  ? "points"
                               : curve.style == Curve::Style::steps ? "steps"
                                                                    : "line";
-    curves.push_back(fmt::format(R"({{"label":{},"style":"{}","x":{},"y":{}}})", json_text(curve.label),
-                                 style, columns.x(curve.x), columns.y(curve.y)));
+    curves.push_back(fmt::format(R"({{"label":{},"style":"{}","faint":{},"x":{},"y":{}}})",
+                                 json_text(curve.label), style, curve.faint, columns.x(curve.x),
+                                 columns.y(curve.y)));
   }
   for (const Band& band : panel.bands) {
     bands.push_back(
@@ -95,17 +96,25 @@ std::string panel_json(const Panel& panel, Columns& columns) {
     lanes.push_back(fmt::format(R"({{"label":{},"digital":{},"x":{},"y":{}}})", json_text(lane.label),
                                 is_digital(lane), columns.x(lane.x), columns.y(lane.y)));
   }
-  return fmt::format(R"({{"title":{},"yLabel":{},"curves":{},"bands":{},"lanes":{}}})",
-                     json_text(panel.title), json_text(panel.y_label), joined(curves), joined(bands),
+  const std::string range =
+      panel.y_range ? fmt::format("[{},{}]", panel.y_range->first, panel.y_range->second) : "[]";
+  return fmt::format(R"({{"title":{},"yLabel":{},"least":{},"curves":{},"bands":{},"lanes":{}}})",
+                     json_text(panel.title), json_text(panel.y_label), range, joined(curves), joined(bands),
                      joined(lanes));
 }
 
 std::string plot_json(const Plot& plot, Columns& columns) {
-  std::vector<std::string> marks, panels;
+  std::vector<std::string> marks, zones, panels;
   for (const Mark& mark : plot.marks) {
     marks.push_back(
         fmt::format(R"({{"x":{},"label":{},"strong":{}}})", mark.x, json_text(mark.label), mark.strong));
   }
+  for (const Zone& zone : plot.zones)
+    zones.push_back(fmt::format(R"({{"from":{},"to":{},"strong":{}}})", zone.from, zone.to, zone.strong));
+  const std::string second = plot.second_x
+                                 ? fmt::format(R"({{"label":{},"factor":{}}})",
+                                               json_text(plot.second_x->label), plot.second_x->factor)
+                                 : "null";
   for (const Panel& panel : plot.panels) panels.push_back(panel_json(panel, columns));
   const auto [low, high] = laid_out(plot).x_range;
   const bool points = std::any_of(plot.panels.begin(), plot.panels.end(), [](const Panel& panel) {
@@ -113,9 +122,10 @@ std::string plot_json(const Plot& plot, Columns& columns) {
                        [](const Curve& curve) { return curve.style == Curve::Style::points; });
   });
   const double border = points ? 0.015 * (high - low) : 0;  // so that no dot is cut in half
-  return fmt::format(R"({{"title":{},"xLabel":{},"range":[{},{}],"marks":{},"panels":{}}})",
-                     json_text(plot.title), json_text(plot.x_label), low - border, high + border,
-                     joined(marks), joined(panels));
+  return fmt::format(
+      R"({{"title":{},"xLabel":{},"range":[{},{}],"second":{},"marks":{},"zones":{},"panels":{}}})",
+      json_text(plot.title), json_text(plot.x_label), low - border, high + border, second, joined(marks),
+      joined(zones), joined(panels));
 }
 
 }  // namespace
@@ -147,8 +157,8 @@ std::string live_plots(const std::vector<Plot>& plots, const std::string& folder
   return fmt::format(
       "<style>{}</style>\n<script>{}</script>\n<script type=\"application/json\" "
       "id=\"plot-data\">{}</script>\n"
-      "<script>{}</script>\n",
-      read_file(style), read_file(library), plot_data(plots), kReportScript);
+      "<script>\"use strict\";\n(function () {{{}{}{}}})();</script>\n",
+      read_file(style), read_file(library), plot_data(plots), kReportSamples, kReportUnderlay, kReportPlots);
 }
 
 }  // namespace drycut::renders

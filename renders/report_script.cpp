@@ -2,127 +2,7 @@
 
 namespace drycut::renders {
 
-// Runs in the reader's browser: draws the plots of #plot-data with dygraphs in place of their pictures.
-// Curves stay as they were recorded; what is drawn is thinned to the lowest and highest value a pixel, so
-// that a million samples zoom as fast as a thousand.
-const char* const kReportScript = R"js(
-"use strict";
-(function () {
-  const source = document.getElementById("plot-data");
-  if (!source || typeof Dygraph === "undefined") return;
-  const data = JSON.parse(source.textContent);
-  const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#777777"];
-  const darkPalette = ["#56b4e9", "#ff8f4a", "#2ec79b", "#e8a3cb", "#f0bb4a", "#8fd0f5", "#c0c6cc"];
-  const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  const colour = i => (dark.matches ? darkPalette : palette)[i % palette.length];
-  const theme = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-
-  // ---- columns: little-endian floats in base64 ----
-  function decoded(column) {
-    const text = atob(column.base64), bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-    return column.type === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
-  }
-  const columns = data.columns.map(decoded);
-
-  // First index whose x is at least `at`.
-  function lowerBound(x, at) {
-    let low = 0, high = x.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (x[middle] < at) low = middle + 1; else high = middle;
-    }
-    return low;
-  }
-
-  // Lowest and highest value of every `block` samples of a long column, made once.
-  const block = 64, digests = new Map();
-  function digest(y) {
-    let made = digests.get(y);
-    if (made) return made;
-    const count = Math.ceil(y.length / block);
-    made = {low: new Float32Array(count), high: new Float32Array(count)};
-    for (let b = 0; b < count; ++b) {
-      let low = NaN, high = NaN;
-      for (let i = b * block; i < Math.min(y.length, (b + 1) * block); ++i) {
-        if (!(y[i] >= low)) low = isNaN(y[i]) ? low : y[i];
-        if (!(y[i] <= high)) high = isNaN(y[i]) ? high : y[i];
-      }
-      made.low[b] = low;
-      made.high[b] = high;
-    }
-    digests.set(y, made);
-    return made;
-  }
-
-  function extremes(y, from, until) {
-    let low = NaN, high = NaN;
-    const take = (a, b) => {
-      if (a < low || isNaN(low)) low = isNaN(a) ? low : a;
-      if (b > high || isNaN(high)) high = isNaN(b) ? high : b;
-    };
-    let i = from;
-    if (until - from > 2 * block) {
-      const blocks = digest(y);
-      while (i % block) { take(y[i], y[i]); ++i; }
-      for (; i + block <= until; i += block) take(blocks.low[i / block], blocks.high[i / block]);
-    }
-    for (; i < until; ++i) take(y[i], y[i]);
-    return [low, high];
-  }
-
-  // Rows [x, y of each curve] between two x, thinned to `pixels`; null where a curve has no sample.
-  function rowsOf(panel, from, until, pixels) {
-    const groups = new Map();
-    panel.curves.forEach((curve, index) => {
-      if (!groups.has(curve.x)) groups.set(curve.x, []);
-      groups.get(curve.x).push(index);
-    });
-    const rows = [], width = panel.curves.length + 1;
-    for (const [column, indexes] of groups) {
-      const x = columns[column];
-      const begin = Math.max(0, lowerBound(x, from) - 1), end = Math.min(x.length, lowerBound(x, until) + 2);
-      const put = (at, values) => {
-        const row = new Array(width).fill(null);
-        row[0] = at;
-        indexes.forEach((index, k) => { row[index + 1] = values[k]; });
-        rows.push(row);
-      };
-      const points = panel.curves[indexes[0]].style === "points";
-      if (points || end - begin <= 4 * pixels) {
-        for (let i = begin; i < end; ++i) put(x[i], indexes.map(index => columns[panel.curves[index].y][i]));
-        continue;
-      }
-      const step = (end - begin) / pixels;
-      for (let p = 0; p < pixels; ++p) {
-        const first = Math.floor(begin + p * step), last = Math.floor(begin + (p + 1) * step);
-        const pairs = indexes.map(index => extremes(columns[panel.curves[index].y], first, last));
-        put(x[first], pairs.map(pair => pair[p % 2 ? 1 : 0]));
-        put(x[Math.min((first + last) >> 1, x.length - 1)], pairs.map(pair => pair[p % 2 ? 0 : 1]));
-      }
-    }
-    if (groups.size > 1) rows.sort((a, b) => a[0] - b[0]);
-    if (rows.length === 0) rows.push([from].concat(new Array(width - 1).fill(null)));
-    return rows;
-  }
-
-  // A number with the digits that tell it from its neighbours.
-  function numberText(value) {
-    if (!isFinite(value)) return "-";
-    const size = Math.abs(value);
-    if (size !== 0 && (size < 1e-3 || size >= 1e7)) return value.toExponential(3);
-    return String(Number(value.toPrecision(size >= 1e5 ? 7 : 5)));
-  }
-
-  // The value that curve or lane shows at `at`: of the last sample before it, for points of the nearest.
-  function valueAt(curve, at) {
-    const x = columns[curve.x], y = columns[curve.y];
-    if (x.length === 0) return NaN;
-    let i = Math.max(0, lowerBound(x, at) - 1);
-    if (i + 1 < x.length && (x[i + 1] <= at || (curve.style === "points" && x[i + 1] - at < at - x[i]))) ++i;
-    return y[i];
-  }
-
+const char* const kReportPlots = R"js(
   function element(parent, name, kind, text) {
     const made = document.createElement(name);
     if (kind) made.className = kind;
@@ -133,9 +13,29 @@ const char* const kReportScript = R"js(
 
   // A number at an axis, with the digits that tell it from the next one.
   function tickText(value, range) {
+    if (value === 0) return "0";
     const step = Math.abs(range[1] - range[0]) / 10;
     if (Math.abs(value) >= 1e7 || step < 1e-9) return Number(value.toPrecision(6)).toExponential();
     return String(Number(value.toFixed(Math.max(0, Math.ceil(-Math.log10(step))))));
+  }
+
+  // Two numbers at least, closer to each other if need be; where all x are whole, none between them.
+  function ticker(counted) {
+    return (from, until, pixels, options, ...more) => {
+      let ticks = [];
+      for (const closer of [1, 0.6, 0.35]) {
+        const wanted = name => name === "pixelsPerLabel" ? closer * options(name) : options(name);
+        ticks = Dygraph.numericTicks(from, until, pixels, wanted, ...more).filter(
+            tick => tick.v >= from && tick.v <= until && (!counted || Number.isInteger(tick.v)));
+        if (ticks.length > 1) break;
+      }
+      return ticks;
+    };
+  }
+  function isCounted(plot) {
+    const curves = plot.panels.flatMap(panel => panel.curves);
+    return curves.length > 0 && curves.every(
+        curve => curve.style === "points" && columns[curve.x].every(Number.isInteger));
   }
 
   const laneHeight = 30;
@@ -146,13 +46,16 @@ const char* const kReportScript = R"js(
   function stripHeight(marks) {
     pen.font = markFont;
     const widest = Math.max(0, ...marks.map(mark => pen.measureText(mark.label).width));
-    return marks.length ? Math.min(130, Math.ceil(widest) + 8) : 0;
+    return marks.length ? Math.min(160, Math.ceil(widest) + 8) : 0;
   }
 
   // ---- one plot: panels over a common x ----
   function Plot(figure, plot) {
     const self = this;
     this.plot = plot;
+    // A little more than there is: a label at the very end would be left out.
+    this.whole = [plot.range[0], plot.range[1] + 1e-9 * (plot.range[1] - plot.range[0])];
+    this.counted = isCounted(plot);
     this.graphs = [];
     this.box = element(figure, "div", "live");
     figure.insertBefore(this.box, figure.querySelector("figcaption"));
@@ -160,13 +63,13 @@ const char* const kReportScript = R"js(
     element(head, "strong", "", plot.title);
     this.all = element(head, "button", "", "whole range");
     this.all.type = "button";
-    this.all.onclick = () => self.show(plot.range);
+    this.all.onclick = () => self.show(self.whole);
     this.readout = element(head, "span", "live-x", "");
     const names = plot.panels.flatMap(panel => panel.lanes.map(lane => lane.label));
     const narrow = figure.clientWidth < 560;
     const longest = Math.max(0, ...names.map(name => name.length));
     this.axisWidth = Math.min(Math.max(58, 8 * longest + 8), narrow ? 96 : 190);
-    this.range = plot.range.slice();
+    this.range = this.whole.slice();
     this.busy = true;
     plot.panels.forEach((panel, index) => self.addPanel(panel, index, narrow));
     this.busy = false;
@@ -180,9 +83,9 @@ const char* const kReportScript = R"js(
   Plot.prototype.paint = function () {
     this.busy = true;
     for (const view of this.graphs) {
-      view.holder.querySelectorAll("i").forEach((swatch, i) => { swatch.style.background = colour(i); });
+      view.holder.querySelectorAll("i").forEach((swatch, i) => { swatch.style.background = curveColour(view.panel.curves[i], i); });
       const options = {axisLineColor: theme("--soft"), gridLineColor: theme("--line")};
-      if (view.panel.curves.length) options.colors = view.panel.curves.map((curve, i) => colour(i));
+      if (view.panel.curves.length) options.colors = view.panel.curves.map(curveColour);
       view.graph.updateOptions(options);
     }
     this.busy = false;
@@ -192,13 +95,14 @@ const char* const kReportScript = R"js(
     const self = this, last = index + 1 === this.plot.panels.length;
     const holder = element(this.box, "div", "live-panel");
     const legend = element(holder, "div", "live-legend");
-    if (panel.title || panel.yLabel) element(legend, "b", "", panel.yLabel || panel.title);
+    if (panel.title || panel.yLabel) element(legend, "b", "", (panel.title + " " + panel.yLabel).trim());
     const values = panel.curves.map((curve, i) => {
       const entry = element(legend, "span", "live-entry");
-      element(entry, "i", "");
+      element(entry, "i", curve.style);
       element(entry, "span", "", curve.label + " ");
       return element(entry, "output", "", "");
     });
+    for (const band of panel.bands) if (band.label) element(legend, "span", "live-band", band.label);
     const canvas = element(holder, "div", "live-canvas");
     const lanes = panel.lanes.length;
     const strip = index === 0 ? stripHeight(this.plot.marks) : 0;
@@ -207,25 +111,28 @@ const char* const kReportScript = R"js(
     const view = {panel: panel, holder: holder, values: values, cursor: cursor, canvas: canvas, top: strip};
     const series = {};
     panel.curves.forEach((curve, i) => {
-      series["c" + i] = curve.style === "points" ? {drawPoints: true, strokeWidth: 0, pointSize: 3}
+      series["c" + i] = curve.style === "points" ? {drawPoints: true, strokeWidth: 0, pointSize: curve.faint ? 1 : 3}
                                                  : {stepPlot: curve.style === "steps"};
     });
     view.pixels = Math.max(200, Math.min(2000, canvas.clientWidth));
     const options = {
       labels: ["x"].concat(panel.curves.map((curve, i) => "c" + i)), series: series, legend: "never",
-      colors: panel.curves.map((curve, i) => colour(i)), strokeWidth: 1.6, highlightCircleSize: 0,
+      colors: panel.curves.map(curveColour), strokeWidth: 1.6, highlightCircleSize: 0,
+      gridLineWidth: 0.8,
       connectSeparatedPoints: true, dateWindow: this.range.slice(), axisLabelFontSize: 12, rightGap: 12,
-      xRangePad: 0, interactionModel: interaction(() => self.show(self.plot.range)),
+      xRangePad: 0, interactionModel: interaction(() => self.show(self.whole)),
       axes: {x: {axisLabelHeight: 18, drawAxis: last, pixelsPerLabel: narrow ? 56 : 90,
                  axisLabelFormatter: (value, g, o, graph) => tickText(value, graph.xAxisRange())},
-             y: {axisLabelWidth: this.axisWidth, pixelsPerLabel: 34,
+             y: {axisLabelWidth: this.axisWidth, pixelsPerLabel: 24,
                  axisLabelFormatter: (value, g, o, graph) => tickText(value, graph.yAxisRange())}},
       underlayCallback: (context, area, graph) => underlay(self, view, index, context, area, graph),
       drawCallback: graph => {
-        if (self.at !== undefined) cursor.style.left = graph.toDomXCoord(self.at) + "px";
+        self.place(view, graph);
         self.moved(graph.xAxisRange());
       }
     };
+    options.axes.x.ticker = ticker(this.counted);
+    options.axes.y.ticker = ticker(false);
     let rows = rowsOf(panel, this.range[0], this.range[1], view.pixels);
     if (lanes) {
       options.labels = ["x", "none"];
@@ -261,6 +168,7 @@ const char* const kReportScript = R"js(
       pair.forEach(take);
     }
     for (const band of panel.bands) { take(band.low); take(band.high); }
+    panel.least.forEach(take);
     if (!(low <= high)) { low = 0; high = 1; }
     if (low === high) { const add = low === 0 ? 1 : Math.abs(low) * 0.1; low -= add; high += add; }
     const border = 0.06 * (high - low);
@@ -291,135 +199,35 @@ const char* const kReportScript = R"js(
     this.show(range);
   };
 
-  // The cursor: a line in all panels, the values under it beside the names.
+  // The cursor: a line in all panels of all plots over the same x, the values under it beside the names.
   Plot.prototype.point = function (at) {
-    this.at = at;
-    this.readout.textContent = this.plot.xLabel.replace(/ \[.*/, "") + " " + at.toFixed(4) +
-        (this.plot.xLabel.match(/\[(.*)\]/) || ["", ""])[1].replace(/^/, " ");
+    for (const plot of made) if (plot.plot.xLabel === this.plot.xLabel) plot.tell(at);
+  };
+  Plot.prototype.tell = function (at) {
+    const within = at >= this.whole[0] && at <= this.whole[1];
+    const [, name, unit] = this.plot.xLabel.match(/^(.*?)(?: \[(.*)\])?$/);
+    this.at = within ? at : undefined;
+    this.readout.textContent = within ? name + " " + at.toFixed(4) + (unit ? " " + unit : "") + this.second(at) : "";
     for (const view of this.graphs) {
-      view.cursor.style.display = "block";
-      view.cursor.style.left = view.graph.toDomXCoord(at) + "px";
-      view.panel.curves.forEach((curve, i) => { view.values[i].textContent = numberText(valueAt(curve, at)); });
+      this.place(view, view.graph);
+      view.panel.curves.forEach((curve, i) => {
+        view.values[i].textContent = within ? numberText(valueAt(curve, at)) : "";
+      });
     }
   };
-
-  // ---- behind the curves: bands, lanes, marks ----
-  function underlay(self, view, index, context, area, graph) {
-    context.save();
-    context.beginPath();
-    context.rect(area.x, area.y, area.w, area.h);
-    context.clip();
-    for (const band of view.panel.bands) drawBand(context, area, graph, band);
-    view.panel.lanes.forEach((lane, i) => drawLane(context, graph, lane, i, view.panel.lanes.length));
-    drawMarks(self.plot.marks, view.top, context, area, graph);
-    context.restore();
-  }
-
-  function drawBand(context, area, graph, band) {
-    const high = graph.toDomYCoord(band.high), low = graph.toDomYCoord(band.low);
-    context.fillStyle = "rgba(232, 196, 0, 0.20)";
-    context.strokeStyle = theme("--fail");
-    if (low - high > 1) context.fillRect(area.x, high, area.w, low - high);
-    context.setLineDash([6, 4]);
-    for (const y of [high, low]) {
-      context.beginPath();
-      context.moveTo(area.x, y);
-      context.lineTo(area.x + area.w, y);
-      context.stroke();
-    }
-    context.setLineDash([]);
-  }
-
-  // Where the states of a lane begin, found once.
-  const startsMade = new Map();
-  function startsOf(x, y) {
-    let made = startsMade.get(y);
-    if (made) return made;
-    made = {x: [], y: []};
-    for (let i = 0; i < x.length; ++i) {
-      if (i > 0 && (y[i] === y[i - 1] || (isNaN(y[i]) && isNaN(y[i - 1])))) continue;
-      made.x.push(x[i]);
-      made.y.push(y[i]);
-    }
-    startsMade.set(y, made);
-    return made;
-  }
-
-  function drawLane(context, graph, lane, order, count) {
-    const x = columns[lane.x], y = columns[lane.y];
-    const low = graph.toDomYCoord(count - order - 0.82), high = graph.toDomYCoord(count - order - 0.18);
-    const starts = startsOf(x, y), range = graph.xAxisRange();
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    context.font = "12px sans-serif";
-    let column = -1;
-    for (let k = Math.max(0, lowerBound(starts.x, range[0]) - 1); k < starts.x.length && starts.x[k] < range[1]; ++k) {
-      const left = graph.toDomXCoord(starts.x[k]);
-      const until = k + 1 < starts.x.length ? starts.x[k + 1] : x[x.length - 1];
-      const right = Math.max(left + 1, graph.toDomXCoord(until));
-      if (Math.floor(right) === column) continue;  // that pixel is filled already
-      column = Math.floor(right);
-      context.strokeStyle = context.fillStyle = colour(order % 4);
-      if (!isNaN(starts.y[k])) drawState(context, lane, starts.y[k], left, right, low, high, k > 0);
-    }
-  }
-
-  function drawState(context, lane, value, left, right, low, high, edge) {
-    context.globalAlpha = 0.28;
-    if (!lane.digital) {
-      context.fillStyle = colour(Math.abs(Math.round(value)));
-      context.strokeStyle = theme("--soft");
-      context.lineWidth = 1;
-      context.fillRect(left, high, right - left, low - high);
-      context.globalAlpha = 1;
-      context.strokeRect(left, high, right - left, low - high);
-      const text = numberText(value), middle = (Math.max(left, 0) + right) / 2;
-      context.fillStyle = theme("--ink");
-      if (context.measureText(text).width + 6 < right - left) context.fillText(text, middle, (low + high) / 2 + 1);
-      return;
-    }
-    if (value !== 0) context.fillRect(left, high, right - left, low - high);
-    context.globalAlpha = 1;
-    context.lineWidth = 1.6;
-    context.beginPath();
-    if (edge) { context.moveTo(left, low); context.lineTo(left, high); }
-    context.moveTo(left, value !== 0 ? high : low);
-    context.lineTo(right, value !== 0 ? high : low);
-    context.stroke();
-  }
-
-  function drawMarks(marks, strip, context, area, graph) {
-    const shown = marks.map(mark => ({mark: mark, x: graph.toDomXCoord(mark.x)}))
-                       .filter(one => one.x >= area.x && one.x <= area.x + area.w);
-    const colourOf = mark => mark.strong ? theme("--fail") : theme("--soft");
-    context.setLineDash([2, 3]);
-    for (const one of shown) {
-      context.strokeStyle = colourOf(one.mark);
-      context.lineWidth = one.mark.strong ? 1.4 : 0.8;
-      context.beginPath();
-      context.moveTo(one.x, area.y);
-      context.lineTo(one.x, area.y + area.h);
-      context.stroke();
-    }
-    context.setLineDash([]);
-    if (!strip) return;
-    // Faults first; what would touch a label that stands already has none.
-    const labelled = [];
-    shown.sort((a, b) => Number(b.mark.strong) - Number(a.mark.strong));
-    context.font = markFont;
-    context.textAlign = "left";
-    context.textBaseline = "middle";
-    for (const one of shown) {
-      if (labelled.some(x => Math.abs(x - one.x) < 13)) continue;
-      labelled.push(one.x);
-      context.save();
-      context.translate(one.x + (one.x + 14 > area.x + area.w ? -6 : 7), area.y + strip - 4);
-      context.rotate(-Math.PI / 2);
-      context.fillStyle = colourOf(one.mark);
-      context.fillText(one.mark.label, 0, 0, strip - 6);
-      context.restore();
-    }
-  }
+  // The same place on the second scale.
+  Plot.prototype.second = function (at) {
+    const second = this.plot.second;
+    if (!second) return "";
+    const [, name, unit] = second.label.match(/^(.*?)(?: \[(.*)\])?$/);
+    return " \u00b7 " + name + " " + numberText(at * second.factor) + (unit ? " " + unit : "");
+  };
+  Plot.prototype.place = function (view, graph) {
+    const [from, until] = graph.xAxisRange();
+    const shown = this.at >= from && this.at <= until;
+    view.cursor.style.display = shown ? "block" : "none";
+    if (shown) view.cursor.style.left = graph.toDomXCoord(this.at) + "px";
+  };
 
   // One finger scrolls the page; two zoom and move the plot.
   function interaction(showAll) {
@@ -439,7 +247,6 @@ const char* const kReportScript = R"js(
   figures.forEach(figure => made.push(new Plot(figure, data.plots[Number(figure.dataset.plot)])));
   dark.addEventListener("change", () => made.forEach(plot => plot.paint()));
   window.drycutPlots = made;
-})();
 )js";
 
 }  // namespace drycut::renders

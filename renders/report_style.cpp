@@ -30,7 +30,12 @@ dl.facts { display: flex; flex-wrap: wrap; gap: 1px; margin: 20px 0 0; backgroun
 dl.facts div { flex: 1 1 160px; background: var(--card); padding: 8px 14px; }
 dt { color: var(--soft); font-size: 0.82rem; }
 dd { margin: 0; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; }
-.scroll { overflow: auto; max-height: 30rem; background: var(--card); border: 1px solid var(--line);
+/* A shadow at the side where there is more to see. */
+.scroll { overflow: auto; max-height: 30rem;
+  background: linear-gradient(to right, var(--card) 40%, transparent) 0 0 / 40px 100% local no-repeat,
+    linear-gradient(to left, var(--card) 40%, transparent) 100% 0 / 40px 100% local no-repeat,
+    linear-gradient(to right, #0004, transparent) 0 0 / 12px 100% scroll no-repeat,
+    linear-gradient(to left, #0004, transparent) 100% 0 / 12px 100% scroll no-repeat, var(--card); border: 1px solid var(--line);
   border-radius: 10px; }
 .scroll.checks { max-height: none; }
 table { border-collapse: collapse; width: 100%; font-size: 0.92rem; font-variant-numeric: tabular-nums; }
@@ -39,13 +44,14 @@ tr:last-child td { border-bottom: 0; }
 thead th { position: sticky; top: 0; background: var(--head); white-space: nowrap; font-weight: 600; }
 td.number { text-align: right; white-space: nowrap; }
 th.number { text-align: right; }
-.badge { display: inline-block; padding: 1px 10px; border-radius: 99px; font-weight: 700; font-size: 0.85rem; }
+.badge { display: inline-block; padding: 1px 10px; border-radius: 99px; font-weight: 700; font-size: 0.92em;
+  white-space: nowrap; }
 .badge.pass { color: var(--pass); background: var(--pass-ground); }
 .badge.fail { color: var(--fail); background: var(--fail-ground); }
 tr.fail td { background: color-mix(in srgb, var(--fail-ground) 45%, transparent); }
-td code { font-size: 0.88rem; overflow-wrap: anywhere; }
+td code { font-size: 0.95em; overflow-wrap: anywhere; }
 td small { display: block; color: var(--soft); }
-.strip { display: grid; grid-template-columns: repeat(auto-fill, minmax(290px, 1fr)); gap: 14px; }
+.strip { display: grid; grid-template-columns: repeat(auto-fill, minmax(400px, 1fr)); gap: 14px; }
 figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 10px; overflow: hidden;
   break-inside: avoid; }
 figure.film { max-width: 960px; margin-bottom: 16px; }
@@ -63,7 +69,11 @@ figure.plot.is-live .ground { display: none; }
 .live-x { color: var(--soft); font-size: 0.88rem; font-variant-numeric: tabular-nums; }
 .live-legend { display: flex; flex-wrap: wrap; gap: 0 18px; font-size: 0.88rem; min-height: 1.4em; margin-top: 4px; }
 .live-entry i { display: inline-block; width: 22px; height: 3px; vertical-align: middle; margin-right: 6px; }
+.live-entry i.points { width: 7px; height: 7px; border-radius: 50%; }
 .live-entry output { display: inline-block; min-width: 6.5em; font-variant-numeric: tabular-nums; }
+.live-band { color: var(--soft); }
+.live-band::before { content: ""; display: inline-block; width: 22px; border-top: 2px dashed var(--fail);
+  vertical-align: middle; margin-right: 6px; }
 .live-canvas { position: relative; width: 100%; touch-action: pan-y; }
 .live-cursor { position: absolute; top: 0; bottom: 0; width: 0; border-left: 1px solid var(--soft); display: none;
   pointer-events: none; z-index: 20; }
@@ -85,20 +95,31 @@ pre { margin: 0; padding: 14px 16px; font: 13px/1.5 ui-monospace, "DejaVu Sans M
     scroll-snap-type: x mandatory; }
   .strip figure { scroll-snap-align: start; }
   figure.plot img { min-width: 680px; }
-  th, td { padding: 6px 10px; }
+  th, td { padding: 6px 8px; }
+  table:not(.checks) { font-size: 0.82rem; }
   /* A check becomes a card: a wide table is not read on a phone. */
   table.checks thead { display: none; }
   table.checks tr { display: block; padding: 8px 0; border-bottom: 1px solid var(--line); }
   table.checks tr:last-child { border-bottom: 0; }
   table.checks td { display: block; border: 0; padding: 2px 14px; }
+  table.checks td[data-of] { padding-left: 28px; }
+  table.checks td[data-of]:empty { display: none; }
+  table.checks td[data-of]::before { content: attr(data-of) " "; color: var(--soft); }
 }
 @media print {
   :root { color-scheme: light; --ground: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --head: #eee;
     --pass: #156f3d; --pass-ground: #e2f4e9; --fail: #b3261e; --fail-ground: #fdeae8; --accent: #b45309; }
   body { font-size: 10.5pt; }
   main { max-width: none; padding: 0; }
-  .scroll { max-height: none; overflow: visible; }
-  .strip { grid-template-columns: repeat(3, 1fr); }
+  .scroll { max-height: none; overflow: visible; background: none; }
+  table { font-size: 8.5pt; }
+  th, td { padding: 2px 7px; }
+  th, td { overflow-wrap: anywhere; }
+  td:not(.number) { min-width: 5em; }
+  table:has(th:nth-child(7)) { font-size: 7pt; }
+  thead th, td.number { white-space: normal; }
+  pre { font-size: 7.5pt; overflow-wrap: anywhere; }
+  .strip { grid-template-columns: repeat(2, 1fr); }
   figure.film, .live { display: none; }
   figure.plot.is-live .ground { display: block; }
   .verdict, .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

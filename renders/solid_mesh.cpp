@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "renders/geometry.hpp"
-#include "renders/mesh.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -27,17 +26,16 @@ Colour shaded(const Colour& colour, float factor) {
   return {colour[0] * factor, colour[1] * factor, colour[2] * factor};
 }
 
-/// A corner before the part is placed.
 struct Corner {
   Vec3 position;
   Vec3 normal;
 };
 
-/// Puts a part's own coordinates into the world and collects its triangles.
+/// Collects a part's triangles.
 class Builder {
  public:
-  Builder(std::vector<Vertex>& triangles, const Placement& placement, const Material& material)
-      : triangles_(triangles), placement_(placement), surface_{material.reflection, material.gloss} {}
+  Builder(std::vector<Vertex>& triangles, const Material& material)
+      : triangles_(triangles), surface_{material.reflection, material.gloss} {}
 
   void triangle(const Corner& a, const Corner& b, const Corner& c, const Colour& colour) {
     for (const Corner* corner : {&a, &b, &c}) add(*corner, colour);
@@ -58,16 +56,10 @@ class Builder {
 
  private:
   void add(const Corner& corner, const Colour& colour) {
-    const Vec3 p = placement_.position + rotated(placement_.rotation, corner.position);
-    const Vec3 n = rotated(placement_.rotation, corner.normal);
-    triangles_.push_back({{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])},
-                          {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])},
-                          colour,
-                          surface_});
+    triangles_.push_back({as_floats(corner.position), as_floats(corner.normal), colour, surface_});
   }
 
   std::vector<Vertex>& triangles_;
-  const Placement& placement_;
   std::array<float, 2> surface_;
 };
 
@@ -179,29 +171,6 @@ void wedge(Builder& build, const Vec3& half, const Colour& colour) {
   build.polygon({right_back, edge_back, left_back}, colour);
 }
 
-/// The part's mesh as it is placed. Thousands of corners turn alike, so the rotation is made a matrix once.
-void append_mesh(std::vector<Vertex>& triangles, const SolidPart& part, const Placement& placement,
-                 const Material& material) {
-  std::array<Vec3, 3> axes{};  // the part's own, in the world
-  for (std::size_t i = 0; i < 3; ++i) {
-    Vec3 axis = {0, 0, 0};
-    axis[i] = 1;
-    axes[i] = rotated(placement.rotation, axis);
-  }
-  const auto turned = [&](double x, double y, double z) { return x * axes[0] + y * axes[1] + z * axes[2]; };
-  const auto& s = placement.scale;
-  const bool even = s[0] == s[1] && s[1] == s[2];
-  for (const auto& corner : part.mesh->corners) {
-    const auto& p = corner.position;
-    const auto& n = corner.normal;
-    const Vec3 position = placement.position + turned(s[0] * p[0], s[1] * p[1], s[2] * p[2]);
-    const Vec3 normal =
-        even ? turned(n[0], n[1], n[2]) : normalised(turned(n[0] / s[0], n[1] / s[1], n[2] / s[2]));
-    triangles.push_back(
-        {as_floats(position), as_floats(normal), part.colour, {material.reflection, material.gloss}});
-  }
-}
-
 }  // namespace
 
 const Material* find_material(std::string_view name) {
@@ -213,21 +182,31 @@ const Material* find_material(std::string_view name) {
 
 std::string_view material_names() { return "steel, paint, rubber, web, blade"; }
 
-void append_solid(std::vector<Vertex>& triangles, const SolidPart& part, const Placement& placement) {
+std::vector<Vertex> solid_surface(const SolidPart& part) {
   const Material* material = find_material(part.material);
   assert(material != nullptr);
-  if (part.mesh) return append_mesh(triangles, part, placement, *material);
-  Builder build(triangles, placement, *material);
-  const Vec3 half = {part.size[0] * placement.scale[0] / 2, part.size[1] * placement.scale[1] / 2,
-                     part.size[2] * placement.scale[2] / 2};
+  std::vector<Vertex> triangles;
+  if (part.mesh) {
+    triangles.reserve(part.mesh->corners.size());
+    for (const auto& corner : part.mesh->corners)
+      triangles.push_back(
+          {corner.position, corner.normal, part.colour, {material->reflection, material->gloss}});
+    return triangles;
+  }
+  Builder build(triangles, *material);
+  const Vec3 half = 0.5 * part.size;
   switch (part.shape) {
     case SolidPart::Shape::box:
-      return box(build, half, part.colour);
+      box(build, half, part.colour);
+      break;
     case SolidPart::Shape::cylinder:
-      return cylinder(build, half, part.colour);
+      cylinder(build, half, part.colour);
+      break;
     case SolidPart::Shape::wedge:
-      return wedge(build, half, part.colour);
+      wedge(build, half, part.colour);
+      break;
   }
+  return triangles;
 }
 
 }  // namespace drycut::renders

@@ -18,7 +18,7 @@ const Material* find_material(std::string_view name);
 /// "steel, paint, ...": what find_material knows.
 std::string_view material_names();
 
-/// One corner of a triangle, as the shader reads it; world coordinates [m].
+/// One corner of a triangle, as the shader reads it; the part's own coordinates [m].
 struct Vertex {
   std::array<float, 3> position;
   std::array<float, 3> normal;
@@ -26,10 +26,10 @@ struct Vertex {
   std::array<float, 2> surface;  ///< reflection, gloss
 };
 
-/// Adds the part's surface as triangles (three vertices each, counter-clockwise seen from outside). Edges are
-/// broken a little, as on real parts, so that they catch the light; a cylinder's ends carry an index mark so
-/// that one sees it turn. A part with a mesh is drawn by its mesh. The part's material must be known and its
-/// sizes positive.
-void append_solid(std::vector<Vertex>& triangles, const SolidPart& part, const Placement& placement);
+/// The part's surface in its own coordinates as triangles (three vertices each, counter-clockwise seen from
+/// outside). Edges are broken a little, as on real parts, so that they catch the light; a cylinder's ends
+/// carry an index mark so that one sees it turn. A part with a mesh is drawn by its mesh. The part's material
+/// must be known and its sizes positive.
+std::vector<Vertex> solid_surface(const SolidPart& part);
 
 }  // namespace drycut::renders

@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "renders/caption_bar.hpp"
 #include "renders/filmstrip.hpp"
@@ -16,6 +17,7 @@
 #include "renders/part_models.hpp"
 #include "renders/pictures.hpp"
 #include "renders/video.hpp"
+#include "sim/file.hpp"
 #include "sim/results.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/parameter_text.hpp"
@@ -26,22 +28,27 @@ namespace {
 
 constexpr auto* frames_folder = "frames";
 constexpr auto* plots_folder = "plots";
+constexpr auto* cams_folder = "cams";
 constexpr auto* video_file = "film.mp4";
 constexpr auto* strip_file = "filmstrip.png";
 constexpr auto* report_file = "report.html";
 
-/// Models that are used more than once are read once.
+/// Models that are used more than once are read once, those of one size stretched once.
 class Models {
  public:
   std::shared_ptr<const renders::Mesh> stretched(const plants::Part& part) {
     if (part.model.empty()) return nullptr;
+    auto& mesh = stretched_[{part.model, part.size}];
+    if (mesh) return mesh;
     auto found = read_.find(part.model);
     if (found == read_.end()) found = read_.emplace(part.model, renders::part_model(part.model)).first;
-    return std::make_shared<const renders::Mesh>(renders::stretched(found->second, part.size));
+    mesh = std::make_shared<const renders::Mesh>(renders::stretched(found->second, part.size));
+    return mesh;
   }
 
  private:
   std::map<std::string, renders::Mesh> read_;
+  std::map<std::pair<std::string, std::array<double, 3>>, std::shared_ptr<const renders::Mesh>> stretched_;
 };
 
 renders::SolidPart solid(const std::string& plant, const plants::Part& part) {
@@ -164,14 +171,14 @@ std::string frame_label(const Simulation& simulation, std::size_t index) {
   return fmt::format("{:.3f} s ({:+.1f} ms)", time, (time - *event) * 1e3);
 }
 
-/// The film as the camera sees it: of one plant only its own parts, unless it shows the whole line. A camera
-/// that goes along needs no room for what the machine does later.
+/// The film as the camera sees it: of one plant only its own parts, or one part, unless it shows the whole
+/// line. A camera that goes along needs no room for what the machine does later.
 renders::Film shown(const renders::Film& film, const std::string& camera) {
   auto view = film;
   if (film.follow && !film.frames.empty()) view.frames.resize(1);
   if (camera == "operator") return view;
   for (std::size_t i = 0; i < view.parts.size(); ++i) {
-    if (view.parts[i].name.starts_with(camera + ".")) continue;
+    if (view.parts[i].name == camera || view.parts[i].name.starts_with(camera + ".")) continue;
     for (auto& frame : view.frames) frame.placements[i].visible = false;
   }
   return view;
@@ -202,6 +209,16 @@ std::optional<std::size_t> followed(const renders::Film& film, const std::string
   for (std::size_t i = 0; i < film.parts.size(); ++i)
     if (film.parts[i].name == part) return i;
   return std::nullopt;
+}
+
+/// A camera that looks at one part stands back, to show what the part works on.
+renders::Camera named_camera(const renders::Film& film, const std::string& name) {
+  constexpr double room = 1.8;
+  auto camera = renders::operator_camera(shown(film, name));
+  if (!followed(film, name)) return camera;
+  for (std::size_t i = 0; i < 3; ++i)
+    camera.eye[i] = camera.target[i] + room * (camera.eye[i] - camera.target[i]);
+  return camera;
 }
 
 renders::Camera own_camera(const PicturesSection::Eye& eye) {
@@ -255,9 +272,8 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
   film.trails = scenario.pictures.overlays.trail;
   film.live = live_curves(scenario.pictures, simulation.recording());
   film.live_window_s /= scenario.pictures.slow;
-  film.camera = scenario.pictures.own_camera
-                    ? own_camera(*scenario.pictures.own_camera)
-                    : renders::operator_camera(shown(film, scenario.pictures.camera));
+  film.camera = scenario.pictures.own_camera ? own_camera(*scenario.pictures.own_camera)
+                                             : named_camera(film, scenario.pictures.camera);
   return film;
 }
 
@@ -286,6 +302,7 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   report.video = drawn.video;
   report.live = std::move(drawn.live);
   for (const auto& plot : drawn.plots) report.plots.push_back({plot, "plots/" + plot.filename().string()});
+  report.sections = cam_sections(drawn.cams, report.plots);
   for (const auto& known : simulation.known_events()) {
     auto table = event_table(simulation.recording(), known);
     if (!table.rows.empty()) report.tables.push_back(std::move(table));
@@ -333,13 +350,21 @@ void write_pictures(const Scenario& scenario, Simulation& simulation, const rend
     }
   }
   drawn.live = plots_of(scenario, simulation.recording());
+  drawn.cams = cams_of(scenario, simulation);
+  for (const auto& cam : drawn.cams) {
+    drawn.live.insert(drawn.live.end(), cam.plots.begin(), cam.plots.end());
+    std::filesystem::create_directories(directory / cams_folder);
+    OutputFile table(directory / cams_folder / (cam.name + ".csv"));
+    table.write(cam.table);
+    table.finish();
+  }
   drawn.plots = renders::draw_plots(drawn.live, directory / plots_folder);
   renders::write_report(report_of(scenario, simulation, outcome, std::move(drawn)), directory / report_file);
   if (no_film) std::rethrow_exception(no_film);
 }
 
 void remove_pictures(const std::filesystem::path& directory) {
-  for (const auto* old : {frames_folder, plots_folder, video_file, strip_file, report_file})
+  for (const auto* old : {frames_folder, plots_folder, cams_folder, video_file, strip_file, report_file})
     std::filesystem::remove_all(directory / old);
 }
 

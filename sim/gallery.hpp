@@ -6,6 +6,7 @@
 #include "renders/plots.hpp"
 #include "renders/report.hpp"
 #include "renders/scene3d.hpp"
+#include "sim/cam/page.hpp"
 #include "sim/part_meshes.hpp"
 #include "sim/simulation.hpp"
 
@@ -26,13 +27,22 @@ struct Drawn {
   std::vector<std::filesystem::path> plots;
   std::filesystem::path video;      ///< "" = none
   std::vector<renders::Plot> live;  ///< the plots as data
+  std::vector<CamPage> cams;        ///< their plots come last in `plots` and `live`
 };
+
+/// The cams that the run played, or held ready; of a PLCopen controller that played none its tables.
+std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulation);
+
+/// The report's sections of the cams; takes their figures, which come last, out of `plots`.
+std::vector<renders::ReportSection> cam_sections(const std::vector<CamPage>& cams,
+                                                 std::vector<renders::ReportFigure>& plots);
+
 renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
                           Drawn drawn);
 
-/// Everything that is drawn of a run and its `film`: frames/, film.mp4, filmstrip.png, plots/ and report.html
-/// in `directory`. `progress` is told what is being done and which share of it is. Throws std::runtime_error
-/// if something cannot be drawn or written.
+/// Everything that is drawn of a run and its `film`: frames/, film.mp4, filmstrip.png, plots/, cams/ and
+/// report.html in `directory`. `progress` is told what is being done and which share of it is. Throws
+/// std::runtime_error if something cannot be drawn or written.
 void write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
                     const Outcome& outcome, const std::filesystem::path& directory, int threads,
                     const std::function<void(const char*, double)>& progress);

@@ -21,6 +21,8 @@ std::string remedy_for(const std::string& part, const std::vector<NamedPlant>& p
       if (named) own.push_back(one.name);
     }
   }
+  for (const auto& name : all)
+    if (name.starts_with(part + " ")) return fmt::format("did you mean {}?", name);  // one of several
   if (const auto near = devices::nearest(part, all); !near.empty())
     return fmt::format("did you mean {}?", near);
   if (own.empty()) return "write PLANT.PART; `drycut plants TYPE` lists the parts";
@@ -49,6 +51,8 @@ PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPla
     return false;
   };
   if (const auto& follow = scenario.pictures.follow; !follow.text.empty()) must_exist(follow);
+  if (const auto& camera = scenario.pictures.camera; camera.find('.') != std::string::npos)
+    must_exist({camera, scenario.pictures.camera_place});
   for (const auto& request : scenario.pictures.meshes) {
     if (!must_exist(request.part)) continue;
     const auto file = scenario.file.parent_path() / request.file.text;

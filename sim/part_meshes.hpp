@@ -14,8 +14,8 @@ namespace drycut::sim {
 /// Meshes by the full names of the parts that they replace ("knife.drum").
 using PartMeshes = std::map<std::string, std::shared_ptr<const renders::Mesh>>;
 
-/// Loads what `pictures.meshes` names. Parts that no plant has (also the one to follow) and files that are
-/// refused are reported in `problems`.
+/// Loads what `pictures.meshes` names. Parts that no plant has (also those that the camera follows or looks
+/// at) and files that are refused are reported in `problems`.
 PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPlant>& plants,
                             devices::Problems& problems);
 

@@ -148,7 +148,8 @@ void Simulation::bind_pictures(devices::Problems& problems) {
   const auto& camera = scenario_.pictures.camera;
   std::vector<std::string> cameras = {"operator"};
   for (const auto& plant : named_) cameras.push_back(plant.name);
-  if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
+  const bool close_up = camera.find('.') != std::string::npos;  // of a part: see load_part_meshes
+  if (!close_up && std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
     problems.push_back(problem_at(scenario_, scenario_.pictures.camera_place,
                                   fmt::format("there is no camera '{}'", camera),
                                   fmt::format("cameras: {}", fmt::join(cameras, ", "))));
@@ -173,6 +174,24 @@ void Simulation::bind_caption(const std::vector<Text>& names, devices::Problems&
   }
 }
 
+void Simulation::follow_cams() {
+  if (!controller_) return;
+  // A servo behind a pulse output tells on its own channel how far it is behind.
+  const auto deviation = [this](const devices::Address& pulses) -> std::function<double()> {
+    constexpr std::string_view train = ".pulses";
+    for (const auto& wire : scenario_.wiring) {
+      const auto terminal = controller_->terminal(wire.terminal.text);
+      const auto* address = std::get_if<devices::Address>(&terminal);
+      const auto& plug = wire.plug.text;
+      if (address == nullptr || !(*address == pulses) || !plug.ends_with(train)) continue;
+      const auto reading = names_->reading(plug.substr(0, plug.size() - train.size()) + ".deviation");
+      if (reading) return reading->read;
+    }
+    return {};
+  };
+  cams_ = std::make_unique<CamRecorder>(controller_->cam_axes(), deviation);
+}
+
 // The order of everything inside a step, once and whole (design: time).
 void Simulation::step() {
   timeline_->run(time_, recording_);
@@ -180,6 +199,7 @@ void Simulation::step() {
   if (controller_) {
     controller_->run_devices(time_);
     controller_->run_tasks(time_);
+    if (cams_) cams_->step();
     bus_.outputs_to_plants();
   }
 
@@ -228,6 +248,7 @@ void Simulation::record() {
   watch_->update();
   recording_.sample(time_);
   checks_->sample(time_);
+  if (cams_) cams_->sample(time_);
   next_record_ = time_ + scenario_.record.every;
   if (const auto name = watch_->not_finite(); !name.empty()) {
     failure_ = fmt::format("{} is no longer a finite number at {} s: the simulation diverged", name,

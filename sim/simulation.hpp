@@ -9,6 +9,7 @@
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 #include "sim/bus.hpp"
+#include "sim/cam/played.hpp"
 #include "sim/checks.hpp"
 #include "sim/names.hpp"
 #include "sim/recorder.hpp"
@@ -37,6 +38,11 @@ class Simulation {
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
+
+  /// Keeps what the controller's cams play, for pictures of it; before run().
+  void follow_cams();
+  /// What was kept; nullptr if nothing was asked for.
+  [[nodiscard]] const CamRecorder* cams() const { return cams_.get(); }
 
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
   Outcome run(const std::function<void(Time)>& progress = {});
@@ -112,6 +118,7 @@ class Simulation {
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
   Recording recording_;
+  std::unique_ptr<CamRecorder> cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
   Shutter shutter_;

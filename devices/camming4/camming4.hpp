@@ -135,7 +135,7 @@ class Camming4 final : public Device {
   Cam cam_;
   CamStart cam_start_;            ///< of the last cam
   std::uint64_t cam_starts_ = 0;  ///< so far
-  std::int64_t slip_ = 0;  ///< LOOPON in a cam: the axis runs so far off its table [bits x4]
+  std::int64_t slip_ = 0;         ///< LOOPON in a cam: the axis runs so far off its table [bits x4]
   bool slip_due_ = false;
   axis::Profile recovery_;             ///< RSV: the correction that runs beside the cam
   std::int64_t recovery_due_ = 0;      ///< [Um] not yet begun

@@ -140,8 +140,8 @@ class Decam {
 
   // The run.
   CamMaster master_;
-  bool resume_ = false;      ///< the next run goes on where the registers say
-  bool ended_ = false;       ///< the last run came to its end
+  bool resume_ = false;  ///< the next run goes on where the registers say
+  bool ended_ = false;   ///< the last run came to its end
   std::uint64_t starts_ = 0;
   std::int64_t counts_ = 0;  ///< of the master since the start
   std::int64_t delayed_ = 0;

@@ -166,7 +166,7 @@ class CamReader {
   /// The word in small letters; the first of the choice, with a fault, if it is none of them.
   std::string one_of(std::string_view name, const Word& value, int line,
                      const std::vector<std::string>& choice) {
-    const std::string word = lower(value.text);
+    std::string word = lower(value.text);
     if (std::find(choice.begin(), choice.end(), word) != choice.end()) return word;
     std::string all;
     for (std::size_t i = 0; i < choice.size(); ++i)

@@ -219,13 +219,14 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
   report.facts = {
       {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
   if (!heard(result).empty()) {
-    report.tables = {{"Margins", {"", ""}, margin_rows(result)}, response_table(result)};
+    report.summary = {{"Margins", {"", ""}, margin_rows(result)}};
+    report.tables = {response_table(result)};
     for (const auto& picture : renders::draw_plots({bode_plot(result, "bode")}, folder / "plots"))
       report.plots.push_back({picture, "plots/" + picture.filename().string()});
   }
   if (cycle != nullptr) {
     report.facts.insert(report.facts.begin(), {{"limit cycle", verdict_of(*cycle)}});
-    report.tables.insert(report.tables.begin(), amplitude_table(*cycle));
+    report.summary.insert(report.summary.begin(), amplitude_table(*cycle));
     if (cycle->least)
       for (const auto& picture : renders::draw_plots({amplitude_plot(*cycle)}, folder / "plots"))
         report.plots.push_back({picture, "plots/" + picture.filename().string()});

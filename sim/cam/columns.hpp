@@ -11,6 +11,7 @@ class Columns {
   explicit Columns(std::vector<bool> words) : words_(std::move(words)) {}
   void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
   [[nodiscard]] std::string text() const;
+  [[nodiscard]] const std::vector<std::vector<std::string>>& lines() const { return lines_; }
 
  private:
   std::vector<bool> words_;

@@ -42,9 +42,37 @@ void draw_limit(renders::Panel& panel, const std::string& name, double limit, co
     panel.bands.push_back({"", -limit, -limit});
 }
 
+CamPeak peak_of(const std::vector<CamPoint>& points, double CamPoint::*number, const std::string& name,
+                const MotionPlot::Unit& unit, const std::vector<MotionPlot::Limit>& limits) {
+  CamPeak peak{name, unit.text, 0, 0, limits};
+  for (const auto& point : points) {
+    const double value = point.*number * unit.scale;
+    if (std::abs(value) <= std::abs(peak.value)) continue;
+    peak.value = value;
+    peak.master = point.master;
+  }
+  return peak;
+}
+
+std::vector<CamPeak> motion_peaks(const std::vector<CamPoint>& points, const MotionPlot& how) {
+  return {
+      peak_of(points, &CamPoint::velocity, "velocity", how.velocity, how.velocity_limits),
+      peak_of(points, &CamPoint::acceleration, "acceleration", how.acceleration, how.acceleration_limits),
+      peak_of(points, &CamPoint::jerk, "jerk, between the steps of acceleration", how.jerk, how.jerk_limits)};
+}
+
 }  // namespace
 
-renders::Plot motion_plot(const std::vector<CamPoint>& points, const MotionPlot& how) {
+void draw_zones(renders::Plot& plot, const std::vector<CamZone>& zones) {
+  constexpr std::size_t most = 1000;
+  for (std::size_t i = 0; i < std::min(zones.size(), most); ++i) {
+    const CamZone& zone = zones[i];
+    plot.zones.push_back({zone.from, zone.to, zone.synchronous});
+    plot.marks.push_back({zone.from, zone.name});
+  }
+}
+
+CamDrawing motion_plot(const std::vector<CamPoint>& points, const MotionPlot& how) {
   renders::Plot plot;
   plot.name = how.name;
   plot.title = how.title;
@@ -62,8 +90,11 @@ renders::Plot motion_plot(const std::vector<CamPoint>& points, const MotionPlot&
     draw_limit(plot.panels[1], limit.name, limit.value, how.velocity.text);
   for (const auto& limit : how.acceleration_limits)
     draw_limit(plot.panels[2], limit.name, limit.value, how.acceleration.text);
-  plot.marks = how.marks;
-  return plot;
+  for (const auto& limit : how.jerk_limits)
+    draw_limit(plot.panels[3], limit.name, limit.value, how.jerk.text);
+  draw_zones(plot, how.zones);
+  if (how.master_per_s) plot.second_x = renders::SecondScale{"time [s]", 1 / *how.master_per_s};
+  return {std::move(plot), motion_peaks(points, how)};
 }
 
 }  // namespace drycut::sim

@@ -49,10 +49,12 @@ CamStudy study_no_kind(std::string_view text, const std::string& file, const Cam
   return {};
 }
 
+IdealCam ideal_of_no_kind(std::string_view /*text*/, MasterRange /*range*/) { return {}; }
+
 bool owns_nothing(std::string_view /*text*/) { return false; }
 
 /// Takes what no kind knows, to tell what all of them want.
-constexpr CamKind no_kind = {"", "", owns_nothing, check_no_kind, study_no_kind};
+constexpr CamKind no_kind = {"", "", owns_nothing, check_no_kind, study_no_kind, ideal_of_no_kind};
 
 }  // namespace
 
@@ -70,6 +72,11 @@ const CamKind& cam_kind(std::string_view name, std::string_view text) {
     return near_columns(a, header) < near_columns(b, header);
   });
   return near_columns(*near, header) == 0 ? no_kind : *near;
+}
+
+void take(CamStudy& study, CamDrawing drawing) {
+  study.plot = std::move(drawing.plot);
+  study.peaks = std::move(drawing.peaks);
 }
 
 std::string cam_report(const CamStudy& study) {

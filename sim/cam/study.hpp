@@ -7,8 +7,11 @@
 
 #include "devices/problem.hpp"
 #include "renders/plots.hpp"
+#include "sim/cam/columns.hpp"
 #include "sim/cam/duty.hpp"
 #include "sim/cam/findings.hpp"
+#include "sim/cam/ideal.hpp"
+#include "sim/cam/motion_plot.hpp"
 #include "sim/cam/points.hpp"
 
 namespace drycut::sim {
@@ -26,6 +29,7 @@ struct CamText {
   std::string heading;
   std::string sections;
   std::string totals;
+  std::vector<std::pair<std::string, Columns>> tables = {};  ///< of `sections`, with their names
 };
 
 /// What a device makes of a cam table without a machine.
@@ -35,8 +39,9 @@ struct CamStudy {
   std::vector<CamPoint> points;
   std::optional<double> master_per_s = {};  ///< speed of the master in its unit, if it is known
   renders::Plot plot;
-  bool rows_are_given = true;  ///< the device does not make them from parameters
-  std::string table = {};      ///< rows that were generated, as a table that reads back; "" = none were
+  std::vector<CamPeak> peaks = {};  ///< of what is drawn
+  bool rows_are_given = true;       ///< the device does not make them from parameters
+  std::string table = {};           ///< rows that were generated, as a table that reads back; "" = none were
 };
 
 /// A kind of device that runs cams: one entry a kind is all that the commands know of it.
@@ -51,6 +56,8 @@ struct CamKind {
   /// Reads and runs it; the study means nothing if problems were told.
   CamStudy (*study)(std::string_view text, const std::string& file, const CamRequest& request,
                     devices::Problems& problems);
+  /// The cam that a table's text means; it does not run if there is a fault in it, which `study` tells.
+  IdealCam (*ideal)(std::string_view text, MasterRange range);
 };
 
 /// All kinds; the first also takes what no other owns.
@@ -59,14 +66,12 @@ std::span<const CamKind> cam_kinds();
 /// name, which tells all of theirs.
 const CamKind& cam_kind(std::string_view name, std::string_view text);
 
+/// Puts a drawing into a study.
+void take(CamStudy& study, CamDrawing drawing);
+
 /// What `drycut cam` prints: the cam in words with the findings before the totals.
 std::string cam_report(const CamStudy& study);
 
-/// From where to where a cam runs.
-struct MasterRange {
-  double first = 0;
-  double last = 0;
-};
 /// Positions of --at that the cam does not have become problems.
 void check_positions(const std::vector<double>& at, MasterRange range, std::string_view unit,
                      devices::Problems& problems);

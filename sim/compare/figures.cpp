@@ -7,7 +7,6 @@
 #include <set>
 
 #include "sim/compare/differences.hpp"
-#include "sim/known_events.hpp"
 #include "sim/statistics.hpp"
 
 namespace drycut::sim {
@@ -33,13 +32,6 @@ std::vector<ValueName> event_values(const std::vector<RunFolder>& runs) {
         if (seen.insert(event.source + "." + event.event + " " + value.name).second)
           names.push_back({event.source, event.event, value.name, value.unit});
   return names;
-}
-
-const Tolerance* tolerance_of(const RunFolder& run, const ValueName& name) {
-  const auto found = std::find_if(run.tolerances.begin(), run.tolerances.end(), [&](const Tolerance& t) {
-    return t.value == name.value && names_event(t.event, name.source, name.event);
-  });
-  return found == run.tolerances.end() ? nullptr : &*found;
 }
 
 std::vector<double> numbers_of(const RunFolder& run, const ValueName& name, const Tolerance* tolerance,
@@ -185,7 +177,7 @@ std::vector<Figure> compare_events(const std::vector<RunFolder>& runs, std::opti
   for (const auto& name : event_values(runs)) {
     ValueFigures rows(name);
     for (const auto& run : runs) {
-      const auto* tolerance = tolerance_of(run, name);
+      const auto* tolerance = run.tolerance(name.source, name.event, name.value);
       rows.add(numbers_of(run, name, tolerance, from), tolerance);
     }
     rows.append_to(figures);

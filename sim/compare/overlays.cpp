@@ -125,13 +125,10 @@ const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const Reco
                                   const std::string& value) {
   const Tolerance* common = nullptr;
   for (const auto& run : runs) {
-    const auto found =
-        std::find_if(run.tolerances.begin(), run.tolerances.end(), [&](const Tolerance& tolerance) {
-          return tolerance.value == value && names_event(tolerance.event, event.source, event.event);
-        });
-    if (found == run.tolerances.end()) return nullptr;
+    const auto* found = run.tolerance(event.source, event.event, value);
+    if (found == nullptr) return nullptr;
     if (common != nullptr && (common->low != found->low || common->high != found->high)) return nullptr;
-    common = &*found;
+    common = found;
   }
   return common;
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "sim/compare/recorded_csv.hpp"
+#include "sim/known_events.hpp"
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_node.hpp"
 
@@ -102,12 +103,6 @@ void read_checks_json(const std::string& text, const std::string& file, RunFolde
   }
 }
 
-const YamlNode* child(const YamlNode& node, std::string_view key) {
-  for (const auto& entry : node.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
 bool all_scalars(const YamlNode& list) {
   return std::all_of(list.items.begin(), list.items.end(),
                      [](const YamlNode& item) { return item.kind == YamlNode::Kind::scalar; });
@@ -164,6 +159,14 @@ void read_scenario_yaml(const std::string& text, const std::string& file, RunFol
 }
 
 }  // namespace
+
+const Tolerance* RunFolder::tolerance(const std::string& source, const std::string& event,
+                                      const std::string& value) const {
+  const auto found = std::find_if(tolerances.begin(), tolerances.end(), [&](const Tolerance& stated) {
+    return stated.value == value && names_event(stated.event, source, event);
+  });
+  return found == tolerances.end() ? nullptr : &*found;
+}
 
 const std::string* RunFolder::parameter(const std::string& path) const {
   const auto found = std::find_if(parameters.begin(), parameters.end(),

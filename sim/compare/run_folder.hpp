@@ -37,6 +37,9 @@ struct RunFolder {
   std::vector<Tolerance> tolerances;
 
   [[nodiscard]] const std::string* parameter(const std::string& path) const;
+  /// Of a value of "knife", "cut"; nullptr if the scenario states none.
+  [[nodiscard]] const Tolerance* tolerance(const std::string& source, const std::string& event,
+                                           const std::string& value) const;
 };
 
 /// The files of a run's folder that a comparison reads.

@@ -12,12 +12,6 @@ namespace drycut::sim {
 
 namespace {
 
-const YamlNode* child(const YamlNode& node, std::string_view key) {
-  for (const auto& entry : node.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
 /// A name that an expression can hold: letters, digits and underscores.
 void require_name(const Text& name, const std::string& what, Findings& findings) {
   const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };

@@ -204,7 +204,8 @@ struct PicturesSection {
   int slow = 1;        ///< frames every `every` / slow: at the film's pace, that many times slower
   bool video = false;  ///< the frames as a film file too
   Place slow_place;
-  std::string camera = "operator";  ///< what it shows: operator = the whole line, else one plant by its name
+  std::string camera = "operator";  ///< what it shows: operator = the whole line, a plant by its name, or a
+                                    ///< part: "knife.blade"
   /// A camera of the user's own in place of a named one.
   struct Eye {
     std::array<double, 3> eye = {0, 0, 0};     ///< [m]

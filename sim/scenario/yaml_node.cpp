@@ -344,6 +344,12 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
   return YamlNode{YamlNode::Kind::null, {"", {1, 1, source}}};
 }
 
+const YamlNode* child(const YamlNode& node, std::string_view key) {
+  for (const auto& entry : node.entries)
+    if (entry.key.text == key) return &entry.value;
+  return nullptr;
+}
+
 std::string_view name_of(YamlNode::Kind kind) {
   switch (kind) {
     case YamlNode::Kind::null:

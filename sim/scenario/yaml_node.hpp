@@ -49,6 +49,9 @@ class Findings {
 /// place in `source`, and then the tree is empty (null). Never throws.
 YamlNode parse_yaml(std::string_view text, int source, Findings& findings);
 
+/// The first value of that key in a map; nullptr if there is none.
+const YamlNode* child(const YamlNode& node, std::string_view key);
+
 /// What kind of node it is, for messages: "a map", "a list", "a text", "nothing".
 std::string_view name_of(YamlNode::Kind kind);
 

@@ -202,7 +202,7 @@ TEST(RendersMesh, TheHullStandsForTheMeshAlongEveryAxisAndDiagonal) {
     const double a = i * 2.4;
     const double h = (i - 150) / 150.0;
     const double r = std::sqrt(1 - h * h);
-    mesh.corners.push_back({as_floats({r * std::cos(a), r * std::sin(a), h}), {0, 0, 1}});
+    mesh.corners.push_back({as_floats(Vec3{r * std::cos(a), r * std::sin(a), h}), {0, 0, 1}});
   }
   find_hull(mesh);
   EXPECT_LE(mesh.hull.size(), 26U);

@@ -114,6 +114,35 @@ TEST(RendersReport, HoldsEverythingOfTheStruct) {
   EXPECT_LT(page.find("<h2>Pieces"), page.find("<summary>Events")) << "what is folded comes last";
 }
 
+TEST(RendersReport, VerdictsNameTheirColumnsForAPhone) {
+  const Scratch scratch;
+  Report report;
+  report.summary = {{"Verdicts", {"check", "old <1>", "new"}, {{{"length", "PASS 1 mm left\n9 cuts", ""}}}}};
+  report.summary[0].verdicts = true;
+  EXPECT_THAT(
+      written(report, scratch),
+      HasSubstr("<td>length</td><td data-of=\"old &lt;1&gt;\"><span class=\"badge pass\">PASS</span> 1 mm "
+                "left<small>9 cuts</small></td><td data-of=\"new\"></td>"));
+}
+
+TEST(RendersReport, ATableWithoutNamesHasNoHead) {
+  const Scratch scratch;
+  Report report;
+  report.tables = {{"Margins", {"", ""}, {{{"phase margin", "good"}}}}};
+  EXPECT_THAT(written(report, scratch), Not(HasSubstr("<thead>")));
+  report.tables[0].headings[1] = "value";
+  EXPECT_THAT(written(report, scratch), HasSubstr("<thead><tr><th></th><th>value</th></tr></thead>"));
+}
+
+TEST(RendersReport, LongFactsGetRoom) {
+  const Scratch scratch;
+  Report report;
+  report.facts = {{{"seed", "1"}}, {{"note", "AxisX at 5.002 s: warning"}}};
+  EXPECT_THAT(
+      written(report, scratch),
+      HasSubstr("<div><dt>seed</dt><dd>1</dd></div>\n<div style=\"flex-basis:min(100%,29ch)\"><dt>note"));
+}
+
 TEST(RendersReport, EmbedsThePicturesWhole) {
   const Scratch scratch;
   const Report report = full_report(scratch);

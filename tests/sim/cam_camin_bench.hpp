@@ -39,9 +39,7 @@ inline std::vector<std::string> findings(const std::string& text, const CamDuty&
 }
 
 /// The knots of a table.
-inline std::vector<CamKnot> knots(const std::string& text) {
-  return knots_of(run_cam_in(table(text), {}, 1));
-}
+inline std::vector<CamKnot> knots(const std::string& text) { return run_cam_in(table(text), {}, 1).knots; }
 
 /// Two rows of a rotary knife: a line of ratio 0.6 over 120 mm of web, a quintic for the rest of 800 mm.
 inline std::string knife(const std::string& settings = "# endless: positive\n") {

@@ -191,7 +191,7 @@ TEST_F(CamCommand, ThePlotHasFourPanelsMarksAndLimits) {
   const auto table = cams::table("# maxvel: 1000\n# taccmax: 50\n# tdecmax: 50\n" + cams::header +
                                  "1,132,100,50\n2,133,200,200\n3,130\n4,135,90,45\n5,136\n");
   const CamDuty duty{.master_speed = 300.0, .max_velocity = 400.0, .max_acceleration = 1e6};
-  const auto plot = cam_plot(table, duty, run_cam(table, duty, 1), "x");
+  const auto plot = cam_plot(table, duty, run_cam(table, duty, 1), "x").plot;
   ASSERT_EQ(plot.panels.size(), 4U);
   EXPECT_EQ(plot.panels[1].y_label, "[Um/s]");
   EXPECT_EQ(plot.panels[2].y_label, "[Um/s²]");
@@ -204,7 +204,7 @@ TEST_F(CamCommand, ThePlotHasFourPanelsMarksAndLimits) {
   EXPECT_EQ(plot.panels[2].bands[0].high, 2000);
   EXPECT_EQ(plot.panels[2].bands[1].low, -2000);
   ASSERT_EQ(plot.marks.size(), 3U);
-  EXPECT_EQ(plot.marks[2].label, "4 DZC");
+  EXPECT_EQ(plot.marks[2].label, "4 DZC deceleration");
   EXPECT_EQ(plot.marks[2].x, 300);
   const auto& acceleration = plot.panels[2].curves.front().y;
   EXPECT_NEAR(*std::max_element(acceleration.begin(), acceleration.end()), 300.0 * 300 / 100, 1e-9);

@@ -396,14 +396,14 @@ TEST(EcamReport, TellsThePiecesAndTheTotals) {
 
 TEST(EcamPlot, DrawsTheLawAndWhatIsPlayed) {
   const auto table = ecams::table(ecams::rotary());
-  const auto plot = ecam_plot(table, {}, run_ecam(table, {}, 2), "p");
+  const auto plot = ecam_plot(table, {}, run_ecam(table, {}, 2), "p").plot;
   ASSERT_EQ(plot.panels.size(), 4U);
   EXPECT_EQ(plot.panels[1].curves.size(), 2U);
   EXPECT_EQ(plot.marks.size(), 8U);
   const auto given = rows("0,0\n100,50\n");
-  EXPECT_EQ(ecam_plot(given, {}, run_ecam(given, {}, 1), "p").panels.size(), 2U);
+  EXPECT_EQ(ecam_plot(given, {}, run_ecam(given, {}, 1), "p").plot.panels.size(), 2U);
   const auto failed = ecams::table(ecams::rotary("1"));
-  EXPECT_THAT(ecam_plot(failed, {}, run_ecam(failed, {}, 1), "p").panels, IsEmpty());
+  EXPECT_THAT(ecam_plot(failed, {}, run_ecam(failed, {}, 1), "p").plot.panels, IsEmpty());
 }
 
 }  // namespace

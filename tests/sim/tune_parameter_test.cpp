@@ -49,7 +49,7 @@ TEST(TuneParameter, BoundsOfAnAxisParameterAreChecked) {
   auto negative = parameter("controller.plcopen.set.Knife.kv=-5..9000");
   check_against_controller(negative, scene("mc_camin_first"), problems);
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(problems[0].column, 34);
+  EXPECT_EQ(problems[0].column, 33);
 }
 
 }  // namespace

@@ -12,23 +12,33 @@ namespace drycut::sim {
 
 namespace {
 
-constexpr std::size_t most_marks = 1000;
-
-std::vector<renders::Mark> marks_of(const CamTable& table, const CamRun& run) {
-  std::vector<renders::Mark> marks;
-  for (std::size_t i = 0; i < std::min(run.shown, most_marks); ++i) {
-    const auto& visit = run.visits[i];
-    const auto* code = devices::camming4::find_code(table.sector(visit.row).row.codeG);
-    if (visit.master_length > 0)
-      marks.push_back({visit.master_start, fmt::format("{} {}", visit.row, code->mnemonic)});
-  }
-  return marks;
+std::string zone_name(const CamTable& table, const CamVisit& visit, bool steady) {
+  using Kind = devices::camming4::Sector::Kind;
+  const auto* code = devices::camming4::find_code(table.sector(visit.row).row.codeG);
+  const auto kind = visit.sector.kind;
+  const auto name = visit.waiting           ? "wait"
+                    : kind == Kind::gearing ? "gearing"
+                    : kind == Kind::arc_x || kind == Kind::arc_y
+                        ? "arc"
+                        : motion_name(visit.entry_speed(), visit.exit_speed(), steady);
+  return fmt::format("{} {} {}", visit.row, code->mnemonic, name);
 }
 
 }  // namespace
 
-renders::Plot cam_plot(const CamTable& table, const CamDuty& duty, const CamRun& run,
-                       const std::string& name) {
+std::vector<CamZone> zones_of(const CamTable& table, const CamRun& run) {
+  std::vector<CamZone> zones;
+  for (std::size_t i = 0; i < run.shown; ++i) {
+    const auto& visit = run.visits[i];
+    if (visit.master_length <= 0) continue;
+    const bool steady = !visit.waiting && peak_gradient(visit) == 0;
+    zones.push_back({visit.master_start, visit.master_end(), zone_name(table, visit, steady),
+                     steady && is_master_speed(visit.entry_speed())});
+  }
+  return zones;
+}
+
+CamDrawing cam_plot(const CamTable& table, const CamDuty& duty, const CamRun& run, const std::string& name) {
   const bool timed = duty.master_speed.has_value();
   const double scale = um_per_second(table);
   const double master = timed ? *duty.master_speed * scale : 1;
@@ -52,7 +62,8 @@ renders::Plot cam_plot(const CamTable& table, const CamDuty& duty, const CamRun&
     if (table.maxvel > 0 && table.tdecmax > 0 && table.tdecmax != table.taccmax)
       how.acceleration_limits.push_back({"tdecmax", table.maxvel * scale * 100 / table.tdecmax});
   }
-  how.marks = marks_of(table, run);
+  how.zones = zones_of(table, run);
+  if (timed) how.master_per_s = master;
   return motion_plot(sample_cam(run, true), how);
 }
 

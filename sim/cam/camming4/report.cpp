@@ -64,7 +64,7 @@ class Report {
   }
 
   /// The sectors in the order of running; one that runs again in the same way is only counted.
-  std::string sectors() {
+  Columns sectors() {
     std::size_t passage = 0;
     for (std::size_t i = 0; i <= run_.shown; ++i) {
       for (; passage < run_.passages.size() && run_.passages[passage].visits <= i; ++passage)
@@ -96,10 +96,10 @@ class Report {
       if (repeats) cells.insert(cells.end() - 1, std::to_string(line.times));
       columns.add(std::move(cells));
     }
-    auto text = columns.text();
-    if (untold_ > 0) text += fmt::format("  ... and {} more that run differently each time\n", untold_);
-    return text;
+    return columns;
   }
+  /// Of them, how many more run differently each time.
+  [[nodiscard]] std::size_t untold() const { return untold_; }
 
   [[nodiscard]] std::string totals() const {
     std::string text = fmt::format("master total {} Um, slave total {} Um", number_text(run_.master_total),
@@ -164,7 +164,13 @@ class Report {
 
 CamText cam_text(const CamTable& table, const CamDuty& duty, const CamRun& run) {
   Report report(table, duty, run);
-  return {report.heading(), report.sectors(), report.totals()};
+  auto columns = report.sectors();
+  auto sections = columns.text();
+  if (report.untold() > 0)
+    sections += fmt::format("  ... and {} more that run differently each time\n", report.untold());
+  CamText text{report.heading(), std::move(sections), report.totals()};
+  text.tables.emplace_back("Sectors in the order of running", std::move(columns));
+  return text;
 }
 
 }  // namespace drycut::sim

@@ -26,7 +26,7 @@ CamStudy study_camming4(std::string_view text, const std::string& file, const Ca
   study.findings = judge(table, request.duty, run);
   study.points = request.at.empty() ? sample_cam(run) : sample_cam_at(run, request.at);
   if (request.duty.master_speed) study.master_per_s = *request.duty.master_speed * um_per_second(table);
-  study.plot = cam_plot(table, request.duty, run, request.plot_name);
+  take(study, cam_plot(table, request.duty, run, request.plot_name));
   return study;
 }
 

@@ -83,8 +83,7 @@ std::string heading(const EcamTable& table, const EcamRun& run) {
   return text;
 }
 
-std::string sections(const EcamTable& table, const EcamRun& run) {
-  if (run.law.pieces.empty()) return "nothing to run\n";
+Columns sections(const EcamTable& table, const EcamRun& run) {
   const bool timed = run.master_speed.has_value();
   std::vector<std::string> names = {"piece", "master", "slave", "entry", "exit", "peak a"};
   std::vector<std::string> units = {"", master_unit(table), "pulses", "", "", "1/pulse"};
@@ -113,9 +112,7 @@ std::string sections(const EcamTable& table, const EcamRun& run) {
     cells.push_back(what_it_does(run, piece));
     columns.add(std::move(cells));
   }
-  auto text = columns.text();
-  if (shown < pieces.size()) text += fmt::format("  ... and {} more\n", pieces.size() - shown);
-  return text;
+  return columns;
 }
 
 std::string totals(const EcamTable& table, const EcamRun& run) {
@@ -148,11 +145,48 @@ renders::Curve played(const EcamTable& table, const EcamRun& run, double scale) 
 }  // namespace
 
 CamText ecam_text(const EcamTable& table, const EcamRun& run) {
-  return {heading(table, run), sections(table, run), totals(table, run)};
+  CamText text{heading(table, run), "nothing to run\n", totals(table, run)};
+  const auto pieces = run.law.pieces.size();
+  if (pieces == 0) return text;
+  auto columns = sections(table, run);
+  text.sections = columns.text();
+  if (pieces > most_lines) text.sections += fmt::format("  ... and {} more\n", pieces - most_lines);
+  text.tables.emplace_back("Pieces", std::move(columns));
+  return text;
 }
 
-renders::Plot ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun& run,
-                        const std::string& name) {
+std::vector<CamZone> zones_of(const EcamTable& table, const EcamRun& run) {
+  constexpr std::size_t few = 24;
+  constexpr double long_share = 0.05;  // of a cycle
+  constexpr double same = 1e-9;
+  std::vector<CamZone> zones;
+  const auto& law = run.law;
+  for (std::size_t i = 0; i < law.pieces.size();) {
+    const auto& first = law.pieces[i];
+    // Rows at one ratio are one stretch.
+    std::size_t end = i + 1;
+    const auto goes_on = [&](const RatioPiece& next) {
+      return !first.is_curved() && !next.is_curved() && std::abs(next.r0 - first.r0) <= same;
+    };
+    while (!table.is_made() && end < law.pieces.size() && goes_on(law.pieces[end])) ++end;
+    const auto& last = law.pieces[end - 1];
+    const double from = run.first_master + first.master;
+    const double to = run.first_master + last.master + last.length;
+    const double middle = (from + to) / 2 - run.first_master;
+    const bool synchronous =
+        law.sync_end > law.sync_begin && middle > law.sync_begin && middle < law.sync_end;
+    // A ratio of pulses says nothing of the web's speed.
+    auto name = synchronous ? "synchronism" : motion_name(first.r0, last.r1, !first.is_curved());
+    if (name == "synchronism" && !synchronous) name = "constant speed";
+    if (law.pieces.size() <= few || to - from >= long_share * law.master_length)
+      zones.push_back({from, to, fmt::format("{} {}", i + 1, name), synchronous});
+    i = end;
+  }
+  return zones;
+}
+
+CamDrawing ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun& run,
+                     const std::string& name) {
   if (run.law.pieces.empty()) return {};
   const bool timed = run.master_speed.has_value();
   const double speed = run.master_speed.value_or(1);
@@ -172,20 +206,24 @@ renders::Plot ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamR
     how.acceleration_limits.push_back({"max acceleration", *duty.max_acceleration});
   if (!timed && table.max_ratio)
     how.velocity_limits.push_back({table.is_made() ? "P5" : "max_ratio", *table.max_ratio});
-  if (table.is_made())
-    for (int pass = 0; pass < run.loops; ++pass)
-      for (std::size_t i = 0; i < run.law.pieces.size(); ++i)
-        how.marks.push_back({pass * run.cycle() + run.law.pieces[i].master, std::to_string(i + 1)});
-  auto plot = motion_plot(sample_ecam(run, true), how);
+  const auto zones = zones_of(table, run);
+  for (int pass = 0; pass < run.loops; ++pass)
+    for (const CamZone& zone : zones)
+      how.zones.push_back(
+          {pass * run.cycle() + zone.from, pass * run.cycle() + zone.to, zone.name, zone.synchronous});
+  how.master_per_s = run.master_speed;
+  auto drawing = motion_plot(sample_ecam(run, true), how);
+  auto& plot = drawing.plot;
   if (!table.is_made()) {
     // Straight pieces have no acceleration between their ends, and no end to it at them.
     plot.panels.erase(plot.panels.begin() + 2, plot.panels.end());
+    drawing.peaks.resize(1);
   } else {
     plot.panels[1].curves.front().label = "law";
     // Behind the law, which it follows closely.
     plot.panels[1].curves.insert(plot.panels[1].curves.begin(), played(table, run, speed));
   }
-  return plot;
+  return drawing;
 }
 
 }  // namespace drycut::sim

@@ -12,7 +12,11 @@ CamText ecam_text(const EcamTable& table, const EcamRun& run);
 
 /// Position and ratio against the master; of a table that was made acceleration and jerk, and the ratio of
 /// the straight pieces too. No panels if there is nothing to draw.
-renders::Plot ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun& run,
-                        const std::string& name);
+CamDrawing ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun& run,
+                     const std::string& name);
+
+/// What the pieces of one cycle do, from its first master position on. Of many given rows only what is long
+/// at one ratio.
+std::vector<CamZone> zones_of(const EcamTable& table, const EcamRun& run);
 
 }  // namespace drycut::sim

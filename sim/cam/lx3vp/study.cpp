@@ -34,7 +34,7 @@ CamStudy study_lx3vp(std::string_view text, const std::string& file, const CamRe
   if (!run.law.pieces.empty())
     study.points = request.at.empty() ? sample_ecam(run) : sample_ecam_at(run, request.at);
   study.master_per_s = run.master_speed;
-  study.plot = ecam_plot(table, request.duty, run, request.plot_name);
+  take(study, ecam_plot(table, request.duty, run, request.plot_name));
   study.rows_are_given = !table.is_made();
   if (table.is_made() && table.made.ok()) study.table = ecam_rows_csv(table);
   return study;

@@ -7,9 +7,11 @@ bool owns_lx3vp(std::string_view text);
 bool check_lx3vp(std::string_view text, const std::string& file, devices::Problems& problems);
 CamStudy study_lx3vp(std::string_view text, const std::string& file, const CamRequest& request,
                      devices::Problems& problems);
+IdealCam ideal_lx3vp(std::string_view text, MasterRange range);
 
 /// Tables of the LX3VP's electronic cam (003), given or made by its own ECAMTBX.
-inline constexpr CamKind lx3vp_cams = {"lx3vp", "master,slave (or # ecamtbx: K100 and parameter,value)",
-                                       owns_lx3vp, check_lx3vp, study_lx3vp};
+inline constexpr CamKind lx3vp_cams = {"lx3vp",     "master,slave (or # ecamtbx: K100 and parameter,value)",
+                                       owns_lx3vp,  check_lx3vp,
+                                       study_lx3vp, ideal_lx3vp};
 
 }  // namespace drycut::sim

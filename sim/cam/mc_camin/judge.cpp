@@ -93,7 +93,7 @@ class Judge {
 
   void judge_steps(int power, const char* name) {
     Worst worst;
-    for (const CamKnot& knot : knots_of(run_))
+    for (const CamKnot& knot : run_.knots)
       if (knot.smooth < power - 1)
         worst.take(knot.jumps[static_cast<std::size_t>(knot.smooth) + 1], knot.row);
     if (worst.count > 0)
@@ -126,7 +126,7 @@ class Judge {
     Worst position;
     Worst velocity;
     Worst acceleration;
-    for (const CamKnot& knot : knots_of(run_)) {
+    for (const CamKnot& knot : run_.knots) {
       if (knot.smooth == -1) position.take(knot.jumps[0], knot.row);
       if (knot.smooth == 0) velocity.take(knot.jumps[1], knot.row);
       if (knot.smooth == 1) acceleration.take(knot.jumps[2], knot.row);
@@ -225,11 +225,12 @@ class Judge {
   void judge_return() {
     if (cam_.endless == Endless::no) return;
     const double direction = cam_.endless == Endless::positive ? 1 : -1;
+    const double rounding = 1e-6 * run_.peak(CamOrder::velocity);
     Worst worst;
     for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
       const Extremes v = extremes_of(run_.curve.segments[i], CamOrder::velocity);
       const double back = direction > 0 ? v.low : v.high;
-      if (direction * back < -1e-6 * run_.peak(CamOrder::velocity)) worst.take(back, run_.row_of(i));
+      if (direction * back < -rounding) worst.take(back, run_.row_of(i));
     }
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
@@ -253,7 +254,7 @@ class Judge {
   void remarks() {
     const auto remark = [&](std::string text) { add(Grade::remark, "", std::move(text)); };
     int smooth = 3;
-    for (const CamKnot& knot : knots_of(run_)) smooth = std::min(smooth, knot.smooth);
+    for (const CamKnot& knot : run_.knots) smooth = std::min(smooth, knot.smooth);
     if (smooth >= 0) remark(fmt::format("C{} at every knot and where the table closes", smooth));
     if (!run_.curve.even && run_.cam.table.value(0, 0) > 0)
       remark(fmt::format("the first point is at master {}: before it the last piece goes on",

@@ -1,5 +1,6 @@
 #include "sim/cam/mc_camin/polynomial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -66,11 +67,11 @@ Extremes extremes_of(const devices::plcopen::CamSegment& segment, CamOrder order
   const Coefficients c = coefficients_of(segment, order);
   std::vector<double> places = zeros_of(derived(c));
   places.push_back(1);
-  Extremes found{value(c, 0), value(c, 0), 0, 0};
+  Extremes found{value(c, 0), value(c, 0)};
   for (const double u : places) {
     const double here = value(c, u);
-    if (here < found.low) found.low = here, found.low_at = u;
-    if (here > found.high) found.high = here, found.high_at = u;
+    found.low = std::min(found.low, here);
+    found.high = std::max(found.high, here);
   }
   return found;
 }

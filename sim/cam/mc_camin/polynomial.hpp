@@ -15,12 +15,10 @@ std::array<double, 6> coefficients_of(const devices::plcopen::CamSegment& segmen
 /// Where the polynomial has its zeros in 0..1, ascending; none if it is 0 everywhere.
 std::vector<double> zeros_of(const std::array<double, 6>& coefficients);
 
-/// Smallest and largest value of a segment's derivative, and where.
+/// Smallest and largest value of a segment's derivative.
 struct Extremes {
   double low = 0;
   double high = 0;
-  double low_at = 0;  ///< u = 0..1
-  double high_at = 0;
 };
 /// Exact but for the rounding of the zeros.
 Extremes extremes_of(const devices::plcopen::CamSegment& segment, CamOrder order);

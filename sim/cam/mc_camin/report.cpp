@@ -87,7 +87,7 @@ std::string more(std::size_t all) {
   return all > most_lines ? fmt::format("  ... and {} more\n", all - most_lines) : "";
 }
 
-std::string pieces(const CamInRun& run) {
+Columns pieces(const CamInRun& run) {
   const Scale scale(run);
   const auto& segments = run.curve.segments;
   Columns columns({false, false, false, true, false, false, false, false, false});
@@ -109,12 +109,12 @@ std::string pieces(const CamInRun& run) {
                  plain(at(segment, 1).velocity * scale.of(1)), peak(CamOrder::velocity),
                  peak(CamOrder::acceleration), peak(CamOrder::jerk)});
   }
-  return columns.text() + more(run.cam.table.lines());
+  return columns;
 }
 
-std::string knots(const CamInRun& run) {
+Columns knots(const CamInRun& run) {
   const Scale scale(run);
-  const auto all = knots_of(run);
+  const auto& all = run.knots;
   Columns columns({false, false, true, false, false, false, false, true});
   columns.add({"knot", "master", "", "jump s", "jump v", "jump a", "jump j", ""});
   columns.add({"row", increments_of(scale.master), "", increments_of(scale.slave), scale.unit(1),
@@ -131,7 +131,7 @@ std::string knots(const CamInRun& run) {
     cells.emplace_back(knot.closes ? "the table closes" : "");
     columns.add(std::move(cells));
   }
-  return columns.text() + more(all.size());
+  return columns;
 }
 
 std::string totals(const CamInRun& run) {
@@ -149,11 +149,41 @@ std::string totals(const CamInRun& run) {
 }  // namespace
 
 CamText cam_in_text(const CamInRun& run) {
-  const std::string sections = run.runs() ? pieces(run) + '\n' + knots(run) : "nothing to run\n";
-  return {heading(run), sections, totals(run)};
+  CamText text{heading(run), "nothing to run\n", totals(run)};
+  if (!run.runs()) return text;
+  Columns rows = pieces(run);
+  Columns joints = knots(run);
+  text.sections = rows.text() + more(run.cam.table.lines()) + '\n' + joints.text() + more(run.knots.size());
+  text.tables.emplace_back("Pieces", std::move(rows));
+  text.tables.emplace_back("Knots", std::move(joints));
+  return text;
 }
 
-renders::Plot cam_in_plot(const CamInRun& run, const CamDuty& duty, const std::string& name) {
+std::vector<CamZone> zones_of(const CamInRun& run) {
+  constexpr std::size_t few = 24;
+  const auto& segments = run.curve.segments;
+  const bool same_units = run.cam.slave_unit == run.cam.master_unit;
+  std::vector<CamZone> zones;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const CamSegment& segment = segments[i];
+    const Extremes speed = extremes_of(segment, CamOrder::velocity);
+    const bool steady = speed.high - speed.low <= 1e-9 * std::max(1.0, speed.high);
+    const double entry = at(segment, 0).velocity;
+    auto name = motion_name(entry, at(segment, 1).velocity, steady);
+    // Of an angle a steady ratio is all that a cam says of the web's speed.
+    const bool synchronous = steady && (same_units ? is_master_speed(entry) : std::abs(entry) > 1e-9);
+    if (synchronous) name = "synchronism";
+    if (!synchronous && name == "synchronism") name = "constant speed";
+    if (segments.size() <= few) name = fmt::format("{} {}", run.row_of(i), name);
+    if (!zones.empty() && zones.back().name == name)
+      zones.back().to = run.end_of(i);
+    else
+      zones.push_back({run.begin_of(i), run.end_of(i), name, synchronous});
+  }
+  return zones;
+}
+
+CamDrawing cam_in_plot(const CamInRun& run, const CamDuty& duty, const std::string& name) {
   const Scale scale(run);
   MotionPlot how;
   how.name = name;
@@ -172,11 +202,14 @@ renders::Plot cam_in_plot(const CamInRun& run, const CamDuty& duty, const std::s
     if (limits.velocity) how.velocity_limits.push_back({"maxvel", *limits.velocity});
     if (limits.acceleration) how.acceleration_limits.push_back({"maxacc", *limits.acceleration});
   }
-  if (run.cam.table.lines() <= most_lines)
-    for (int pass = 0; pass < run.loops; ++pass)
-      for (const CamKnot& knot : knots_of(run))
-        how.marks.push_back(
-            {(pass * run.curve.modulo + knot.master) / increments_per_unit, std::to_string(knot.row)});
+  if (scale.timed && run.cam.limits.jerk) how.jerk_limits.push_back({"maxjerk", *run.cam.limits.jerk});
+  const auto zones = zones_of(run);
+  for (int pass = 0; pass < run.loops; ++pass)
+    for (const CamZone& zone : zones)
+      how.zones.push_back({(pass * run.curve.modulo + zone.from) / increments_per_unit,
+                           (pass * run.curve.modulo + zone.to) / increments_per_unit, zone.name,
+                           zone.synchronous});
+  if (scale.timed) how.master_per_s = scale.speed / increments_per_unit;
   auto points = sample_cam_in(run, true);
   for (CamPoint& point : points) {
     point.master /= increments_per_unit;

@@ -62,17 +62,7 @@ double CamInRun::peak(CamOrder order) const {
   return most;
 }
 
-CamInRun run_cam_in(const devices::plcopen::CamFile& cam, const CamDuty& duty, int loops) {
-  CamInRun run;
-  run.cam = cam;
-  run.loops = loops;
-  run.refused = refusals(cam);
-  if (duty.master_speed) run.master_speed = *duty.master_speed * increments_per_unit;
-  run.curve.modulo = cam.master_modulo;
-  if (run.refused.empty())
-    run.curve = curve_of(cam.table, cam.interpolation, cam.master_modulo, cam.slave_modulo, cam.endless);
-  return run;
-}
+namespace {
 
 std::vector<CamKnot> knots_of(const CamInRun& run) {
   const auto& segments = run.curve.segments;
@@ -87,13 +77,28 @@ std::vector<CamKnot> knots_of(const CamInRun& run) {
     auto before = numbers_of(at(segments[i == 0 ? segments.size() - 1 : i - 1], 1));
     if (i == 0) before[0] -= run.advance();
     const auto after = numbers_of(at(segments[i], 0));
-    CamKnot knot{run.row_of(i), segments[i].start, after[0], run.row_of(i) == 1, {}, -1};
+    CamKnot knot{run.row_of(i), segments[i].start, run.row_of(i) == 1, {}, -1};
     for (std::size_t k = 0; k < after.size(); ++k) knot.jumps[k] = after[k] - before[k];
     for (std::size_t k = 0; k < after.size() && std::abs(knot.jumps[k]) <= same[k]; ++k)
       knot.smooth = static_cast<int>(k);
     knots.push_back(knot);
   }
   return knots;
+}
+
+}  // namespace
+
+CamInRun run_cam_in(const devices::plcopen::CamFile& cam, const CamDuty& duty, int loops) {
+  CamInRun run;
+  run.cam = cam;
+  run.loops = loops;
+  run.refused = refusals(cam);
+  if (duty.master_speed) run.master_speed = *duty.master_speed * increments_per_unit;
+  run.curve.modulo = cam.master_modulo;
+  if (run.refused.empty())
+    run.curve = curve_of(cam.table, cam.interpolation, cam.master_modulo, cam.slave_modulo, cam.endless);
+  run.knots = knots_of(run);
+  return run;
 }
 
 std::vector<CamPoint> sample_cam_in(const CamInRun& run, bool both_sides) {

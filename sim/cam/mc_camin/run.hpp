@@ -17,12 +17,21 @@ inline constexpr double increments_per_unit = 10'000;
 /// "0.0001 deg" of "deg", "0.1 um" of "mm".
 std::string increments_of(const std::string& unit);
 
+/// Where one segment gives over to the next, the last one to the first of the next turn.
+struct CamKnot {
+  int row = 0;                    ///< of the table
+  double master = 0;              ///< 0..modulo
+  bool closes = false;            ///< the table begins again here
+  std::array<double, 4> jumps{};  ///< of position, velocity, acceleration, jerk with respect to the master
+  int smooth = -1;                ///< up to which derivative nothing jumps, 3 at most; -1: the position does
+};
 /// A cam of MC_CamIn behind a master that runs evenly through its turns from 0, the scalings 1 and the
 /// offsets 0. Lengths in increments.
 struct CamInRun {
   devices::plcopen::CamFile cam;
   std::vector<devices::plcopen::CamRefusal> refused;  ///< what MC_CamIn would refuse
   devices::plcopen::CamCurve curve;                   ///< no segments if it refuses something
+  std::vector<CamKnot> knots;                         ///< in the order of the table's rows
   int loops = 1;
   std::optional<double> master_speed;  ///< [increments/s]
 
@@ -41,18 +50,6 @@ struct CamInRun {
 };
 
 CamInRun run_cam_in(const devices::plcopen::CamFile& cam, const CamDuty& duty, int loops);
-
-/// Where one segment gives over to the next, the last one to the first of the next turn.
-struct CamKnot {
-  int row = 0;                    ///< of the table
-  double master = 0;              ///< 0..modulo
-  double slave = 0;               ///< after it
-  bool closes = false;            ///< the table begins again here
-  std::array<double, 4> jumps{};  ///< of position, velocity, acceleration, jerk with respect to the master
-  int smooth = -1;                ///< up to which derivative nothing jumps, 3 at most; -1: the position does
-};
-/// All of them, in the order of the table's rows.
-std::vector<CamKnot> knots_of(const CamInRun& run);
 
 /// 1000 points a turn, evenly spaced, and every boundary; where something jumps, before and after. With
 /// `both_sides`, for drawing, before and after at every boundary.

@@ -1,0 +1,35 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/cam/zone.hpp"
+
+namespace drycut::sim {
+
+/// Master positions that a run of a cam came over.
+struct MasterRange {
+  double first = 0;
+  double last = 0;
+};
+
+/// A cam by the exact laws of its table in double precision: what a run is compared with. Nothing of the
+/// device's own arithmetic is in it. Positions in the table's unit.
+struct IdealCam {
+  std::string master_unit;  ///< to be shown: "Um", "pulses", "mm"
+  std::string slave_unit;
+  double shown = 1;             ///< of a shown unit in one of the table's
+  std::string error_unit;       ///< in which errors are told: "bits x4", "pulses", "0.0001 deg"
+  double error_scale = 1;       ///< of them in one of the table's unit of the slave
+  double speed_scale = 1;       ///< CamDuty::master_speed of one of the table's master units a second
+  std::vector<double> cycles;   ///< where each cycle begins and the last one ends, ascending [master]
+  std::vector<double> origins;  ///< where the slave counts a cycle from, one for each of `cycles` [slave]
+  std::vector<CamZone> zones;   ///< of all these cycles, in order
+  std::function<double(double master)> slave;  ///< not a number where the table alone does not say it
+  std::string silence;                         ///< why it does not, "" if it always does
+
+  [[nodiscard]] bool runs() const { return cycles.size() > 1; }
+};
+
+}  // namespace drycut::sim

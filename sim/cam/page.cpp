@@ -1,0 +1,212 @@
+#include "sim/cam/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "sim/cam/overlay.hpp"
+#include "sim/cam/study.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// "Y0 (DECAM D1000)" is "Y0_DECAM_D1000".
+std::string file_name(const std::string& axis) {
+  std::string name;
+  for (const char c : axis) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (plain)
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name.empty() ? "cam" : name;
+}
+
+/// Its four first digits, as a person would give it.
+double rounded(double speed) { return std::strtod(fmt::format("{:.4g}", speed).c_str(), nullptr); }
+
+MasterRange range_of(const PlayedCam& played) {
+  MasterRange range;
+  for (std::size_t i = 0; i < played.samples.size(); ++i) {
+    const double master = played.samples[i].master;
+    range.first = i == 0 ? master : std::min(range.first, master);
+    range.last = i == 0 ? master : std::max(range.last, master);
+  }
+  return range;
+}
+
+renders::ReportRow row_of(const CamPeak& peak, const std::string& master_unit) {
+  renders::ReportRow row{
+      {peak.name,
+       fmt::format("{} {} at master {} {}", number(peak.value), peak.unit, number(peak.master), master_unit),
+       "", ""}};
+  if (peak.limits.empty()) return row;
+  const auto tightest = std::min_element(peak.limits.begin(), peak.limits.end(),
+                                         [](const auto& a, const auto& b) { return a.value < b.value; });
+  const double share = std::abs(peak.value) / tightest->value;
+  row.cells[2] = fmt::format("{} {} {}", tightest->name, number(tightest->value), peak.unit);
+  row.cells[3] = share <= within ? fmt::format("PASS {:.1f} % left", 100 * std::max(0.0, 1 - share))
+                                 : fmt::format("FAIL {:.1f} % too much", 100 * (share - 1));
+  return row;
+}
+
+std::string grade_of(const CamFinding& finding) {
+  const auto text = to_string({finding.grade, finding.number, "", "", ""});
+  return text.substr(0, text.find(':'));
+}
+
+renders::ReportTable feasibility(const CamStudy& study, const std::string& master_unit) {
+  renders::ReportTable table{"Feasibility", {"what", "found", "limit or remedy", "verdict"}, {}, false, true};
+  for (const auto& peak : study.peaks) table.rows.push_back(row_of(peak, master_unit));
+  for (const auto& finding : study.findings) {
+    const bool bad = is_unsound({finding}, false);
+    const auto grade = grade_of(finding);
+    table.rows.push_back({{finding.where.empty() ? "the cam" : finding.where, finding.text, finding.remedy,
+                           bad ? "FAIL " + grade : grade}});
+  }
+  const bool unsound = is_unsound(study.findings, false);
+  table.rows.push_back(
+      {{"verdict", unsound ? "the cam is not sound" : "the cam is sound", "", unsound ? "FAIL" : "PASS"}});
+  return table;
+}
+
+/// Columns of text as a table: names with their units, then the lines.
+renders::ReportTable table_of(const std::string& title, const Columns& columns) {
+  renders::ReportTable table{title, {}, {}, true};
+  const auto& lines = columns.lines();
+  for (std::size_t i = 0; i < lines[0].size(); ++i) {
+    const auto unit = i < lines[1].size() ? lines[1][i] : "";
+    table.headings.push_back(unit.empty() ? lines[0][i] : fmt::format("{} [{}]", lines[0][i], unit));
+  }
+  for (std::size_t i = 2; i < lines.size(); ++i) table.rows.push_back({lines[i]});
+  return table;
+}
+
+renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors,
+                                  const std::vector<PlayedCycle>& cycles) {
+  renders::ReportTable table{
+      "How near the axis was to its cam", {"difference", "largest", "root mean square", "over"}, {}, false};
+  const auto whole =
+      std::count_if(cycles.begin(), cycles.end(), [](const auto& cycle) { return cycle.whole; });
+  const auto add = [&](const std::string& name, const std::vector<double>& of) {
+    const auto figures = figures_of(of);
+    if (figures.count == 0) return;
+    table.rows.push_back(
+        {{name, fmt::format("{} {}", error_text(figures.largest), ideal.error_unit),
+          fmt::format("{} {}", error_text(figures.rms), ideal.error_unit),
+          fmt::format("{} samples, {} whole cycle{}", figures.count, whole, whole == 1 ? "" : "s")}});
+  };
+  add("set less ideal position", errors.set);
+  add("set less measured position (following error)", errors.behind);
+  return table;
+}
+
+/// One page, made step by step.
+class PageMaker {
+ public:
+  PageMaker(const PlayedCam& played, std::string title, std::string name)
+      : played_(played), kind_(cam_kind(played.kind, played.table)) {
+    page_.title = std::move(title);
+    page_.name = std::move(name);
+    page_.table = played.table;
+  }
+
+  CamPage make() {
+    if (played_.samples.empty())
+      page_.notes.emplace_back("No slave was on this cam in the run: only the cam is shown.");
+    ideal_ = kind_.ideal(played_.table, range_of(played_));
+    draw_cam();
+    if (!ideal_.silence.empty())
+      page_.notes.push_back(
+          fmt::format("The ideal ends where the table alone does not say it: {}.", ideal_.silence));
+    draw_run();
+    return std::move(page_);
+  }
+
+ private:
+  void draw_cam() {
+    const auto file = page_.name + ".csv";
+    devices::Problems problems;
+    CamRequest request;
+    request.plot_name = "cam_" + page_.name;
+    const bool has_speed = kind_.check(played_.table, file, problems);
+    const double fastest = fastest_master(played_) * ideal_.speed_scale;
+    if (!has_speed && fastest > 0) request.duty.master_speed = rounded(fastest);
+    auto study = kind_.study(played_.table, file, request, problems);
+    // `check` and `study` tell the same.
+    if (!problems.empty()) {
+      page_.notes.push_back(
+          fmt::format("drycut cam does not take this table: {}", to_string(problems.front())));
+      return;
+    }
+    for (std::size_t begin = 0; begin < study.text.heading.size();) {
+      const auto end = study.text.heading.find('\n', begin);
+      page_.notes.push_back(study.text.heading.substr(begin, end - begin));
+      begin = end == std::string::npos ? end : end + 1;
+    }
+    if (request.duty.master_speed)
+      page_.notes.emplace_back("Judged at the fastest that the master was while the cam was played.");
+    if (!study.plot.panels.empty()) page_.plots.push_back(std::move(study.plot));
+    page_.tables.push_back(feasibility(study, ideal_.master_unit));
+    for (const auto& [name, columns] : study.text.tables) page_.tables.push_back(table_of(name, columns));
+  }
+
+  void draw_run() {
+    const auto errors = errors_of(played_, ideal_);
+    const auto cycles = cycles_of(played_, ideal_);
+    const auto* shown = shown_cycle(cycles);
+    if (shown == nullptr || shown->first == shown->last) return;
+    page_.plots.push_back(
+        overlay_plot(played_, ideal_, errors, cycles, *shown, "cam_" + page_.name + "_played"));
+    page_.tables.insert(page_.tables.begin(), played_table(ideal_, errors, cycles));
+  }
+
+  const PlayedCam& played_;
+  const CamKind& kind_;
+  IdealCam ideal_;
+  CamPage page_;
+};
+
+}  // namespace
+
+double fastest_master(const PlayedCam& played) {
+  constexpr Time window = 20 * millisecond;
+  double fastest = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < played.samples.size(); ++i) {
+    const auto& last = played.samples[i];
+    if (last.begins) first = i;
+    while (first + 1 < i && last.time - played.samples[first + 1].time >= window) ++first;
+    if (first == i) continue;
+    const double way = std::abs(last.master - played.samples[first].master);
+    const Time span = last.time - played.samples[first].time;
+    // Two samples that are near to each other tell more of the device's sampling than of the master.
+    if (span >= window) fastest = std::max(fastest, way / seconds(span));
+  }
+  return fastest;
+}
+
+std::vector<CamPage> cam_pages(const std::vector<PlayedCam>& played) {
+  std::map<std::string, int> all;
+  for (const auto& cam : played) ++all[cam.axis];
+  std::map<std::string, int> told;
+  std::vector<CamPage> pages;
+  for (const auto& cam : played) {
+    const int number = ++told[cam.axis];
+    const bool alone = all[cam.axis] == 1;
+    const auto title = alone ? fmt::format("Cam of {}", cam.axis)
+                             : fmt::format("Cam of {}, table {} of {}", cam.axis, number, all[cam.axis]);
+    const auto name = file_name(cam.axis) + (alone ? "" : fmt::format("_{}", number));
+    pages.push_back(PageMaker(cam, title, name).make());
+  }
+  return pages;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,305 @@
+// Reports as their readers have them: written by the program, opened in a browser, on desk, phone and paper,
+// by day and by night. Skipped where there is no Chromium.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "renders/png_image.hpp"
+#include "renders/process.hpp"
+#include "tests/scenes/browser.hpp"
+#include "tests/scenes/report_browser_scripts.hpp"
+#include "tests/test_folder.hpp"
+
+namespace drycut {
+namespace {
+
+using nlohmann::json;
+using ::testing::IsEmpty;
+
+/// Words of a call; "OUT" stands for the test's folder, "SCENES" for scenes/.
+using Call = std::vector<std::string>;
+
+Call run(const std::string& scene, const std::string& duration, const Call& more = {}) {
+  Call words = {"run", "SCENES/" + scene + ".yaml", "--out", "OUT"};
+  const Call short_and_small = {"scene.duration=" + duration, "pictures.frames.every=1 s",
+                                "pictures.frames.size=320x180"};
+  for (const auto& assignment : short_and_small) words.insert(words.end(), {"--set", assignment});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+struct Page {
+  std::string name;
+  std::vector<Call> calls;
+  std::string report;  ///< below OUT
+  std::string trace;   ///< whose values its cursor must tell, "" = not of one run
+  bool live = true;    ///< has plots to zoom
+};
+void PrintTo(const Page& page, std::ostream* out) { *out << page.name; }
+
+Page scene(const std::string& name, const std::string& duration, const Call& more = {}) {
+  return {name, {run(name, duration, more)}, name + "/report.html", name + "/trace.csv"};
+}
+
+/// One for each plant, one with everything a report can hold, and the pages that are not of one run.
+std::vector<Page> pages() {
+  const Call plain = {"--no-pictures"};
+  auto faster = run("rotary_knife_short", "3 s", {"--no-pictures", "--set", "plants.web.speed=50 m/min"});
+  faster[3] = "OUT/faster";
+  return {
+      scene("rotary_knife", "5 s"),
+      scene("rotary_knife_fault", "6500 ms", {"--set", "pictures.frames.every=800 ms"}),
+      scene("flying_saw", "12 s", {"--set", "pictures.frames.every=3 s"}),
+      scene("fly_cut", "5 s"),
+      scene("backlash_motor_encoder", "3 s"),
+      scene("press_learning", "5 s"),
+      scene("circular", "4 s"),
+      scene("wire_guide", "4 s"),
+      {"compare",
+       {run("rotary_knife_short", "3 s", plain),
+        faster,
+        run("rotary_knife_lx3vp", "3 s", plain),
+        {"compare", "OUT/rotary_knife_short", "OUT/faster/rotary_knife_short", "OUT/rotary_knife_lx3vp",
+         "--out", "OUT/compared"}},
+       "compared/report.html",
+       ""},
+      {"bode",
+       {{"bode", "SCENES/rotary_knife_short.yaml", "--at", "2", "--out", "OUT/bode"}},
+       "bode/report.html",
+       "",
+       false},
+      {"tune",
+       {{"tune", "SCENES/rotary_knife_short.yaml", "--from", "2 s", "--set", "scene.duration=3 s", "--vary",
+         "controller.qmove.set.AxisX.pgain=1..100", "--minimise", "rms(AxisX.follerr)", "--budget", "4",
+         "--ignore-checks", "--out", "OUT/tune"}},
+       "tune/report.html",
+       "",
+       false},
+  };
+}
+
+/// Columns of a trace.csv by their channels' names.
+std::map<std::string, std::vector<double>> trace_of(const std::filesystem::path& file) {
+  std::map<std::string, std::vector<double>> columns;
+  std::vector<std::string> names;
+  std::istringstream lines(content(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::size_t column = 0;
+    const bool head = names.empty();
+    for (std::string cell; std::getline(cells, cell, ','); ++column) {
+      if (head)
+        names.push_back(cell.substr(0, cell.rfind(" [")));
+      else
+        columns[names[column]].push_back(cell.empty() ? std::nan("") : std::stod(cell));
+    }
+  }
+  return columns;
+}
+
+/// The picture is no blank sheet: its green has many tones.
+void expect_not_blank(const std::filesystem::path& png, int width) {
+  const auto image = renders::read_png(png);
+  EXPECT_EQ(image.width, width);
+  std::set<std::uint8_t> tones;
+  for (std::size_t i = 1; i < image.rgb.size(); i += 3) tones.insert(image.rgb[i]);
+  EXPECT_GT(tones.size(), 50U);
+}
+
+/// With the mouse at a share of the width of a plot's last panel, the cursor stands in all panels of all
+/// plots over the same x and tells what the trace says there. Returns how many values were compared.
+int expect_cursor_tells_the_trace(Browser& browser, std::size_t plot, double share,
+                                  const std::map<std::string, std::vector<double>>& trace) {
+  const auto place = browser.evaluate(fmt::format("({})({}, {})", kPlaceInPlot, plot, share));
+  browser.mouse("mouseMoved", place["x"], place["y"]);
+  int compared = 0;
+  for (const auto& told : browser.evaluate(fmt::format("({})({})", kToldByCursor, plot))) {
+    SCOPED_TRACE(told.dump());
+    EXPECT_NEAR(told["at"].get<double>(), place["at"].get<double>(), 1e-9);
+    EXPECT_TRUE(told["lines"].get<bool>()) << "in every panel, at the mouse";
+    for (const auto& [label, text] : told["values"].items()) {
+      EXPECT_NE(text, "");
+      if (!trace.contains(label) || !told["time"].get<bool>()) continue;
+      const auto& times = trace.at("time");
+      const auto row =
+          std::upper_bound(times.begin(), times.end(), told["at"].get<double>()) - times.begin() - 1;
+      const double recorded = trace.at(label).at(static_cast<std::size_t>(row));
+      // Five digits, of numbers below 0.001 four; kept as 32-bit floats.
+      const double shown = std::abs(recorded) < 1e-3 ? 6e-4 : 1e-4;
+      EXPECT_NEAR(std::stod(text.get<std::string>()), recorded, shown * std::abs(recorded)) << label;
+      ++compared;
+    }
+  }
+  return compared;
+}
+
+/// A drag over the middle of a plot shows just that stretch in all its panels, under other numbers; a double
+/// click shows everything again.
+void expect_drag_zooms(Browser& browser, std::size_t plot) {
+  const auto ranges = [&] { return browser.evaluate(fmt::format("({})({})", kRangesOfPlot, plot)); };
+  const auto place = [&](double share) {
+    return browser.evaluate(fmt::format("({})({}, {})", kPlaceInPlot, plot, share));
+  };
+  const auto before = ranges();
+  const auto from = place(0.3), until = place(0.6);
+  browser.mouse("mousePressed", from["x"], from["y"], 1);
+  browser.mouse("mouseMoved", place(0.5)["x"], from["y"], 1);
+  browser.mouse("mouseMoved", until["x"], from["y"], 1);
+  browser.mouse("mouseReleased", until["x"], from["y"], 1);
+  const auto zoomed = ranges();
+  for (const auto& range : zoomed["x"]) {
+    EXPECT_NEAR(range[0].get<double>(), from["at"].get<double>(), place(0)["pixel"].get<double>());
+    EXPECT_NEAR(range[1].get<double>(), until["at"].get<double>(), place(0)["pixel"].get<double>());
+  }
+  EXPECT_NE(zoomed["labels"], before["labels"]);
+  for (const int clicks : {1, 2})
+    for (const char* what : {"mousePressed", "mouseReleased"})
+      browser.mouse(what, from["x"], from["y"], clicks);
+  EXPECT_EQ(ranges(), before);
+}
+
+class ReportInABrowser : public ::testing::TestWithParam<Page> {
+ protected:
+  void SetUp() override {
+    if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+    for (const Call& call : GetParam().calls) {
+      renders::Command command = {DRYCUT_PROGRAM, "drycut", {}};
+      for (std::string word : call) {
+        if (word.starts_with("SCENES")) word.replace(0, 6, std::string(DRYCUT_SOURCE_DIR) + "/scenes");
+        if (word.starts_with("OUT")) word.replace(0, 3, folder.path.string());
+        command.arguments.push_back(word);
+      }
+      // Checks may fail in a run cut short; the page is what counts.
+      const auto finished = renders::run_process(command, "");
+      EXPECT_EQ(finished.words, "") << finished.output;
+    }
+    ASSERT_TRUE(std::filesystem::exists(folder / GetParam().report));
+    browser.emplace(folder.path);
+  }
+
+  /// The page on this screen; it shows all its pictures and has nothing to complain of.
+  void open(int width, int height, bool phone) {
+    browser->window(width, height, phone);
+    browser->media("light");
+    browser->open(folder / GetParam().report);
+    EXPECT_EQ(browser->evaluate(kPicturesLoaded), "all");
+    EXPECT_THAT(browser->complaints(), IsEmpty());
+  }
+
+  void expect_reads_well(int width) {
+    for (const std::string scheme : {"light", "dark"}) {
+      SCOPED_TRACE(scheme + ", " + std::to_string(width));
+      browser->media(scheme);
+      EXPECT_EQ(browser->evaluate(kIsDark), scheme == "dark");
+      browser->evaluate(kUnfold);
+      EXPECT_EQ(browser->evaluate(kOverflow), json::array());
+      EXPECT_EQ(browser->evaluate(kFaintText), json::array());
+      EXPECT_EQ(browser->evaluate(kAxesWithoutScale), json::array());
+      browser->evaluate("scrollTo(0, 0)");
+      browser->screenshot(folder / (scheme + ".png"));
+      expect_not_blank(folder / (scheme + ".png"), width);
+    }
+  }
+
+  /// False where libjs-dygraphs is not installed: then the page says so, and there are pictures only.
+  bool has_library() {
+    return content(folder / GetParam().report).find("need libjs-dygraphs") == std::string::npos;
+  }
+
+  void expect_plots_answer() {
+    const auto& page = GetParam();
+    ASSERT_EQ(browser->evaluate("typeof drycutPlots !== 'undefined'"), page.live);
+    if (!page.live) return;
+    const auto trace =
+        page.trace.empty() ? std::map<std::string, std::vector<double>>() : trace_of(folder / page.trace);
+    const auto plots = browser->evaluate("drycutPlots.length").get<std::size_t>();
+    ASSERT_GT(plots, 0U);
+    int compared = 0;
+    for (std::size_t plot = 0; plot < plots; ++plot) {
+      SCOPED_TRACE(plot);
+      for (const double share : {0.137, 0.911})
+        compared += expect_cursor_tells_the_trace(*browser, plot, share, trace);
+      expect_drag_zooms(*browser, plot);
+    }
+    EXPECT_EQ(compared > 0, !trace.empty());
+  }
+
+  TestFolder folder;
+  std::optional<Browser> browser;
+};
+INSTANTIATE_TEST_SUITE_P(Of, ReportInABrowser, ::testing::ValuesIn(pages()),
+                         [](const auto& page) { return page.param.name; });
+
+TEST_P(ReportInABrowser, ReadsWellOnDeskPhoneAndPaperByDayAndByNightAndItsPlotsAnswer) {
+  open(1280, 900, false);
+  expect_reads_well(1280);
+  if (has_library()) expect_plots_answer();
+  EXPECT_THAT(browser->complaints(), IsEmpty());
+
+  open(390, 844, true);
+  expect_reads_well(390);
+
+  // A4 between margins of a centimetre. What the reader left folded is printed all the same.
+  browser->evaluate(kFold);
+  browser->window(718, 1042, true);
+  for (const char* scheme : {"light", "dark"}) {
+    SCOPED_TRACE(scheme);
+    browser->media(scheme, "print");
+    EXPECT_EQ(browser->evaluate(kClippedOnPaper), json::array());
+    EXPECT_EQ(browser->evaluate(kFaintText), json::array());
+    EXPECT_EQ(browser->evaluate(kFaintOnPaper), json::array()) << "printers leave grounds out";
+    EXPECT_EQ(browser->evaluate(kIsDark), false);
+  }
+  EXPECT_THAT(browser->pdf(), ::testing::StartsWith("JVBERi0")) << "%PDF-";
+  EXPECT_THAT(browser->complaints(), IsEmpty());
+}
+
+// What the test above must notice.
+TEST(BrowserOfTheTests, NoticesWhatIsWrongWithAPage) {
+  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+  const TestFolder folder;
+  Browser browser(folder.path);
+  const auto body = [&](const std::string& html) {
+    browser.open(folder.file("page.html",
+                             "<meta name=viewport content='width=device-width'><style>:root{"
+                             "--ground:#fff}body{background:#fff;color:#000}</style><body><main>" +
+                                 html));
+    return browser.complaints();
+  };
+  browser.window(390, 844, true);
+  EXPECT_THAT(body("<p>good</p>"), IsEmpty());
+  EXPECT_EQ(browser.evaluate(kOverflow), json::array());
+  EXPECT_EQ(browser.evaluate(kFaintText), json::array());
+  EXPECT_EQ(browser.evaluate(kClippedOnPaper), json::array());
+  EXPECT_EQ(browser.evaluate(kPicturesLoaded), "all");
+
+  EXPECT_THAT(body("<script>console.warn('hm')</script>"), ::testing::SizeIs(1));
+  EXPECT_THAT(body("<script>nothing.at.all</script>"), ::testing::SizeIs(1));
+  EXPECT_THAT(body("<img src='other.png'>"), ::testing::Contains(::testing::HasSubstr("asks for")));
+  body("<img src='data:image/png;base64,AAAA'>");
+  EXPECT_NE(browser.evaluate(kPicturesLoaded), "all");
+  body("<p style='width:500px'>wide</p>");
+  EXPECT_NE(browser.evaluate(kOverflow), json::array());
+  body("<div style='overflow:hidden;width:100px'><p style='width:500px'>cut</p></div>");
+  EXPECT_NE(browser.evaluate(kOverflow), json::array());
+  body("<div style='overflow:auto;width:100px'><p style='width:500px'>scrolls</p></div>");
+  EXPECT_EQ(browser.evaluate(kOverflow), json::array());
+  EXPECT_NE(browser.evaluate(kClippedOnPaper), json::array()) << "nobody scrolls paper";
+  body("<p style='color:#aaa'>faint</p>");
+  EXPECT_NE(browser.evaluate(kFaintText), json::array());
+  body("<p style='background:#444;color:#fff'>bright</p>");
+  EXPECT_EQ(browser.evaluate(kFaintText), json::array());
+  EXPECT_NE(browser.evaluate(kFaintOnPaper), json::array());
+  body("<details><summary>more</summary><p>folded</p></details>");
+  EXPECT_NE(browser.evaluate(kClippedOnPaper), json::array()) << "nobody unfolds paper";
+  EXPECT_THROW(browser.evaluate("nothing.at.all"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace drycut

@@ -1,0 +1,296 @@
+// pictures: what lamps, overlays, live, follow and camera do to the film of a run, and what of them is
+// refused.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+
+#include "sim/gallery.hpp"
+#include "sim/part_meshes.hpp"
+#include "sim/simulation.hpp"
+#include "tests/sim/scenario_fake_plants.hpp"
+#include "tests/test_folder.hpp"
+
+namespace drycut::sim {
+namespace {
+
+using fakes::problems_of;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+/// The line that cuts pieces of 500 mm, with pictures of the test's own; its problems, or its run of 3.5 s.
+struct KnifeLine {
+  explicit KnifeLine(const std::string& pictures) {
+    const auto file = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/rotary_knife_short.yaml";
+    auto text = content(file);
+    text.resize(text.find("\npictures:") + 1);
+    first_line = std::count(text.begin(), text.end(), '\n') + 1;
+    scenario = read_scenario_text(text + "pictures: {" + pictures + "}\n", file,
+                                  {{"scene.duration", "3.5 s"}}, problems);
+    simulation.emplace(scenario, problems);
+    load_part_meshes(scenario, simulation->plants(), problems);
+  }
+  /// "column: what; remedy" of every problem; all are in the line of `pictures`.
+  std::vector<std::string> told() const {
+    std::vector<std::string> list;
+    const auto before = scenario.file.string() + ":" + std::to_string(first_line) + ":";
+    for (const auto& problem : problems) {
+      const auto text = to_string(problem);
+      EXPECT_THAT(text, StartsWith(before));
+      list.push_back(text.substr(std::min(before.size(), text.size())));
+    }
+    return list;
+  }
+  renders::Film film() {
+    EXPECT_THAT(told(), IsEmpty());
+    simulation->run();
+    return film_of(scenario, *simulation);
+  }
+  /// What was recorded of a channel at a time.
+  double recorded(const std::string& channel, double time) const {
+    const auto& recording = simulation->recording();
+    for (std::size_t row = 0; row < recording.times().size(); ++row)
+      if (std::abs(seconds(recording.times()[row]) - time) < 1e-9)
+        return recording.column(channel)->values[row];
+    ADD_FAILURE() << "no record of " << channel << " at " << time;
+    return std::nan("");
+  }
+
+  devices::Problems problems;
+  Scenario scenario;
+  std::optional<Simulation> simulation;
+  std::ptrdiff_t first_line = 0;
+};
+
+constexpr auto* second_cut = "frames: {around: \"cut[2]\", before: 10 ms, after: 300 ms, every: 1 ms}";
+
+/// Kinds of callouts that any frame has.
+std::pair<bool, bool> lengths_and_forces(const renders::Film& film) {
+  std::pair<bool, bool> found;
+  for (const auto& frame : film.frames)
+    for (const auto& one : frame.callouts)
+      (one.kind == renders::Callout::Kind::length ? found.first : found.second) = true;
+  return found;
+}
+
+double distance(const renders::Camera& camera) {
+  return std::hypot(camera.eye[0] - camera.target[0], camera.eye[1] - camera.target[1],
+                    camera.eye[2] - camera.target[2]);
+}
+
+TEST(PicturesFilm, LampsStandBehindTheNumbersAndAreLitWhereTheirChannelIsNotZero) {
+  KnifeLine line("frames: {every: 100 ms}, caption: [web.speed], lamps: [AxisX.st_sync, AxisX.rowex]");
+  const auto film = line.film();
+  ASSERT_EQ(film.frames.size(), 35U);
+  int lit = 0;
+  for (const auto& frame : film.frames) {
+    ASSERT_EQ(frame.caption.size(), 3U);
+    EXPECT_EQ(frame.caption[0].label, "web.speed");
+    EXPECT_EQ(frame.caption[0].value, "60.0 m/min");
+    EXPECT_FALSE(frame.caption[0].lamp);
+    EXPECT_EQ(frame.caption[1].label, "AxisX.st_sync");
+    EXPECT_EQ(frame.caption[1].value, "");
+    ASSERT_TRUE(frame.caption[1].lamp);
+    EXPECT_EQ(*frame.caption[1].lamp, line.recorded("AxisX.st_sync", frame.time_s) != 0) << frame.time_s;
+    EXPECT_EQ(*frame.caption[2].lamp, line.recorded("AxisX.rowex", frame.time_s) != 0) << "3 is lit too";
+    lit += *frame.caption[1].lamp ? 1 : 0;
+  }
+  EXPECT_GT(lit, 5) << "in synchronism after the start";
+  EXPECT_LT(lit, 30) << "and not before";
+}
+
+TEST(PicturesFilm, OverlaysAreThoseAskedForAndAllByDefault) {
+  struct Case {
+    const char* overlays;
+    bool trail, lengths, forces;
+  };
+  for (const auto& [overlays, trail, lengths, forces] :
+       {Case{"", true, true, true}, Case{", overlays: [trail]", true, false, false},
+        Case{", overlays: [lengths]", false, true, false}, Case{", overlays: [forces]", false, false, true},
+        Case{", overlays: []", false, false, false}}) {
+    const auto film = KnifeLine(std::string(second_cut) + overlays).film();
+    EXPECT_EQ(film.trails, trail) << overlays;
+    EXPECT_EQ(lengths_and_forces(film), std::pair(lengths, forces)) << overlays;
+  }
+}
+
+TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
+  KnifeLine line(second_cut);
+  const auto film = line.film();
+  const auto& events = line.simulation->recording().events();
+  std::vector<const RecordedEvent*> cuts;
+  for (const auto& event : events)
+    if (event.event == "cut") cuts.push_back(&event);
+  ASSERT_GE(cuts.size(), 2U);
+  // The newest piece lies nearest to the cut.
+  const auto& last = film.frames.back();
+  const renders::Callout* newest = nullptr;
+  for (const auto& one : last.callouts)
+    if (one.kind == renders::Callout::Kind::length && (newest == nullptr || one.at[0] < newest->at[0]))
+      newest = &one;
+  ASSERT_NE(newest, nullptr);
+  char length[32];
+  std::snprintf(length, sizeof length, "%.1f mm", cuts[1]->find("length")->number);
+  EXPECT_EQ(newest->text, length);
+  double largest = 0;
+  for (const auto& frame : film.frames)
+    for (const auto& one : frame.callouts)
+      if (one.kind == renders::Callout::Kind::force) largest = std::max(largest, one.to[1]);
+  EXPECT_LE(largest, cuts[1]->find("force")->number * (1 + 1e-9));
+  EXPECT_GT(largest, 0.5 * cuts[1]->find("force")->number);
+}
+
+TEST(PicturesFilm, LiveCurvesAreTheRecordedChannels) {
+  KnifeLine line("frames: {every: 500 ms}, live: [knife.motor.torque, AxisX.follerr]");
+  const auto film = line.film();
+  const auto& recording = line.simulation->recording();
+  ASSERT_EQ(film.live.size(), 2U);
+  EXPECT_EQ(film.live[0].label, "knife.motor.torque");
+  EXPECT_EQ(film.live[0].unit, "N m");
+  EXPECT_EQ(film.live[0].values, recording.column("knife.motor.torque")->values);
+  EXPECT_EQ(film.live[1].unit, "bits x4");
+  ASSERT_EQ(film.live[1].times_s.size(), recording.times().size());
+  EXPECT_EQ(film.live[1].times_s.back(), 3.5);
+  EXPECT_EQ(film.live_window_s, 2);
+}
+
+TEST(PicturesFilm, SlowMotionShowsAsMuchLessOfTheLiveCurves) {
+  auto line = KnifeLine("frames: {every: 100 ms, slow: 20, from: 3 s}, live: [web.speed]");
+  EXPECT_DOUBLE_EQ(line.film().live_window_s, 0.1);
+}
+
+TEST(PicturesFilm, ALiveChannelIsRecordedThoughNothingElseAskedForIt) {
+  KnifeLine line("frames: {every: 500 ms}, live: [knife.cut.number]");
+  const auto film = line.film();
+  EXPECT_EQ(film.live.at(0).values.size(), line.simulation->recording().times().size());
+  EXPECT_EQ(film.live[0].values.back(), line.recorded("knife.cut.number", 3.5));
+  EXPECT_GE(film.live[0].values.back(), 2);
+}
+
+TEST(PicturesFilm, FollowsThePartThatIsNamed) {
+  auto line = KnifeLine("frames: {every: 500 ms, follow: web.piece 1}");
+  const auto film = line.film();
+  ASSERT_TRUE(film.follow);
+  EXPECT_EQ(film.parts.at(*film.follow).name, "web.piece 1");
+  EXPECT_FALSE(KnifeLine("frames: {every: 500 ms}").film().follow);
+}
+
+TEST(PicturesFilm, APlantsCameraIsNearerThanTheOperators) {
+  const auto whole = KnifeLine("frames: {every: 500 ms, camera: operator}").film().camera;
+  const auto knife = KnifeLine("frames: {every: 500 ms, camera: knife}").film().camera;
+  EXPECT_LT(distance(knife), 0.8 * distance(whole));
+  EXPECT_EQ(KnifeLine("frames: {every: 500 ms}").film().camera, whole) << "the default";
+}
+
+TEST(PicturesFilm, ACameraOfTheUsersOwnStandsWhereItIsPut) {
+  const std::string eye =
+      "frames: {every: 500 ms, camera: {eye: [-1 m, 60 cm, 1400 mm], target: [1 mm, 2 mm, 0 m]";
+  const auto usual = KnifeLine(eye + "}}").film().camera;
+  EXPECT_EQ(usual.eye, (std::array<double, 3>{-1, 0.6, 1.4}));
+  EXPECT_EQ(usual.target, (std::array<double, 3>{0.001, 0.002, 0}));
+  EXPECT_NEAR(usual.field_of_view_deg, 35, 1e-9);
+  EXPECT_NEAR(KnifeLine(eye + ", field_of_view: 60 deg}}").film().camera.field_of_view_deg, 60, 1e-9);
+}
+
+TEST(PicturesFilm, NamesThatTheMachineDoesNotHaveAreRefusedWithTheirPlace) {
+  EXPECT_THAT(KnifeLine("lamps: [panel.start, AxisX.st_snyc]").told(),
+              ElementsAre("33: there is no channel 'AxisX.st_snyc'; did you mean AxisX.st_sync?"));
+  EXPECT_THAT(KnifeLine("live: [web.sped]").told(),
+              ElementsAre("19: there is no channel 'web.sped'; did you mean web.speed?"));
+  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, camera: nife}").told(),
+              ElementsAre("44: there is no camera 'nife'; cameras: operator, web, knife"));
+  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, follow: knife.drumm}").told(),
+              ElementsAre("44: there is no part 'knife.drumm'; did you mean knife.drum?"));
+}
+
+TEST(PicturesProblems, LampsOverlaysAndLive) {
+  EXPECT_THAT(
+      problems_of("pictures: {overlays: [trail, shadows]}\n"),
+      ElementsAre(
+          "1:30: pictures.overlays: there is no overlay 'shadows'; overlays: trail, lengths, forces"));
+  EXPECT_THAT(
+      problems_of("pictures: {overlays: trail}\n"),
+      ElementsAre("1:22: pictures.overlays must be a list, not a single value; write [first, second], or a "
+                  "line '- ...' for each"));
+  EXPECT_THAT(
+      problems_of("pictures: {live: [a, b, c]}\n"),
+      ElementsAre("1:25: pictures.live has 3 channels; one or two have room in the corner; show more in "
+                  "plots"));
+  EXPECT_THAT(problems_of("pictures: {lamps: {a: b}}\n"),
+              ElementsAre("1:19: pictures.lamps must be a list, not a map; write [first, second], or a line "
+                          "'- ...' for each"));
+}
+
+TEST(PicturesProblems, Cameras) {
+  const std::string camera = "pictures: {frames: {camera: {";
+  EXPECT_THAT(
+      problems_of(camera + "target: [0 m, 0 m, 0 m]}}}\n"),
+      ElementsAre(
+          "1:29: pictures.frames.camera.eye is missing; write eye: [0 m, 1 m, 2 m], along x, y and z"));
+  EXPECT_THAT(
+      problems_of(camera + "eye: [0 m, 1 m, 2 m]}}}\n"),
+      ElementsAre(
+          "1:29: pictures.frames.camera.target is missing; write target: [0 m, 1 m, 2 m], along x, y and z"));
+  EXPECT_THAT(
+      problems_of(camera + "eye: [0 m, 1 m], target: [0 m, 0 m, 0 m]}}}\n"),
+      ElementsAre(
+          "1:30: pictures.frames.camera.eye has 2 numbers; write three, along x, y and z: [0 m, 20 m, 0 m]"));
+  EXPECT_THAT(problems_of(camera + "eye: [0 m, 1 m, 2 s], target: [0 m, 0 m, 0 m]}}}\n"),
+              ElementsAre("1:48: pictures.frames.camera.eye.2 is a length, not a time (s); for example 1 m"));
+  EXPECT_THAT(problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [1 m, 100 cm, 1 m]}}}\n"),
+              ElementsAre("1:52: pictures.frames.camera looks at the place where it stands; let target be "
+                          "another point than eye"));
+  EXPECT_THAT(
+      problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [0 m, 0 m, 0 m], field_of_view: 0.5 deg}}}\n"),
+      ElementsAre("1:92: pictures.frames.camera.field_of_view is 0.5 deg, out of range; 1 deg to 150 deg; 35 "
+                  "deg is the default"));
+  EXPECT_THAT(
+      problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [0 m, 0 m, 0 m], field_of_view: 151 deg}}}\n"),
+      ElementsAre("1:92: pictures.frames.camera.field_of_view is 151 deg, out of range; 1 deg to 150 deg; 35 "
+                  "deg is the default"));
+  EXPECT_THAT(
+      problems_of(camera + "eye: [1 m, 1 m, 1 m], target: [0 m, 0 m, 0 m], zoom: 2}}}\n"),
+      ElementsAre("1:77: unknown key 'zoom' in pictures.frames.camera; known: eye, target, field_of_view"));
+  EXPECT_THAT(
+      problems_of("pictures: {frames: {camera: [a, b]}}\n"),
+      ElementsAre("1:29: pictures.frames.camera must be a single value, not a list; write one value"));
+}
+
+TEST(Pictures, CameraFollowLampsOverlaysAndLiveAreReadAndWritten) {
+  std::vector<std::string> problems;
+  const auto scenario = fakes::read(
+      "pictures:\n"
+      "  frames: {camera: {eye: [-1 m, 0.6 m, 1.4 m], target: [0 m, 1 cm, 0 m], field_of_view: 40 deg}, "
+      "follow: "
+      "saw.carriage}\n"
+      "  lamps: [a, panel.b]\n"
+      "  overlays: [forces, trail]\n"
+      "  live: [c, d]\n",
+      problems);
+  const auto check = [](const PicturesSection& pictures) {
+    ASSERT_TRUE(pictures.own_camera);
+    EXPECT_EQ(pictures.own_camera->eye, (std::array<double, 3>{-1, 0.6, 1.4}));
+    EXPECT_EQ(pictures.own_camera->target, (std::array<double, 3>{0, 0.01, 0}));
+    EXPECT_NEAR(pictures.own_camera->field_of_view, 40 * std::numbers::pi / 180, 1e-12);
+    EXPECT_EQ(pictures.follow.text, "saw.carriage");
+    ASSERT_EQ(pictures.lamps.size(), 2U);
+    EXPECT_EQ(pictures.lamps[1].text, "panel.b");
+    EXPECT_TRUE(pictures.overlays.trail && pictures.overlays.forces);
+    EXPECT_FALSE(pictures.overlays.lengths);
+    ASSERT_EQ(pictures.live.size(), 2U);
+    EXPECT_EQ(pictures.live[1].text, "d");
+  };
+  EXPECT_THAT(problems, IsEmpty());
+  check(scenario.pictures);
+  const auto again = fakes::read(expand(scenario), problems);
+  EXPECT_THAT(problems, IsEmpty());
+  check(again.pictures);
+}
+
+}  // namespace
+}  // namespace drycut::sim
