@@ -3,28 +3,17 @@
 #include <GL/osmesa.h>
 
 #include <array>
-#include <cstdlib>
-#include <mutex>
 #include <stdexcept>
 
 namespace drycut::renders {
-namespace {
-
-/// Runs are spread over the cores by process or thread, so the rasteriser shall not start threads of its own
-/// (unless the user says otherwise). It reads the variable when the first context is made.
-void one_thread_a_context() {
-  static std::once_flag once;
-  std::call_once(once, [] { setenv("LP_NUM_THREADS", "0", /*overwrite=*/0); });
-}
-
-}  // namespace
 
 void GlContext::Release::operator()(void* context) const {
   OSMesaDestroyContext(static_cast<OSMesaContext>(context));
 }
 
+// The rasteriser is one for all contexts of a process, who take turns; its own threads, one a core unless
+// LP_NUM_THREADS says otherwise, share the work of whoever has it. The pixels are the same for any number.
 GlContext::GlContext() : buffer_(16 * 16 * 4) {
-  one_thread_a_context();
   const std::array<int, 13> attributes = {OSMESA_FORMAT,
                                           OSMESA_RGBA,
                                           OSMESA_DEPTH_BITS,

@@ -8,6 +8,12 @@
 #include "renders/process.hpp"
 
 namespace drycut::renders {
+namespace {
+
+/// x264's bytes depend on the number of threads: a fixed one, whatever the machine has.
+constexpr auto* threads = "2";
+
+}  // namespace
 
 void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
                   const std::filesystem::path& file) {
@@ -19,6 +25,8 @@ void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
                             "error",
                             "-nostdin",
                             "-y",
+                            "-threads",
+                            threads,
                             "-framerate",
                             fmt::format("1000000000/{}", period_ns),
                             "-i",
@@ -28,13 +36,13 @@ void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
                             "-c:v",
                             "libx264",
                             "-preset",
-                            "fast",
+                            "veryfast",
                             "-crf",
                             "20",
                             "-pix_fmt",
                             "yuv420p",
                             "-threads",
-                            "1",
+                            threads,
                             "-map_metadata",
                             "-1",
                             "-fflags",

@@ -2,13 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <thread>
 
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"
-#include "renders/gl_context.hpp"
 #include "renders/pictures.hpp"
 #include "renders/png_image.hpp"
 #include "tests/renders/renders_scratch.hpp"
@@ -225,12 +223,6 @@ TEST(RendersFilm, SaysWhichFileCannotBeWritten) {
   std::filesystem::create_directories(scratch / "frame_00000.png");  // a directory is in the way
   EXPECT_THAT(message_of<std::runtime_error>([&] { draw_film(two_parts(), scratch.path); }),
               HasSubstr("frame_00000.png: cannot be written"));
-}
-
-TEST(RendersFilm, ContextKeepsTheUsersThreads) {
-  ASSERT_EQ(setenv("LP_NUM_THREADS", "1", 1), 0);
-  { const GlContext context; }
-  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "1");
 }
 
 // ---- caption ----

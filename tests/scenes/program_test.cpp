@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -45,6 +46,22 @@ struct ProgramTest : testing::Test {
                  ("drycut_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
   std::string to() const { return " --out " + out.string(); }
 };
+
+TEST_F(ProgramTest, FramesAreTheSameForAnyNumberOfRasteriserThreads) {
+  std::vector<std::string> frames;
+  for (const char* threads : {"0", "1", "3"}) {
+    ASSERT_EQ(setenv("LP_NUM_THREADS", threads, 1), 0);
+    const auto result =
+        call("run " + scenes +
+             "rotary_knife_short.yaml --set scene.duration='3 s' --set pictures.frames.every='1 s'" + to());
+    EXPECT_TRUE(fs::exists(out / "rotary_knife_short/frames/frame_00002.png")) << result.text;
+    frames.push_back(contents(out / "rotary_knife_short/frames/frame_00002.png"));
+  }
+  unsetenv("LP_NUM_THREADS");
+  EXPECT_GT(frames[0].size(), 1000U);
+  EXPECT_TRUE(frames[0] == frames[1]);
+  EXPECT_TRUE(frames[0] == frames[2]);
+}
 
 TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   const auto result = call("run " + scenes + "rotary_knife_short.yaml --set scene.duration='5 s'" + to());
