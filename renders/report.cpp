@@ -208,7 +208,8 @@ void write_sections(std::string& page, const Report& report) {
   std::size_t data = report.plots.size();
   for (const ReportSection& section : report.sections) {
     page += fmt::format("<h2>{}</h2>\n", html_text(section.title));
-    for (const std::string& note : section.notes) page += fmt::format("<p>{}</p>\n", html_text(note));
+    for (const std::string& note : section.notes)
+      page += fmt::format("<p class=\"remark\">{}</p>\n", html_text(note));
     write_figures(page, report, section.plots, data);
     data += section.plots.size();
     for (const ReportTable& table : section.tables) write_table(page, table);

@@ -98,8 +98,10 @@ const char* const kReportPlots = R"js(
     if (panel.title || panel.yLabel) element(legend, "b", "", (panel.title + " " + panel.yLabel).trim());
     const values = panel.curves.map((curve, i) => {
       const entry = element(legend, "span", "live-entry");
-      element(entry, "i", curve.style);
-      element(entry, "span", "", curve.label + " ");
+      if (curve.label) {
+        element(entry, "i", curve.style);
+        element(entry, "span", "", curve.label + " ");
+      }
       return element(entry, "output", "", "");
     });
     for (const band of panel.bands) if (band.label) element(legend, "span", "live-band", band.label);

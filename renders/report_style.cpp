@@ -16,6 +16,7 @@ main { max-width: 1240px; margin: 0 auto; padding: 24px 20px 64px; }
 header { border-bottom: 3px solid var(--accent); margin-bottom: 22px; padding-bottom: 12px; }
 h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 4px; text-wrap: balance; }
 h2 { font-size: 1.2rem; margin: 34px 0 12px; }
+.remark { margin: 0 0 6px; color: var(--soft); }
 h2 small { color: var(--soft); font-weight: 400; font-size: 0.88rem; margin-left: 6px; }
 header p { margin: 0; color: var(--soft); overflow-wrap: anywhere; }
 .verdict { display: flex; flex-wrap: wrap; align-items: center; gap: 8px 18px; margin: 0; padding: 16px 20px;

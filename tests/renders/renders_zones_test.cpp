@@ -132,8 +132,8 @@ TEST(ReportSections, StandBehindThePlotsWithTheirOwnTablesAndData) {
     return found;
   };
   EXPECT_LT(place("data-plot=\"0\""), place("<h2>Cam of &lt;AxisX&gt;</h2>"));
-  EXPECT_LT(place("<h2>Cam of &lt;AxisX&gt;</h2>"), place("<p>eight sectors</p>"));
-  EXPECT_LT(place("<p>eight sectors</p>"), place("data-plot=\"1\""));
+  EXPECT_LT(place("<h2>Cam of &lt;AxisX&gt;</h2>"), place("<p class=\"remark\">eight sectors</p>"));
+  EXPECT_LT(place("<p class=\"remark\">eight sectors</p>"), place("data-plot=\"1\""));
   EXPECT_LT(place("data-plot=\"1\""), place("data-plot=\"2\""));
   EXPECT_LT(place("data-plot=\"2\""), place("<h2>Feasibility"));
 }
