@@ -187,6 +187,18 @@ TEST(PicturesFilm, APlantsCameraIsNearerThanTheOperators) {
   EXPECT_EQ(KnifeLine("frames: {every: 500 ms}").film().camera, whole) << "the default";
 }
 
+TEST(PicturesFilm, APartsCameraIsNearerStillAndLooksAtThePart) {
+  const auto knife = KnifeLine("frames: {every: 500 ms, camera: knife}").film().camera;
+  const auto film = KnifeLine("frames: {every: 500 ms, camera: knife.drum}").film();
+  EXPECT_LT(distance(film.camera), 0.8 * distance(knife));
+  for (std::size_t i = 0; i < film.parts.size(); ++i) {
+    if (film.parts[i].name != "knife.drum") continue;
+    const auto& drum = film.frames[0].placements[i].position;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(film.camera.target[axis], drum[axis], 0.5 * film.parts[i].size[axis]);
+  }
+}
+
 TEST(PicturesFilm, ACameraOfTheUsersOwnStandsWhereItIsPut) {
   const std::string eye =
       "frames: {every: 500 ms, camera: {eye: [-1 m, 60 cm, 1400 mm], target: [1 mm, 2 mm, 0 m]";
@@ -204,6 +216,8 @@ TEST(PicturesFilm, NamesThatTheMachineDoesNotHaveAreRefusedWithTheirPlace) {
               ElementsAre("19: there is no channel 'web.sped'; did you mean web.speed?"));
   EXPECT_THAT(KnifeLine("frames: {every: 500 ms, camera: nife}").told(),
               ElementsAre("44: there is no camera 'nife'; cameras: operator, web, knife"));
+  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, camera: knife.blade}").told(),
+              ElementsAre("44: there is no part 'knife.blade'; did you mean knife.blade 1?"));
   EXPECT_THAT(KnifeLine("frames: {every: 500 ms, follow: knife.drumm}").told(),
               ElementsAre("44: there is no part 'knife.drumm'; did you mean knife.drum?"));
 }
