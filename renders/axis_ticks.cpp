@@ -49,7 +49,7 @@ std::vector<Tick> decade_ticks(double low, double high) {
   constexpr double close = 1e-9;
   const bool all = high - low <= 6;
   std::vector<Tick> ticks;
-  for (double decade = std::floor(low); decade <= high + close; ++decade) {
+  for (int decade = static_cast<int>(std::floor(low)); decade <= high + close; ++decade) {
     for (const double step : {1.0, 2.0, 5.0}) {
       const double value = decade + std::log10(step);
       if (value < low - close || value > high + close || (step != 1 && !all)) continue;

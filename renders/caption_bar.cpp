@@ -144,13 +144,16 @@ bool CaptionLayout::place(const std::vector<Widths>& items, std::size_t rows, do
     line.push_back(cell);
   }
   const double first_line = 0.45 * margin_ + kLine * title_size_;
+  const std::size_t across = std::max<std::size_t>(1, columns);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    Cell cell = line[i % columns];
-    cell.baseline = first_line + (static_cast<double>(i / columns) + 0.72) * kLine * font_size;
+    const std::size_t row = i / across;
+    Cell cell = line[i % across];
+    cell.baseline = first_line + (static_cast<double>(row) + 0.72) * kLine * font_size;
     cells_.push_back(cell);
   }
-  const double lines = columns > 0 ? static_cast<double>((items.size() + columns - 1) / columns) : 0;
-  height_ = static_cast<int>(std::ceil(first_line + lines * kLine * font_size + 0.45 * margin_));
+  const std::size_t lines = (items.size() + across - 1) / across;
+  height_ = static_cast<int>(
+      std::ceil(first_line + static_cast<double>(lines) * kLine * font_size + 0.45 * margin_));
   return true;
 }
 
