@@ -60,7 +60,7 @@ sanitize: setup
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD)-sanitize -DBUILD_TESTING=ON -DDRYCUT_SANITIZE=ON
 	cmake --build $(BUILD)-sanitize -j $(JOBS)
-	cd $(BUILD)-sanitize && ctest --output-on-failure -j $(JOBS)
+	cd $(BUILD)-sanitize && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp ctest --output-on-failure -j $(JOBS)
 
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
