@@ -127,7 +127,7 @@ renders::Panel error_panel(const std::string& what, const std::string& unit, ren
                            renders::Curve shown) {
   renders::Panel panel;
   const auto figures = figures_of(shown.y);
-  panel.title = fmt::format("{}: {} at most", what, error_text(figures.largest));
+  panel.title = fmt::format("{}: {} at most in this cycle", what, error_text(figures.largest));
   panel.y_label = fmt::format("[{}]", unit);
   // Less than half of what the device can count is nothing: it must not fill the panel.
   constexpr double least = 0.5;

@@ -33,6 +33,14 @@ bool all_same(const std::vector<std::optional<T>>& items, Same same) {
   });
 }
 
+/// What rounding leaves of a margin that did not change [its unit].
+constexpr double margin_noise = 1e-8;
+
+bool same_margin(const CheckResult& a, const CheckResult& b) {
+  if (!a.margin || !b.margin) return a.margin.has_value() == b.margin.has_value();
+  return *a.margin == *b.margin || std::abs(*a.margin - *b.margin) <= margin_noise;
+}
+
 std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs) {
   std::vector<std::string> having;
   for (std::size_t i = 0; i < runs.size(); ++i)
@@ -44,7 +52,7 @@ std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs) {
   };
   if (!same([](const CheckResult& c) { return c.passed; })) return "verdict";
   if (!same([](const CheckResult& c) { return c.expectation; })) return "expectation";
-  if (same([](const CheckResult& c) { return c.margin; })) return "";
+  if (all_same(row.results, same_margin)) return "";
   const auto& first = *row.results[0];
   const auto& last = *row.results[1];
   if (runs.size() != 2 || !first.margin || !last.margin) return "margin";

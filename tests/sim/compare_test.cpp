@@ -174,6 +174,10 @@ TEST_F(Compare, ChecksAreMatchedByNameWithWhatChanged) {
   RunTexts worse;
   worse.checks = RunTexts::checks_json(0.013, true);
   EXPECT_EQ(compared({}, worse).checks[0].change, "margin -0.04 mm");
+  worse.checks = with(RunTexts().checks, "0.053000", "0.0529999");
+  EXPECT_EQ(compared({}, worse).checks[0].change, "margin -1e-07 mm");
+  worse.checks = with(RunTexts().checks, "0.053000", "0.052999999");
+  EXPECT_EQ(compared({}, worse).checks[0].change, "") << "rounding";
   worse.checks = RunTexts::checks_json(-1, false);
   EXPECT_EQ(compared({}, worse).checks[0].change, "verdict");
   worse.checks = with(RunTexts().checks, "each cut", "each slice");
