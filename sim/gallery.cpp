@@ -205,7 +205,7 @@ std::vector<renders::LiveCurve> live_curves(const PicturesSection& pictures, con
   return curves;
 }
 
-std::optional<std::size_t> followed(const renders::Film& film, const std::string& part) {
+std::optional<std::size_t> part_number(const renders::Film& film, const std::string& part) {
   for (std::size_t i = 0; i < film.parts.size(); ++i)
     if (film.parts[i].name == part) return i;
   return std::nullopt;
@@ -215,7 +215,7 @@ std::optional<std::size_t> followed(const renders::Film& film, const std::string
 renders::Camera named_camera(const renders::Film& film, const std::string& name) {
   constexpr double room = 1.8;
   auto camera = renders::operator_camera(shown(film, name));
-  if (!followed(film, name)) return camera;
+  if (!part_number(film, name)) return camera;
   for (std::size_t i = 0; i < 3; ++i)
     camera.eye[i] = camera.target[i] + room * (camera.eye[i] - camera.target[i]);
   return camera;
@@ -268,7 +268,7 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
     frame.callouts = chosen_callouts(scenario.pictures.overlays, shot.callouts);
     film.frames.push_back(std::move(frame));
   }
-  film.follow = followed(film, scenario.pictures.follow.text);
+  film.follow = part_number(film, scenario.pictures.follow.text);
   film.trails = scenario.pictures.overlays.trail;
   film.live = live_curves(scenario.pictures, simulation.recording());
   film.live_window_s /= scenario.pictures.slow;

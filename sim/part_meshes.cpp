@@ -51,8 +51,8 @@ PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPla
     return false;
   };
   if (const auto& follow = scenario.pictures.follow; !follow.text.empty()) must_exist(follow);
-  if (const auto& camera = scenario.pictures.camera; camera.find('.') != std::string::npos)
-    must_exist({camera, scenario.pictures.camera_place});
+  if (scenario.pictures.looks_at_part())
+    must_exist({scenario.pictures.camera, scenario.pictures.camera_place});
   for (const auto& request : scenario.pictures.meshes) {
     if (!must_exist(request.part)) continue;
     const auto file = scenario.file.parent_path() / request.file.text;

@@ -148,8 +148,9 @@ void Simulation::bind_pictures(devices::Problems& problems) {
   const auto& camera = scenario_.pictures.camera;
   std::vector<std::string> cameras = {"operator"};
   for (const auto& plant : named_) cameras.push_back(plant.name);
-  const bool close_up = camera.find('.') != std::string::npos;  // of a part: see load_part_meshes
-  if (!close_up && std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
+  // A part's name is looked up where parts are: load_part_meshes.
+  if (!scenario_.pictures.looks_at_part() &&
+      std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
     problems.push_back(problem_at(scenario_, scenario_.pictures.camera_place,
                                   fmt::format("there is no camera '{}'", camera),
                                   fmt::format("cameras: {}", fmt::join(cameras, ", "))));

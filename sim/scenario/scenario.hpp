@@ -237,6 +237,9 @@ struct PicturesSection {
   std::vector<MeshRequest> meshes;
   std::vector<PlotRequest> plots;
   Place camera_place;
+
+  /// True if the camera is to show one part: "knife.drum".
+  [[nodiscard]] bool looks_at_part() const { return camera.find('.') != std::string::npos; }
 };
 
 /// An override from the command line: `--set plants.web.speed="80 m/min"`.

@@ -115,6 +115,18 @@ const std::vector<std::pair<Text, double>>* preset_of(const Scenario& scenario) 
   return nullptr;
 }
 
+/// A controller just loaded and one of its values, which lives as long; no value if it has none of that name.
+struct StartValue {
+  std::unique_ptr<devices::Controller> controller;
+  std::optional<devices::ControllerValue> value;
+};
+StartValue value_at_start(const Scenario& scenario, const std::string& name) {
+  devices::Problems ignored;  // the scenario's own problems have been told
+  StartValue start{load_controller(scenario, ignored), {}};
+  if (start.controller) start.value = start.controller->find(name);
+  return start;
+}
+
 /// The row of a plant's table that a path names, and the value it holds, in SI.
 struct PlantValue {
   plants::Parameter row;
@@ -181,19 +193,15 @@ std::optional<double> present_value(TunedParameter& parameter, const Scenario& s
     if (name.text == preset->value) return number;
   if (preset->section != "plcopen") return {};
   // An axis parameter has a value at the start that no program gives it.
-  devices::Problems ignored;  // the scenario's own problems have been told
-  const auto controller = load_controller(scenario, ignored);
-  const auto value = controller ? controller->find(preset->value) : std::nullopt;
-  return value ? std::optional(value->read()) : std::nullopt;
+  const auto start = value_at_start(scenario, preset->value);
+  return start.value ? std::optional(start.value->read()) : std::nullopt;
 }
 
 void check_against_controller(TunedParameter& parameter, const Scenario& scenario,
                               devices::Problems& problems) {
   const auto preset = preset_name(parameter.path);
   if (!preset) return;
-  devices::Problems ignored;  // the scenario's own problems have been told
-  const auto controller = load_controller(scenario, ignored);
-  const auto value = controller ? controller->find(preset->value) : std::nullopt;
+  const auto [controller, value] = value_at_start(scenario, preset->value);
   if (!value || !value->write) return;
   constexpr double between = 0.5;  // what no integer variable keeps
   value->write(between);
