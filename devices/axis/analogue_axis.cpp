@@ -27,7 +27,12 @@ double AnalogueAxis::theoretical_way_to(std::int32_t target) const {
   return quota.bits_to(target, settings.resolution) - error();
 }
 
+void AnalogueAxis::settle_if_open() {
+  if (drive_ == Drive::open_loop && !settings.simulated) settle();
+}
+
 void AnalogueAxis::place(std::int32_t target, std::int32_t speed) {
+  settle_if_open();
   target_ = target;
   placing_ = true;
   placed_.reset();
@@ -35,6 +40,7 @@ void AnalogueAxis::place(std::int32_t target, std::int32_t speed) {
 }
 
 void AnalogueAxis::run(bool backward, std::optional<std::int32_t> limit, std::int32_t speed) {
+  settle_if_open();
   target_ = limit;
   placing_ = false;
   placed_.reset();
@@ -96,18 +102,18 @@ void AnalogueAxis::settle() {
 void AnalogueAxis::rest() { rest_ms_ = std::min(rest_ms_ + settings.period_ms, long_rest_ms); }
 
 std::int64_t AnalogueAxis::settle_by_bits() {
-  const auto bits = static_cast<std::int64_t>(std::llround(-error()));
-  theoretical_.whole += bits;
+  const std::int64_t bits = whole_bits(std::round(-error()));
+  theoretical_.whole = multiply_add(theoretical_.whole, bits, 1);
   regulator_.reset(error());
   return bits;
 }
 
-bool AnalogueAxis::step_profile() {
+void AnalogueAxis::step_profile() {
   if (!profile_.moving() || pause_ms_ > 0) {
     speed_ = 0;
     pause_ms_ = std::max(pause_ms_ - settings.period_ms, 0);
     rest();
-    return false;
+    return;
   }
   const double way = profile_.step(settings.period_ms / 1000.0);
   theoretical_.add(way);
@@ -118,17 +124,15 @@ bool AnalogueAxis::step_profile() {
     rest();
   }
   speed_ = profile_.speed();
-  if (profile_.moving()) return false;
-  if (target_ && !profile_.stopping()) {
-    // The profile ends on the quota itself: no rounding of its arithmetic is left.
-    theoretical_.add(theoretical_way_to(*target_));
-    if (placing_) placed_ = target_;
-  }
-  return true;
+  if (profile_.moving() || profile_.stopping() || !target_) return;
+  // The profile ends on the quota itself: no rounding of its arithmetic is left.
+  theoretical_.add(theoretical_way_to(*target_));
+  if (placing_) placed_ = target_;
 }
 
 void AnalogueAxis::regulate(Drive drive, std::int32_t tenths) {
   const RegulatorScale scale{settings.max_speed, settings.period_ms / 1000.0, settings.term_limit};
+  drive_ = drive;
   actions_ = {};
   switch (drive) {
     case Drive::reaction:

@@ -25,6 +25,7 @@ struct AxisSettings {
   std::int32_t max_following_error = 0;  ///< [bits x4]
   int frequency_window_ms = 240;
   double term_limit = dac_full_scale;  ///< of the integral and derivative actions [DAC bits]
+  bool simulated = false;              ///< nothing but the profile moves the axis (000 1.5)
 };
 
 /// Seconds for each bit x4/s of a ramp that takes `hundredths` of a second from rest to `max_speed`.
@@ -58,6 +59,9 @@ class AnalogueAxis {
   [[nodiscard]] std::int64_t counted() const { return counted_; }
 
   // Motion. Speeds in units of the speed parameters.
+  /// Before something starts to move the axis. With the loop open it may have been moved by hand, and starts
+  /// where it stands (000 1.1.6.3, 1.1.11).
+  void settle_if_open();
   /// Starts a placement at the quota `target` [Um].
   void place(std::int32_t target, std::int32_t speed);
   /// Runs in a direction until stopped, at most to the quota `limit` [Um] if there is one.
@@ -79,8 +83,8 @@ class AnalogueAxis {
   /// The same for a theoretical position that comes from elsewhere and keeps its fraction of a bit: moves it
   /// by the whole bits nearest to the error, and gives them [bits x4].
   std::int64_t settle_by_bits();
-  /// Advances the profile by a period; true when the movement ended in it.
-  bool step_profile();
+  /// Advances the profile by a period.
+  void step_profile();
   /// A theoretical position and speed from elsewhere: the cam [bits x4], [bits x4/s].
   void set_theoretical(const Theoretical& theoretical, double speed) {
     theoretical_ = theoretical;
@@ -124,6 +128,7 @@ class AnalogueAxis {
   double speed_ = 0;
   Actions actions_;
   DacOutput output_;
+  Drive drive_ = Drive::open_loop;  ///< of the last period
   std::int64_t counted_ = 0;
   std::optional<std::int32_t> target_;
   std::optional<std::int32_t> placed_;

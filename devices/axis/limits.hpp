@@ -3,11 +3,30 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "devices/device.hpp"
 
-// The software limits minpos and maxpos, as START and the manual movements of every positioner take them.
+// What the positioners say of parameters with which they cannot do what a program asks for, and the software
+// limits minpos and maxpos, as START and the manual movements of every positioner take them.
 namespace drycut::devices::axis {
+
+/// A parameter that cannot be computed with, as when it was never set: the manuals give only its range.
+inline Diagnostic acts_as(std::string_view name, std::int32_t value, std::int64_t acts) {
+  return {Diagnostic::Kind::out_of_range, std::string(name), fmt::format("{} acts as {}", value, acts)};
+}
+
+/// A movement begins without a speed at 10 V to scale it by.
+inline Diagnostic without_maxvel(std::int32_t maxvel) {
+  return {Diagnostic::Kind::out_of_range, "maxvel",
+          fmt::format("{} is no speed: ramps take no time, and the output is offset alone", maxvel)};
+}
+
+/// A parameter that came too late for the running movement.
+inline Diagnostic kept_for_the_next(std::string_view name) {
+  return {Diagnostic::Kind::note, std::string(name),
+          "kept for the next movement, the running one cannot take it any more"};
+}
 
 /// A quota held between the limits; minpos is the stronger where they are crossed.
 inline std::int32_t held(std::int32_t quota, std::int32_t minpos, std::int32_t maxpos) {

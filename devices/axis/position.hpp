@@ -25,6 +25,12 @@ inline std::int64_t multiply_add(std::int64_t a, std::int64_t b, std::int64_t c)
                                    static_cast<std::uint64_t>(b) * static_cast<std::uint64_t>(c));
 }
 
+/// a - b that wraps likewise.
+inline std::int64_t difference(std::int64_t a, std::int64_t b) { return multiply_add(a, b, -1); }
+
+/// The whole bits of a way, without what is below one bit; held at +-1e15, further than any quota can be.
+inline std::int64_t whole_bits(double way) { return static_cast<std::int64_t>(std::clamp(way, -1e15, 1e15)); }
+
 /// What a device makes of a hardware counter: bits x4 counted since INIT, with lock and reversal (CNTLOCK,
 /// CNTREV). The total never jumps, so motion is computed in it; quotas are kept beside it (Quota).
 class Transducer {
@@ -33,15 +39,15 @@ class Transducer {
   void rebase(std::int64_t raw) { last_ = raw; }
   /// Follows the hardware count; returns the bits x4 counted.
   std::int64_t follow(std::int64_t raw, bool locked, bool reversed) {
-    const std::int64_t moved = locked ? 0 : reversed ? last_ - raw : raw - last_;
+    const std::int64_t moved = locked ? 0 : reversed ? difference(last_, raw) : difference(raw, last_);
     last_ = raw;
-    total_ += moved;
+    total_ = multiply_add(total_, moved, 1);
     return moved;
   }
   [[nodiscard]] std::int64_t total() const { return total_; }
   /// The total that belongs to a hardware count of the recent past, such as a latched one.
   [[nodiscard]] std::int64_t total_at(std::int64_t raw, bool locked, bool reversed) const {
-    return locked ? total_ : total_ + (reversed ? last_ - raw : raw - last_);
+    return locked ? total_ : multiply_add(total_, difference(raw, last_), reversed ? -1 : 1);
   }
 
  private:
@@ -66,13 +72,14 @@ class Quota {
   [[nodiscard]] std::int64_t um(Resolution r) const { return numerator_ / r.pulse; }
   /// [bits x4], to the nearest; each count moves it by one.
   [[nodiscard]] std::int64_t bits(Resolution r) const {
-    const std::int64_t n = numerator_ + r.measure / 2;
+    const std::int64_t n = multiply_add(numerator_, r.measure / 2, 1);
     return n / r.measure - (n % r.measure < 0 ? 1 : 0);
   }
   [[nodiscard]] std::int64_t numerator() const { return numerator_; }
   /// Way from here to the quota `um` [bits x4].
   [[nodiscard]] double bits_to(std::int64_t um, Resolution r) const {
-    return static_cast<double>(multiply_add(-numerator_, um, r.pulse)) / static_cast<double>(r.measure);
+    return static_cast<double>(difference(multiply_add(0, um, r.pulse), numerator_)) /
+           static_cast<double>(r.measure);
   }
 
  private:
@@ -87,14 +94,16 @@ struct Theoretical {
 
   void add(double bits) {
     part += bits;
-    const auto carry = static_cast<std::int64_t>(part);
-    whole += carry;
-    part -= static_cast<double>(carry);
+    const std::int64_t carry = whole_bits(part);
+    whole = multiply_add(whole, carry, 1);
+    part = std::clamp(part - static_cast<double>(carry), -1.0, 1.0);
   }
   /// This minus `total` [bits x4].
-  [[nodiscard]] double minus(std::int64_t total) const { return static_cast<double>(whole - total) + part; }
+  [[nodiscard]] double minus(std::int64_t total) const {
+    return static_cast<double>(difference(whole, total)) + part;
+  }
   [[nodiscard]] double minus(const Theoretical& other) const {
-    return static_cast<double>(whole - other.whole) + (part - other.part);
+    return static_cast<double>(difference(whole, other.whole)) + (part - other.part);
   }
 };
 

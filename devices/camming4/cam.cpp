@@ -112,14 +112,44 @@ void Cam::follow(const CamSample& sample) {
   if (length.grains < 0)
     go_back(sample);
   else if (length < current().master)
-    show(master_um(length));
+    run_to(length, sample);
   else
     leave_forward(sample);
 }
 
+/// A sampling with the master inside the sector, `length` from its start.
+void Cam::run_to(const Space& length, const CamSample& sample) {
+  inside_ += 1;
+  const Motion motion = show(master_um(length));
+  const double gradient = motion.acceleration * sample.proven_speed * sample.proven_speed;
+  const bool gains = motion.velocity * gradient > 0 || (motion.velocity == 0 && gradient != 0);
+  bool& told = gains ? told_gain_ : told_loss_;
+  if (told || std::abs(gradient) <= (gains ? limits_.acceleration : limits_.deceleration)) return;
+  told = true;
+  warn(gains ? 1 : 2, current_);
+}
+
+/// The master has passed into a sector, `beyond` its boundary by now; less than 0: it is about to.
+void Cam::pass_boundary(const Space& beyond, bool backwards, const CamSample& sample) {
+  const double bits = to_double(beyond) / static_cast<double>(settings_.master.measure);
+  inside_ = sample.master_way > 0 ? bits / sample.master_way : 0;
+  came_back_ = backwards;
+}
+
+/// 000 1.3: the master has run through the sector, of which `left` was left at the last sampling, in less
+/// than a sampling time; one of just that is none, whatever rounding says.
+bool Cam::over_too_soon(const Space& left, const CamSample& sample) const {
+  const double bits = to_double(left) / static_cast<double>(settings_.master.measure);
+  return (1 - inside_) * sample.master_way * (1 - 1e-9) > bits;
+}
+
 void Cam::leave_forward(const CamSample& sample) {
   const Sector& sector = current();
-  if (sector.reads_out) read_out(sector.number, static_cast<std::int32_t>(sector.arc.length));
+  if (!came_back_ && over_too_soon(sector.master + -covered(last_master_), sample)) {
+    fail(4, current_);
+    return;
+  }
+  if (sector.reads_out) read_out(sector.number, sector.arc.length);
   master_origin_ = moved(master_origin_, sector.master, settings_.master.measure);
   slave_origin_ = moved(slave_origin_, sector.slave, settings_.slave.measure);
   speed_ = sector.exit_speed;
@@ -134,6 +164,11 @@ void Cam::leave_forward(const CamSample& sample) {
 void Cam::go_back(const CamSample& sample) {
   if (!current().entered_ahead) {
     hold(slave_origin_);
+    pass_boundary(covered(sample.master_count), false, sample);
+    return;
+  }
+  if (came_back_ && over_too_soon(covered(last_master_), sample)) {
+    fail(4, current_);
     return;
   }
   next_ = current().row;
@@ -145,6 +180,8 @@ void Cam::go_back(const CamSample& sample) {
   step_.row = sector.number;
   step_.codeM = sector.row.codeM;
   const Space length = covered(sample.master_count);
+  pass_boundary(sector.master + -length, true, sample);
+  told_gain_ = told_loss_ = false;
   if (length.grains >= 0)
     show(master_um(length));
   else if (sector.entered_ahead)
@@ -240,7 +277,7 @@ std::int64_t Cam::slave_value(const Point& point, const CamSample& sample) const
   return add(subtract(sample.slave_grains, step_.slave_shift), ahead);
 }
 
-void Cam::show(double m) {
+Motion Cam::show(double m) {
   const Sector& sector = current();
   const Motion motion = at(sector, m);
   const auto measure = static_cast<double>(settings_.slave.measure);
@@ -258,7 +295,8 @@ void Cam::show(double m) {
     ++step_.slave_bits;
   }
   step_.ratio = motion.velocity;
-  if (sector.reads_out) read_out(sector.number, static_cast<std::int32_t>(m));
+  if (sector.reads_out) read_out(sector.number, m);
+  return motion;
 }
 
 void Cam::hold(const Point& slave) {
@@ -280,7 +318,8 @@ void Cam::warn(int code, int number) {
   step_.warnings[static_cast<std::size_t>(step_.warning_count++)] = {code, number};
 }
 
-void Cam::read_out(int number, std::int32_t value) {
+void Cam::read_out(int number, double um) {
+  const auto value = static_cast<std::int32_t>(std::min(um, 2147483647.0));
   Row& row = stored(number);
   if (row.codeQma == value) return;
   row.codeQma = value;

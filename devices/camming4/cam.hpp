@@ -27,7 +27,9 @@ struct CamSample {
   std::int64_t master_grains = 0;  ///< positm's grains at master_count
   std::int64_t slave_count = 0;    ///< any count of the slave, on the scale of CamStart::slave_bits [bits x4]
   std::int64_t slave_grains = 0;   ///< posit's grains at slave_count
-  double master_speed = 0;         ///< present, for warnings 1 and 2 [master Um/s]
+  double master_speed = 0;         ///< present, for warnings 1 and 2 at a sector's entry [master Um/s]
+  double proven_speed = 0;  ///< the same inside a sector: what no single bit makes greater [master Um/s]
+  double master_way = 0;    ///< in one sampling, for error 4 [bits x4]; 0 = not known, not judged
 };
 
 /// The slave's largest gradients, for warnings 1 and 2 only [slave Um/s2]: maxvel/taccmax, maxvel/tdecmax.
@@ -119,7 +121,10 @@ class Cam {
   void rebase(std::int64_t master_count);
   void wrap_counts(const CamSample& sample);
   bool quota_passed(const CamSample& sample);
-  void show(double m);
+  Motion show(double m);
+  void run_to(const Space& length, const CamSample& sample);
+  void pass_boundary(const Space& beyond, bool backwards, const CamSample& sample);
+  [[nodiscard]] bool over_too_soon(const Space& left, const CamSample& sample) const;
   void hold(const Point& slave);
   [[nodiscard]] Space covered(std::int64_t master_count) const;
   [[nodiscard]] double master_um(const Space& length) const;
@@ -130,7 +135,7 @@ class Cam {
 
   void fail(int code, int number);
   void warn(int code, int number);
-  void read_out(int number, std::int32_t value);
+  void read_out(int number, double um);
 
   CamSettings settings_;
   CamLimits limits_;
@@ -157,8 +162,12 @@ class Cam {
   int zero_rows_ = 0;           ///< in sequence
   int update_rows_ = 0;
   std::int64_t last_master_ = 0;
-  std::int64_t laps_ = 0;  ///< of a gearing
-  bool regeared_ = false;  ///< its ratio has changed, its way back is lost
+  double inside_ = 0;       ///< samplings since the master passed into the running sector
+  bool came_back_ = false;  ///< it came over the sector's end
+  bool told_gain_ = false;  ///< warning 1 was given for the running sector
+  bool told_loss_ = false;  ///< warning 2 was
+  std::int64_t laps_ = 0;   ///< of a gearing
+  bool regeared_ = false;   ///< its ratio has changed, its way back is lost
 };
 
 }  // namespace drycut::devices::camming4

@@ -15,6 +15,7 @@ void Cam::run_rows(int number, const CamSample& sample) {
   while (number > 0) number = execute(number, sample);
   if (state_ != State::moving) return;
   const Space length = covered(sample.master_count);
+  pass_boundary(length, false, sample);
   if (length.grains < 0)
     hold(slave_origin_);
   else if (length < current().master)
@@ -97,8 +98,10 @@ int Cam::enter(const Code& code, const Row& row, int number, const CamSample& sa
   laps_ = 0;
   // A ramp made exactly as steep as the limit is within it, whatever rounding says.
   const double square = sample.master_speed * sample.master_speed * (1 - 1e-9);
-  if (peak_acceleration(result.sector) * square > limits_.acceleration) warn(1, number);
-  if (peak_deceleration(result.sector) * square > limits_.deceleration) warn(2, number);
+  told_gain_ = peak_acceleration(result.sector) * square > limits_.acceleration;
+  told_loss_ = peak_deceleration(result.sector) * square > limits_.deceleration;
+  if (told_gain_) warn(1, number);
+  if (told_loss_) warn(2, number);
   return 0;
 }
 

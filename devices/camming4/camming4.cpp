@@ -75,8 +75,9 @@ void Camming4::initialise() {
   // Kept positions go on with their remainder, unless memory was restored from elsewhere.
   resume_quota(axis_.quota, axis_.settings.resolution, value(v_posit), value(v_encoder));
   resume_quota(master_quota_, master_resolution_, value(v_positm), value(v_encoderm));
-  check_resolution("measure", axis_.settings.resolution);
-  check_resolution("measurem", master_resolution_);
+  if (terminals_.slave) check_resolution(v_measure, v_pulse, axis_.settings.resolution);
+  if (terminals_.master[0] || terminals_.master[1])
+    check_resolution(v_measurem, v_pulsem, master_resolution_);
 
   axis_.rebase(count_of(terminals_.slave));
   master_.rebase(master_raw());
@@ -112,7 +113,7 @@ void Camming4::latch() {
     value(v_frqm) = axis::to_long(master_frequency_.bits_per_second() / 4);
 
   std::int64_t& oldest = master_history_[master_history_next_];
-  master_way_ = master_.total() - oldest;
+  master_way_ = axis::difference(master_.total(), oldest);
   oldest = master_.total();
   master_history_next_ = (master_history_next_ + 1) % master_history_.size();
 }
@@ -134,9 +135,10 @@ void Camming4::step() {
   if (inhibit_stop_ms_ > 0) inhibit_stop_ms_ -= period_ms_;
 }
 
-double Camming4::master_speed() const {
+/// The speed of `bits` over the history [Um/s].
+double Camming4::master_speed(std::int64_t bits) const {
   const double seconds = static_cast<double>(master_history_.size()) * period_ms_ / 1000.0;
-  return static_cast<double>(master_way_) / axis::bits_per_um(master_resolution_) / seconds;
+  return static_cast<double>(bits) / axis::bits_per_um(master_resolution_) / seconds;
 }
 
 /// The mean of the last samples [bits x4 a sample]. A master that has just changed its speed by more than
@@ -145,6 +147,15 @@ double Camming4::master_rate() const {
   const double mean = static_cast<double>(master_way_) / static_cast<double>(master_history_.size());
   const auto now = static_cast<double>(master_moved_);
   return std::abs(now - mean) > 1 ? now : mean;
+}
+
+/// The master's way in a sampling, either direction, without what the last bit of the history makes of it: a
+/// sector of just a sampling time is no error in any phase of the counts [bits x4].
+double Camming4::proven_way() const {
+  const double samples = static_cast<double>(master_history_.size());
+  const auto now = static_cast<double>(master_moved_);
+  if (std::abs(now - static_cast<double>(master_way_) / samples) > 1) return std::abs(now);
+  return std::max(std::abs(static_cast<double>(master_way_)) - 1, 0.0) / samples;
 }
 
 /// The slave's speed in a cam [bits x4/s], as smooth as the master's: the law's ratio times the master's
@@ -162,10 +173,13 @@ void Camming4::step_cam() {
   sample.slave_count = axis_.transducer().total();
   // The cam knows nothing of the recovery beside it, nor of the slip: its counts are those of an axis
   // without them.
-  sample.slave_grains = axis::multiply_add(axis_.quota.numerator(), recovery_done_, slave.pulse) +
-                        static_cast<std::int64_t>(recovery_way_ * static_cast<double>(slave.measure));
+  sample.slave_grains = axis::multiply_add(axis_.quota.numerator(), recovery_done_, slave.pulse);
+  const std::int64_t running = axis::whole_bits(recovery_way_ * static_cast<double>(slave.measure));
+  sample.slave_grains = axis::multiply_add(sample.slave_grains, running, 1);
   sample.slave_grains = axis::multiply_add(sample.slave_grains, slip_, slave.measure);
-  sample.master_speed = master_speed();
+  sample.master_speed = master_speed(master_way_);
+  sample.proven_speed = master_speed(std::max<std::int64_t>(std::abs(master_way_) - 1, 0));
+  sample.master_way = proven_way();
   master_rate_ = master_rate();
   const CamStep& cam = cam_.advance(sample);
 
@@ -188,10 +202,10 @@ void Camming4::step_cam() {
 
   recovery_due_ += cam.recovery;
   step_recovery();
-  axis::Theoretical theoretical{cam.slave_bits + slip_, cam.slave_fraction};
+  axis::Theoretical theoretical{axis::multiply_add(cam.slave_bits, slip_, 1), cam.slave_fraction};
   if (recovery_done_ != 0 || recovery_running_ != 0) {
     const std::int64_t numerator = axis::multiply_add(0, recovery_done_, slave.pulse);
-    theoretical.whole += numerator / slave.measure;
+    theoretical.whole = axis::multiply_add(theoretical.whole, numerator / slave.measure, 1);
     theoretical.add(static_cast<double>(numerator % slave.measure) / static_cast<double>(slave.measure) +
                     recovery_way_);
   }
@@ -221,12 +235,12 @@ void Camming4::step_recovery() {
 }
 
 void Camming4::step_positioner() {
-  const bool ended = axis_.step_profile();
+  axis_.step_profile();
   if (search_.finished(axis_)) {
     set_state(st_prson, false);
     set_state(st_prsok, true);
   }
-  if (ended && !search_.searching()) set_state(st_still, true);
+  if (!axis_.profile().moving() && !search_.searching()) set_state(st_still, true);
 }
 
 void Camming4::regulate() {

@@ -67,10 +67,13 @@ class Camming4 final : public Device {
   void write_position(int variable, std::int32_t value);
   void write_motion(int variable);
   void check_dependent_range(int variable);
-  void check_resolution(std::string_view measure, axis::Resolution resolution);
+  void check_resolution(int measure, int pulse, axis::Resolution resolution);
+  void tell_acts(int variable);
+  void requota(std::string_view cause);
 
   // Commands (camming4_commands.cpp).
   void execute_motion(int command);
+  void tell_maxvel();
   void start_placement();
   void start_manual(bool backward);
   void preset();
@@ -108,7 +111,8 @@ class Camming4 final : public Device {
   void publish_regulation();
   void publish_states();
   void drive_output();
-  [[nodiscard]] double master_speed() const;
+  [[nodiscard]] double master_speed(std::int64_t bits) const;
+  [[nodiscard]] double proven_way() const;
   [[nodiscard]] double master_rate() const;
   [[nodiscard]] double cam_speed() const;
   [[nodiscard]] std::int64_t master_raw() const;

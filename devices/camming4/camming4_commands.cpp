@@ -15,9 +15,7 @@ bool Camming4::may_execute(int command) {
       return state(st_still) || state(st_prson);
     case c_STOPCAM:
       return inhibit_stop_ms_ <= 0;
-    case c_ENBL:
-      return value(v_inpcapt) > 0;
-    case c_INTENBL:
+    case c_INTDSBL:
       return value(v_intcapt) > 0;
     default:
       return true;
@@ -109,10 +107,15 @@ std::int32_t Camming4::clamped(std::int32_t quota) const {
   return axis::held(quota, value(v_minpos), value(v_maxpos));
 }
 
+void Camming4::tell_maxvel() {
+  if (value(v_maxvel) <= 0) report(axis::without_maxvel(value(v_maxvel)));
+}
+
 void Camming4::start_placement() {
   const std::int32_t wanted = value(v_setpos);
   const std::int32_t target = clamped(wanted);
   if (target != wanted) report(axis::outside_limits(wanted, target));
+  tell_maxvel();
   set_state(st_still, false);
   axis_.place(target, value(v_setvel));
 }
@@ -123,12 +126,15 @@ void Camming4::start_manual(bool backward) {
     report(axis::no_way_left(backward, value(v_posit), limit));
     return;
   }
+  tell_maxvel();
   set_state(st_still, false);
   axis_.run(backward, limit, value(v_setvel));
 }
 
 void Camming4::start_cam(std::int64_t master) {
   rest();
+  axis_.settle_if_open();
+  tell_maxvel();
   cam_.set(
       CamSettings{{value(v_measurem), value(v_pulsem)}, {value(v_measure), value(v_pulse)}, value(v_decpt)});
   axis::Theoretical slave = axis_.theoretical();

@@ -111,7 +111,7 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
       }
       axis_.quota.set_bits(value(v_delta1), axis_.settings.resolution);
       axis_.quota.count(axis_.transducer().total() - capture.slave, axis_.settings.resolution);
-      axis_.requota();
+      requota(subject);
       break;
     case 8:
       if (!counts_writable) {
@@ -149,6 +149,7 @@ void Camming4::preset() {
     search_.reverse(axis_);
     return;
   }
+  tell_maxvel();
   set_state(st_prson, true);
   set_state(st_prsok, false);
   set_state(st_still, false);
@@ -166,7 +167,7 @@ void Camming4::sample_presets() {
     value(v_setpos) = settings.quota;
   } else if (value(v_prsmode) == 2 && enable && !enable_was_) {
     axis_.quota.set_um(value(v_prspos), axis_.settings.resolution);
-    axis_.requota();
+    requota("IAZero");
     set_state(st_prsok, true);
   }
   enable_was_ = enable;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "devices/axis/limits.hpp"
 #include "devices/axis/speed.hpp"
 #include "devices/camming4/camming4.hpp"
 #include "devices/camming4/rows.hpp"
@@ -125,14 +126,23 @@ void Camming4::write_position(int variable, std::int32_t new_value) {
   if (variable == v_encoder) axis_.quota.set_bits(new_value, axis_.settings.resolution);
   if (variable == v_positm) master_quota_.set_um(new_value, master_resolution_);
   if (variable == v_encoderm) master_quota_.set_bits(new_value, master_resolution_);
-  if (variable == v_posit || variable == v_encoder) axis_.requota();
+  if (variable == v_posit || variable == v_encoder) requota(type().variables[variable].name);
+}
+
+/// The slave's count was changed by `cause`.
+void Camming4::requota(std::string_view cause) {
+  if (axis_.requota()) return;
+  report({Diagnostic::Kind::note, std::string(cause),
+          "the running movement cannot reach its quota any more and stops"});
 }
 
 void Camming4::write_motion(int variable) {
   if (!axis_.profile().moving() || search_.searching()) return;
-  if (variable == v_setpos) axis_.retarget(clamped(value(v_setpos)));
+  bool taken = true;
+  if (variable == v_setpos && axis_.placing()) taken = axis_.retarget(clamped(value(v_setpos)));
   if (variable == v_setvel || variable == v_tacc || variable == v_tdec || variable == v_rtype)
-    axis_.change(value(v_setvel));
+    taken = axis_.change(value(v_setvel));
+  if (!taken) report(axis::kept_for_the_next(type().variables[variable].name));
 }
 
 void Camming4::rescale() {
@@ -176,15 +186,25 @@ void Camming4::recompute() {
 void Camming4::check_dependent_range(int variable) {
   if (variable == v_setvel || variable == v_prsvel) report_outside(variable, 0, v_maxvel);
   if (variable == v_sprsvel) report_outside(variable, 0, v_prsvel);
+  if (variable >= v_measure && variable <= v_pulsem) tell_acts(variable);
   if (variable == v_setpos || variable == v_prspos) report_outside(variable, value(v_minpos), v_maxpos);
 }
 
-void Camming4::check_resolution(std::string_view measure, axis::Resolution resolution) {
+/// What a part of a resolution acts as, if not as itself.
+void Camming4::tell_acts(int variable) {
+  const std::int64_t acts = axis::usable(value(variable), 1).measure;
+  if (acts != value(variable)) report(axis::acts_as(type().variables[variable].name, value(variable), acts));
+}
+
+void Camming4::check_resolution(int measure, int pulse, axis::Resolution resolution) {
+  const std::string_view name = type().variables[measure].name;
+  tell_acts(measure);
+  tell_acts(pulse);
   // The limits are 0.00374..4 of measure*4/pulse, rounded; 000 1.10 itself uses 934/999999.
   const double ratio = static_cast<double>(resolution.measure) * 4 / static_cast<double>(resolution.pulse);
   if (ratio > 0.003735 && ratio <= 4) return;
   report(
-      {Diagnostic::Kind::out_of_range, std::string(measure),
+      {Diagnostic::Kind::out_of_range, std::string(name),
        fmt::format("{} * 4 / {} is outside 0.00374..4, taken anyway", resolution.measure, resolution.pulse)});
 }
 

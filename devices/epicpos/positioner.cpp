@@ -22,6 +22,7 @@ Positioner::Positioner(const DeviceType& type, Model model, const Resources& res
   if (counter && resources[f_ICont].address->slot == cpu_slot) {
     terminals_.simulated = counter;
     ++counter->movers;
+    axis_.settings.simulated = true;
   }
   terminals_.enable = connect(cards.inputs, resources[f_IAZero]);
   terminals_.dac = connect(cards.analogue_outputs, resources[f_IOutA]);
@@ -52,6 +53,7 @@ void Positioner::initialise() {
   axis_.abort();
   axis_.settle();
   search_.abort();
+  check_ratio();
   enable_released_ = false;
   zero_.reset();
   counter_part_ = 0;
@@ -97,22 +99,23 @@ void Positioner::sample_preset() {
 
 void Positioner::step_motion() {
   const axis::Theoretical before = axis_.theoretical();
-  const bool ended = axis_.step_profile();
+  axis_.step_profile();
   if (terminals_.simulated) move_counter(axis_.theoretical().minus(before));
   if (search_.finished(axis_)) {
     set_state(st_prson, false);
     set_state(st_prsok, true);
   }
-  if (ended && !search_.searching()) set_state(st_still, true);
+  if (!axis_.profile().moving() && !search_.searching()) set_state(st_still, true);
 }
 
 void Positioner::move_counter(double bits) {
   counter_part_ += bits;
   const double whole = std::round(counter_part_);
   counter_part_ -= whole;
-  terminals_.simulated->count += static_cast<std::int64_t>(whole);
+  std::int64_t& count = terminals_.simulated->count;
+  count = axis::multiply_add(count, axis::whole_bits(whole), 1);
   // Nothing happens to it between two samples: this is its count at any edge until the next.
-  terminals_.simulated->latched = terminals_.simulated->count;
+  terminals_.simulated->latched = count;
 }
 
 void Positioner::regulate() {

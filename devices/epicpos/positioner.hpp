@@ -48,15 +48,16 @@ class Positioner final : public Device {
 
   // Parameters (positioner_parameters.cpp).
   void rescale();
+  void check_ratio();
   void recompute();
   void write_motion(int variable, bool ramps_changed);
   void check_dependent_range(int variable);
 
   // Commands (positioner_commands.cpp).
+  void depart();
   void start_placement();
   void start_manual(bool backward);
   void preset();
-  void ready_to_move();
   void rest();
   [[nodiscard]] std::int32_t clamped(std::int32_t quota) const;
 

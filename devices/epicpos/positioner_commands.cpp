@@ -50,10 +50,9 @@ std::int32_t Positioner::clamped(std::int32_t quota) const {
   return axis::held(quota, value(v_minpos), value(v_maxpos));
 }
 
-// With the loop open the axis may have been moved by hand: a movement begins where it stands. A simulated
-// axis only moves by itself, and keeps its part of a bit.
-void Positioner::ready_to_move() {
-  if (!state(st_loopon) && !terminals_.simulated) axis_.settle();
+/// What every movement begins with.
+void Positioner::depart() {
+  if (value(v_maxvel) <= 0) report(axis::without_maxvel(value(v_maxvel)));
   set_state(st_still, false);
 }
 
@@ -61,7 +60,7 @@ void Positioner::start_placement() {
   const std::int32_t wanted = value(v_setpos);
   const std::int32_t target = clamped(wanted);
   if (target != wanted) report(axis::outside_limits(wanted, target));
-  ready_to_move();
+  depart();
   axis_.place(target, value(v_setvel));
 }
 
@@ -71,7 +70,7 @@ void Positioner::start_manual(bool backward) {
     report(axis::no_way_left(backward, value(v_posit), limit));
     return;
   }
-  ready_to_move();
+  depart();
   axis_.run(backward, limit, value(v_setvel));
 }
 
@@ -85,7 +84,7 @@ void Positioner::preset() {
                       value(v_prsvel),  value(v_sprsvel),     state(st_cntlock)};
   set_state(st_prson, true);
   set_state(st_prsok, false);
-  ready_to_move();
+  depart();
   search_.start(search_settings_, is_on(terminals_.enable), axis_);
 }
 

@@ -1,5 +1,4 @@
-#include <fmt/format.h>
-
+#include "devices/axis/limits.hpp"
 #include "devices/axis/speed.hpp"
 #include "devices/epicpos/positioner.hpp"
 #include "devices/epicpos/rows.hpp"
@@ -43,6 +42,7 @@ void Positioner::written(Symbol symbol, std::int32_t new_value) {
   const axis::Demand ramps = axis_.settings.ramps;
   rescale();
   recompute();
+  if (variable == v_cntratio) check_ratio();
   write_motion(variable, !same_ramps(ramps, axis_.settings.ramps));
 }
 
@@ -50,8 +50,7 @@ void Positioner::write_motion(int variable, bool ramps_changed) {
   if (!axis_.profile().moving() || search_.searching()) return;
   if (variable == v_setpos && axis_.placing()) axis_.retarget(clamped(value(v_setpos)));
   if ((variable == v_setvel || ramps_changed) && !axis_.change(value(v_setvel)))
-    report({Diagnostic::Kind::note, std::string(type().variables[variable].name),
-            "kept for the next movement, the running one cannot take it any more"});
+    report(axis::kept_for_the_next(type().variables[variable].name));
 }
 
 void Positioner::rescale() {
@@ -59,6 +58,13 @@ void Positioner::rescale() {
   if (resolution == axis_.settings.resolution) return;
   axis_.quota.rescale(axis_.settings.resolution, resolution);
   axis_.settings.resolution = resolution;
+}
+
+/// What the ratio acts as, if not as itself.
+void Positioner::check_ratio() {
+  const std::int64_t acts = axis_.settings.resolution.measure;
+  if (terminals_.counter && acts != value(v_cntratio))
+    report(axis::acts_as("cntratio", value(v_cntratio), acts));
 }
 
 void Positioner::recompute() {

@@ -84,6 +84,9 @@ void OnOffPositioner::start() {
 void OnOffPositioner::place(std::int64_t tenths) {
   target_ = tenths;
   const Parts way = tenths * parts_per_tenth - position();
+  if (value(v_maxvel) <= 0 && slows_by_speed())
+    report({Diagnostic::Kind::out_of_range, "maxvel",
+            fmt::format("{} is no speed to compare with: the slow range is maxslow", value(v_maxvel))});
   const std::int32_t mode = value(v_bklashmode);
   const bool recovers = mode >= 1 && mode <= 4 && value(v_overpos) > 0;
   const bool ends_backward = mode == 2 || mode == 4;

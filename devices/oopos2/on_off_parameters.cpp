@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "devices/axis/limits.hpp"
 #include "devices/oopos2/on_off_positioner.hpp"
 #include "devices/oopos2/rows.hpp"
 
@@ -29,6 +30,7 @@ void OnOffPositioner::written(Symbol symbol, std::int32_t new_value) {
   }
   rescale();
   recompute();
+  if (symbol.index == v_cntratio) check_ratio();
   if (symbol.index == v_setpos) retarget();
 }
 
@@ -37,6 +39,12 @@ void OnOffPositioner::rescale() {
   if (resolution == resolution_) return;
   quota_.rescale(resolution_, resolution);
   resolution_ = resolution;
+}
+
+/// What the ratio acts as, if not as itself.
+void OnOffPositioner::check_ratio() {
+  if (counter_ && resolution_.measure != value(v_cntratio))
+    report(axis::acts_as("cntratio", value(v_cntratio), resolution_.measure));
 }
 
 void OnOffPositioner::recompute() {
@@ -69,9 +77,10 @@ Parts OnOffPositioner::position() const {
   return std::clamp(quota_.numerator(), -most, most) * 10;
 }
 
+bool OnOffPositioner::slows_by_speed() const { return value(v_slowtype) == 1 || value(v_slowtype) == 2; }
+
 Parts OnOffPositioner::slow_way() const {
-  const bool by_speed = value(v_slowtype) == 1 || value(v_slowtype) == 2;
-  return value(by_speed ? v_exeslow : v_slowpos) * parts_per_um;
+  return value(slows_by_speed() ? v_exeslow : v_slowpos) * parts_per_um;
 }
 
 int OnOffPositioner::inertia_variable(int band, bool backward) const {

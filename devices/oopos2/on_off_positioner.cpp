@@ -38,6 +38,7 @@ void OnOffPositioner::power_up() {
 void OnOffPositioner::initialise() {
   rescale();
   recompute();
+  check_ratio();
   // A kept position goes on with its remainder, unless memory was restored from elsewhere.
   if (quota_.um(resolution_) != value(v_posit)) quota_.set_um(value(v_posit), resolution_);
   transducer_.rebase(count_of(counter_));
@@ -82,8 +83,7 @@ void OnOffPositioner::measure() {
   if (movement_.placing() && (phase == Phase::slowdown || phase == Phase::slow || phase == Phase::tolerance))
     return;
   const Slowdown slowdown{value(v_slowtype), value(v_maxslow), value(v_minslow), value(v_maxvel)};
-  const bool by_speed = slowdown.slowtype == 1 || slowdown.slowtype == 2;
-  value(v_exeslow) = by_speed ? slow_range(slowdown, value(v_vel)) : 0;
+  value(v_exeslow) = slows_by_speed() ? slow_range(slowdown, value(v_vel)) : 0;
 }
 
 void OnOffPositioner::movement_ended() {

@@ -50,9 +50,11 @@ class OnOffPositioner final : public Device {
   // Parameters (on_off_parameters.cpp).
   void rescale();
   void recompute();
+  void check_ratio();
   void check_dependent_range(int variable);
   void retarget();
   [[nodiscard]] Parts position() const;
+  [[nodiscard]] bool slows_by_speed() const;
   [[nodiscard]] Parts slow_way() const;
   [[nodiscard]] int inertia_variable(int band, bool backward) const;
   [[nodiscard]] Legs legs_to(std::int64_t tenths, bool backward, bool overshoots) const;

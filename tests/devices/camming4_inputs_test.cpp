@@ -76,6 +76,36 @@ TEST_F(Camming4Inputs, TakesTheFallingEdgeToo) {
   covers({"inpcapt"});
 }
 
+TEST_F(Camming4Inputs, MayBeArmedBeforeTheEdgeIsChosen) {
+  // 000 1.9.5 asks ENBL and INTENBL for st_init alone; INTDSBL for an edge too.
+  command("INIT");
+  set({{"funInp", 5}, {"funInt", 6}});
+  diagnostics();
+  command("ENBL");
+  command("INTENBL");
+  EXPECT_THAT(diagnostics(), testing::IsEmpty());
+  EXPECT_EQ(get("st_enbl"), 1);
+  EXPECT_EQ(get("st_intenbl"), 1);
+  pulse_input();
+  edge(function_line, true);
+  tick();
+  EXPECT_EQ(get("st_capt"), 0);  // no edge is chosen yet
+  EXPECT_EQ(get("st_intcapt"), 0);
+  command("INTDSBL");
+  EXPECT_EQ(get("st_intenbl"), 1);
+  EXPECT_THAT(diagnostics(), Contains("INTDSBL: needs intcapt > 0"));
+  set({{"inpcapt", 2}, {"intcapt", 2}});
+  tick();
+  pulse_input();
+  edge(function_line, true);
+  tick();
+  EXPECT_EQ(get("delta1"), 1);
+  EXPECT_EQ(get("delta2"), 1);
+  EXPECT_EQ(get("st_enbl"), 0);
+  EXPECT_EQ(get("st_intenbl"), 0);
+  covers({"ENBL accepted", "INTENBL accepted", "INTDSBL refused", "inpcapt", "intcapt"});
+}
+
 TEST_F(Camming4Inputs, ADisarmedInputDoesNothing) {
   command("INIT");
   arm_input(5);

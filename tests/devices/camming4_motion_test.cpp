@@ -173,6 +173,62 @@ TEST_F(Camming4Motion, ATargetBehindIsStoredOnly) {
   EXPECT_EQ(get("st_tpos"), 0);
 }
 
+TEST_F(Camming4Motion, WhatTheRunningMovementCannotTakeIsSaid) {
+  start();
+  write("setpos", 3000);
+  command("START");
+  ticks(150);
+  diagnostics();
+  write("setpos", 100);
+  tick();
+  EXPECT_THAT(diagnostics(),
+              ElementsAre("setpos: kept for the next movement, the running one cannot take it any more"));
+  write("setpos", 4000);
+  tick();
+  EXPECT_THAT(diagnostics(), IsEmpty());
+  ASSERT_TRUE(wait("st_dec", 1));
+  set({{"setvel", 900}, {"tdec", 50}});
+  tick();
+  EXPECT_THAT(diagnostics(),
+              ElementsAre("setvel: kept for the next movement, the running one cannot take it any more",
+                          "tdec: kept for the next movement, the running one cannot take it any more"));
+  EXPECT_EQ(get("setvel"), 900);
+  ASSERT_TRUE(wait("st_still", 1));
+  write("setpos", 9000);
+  command("START");
+  ticks(100);
+  diagnostics();
+  write("posit", 20000);  // beyond the quota
+  tick();
+  EXPECT_THAT(diagnostics(),
+              ElementsAre("posit: the running movement cannot reach its quota any more and stops"));
+}
+
+TEST_F(Camming4Motion, AnOpenLoopStartsWhereTheAxisStands) {
+  // 000 1.1.11: moved by hand, posit 0, minpos 0, maxpos the stroke, START without the position loop.
+  command("INIT");
+  slave().count += 300;
+  ticks(2);
+  set({{"posit", 0}, {"minpos", 0}, {"maxpos", 1000}, {"setpos", 1000}});
+  command("START");
+  ASSERT_TRUE(wait("st_still", 1));
+  EXPECT_NEAR(get("posit"), 1000, 2);
+  slave().count -= 700;
+  ticks(2);
+  command("MANFW");
+  ASSERT_TRUE(wait("st_still", 1));
+  EXPECT_NEAR(get("posit"), 1000, 2);
+  slave().count -= 700;
+  ticks(2);
+  row(1, {154, 1000, 1000});
+  row(2, {137, 1});
+  tick();
+  command("STARTCAM");
+  EXPECT_EQ(get("follerr"), 0);
+  EXPECT_EQ(get("st_sync"), 1);
+  EXPECT_NEAR(get("posit"), 300, 2);
+}
+
 TEST_F(Camming4Motion, MovesForEverWhenPositIsWrittenBack) {
   write("maxpos", 2000);
   start();
@@ -211,8 +267,7 @@ TEST_F(Camming4Motion, RefusesWhatItsConditionsForbid) {
   };
   for (const auto& [name, reason] :
        {Case{"STOP", "STOP: st_still is 1, must be 0"}, Case{"STOPCAM", "STOPCAM: st_camex is 0, must be 1"},
-        Case{"INIT", "INIT: st_init is 1, must be 0"}, Case{"ENBL", "ENBL: needs inpcapt > 0"},
-        Case{"INTENBL", "INTENBL: needs intcapt > 0"}}) {
+        Case{"INIT", "INIT: st_init is 1, must be 0"}, Case{"INTDSBL", "INTDSBL: needs intcapt > 0"}}) {
     command("RSWRN");
     diagnostics();
     command(name);
@@ -253,6 +308,27 @@ TEST_F(Camming4Motion, ReportsAResolutionOutOfRange) {
   set({{"measure", 2}, {"pulse", 1}, {"measurem", 934}, {"pulsem", 999999}});
   command("INIT");
   EXPECT_THAT(diagnostics(), ElementsAre("measure: 2 * 4 / 1 is outside 0.00374..4, taken anyway"));
+}
+
+TEST_F(Camming4Motion, SaysWhatUnsetParametersActAs) {
+  set({{"measure", 0}, {"pulse", 0}, {"measurem", -3}, {"pulsem", 0}, {"maxvel", 0}, {"setpos", 10}});
+  diagnostics();
+  command("INIT");
+  EXPECT_THAT(diagnostics(), ElementsAre("measure: 0 acts as 1", "pulse: 0 acts as 1",
+                                         "measurem: -3 acts as 1", "pulsem: 0 acts as 1"));
+  row(1, {154, 1000, 1000});
+  for (const char* name : {"START", "MANFW", "PRESET", "STARTCAM"}) {
+    command(name);
+    EXPECT_THAT(diagnostics(),
+                Contains("maxvel: 0 is no speed: ramps take no time, and the output is offset alone"))
+        << name;
+    command("EMRG");
+    command("RESUME");
+  }
+  set({{"measure", 5}, {"pulse", 2147483647}});
+  tick();
+  EXPECT_THAT(diagnostics(), ElementsAre("pulse: 2147483647 is outside 1..999999, taken anyway",
+                                         "pulse: 2147483647 acts as 1073741824"));
 }
 
 TEST_F(Camming4Motion, PowerLossKeepsPositionsAndParameters) {

@@ -216,6 +216,16 @@ TEST_F(Camming4Parameters, FrequencyWindowsAreThoseOfTheirTimeBase) {
   covers({"tbf", "tbfm", "frq", "frqm", "vel"});
 }
 
+TEST_F(Camming4Parameters, TheMastersFrequencyMayBeWritten) {
+  write("tbfm", 2);  // 24 ms
+  start();
+  write("frqm", 77);
+  tick();
+  EXPECT_EQ(get("frqm"), 77);
+  ticks(24, 8);
+  EXPECT_EQ(get("frqm"), 1000);
+}
+
 TEST_F(Camming4Parameters, CountsAndPositionsAreWrittenInTheirUnits) {
   set({{"measure", 3600}, {"pulse", 4096}, {"measurem", 10}, {"pulsem", 40}});
   command("INIT");

@@ -64,7 +64,7 @@ constexpr VariableRule variable_rules[] = {
     {"offset", 'W', "RW", 'R', -32767, 32767},
     {"tbfm", 'W', "RW", 'R', 0, 3},
     {"tbf", 'W', "RW", 'R', 0, 3},
-    {"frqm", 'L', "R", '0', least, most},
+    {"frqm", 'L', "RW", '0', least, most},
     {"positm", 'L', "RW", 'R', -999999, 999999, count},
     {"encoderm", 'L', "RW", 'R', least, most, count},
     {"vout", 'B', "RW", '0', -100, 100, "init cal"},

@@ -228,6 +228,7 @@ TEST_F(EanposSimulated, EpicposIsAnotherDeviceOfMovement) {
 
 TEST_F(EanposSimulated, TwoOnOneCounterAreReported) {
   const auto second = eanpos::make_eanpos({{2, {}}, {0, address}, {0, {}}, {0, {}}, {0, {}}}, cards);
+  second->write(*find_symbol(second->type(), "cntratio"), 100000);
   second->command(*find_command(second->type(), "INIT"));
   second->sample();
   const auto said = second->take_diagnostics();

@@ -173,5 +173,21 @@ TEST_F(EpicposCommands, PowerLossForgetsWhatIsNotRetentive) {
   EXPECT_EQ(get("st_still"), 1);
 }
 
+TEST_F(EpicposCommands, SaysWhatUnsetParametersActAs) {
+  set({{"cntratio", 0}, {"maxvel", 0}});
+  diagnostics();
+  command("INIT");
+  EXPECT_THAT(diagnostics(), ElementsAre("cntratio: 0 acts as 1"));
+  for (const char* name : {"START", "MANFW", "PRESET"}) {
+    command(name);
+    EXPECT_THAT(
+        diagnostics(),
+        testing::Contains("maxvel: 0 is no speed: ramps take no time, and the output is offset alone"))
+        << name;
+    command("EMRG");
+    command("RESUME");
+  }
+}
+
 }  // namespace
 }  // namespace drycut::devices::epicpos

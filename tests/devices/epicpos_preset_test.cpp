@@ -203,6 +203,15 @@ TEST_F(EpicposPreset, ModeTwoLoadsWhileTheEnableIsActive) {
   EXPECT_EQ(get("st_still"), 1);
 }
 
+TEST_F(EpicposPreset, AnOpenLoopGoesToTheQuotaFromWhereTheAxisStands) {
+  // The axis is a tenth faster than maxvel says: theory is far from it when the search is over.
+  set({{"prspos", 700}, {"maxvel", 45455}});
+  command("INIT");
+  command("PRESET");
+  ASSERT_TRUE(search_ends());
+  EXPECT_NEAR(get("posit"), 700, 4);  // a tenth of the way that the axis ran out from the load
+}
+
 TEST_F(EpicposPreset, AnotherLineIsNoZeroPulse) {
   set({{"prsmode", 1}, {"pgain", 500}});
   from = 300;

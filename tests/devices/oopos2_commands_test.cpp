@@ -284,5 +284,16 @@ TEST_F(Oopos2Commands, PositIsWrittenAfterInitOnly) {
   EXPECT_EQ(get("posit"), 0);
 }
 
+TEST_F(Oopos2Commands, SaysWhatUnsetParametersActAs) {
+  set({{"cntratio", 0}, {"slowtype", 1}, {"setpos", 500}});
+  diagnostics();
+  command("INIT");
+  EXPECT_THAT(diagnostics(), ElementsAre("cntratio: 0 acts as 1"));
+  write("cntratio", 400000);
+  command("START");
+  EXPECT_THAT(diagnostics(),
+              testing::Contains("maxvel: 0 is no speed to compare with: the slow range is maxslow"));
+}
+
 }  // namespace
 }  // namespace drycut::devices::oopos2
