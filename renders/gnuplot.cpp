@@ -16,13 +16,13 @@ std::string run_gnuplot(const std::string& script, const std::string& program) {
   const Finished finished = [&] {
     try {
       return run_process(command, script);
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(std::string("plots: ") + error.what());
+    } catch (const HelperFailed& error) {
+      throw HelperFailed(std::string("plots: ") + error.what());
     }
   }();
-  if (!finished.good) throw std::runtime_error("plots: gnuplot failed: " + finished.words);
+  if (!finished.good) throw HelperFailed("plots: gnuplot failed: " + finished.words);
   if (finished.output.rfind("\x89PNG", 0) != 0) {
-    throw std::runtime_error("plots: gnuplot drew nothing: " + finished.words);
+    throw HelperFailed("plots: gnuplot drew nothing: " + finished.words);
   }
   return finished.output;
 }

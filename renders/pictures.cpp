@@ -35,9 +35,7 @@ void require(bool good, const std::string& otherwise) {
   if (!good) throw std::invalid_argument("pictures: " + otherwise);
 }
 
-std::filesystem::path frame_file(const std::filesystem::path& directory, std::size_t number) {
-  return directory / fmt::format("frame_{:05}.png", number);
-}
+std::string frame_name(std::size_t number) { return fmt::format("frame_{:05}.png", number); }
 
 /// Draws the frames whose number is taken from `next`, until none is left, in a context of its own.
 void draw_frames(const Film& film, const Stage& stage, const Overlays& overlays, const CaptionLayout& caption,
@@ -50,7 +48,7 @@ void draw_frames(const Film& film, const Stage& stage, const Overlays& overlays,
     renderer.draw(frame.placements, camera_of(film, number), image);
     overlays.draw(number, image);
     caption.draw(frame, image);
-    write_file(frame_file(directory, number), png_bytes(image));
+    write_file(directory / frame_name(number), png_bytes(image));
     drawn();
   }
 }
@@ -91,6 +89,12 @@ void require_drawable(const Film& film) {
   }
 }
 
+std::vector<std::string> frame_names(const Film& film) {
+  std::vector<std::string> names;
+  for (std::size_t number = 0; number < film.frames.size(); ++number) names.push_back(frame_name(number));
+  return names;
+}
+
 std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
                                              const std::function<void(int)>& progress, int threads) {
   require_drawable(film);
@@ -128,8 +132,7 @@ std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesy
     work();
   }
   if (trouble) std::rethrow_exception(trouble);
-  for (std::size_t number = 0; number < film.frames.size(); ++number)
-    files.push_back(frame_file(directory, number));
+  for (const auto& name : frame_names(film)) files.push_back(directory / name);
   return files;
 }
 

@@ -19,6 +19,9 @@ void require_drawable(const Film& film);
 std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesystem::path& directory,
                                              const std::function<void(int)>& progress = {}, int threads = 1);
 
+/// The names of the files that draw_film makes.
+std::vector<std::string> frame_names(const Film& film);
+
 /// A camera that sees all `placements` of `parts` of the film's frames: from the operator's side, slightly
 /// above and upstream.
 Camera operator_camera(const Film& film);

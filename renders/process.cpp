@@ -90,8 +90,8 @@ pid_t start(const Command& command, int in, int out, int error) {
       posix_spawnp(&child, command.program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (status == ENOENT)
-    throw std::runtime_error(fmt::format("there is no {}; install {}", command.program, command.package));
-  if (status != 0) fail(command.program + " does not start", status);
+    throw HelperFailed(fmt::format("there is no {}; install {}", command.program, command.package));
+  if (status != 0) throw HelperFailed(command.program + " does not start: " + std::strerror(status));
   return child;
 }
 

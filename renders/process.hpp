@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,18 @@ struct Command {
   std::filesystem::path directory = {};  ///< where it runs, "" = here
 };
 
+/// A helper program is not there, or does not do its work: what it makes can be left out.
+struct HelperFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 struct Finished {
   bool good = false;  ///< it ended with status 0
   std::string output;
   std::string words;  ///< its messages on one line, in short
 };
 
-/// Runs a program to its end with `input` as its standard input. Throws std::runtime_error if it cannot be
+/// Runs a program to its end with `input` as its standard input. Throws HelperFailed if it cannot be
 /// started.
 Finished run_process(const Command& command, const std::string& input);
 

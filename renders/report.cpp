@@ -1,7 +1,6 @@
 #include "renders/report.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -26,6 +25,7 @@ const char* verdict_state(const Report& report) {
 }
 
 std::string picture(const ReportFigure& figure) {
+  if (figure.png.empty()) return "<p class=\"remark\">No picture was drawn.</p>";
   const std::string bytes = read_file(figure.png);
   if (bytes.rfind("\x89PNG\r\n", 0) != 0)
     throw std::runtime_error(figure.png.string() + ": not a PNG picture");
@@ -216,6 +216,11 @@ void write_sections(std::string& page, const Report& report) {
   }
 }
 
+void write_text(std::string& page, const ReportText& text) {
+  page += fmt::format("<h2>{}</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n", html_text(text.title),
+                      html_text(text.text));
+}
+
 void write_scenario(std::string& page, const std::string& expanded) {
   if (expanded.empty()) return;
   page += fmt::format(
@@ -227,7 +232,7 @@ void write_scenario(std::string& page, const std::string& expanded) {
 /// Written beside its place and moved there at once: who looks sees the old report or the whole new one.
 void replace_file(const std::filesystem::path& file, const std::string& bytes) {
   std::filesystem::path unfinished = file;
-  unfinished += fmt::format(".{}.part", getpid());
+  unfinished += ".part";
   try {
     write_file(unfinished, bytes);
     std::filesystem::rename(unfinished, file);
@@ -246,6 +251,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   write_facts(page, report.facts);
   write_checks(page, report.checks);
   for (const ReportTable& table : report.summary) write_table(page, table);
+  for (const ReportText& text : report.texts) write_text(page, text);
   write_frames(page, report);
   write_plots(page, report);
   write_sections(page, report);

@@ -28,7 +28,7 @@ struct ReportTable {
 };
 
 struct ReportFigure {
-  std::filesystem::path png;
+  std::filesystem::path png;  ///< "" = none was drawn: its data, if the report has them, stand alone
   std::string caption;
 };
 
@@ -40,6 +40,12 @@ struct ReportSection {
   std::vector<ReportTable> tables;
 };
 
+/// A text to copy as it stands.
+struct ReportText {
+  std::string title;
+  std::string text;
+};
+
 /// What a customer gets to read.
 struct Report {
   std::string title;
@@ -49,9 +55,10 @@ struct Report {
   std::string verdict;  ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
   std::vector<ReportCheck> checks;
-  std::vector<ReportTable> summary;  ///< what is read before the pictures: a comparison
-  std::vector<ReportFigure> frames;  ///< chosen frames, shown as a strip
-  std::filesystem::path video;       ///< MP4 of all frames, "" = none
+  std::vector<ReportTable> summary;    ///< what is read before the pictures: a comparison
+  std::vector<ReportText> texts = {};  ///< to copy
+  std::vector<ReportFigure> frames;    ///< chosen frames, shown as a strip
+  std::filesystem::path video;         ///< MP4 of all frames, "" = none
   std::vector<ReportFigure> plots;
   std::vector<ReportSection> sections = {};  ///< behind the plots
   /// The plots as data, one a figure in `plots` and then in `sections`, for a browser to zoom; or none.

@@ -152,7 +152,8 @@ std::string live_plots(const std::vector<Plot>& plots, const std::string& folder
   const std::filesystem::path style = std::filesystem::path(folder) / "dygraph.min.css";
   if (std::none_of(plots.begin(), plots.end(), can_be_live)) return "";
   if (!std::filesystem::is_regular_file(library) || !std::filesystem::is_regular_file(style)) {
-    return "<!-- plots to zoom need libjs-dygraphs, which was not installed -->\n";
+    return "<p class=\"remark\">The plots cannot be zoomed: they need libjs-dygraphs, which was not "
+           "installed.</p>\n";
   }
   return fmt::format(
       "<style>{}</style>\n<script>{}</script>\n<script type=\"application/json\" "

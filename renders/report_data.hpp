@@ -15,7 +15,7 @@ bool can_be_live(const Plot& plot);
 std::string plot_data(const std::vector<Plot>& plots);
 
 /// What the end of a page needs to make its plots live: dygraphs, from the folder where its package
-/// (libjs-dygraphs) puts it, the data and the script; without dygraphs a comment that says so, "" if no plot
+/// (libjs-dygraphs) puts it, the data and the script; without dygraphs a line that says so, "" if no plot
 /// can be live.
 std::string live_plots(const std::vector<Plot>& plots,
                        const std::string& folder = "/usr/share/javascript/dygraphs");

@@ -62,13 +62,13 @@ void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
   const Finished finished = [&] {
     try {
       return run_process(command, "");
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(std::string("video: ") + error.what());
+    } catch (const HelperFailed& error) {
+      throw HelperFailed(std::string("video: ") + error.what());
     }
   }();
   if (!finished.good) {
     discard();
-    throw std::runtime_error("video: ffmpeg failed: " + finished.words);
+    throw HelperFailed("video: ffmpeg failed: " + finished.words);
   }
   std::filesystem::rename(unfinished, file);
 }

@@ -44,12 +44,27 @@ void set_values(const std::vector<std::pair<Text, double>>& values, const Scenar
   }
 }
 
-/// Puts the values of the retentive file back, if there is one.
+/// Puts the values of the retentive file back, if there is one. It must be possible to write it at the end.
 template <typename Controller>
 void restore(const Text& retentive, const Scenario& scenario, Controller& controller,
              devices::Problems& problems) {
   const auto file = retentive_file(scenario);
-  if (!file || !std::filesystem::exists(*file)) return;
+  if (!file) return;
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    problems.push_back(problem_at(scenario, retentive.place, what, remedy));
+  };
+  std::error_code ignored;
+  const auto folder = file->has_parent_path() ? file->parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    refuse(fmt::format("there is no directory {}", folder.string()), "make it first, or name another file");
+    return;
+  }
+  if (const auto why = hindrance(*file); !why.empty()) {
+    refuse(fmt::format("{} cannot be written at the end of the run: {}", file->string(), why),
+           "name another file");
+    return;
+  }
+  if (!std::filesystem::exists(*file)) return;
   const auto kept = read_file(*file, problems, problem_at(scenario, retentive.place, "", ""));
   if (kept) controller.restore(*kept, problems, file->string());
 }

@@ -1,42 +1,67 @@
 #include "sim/file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include "sim/plain_text.hpp"
 
 namespace drycut::sim {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-constexpr std::uintmax_t largest_input = 16U << 20U;  // [bytes]; programs and scenarios are kilobytes
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// A text as an editor saved it, as the readers want it: without its mark. A problem if it is no plain text.
+std::optional<std::string> plain(std::string text, const fs::path& file, devices::Problems& problems) {
+  const auto refuse = [&](int line, int column, const std::string& what) {
+    problems.push_back({file.string(), line, column, what, "save it as plain text in UTF-8"});
+    return std::nullopt;
+  };
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return refuse(1, 1, "this is UTF-16");
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  const auto fault = text_fault(text);
+  if (!fault) return text;
+  return refuse(fault->line, fault->column, fault->what);
+}
+
+std::string last_error() { return std::strerror(errno); }
 
 }  // namespace
 
-std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems) {
-  return read_file(file, problems, {file.string(), 1, 1, "", ""});
+std::optional<std::string> read_file(const fs::path& file, devices::Problems& problems,
+                                     std::uintmax_t largest) {
+  return read_file(file, problems, {file.string(), 1, 1, "", ""}, largest);
 }
 
-std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems,
-                                     const devices::Problem& where) {
+std::optional<std::string> read_file(const fs::path& file, devices::Problems& problems,
+                                     const devices::Problem& where, std::uintmax_t largest) {
   const auto problem = [&](const std::string& what, const std::string& remedy) {
     problems.push_back({where.file, where.line, where.column, what, remedy});
     return std::nullopt;
   };
   std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) {
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) {
     return problem(fmt::format("there is no file {}", file.string()),
                    where.file == file.string() ? "check the path"
                                                : "check the path; it is relative to the file that names it");
   }
-  if (!std::filesystem::is_regular_file(status)) {
+  if (!fs::is_regular_file(status)) {
     return problem(fmt::format("{} is not a regular file", file.string()), "name a text file");
   }
-  if (std::filesystem::file_size(file, error) > largest_input) {
-    return problem(fmt::format("{} is larger than 16 MiB", file.string()),
+  if (fs::file_size(file, error) > largest) {
+    return problem(fmt::format("{} is larger than {} MiB", file.string(), largest >> 20U),
                    "name a text file of a program or scenario");
   }
   std::ifstream stream(file, std::ios::binary);
@@ -45,34 +70,58 @@ std::optional<std::string> read_file(const std::filesystem::path& file, devices:
   if (!stream && !stream.eof()) {
     return problem(fmt::format("{} cannot be read", file.string()), "check its permissions");
   }
-  return text.str();
+  return plain(std::move(text).str(), file, problems);
 }
 
-OutputFile::OutputFile(std::filesystem::path file)
-    : file_(std::move(file)), temporary_(file_.string() + ".part"), stream_(temporary_, std::ios::binary) {
-  if (!stream_)
-    throw std::runtime_error(fmt::format("cannot write {}: {}", temporary_.string(), std::strerror(errno)));
+std::string hindrance(const fs::path& file) {
+  struct stat found {};
+  if (stat(file.c_str(), &found) != 0) return "";
+  if (S_ISDIR(found.st_mode)) return "it is a directory";
+  constexpr auto writable = S_IWUSR | S_IWGRP | S_IWOTH;
+  // The administrator may write everything; what was made read-only is still not to be replaced.
+  if (S_ISREG(found.st_mode) && ((found.st_mode & writable) == 0 || access(file.c_str(), W_OK) != 0))
+    return "it is read-only";
+  if (!S_ISFIFO(found.st_mode)) return "";
+  const int reader = open(file.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  if (reader < 0) return errno == ENXIO ? "nobody reads from this FIFO" : last_error();
+  close(reader);
+  return "";
+}
+
+OutputFile::OutputFile(fs::path file) : file_(std::move(file)) {
+  if (const auto why = hindrance(file_); !why.empty())
+    throw std::runtime_error(fmt::format("cannot write {}: {}", file_.string(), why));
+  std::error_code ignored;
+  const auto status = fs::status(file_, ignored);
+  const bool dangling = !fs::exists(status) && fs::is_symlink(fs::symlink_status(file_, ignored));
+  if (fs::is_regular_file(status)) file_ = fs::canonical(file_);
+  if (!dangling && (fs::is_regular_file(status) || !fs::exists(status)))
+    temporary_ = file_.string() + ".part";
+  stream_ = std::fopen(temporary_.empty() ? file_.c_str() : temporary_.c_str(), "wbe");
+  require(stream_ != nullptr);
+  struct stat old {};
+  if (temporary_.empty() || stat(file_.c_str(), &old) != 0) return;
+  fchmod(fileno(stream_), old.st_mode);  // the new one stays as open, or closed, to others as the old one
 }
 
 OutputFile::~OutputFile() {
-  if (finished_) return;
-  stream_.close();
+  if (stream_ != nullptr) std::fclose(stream_);
   std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void OutputFile::require(bool good) const {
+  if (!good) throw std::runtime_error(fmt::format("cannot write {}: {}", file_.string(), last_error()));
 }
 
 void OutputFile::write(std::string_view text) {
-  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream_)
-    throw std::runtime_error(fmt::format("cannot write {}: {}", temporary_.string(), std::strerror(errno)));
+  require(std::fwrite(text.data(), 1, text.size(), stream_) == text.size());
 }
 
 void OutputFile::finish() {
-  stream_.close();
-  if (!stream_)
-    throw std::runtime_error(fmt::format("cannot write {}: {}", temporary_.string(), std::strerror(errno)));
-  std::filesystem::rename(temporary_, file_);
-  finished_ = true;
+  require(std::fclose(std::exchange(stream_, nullptr)) == 0);
+  if (!temporary_.empty()) fs::rename(temporary_, file_);
+  temporary_.clear();
 }
 
 }  // namespace drycut::sim

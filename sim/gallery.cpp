@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -16,7 +15,9 @@
 #include "renders/mesh.hpp"
 #include "renders/part_models.hpp"
 #include "renders/pictures.hpp"
+#include "renders/process.hpp"
 #include "renders/video.hpp"
+#include "sim/figures.hpp"
 #include "sim/file.hpp"
 #include "sim/results.hpp"
 #include "sim/scenario/axis_units.hpp"
@@ -27,7 +28,6 @@ namespace drycut::sim {
 namespace {
 
 constexpr auto* frames_folder = "frames";
-constexpr auto* plots_folder = "plots";
 constexpr auto* cams_folder = "cams";
 constexpr auto* video_file = "film.mp4";
 constexpr auto* strip_file = "filmstrip.png";
@@ -278,7 +278,7 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
 }
 
 renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                          Drawn drawn) {
+                          const Drawn& drawn) {
   renders::Report report;
   report.title = scenario.scene.title.empty() ? scenario.file.stem().string() : scenario.scene.title;
   report.scenario = scenario.file.filename().string();
@@ -300,9 +300,6 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
       report.frames.push_back({drawn.frames.at(index), frame_label(simulation, index)});
   }
   report.video = drawn.video;
-  report.live = std::move(drawn.live);
-  for (const auto& plot : drawn.plots) report.plots.push_back({plot, "plots/" + plot.filename().string()});
-  report.sections = cam_sections(drawn.cams, report.plots);
   for (const auto& known : simulation.known_events()) {
     auto table = event_table(simulation.recording(), known);
     if (!table.rows.empty()) report.tables.push_back(std::move(table));
@@ -326,46 +323,47 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   return report;
 }
 
-void write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
-                    const Outcome& outcome, const std::filesystem::path& directory, int threads,
-                    const std::function<void(const char*, double)>& progress) {
+std::vector<std::string> write_pictures(const Scenario& scenario, Simulation& simulation,
+                                        const renders::Film& film, const Outcome& outcome,
+                                        OutputFolder& folder, int threads,
+                                        const std::function<void(const char*, double)>& progress) {
   Drawn drawn;
-  std::exception_ptr no_film;
+  std::vector<std::string> left_out;
   if (!film.frames.empty()) {
     const auto count = static_cast<double>(film.frames.size());
+    const auto frames = folder.add(frames_folder, renders::frame_names(film));
     drawn.frames = renders::draw_film(
-        film, directory / frames_folder, [&](int done) { progress("drawing", done / count); }, threads);
+        film, frames, [&](int done) { progress("drawing", done / count); }, threads);
     std::vector<renders::StripFrame> strip;
     for (const auto index : chosen_frames(simulation, strip_frames))
       strip.push_back({drawn.frames.at(index), frame_label(simulation, index)});
-    renders::draw_filmstrip(strip, renders::CaptionLayout(film).height(), directory / strip_file);
+    renders::draw_filmstrip(strip, renders::CaptionLayout(film).height(), folder.add(strip_file));
     if (scenario.pictures.video) {
       progress("filming", 1);
       try {
-        renders::encode_video(directory / frames_folder, scenario.pictures.every, directory / video_file);
-        drawn.video = directory / video_file;
-      } catch (const std::runtime_error&) {
-        no_film = std::current_exception();  // the report is worth having without it
+        const auto video = folder.add(video_file);
+        renders::encode_video(frames, scenario.pictures.every, video);
+        drawn.video = video;
+      } catch (const renders::HelperFailed& failed) {
+        left_out.emplace_back(failed.what());
       }
     }
   }
-  drawn.live = plots_of(scenario, simulation.recording());
-  drawn.cams = cams_of(scenario, simulation);
-  for (const auto& cam : drawn.cams) {
-    drawn.live.insert(drawn.live.end(), cam.plots.begin(), cam.plots.end());
-    std::filesystem::create_directories(directory / cams_folder);
-    OutputFile table(directory / cams_folder / (cam.name + ".csv"));
+  auto report = report_of(scenario, simulation, outcome, drawn);
+  for (const auto& why : left_out) report.facts.push_back({{"left out", why}});
+  auto plots = plots_of(scenario, simulation.recording());
+  const auto cams = cams_of(scenario, simulation);
+  for (const auto& cam : cams) {
+    plots.insert(plots.end(), cam.plots.begin(), cam.plots.end());
+    OutputFile table(folder.add(cams_folder, {cam.name + ".csv"}) / (cam.name + ".csv"));
     table.write(cam.table);
     table.finish();
   }
-  drawn.plots = renders::draw_plots(drawn.live, directory / plots_folder);
-  renders::write_report(report_of(scenario, simulation, outcome, std::move(drawn)), directory / report_file);
-  if (no_film) std::rethrow_exception(no_film);
-}
-
-void remove_pictures(const std::filesystem::path& directory) {
-  for (const auto* old : {frames_folder, plots_folder, cams_folder, video_file, strip_file, report_file})
-    std::filesystem::remove_all(directory / old);
+  if (auto why = add_plots(plots, folder, report); !why.empty()) left_out.push_back(std::move(why));
+  report.live = std::move(plots);
+  report.sections = cam_sections(cams, report.plots);
+  renders::write_report(report, folder.add(report_file));
+  return left_out;
 }
 
 }  // namespace drycut::sim

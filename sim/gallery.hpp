@@ -7,6 +7,7 @@
 #include "renders/report.hpp"
 #include "renders/scene3d.hpp"
 #include "sim/cam/page.hpp"
+#include "sim/output_folder.hpp"
 #include "sim/part_meshes.hpp"
 #include "sim/simulation.hpp"
 
@@ -24,10 +25,7 @@ std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& r
 /// Picture files made for a report.
 struct Drawn {
   std::vector<std::filesystem::path> frames;  ///< one a snapshot
-  std::vector<std::filesystem::path> plots;
-  std::filesystem::path video;      ///< "" = none
-  std::vector<renders::Plot> live;  ///< the plots as data
-  std::vector<CamPage> cams;        ///< their plots come last in `plots` and `live`
+  std::filesystem::path video;                ///< "" = none
 };
 
 /// The cams that the run played, or held ready; of a PLCopen controller that played none its tables.
@@ -37,16 +35,20 @@ std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulat
 std::vector<renders::ReportSection> cam_sections(const std::vector<CamPage>& cams,
                                                  std::vector<renders::ReportFigure>& plots);
 
+/// The report but for its plots and the sections of cams.
 renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                          Drawn drawn);
+                          const Drawn& drawn);
 
+/// What is drawn of a run.
+inline const std::vector<std::string> picture_files = {"report.html", "film.mp4", "filmstrip.png",
+                                                       "frames/",     "plots/",   "cams/"};
 /// Everything that is drawn of a run and its `film`: frames/, film.mp4, filmstrip.png, plots/, cams/ and
-/// report.html in `directory`. `progress` is told what is being done and which share of it is. Throws
+/// report.html in `folder`. Returns what is left out because a helper program is missing, and what to
+/// install. `progress` is told what is being done and which share of it is. Throws
 /// std::runtime_error if something cannot be drawn or written.
-void write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
-                    const Outcome& outcome, const std::filesystem::path& directory, int threads,
-                    const std::function<void(const char*, double)>& progress);
-/// Removes what write_pictures left in an earlier run.
-void remove_pictures(const std::filesystem::path& directory);
+std::vector<std::string> write_pictures(const Scenario& scenario, Simulation& simulation,
+                                        const renders::Film& film, const Outcome& outcome,
+                                        OutputFolder& folder, int threads,
+                                        const std::function<void(const char*, double)>& progress);
 
 }  // namespace drycut::sim

@@ -3,17 +3,27 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
 #include "sim/cam/study.hpp"
 #include "sim/commands/commands.hpp"
+#include "sim/plain_text.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace {
 
 using namespace drycut::sim;
+
+/// An empty path names no folder.
+CLI::Validator named() {
+  return {[](std::string& text) { return text.empty() ? "it is empty; name a folder" : ""; }, ""};
+}
 
 void add_cam(CLI::App& app, CamOptions& options, int& status) {
   auto* cam = app.add_subcommand(
@@ -74,7 +84,7 @@ void add_bode(CLI::App& app, BodeOptions& options, int& status) {
   bode->add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
   bode->add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
   bode->add_option("--png", options.png, "Draw gain and phase");
-  bode->add_option("--out", options.out, "Directory for report.html, plot and table");
+  bode->add_option("--out", options.out, "Directory for report.html, plot and table")->check(named());
   bode->add_option("--set", options.set, "Override a value of the scenario: path=value, may be repeated")
       ->allow_extra_args(false);
   bode->callback([&] { status = measure_bode(options); });
@@ -125,6 +135,7 @@ void add_tune(CLI::App& app, TuneOptions& options, int& status) {
   tune->add_option("--set", options.set, "Override a value of the scenarios: path=value, may be repeated")
       ->allow_extra_args(false);
   tune->add_option("--out", options.out, "Directory for the results; evaluations in it are used again")
+      ->check(named())
       ->capture_default_str();
   tune->add_flag("!--no-pictures", options.pictures, "No plots and no report");
   tune->callback([&] { status = tune_scenarios(options); });
@@ -139,7 +150,9 @@ void add_compare(CLI::App& app, CompareOptions& options, int& status) {
       "written");
   compare->add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
       ->required();
-  compare->add_option("--out", options.out, "Directory for the results")->capture_default_str();
+  compare->add_option("--out", options.out, "Directory for the results")
+      ->check(named())
+      ->capture_default_str();
   compare->add_option(
       "--from", options.from,
       "Figures look from this time on, as \"4 s\"; else where the plot with the limits begins");
@@ -161,7 +174,9 @@ int run(int argc, char** argv) {
   auto* run =
       app.add_subcommand("run", "Run scenarios: traces, events, checks, pictures and a report for each");
   run->add_option("scenarios", run_options.scenarios, "Scenario files (.yaml)")->required();
-  run->add_option("--out", run_options.out, "Directory for the results")->capture_default_str();
+  run->add_option("--out", run_options.out, "Directory for the results")
+      ->check(named())
+      ->capture_default_str();
   run->add_option("--jobs", run_options.jobs, "Scenarios run at the same time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
@@ -223,6 +238,12 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1], did_you_mean(argv[1], commands));
     return bad_input;
   }
+  for (int i = 1; i < argc; ++i) {
+    const auto fault = text_fault(argv[i]);
+    if (!fault) continue;
+    fmt::print(stderr, "drycut: in argument {} {}: {}\n", i, fault->what, printable(argv[i]));
+    return bad_input;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -235,7 +256,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    std::cout.flush();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return status;
+    fmt::print(stderr, "drycut: standard output cannot be written: {}\n", std::strerror(errno));
+    return simulation_failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "drycut: {}\n", error.what());
     return simulation_failed;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/file.hpp"
+#include "sim/plain_text.hpp"
 
 namespace drycut::sim {
 
@@ -14,7 +15,7 @@ namespace {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable(text)) {  // XML has no way to say a control character
     switch (c) {
       case '&':
         out += "&amp;";
@@ -59,6 +60,10 @@ std::string verdict_text(const Outcome& outcome) {
   if (failed > 0) return fmt::format("{} of {} checks failed", failed, outcome.checks.size());
   return outcome.checks.size() == 1 ? "the one check passed"
                                     : fmt::format("all {} checks passed", outcome.checks.size());
+}
+
+Outcome outcome_to_come() {
+  return {0, "the run has not come to its end; it goes on, or it was ended from outside", {}};
 }
 
 void write_checks(const Outcome& outcome, const std::filesystem::path& file) {

@@ -19,6 +19,15 @@ struct RunResult {
 /// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check.
 void write_checks(const Outcome& outcome, const std::filesystem::path& file);
 
+/// The files of a run that a comparison reads.
+inline constexpr auto* trace_file = "trace.csv";
+inline constexpr auto* events_file = "events.csv";
+inline constexpr auto* checks_file = "checks.json";
+inline constexpr auto* scenario_file = "scenario.yaml";
+
+/// What an outcome says as long as its run has not come to its end.
+Outcome outcome_to_come();
+
 /// scenario.yaml: the scenario as it ran, with every default and override in force, to be compared with other
 /// runs' and kept. Paths in it are relative to the scenario's own file.
 void write_scenario(const Scenario& scenario, const std::filesystem::path& file);

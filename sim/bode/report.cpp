@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "renders/report.hpp"
+#include "sim/figures.hpp"
 #include "sim/recorder.hpp"
 
 namespace drycut::sim {
@@ -206,10 +207,10 @@ std::string limit_cycle_text(const LimitCycle& cycle) {
   return text + verdict_of(cycle) + "\n";
 }
 
-void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                       const std::vector<std::string>& faults, const std::string& expanded,
-                       const std::filesystem::path& folder) {
-  for (const auto* old : {"plots", "report.html", "bode.csv"}) std::filesystem::remove_all(folder / old);
+std::string write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                              const std::vector<std::string>& faults, const std::string& expanded,
+                              OutputFolder& folder) {
+  std::vector<renders::Plot> plots;
   renders::Report report;
   report.title = "Frequency response: " + result.wire;
   report.scenario = result.file;
@@ -221,18 +222,17 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
   if (!heard(result).empty()) {
     report.summary = {{"Margins", {"", ""}, margin_rows(result)}};
     report.tables = {response_table(result)};
-    for (const auto& picture : renders::draw_plots({bode_plot(result, "bode")}, folder / "plots"))
-      report.plots.push_back({picture, "plots/" + picture.filename().string()});
+    plots.push_back(bode_plot(result, "bode"));
   }
   if (cycle != nullptr) {
     report.facts.insert(report.facts.begin(), {{"limit cycle", verdict_of(*cycle)}});
     report.summary.insert(report.summary.begin(), amplitude_table(*cycle));
-    if (cycle->least)
-      for (const auto& picture : renders::draw_plots({amplitude_plot(*cycle)}, folder / "plots"))
-        report.plots.push_back({picture, "plots/" + picture.filename().string()});
+    if (cycle->least) plots.push_back(amplitude_plot(*cycle));
   }
+  auto left_out = add_plots(plots, folder, report);
   report.scenario_expanded = expanded;
-  renders::write_report(report, folder / "report.html");
+  renders::write_report(report, folder.add("report.html"));
+  return left_out;
 }
 
 std::string bode_csv(const LoopResult& result) {

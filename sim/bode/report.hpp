@@ -6,6 +6,7 @@
 #include "renders/plots.hpp"
 #include "sim/bode/limit_cycle.hpp"
 #include "sim/bode/loop.hpp"
+#include "sim/output_folder.hpp"
 
 namespace drycut::sim {
 
@@ -13,11 +14,14 @@ namespace drycut::sim {
 std::string bode_report(const LoopResult& result);
 /// The gain margin over the amplitude, and where a limit cycle begins.
 std::string limit_cycle_text(const LimitCycle& cycle);
-/// Folder with report.html and plots/bode.png; `faults` are what fails it, `expanded` is the scenario with
-/// every default; `cycle` may be null. Throws std::runtime_error if something cannot be written.
-void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                       const std::vector<std::string>& faults, const std::string& expanded,
-                       const std::filesystem::path& folder);
+/// What may be written into the folder of a measurement.
+inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "plots/"};
+/// Writes report.html and plots/ into `folder`; `faults` are what fails it, `expanded` is the scenario with
+/// every default; `cycle` may be null. Returns what is left out because gnuplot is
+/// missing, "" = nothing. Throws std::runtime_error if something cannot be written.
+std::string write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                              const std::vector<std::string>& faults, const std::string& expanded,
+                              OutputFolder& folder);
 /// One row a frequency: gains and phases of open loop, closed loop, sensitivity and speed.
 std::string bode_csv(const LoopResult& result);
 /// Gain and phase over the logarithm of the frequency.

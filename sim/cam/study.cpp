@@ -97,7 +97,7 @@ std::string_view header_line(std::string_view text) {
   while (!text.empty()) {
     auto line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    const auto begin = line.find_first_not_of(" \t\r\xEF\xBB\xBF");
+    const auto begin = line.find_first_not_of(" \t\r");
     if (begin == std::string_view::npos || line[begin] == '#') continue;
     return line.substr(begin);
   }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/file.hpp"
+
 namespace drycut::sim {
 
 namespace fs = std::filesystem;
@@ -28,6 +30,9 @@ void check_output(const char* option, const std::string& file, const InputFile& 
         {option, 1, 1, fmt::format("{} is the {} itself", file, input.kind), "name another file"});
   if (fs::is_directory(file, ignored))
     problems.push_back({option, 1, 1, fmt::format("{} is a directory", file), "name a file"});
+  else if (const auto why = hindrance(file); !why.empty())
+    problems.push_back(
+        {option, 1, 1, fmt::format("{} cannot be written: {}", file, why), "name another file"});
   const auto folder = fs::path(file).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
     problems.push_back({option, 1, 1, fmt::format("there is no directory {}", folder.string()),
@@ -45,14 +50,8 @@ void check_outputs(const std::string& csv, const std::string& png, const InputFi
   if (png == csv) problems.push_back({"--png", 1, 1, "it is the file of --csv", "name another file"});
 }
 
-void make_folder(const fs::path& folder, devices::Problems& problems) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && fs::is_directory(folder)) return;
-  problems.push_back({"--out", 1, 1,
-                      fmt::format("the directory {} cannot be made{}{}", folder.string(), error ? ": " : "",
-                                  error ? error.message() : ""),
-                      "name one that can be written"});
+void tell_left_out(const std::string& what) {
+  if (!what.empty()) fmt::print(stderr, "left out: {}\n", what);
 }
 
 }  // namespace drycut::sim

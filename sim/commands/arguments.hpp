@@ -25,7 +25,9 @@ void check_output(const char* option, const std::string& file, const InputFile& 
 /// not the input and not each other, and the picture's name ends in .png.
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
                    devices::Problems& problems);
-/// Makes the folder of `--out` if it is not there.
-void make_folder(const std::filesystem::path& folder, devices::Problems& problems);
+
+/// Says on standard error what a missing helper program left out and what to install; nothing if `what` is
+/// "".
+void tell_left_out(const std::string& what);
 
 }  // namespace drycut::sim

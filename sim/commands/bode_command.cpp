@@ -4,6 +4,7 @@
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/progress.hpp"
+#include "sim/figures.hpp"
 #include "sim/file.hpp"
 
 namespace drycut::sim {
@@ -48,21 +49,18 @@ void write_table(const LoopResult& result, const std::filesystem::path& path) {
   file.finish();
 }
 
-/// All that was asked for; `faults` are the lines that fail the measurement.
+/// All that was asked for; `folder` may be null; `faults` are the lines that fail the measurement.
 void write(const BodeOptions& options, const Scenario& scenario, const LoopResult& result,
-           const LimitCycle* cycle, const std::vector<std::string>& faults) {
-  if (!options.out.empty()) write_bode_report(result, cycle, faults, expand(scenario), options.out);
+           const LimitCycle* cycle, const std::vector<std::string>& faults, OutputFolder* folder) {
+  if (folder != nullptr) tell_left_out(write_bode_report(result, cycle, faults, expand(scenario), *folder));
   if (result.sweep.points.empty()) return;
-  if (!options.out.empty()) write_table(result, options.out / "bode.csv");
+  if (folder != nullptr) write_table(result, folder->add("bode.csv"));
   if (options.csv == "-") {
     fmt::print("{}", bode_csv(result));
   } else if (!options.csv.empty()) {
     write_table(result, options.csv);
   }
-  if (options.png.empty()) return;
-  const std::filesystem::path png = options.png;
-  const auto folder = png.has_parent_path() ? png.parent_path() : std::filesystem::path(".");
-  renders::draw_plots({bode_plot(result, png.stem().string())}, folder);
+  if (!options.png.empty()) tell_left_out(draw_png(bode_plot(result, "bode"), options.png));
 }
 
 }  // namespace
@@ -74,7 +72,9 @@ int measure_bode(const BodeOptions& options) {
   auto scenario = read_scenario(options.scenario, overrides, problems);
   scenario.pictures.frames = false;  // nothing draws them
   if (scenario.buildable) check_loop(scenario, options.loop, problems);
-  if (problems.empty() && !options.out.empty()) make_folder(options.out, problems);
+  std::optional<OutputFolder> folder;
+  if (problems.empty() && !options.out.empty()) folder.emplace(options.out, "bode", bode_files, problems);
+  if (problems.empty() && folder) folder->begin();
   std::optional<LoopResult> result;
   std::optional<LimitCycle> cycle;
   if (problems.empty() && options.limit_cycle) {
@@ -103,7 +103,7 @@ int measure_bode(const BodeOptions& options) {
   // Where play makes a limit cycle, small motions do not answer: that is what was looked for.
   if (!cycle || !cycle->least) faults.insert(faults.begin(), doubts.begin(), doubts.end());
   if (cycle && !cycle->least) faults.emplace_back("no gain margin was found at any amplitude");
-  write(options, scenario, *result, cycle ? &*cycle : nullptr, faults);
+  write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, folder ? &*folder : nullptr);
   if (!options.out.empty())
     fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());
   if (!result->sweep.failure.empty()) return simulation_failed;

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "renders/plots.hpp"
 #include "sim/cam/study.hpp"
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
+#include "sim/figures.hpp"
 #include "sim/file.hpp"
 
 namespace drycut::sim {
@@ -51,11 +51,7 @@ void write(const CamOptions& options, const CamStudy& study) {
       write_file(options.csv, text);
   }
   if (!options.rows.empty() && !study.table.empty()) write_file(options.rows, study.table);
-  if (!options.png.empty() && !study.plot.panels.empty()) {
-    const std::filesystem::path png = options.png;
-    const auto folder = png.has_parent_path() ? png.parent_path() : std::filesystem::path(".");
-    renders::draw_plots({study.plot}, folder);
-  }
+  if (!options.png.empty() && !study.plot.panels.empty()) tell_left_out(draw_png(study.plot, options.png));
 }
 
 }  // namespace

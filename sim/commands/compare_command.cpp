@@ -44,7 +44,8 @@ int compare_runs(const CompareOptions& options) {
   devices::Problems problems;
   auto runs = read_runs(options, problems);
   const auto from = from_of(options, problems);
-  if (problems.empty()) make_folder(options.out, problems);
+  std::optional<OutputFolder> folder;
+  if (problems.empty()) folder.emplace(options.out, "compare", comparison_files, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
@@ -56,13 +57,16 @@ int compare_runs(const CompareOptions& options) {
     page.source += (page.source.empty() ? "" : ", ") + run.folder.string();
   }
   page.verdict = difference_text(comparison);
+  std::string left_out;
   try {
-    write_comparison(comparison, page, options.out, options.pictures);
+    folder->begin();
+    left_out = write_comparison(comparison, page, *folder, options.pictures);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;
   }
   fmt::print("{}: {}", page.title, comparison_text(comparison));
+  tell_left_out(left_out);
   fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
                                         : "results: " + options.out.string());
   return options.fail_on_difference && !same(comparison) ? check_failed : all_passed;

@@ -15,6 +15,8 @@
 #include "sim/controller_loader.hpp"
 #include "sim/file.hpp"
 #include "sim/gallery.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/plain_text.hpp"
 #include "sim/results.hpp"
 #include "sim/simulation.hpp"
 
@@ -22,14 +24,18 @@ namespace drycut::sim {
 
 namespace {
 
+constexpr auto* junit_file = "junit.xml";
+
 /// One scenario on its way from file to report.
 struct Job {
   Scenario scenario;
   std::unique_ptr<Simulation> simulation;
   PartMeshes meshes;
   RunResult result;
-  std::string trouble;          ///< a result could not be written
-  std::filesystem::path scene;  ///< the glTF file, "" = none
+  std::optional<OutputFolder> folder;
+  std::string trouble;                ///< a result could not be written
+  std::vector<std::string> left_out;  ///< because a helper program is missing, and what to install
+  std::filesystem::path scene;        ///< the glTF file, "" = none
 };
 
 /// A scene that compares some of the jobs.
@@ -38,11 +44,14 @@ struct Group {
   std::vector<Job*> members;
   std::vector<MemberNames> names;
   RunResult result;
+  std::optional<OutputFolder> folder;
   std::string trouble;
+  std::string left_out;
 };
 
 /// What is to be run: scenarios, and those of scenes that compare.
 struct Work {
+  std::optional<OutputFolder> folder;
   std::vector<std::unique_ptr<Job>> jobs;
   std::vector<Group> groups;
 };
@@ -51,6 +60,10 @@ struct Work {
 class Claims {
  public:
   void results(const std::string& name, const std::filesystem::path& file, devices::Problems& problems) {
+    if (name.empty() || name == "." || name == ".." || name == junit_file) {
+      problems.push_back({file.string(), 1, 1, fmt::format("its results cannot be called '{}'", name),
+                          "give the scenario another file name"});
+    }
     claim(name, file, "its results would overwrite those of {}",
           "give the scenarios different file names or run them apart", problems);
   }
@@ -135,22 +148,42 @@ Work prepare(const RunOptions& options, devices::Problems& problems) {
   return work;
 }
 
+std::string scene_file_of(const Job& job) { return job.result.directory.filename().string() + ".glb"; }
+
+/// Takes the folders of all results; what lies in them and is not ours is told before anything runs.
+void open_folders(Work& work, const RunOptions& options, devices::Problems& problems) {
+  work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file}, problems);
+  for (auto& group : work.groups)
+    group.folder.emplace(group.result.directory, "compare", comparison_files, problems);
+  for (auto& job : work.jobs) {
+    auto names = picture_files;
+    for (const auto* name : {trace_file, events_file, checks_file, scenario_file}) names.emplace_back(name);
+    names.push_back(scene_file_of(*job));
+    job->folder.emplace(job->result.directory, "run", names, problems);
+  }
+}
+
+/// Old results go before new ones are made: what is killed half-way must not leave an old verdict.
+void begin(Work& work) {
+  work.folder->begin();
+  for (auto& group : work.groups) group.folder->begin();
+  for (auto& job : work.jobs) {
+    job->folder->begin();
+    write_checks(outcome_to_come(), job->folder->add(checks_file));
+  }
+}
+
 void run_job(Job& job, const RunOptions& options, int threads,
              const std::function<void(const char*, double)>& progress) {
-  const auto& directory = job.result.directory;
+  auto& folder = *job.folder;
   const auto duration = static_cast<double>(job.scenario.scene.duration);
   if (options.pictures) job.simulation->follow_cams();
   job.result.outcome =
       job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
-  // What an earlier run left here must not be taken for this one's.
-  remove_pictures(directory);
-  const auto scene_file = directory / (directory.filename().string() + ".glb");
-  std::filesystem::remove(scene_file);
-  std::filesystem::create_directories(directory);
-  write_trace(job.simulation->recording(), directory / "trace.csv");
-  write_events(job.simulation->recording(), directory / "events.csv");
-  write_checks(job.result.outcome, directory / "checks.json");
-  write_scenario(job.scenario, directory / "scenario.yaml");
+  write_trace(job.simulation->recording(), folder.add(trace_file));
+  write_events(job.simulation->recording(), folder.add(events_file));
+  write_scenario(job.scenario, folder.add(scenario_file));
+  write_checks(job.result.outcome, folder.add(checks_file));
   if (const auto kept = retentive_file(job.scenario)) {
     OutputFile out(*kept);
     out.write(job.simulation->retentive_state());
@@ -160,11 +193,12 @@ void run_job(Job& job, const RunOptions& options, int threads,
   const auto film = job.simulation->snapshots().empty() ? renders::Film{}
                                                         : film_of(job.scenario, *job.simulation, job.meshes);
   if (options.gltf && !film.frames.empty()) {
-    renders::write_gltf(film, scene_file, job.scenario.pictures.slow);
-    job.scene = scene_file;
+    job.scene = folder.add(scene_file_of(job));
+    renders::write_gltf(film, job.scene, job.scenario.pictures.slow);
   }
   if (!options.pictures) return;
-  write_pictures(job.scenario, *job.simulation, film, job.result.outcome, directory, threads, progress);
+  job.left_out =
+      write_pictures(job.scenario, *job.simulation, film, job.result.outcome, folder, threads, progress);
   job.result.has_report = true;
 }
 
@@ -204,7 +238,7 @@ void run_group(Group& group, bool pictures) {
   }
   auto compared = compare_members(group.scene, group.names, std::move(runs));
   group.result.outcome.checks = compared.page.checks;
-  write_comparison(compared.comparison, compared.page, group.result.directory, pictures);
+  group.left_out = write_comparison(compared.comparison, compared.page, *group.folder, pictures);
   group.result.has_report = pictures;
 }
 
@@ -221,8 +255,8 @@ void run_groups(std::vector<Group>& groups, bool pictures) {
 void print_checks(const std::vector<CheckResult>& checks) {
   for (const auto& check : checks) {
     const auto margin = margin_text(check);
-    fmt::print("  {} {}: {}{}{}\n", check.passed ? "ok  " : "FAIL", check.name, check.detail,
-               margin.empty() ? "" : "; ", margin);
+    fmt::print("  {} {}: {}{}{}\n", check.passed ? "ok  " : "FAIL", printable(check.name),
+               printable(check.detail), margin.empty() ? "" : "; ", margin);
   }
 }
 
@@ -233,12 +267,13 @@ void print_place(const RunResult& result) {
 
 void print_group(const Group& group) {
   const auto& outcome = group.result.outcome;
-  fmt::print("{}: {}\n", group.result.name,
+  fmt::print("{}: {}\n", printable(group.result.name),
              !group.trouble.empty() ? group.trouble
              : outcome.checks.empty()
                  ? fmt::format("compared {} runs", group.members.size())
                  : fmt::format("{}, {}", outcome.passed() ? "passed" : "FAILED", verdict_text(outcome)));
   print_checks(outcome.checks);
+  tell_left_out(group.left_out);
   if (group.trouble.empty()) print_place(group.result);
 }
 
@@ -247,11 +282,12 @@ void print_result(const Job& job) {
   const auto word = !job.trouble.empty() || !result.outcome.failure.empty() ? "STOPPED"
                     : result.outcome.passed()                               ? "passed"
                                                                             : "FAILED";
-  fmt::print("{}: {}, {} ({} s simulated)\n", result.name, word, verdict_text(result.outcome),
+  fmt::print("{}: {}, {} ({} s simulated)\n", printable(result.name), word,
+             job.trouble.empty() ? verdict_text(result.outcome) : job.trouble,
              seconds_text(result.outcome.end));
   print_checks(result.outcome.checks);
-  for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", note);
-  if (!job.trouble.empty()) fmt::print("  {}\n", job.trouble);
+  for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
+  for (const auto& why : job.left_out) tell_left_out(why);
   if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());
   print_place(result);
 }
@@ -273,7 +309,7 @@ int status_of(const Work& work) {
 }  // namespace
 
 void print_problems(const devices::Problems& problems) {
-  for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_string(problem));
+  for (const auto& problem : problems) fmt::print(stderr, "{}\n", printable(to_string(problem)));
 }
 
 int run_scenarios(const RunOptions& options) {
@@ -283,11 +319,12 @@ int run_scenarios(const RunOptions& options) {
     print_problems(problems);
     return bad_input;
   }
-  for (const auto& job : work.jobs) make_folder(job->result.directory, problems);
+  open_folders(work, options, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
+  begin(work);
   run_all(work.jobs, options);
   run_groups(work.groups, options.pictures);
   std::vector<RunResult> results;
@@ -304,8 +341,7 @@ int run_scenarios(const RunOptions& options) {
     keep(group.result, group.trouble);
   }
   try {
-    std::filesystem::create_directories(options.out);
-    write_junit(results, options.out / "junit.xml");
+    write_junit(results, work.folder->add(junit_file));
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;

@@ -9,6 +9,7 @@
 #include "sim/commands/progress.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/units.hpp"
+#include "sim/tune/patch.hpp"
 #include "sim/tune/report.hpp"
 #include "sim/tune/search.hpp"
 #include "sim/tune/study.hpp"
@@ -17,6 +18,10 @@
 namespace drycut::sim {
 
 namespace {
+
+constexpr auto* evaluations_file = "evaluations.csv";  // it and the next one go on where they ended
+constexpr auto* spread_file = "spread.csv";
+constexpr auto* patch_file = "patch.txt";
 
 /// The command line, read and found sound.
 struct Plan {
@@ -159,12 +164,11 @@ std::optional<Point> start_of(const Plan& plan) {
   return point;
 }
 
-int tune(const TuneOptions& options, const Plan& plan) {
-  for (const auto* old : {"plots", "report.html", "patch.txt"})
-    std::filesystem::remove_all(options.out / old);
+int tune(const TuneOptions& options, const Plan& plan, OutputFolder& folder) {
+  folder.begin({evaluations_file, spread_file});
   const auto& study = plan.study;
   Progress bar;
-  Trials trials(study, plan.vary, {}, options.out / "evaluations.csv", options.jobs, [&](int runs) {
+  Trials trials(study, plan.vary, {}, folder.add(evaluations_file), options.jobs, [&](int runs) {
     bar.show("tuning", std::min(1.0, static_cast<double>(runs) / options.budget));
   });
   Tuning tuning{study, trials, plan.present, measure(study, {}), 0, {}, nullptr, {}, {}};
@@ -176,20 +180,20 @@ int tune(const TuneOptions& options, const Plan& plan) {
   std::optional<Trials> spread;
   if (!plan.spread.empty()) {
     const double all = options.spread_runs * study.runs_of_a_trial();
-    spread.emplace(study, plan.spread, tuned, options.out / "spread.csv", options.jobs,
+    spread.emplace(study, plan.spread, tuned, folder.add(spread_file), options.jobs,
                    [&](int runs) { bar.show("spreading", std::min(1.0, runs / all)); });
     spread->run("spread", latin_hypercube(plan.spread, options.spread_runs,
                                           plants::Random(options.seed, "drycut tune spread")));
     tuning.spread = &*spread;
   }
   bar.clear();
-  OutputFile patch(options.out / "patch.txt");
+  OutputFile patch(folder.add(patch_file));
   patch.write(patch_text(tuning));
   patch.finish();
   fmt::print("{}", summary_text(tuning));
   const auto now = trials.simulated() + (spread ? spread->simulated() : 0);
   fmt::print("\n{} sets of values tried, {} simulated now; {}\n", trials.trials().size(), now,
-             (options.out / "evaluations.csv").string());
+             (options.out / evaluations_file).string());
   fmt::print("simulated runs: search {}, surroundings {}{}\n", searched, trials.runs() - searched,
              spread ? fmt::format(", spread {}", spread->runs()) : "");
   if (options.pictures && !trials.at(tuning.best).verdict.stopped) {
@@ -197,7 +201,7 @@ int tune(const TuneOptions& options, const Plan& plan) {
       tuning.runs_before.push_back(keep_run(study, entry, {}));
       tuning.runs_after.push_back(keep_run(study, entry, tuned));
     }
-    write_tuning_report(tuning, options.out);
+    tell_left_out(write_tuning_report(tuning, folder));
     fmt::print("report: {}\n", (options.out / "report.html").string());
   }
   const auto& best = trials.at(tuning.best).verdict;
@@ -210,13 +214,18 @@ int tune(const TuneOptions& options, const Plan& plan) {
 int tune_scenarios(const TuneOptions& options) {
   devices::Problems problems;
   const auto plan = make_plan(options, problems);
-  if (problems.empty()) make_folder(options.out, problems);
+  std::optional<OutputFolder> folder;
+  if (problems.empty())
+    folder.emplace(
+        options.out, "tune",
+        std::vector<std::string>{evaluations_file, spread_file, patch_file, "report.html", "plots/"},
+        problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
   try {
-    return tune(options, plan);
+    return tune(options, plan, *folder);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;

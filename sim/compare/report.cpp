@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renders/report.hpp"
+#include "sim/figures.hpp"
 #include "sim/file.hpp"
 #include "sim/gallery.hpp"
 #include "sim/results.hpp"
@@ -182,18 +183,18 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
 
 }  // namespace
 
-void write_comparison(const Comparison& comparison, const ComparisonPage& page,
-                      const std::filesystem::path& folder, bool pictures) {
-  remove_pictures(folder);
-  OutputFile out(folder / csv_file);
+std::string write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                             bool pictures) {
+  OutputFile out(folder.add(csv_file));
   out.write(comparison_csv(comparison, page.figures));
   out.finish();
-  if (!pictures) return;
+  if (!pictures) return "";
   auto report = report_of(comparison, page);
-  report.live = drawn_plots(comparison, page);
-  for (const auto& plot : renders::draw_plots(report.live, folder / "plots"))
-    report.plots.push_back({plot, "plots/" + plot.filename().string()});
-  renders::write_report(report, folder / "report.html");
+  auto plots = drawn_plots(comparison, page);
+  auto left_out = add_plots(plots, folder, report);
+  report.live = std::move(plots);
+  renders::write_report(report, folder.add("report.html"));
+  return left_out;
 }
 
 std::string comparison_text(const Comparison& comparison) {

@@ -1,11 +1,11 @@
 #pragma once
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/compare/comparison.hpp"
 #include "sim/compare/overlays.hpp"
+#include "sim/output_folder.hpp"
 
 namespace drycut::sim {
 
@@ -20,10 +20,14 @@ struct ComparisonPage {
   std::vector<OverlayRequest> overlays;  ///< before the usual ones
 };
 
-/// Writes comparison.csv and, with `pictures`, plots/ and report.html into `folder`; what an earlier
-/// comparison left there goes. Throws std::runtime_error if something cannot be drawn or written.
-void write_comparison(const Comparison& comparison, const ComparisonPage& page,
-                      const std::filesystem::path& folder, bool pictures);
+/// What a comparison may write into its folder.
+inline const std::vector<std::string> comparison_files = {"comparison.csv", "report.html", "plots/"};
+
+/// Writes comparison.csv and, with `pictures`, plots/ and report.html into `folder`. Returns
+/// what is left out because gnuplot is missing, "" = nothing. Throws std::runtime_error if something cannot
+/// be written.
+std::string write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                             bool pictures);
 
 /// What differs, for a terminal: a line a check, a parameter.
 std::string comparison_text(const Comparison& comparison);

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "sim/compare/recorded_csv.hpp"
+#include "sim/file.hpp"
 #include "sim/known_events.hpp"
+#include "sim/results.hpp"
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_node.hpp"
 
@@ -21,13 +21,13 @@ namespace {
 
 constexpr auto* run_again = "run the scenario again: drycut run writes the file";
 
+constexpr std::uintmax_t largest_trace = std::uintmax_t{1} << 40U;  // [bytes]
+
 /// A whole file of a run; traces may be large.
 std::optional<std::string> whole_file(const fs::path& file, devices::Problems& problems) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream && text) return text.str();
-  problems.push_back({file.string(), 1, 1, "the file cannot be read, or is empty", run_again});
+  auto text = read_file(file, problems, largest_trace);
+  if (!text || !text->empty()) return text;
+  problems.push_back({file.string(), 1, 1, "the file is empty", run_again});
   return {};
 }
 

@@ -42,12 +42,6 @@ struct RunFolder {
                                            const std::string& value) const;
 };
 
-/// The files of a run's folder that a comparison reads.
-inline constexpr auto* trace_file = "trace.csv";
-inline constexpr auto* events_file = "events.csv";
-inline constexpr auto* checks_file = "checks.json";
-inline constexpr auto* scenario_file = "scenario.yaml";
-
 /// Reads the folder that `drycut run` made of one scenario. Whatever is missing or broken in it is told in
 /// `problems` with file, line and column; then the result is not to be used.
 RunFolder read_run(const std::filesystem::path& folder, devices::Problems& problems);

@@ -85,6 +85,10 @@ ComparisonScene::Member read_one(const YamlNode& node, const std::string& name, 
   if (member.name.text.empty())
     member.name = {std::filesystem::path(member.scenario.text).stem().string(), member.scenario.place};
   if (!member.scenario.text.empty()) require_name(member.name, name + ":", findings);
+  if (member.name.text == "plots")
+    findings.add(member.name.place,
+                 fmt::format("{}: 'plots' is the folder of the comparison's own plots", name),
+                 "give the run another name");
   return member;
 }
 

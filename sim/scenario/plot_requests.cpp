@@ -176,9 +176,12 @@ PlotRequest read_plot(const YamlNode& node, const std::string& name, Findings& f
   reader.finish();
   if (node.kind != YamlNode::Kind::map) return plot;
   if (!reader.has("name")) reader.missing("name", "it names the file: name.png");
-  if (plot.name.text.find_first_of("/\\") != std::string::npos) {
-    findings.add(plot.name.place, fmt::format("{}.name '{}' is no file name", name, plot.name.text),
-                 "leave / and \\ out; it becomes name.png");
+  const auto& file = plot.name.text;
+  constexpr std::size_t longest = 100;  // [bytes]; a file system takes 255
+  if (file.find_first_of("/\\\n\r\t\f") != std::string::npos || file.starts_with('.') ||
+      file.size() > longest) {
+    findings.add(plot.name.place, fmt::format("{}.name '{}' is no file name", name, file),
+                 "leave / and \\ out and begin with a letter, not too long; it becomes name.png");
   }
   if (!reader.has("panels")) reader.missing("panels", "add panels: [{title: ..., channels: [...]}]");
   // What has an x of its own.

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "sim/file.hpp"
+#include "sim/plain_text.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/sections.hpp"
@@ -16,37 +17,6 @@ namespace drycut::sim {
 namespace {
 
 constexpr std::size_t largest_text = std::size_t{1} << 20U;  // [bytes]; yaml-cpp takes half a second for it
-
-// Bytes of the well-formed UTF-8 character at the start of `text`, 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
-  if (first < 0x20 && first != '\t' && first != '\n' && first != '\r') return 0;
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
-
-// Binary files and other encodings end here, with the place of the first byte that is no text.
-bool is_text(std::string_view text, Findings& findings) {
-  Place place{1, 1};
-  while (!text.empty()) {
-    const auto length = utf8_length(text);
-    if (length == 0) {
-      findings.add(place, fmt::format("byte 0x{:02x} is no text", static_cast<unsigned char>(text[0])),
-                   "a scenario is a YAML text in UTF-8");
-      return false;
-    }
-    ++place.column;
-    if (text[0] == '\n') place = {place.line + 1, 1};
-    text.remove_prefix(length);
-  }
-  return true;
-}
 
 void read_seed(const Text& text, std::uint64_t& seed, Findings& findings) {
   const char* const end = text.text.data() + text.text.size();
@@ -245,13 +215,15 @@ bool refuse_comparison(const YamlNode& root, Findings& findings) {
 
 // The tree of the file, or a map without entries where nothing can be read.
 YamlNode parse(std::string_view text, Findings& findings) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.size() > largest_text) {
     findings.add({1, 1}, fmt::format("the text has {} bytes", text.size()),
                  fmt::format("a scenario has at most {}", largest_text));
     return {};
   }
-  if (!is_text(text, findings)) return {};
+  if (const auto fault = text_fault(text)) {
+    findings.add({fault->line, fault->column}, fault->what, "a scenario is a YAML text in UTF-8");
+    return {};
+  }
   return parse_yaml(text, 0, findings);
 }
 

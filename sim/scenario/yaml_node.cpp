@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "sim/plain_text.hpp"
+
 namespace drycut::sim {
 
 namespace {
@@ -158,6 +160,18 @@ class Alignment {
   char quote_ = '\0';
 };
 
+/// yaml-cpp makes single bytes of the escapes \\N (U+0085) and \\_ (U+00A0); this makes characters of them.
+std::string in_utf8(const std::string& value) {
+  std::string text;
+  for (std::size_t at = 0; at < value.size();) {
+    const auto length = utf8_length(value, at);
+    if (length == 0) text += '\xC2';
+    text += value.substr(at, std::max<std::size_t>(length, 1));
+    at += std::max<std::size_t>(length, 1);
+  }
+  return text;
+}
+
 // Thrown to leave yaml-cpp from inside its events; caught in parse_yaml.
 struct TooDeep {
   Place place;
@@ -179,7 +193,10 @@ class Builder : public YAML::EventHandler {
     put(YamlNode{YamlNode::Kind::null, {"", lines_.place(mark)}});
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& value) override {
+                const std::string& bytes) override {
+    const auto value = in_utf8(bytes);
+    if (const auto fault = text_fault(value))  // an escape, for the file itself is plain text
+      findings_.add(lines_.place(mark), "an escape makes what is no text: " + fault->what, "leave it out");
     const bool odd = refuse_anchor(mark, anchor) || refuse_tag(mark, tag);
     Alignment alignment(lines_, lines_.offset(mark), value);
     auto text = odd ? Text{value, lines_.place(mark)} : alignment.run();

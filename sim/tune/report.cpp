@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include "renders/report.hpp"
+#include "sim/figures.hpp"
 #include "sim/results.hpp"
+#include "sim/tune/patch.hpp"
 #include "sim/tune/plots.hpp"
 
 namespace drycut::sim {
@@ -43,14 +44,6 @@ std::string reason_text(const Verdict& verdict) {
 std::string miss_of(const Verdict& verdict) {
   const auto reason = reason_text(verdict);
   return reason.empty() ? limits_text(verdict) : reason;
-}
-
-/// What is to be known before anything else where nothing keeps the limits; "" where the best does.
-std::string miss_text(const Tuning& tuning) {
-  const auto& best = tuning.trials.at(tuning.best).verdict;
-  if (best.feasible()) return "";
-  if (best.stopped) return "no values tried could be run to the end: " + best.note;
-  return "no values tried keep all limits; the best miss is " + miss_of(best);
 }
 
 ReportTable before_after(const Tuning& tuning) {
@@ -170,17 +163,6 @@ ReportTable trials_table(const Tuning& tuning) {
   return table;
 }
 
-ReportTable patch_table(const Tuning& tuning) {
-  ReportTable table{"To paste (also in patch.txt)", {"line"}, {}};
-  const auto text = patch_text(tuning);
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = text.find('\n', at);
-    table.rows.push_back({{text.substr(at, end - at)}});
-    at = end + 1;
-  }
-  return table;
-}
-
 std::string as_text(const ReportTable& table) {
   std::vector<std::size_t> widths;
   const auto measure_row = [&](const std::vector<std::string>& cells) {
@@ -218,68 +200,20 @@ double largest_metric(const Trials& spread) {
   return largest;
 }
 
-/// Dotted paths and their values as nested YAML.
-std::string nested(std::vector<std::pair<std::string, std::string>> values) {
-  std::sort(values.begin(), values.end());  // groups together
-  std::string text;
-  std::vector<std::string> open;  // keys of the line before
-  for (const auto& [path, value] : values) {
-    std::vector<std::string> keys;
-    std::istringstream stream(path);
-    for (std::string key; std::getline(stream, key, '.');) keys.push_back(key);
-    const auto same =
-        std::mismatch(keys.begin(), keys.end() - 1, open.begin(), open.end()).first - keys.begin();
-    for (auto i = static_cast<std::size_t>(same); i < keys.size(); ++i)
-      text += fmt::format("{:{}}{}:{}\n", "", 2 * i, keys[i], i + 1 == keys.size() ? " " + value : "");
-    open = std::move(keys);
-  }
-  return text;
-}
-
-std::string qcl_line(std::string name, double value) {
-  if (const auto dot = name.find('.'); dot != std::string::npos) name[dot] = ':';
-  return fmt::format("{} = {}{}\n", name, value < 0 ? "- " : "", std::abs(value));
-}
-
 }  // namespace
+
+std::string miss_text(const Tuning& tuning) {
+  const auto& best = tuning.trials.at(tuning.best).verdict;
+  if (best.feasible()) return "";
+  if (best.stopped) return "no values tried could be run to the end: " + best.note;
+  return "no values tried keep all limits; the best miss is " + miss_of(best);
+}
 
 std::size_t worst_of(const Trials& spread) {
   std::size_t worst = 0;
   for (std::size_t i = 1; i < spread.trials().size(); ++i)
     if (spread.at(i).verdict.rank() > spread.at(worst).verdict.rank()) worst = i;
   return worst;
-}
-
-std::string patch_text(const Tuning& tuning) {
-  const auto& parameters = tuning.trials.parameters();
-  const auto& point = tuning.trials.at(tuning.best).point;
-  std::string qcl;
-  std::string set;
-  std::string section;
-  std::vector<std::pair<std::string, std::string>> plants;
-  std::string others;
-  std::string arguments;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto& path = parameters[i].path;
-    const auto value = value_text(parameters[i], point[i]);
-    if (const auto preset = preset_name(path)) {
-      section = preset->section;
-      if (section == "qmove") qcl += qcl_line(preset->value, point[i]);
-      set += fmt::format("{}{}: {}", set.empty() ? "" : ", ", preset->value, value);
-    } else if (path.starts_with("plants.")) {
-      plants.emplace_back(path, value);
-    } else {
-      others += fmt::format("# {}: {}\n", path, value);
-    }
-    arguments += fmt::format(" --set \"{}={}\"", path, value);
-  }
-  std::string text;
-  if (const auto miss = miss_text(tuning); !miss.empty()) text += fmt::format("# {}\n", miss);
-  if (!qcl.empty()) text += "; QCL, in the set-up of the axis\n" + qcl;
-  if (!set.empty()) text += fmt::format("# scenario, below controller: {}:\n    set: {{{}}}\n", section, set);
-  if (!plants.empty()) text += "# scenario, into what stands there\n" + nested(std::move(plants));
-  if (!others.empty()) text += "# scenario, at these paths\n" + others;
-  return text + "# drycut run\n" + arguments.substr(1) + "\n";
 }
 
 std::string summary_text(const Tuning& tuning) {
@@ -320,8 +254,7 @@ std::string summary_text(const Tuning& tuning) {
   return text + "\n" + patch_text(tuning);
 }
 
-void write_tuning_report(const Tuning& tuning, const std::filesystem::path& folder) {
-  const auto pictures = renders::draw_plots(tuning_plots(tuning), folder / "plots");
+std::string write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   const auto& after = tuning.trials.at(tuning.best).verdict;
   renders::Report report;
   report.title = "Tuning: " + tuning.study.minimise;
@@ -335,20 +268,24 @@ void write_tuning_report(const Tuning& tuning, const std::filesystem::path& fold
   report.facts = {{{"trials", fmt::format("{}", tuning.trials.trials().size())}},
                   {{"measured from", fmt::format("{} s", seconds_text(tuning.study.from))}},
                   {{"drycut", DRYCUT_VERSION}}};
+  for (const auto& override : tuning.study.set)
+    report.facts.push_back({{"--set", fmt::format("{} = {}", override.path, override.value)}});
   for (const auto& run : tuning.runs_after) {
     for (const auto& check : run.outcome.checks)
       report.checks.push_back(
           {check.name, check.expectation, check.passed, margin_text(check), check.detail});
     report.scenario_expanded += run.expanded;
   }
-  for (const auto& picture : pictures)
-    report.plots.push_back({picture, "plots/" + picture.filename().string()});
-  report.summary = {before_after(tuning), values(tuning), patch_table(tuning)};
+  report.summary = {before_after(tuning), values(tuning)};
+  report.texts = {{"To paste (also in patch.txt)", patch_text(tuning)}};
   report.tables = {around(tuning)};
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
   if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));
   report.tables.push_back(trials_table(tuning));
-  renders::write_report(report, folder / "report.html");
+  auto plots = tuning_plots(tuning);
+  auto left_out = add_plots(plots, folder, report);
+  renders::write_report(report, folder.add("report.html"));
+  return left_out;
 }
 
 }  // namespace drycut::sim

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/output_folder.hpp"
 #include "sim/tune/search.hpp"
 #include "sim/tune/study.hpp"
 #include "sim/tune/trials.hpp"
@@ -23,13 +24,13 @@ struct Tuning {
   std::vector<KeptRun> runs_after;
 };
 
-/// What to paste: QCL lines, scenario lines, `--set` arguments.
-std::string patch_text(const Tuning& tuning);
+/// What is to be known before anything else where nothing keeps the limits; "" where the best does.
+std::string miss_text(const Tuning& tuning);
 /// Before and after, the values, the surroundings, the spread: for the terminal.
 std::string summary_text(const Tuning& tuning);
-/// Draws the plots into `folder`/plots and
-/// writes `folder`/report.html. Throws std::runtime_error if something cannot be written.
-void write_tuning_report(const Tuning& tuning, const std::filesystem::path& folder);
+/// Draws plots/ and writes report.html in `folder`. Returns what is left out because gnuplot is missing, "" =
+/// nothing. Throws std::runtime_error if something cannot be written.
+std::string write_tuning_report(const Tuning& tuning, OutputFolder& folder);
 
 /// Index of the worst trial of the spread.
 std::size_t worst_of(const Trials& spread);

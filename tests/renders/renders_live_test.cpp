@@ -86,7 +86,8 @@ TEST(LiveData, PathsAndDecadesStayPictures) {
 TEST(LiveData, WithoutTheLibraryThePicturesStay) {
   const Scratch scratch;
   EXPECT_EQ(live_plots({sine(10)}, scratch.path.string()),
-            "<!-- plots to zoom need libjs-dygraphs, which was not installed -->\n");
+            "<p class=\"remark\">The plots cannot be zoomed: they need libjs-dygraphs, which was not "
+            "installed.</p>\n");
   write_file(scratch / "dygraph.min.js", "/* the library */");
   write_file(scratch / "dygraph.min.css", "/* its style */");
   EXPECT_THAT(live_plots({sine(10)}, scratch.path.string()),

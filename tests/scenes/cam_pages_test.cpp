@@ -135,9 +135,10 @@ TEST_P(Reports, HaveAPageForTheCamItsPlotsAndItsTable) {
   Played run(scene, {{"scene.duration", "5 s"}});
   const TestFolder folder;
   const std::filesystem::path out = folder / "out";
-  std::filesystem::create_directories(out);
-  write_pictures(run.scenario, *run.simulation, {}, run.outcome, out, 1, [](const char*, double) {});
   devices::Problems problems;
+  OutputFolder results(out, "run", picture_files, problems);
+  results.begin();
+  write_pictures(run.scenario, *run.simulation, {}, run.outcome, results, 1, [](const char*, double) {});
   const auto report = read_file(out / "report.html", problems).value_or("");
   EXPECT_THAT(report, HasSubstr("<h2>" + title + "</h2>"));
   EXPECT_THAT(report, HasSubstr("set less ideal position"));
@@ -149,7 +150,7 @@ TEST_P(Reports, HaveAPageForTheCamItsPlotsAndItsTable) {
   EXPECT_EQ(table, page.table);
   cam_kind("", table).check(table, page.name, problems);
   EXPECT_THAT(problems, IsEmpty());
-  remove_pictures(out);
+  results.begin();
   EXPECT_FALSE(std::filesystem::exists(out / "cams"));
 }
 

@@ -79,6 +79,39 @@ TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   EXPECT_THAT(contents(folder / "events.csv"), testing::HasSubstr(",knife,cut,length=500"));
 }
 
+TEST_F(ProgramTest, WithoutHelpersTheVerdictStandsAndTheReportIsWritten) {
+  const auto path = std::string(getenv("PATH"));
+  setenv("PATH", "/nonexistent", 1);
+  const auto result = call("run " + scenes +
+                           "rotary_knife_short.yaml --set scene.duration='5 s' --set pictures.video=true "
+                           "--set pictures.frames.every='2 s'" +
+                           to());
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(result.status, 0) << result.text;
+  EXPECT_THAT(
+      result.text,
+      testing::AllOf(testing::HasSubstr("rotary_knife_short: passed, all 9 checks passed"),
+                     testing::HasSubstr("left out: video: there is no ffmpeg; install ffmpeg\n"),
+                     testing::HasSubstr("left out: plots: there is no gnuplot; install gnuplot-nox\n")));
+  EXPECT_TRUE(fs::exists(out / "rotary_knife_short/report.html"));
+  EXPECT_FALSE(fs::exists(out / "rotary_knife_short/film.mp4"));
+}
+
+TEST_F(ProgramTest, WhatStandardOutputDoesNotTakeIsNoSuccess) {
+  EXPECT_EQ(call("check --expand " + scenes + "rotary_knife_short.yaml >/dev/full").status, 3);
+  EXPECT_EQ(call("devices >/dev/full").status, 3);
+}
+
+TEST_F(ProgramTest, ArgumentsThatAreNoTextAreRefused) {
+  const auto bell = call("check \"$(printf 'a\\033[31m.yaml')\"");
+  EXPECT_EQ(bell.status, 2);
+  EXPECT_EQ(bell.text, "drycut: in argument 2 byte 0x1b is no text: a\\x1B[31m.yaml\n");
+  EXPECT_EQ(call("check \"$(printf 'a\\377.yaml')\"").status, 2);
+  const auto nowhere = call("run " + scenes + "rotary_knife_short.yaml --out ''");
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_THAT(nowhere.text, testing::HasSubstr("--out: it is empty; name a folder"));
+}
+
 TEST_F(ProgramTest, SameBytesTwiceAndAtAnyNumberOfJobs) {
   const std::string both =
       scenes + "rotary_knife_short.yaml " + scenes + "rotary_knife_equal.yaml --no-pictures";

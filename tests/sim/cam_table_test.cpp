@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 TEST(CamTable, ReadsSettingsAndRowsInAnyOrder) {
   const auto table = cams::table(
-      "\xEF\xBB\xBF# a remark: with words\r\n# measure: 6000\r\n#pulse:40960\n# measurem: 5000\n# pulsem: "
+      "# a remark: with words\r\n# measure: 6000\r\n#pulse:40960\n# measurem: 5000\n# pulsem: "
       "10000\n"
       "# decpt: 2\n# unitvel: 0\n# maxvel: 1000\n# taccmax: 30\n# tdecmax: 40\n# TCamp: 4 ms\n\n"
       "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM\r\n"

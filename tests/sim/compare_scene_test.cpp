@@ -233,6 +233,10 @@ TEST_F(CompareScene, WhatIsWrongInItselfIsRefused) {
   refuses(with(two, "name: bad", "name: good"), "9:13: there are two runs named 'good'; ");
   refuses(with(two, "name: good", "name: too-good"),
           "4:13: compare.scenarios.0: 'too-good' is no name for an expression; ");
+  refuses(
+      with(two, "name: good", "name: plots"),
+      "4:13: compare.scenarios.0: 'plots' is the folder of the comparison's own plots; give the run another "
+      "name");
   refuses(with(two, "name: rest", "name: largest"), "16:14: there are two figures named 'largest'; ");
   refuses(with(two, "{name: both run", "{name: the good one follows"), "23:12: there are two checks named");
   refuses(with(two, "compare:", "plants: {}\ncompare:"), "2:1: unknown key 'plants'; ");

@@ -157,6 +157,36 @@ TEST_F(Lx3vpScenario, ErrorsOfTheCamFailTheRun) {
               Contains(HasSubstr("saw.il:3: 6781: word 23 (D2023), a term of a ratio, is 0")));
 }
 
+TEST_F(Lx3vpScenario, NoPlantIsCalledAsARegisterIs) {
+  write("saw.il", "LD M8002\nINC D300\nEND\n");
+  const auto scenario = read(
+      "scene: {duration: 0.1 s}\nplants: {D300: {type: bench}}\ncontroller: {lx3vp: {program: saw.il}}\n");
+  const Simulation simulation(scenario, problems);
+  EXPECT_THAT(
+      told(),
+      ElementsAre("line.yaml:2:10: the controller has a 'D300' of its own; give the plant another name"));
+}
+
+TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {
+  write("saw.il", "LD M8002\nINC D300\nEND\n");
+  const std::string text =
+      "scene: {duration: 0.1 s}\nplants: {bench: {type: bench}}\n"
+      "controller: {lx3vp: {program: saw.il, retentive: ";
+  const auto refused = [&](const std::string& kept) {
+    problems.clear();
+    const auto scenario = read(text + kept + "}}\n");
+    const Simulation simulation(scenario, problems);
+    return told();
+  };
+  EXPECT_THAT(refused("none/kept.txt"),
+              ElementsAre(testing::MatchesRegex(
+                  "line.yaml:3:50: there is no directory .*/none; make it first, or name another file")));
+  std::filesystem::create_directories(folder / "deep");
+  EXPECT_THAT(refused("deep"),
+              ElementsAre(testing::MatchesRegex("line.yaml:3:50: .*/deep cannot be written at the end of the "
+                                                "run: it is a directory; name another file")));
+}
+
 TEST_F(Lx3vpScenario, RetentiveRegistersOutliveTheRun) {
   write("saw.il", "LD M8002\nINC D300\nEND\n");
   const std::string text =

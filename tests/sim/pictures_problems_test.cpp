@@ -42,7 +42,14 @@ TEST(PicturesProblems, FramesAndPlots) {
        {"1:20: pictures.plots.0.panels is missing; add panels: [{title: ..., "
         "channels: [...]}]"}},
       {"pictures: {plots: [{name: a/b, panels: []}]}\n",
-       {"1:27: pictures.plots.0.name 'a/b' is no file name; leave / and \\ out; it becomes name.png"}},
+       {"1:27: pictures.plots.0.name 'a/b' is no file name; leave / and \\ out and begin with a letter, not "
+        "too long; it becomes name.png"}},
+      {"pictures: {plots: [{name: .., panels: []}]}\n",
+       {"1:27: pictures.plots.0.name '..' is no file name; leave / and \\ out and begin with a letter, not "
+        "too long; it becomes name.png"}},
+      {"pictures: {plots: [{name: " + std::string(101, 'a') + ", panels: []}]}\n",
+       {"1:27: pictures.plots.0.name '" + std::string(101, 'a') +
+        "' is no file name; leave / and \\ out and begin with a letter, not too long; it becomes name.png"}},
       {"pictures: {plots: [{name: a, panels: []}, {name: a, panels: []}]}\n",
        {"1:50: there are two plots named 'a'; rename one: each is a file"}},
       {"pictures: {plots: [{name: a, panels: [{title: b}]}]}\n",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/scenario/yaml_node.hpp"
 #include "sim/tune/study.hpp"
 #include "tests/sim/tune_bench.hpp"
 
@@ -26,7 +27,8 @@ TEST_F(TuneCommand, FindsTheFeedForwardThatTheLawGives) {
   at_rest();
   ASSERT_EQ(run(), all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 1000\n"));
-  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("set: {AxisX.feedfw: 1000}"));
+  EXPECT_THAT(content(folder / "out/patch.txt"),
+              HasSubstr("set:\n      AxisX.feedfw: 1000  # drycut tune; before: 900\n"));
 }
 
 TEST_F(TuneCommand, TunesThePlantAsWell) {
@@ -38,7 +40,14 @@ TEST_F(TuneCommand, TunesThePlantAsWell) {
   const auto at = patch.find("speed_at_10v: ");
   ASSERT_NE(at, std::string::npos) << patch;
   EXPECT_NEAR(std::stod(patch.substr(at + 14)), 1.0, 0.002);
-  EXPECT_THAT(patch, HasSubstr("# scenario, into what stands there\nplants:\n  axis:\n    speed_at_10v: "));
+  EXPECT_THAT(patch, HasSubstr("controller:\n  qmove:\n    set:\n      AxisX.feedfw: 1000  # --set\n"));
+  EXPECT_THAT(patch, HasSubstr("plants:\n  axis:\n    speed_at_10v: "));
+  Findings findings({"patch.txt"});
+  const auto root = parse_yaml(patch, 0, findings);
+  EXPECT_TRUE(findings.empty()) << to_string(findings.sorted()[0]);
+  ASSERT_EQ(root.entries.size(), 2U) << "all else is comment: " << patch;
+  const auto* axis = child(*child(root, "plants"), "axis");
+  EXPECT_NEAR(std::stod(child(*axis, "speed_at_10v")->text.text), 1.0, 0.002);
 }
 
 /// The loop of the bench is L(z) = pgain / 1000 / (z - 1).
@@ -288,7 +297,11 @@ TEST_F(TuneCommand, WritesAReportWithPlots) {
   ASSERT_EQ(run(), all_passed) << out << err;
   for (const auto* name : {"before_after", "search", "around", "spread"})
     EXPECT_GT(fs::file_size(folder / "out/plots" / (std::string(name) + ".png")), 1000u) << name;
-  EXPECT_THAT(content(folder / "out/report.html"), HasSubstr("AxisX:feedfw = 1000"));
+  EXPECT_THAT(
+      content(folder / "out/report.html"),
+      HasSubstr("<pre># Into the scenario, beside what stands there\ncontroller:\n  qmove:\n    set:\n      "
+                "AxisX.feedfw: 1000  # drycut tune; before: 900\n"))
+      << "indented as YAML wants it";
 }
 
 TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {

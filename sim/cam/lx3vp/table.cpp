@@ -47,7 +47,6 @@ class Reader {
   }
 
   EcamTable read() {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
     while (!text_.empty() && !told_.full()) {
       const auto end = std::min(text_.find('\n'), text_.size());
       ++line_;

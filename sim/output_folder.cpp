@@ -1,0 +1,180 @@
+#include "sim/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "sim/file.hpp"
+
+namespace drycut::sim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+enum class Locked { yes, by_another };
+
+/// An exclusive lock on a folder, given back by the last owner of `held` and by the end of the process,
+/// however it ends. Nothing is left in the folder.
+Locked lock_folder(const fs::path& folder, std::shared_ptr<void>& held) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return Locked::yes;  // writing into it will tell what is wrong
+  held = std::shared_ptr<void>(nullptr, [descriptor](void*) { close(descriptor); });
+  // A file system that knows no locks protects nobody: that is no reason not to write there.
+  const bool taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  return taken ? Locked::by_another : Locked::yes;
+}
+
+/// What a manifest lists; lines that lead out of the folder are not believed.
+std::set<std::string> read_manifest(const fs::path& manifest) {
+  std::set<std::string> names;
+  std::ifstream stream(manifest);
+  for (std::string line; std::getline(stream, line);) {
+    const fs::path name = line;
+    const bool inside = name.is_relative() && name.lexically_normal() == name && *name.begin() != "..";
+    if (!line.empty() && line.front() != '#' && inside) names.insert(line);
+  }
+  return names;
+}
+
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  const auto shown = std::min(most, names.size());
+  auto text = fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "));
+  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+void require(bool good, const std::string& what, const fs::path& file, const std::error_code& why) {
+  if (!good) throw std::runtime_error(fmt::format("cannot {} {}: {}", what, file.string(), why.message()));
+}
+
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path folder, const std::string& kind, const std::vector<std::string>& names,
+                           devices::Problems& problems)
+    : folder_(std::move(folder)), manifest_(folder_ / (".drycut-" + kind)), kind_(kind) {
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    problems.push_back({"--out", 1, 1, what, remedy});
+  };
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (folder_.empty() || error || !fs::is_directory(folder_)) {
+    refuse(fmt::format("the directory '{}' cannot be made{}{}", folder_.string(), error ? ": " : "",
+                       error ? error.message() : ""),
+           "name one that can be written");
+    return;
+  }
+  if (lock_folder(folder_, lock_) == Locked::by_another) {
+    refuse(fmt::format("another drycut is writing into {}", folder_.string()),
+           "let it end first, or name another folder");
+    return;
+  }
+  listed_ = read_manifest(manifest_);
+  if (const auto found = strangers(names); !found.empty()) {
+    refuse(fmt::format("in {} stands what no earlier {} wrote: {}", folder_.string(), kind_, some_of(found)),
+           "name another folder, or move it away");
+  }
+}
+
+bool OutputFolder::is_ours(const fs::path& file) const {
+  const auto name = file.lexically_relative(folder_);
+  std::error_code ignored;
+  // What lies behind a link in our folder is somebody else's.
+  const auto place = fs::canonical(folder_, ignored) / name;
+  return listed_.contains(name.string()) && fs::canonical(file.parent_path(), ignored) == place.parent_path();
+}
+
+std::vector<std::string> OutputFolder::strangers(const std::vector<std::string>& names) const {
+  std::vector<std::string> found;
+  const auto look_at = [&](const fs::path& file) {
+    if (!is_ours(file)) found.push_back(file.lexically_relative(folder_).string());
+  };
+  for (const auto& name : names) {
+    std::error_code ignored;
+    const bool is_folder = name.back() == '/';
+    const auto place = folder_ / (is_folder ? name.substr(0, name.size() - 1) : name);
+    const auto status = fs::symlink_status(place, ignored);
+    if (!fs::exists(status)) continue;
+    if (is_folder && fs::is_directory(status)) {
+      for (const auto& entry : fs::recursive_directory_iterator(place, ignored))
+        if (!entry.is_directory(ignored) || entry.is_symlink(ignored)) look_at(entry.path());
+    } else if (fs::is_directory(status)) {
+      found.push_back(name);
+    } else {
+      look_at(place);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void OutputFolder::begin(const std::vector<std::string>& kept) {
+  std::set<std::string> staying;
+  std::set<fs::path> folders;
+  for (const auto& name : listed_) {
+    const auto file = folder_ / name;
+    if (std::find(kept.begin(), kept.end(), name) != kept.end()) {
+      staying.insert(name);
+      continue;
+    }
+    if (!is_ours(file)) continue;
+    std::error_code error;
+    fs::remove(file, error);
+    require(!error, "remove", file, error);
+    fs::remove(file.string() + ".part", error);  // of a run that was killed
+    for (auto parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())
+      folders.insert(folder_ / parent);
+  }
+  std::error_code ignored;  // a folder in which something of the user's stands stays
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) fs::remove(*folder, ignored);
+  auto text =
+      fmt::format("# Written by drycut ({}). The next one removes these files and no others.\n", kind_);
+  for (const auto& name : staying) text += name + '\n';
+  OutputFile manifest(manifest_);
+  manifest.write(text);
+  manifest.finish();
+  listed_ = std::move(staying);
+}
+
+void OutputFolder::list(const std::vector<std::string>& names) {
+  std::ofstream stream(manifest_, std::ios::app);
+  for (const auto& name : names) {
+    if (!listed_.insert(name).second) continue;
+    stream << name << '\n';
+  }
+  stream.flush();
+  require(stream.good(), "write", manifest_, last_error());
+}
+
+fs::path OutputFolder::add(const std::string& name) {
+  const fs::path file = name;
+  return add(file.parent_path().string(), {file.filename().string()}) / file.filename();
+}
+
+fs::path OutputFolder::add(const std::string& subfolder, const std::vector<std::string>& names) {
+  const auto place = subfolder.empty() ? folder_ : folder_ / subfolder;
+  std::error_code error;
+  fs::create_directories(place, error);
+  require(!error, "make", place, error);
+  std::vector<std::string> files;
+  for (const auto& name : names) {
+    files.push_back(subfolder.empty() ? name : subfolder + '/' + name);
+    if (!listed_.contains(files.back()) && fs::exists(fs::symlink_status(place / name, error)))
+      throw std::runtime_error(
+          fmt::format("{} is in the way: no earlier {} wrote it", (place / name).string(), kind_));
+  }
+  list(files);
+  return place;
+}
+
+}  // namespace drycut::sim

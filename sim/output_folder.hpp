@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "devices/problem.hpp"
+
+namespace drycut::sim {
+
+/// The folder that a command writes its results into. One process has it at a time. A manifest in it,
+/// `.drycut-KIND`, lists what the command writes; the next command of that kind removes those files and no
+/// others.
+class OutputFolder {
+ public:
+  /// Makes the folder where there is none, and locks it. `kind` is what writes: "run", "compare"; `names` are
+  /// the files, and with a slash at their end the folders, that it may write. It is a problem of `--out` if
+  /// the folder cannot be made, if another process has it, or if under these names lies what no manifest of
+  /// this kind lists; then nothing was touched.
+  OutputFolder(std::filesystem::path folder, const std::string& kind, const std::vector<std::string>& names,
+               devices::Problems& problems);
+
+  /// Before anything else is written: removes what an earlier command of this kind wrote, but `kept`. Throws
+  /// std::runtime_error if that cannot be done.
+  void begin(const std::vector<std::string>& kept = {});
+
+  /// A file about to be written, as "trace.csv" or "plots/motion.png": lists it in the manifest, makes its
+  /// folder and returns its path. Throws std::runtime_error if it cannot be listed, or if something that is
+  /// not ours has come to lie there.
+  std::filesystem::path add(const std::string& name);
+  /// The same for many at once; returns the folder that they lie in.
+  std::filesystem::path add(const std::string& subfolder, const std::vector<std::string>& names);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  [[nodiscard]] bool is_ours(const std::filesystem::path& file) const;
+  [[nodiscard]] std::vector<std::string> strangers(const std::vector<std::string>& names) const;
+  void list(const std::vector<std::string>& names);
+
+  std::filesystem::path folder_;
+  std::filesystem::path manifest_;
+  std::string kind_;
+  std::shared_ptr<void> lock_;    ///< held as long as somebody refers to it
+  std::set<std::string> listed_;  ///< by the manifest, in the manner of "plots/motion.png"
+};
+
+}  // namespace drycut::sim

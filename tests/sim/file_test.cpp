@@ -1,0 +1,139 @@
+// Files that are read and written: marks, encodings, links, devices, FIFOs, what is read-only.
+#include "sim/file.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include "tests/sim/tune_bench.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr auto* mark = "\xEF\xBB\xBF";
+
+struct Files : CommandTest {
+  void write(const fs::path& file, const std::string& text) {
+    OutputFile out(file);
+    out.write(text);
+    out.finish();
+  }
+  std::string trouble(const fs::path& file) {
+    try {
+      write(file, "x");
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  int check(const std::vector<fs::path>& files) {
+    return captured([&] { return check_files({files, false, {}}); });
+  }
+  TestFolder folder;
+};
+
+TEST_F(Files, ALinkStaysAndWhatItLeadsToIsWritten) {
+  const auto file = folder.file("real.csv", "old");
+  fs::create_symlink("real.csv", folder / "link.csv");
+  write(folder / "link.csv", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link.csv"));
+  EXPECT_EQ(content(file), "new");
+  fs::create_symlink("to_come.csv", folder / "dangling.csv");
+  write(folder / "dangling.csv", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "dangling.csv"));
+  EXPECT_EQ(content(folder / "to_come.csv"), "new");
+}
+
+TEST_F(Files, ADeviceIsWrittenIntoAndStays) {
+  fs::create_symlink("/dev/null", folder / "null");  // so that a fault hits the link, not the machine
+  write(folder / "null", "lost");
+  EXPECT_TRUE(fs::is_symlink(folder / "null"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  fs::create_symlink("/dev/full", folder / "full");
+  EXPECT_THAT(trouble(folder / "full"), HasSubstr("/full: No space left on device"));
+}
+
+TEST_F(Files, AFifoIsWrittenIntoWhereSomebodyReads) {
+  const auto fifo = folder / "fifo";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(trouble(fifo), "cannot write " + fifo.string() + ": nobody reads from this FIFO");
+  const int reader = open(fifo.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  write(fifo, "row\n");
+  char text[8] = {};
+  EXPECT_EQ(read(reader, text, sizeof text), 4);
+  EXPECT_STREQ(text, "row\n");
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(fifo));
+}
+
+TEST_F(Files, WhatIsReadOnlyStaysForTheAdministratorToo) {
+  const auto file = folder.file("kept.csv", "old");
+  fs::permissions(file, fs::perms::owner_read);
+  EXPECT_EQ(trouble(file), "cannot write " + file.string() + ": it is read-only");
+  EXPECT_EQ(content(file), "old");
+}
+
+TEST_F(Files, TheNewFileIsAsOpenToOthersAsTheOldOne) {
+  const auto file = folder.file("mine.csv", "old");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  write(file, "new");
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(Files, OptionsThatNameSuchFilesAreRefusedBeforeAnythingRuns) {
+  const auto file = folder.file("kept.csv", "old");
+  fs::permissions(file, fs::perms::owner_read);
+  const CamOptions options{std::string(DRYCUT_SOURCE_DIR) + "/scenes/cams/fly_cut.csv", {}, {}, {}, file, ""};
+  EXPECT_EQ(captured([&] { return validate_cam(options); }), bad_input);
+  EXPECT_EQ(err, "--csv:1:1: " + file.string() + " cannot be written: it is read-only; name another file\n");
+}
+
+TEST_F(Files, AByteOrderMarkIsNoMatterInAnyKindOfFile) {
+  const fs::path scenes = std::string(DRYCUT_SOURCE_DIR) + "/scenes";
+  std::vector<fs::path> files;
+  for (const auto* name : {"programs/rotary_knife.cnf", "programs/rotary_knife.mod",
+                           "programs/rotary_knife.il", "programs/rotary_knife.st", "cams/rotary_knife.csv",
+                           "cams/ecam_s_curve.csv", "cams/mc_stroke_80.csv", "cams/mc_rotary_knife.tab"}) {
+    files.push_back(folder.file(fs::path(name).filename().string(), mark + content(scenes / name)));
+  }
+  folder.file("axis.cnf", mark + std::string(tuning::configuration));
+  folder.file("axis.mod", mark + std::string(tuning::program));
+  files.push_back(folder.file("axis.yaml", mark + tuning::scenario));
+  files.push_back(folder.file("registers.csv", mark + std::string("D10,5\n")));
+  EXPECT_EQ(check(files), all_passed) << err;
+}
+
+TEST_F(Files, WhatIsNoTextIsRefusedInAnyKindOfFileWithItsPlace) {
+  for (const auto* name : {"a.cnf", "a.il", "a.st", "a.csv", "a.tab", "a.yaml"}) {
+    const auto file = folder.file(name, "x\n; m\xE8\n");
+    EXPECT_EQ(check({file}), bad_input) << name;
+    EXPECT_THAT(err, HasSubstr(file.string() + ":2:4: byte 0xe8 is no text; ")) << name;
+    folder.file(name, std::string("\xFF\xFEx\0", 4));
+    EXPECT_EQ(check({file}), bad_input) << name;
+    EXPECT_THAT(err, HasSubstr(file.string() + ":1:1: this is UTF-16; save it as plain text in UTF-8\n"));
+  }
+}
+
+TEST_F(Files, EscapesOfAScenarioCanMakeACharacterButNoControlCharacter) {
+  folder.file("axis.cnf", tuning::configuration);
+  folder.file("axis.mod", tuning::program);
+  const auto file = [&](const std::string& name) {
+    return folder.file("axis.yaml", tuning::scenario + "checks: [{name: \"" + name +
+                                        "\", eventually: axis.position > 1}]\n");
+  };
+  EXPECT_EQ(check({file("half\\_way")}), all_passed) << err;
+  EXPECT_EQ(check({file("half\\Nway")}), bad_input);
+  EXPECT_THAT(err,
+              HasSubstr("axis.yaml:8:16: an escape makes what is no text: U+0085 is no text; leave it out"));
+  EXPECT_EQ(check({file("\\e[31mred")}), bad_input);
+  EXPECT_THAT(err, HasSubstr("axis.yaml:8:16: an escape makes what is no text: byte 0x1b is no text"));
+  EXPECT_EQ(check({file("\\uD800")}), bad_input);
+  EXPECT_THAT(err, HasSubstr("axis.yaml:8:"));
+}
+
+}  // namespace
+}  // namespace drycut::sim

@@ -1,0 +1,262 @@
+// Whose files lie in a folder of results: what is removed, what is refused, what is locked.
+#include "sim/output_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "sim/figures.hpp"
+#include "sim/gallery.hpp"
+#include "tests/sim/tune_bench.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct OutputFolders : testing::Test {
+  OutputFolder open(const std::vector<std::string>& names = {"a.csv", "plots/"}) {
+    problems.clear();
+    return {folder / "out", "test", names, problems};
+  }
+  /// A command that writes a.csv and two plots.
+  void command() {
+    auto out = open();
+    ASSERT_THAT(told(), IsEmpty());
+    out.begin();
+    std::ofstream(out.add("a.csv")) << "a";
+    out.add("plots", {"x.png", "y.png"});
+    for (const auto* name : {"x.png", "y.png"}) std::ofstream(folder / "out/plots" / name) << "png";
+  }
+  std::string told() const {
+    std::string text;
+    for (const auto& problem : problems) text += to_string(problem) + "\n";
+    auto path = folder.path.string() + "/";
+    for (auto at = text.find(path); at != std::string::npos; at = text.find(path))
+      text.erase(at, path.size());
+    return text;
+  }
+  void user(const std::string& name) const {
+    fs::create_directories((folder / name).parent_path());
+    folder.file(name, "the user's");
+  }
+
+  TestFolder folder;
+  devices::Problems problems;
+};
+
+TEST_F(OutputFolders, TheNextCommandRemovesWhatTheEarlierOneWroteAndNothingElse) {
+  command();
+  user("out/notes.txt");
+  open().begin();
+  EXPECT_FALSE(fs::exists(folder / "out/a.csv"));
+  EXPECT_FALSE(fs::exists(folder / "out/plots"));
+  EXPECT_EQ(content(folder / "out/notes.txt"), "the user's");
+}
+
+TEST_F(OutputFolders, WhatStandsUnderItsNamesAndIsNotItsOwnIsRefusedAndLeft) {
+  user("out/a.csv");
+  user("out/plots/deep/b.png");
+  open();
+  EXPECT_EQ(told(),
+            "--out:1:1: in out stands what no earlier test wrote: a.csv, plots/deep/b.png; name another "
+            "folder, or move it away\n");
+  EXPECT_THAT(fs::directory_iterator(folder / "out"), testing::SizeIs(2)) << "nothing else was made";
+}
+
+TEST_F(OutputFolders, AFileAddedToItsPlotsIsTheUsersToo) {
+  command();
+  user("out/plots/mine.png");
+  open();
+  EXPECT_THAT(told(), HasSubstr("in out stands what no earlier test wrote: plots/mine.png; "));
+}
+
+TEST_F(OutputFolders, AManifestThatLeadsElsewhereIsNotBelieved) {
+  user("precious.txt");
+  user("elsewhere/x.png");
+  command();
+  fs::remove_all(folder / "out/plots");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "out/plots");
+  std::ofstream(folder / "out/.drycut-test", std::ios::app) << "../precious.txt\n"
+                                                            << (folder / "precious.txt").string() << "\n";
+  open().begin();
+  EXPECT_EQ(content(folder / "precious.txt"), "the user's");
+  EXPECT_EQ(content(folder / "elsewhere/x.png"), "the user's");
+}
+
+TEST_F(OutputFolders, AnotherKindOfCommandDoesNotTakeItsFiles) {
+  command();
+  const OutputFolder other(folder / "out", "other", {"a.csv"}, problems);
+  EXPECT_THAT(told(), HasSubstr("in out stands what no earlier other wrote: a.csv; "));
+}
+
+TEST_F(OutputFolders, OneHasItAtATime) {
+  const auto first = open();
+  EXPECT_THAT(told(), IsEmpty());
+  open();
+  EXPECT_EQ(told(),
+            "--out:1:1: another drycut is writing into out; let it end first, or name another folder\n");
+}
+
+TEST_F(OutputFolders, WhatAKilledCommandBeganGoesToo) {
+  command();
+  user("out/a.csv.part");
+  open().begin();
+  EXPECT_FALSE(fs::exists(folder / "out/a.csv.part"));
+}
+
+TEST_F(OutputFolders, WhatComesToLieInTheWayLaterIsNotOverwritten) {
+  auto out = open();
+  out.begin();
+  user("out/b.csv");
+  EXPECT_THROW(out.add("b.csv"), std::runtime_error);
+  EXPECT_EQ(content(folder / "out/b.csv"), "the user's");
+}
+
+TEST_F(OutputFolders, ItDoesNotMatterHowTheFolderIsWritten) {
+  command();
+  for (const auto& same : {folder.path / "out/", folder.path / "out/../out", folder.path / "./out/."}) {
+    problems.clear();
+    OutputFolder out(same, "test", {"a.csv", "plots/"}, problems);
+    EXPECT_EQ(told(), "") << same;
+    out.begin();
+    EXPECT_FALSE(fs::exists(folder / "out/a.csv")) << same;
+    std::ofstream(out.add("a.csv")) << "a";
+  }
+}
+
+TEST_F(OutputFolders, WhatIsKeptIsStillItsOwn) {
+  command();
+  open().begin({"a.csv"});
+  EXPECT_EQ(content(folder / "out/a.csv"), "a");
+  open().begin();
+  EXPECT_FALSE(fs::exists(folder / "out/a.csv"));
+}
+
+// ---- drycut run ----
+
+struct RunsIntoFolders : CommandTest {
+  RunsIntoFolders() {
+    options.out = folder / "out";
+    options.pictures = false;
+    folder.file("axis.cnf", tuning::configuration);
+    folder.file("axis.mod", tuning::program);
+  }
+  fs::path scenario(const std::string& name) const {
+    return folder.file(name, tuning::scenario + "checks: [{name: moves, eventually: axis.position > 1}]\n");
+  }
+  int run(const std::vector<fs::path>& scenarios) {
+    options.scenarios = scenarios;
+    return captured([&] { return run_scenarios(options); });
+  }
+
+  TestFolder folder;
+  RunOptions options;
+};
+
+TEST_F(RunsIntoFolders, ARunDoesNotOverwriteItsOwnInput) {
+  fs::create_directories(folder / "scenario");
+  for (const auto* name : {"axis.cnf", "axis.mod"}) fs::copy(folder / name, folder / "scenario" / name);
+  const auto file = scenario("scenario/scenario.yaml");
+  const auto text = content(file);
+  options.out = folder / "scenario" / "..";
+  EXPECT_EQ(run({file}), bad_input) << out;
+  EXPECT_THAT(err, HasSubstr("stands what no earlier run wrote: scenario.yaml; "));
+  EXPECT_EQ(content(file), text);
+}
+
+TEST_F(RunsIntoFolders, OldVerdictsGoBeforeAnythingRuns) {
+  const auto first = scenario("first.yaml");
+  ASSERT_EQ(run({first}), all_passed) << err << out;
+  ASSERT_THAT(content(folder / "out/first/checks.json"), HasSubstr("\"passed\": true"));
+  // The second's folder holds something of the user's: nothing is run, and the first's results stay.
+  fs::create_directories(folder / "out/second");
+  folder.file("out/second/trace.csv", "the user's");
+  EXPECT_EQ(run({first, scenario("second.yaml")}), bad_input);
+  EXPECT_THAT(content(folder / "out/first/checks.json"), HasSubstr("\"passed\": true"));
+  EXPECT_TRUE(fs::exists(folder / "out/junit.xml"));
+}
+
+/// A file-size limit ends the child in the midst of writing its trace, as a kill would.
+TEST_F(RunsIntoFolders, AKilledRunLeavesNoVerdictOfAnEarlierOne) {
+  const auto file = scenario("line.yaml");
+  ASSERT_EQ(run({file}), all_passed) << err << out;
+  const auto child = fork();
+  if (child == 0) {
+    const rlimit few{2048, 2048};
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    setrlimit(RLIMIT_FSIZE, &few);
+    run_scenarios(options);
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ) << status;
+  const auto checks = content(folder / "out/line/checks.json");
+  EXPECT_THAT(checks, HasSubstr("\"passed\": false"));
+  EXPECT_THAT(checks, HasSubstr("the run has not come to its end"));
+  EXPECT_FALSE(fs::exists(folder / "out/junit.xml"));
+  EXPECT_EQ(run({file}), all_passed) << "the next one takes over; " << err;
+  EXPECT_THAT(content(folder / "out/line/checks.json"), HasSubstr("\"passed\": true"));
+}
+
+TEST_F(RunsIntoFolders, WithoutGnuplotTheVerdictStandsAndTheReportSaysWhatToInstall) {
+  const std::string path = getenv("PATH");
+  setenv("PATH", (folder / "nothing").c_str(), 1);
+  options.pictures = true;
+  const int status = run({scenario("line.yaml")});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(status, all_passed);
+  EXPECT_THAT(out, HasSubstr("line: passed, the one check passed"));
+  EXPECT_EQ(err, "left out: plots: there is no gnuplot; install gnuplot-nox\n");
+  const auto report = content(folder / "out/line/report.html");
+  EXPECT_THAT(report, HasSubstr("<dt>left out</dt><dd>plots: there is no gnuplot; install gnuplot-nox</dd>"));
+  EXPECT_THAT(report, HasSubstr("data-plot=\"0\""));
+  EXPECT_THAT(content(folder / "out/junit.xml"), HasSubstr("failures=\"0\" errors=\"0\""));
+}
+
+TEST_F(RunsIntoFolders, NamesThatCannotNameAFolderOfResultsAreRefused) {
+  EXPECT_EQ(run({scenario("...yaml")}), bad_input);
+  EXPECT_THAT(
+      err, HasSubstr("...yaml:1:1: its results cannot be called '..'; give the scenario another file name"));
+  EXPECT_EQ(run({scenario("..yaml")}), bad_input);
+  EXPECT_THAT(err, HasSubstr("..yaml:1:1: its results cannot be called '.'; "));
+  EXPECT_EQ(run({scenario("junit.xml.yaml")}), bad_input);
+  EXPECT_THAT(err, HasSubstr("its results cannot be called 'junit.xml'; "));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(RunsIntoFolders, PlotsOfOneNameHaveAFileEach) {
+  devices::Problems problems;
+  OutputFolder results(folder / "out", "run", picture_files, problems);
+  results.begin();
+  renders::Plot plot;
+  plot.name = "cam_AxisX";
+  plot.panels.push_back({});
+  plot.panels[0].curves.push_back({"a", {0, 1}, {0, 1}});
+  std::vector<renders::Plot> plots = {plot, plot};
+  renders::Report report;
+  EXPECT_EQ(add_plots(plots, results, report), "");
+  ASSERT_EQ(report.plots.size(), 2U);
+  EXPECT_EQ(report.plots[0].png, folder / "out/plots/cam_AxisX.png");
+  EXPECT_EQ(report.plots[1].png, folder / "out/plots/cam_AxisX_.png");
+  EXPECT_TRUE(fs::exists(report.plots[1].png));
+}
+
+TEST_F(RunsIntoFolders, TheSecondOfTwoProcessesIsRefused) {
+  devices::Problems problems;
+  const OutputFolder other(folder / "out", "runs", {"junit.xml"}, problems);
+  EXPECT_EQ(run({scenario("line.yaml")}), bad_input);
+  EXPECT_THAT(err, HasSubstr("another drycut is writing into "));
+  EXPECT_FALSE(fs::exists(folder / "out/junit.xml"));
+}
+
+}  // namespace
+}  // namespace drycut::sim
