@@ -26,7 +26,7 @@ struct ControllerValue {
 struct ControllerEvent {
   std::string source;  ///< device or task name
   std::string
-      event;  ///< "refused", "out_of_range", "error", "warning", "stopped", "errorstop", "block_error"
+      event;  ///< "refused", "out_of_range", "error", "warning", "contradiction", "held_up", "stopped", ...
   std::string text;
 };
 

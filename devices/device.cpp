@@ -8,6 +8,8 @@
 #include <charconv>
 #include <utility>
 
+#include "devices/contradictions.hpp"
+
 namespace drycut::devices {
 namespace {
 
@@ -101,6 +103,8 @@ Device::Device(const DeviceType& type) : type_(type) {
     total += variable.rows;
   }
   values_.assign(static_cast<std::size_t>(total), 0);
+  contradictions_ = contradictions(type);
+  told_contradictions_.assign(contradictions_.size(), 0);
   reset_values();
 }
 
@@ -124,7 +128,13 @@ void Device::write(Symbol symbol, std::int32_t value) {
   }
 }
 
-void Device::command(int index) { pending_commands_ |= std::uint64_t{1} << index; }
+void Device::command(int index, std::string_view giver) {
+  pending_commands_ |= std::uint64_t{1} << index;
+  const bool known = std::any_of(given_.begin(), given_.end(), [&](const Given& other) {
+    return other.command == index && other.giver == giver;
+  });
+  if (!known) given_.push_back({index, giver});
+}
 
 bool Device::settled() const {
   return !state(init_state) || (pending_writes_.empty() && pending_commands_ == 0);
@@ -150,8 +160,12 @@ void Device::sample() {
     const std::vector<PendingWrite> writes = std::exchange(pending_writes_, {});
     for (const PendingWrite& pending : writes) apply(pending);
   }
-  for (std::uint64_t set = std::exchange(pending_commands_, 0); set != 0; set &= set - 1)
-    run(std::countr_zero(set));
+  const std::uint64_t commands = std::exchange(pending_commands_, 0);
+  for (std::uint64_t set = commands; set != 0; set &= set - 1) run(std::countr_zero(set));
+  if (commands != 0) {
+    tell_contradictions(commands);
+    given_.clear();
+  }
   if (state(init_state)) step();
 }
 
@@ -160,6 +174,8 @@ void Device::interrupt(int, bool) {}
 void Device::power_up() {
   pending_writes_.clear();
   pending_commands_ = 0;
+  given_.clear();
+  std::ranges::fill(told_contradictions_, 0);
   reset_values();
 }
 
@@ -227,6 +243,35 @@ void Device::run(int command) {
     if (effect.state >= 0) set_state(effect.state, effect.on);
     execute(command);
   }
+}
+
+// The table's order is kept: the first of two is executed first, whoever gave it.
+void Device::tell_contradictions(std::uint64_t commands) {
+  for (std::uint64_t set = commands; set != 0; set &= set - 1) {
+    const int first = std::countr_zero(set);
+    const std::uint64_t against = contradictions_[first] & set;
+    const std::uint64_t fresh = against & ~std::exchange(told_contradictions_[first], against);
+    for (std::uint64_t others = fresh; others != 0; others &= others - 1) {
+      const int second = std::countr_zero(others);
+      const int state = type_.commands[second].effect.state;
+      report({Diagnostic::Kind::contradiction, given(first) + " and " + given(second),
+              fmt::format("both in one sample, {} is taken first{}", type_.commands[first].name,
+                          state < 0 ? ""
+                                    : fmt::format("; {} is {} after both", type_.states[state].name,
+                                                  this->state(state) ? 1 : 0))});
+    }
+  }
+}
+
+// "EMRG of saw", "EMRG of saw and of panel".
+std::string Device::given(int command) const {
+  std::string text(type_.commands[command].name);
+  std::string_view joint = " of ";
+  for (const Given& given : given_) {
+    if (given.command != command || given.giver.empty()) continue;
+    text += fmt::format("{}{}", std::exchange(joint, " and of "), given.giver);
+  }
+  return text;
 }
 
 std::string Device::unmet(const Condition& condition) const {

@@ -85,6 +85,13 @@ struct Alias {
   std::string_view name;
 };
 
+/// A reading of ours, where the manual is silent, contradicts itself or lost its print.
+struct Reading {
+  std::string_view of;      ///< a row of the tables (a cam table's without number), "" for the whole device
+  std::string_view text;    ///< what the device does here
+  std::string_view manual;  ///< the place that leaves it open, and how
+};
+
 struct DeviceType {
   std::string_view name;  ///< "CAMMING4"
   std::string_view summary;
@@ -93,6 +100,7 @@ struct DeviceType {
   std::span<const Command> commands;  ///< row 0 is INIT
   std::span<const Field> fields;
   std::span<const Alias> aliases;
+  std::span<const Reading> readings = {};
 };
 
 /// Something a device has that can be read by name: a variable (with its row, 0-based) or a state.
@@ -122,7 +130,7 @@ using Resources = std::vector<Resource>;
 
 /// Something a device did not do, or did with a remark: said once by the device, kept by the simulation.
 struct Diagnostic {
-  enum class Kind : std::uint8_t { command_refused, write_refused, out_of_range, note };
+  enum class Kind : std::uint8_t { command_refused, write_refused, out_of_range, note, contradiction };
   Kind kind = Kind::note;
   std::string subject;  ///< command or variable name
   std::string text;     ///< "st_still is 0, must be 1"
@@ -132,8 +140,10 @@ struct Diagnostic {
 /// the other, and a periodic step (spec qem.md §2).
 ///
 /// Mailbox: writes and commands wait for the next sample. Writes are applied first, in order; then the *set*
-/// of pending commands runs in table order, so two identical commands between samples are one. Before INIT
-/// the device does nothing but take writes at once and wait for INIT.
+/// of pending commands runs in table order, so two identical commands between samples are one. Commands of
+/// one sample that contradict each other (contradictions.hpp) are reported with who gave them, and again only
+/// after one of them came without the other. Before INIT the device does nothing but take writes at once and
+/// wait for INIT.
 class Device {
  public:
   explicit Device(const DeviceType& type);
@@ -145,9 +155,9 @@ class Device {
 
   // The program's side.
   void write(Symbol symbol, std::int32_t value);
-  void command(int index);
-  /// False while writes or commands wait for a sample of an initialised device: a program's read suspends
-  /// until then (the barrier of spec §2).
+  /// `giver` is the task's name, "" for anybody else; the text must outlive the device's next sample.
+  void command(int index, std::string_view giver = {});
+  /// False while writes or commands wait for a sample of an initialised device (the mailbox of spec §2).
   [[nodiscard]] bool settled() const;
   [[nodiscard]] std::int32_t read(Symbol symbol) const;
   /// Puts a retentive value or state back as the memory kept it, without conditions; only before INIT.
@@ -203,6 +213,8 @@ class Device {
   };
   void apply(const PendingWrite& pending);
   void run(int command);
+  void tell_contradictions(std::uint64_t commands);
+  [[nodiscard]] std::string given(int command) const;
   void reset_values();
   [[nodiscard]] std::string unmet(const Condition& condition) const;
 
@@ -212,6 +224,13 @@ class Device {
   std::uint64_t states_ = 0;
   std::vector<PendingWrite> pending_writes_;
   std::uint64_t pending_commands_ = 0;
+  struct Given {
+    int command;
+    std::string_view giver;
+  };
+  std::vector<Given> given_;                        ///< who gave the pending commands, each once
+  std::vector<std::uint64_t> contradictions_;       ///< by command: those that want the opposite
+  std::vector<std::uint64_t> told_contradictions_;  ///< by command: told when it last ran
   std::vector<Diagnostic> diagnostics_;
 };
 

@@ -304,12 +304,16 @@ std::vector<std::string> Simulation::notes() const {
     notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
                                 around->number, shutter_.seen()));
   }
+  // What a program may wait for in vain, or lose, stands before remarks on values.
   std::size_t remarks = 0;
-  for (const auto& event : recording_.events()) {
-    if (event.text.empty() || event.source == "timeline") continue;
-    if (++remarks <= shown) {
-      notes.push_back(
-          fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event, event.text));
+  for (const bool urgent : {true, false}) {
+    for (const auto& event : recording_.events()) {
+      if (event.text.empty() || event.source == "timeline") continue;
+      if (urgent != (event.event == "contradiction" || event.event == "held_up")) continue;
+      if (++remarks <= shown) {
+        notes.push_back(fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event,
+                                    event.text));
+      }
     }
   }
   if (remarks > shown) notes.push_back(fmt::format("and {} more remarks, see events.csv", remarks - shown));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "devices/axis/speed.hpp"
+#include "devices/camming4/readings.hpp"
 #include "devices/camming4/rows.hpp"
 #include "devices/terminals.hpp"
 
@@ -18,6 +19,7 @@ const DeviceType camming4_type = {
     table::commands,
     table::fields,
     {},
+    table::readings,
 };
 
 std::unique_ptr<Device> make_camming4(const Resources& resources, Cards& cards) {
@@ -97,7 +99,7 @@ void Camming4::initialise() {
   zero_master_.reset();
   input_was_ = terminals_.input && terminals_.input->level;
   capture_.reset();
-  recalculation_ = 0;
+  recalculation_ = {};
   inhibit_stop_ms_ = 0;
 }
 
@@ -131,7 +133,7 @@ void Camming4::step() {
   publish_states();
   drive_output();
 
-  if (recalculation_ > 0) --recalculation_;
+  recalculation_.sample();
   if (inhibit_stop_ms_ > 0) inhibit_stop_ms_ -= period_ms_;
 }
 

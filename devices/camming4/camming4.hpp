@@ -8,6 +8,7 @@
 #include "devices/axis/analogue_axis.hpp"
 #include "devices/axis/preset.hpp"
 #include "devices/camming4/cam.hpp"
+#include "devices/camming4/recalculation.hpp"
 #include "devices/device.hpp"
 
 namespace drycut::devices::camming4 {
@@ -41,8 +42,9 @@ class Camming4 final : public Device {
   struct Capture {
     std::int64_t slave = 0;  ///< totals [bits x4]
     std::int64_t master = 0;
-    std::int64_t start = 0;  ///< master's origin of a cam that it starts
-    bool late = false;       ///< held back by a recalculation (warning 8)
+    std::int64_t start = 0;         ///< master's origin of a cam that it starts
+    std::optional<int> delay = {};  ///< samples of recalculation that it waits for, once sampled
+    bool late = false;              ///< it waited (warning 8)
   };
   /// The terminals of the record; nullptr or line 0 where the .CNF says X.X or X.
   struct Terminals {
@@ -156,8 +158,8 @@ class Camming4 final : public Device {
 
   bool input_was_ = false;
   std::optional<Capture> capture_;  ///< of the interrupt input, to be run at the next sample
-  int recalculation_ = 0;           ///< samples left
-  int inhibit_stop_ms_ = 0;         ///< functions 11 and 12
+  Recalculation recalculation_;
+  int inhibit_stop_ms_ = 0;  ///< functions 11 and 12
 };
 
 std::unique_ptr<Device> make_camming4(const Resources& resources, Cards& cards);

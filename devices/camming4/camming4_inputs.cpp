@@ -33,11 +33,11 @@ void Camming4::interrupt(int line, bool rising) {
   if (rising && line == terminals_.zero_line_master && !zero_master_) zero_master_ = master_total();
   if (line == terminals_.function_line && state(st_intenbl) && !capture_ &&
       value(v_intcapt) == (rising ? rising_edge : falling))
-    capture_ = Capture{slave_total(), master_total(), master_total(), false};
+    capture_ = Capture{slave_total(), master_total(), master_total()};
 }
 
 void Camming4::sample_inputs() {
-  const Capture now{axis_.transducer().total(), master_.total(), master_.total(), false};
+  const Capture now{axis_.transducer().total(), master_.total(), master_.total()};
   const bool level = is_on(terminals_.input);
   const bool edge = level != input_was_ && value(v_inpcapt) == (level ? rising_edge : falling);
   input_was_ = level;
@@ -48,7 +48,10 @@ void Camming4::sample_inputs() {
   }
 
   if (!capture_) return;
-  if (recalculation_ > 0) {
+  // It waits for what was written before the edge, not for what a program goes on to write.
+  if (!capture_->delay) capture_->delay = recalculation_.left();
+  if (*capture_->delay > 0) {
+    --*capture_->delay;
     if (!std::exchange(capture_->late, true)) warn(8, value(v_rowex));
     return;
   }

@@ -8,49 +8,6 @@
 namespace drycut::devices::camming4 {
 namespace {
 
-/// Samples over which the device spreads the recalculation after a write (000 1.4).
-int recalculation_samples(int variable) {
-  switch (variable) {
-    case v_codeG:
-    case v_codeQm:
-    case v_codeQs:
-    case v_codeQma:
-    case v_codeQsa:
-    case v_maxpos:
-    case v_minpos:
-    case v_prspos:
-    case v_prsposm:
-    case v_toll:
-    case v_tacc:
-    case v_tdec:
-    case v_taccmax:
-    case v_tdecmax:
-    case v_syncrange:
-    case v_pgain:
-    case v_feedfw:
-    case v_integt:
-    case v_derivt:
-      return 1;
-    case v_tbfm:
-      return 2;
-    case v_tbf:
-      return 3;
-    case v_maxvel:
-      return 5;
-    case v_decpt:
-    case v_unitvel:
-      return 6;
-    case v_pulsem:
-    case v_measurem:
-      return 130;
-    case v_pulse:
-    case v_measure:
-      return 139;
-    default:
-      return 0;
-  }
-}
-
 Column column_of(int variable) {
   switch (variable) {
     case v_codeG:
@@ -80,7 +37,7 @@ bool Camming4::may_write(Symbol symbol, std::int32_t) {
 
 void Camming4::written(Symbol symbol, std::int32_t new_value) {
   const int variable = symbol.index;
-  if (const int samples = recalculation_samples(variable); samples > recalculation_) recalculation_ = samples;
+  recalculation_.written(variable, symbol.row);
   if (is_table(variable)) {
     write_row(symbol, new_value);
     return;

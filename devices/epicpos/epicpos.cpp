@@ -1,6 +1,7 @@
 #include "devices/epicpos/epicpos.hpp"
 
 #include "devices/epicpos/positioner.hpp"
+#include "devices/epicpos/readings.hpp"
 #include "devices/epicpos/rows.hpp"
 
 namespace drycut::devices::epicpos {
@@ -14,7 +15,7 @@ const DeviceType epicpos_type = {
     "EPICPOS",       "analogue positioner with epicycloidal ramps",
     variables,       table::states,
     table::commands, table::fields,
-    table::aliases,
+    table::aliases,  table::readings,
 };
 
 std::unique_ptr<Device> make_epicpos(const Resources& resources, Cards& cards) {

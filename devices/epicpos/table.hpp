@@ -200,6 +200,7 @@ inline constexpr std::array aliases = {
     Alias{"sprsvl", "sprsvel"},   Alias{"sprsvcl", "sprsvel"},    Alias{"spsvl", "sprsvel"},
     Alias{"prmdir", "prsdir"},    Alias{"prsdire", "prsdir"},     Alias{"folterr", "follerr"},
     Alias{"intreg", "integ"},     Alias{"feedforward", "feedfw"}, Alias{"rampm", "rampmode"},
+    Alias{"tolldly", "toldly"},
 };
 
 }  // namespace drycut::devices::epicpos::table

@@ -153,10 +153,12 @@ int Compiler::emit(Op op, int a, int b) {
 }
 
 // Puts barriers before the code from `begin` on, for all devices that it reads: a statement waits until
-// they have taken what was written to them, then runs as a whole (spec §2). That code has no jumps yet.
+// they have taken what was written to them before, then runs as a whole (spec §2). That code has no jumps
+// yet.
 void Compiler::insert_barriers(int begin) {
   std::vector<Instruction> barriers;
-  for (const int device : devices_read_) barriers.push_back({Op::barrier, begin, device});
+  for (const int device : devices_read_) barriers.push_back({Op::barrier, 0, device});
+  if (!barriers.empty()) barriers.back().a = 1;
   program_.code.insert(program_.code.begin() + begin, barriers.begin(), barriers.end());
   program_.lines.insert(program_.lines.begin() + begin, barriers.size(), last_.line);
   devices_read_.clear();

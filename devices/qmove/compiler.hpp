@@ -93,6 +93,7 @@ class Compiler {
   void binary(std::size_t row, Type left, Type right, const Token& op);
   void condition();
   void indexes(const NamedThing& thing, const Token& name);
+  void check_index(const NamedThing& thing, std::size_t number, int begin, Place place);
   const NamedThing* find_name(const Token& name);
   [[nodiscard]] bool is_device(std::string_view name) const;
   std::optional<int> find_device(const Token& name);
@@ -119,7 +120,7 @@ class Compiler {
   bool line_failed_ = false;
   int nesting_ = 0;             ///< of parentheses and signs, in the present expression
   int stack_ = 0;               ///< cells on the stack at this point of the code
-  std::set<int> devices_read_;  ///< by the present statement: it waits until they are settled
+  std::set<int> devices_read_;  ///< by the present statement: it waits for their samples
 
   struct Target {
     int code;

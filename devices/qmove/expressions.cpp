@@ -236,7 +236,10 @@ void Compiler::indexes(const NamedThing& thing, const Token& name) {
   std::size_t count = 0;
   do {
     advance();
+    const Place place = token().place;
+    const int begin = here();
     if (expression() == Type::real) emit(Op::to_long);
+    check_index(thing, count, begin, place);
     ++count;
   } while (is_sign(',') && !line_failed_);
   expect(']', "close the index");
@@ -253,6 +256,19 @@ void Compiler::indexes(const NamedThing& thing, const Token& name) {
          thing.length);
   }
   stack_ = stack + (thing.name.empty() ? 0 : 1);  // as if the count had been right
+}
+
+// An index that is a plain number is judged here, as index and index_step would judge it in the run.
+void Compiler::check_index(const NamedThing& thing, std::size_t number, int begin, Place place) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+  const bool step = thing.kind == NamedThing::Kind::group_step && number == 1;
+  if (!plain || thing.name.empty() || (number > 0 && !step)) return;
+  const int last = step ? thing.steps : thing.length;
+  const std::int32_t index = program_.code.back().a;
+  if (index >= 1 && index <= last) return;
+  const std::string_view what = step ? "step" : thing.kind == NamedThing::Kind::array ? "index" : "recipe";
+  complain(place, fmt::format("{} {} is outside 1..{} of {}", what, index, last, quoted(thing.name)),
+           fmt::format("take one of 1..{}, or declare more of it in {}", last, configuration_.file));
 }
 
 // The value of a condition as 0 or not 0.

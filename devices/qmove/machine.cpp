@@ -74,17 +74,22 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
   std::int32_t* top = stack.data();                 // the value on top
   const Instruction* const code = program.code.data();
   int at = task.at;
-  int left = max_instructions;
+  int left = max_work;
   const auto fail = [&](RunTimeError error) {
     task.at = at;
     return error;
   };
   const auto suspend = [&](int where) {
     task.at = where;
+    task.turned = machine.now;
     return RunTimeError::none;
   };
+  const auto post = [&](int device) {
+    machine.post(static_cast<std::size_t>(device));
+    task.last_post[static_cast<std::size_t>(device)] = machine.posts;
+  };
   for (;; ++at) {
-    if (left-- == 0) return fail(RunTimeError::watchdog);
+    if (--left < 0) return fail(RunTimeError::watchdog);
     const Instruction& now = code[at];
     switch (now.op) {
       case Op::push:
@@ -133,6 +138,8 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
         top -= 2;
         break;
       case Op::store_device:
+        if ((left -= device_work) < 0) return fail(RunTimeError::watchdog);
+        post(now.b);
         machine.devices[now.b]->write(program.symbols[now.a], *top--);
         break;
       case Op::store_output:
@@ -283,9 +290,18 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
         *top = ~*top;
         break;
 
-      case Op::barrier:
-        if (!machine.devices[now.b]->settled()) return suspend(now.a);
+      case Op::barrier: {
+        if (task.wait == Task::Wait::none) task.reached = machine.posts;
+        const std::uint64_t oldest = machine.oldest_post[now.b];
+        if (!machine.devices[now.b]->settled() && oldest <= task.reached) {
+          if (task.wait != Task::Wait::own)
+            task.wait = task.last_post[now.b] >= oldest ? Task::Wait::own : Task::Wait::others;
+          task.at = at;
+          return RunTimeError::none;
+        }
+        if (now.a != 0) task.wait = Task::Wait::none;
         break;
+      }
       case Op::jump:
         at = now.a - 1;
         break;
@@ -293,7 +309,9 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
         if (*top-- == 0) at = now.a - 1;
         break;
       case Op::command:
-        machine.devices[now.b]->command(now.a);
+        if ((left -= device_work) < 0) return fail(RunTimeError::watchdog);
+        post(now.b);
+        machine.devices[now.b]->command(now.a, program.name);
         break;
       case Op::yield:
         return suspend(at + 1);

@@ -29,6 +29,15 @@ struct Machine {
   std::vector<DigitalOutput*> outputs;
   std::vector<std::unique_ptr<Device>> devices;
   std::int64_t now = 0;  ///< [ns]
+
+  /// Writes and commands to devices so far: each has its number, from 1.
+  std::uint64_t posts = 0;
+  std::vector<std::uint64_t> oldest_post;  ///< by device: the first of those that wait for its next sample
+  /// Counts a write or command that is about to go to `device`.
+  void post(std::size_t device) {
+    ++posts;
+    if (devices[device]->settled()) oldest_post[device] = posts;
+  }
 };
 
 /// A program on its way.
@@ -36,12 +45,26 @@ struct Task {
   int at = 0;              ///< next instruction
   bool ended = false;      ///< END was reached
   std::vector<int> calls;  ///< where CALLs return to
+
+  // A read that waits (spec §2): for what was posted up to `reached`, never for what comes later.
+  enum class Wait : std::uint8_t {
+    none,
+    own,    ///< among it is something of this task
+    others  ///< all of it came from other tasks or the scenario
+  };
+  Wait wait = Wait::none;
+  std::uint64_t reached = 0;             ///< Machine::posts when the reading statement was reached
+  std::vector<std::uint64_t> last_post;  ///< by device: the task's last write or command
+  std::int64_t turned = 0;               ///< when it last came to WAIT or END [ns]
+  bool told = false;                     ///< that it has not come there for long
 };
 
-/// Instructions that a task may execute in one turn; a program that loops without WAIT comes to more.
-inline constexpr int max_instructions = 1'000'000;
+/// Work that a task may do in one turn [instructions]; a program that loops without WAIT comes to more.
+inline constexpr int max_work = 1'000'000;
+/// What a write or a command to a device costs of it: the device checks, converts and answers each.
+inline constexpr int device_work = 100;
 
-/// Runs `task` for one turn: until WAIT or END, or until a device that it reads is not settled.
+/// Runs `task` for one turn: until WAIT or END, or until a read has to wait for a device's sample.
 /// After an error task.at is the instruction at fault.
 RunTimeError run_turn(const Program& program, Task& task, Machine& machine);
 

@@ -69,8 +69,8 @@ enum class Op : std::uint8_t {
   bit_xor,
   bit_not,
   // Control.
-  barrier,       ///< if device b is not settled: end the turn, go on at a at the next one
-  jump,          ///< go on at a
+  barrier,  ///< a read of device b: wait for its sample if something is posted; a = 1: the statement's last
+  jump,     ///< go on at a
   jump_if_zero,  ///< the same if top is 0
   command,       ///< give command a to device b
   yield,         ///< end the turn

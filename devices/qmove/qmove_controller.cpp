@@ -13,6 +13,7 @@ namespace drycut::devices::qmove {
 namespace {
 
 constexpr std::int64_t ns_per_ms = 1'000'000;
+constexpr std::int64_t long_turn_ns = 1'000'000'000;
 
 // The first multiple of `period` after `time`.
 std::int64_t next_multiple(std::int64_t time, std::int64_t period) { return (time / period + 1) * period; }
@@ -26,6 +27,8 @@ std::string_view event_of(Diagnostic::Kind kind) {
       return "out_of_range";
     case Diagnostic::Kind::note:
       return "warning";
+    case Diagnostic::Kind::contradiction:
+      return "contradiction";
   }
   return "warning";
 }
@@ -57,6 +60,7 @@ QmoveController::QmoveController(Configuration configuration, std::vector<Progra
         add_terminal({Kind::interrupt, 0, record.resources[i].number});
     }
     machine_.devices.push_back(entry.make(record.resources, cards_));
+    machine_.oldest_post.push_back(0);
     device_due_.push_back({machine_.devices.back()->period_ms() * ns_per_ms});
   }
   start_tasks();
@@ -124,11 +128,38 @@ void QmoveController::run_tasks(std::int64_t time_ns) {
   next_round_ns_ = next_multiple(time_ns, cycle_ns_);
   machine_.now = time_ns;
   if (!powered_ || mode_ != OsMode::run) return;
-  for (std::size_t i = 0; i < tasks_.size(); ++i) {
-    if (tasks_[i].ended) continue;
-    const RunTimeError error = run_turn(programs_[i], tasks_[i], machine_);
-    if (error != RunTimeError::none) return stop(error, i);
+  // A task that waits for what others posted finishes that turn first: it costs it time, never a turn.
+  for (std::size_t i = 0; i < tasks_.size(); ++i)
+    if (tasks_[i].wait == Task::Wait::others && !turn(i)) return;
+  for (std::size_t i = 0; i < tasks_.size(); ++i)
+    if (!tasks_[i].ended && !turn(i)) return;
+}
+
+// False if it stopped all tasks.
+bool QmoveController::turn(std::size_t number) {
+  Task& task = tasks_[number];
+  const RunTimeError error = run_turn(programs_[number], task, machine_);
+  if (error != RunTimeError::none) {
+    stop(error, number);
+    return false;
   }
+  if (task.wait != Task::Wait::none && !task.told && machine_.now - task.turned >= long_turn_ns)
+    tell_of_long_turn(number);
+  return true;
+}
+
+void QmoveController::tell_of_long_turn(std::size_t number) {
+  Task& task = tasks_[number];
+  task.told = true;
+  const Program& program = programs_[number];
+  const auto at = static_cast<std::size_t>(task.at);
+  const std::string& device = configuration_.devices[static_cast<std::size_t>(program.code[at].b)].name;
+  events_.push_back(
+      {program.name, "held_up",
+       fmt::format("{}:{}: no WAIT and no END for 1 s: this statement reads {} and waits until it "
+                   "has taken what {} wrote before, as each read does; put a WAIT into the loop",
+                   program.file, program.lines[at], device,
+                   task.wait == Task::Wait::own ? "the task" : "other tasks")});
 }
 
 void QmoveController::interrupt(int line, bool rising) {
@@ -155,6 +186,10 @@ void QmoveController::start_tasks() {
   std::fill_n(machine_.cells.begin(), names_.volatile_cells(), 0);
   std::fill(machine_.timers.begin(), machine_.timers.end(), 0);
   tasks_.assign(programs_.size(), {});
+  for (Task& task : tasks_) {
+    task.last_post.assign(machine_.devices.size(), 0);
+    task.turned = machine_.now;
+  }
   // A module with faults has no code: there is nothing to run.
   for (std::size_t i = 0; i < programs_.size(); ++i) tasks_[i].ended = programs_[i].code.empty();
   mode_ = OsMode::run;
@@ -174,7 +209,10 @@ void QmoveController::stop(RunTimeError error, std::size_t task) {
 void QmoveController::collect_diagnostics(std::size_t device) {
   if (!machine_.devices[device]->has_diagnostics()) return;
   for (Diagnostic& diagnostic : machine_.devices[device]->take_diagnostics()) {
-    if (!said_.emplace(device, diagnostic.kind, diagnostic.subject, diagnostic.text).second) continue;
+    // The device itself tells each contradiction once, and anew when it comes anew.
+    if (diagnostic.kind != Diagnostic::Kind::contradiction &&
+        !said_.emplace(device, diagnostic.kind, diagnostic.subject, diagnostic.text).second)
+      continue;
     const std::string separator = diagnostic.subject.empty() || diagnostic.text.empty() ? "" : ": ";
     events_.push_back({configuration_.devices[device].name, std::string(event_of(diagnostic.kind)),
                        diagnostic.subject + separator + diagnostic.text});

@@ -26,9 +26,10 @@ enum class OsMode : std::uint8_t { initial = 0, run = 3, error = 5 };
 /// A QMOVE controller: devices and program tasks on one set of cards.
 ///
 /// Scheduling (spec D9): every `cycle_ns` a round begins in which each task, in the order given, has one
-/// turn; a turn lasts until WAIT or END, or until the task reads a device that has not yet taken what was
-/// written to it. A run-time error or a task that loops without WAIT stops all tasks until the next
-/// power-up; devices go on.
+/// turn; a turn lasts until WAIT or END. Where a task reads a device, its turn waits for the sample that
+/// takes what was posted to the device before, by anyone; a turn that others held up is finished before the
+/// next round begins. A task that comes to no WAIT for 1 s is told ("held_up"). A run-time error or a task
+/// that loops without WAIT stops all tasks until the next power-up; devices go on.
 class QmoveController : public Controller {
  public:
   /// `configuration` and `programs` are free of problems; `programs` were compiled against `configuration`
@@ -97,6 +98,8 @@ class QmoveController : public Controller {
 
   void add_terminal(const Address& address);
   void start_tasks();
+  bool turn(std::size_t number);
+  void tell_of_long_turn(std::size_t number);
   void stop(RunTimeError error, std::size_t task);
   void collect_diagnostics(std::size_t device);
 

@@ -227,12 +227,14 @@ void QmoveController::set_cell(int cell, Size size, double value) {
 // Without power nobody reads the mailbox.
 void QmoveController::write_device(int device, Symbol symbol, double value) {
   const auto number = static_cast<std::size_t>(device);
-  if (powered_)
+  if (powered_) {
+    machine_.post(number);
     machine_.devices[number]->write(symbol, wrap(Size::L, whole(value)));
-  else
+  } else {
     events_.push_back(
         {configuration_.devices[number].name, "refused",
          devices::name_of(machine_.devices[number]->type(), symbol) + ": the controller is off"});
+  }
 }
 
 std::vector<std::string> QmoveController::names() const {

@@ -32,6 +32,7 @@ WAIT NOT Axis:st_cntrev
 REGON Axis
 WAIT NOT Axis:st_regoff
 Axis:posit = 30000                ; where the ruler says it stands
+gfReady = 1
 
 ; Each third of the stroke is reached once from below and once from above.
 gaQuota[1] = 55000

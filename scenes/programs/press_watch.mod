@@ -2,7 +2,7 @@
 ; What a careful programmer watches besides the placements: the ram must not move at rest, the count must move
 ; when an output is on, the limit switches stop everything. An alarm is kept; no placement follows it.
 ;-----
-WAIT Axis:st_init
+WAIT gfReady                      ; the set-up is the other task's, whichever runs first
 LOOK:
 glLook = Axis:posit
 gfStill = Axis:st_still

@@ -16,6 +16,8 @@ struct ControllerTable {
   bool listed = true;  ///< in the short list of all; else another table names it
 };
 
+/// QMOVE, the language of its tasks; its devices have tables of their own.
+std::vector<ControllerTable> qmove_tables();
 /// DECAM, the parameter block of an electronic cam, ECAMTBX, its parameter lists, and LX3VP, special
 /// registers and instructions.
 std::vector<ControllerTable> lx3vp_tables();

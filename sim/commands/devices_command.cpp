@@ -49,6 +49,26 @@ std::string variable_name(const devices::Variable& variable) {
   return variable.rows > 1 ? fmt::format("{}1..{}", name, variable.rows) : name;
 }
 
+// The reading of a row, nullptr if the manual says all of it.
+const devices::Reading* reading_of(const devices::DeviceType& type, std::string_view row) {
+  const auto found = std::ranges::find(type.readings, row, &devices::Reading::of);
+  return found == type.readings.end() ? nullptr : &*found;
+}
+
+ordered_json reading_json(const devices::Reading& reading) {
+  return {{"text", reading.text}, {"manual", reading.manual}};
+}
+
+void add_reading(ordered_json& row, const devices::DeviceType& type) {
+  if (const auto* reading = reading_of(type, row["name"].get<std::string>()))
+    row["reading"] = reading_json(*reading);
+}
+
+// Marks what a reading below the tables is about.
+std::string marked(const devices::DeviceType& type, std::string_view row, std::string_view meaning) {
+  return fmt::format("{}{}", meaning, reading_of(type, row) ? " (*)" : "");
+}
+
 ordered_json device_json(const devices::DeviceType& type) {
   ordered_json json = {{"name", type.name}, {"summary", type.summary}};
   for (const auto& field : type.fields)
@@ -65,19 +85,24 @@ ordered_json device_json(const devices::DeviceType& type) {
                                  {"condition", condition_text(type, v.write)},
                                  {"meaning", v.meaning},
                                  {"section", v.section}});
+    add_reading(json["variables"].back(), type);
   }
   for (const auto& s : type.states) {
     json["states"].push_back({{"name", s.name},
                               {"retention", retention_text(s.retention)},
                               {"meaning", s.meaning},
                               {"section", s.section}});
+    add_reading(json["states"].back(), type);
   }
   for (const auto& c : type.commands) {
     json["commands"].push_back({{"name", c.name},
                                 {"condition", condition_text(type, c.condition)},
                                 {"meaning", c.meaning},
                                 {"section", c.section}});
+    add_reading(json["commands"].back(), type);
   }
+  for (const auto& reading : type.readings)
+    if (reading.of.empty()) json["readings"].push_back(reading_json(reading));
   for (const auto& alias : type.aliases) json["aliases"][std::string(alias.spelling)] = alias.name;
   return json;
 }
@@ -94,17 +119,22 @@ void print_device(const devices::DeviceType& type) {
                    v.min == 0 && v.max == 0 ? "" : fmt::format("{:.10g}..{:.10g}", v.min, v.max),
                    std::string(v.unit), std::string(access_text(v.access)),
                    std::string(retention_text(v.retention)), condition_text(type, v.write),
-                   std::string(v.meaning)});
+                   marked(type, v.name, v.meaning)});
   }
   variables.print("Parameters and variables");
   TextTable commands({"command", "condition", "meaning"});
   for (const auto& c : type.commands)
-    commands.add({std::string(c.name), condition_text(type, c.condition), std::string(c.meaning)});
+    commands.add({std::string(c.name), condition_text(type, c.condition), marked(type, c.name, c.meaning)});
   commands.print("Commands, in order of priority");
   TextTable states({"state", "power-up", "meaning"});
   for (const auto& s : type.states)
-    states.add({std::string(s.name), std::string(retention_text(s.retention)), std::string(s.meaning)});
+    states.add(
+        {std::string(s.name), std::string(retention_text(s.retention)), marked(type, s.name, s.meaning)});
   states.print("States");
+  TextTable readings({"of", "reading", "manual"});
+  for (const auto& r : type.readings)
+    readings.add({std::string(r.of), std::string(r.text), std::string(r.manual)});
+  readings.print("(*) Readings of ours, where the manual leaves it open");
 }
 
 }  // namespace
@@ -126,7 +156,8 @@ int list_devices(const std::string& name, bool json) {
       return all_passed;
     }
   }
-  auto tables = plcopen_tables();
+  auto tables = qmove_tables();
+  for (auto& table : plcopen_tables()) tables.push_back(std::move(table));
   for (auto& table : lx3vp_tables()) tables.push_back(std::move(table));
   for (const auto& table : tables) {
     names.emplace_back(table.name);

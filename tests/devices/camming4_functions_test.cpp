@@ -269,16 +269,50 @@ TEST_F(Camming4Delay, ADelayedCaptureKeepsTheCountOfItsEdge) {
   EXPECT_EQ(get("st_warning"), 0);  // said once
 }
 
-TEST_F(Camming4Delay, TheLongestOfTwoRecalculationsCounts) {
+// The manual gives the samples of one parameter; of several, one calculation follows the other.
+TEST_F(Camming4Delay, RecalculationsFollowEachOther) {
+  struct Written {
+    std::vector<std::pair<const char*, std::int32_t>> values;
+    int samples;
+  };
+  const std::vector<Written> cases = {
+      {{{"maxvel", 40000}, {"tbf", 1}}, 8},                    // 5 + 3
+      {{{"tbf", 1}, {"tbf", 2}, {"tbf", 0}}, 3},               // one parameter
+      {{{"measure", 2000}, {"pulse", 2000}}, 139},             // one ratio
+      {{{"measure", 1000}, {"pulsem", 1000}}, 269},            // two
+      {{{"decpt", 1}, {"unitvel", 1}, {"decpt", 0}}, 6},       // one scale
+      {{{"codeQm1", 5}, {"codeQs1", 5}, {"codeG2", 130}}, 2},  // two rows
+      {{{"toll", 5}, {"pgain", 5}, {"offset", 0}}, 2},
+  };
+  command("INIT");
+  set({{"funInt", 5}, {"intcapt", 2}});
+  for (const Written& c : cases) {
+    SCOPED_TRACE(c.values.front().first);
+    for (const char* each : {"INTENBL", "RSINTCAPT", "RSWRN"}) command(each);
+    ticks(300);
+    const int before = get("delta1");
+    for (const auto& [name, number] : c.values) write(name, number);
+    edge(5, true);
+    int waited = 0;
+    for (tick(); get("delta1") == before && waited < 1000; ++waited) tick();
+    EXPECT_EQ(waited, c.samples);
+  }
+}
+
+// A program that writes a parameter each scan delays an event by one sample, not for ever.
+TEST_F(Camming4Delay, WritesAfterTheEventDoNotDelayItFurther) {
   command("INIT");
   set({{"funInt", 5}, {"intcapt", 2}});
   command("INTENBL");
   ticks(3);
-  set({{"maxvel", 40000}, {"tbf", 1}});  // 5 and 3
+  int waited = -1;
+  write("pgain", 100);
   edge(5, true);
-  ticks(5);
-  EXPECT_EQ(get("delta1"), 0);
-  tick();
+  for (int i = 0; i < 50 && get("delta1") == 0; ++i, ++waited) {
+    write("pgain", 100 + i);
+    tick();
+  }
+  EXPECT_EQ(waited, 1);
   EXPECT_EQ(get("delta1"), 1);
 }
 

@@ -64,7 +64,7 @@ TEST_P(EpicposTable, TakesTheManualsOtherSpellings) {
       {"cnratio", "cntratio"}, {"prsvl", "prsvel"},  {"prsvcl", "prsvel"},      {"sprsvl", "sprsvel"},
       {"sprsvcl", "sprsvel"},  {"spsvl", "sprsvel"}, {"prmdir", "prsdir"},      {"prsdire", "prsdir"},
       {"folterr", "follerr"},  {"intreg", "integ"},  {"feedforward", "feedfw"}, {"rampm", "rampmode"},
-      {"setVel", "setvel"}};
+      {"setVel", "setvel"},    {"tolldly", "toldly"}};
   for (const auto& [spelling, name] : spellings) {
     const auto symbol = find_symbol(*GetParam(), spelling);
     ASSERT_TRUE(symbol) << spelling;

@@ -27,14 +27,14 @@ struct RunFault {
 
 TEST(QmoveRunTime, ErrorsStopAllTasksAndNameTheirPlace) {
   const std::vector<RunFault> cases = {
-      {"slR = agTemp[0]", 3, "index out of bound"},
-      {"slR = agTemp[6]", 3, "index out of bound"},
-      {"agTemp[-1] = 2", 3, "index out of bound"},
-      {"slR = ddlHead[3]", 4, "datagroup recipe out of range"},
-      {"ddlHead[0] = 1", 4, "datagroup recipe out of range"},
-      {"slR = ddbCode[3, 1]", 4, "datagroup recipe out of range"},
-      {"slR = ddbCode[1, 4]", 5, "datagroup step out of range"},
-      {"ddbCode[2, 0] = 1", 5, "datagroup step out of range"},
+      {"slR = agTemp[glI]", 3, "index out of bound"},
+      {"slR = agTemp[glI + 6]", 3, "index out of bound"},
+      {"agTemp[glI - 1] = 2", 3, "index out of bound"},
+      {"slR = ddlHead[glI + 3]", 4, "datagroup recipe out of range"},
+      {"ddlHead[glI] = 1", 4, "datagroup recipe out of range"},
+      {"slR = ddbCode[glI + 3, 1]", 4, "datagroup recipe out of range"},
+      {"slR = ddbCode[1, glI + 4]", 5, "datagroup step out of range"},
+      {"ddbCode[2, glI] = 1", 5, "datagroup step out of range"},
       {"slR = 1 / glI", 6, "division by zero"},
       {"slR = 1 % glI", 6, "division by zero"},
       {"slR = 1.0 / glI", 6, "division by zero"},
@@ -62,6 +62,25 @@ TEST(QmoveRunTime, ALoopWithoutWaitTripsTheWatchdog) {
   EXPECT_EQ(bench["QMOS.oserr"], 8);
   EXPECT_GT(bench["slA"], 100'000);
   EXPECT_THAT(events(bench), ::testing::ElementsAre(HasSubstr("task0 error task0.mod:")));
+}
+
+// A write to a device is work for the device too: a hundred times an instruction's.
+TEST(QmoveRunTime, WritesToDevicesCountAsTheWorkThatTheyAre) {
+  for (const std::string& work : {std::string("Axis:gain = 1"), std::string("DELCNT Axis")}) {
+    Bench bench({"INIT Axis\nWAIT Axis:st_init\nMAIN:\nslA = slA + 1\n" + work + "\nJUMP MAIN\nEND\n"});
+    bench.run(20);
+    EXPECT_EQ(bench["QMOS.oserr"], 8) << work;
+    EXPECT_GT(bench["slA"], 9'000) << work;
+    EXPECT_LT(bench["slA"], 10'000) << work;
+    EXPECT_THAT(events(bench), Contains(HasSubstr("task0 error task0.mod:5: error 8: watchdog"))) << work;
+  }
+}
+
+TEST(QmoveRunTime, ATableOfAllRowsFitsIntoOneTurn) {
+  Bench bench(
+      {"INIT Axis\nWAIT Axis:st_init\nFOR (glI = 0, glI LT 768, 1)\nAxis:gain = 1\nNEXT\nslR = 1\nEND\n"});
+  bench.run(10);
+  EXPECT_EQ(bench["slR"], 1);
 }
 
 TEST(QmoveRunTime, CallsThatNestTooDeepAreAStackError) {

@@ -150,5 +150,34 @@ TEST(QmoveStatement, CommentsAndBlankLinesAreNothing) {
 
 TEST(QmoveStatement, MinusMayStandApart) { EXPECT_EQ(started("slR = - 100\nEND\n")["slR"], -100); }
 
+// --- indexes that are plain numbers are judged without a run ---
+
+struct IndexFault {
+  std::string statement;
+  int column;
+  std::string what;
+};
+
+TEST(QmoveStatement, PlainIndexesOutOfRangeAreProblems) {
+  const std::vector<IndexFault> cases = {
+      {"slR = agTemp[0]", 14, "index 0 is outside 1..5 of 'agTemp'"},
+      {"agTemp[6] = 1", 8, "index 6 is outside 1..5 of 'agTemp'"},
+      {"slR = agTemp[-1]", 14, "index -1 is outside 1..5 of 'agTemp'"},
+      {"slR = agTemp[cTen]", 14, "index 10 is outside 1..5 of 'agTemp'"},
+      {"slR = ddlHead[3]", 15, "recipe 3 is outside 1..2 of 'ddlHead'"},
+      {"ddbCode[3, 1] = 1", 9, "recipe 3 is outside 1..2 of 'ddbCode'"},
+      {"slR = ddbCode[1, 4]", 18, "step 4 is outside 1..3 of 'ddbCode'"},
+  };
+  for (const IndexFault& c : cases) {
+    const Bench bench({c.statement + "\nEND\n"});
+    ASSERT_EQ(bench.problems.size(), 1U) << c.statement << text_of(bench.problems);
+    EXPECT_EQ(bench.problems[0].column, c.column) << c.statement;
+    EXPECT_EQ(bench.problems[0].what, c.what) << c.statement;
+    EXPECT_NE(bench.problems[0].remedy.find("test.cnf"), std::string::npos) << bench.problems[0].remedy;
+  }
+  for (const char* good : {"slR = agTemp[1]", "agTemp[5] = 1", "slR = ddbCode[2, 3]", "slR = agTemp[glI]"})
+    EXPECT_EQ(text_of(Bench({std::string(good) + "\nEND\n"}).problems), "") << good;
+}
+
 }  // namespace
 }  // namespace drycut::devices::qmove

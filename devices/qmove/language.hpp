@@ -1,0 +1,69 @@
+#pragma once
+#include <array>
+#include <string_view>
+
+namespace drycut::devices::qmove {
+
+/// A form of the QCL or of the configuration, for `drycut devices QMOVE`. The manuals of the devices show the
+/// language in their programs and do not define it: `reading` says what is ours, and what it rests on.
+struct LanguageRow {
+  std::string_view form;
+  std::string_view meaning;
+  std::string_view reading = {};
+};
+
+inline constexpr std::string_view ours = "in no manual (000 1.1, 001 1.8, 002 1.6 show programs): ours";
+inline constexpr std::string_view public_word = "in no manual; the maker's public pages name it";
+inline constexpr std::string_view closing =
+    "the maker's public pages show how it opens; how it closes is ours";
+
+inline constexpr std::array language{
+    LanguageRow{"name = e",
+                "stores; flags, bytes and words wrap, a single loses its fraction in a whole number",
+                "how values wrap is not in the manuals"},
+    LanguageRow{"name[i]  name[i, j]",
+                "an element, from 1; outside: error 3, 4 (recipe) or 5 (step), all tasks stop"},
+    LanguageRow{"Device:parameter = e",
+                "waits for the device's next sample; before INIT it is taken at once"},
+    LanguageRow{
+        "COMMAND Device",
+        "waits for the device's next sample, which takes commands in the table's order; "
+        "two of the same are one; opposite ones are told as the event contradiction",
+        "the manuals give priorities and the overlap of two DELCNT (001 1.4.9, 002 1.3.4.2), no mechanism"},
+    LanguageRow{"Device:parameter",
+                "a read; its statement waits for the sample that takes what was posted to the "
+                "device before, by any task, never for what is posted later",
+                "002 1.3.4.2 asks for a read between two DELCNT, and does not say how it waits"},
+    LanguageRow{"+ - * /  EQ  AND OR NOT", "arithmetic in 32 bits, wraps; division cuts off; by 0: error 6"},
+    LanguageRow{"% LT LE GT GE ANDB ORB XORB NOTB", "remainder, comparisons, bits", public_word},
+    LanguageRow{"NEQ NE", "not equal", ours},
+    LanguageRow{"order of operators", "signs and NOT, * / %, + -, LT..GE, EQ NEQ, ANDB, XORB, ORB, AND, OR",
+                "the manuals give no order; WAIT NOT a AND b of their programs reads (NOT a) AND b"},
+    LanguageRow{"IF e / ELSE / ENDIF", "parentheses round e or none"},
+    LanguageRow{"WAIT e",
+                "ends the task's turn; from the next turn on e is evaluated, once a turn, until it holds",
+                "that it ends the turn even where e holds is ours: the manuals' loops end in WAIT 1"},
+    LanguageRow{"JUMP label / label:", "goes on there"},
+    LanguageRow{"END", "the task ends"},
+    LanguageRow{"WHILE e / ENDWHILE", "loops while e holds", closing},
+    LanguageRow{"FOR (i = a, e, step) / NEXT", "loops; the step is a number to add or an assignment",
+                closing},
+    LanguageRow{"SUB name / ENDSUB / CALL name", "a subroutine; 33 calls in each other are error 9", ours},
+    LanguageRow{"SETOUT name", "switches an output on", public_word},
+    LanguageRow{"RESOUT name", "switches an output off", ours},
+    LanguageRow{"timer = n",
+                "starts the timer for n ms; it reads 1 when they are over, and before it was started", ours},
+    LanguageRow{"tasks", "each module is a task; every cycle each has one turn, in the scenario's order",
+                "the manuals say nothing of several tasks"},
+    LanguageRow{"watchdog",
+                "1000000 instructions in a turn, a write or command to a device counting 100, are error 8 "
+                "with its line; 1 s without WAIT in reads that wait is told as the event held_up",
+                "the manuals say nothing of it"},
+    LanguageRow{"names",
+                "any case; Device.parameter as Device:parameter; 2.IN1 and 2.OUT3 as 2.INP01 and 2.OUT03",
+                "the manuals' programs mix the spellings"},
+    LanguageRow{"CAMMING4 record", "eleven fields: CountMB is missing, and unused",
+                "000 1.1.1 has twelve fields, its example 1.1.1.1 eleven"},
+};
+
+}  // namespace drycut::devices::qmove
