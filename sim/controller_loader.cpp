@@ -14,6 +14,7 @@
 #include "devices/text.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/axis_units.hpp"
+#include "sim/scenario/format.hpp"
 
 namespace drycut::sim {
 
@@ -200,6 +201,22 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
   check(program.tables(), tables, false, "cam table", "tables");
 }
 
+/// Several programs need tasks, and these fit the axes' cycle.
+void check_tasks(const plcopen::st::Program& program, const std::string& file, const PlcopenSection& section,
+                 devices::Problems& problems) {
+  for (const auto& task : program.tasks())
+    if (task.interval_ns % section.cycle != 0)
+      problems.push_back({file, task.line, task.column,
+                          fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}",
+                                      task.name, format_time(task.interval_ns), format_time(section.cycle)),
+                          "change INTERVAL or controller.plcopen.cycle"});
+  if (program.has_configuration() || program.instances().size() < 2) return;
+  const auto& second = program.instances()[1];
+  problems.push_back({file, second.line, second.column,
+                      fmt::format("a second PROGRAM, '{}', without a task", second.name),
+                      "CONFIGURATION ... TASK ... END_CONFIGURATION says when each runs"});
+}
+
 /// A value takes only what it holds.
 void check_ranges(const PlcopenSection& section, const Scenario& scenario, devices::Controller& controller,
                   devices::Problems& problems) {
@@ -262,6 +279,7 @@ std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section,
     program = plcopen::st::compile(*text, file, problems);
     // A table that could not be read is not missing.
     if (tables_sound) check_names(program, file, configuration, problems);
+    if (problems.size() == before) check_tasks(program, file, section, problems);
   }
   if (problems.size() != before) return nullptr;
   if (notes != nullptr) note_slow_phasing(program, section, scenario, *notes);

@@ -53,7 +53,7 @@ PlcopenController::PlcopenController(st::Program program, std::string file, Conf
       configuration_(std::move(configuration)),
       kernel_(make_kernel(configuration_)),
       plugs_(configuration_.axes.size()),
-      runtime_(program_, kernel_) {
+      runtime_(program_, kernel_, {configuration_.tasks, configuration_.task_ns, configuration_.cycle_ns}) {
   assert(configuration_.cycle_ns > 0 && configuration_.task_ns % configuration_.cycle_ns == 0);
   add_axes();
   add_located();
@@ -169,7 +169,10 @@ std::string PlcopenController::terminal_name(const Address& address) const {
 }
 
 std::vector<Controller::Period> PlcopenController::periods() const {
-  return {{"cycle", configuration_.cycle_ns}, {"task_cycle", configuration_.task_ns}};
+  std::vector<Period> periods{{"cycle", configuration_.cycle_ns}, {"task_cycle", configuration_.task_ns}};
+  for (const auto& task : configuration_.tasks.empty() ? program_.tasks() : configuration_.tasks)
+    if (task.interval_ns > 0) periods.push_back({"task " + task.name, task.interval_ns});
+  return periods;
 }
 
 std::int64_t PlcopenController::output_period(const Address& analogue) const {
@@ -190,8 +193,12 @@ void PlcopenController::run_devices(std::int64_t time_ns) {
 
 void PlcopenController::run_tasks(std::int64_t time_ns) {
   if (time_ns < next_task_ns_) return;
-  next_task_ns_ = (time_ns / configuration_.task_ns + 1) * configuration_.task_ns;
-  if (!powered_) return;
+  if (!powered_) runtime_.pass(time_ns);
+  if (powered_) run_programs(time_ns);
+  next_task_ns_ = runtime_.next_ns();
+}
+
+void PlcopenController::run_programs(std::int64_t time_ns) {
   for (std::size_t i = 0; i < located_inputs_.size(); ++i)
     if (located_inputs_[i] != nullptr) runtime_.set_located(i, located_inputs_[i]->level);
   runtime_.scan(time_ns);

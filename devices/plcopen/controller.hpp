@@ -23,13 +23,15 @@ struct Configuration {
   std::vector<CamTable> tables;  ///< each id once, types known
   std::int64_t cycle_ns = MotionKernel::default_cycle_ns;
   std::int64_t task_ns = MotionKernel::default_cycle_ns;  ///< a whole multiple of cycle_ns
+  std::vector<st::Program::Task> tasks = {};  ///< in place of those of the program's CONFIGURATION
 };
 
 /// A PLCopen motion controller: a Structured Text program in front of the motion kernel.
 ///
 /// A cycle latches encoders and inputs, moves the axes and gives their references; then, in every
-/// task_ns/cycle_ns-th cycle, the program is scanned on the axes as they are after it and gives its outputs.
-/// What the program commands moves the axes from the next cycle on.
+/// task_ns/cycle_ns-th cycle, the program is scanned on the axes as they are after it and gives its outputs;
+/// programs with tasks of their own at these tasks' intervals, the lowest priority number first. What a
+/// program commands moves the axes from the next cycle on.
 ///
 /// Power off loses everything but RETAIN variables, axis parameters and the operator's hand (override, feed
 /// hold); until power is back, the variables and what the axes report read 0. An incremental encoder counts
@@ -101,6 +103,7 @@ class PlcopenController : public Controller {
   void start_anew();
   void latch_power_up();
   void latch_inputs();
+  void run_programs(std::int64_t time_ns);
   void give_outputs();
   void tell_errorstops();
   void tell_blocks();

@@ -147,7 +147,7 @@ ControllerValue PlcopenController::symbol_value(std::size_t symbol) {
   const st::Symbol& of = runtime_.symbols()[symbol];
   ControllerValue value{
       of.name,
-      of.type == "TIME" ? "s" : "",
+      of.unit,
       [this, symbol, retain = of.retain] { return powered_ || retain ? runtime_.read(symbol) : 0; },
       {},
       {}};

@@ -186,6 +186,34 @@ TEST(PlcopenController, TheProgramMayRunSlowerThanTheAxes) {
   EXPECT_EQ(rig.controller.output_period(rig.address("Knife.reference")), 1'000'000);
 }
 
+TEST(PlcopenController, ProgramsRunInTheirTasksAndPassThemWithoutPower) {
+  const std::string text =
+      "VAR_GLOBAL order : LINT; END_VAR PROGRAM Fast VAR n : INT; lamp AT %QX0.0 : BOOL; END_VAR n := n + 1; "
+      "lamp := n > 2; "
+      "order := order * 10 + 1; END_PROGRAM PROGRAM Slow VAR n : INT; END_VAR n := n + 1; order := order * "
+      "10 + 2; "
+      "END_PROGRAM PROGRAM Rest VAR n : INT; END_VAR n := n + 1; order := order * 10 + 3; END_PROGRAM";
+  Configuration made = Rig::configuration();
+  made.cycle_ns = 1'000'000;
+  made.task_ns = 5'000'000;
+  made.tasks = {{"slow", 0, 0, 4'000'000, 0, {"slow"}}, {"fast", 0, 0, 2'000'000, 1, {"FAST"}}};
+  Rig rig(text, made);
+  EXPECT_THAT(rig.controller.periods(), testing::SizeIs(4));
+  const auto value = [&](const char* name) { return rig.controller.find(name)->read(); };
+  rig.run(1);
+  EXPECT_EQ(value("order"), 213);
+  rig.run(9);  // up to 9 ms
+  EXPECT_EQ(value("Fast.n"), 5);
+  EXPECT_EQ(value("Slow.n"), 3);
+  EXPECT_EQ(value("Rest.n"), 2);
+  rig.controller.power(false);
+  rig.run(7);
+  rig.controller.power(true);
+  rig.run(3);  // 17 to 19 ms: only Fast is due
+  EXPECT_EQ(value("Fast.n"), 1);
+  EXPECT_EQ(value("Slow.n"), 0);
+}
+
 TEST(PlcopenController, PositionsAreInMmOrDegByWhatTheAxisMeasures) {
   Rig rig;
   rig.count("Web.encoder") = 2500;  // 125 mm

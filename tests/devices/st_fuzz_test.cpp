@@ -1,9 +1,13 @@
 // Mutated programs never crash: they compile, or give problems with places inside the text.
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <random>
 #include <sstream>
 
+#include "devices/plcopen/tab_file.hpp"
 #include "st_bench.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -27,6 +31,24 @@ REPEAT i := i + LREAL_TO_INT(x); UNTIL i > 5 OR text = 'b' END_REPEAT
 END_PROGRAM
 )";
 
+const char* const second_seed =
+    R"({define FAST 'yes'} {IF hasvalue(FAST, 'yes') AND NOT defined(SLOW)}
+TYPE R : INT (lo..9); S : STRUCT t : TON; c : CTU; w : WORD; END_STRUCT; END_TYPE
+VAR_GLOBAL CONSTANT lo : INT := -1; END_VAR {ELSE} nothing {END_IF}
+FUNCTION Named : STRING[20] VAR_INPUT n : INT; END_VAR n := n + 1; Named := CONCAT('p ', INT_TO_STRING(n)); END_FUNCTION
+PROGRAM a VAR_INPUT n : INT; END_VAR VAR_OUTPUT q : BOOL; END_VAR
+VAR s : ARRAY [0..1] OF S; r : R; text : STRING; u : ULINT := 16#FFFF_FFFF_FFFF_FFFF; d : DT := DT#2024-02-29-12:00:00.5;
+  t : TOD := TOD#23:59:59; day : DATE; f : REAL; l : LWORD; END_VAR
+s[0].t(EN := n > 2, IN := s[1].w.3, PT := T#4ms, Q => s[0].w.%X4, ENO => q); s[1].c(CU := q, R := AND(q, NOT(IN := q)), PV := 3);
+text := REPLACE(IN1 := Named(n), IN2 := MID(text, 2, FIND(text, 'p')), L := LEN(text), P := 1); r := LIMIT(lo, n, 9);
+u := MAX(u / 3, ADD(EN := q, u, 5, ENO => q)); d := d + T#1d; t := DT_TO_TOD(d) + T#2h; day := DT_TO_DATE(d); f := n * 1.5 + r;
+l := SHL(NOT 16#F0, 2) XOR ROR(l, n); text := INSERT(DELETE(text, 1, 1), SEL(q, RIGHT('ab', 1), TO_STRING(f)), MUX(n, 1, 2, 3) MOD 3);
+END_PROGRAM
+CONFIGURATION c VAR_GLOBAL go : BOOL; out : BOOL; END_VAR RESOURCE cpu ON plc TASK x(INTERVAL := T#4ms, PRIORITY := 2); TASK y(SINGLE := go);
+PROGRAM one WITH x : a(n := 5, q => out); PROGRAM two WITH y : a; END_RESOURCE END_CONFIGURATION
+)";
+constexpr std::array seeds{seed_text, second_seed};
+
 void check(const std::string& text) {
   Problems problems;
   const Program program = compile(text, "f", problems);
@@ -46,14 +68,14 @@ void check(const std::string& text) {
 }
 
 TEST(StFuzz, TheTextItselfIsSound) {
-  EXPECT_TRUE(problems_of(seed_text).empty()) << problems_of(seed_text).front();
+  for (const char* seed : seeds) EXPECT_TRUE(problems_of(seed).empty()) << problems_of(seed).front();
 }
 
 TEST(StFuzz, MutatedBytesAreToldOrRun) {
   std::mt19937 random(1);
   const std::string alphabet = "();:=.,[]'#%<>*/+-&0159aAeEiIxX_ \n\"$@\xC3";
   for (int round = 0; round < 400; ++round) {
-    std::string text = seed_text;
+    std::string text = seeds.at(random() % seeds.size());
     for (int i = 1 + static_cast<int>(random() % 3); i > 0; --i) {
       const std::size_t at = random() % text.size();
       const char c = alphabet[random() % alphabet.size()];
@@ -70,9 +92,9 @@ TEST(StFuzz, MutatedBytesAreToldOrRun) {
 
 TEST(StFuzz, WordsMovedAboutAreToldOrRun) {
   std::mt19937 random(2);
-  std::istringstream stream(seed_text);
-  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
   for (int round = 0; round < 400; ++round) {
+    std::istringstream stream(seeds.at(random() % seeds.size()));
+    const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
     std::vector<std::string> mixed = words;
     for (int i = 1 + static_cast<int>(random() % 3); i > 0; --i) {
       const std::size_t a = random() % mixed.size();
@@ -90,9 +112,33 @@ TEST(StFuzz, WordsMovedAboutAreToldOrRun) {
 }
 
 TEST(StFuzz, EveryBeginningIsToldOrRun) {
-  const std::string text = seed_text;
-  for (std::size_t size = 0; size < text.size(); size += 11)
-    ASSERT_NO_FATAL_FAILURE(check(text.substr(0, size)));
+  for (const std::string text : seeds)
+    for (std::size_t size = 0; size < text.size(); size += 11)
+      ASSERT_NO_FATAL_FAILURE(check(text.substr(0, size)));
+}
+
+TEST(StFuzz, EveryBeginningOfTheShippedFilesIsToldOrRun) {
+  int programs = 0;
+  int tables = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes")) {
+    const bool program = entry.path().extension() == ".st";
+    if (!program && entry.path().extension() != ".tab") continue;
+    ++(program ? programs : tables);
+    std::ifstream stream(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (std::size_t size = 0; size <= text.size(); size += 37) {
+      const std::string cut = text.substr(0, size);
+      if (program) {
+        ASSERT_NO_FATAL_FAILURE(check(cut)) << entry.path();
+      } else {
+        Problems problems;
+        EXPECT_TRUE(parse_tab(cut, "f", problems) || !problems.empty()) << entry.path() << " at " << size;
+      }
+    }
+  }
+  EXPECT_GE(programs, 6);
+  EXPECT_GE(tables, 1);
 }
 
 TEST(StFuzz, DeepAndLongTextsAreRefused) {
@@ -101,8 +147,9 @@ TEST(StFuzz, DeepAndLongTextsAreRefused) {
     for (int i = 0; i < 20000; ++i) s += part;
     return s;
   };
-  for (const char* part :
-       {"(", "-", "NOT ", "1 + ", "IF TRUE THEN ", "x[", "CASE x OF 1: ", "F(", "x.", "(*"})
+  for (const char* part : {"(", "-", "NOT ", "1 + ", "IF TRUE THEN ", "x[", "CASE x OF 1: ", "F(", "x.", "(*",
+                           "{IF NOT (", "{IF defined(a)} ", "FOR x := 1 TO 2 DO ", "ADD(1, ",
+                           "x := ", "1 ** ", "AND(", "TYPE a : STRUCT b : "})
     check("PROGRAM p VAR x : INT; END_VAR\nx := " + repeated(part) + "\n" + repeated(part) + "; END_PROGRAM");
   check("PROGRAM p VAR x : " + repeated("ARRAY [0..1] OF ") + "INT; END_VAR END_PROGRAM");
 }

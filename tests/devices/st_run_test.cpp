@@ -270,8 +270,10 @@ TEST(StFault, IndexOutOfBoundsStopsTheProgram) {
 }
 
 TEST(StFault, EndlessLoopsAndMuxStopTheProgram) {
-  EXPECT_EQ(fault_of("PROGRAM p\nWHILE TRUE DO END_WHILE\nEND_PROGRAM"),
-            "2:1: more than 1000000 statements in one scan; a loop does not end");
+  EXPECT_EQ(
+      fault_of("PROGRAM p\nWHILE TRUE DO END_WHILE\nEND_PROGRAM"),
+      "2:1: more than 10000000 operations in one scan; a loop does not end, or there is more to do than a "
+      "scan can hold");
   EXPECT_EQ(
       fault_of("PROGRAM p VAR i : SINT; END_VAR\nFOR i := 0 TO 127 DO END_FOR\nEND_PROGRAM").substr(0, 4),
       "2:1:")

@@ -21,10 +21,12 @@ enum class Op : std::uint8_t {
   load_own,  ///< the cell at imm of the block's own instance
   load_at,   ///< the cell at address a
   /// POU c; from list a on: how many inputs, for each its node, its place and the cells to copy (1: a value,
-  ///
   /// -n: n cells from the address that the node is, 2 + n: a STRING of n characters), how many outputs, and
-  /// their statements.
+  /// their statements. b: where a result of imm cells is copied to, an address that is the value then; or -1.
   call_function,
+  /// EN, list from a on: the condition, the value if it holds, the value if it does not, what stores ENO in
+  /// either case (-1: nothing).
+  enabled,
 
   // Addresses.
   address,       ///< imm
@@ -67,13 +69,15 @@ enum class Op : std::uint8_t {
   shift_right,
   rotate_left,
   rotate_right,
-  wrap,          ///< a whole number into the width of `basic`
-  to_real,       ///< a whole number to REAL or LREAL
-  round_real,    ///< LREAL to REAL
-  to_whole,      ///< to the nearest whole number, halves to the even one
-  truncate,      ///< towards zero
-  nonzero,       ///< a whole number to BOOL
-  nonzero_real,  ///< REAL or LREAL to BOOL
+  wrap,              ///< a whole number into the width of `basic`
+  to_real,           ///< a whole number to REAL or LREAL
+  unsigned_to_real,  ///< ULINT or LWORD to REAL or LREAL
+  seconds_of_day,    ///< of a DT
+  round_real,        ///< LREAL to REAL
+  to_whole,          ///< to the nearest whole number, halves to the even one
+  truncate,          ///< towards zero
+  nonzero,           ///< a whole number to BOOL
+  nonzero_real,      ///< REAL or LREAL to BOOL
   absolute,
   absolute_real,
   square_root,
@@ -99,6 +103,8 @@ enum class Op : std::uint8_t {
   select,           ///< b if a, else c
   multiplex,        ///< input a of c inputs from list b on
   compare_strings,  ///< -1, 0, 1 for the strings at addresses a and b
+  text,             ///< TextOp imm of b nodes from list a on
+  in_range,         ///< value a, which must lie in the Span c
   time_now,         ///< of the controller [ms]
   passes,           ///< FOR: a is not yet beyond b with step c
 
@@ -108,6 +114,7 @@ enum class Op : std::uint8_t {
   store,        ///< value a to the cell at imm
   store_own,    ///< value a to the cell at imm of the own instance
   store_at,     ///< value b to the cell at address a
+  store_bits,   ///< value b into c bits, from bit imm on, of the cell at address a
   copy,         ///< imm cells from address b to address a
   copy_string,  ///< from address b to address a, imm characters at most
   sequence,     ///< b statements from list a on
@@ -119,6 +126,21 @@ enum class Op : std::uint8_t {
   leave_loop,
   next_turn,
   leave_pou,
+};
+
+/// Functions of texts. A text is an address; where the result is one, the first node is where it goes.
+enum class TextOp : std::uint8_t {
+  left,
+  right,
+  mid,
+  concat,
+  insert,
+  erase,
+  replace,
+  from_value,  ///< of the node's `basic`
+  length,      ///< from here on the result is a number
+  find,
+  to_value,  ///< of the node's `basic`
 };
 
 struct Node {
@@ -145,10 +167,10 @@ struct Choice {
   int body = -1;
 };
 
-/// A body: of the PROGRAM, a FUNCTION or a user's function block.
+/// A body: of a PROGRAM, a FUNCTION or a user's function block.
 struct Pou {
   int body = -1;
-  int frame = 0;              ///< where the variables of a PROGRAM or FUNCTION are
+  int frame = 0;              ///< where the variables of a FUNCTION are
   int result = 0;             ///< FUNCTION: offset of its result
   std::vector<Range> resets;  ///< offsets that get their initial values at each call, the last included
   const Type* type = nullptr;
@@ -173,7 +195,18 @@ struct Compiled {
   std::vector<Span> spans;
   std::vector<Choice> choices;
   std::vector<Pou> pous;
-  int program = -1;
+  /// A PROGRAM with variables of its own.
+  struct Instance {
+    int pou = -1;
+    int cell = 0;     ///< where its variables are
+    int before = -1;  ///< statements that give its inputs, and take its outputs
+    int after = -1;
+  };
+  std::vector<Instance> instances;  ///< as Program::instances
+  std::vector<Program::Instance> instance_names;
+  std::vector<Program::Task> tasks;
+  bool configured = false;    ///< there is a CONFIGURATION
+  std::vector<int> singles;   ///< for each task the cell of its SINGLE, or -1
   std::vector<Cell> image;    ///< the memory with all initial values
   std::vector<Range> retain;  ///< cells, the last included
   struct Motion {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@
 // The VAR sections of POUs and VAR_GLOBAL.
 namespace drycut::devices::plcopen::st {
 namespace {
-
-constexpr int most_cells = 1'000'000;
 
 std::string_view name_of(Section section) {
   switch (section) {
@@ -25,16 +24,6 @@ std::string_view name_of(Section section) {
     default:
       return "VAR";
   }
-}
-
-/// An AXIS_REF or a function block, in whatever it is packed.
-const Type* holds(const Type& type, Basic basic) {
-  if (type.basic == basic) return &type;
-  if (type.basic == Basic::array) return holds(*type.element, basic);
-  if (type.basic != Basic::structure) return nullptr;
-  for (const Variable& member : type.members)
-    if (const Type* inside = holds(*member.type, basic)) return inside;
-  return nullptr;
 }
 
 }  // namespace
@@ -57,6 +46,8 @@ void Compiler::declare_pou(Unit& unit) {
   if (unit.kind == Unit::Kind::function) declare_function_result(unit, type);
   while (variable_section(unit, type)) {
   }
+  fill_empty(type);
+  name_standard_pins(type);
   Pou& pou = code_->pous[static_cast<std::size_t>(unit.pou)];
   pou.type = &type;
   if (unit.kind == Unit::Kind::function) {
@@ -79,17 +70,44 @@ void Compiler::declare_function_result(Unit& unit, Type& type) {
     const Place place = peek().place;
     result.type = parse_type();
     accept(";");
-    if (!is_elementary(result.type->basic) && result.type->basic != Basic::unknown) {
+    if (result.type->holds_block || result.type->holds_axis) {
       complain(place, fmt::format("a FUNCTION does not return {}", result.type->name),
-               "return a number, BOOL, TIME or an enumeration, the rest by VAR_IN_OUT");
+               "it keeps its state: connect it as VAR_IN_OUT");
       result.type = type_of(Basic::unknown);
     }
   } catch (const GiveUp&) {
     while (at_ < stop_ && !upper(peek().text).starts_with("VAR") && !take().is(";")) {
     }
   }
-  unit.result = result.type;
+  unit.result = base_of(result.type);
   append(type, std::move(result), unit.result->initial);
+}
+
+/// The pins of standard blocks have the names of CODESYS, and those of IEC 61131-3 as well.
+void Compiler::name_standard_pins(Type& type) {
+  struct Pin {
+    std::string_view block;
+    std::string_view name;
+    std::string_view standard;
+  };
+  constexpr std::array<Pin, 8> pins{{{"SR", "set1", "s1"},
+                                     {"SR", "reset", "r"},
+                                     {"RS", "set", "s"},
+                                     {"RS", "reset1", "r1"},
+                                     {"CTU", "reset", "r"},
+                                     {"CTD", "load", "ld"},
+                                     {"CTUD", "reset", "r"},
+                                     {"CTUD", "load", "ld"}}};
+  for (const Pin& pin : pins)
+    if (type.standard && type.name == pin.block)
+      type.index.emplace(pin.standard, type.index.at(std::string(pin.name)));
+}
+
+/// Everything has a place: arrays of what has none would have no end.
+void Compiler::fill_empty(Type& type) {
+  if (type.cells > 0) return;
+  type.cells = 1;
+  type.initial.assign(1, 0);
 }
 
 std::optional<Compiler::VarSection> Compiler::section_header() {
@@ -191,16 +209,13 @@ bool Compiler::check_section(const Unit& unit, const VarSection& section, const 
     return false;
   };
   const std::string_view in = section.global ? "VAR_GLOBAL" : name_of(section.section);
-  if (holds(type, Basic::axis) != nullptr &&
-      (section.section != Section::in_out || type.basic != Basic::axis))
+  if (type.holds_axis && (section.section != Section::in_out || type.basic != Basic::axis))
     return refuse(fmt::format("the AXIS_REF {} in {} has no axis", quoted(name.text), in),
                   "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
   const bool keeps = section.section == Section::in_out ||
-                     (section.section == Section::local && unit.kind != Unit::Kind::function &&
-                      unit.kind != Unit::Kind::type);
-  if (const Type* block = holds(type, Basic::block); block != nullptr && (!keeps || section.constant))
-    return refuse(fmt::format("the function block {} cannot be in {} here", quoted(name.text),
-                              unit.kind == Unit::Kind::type ? "a STRUCT" : in),
+                     (section.section == Section::local && unit.kind != Unit::Kind::function);
+  if (type.holds_block && (!keeps || section.constant))
+    return refuse(fmt::format("the function block {} cannot be in {} here", quoted(name.text), in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
   if (!located) return true;
   if (type.basic != Basic::boolean)
@@ -209,11 +224,11 @@ bool Compiler::check_section(const Unit& unit, const VarSection& section, const 
   if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
       section.section != Section::local)
     return refuse(fmt::format("{} cannot have a terminal here", quoted(name.text)),
-                  "AT stands in VAR of the PROGRAM or in VAR_GLOBAL");
-  for (const Program::Located& other : code_->located)
-    if (other.address == *located)
-      return refuse(fmt::format("{} and {} are at one terminal", quoted(name.text), quoted(other.name)),
-                    "each terminal has one variable");
+                  "AT stands in VAR of a PROGRAM or in VAR_GLOBAL");
+  const auto [other, fresh] = terminals_.emplace(*located, name.text);
+  if (!fresh)
+    return refuse(fmt::format("{} and {} are at one terminal", quoted(name.text), quoted(other->second)),
+                  "each terminal has one variable");
   return true;
 }
 
@@ -236,13 +251,14 @@ void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, 
   variable.constant = section.constant;
   variable.retain = section.retain;
   if (section.constant && (is_elementary(type->basic))) variable.value = initial.front();
+  check_size(name.place, type->cells, type->depth);
   if (owner.cells + type->cells > most_cells)
     give_up(name.place, "the variables take too much memory", "8 MB at most");
   if (located && type->basic == Basic::boolean) {
     variable.reads_terminal = located->kind == Kind::input;
     code_->located.push_back({std::string(name.text), *located, name.place.line, name.place.column});
     code_->located_cells.push_back(owner.cells);
-    located_in_globals_.push_back(&owner == globals_);
+    located_in_.push_back(&owner == globals_ ? -1 : unit.pou);
   }
   const std::vector<Cell> pointer(1, 0);
   append(owner, std::move(variable),

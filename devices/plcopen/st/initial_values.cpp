@@ -106,7 +106,7 @@ void Compiler::cam_file(const Token& text) {
 
 Expression Compiler::constant_expression(const Type& wanted) {
   const Token first = peek();
-  Expression value = expression();
+  Expression value = expression(&wanted);
   if (value.unknown()) throw GiveUp{};
   if (!value.constant)
     give_up(first.place, "a value that is not constant", "use literals, constants and functions of them");
@@ -116,14 +116,16 @@ Expression Compiler::constant_expression(const Type& wanted) {
   return value;
 }
 
-std::int64_t Compiler::constant_integer(std::string_view what) {
+Expression Compiler::constant_value(std::string_view what, const Type* wanted) {
   const Place place = peek().place;
-  const Expression value = expression();
+  const Expression value = expression(wanted);
   if (value.unknown()) throw GiveUp{};
   if (!value.constant || !is_integer(value.type->basic))
     give_up(place, fmt::format("{} is not a constant whole number", what),
             "give a literal or a VAR CONSTANT of integers");
-  return value.value;
+  return value;
 }
+
+std::int64_t Compiler::constant_integer(std::string_view what) { return constant_value(what, nullptr).value; }
 
 }  // namespace drycut::devices::plcopen::st

@@ -5,47 +5,74 @@
 
 #include "devices/plcopen/st/compiler.hpp"
 
-// Where everything is in the memory: VAR_GLOBAL, the PROGRAM, the FUNCTIONs, literals; and the symbols.
+// Where everything is in the memory: VAR_GLOBAL, the FUNCTIONs, the PROGRAMs, literals; and the symbols.
 namespace drycut::devices::plcopen::st {
 
 void Compiler::place_memory() {
   int next = globals_->cells;
-  for (const auto& unit : units_) {
-    if (unit->pou < 0 || unit->kind == Unit::Kind::function_block) continue;
-    Pou& pou = code_->pous[static_cast<std::size_t>(unit->pou)];
-    pou.frame = next;
-    next += unit->type->cells;
-    if (unit->pou == code_->program) program_at_ = pou.frame;
-  }
+  const auto place = [&](const Type& type) {
+    const int at = next;
+    if (next > most_cells) return at;
+    next += type.cells;
+    if (next > most_cells)
+      complain({1, 1}, "the variables take too much memory", "8 MB at most, all programs together");
+    return at;
+  };
+  for (const auto& unit : units_)
+    if (unit->pou >= 0 && unit->kind == Unit::Kind::function)
+      code_->pous[static_cast<std::size_t>(unit->pou)].frame = place(*unit->type);
+  for (std::size_t i = 0; i < code_->instances.size(); ++i)
+    code_->instances[i].cell = place(*connections_[i].unit->type);
   memory_ = next;
+}
+
+/// Variables at terminals are in VAR_GLOBAL or in a program, which may be one that does not run.
+void Compiler::place_located() {
+  Compiled& code = *code_;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < code.located.size(); ++i) {
+    const auto instance = std::find_if(code.instances.begin(), code.instances.end(),
+                                       [&](const auto& one) { return one.pou == located_in_[i]; });
+    if (located_in_[i] >= 0 && instance == code.instances.end()) continue;
+    code.located_cells[kept] = code.located_cells[i] + (located_in_[i] >= 0 ? instance->cell : 0);
+    if (kept != i) code.located[kept] = std::move(code.located[i]);
+    ++kept;
+  }
+  code.located.resize(kept);
+  code.located_cells.resize(kept);
 }
 
 void Compiler::finish() {
   Compiled& code = *code_;
-  for (std::size_t i = 0; i < code.located_cells.size(); ++i)
-    code.located_cells[i] += located_in_globals_[i] ? 0 : program_at_;
+  place_located();
   for (Node& node : code.nodes) {
     if (node.op != Op::address_pool) continue;
     node.op = Op::address;
     node.imm += memory_;
   }
-  code.image.assign(static_cast<std::size_t>(memory_), 0);
   if (problems_.size() != first_problem_) {
     // Not to be run; who does finds a memory and nothing to do.
-    code.program = -1;
+    code.instances.clear();
+    code.image.assign(static_cast<std::size_t>(std::min(memory_, most_cells)), 0);
     return;
   }
+  code.image.assign(static_cast<std::size_t>(memory_), 0);
   const auto fill = [&](const Type& type, int at) {
     std::copy(type.initial.begin(), type.initial.end(), code.image.begin() + at);
   };
   fill(*globals_, 0);
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind != Unit::Kind::function_block)
+    if (unit->pou >= 0 && unit->kind == Unit::Kind::function)
       fill(*unit->type, code.pous[static_cast<std::size_t>(unit->pou)].frame);
+  for (std::size_t i = 0; i < code.instances.size(); ++i)
+    fill(*connections_[i].unit->type, code.instances[i].cell);
   code.image.insert(code.image.end(), pool_.begin(), pool_.end());
 
-  for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->pou == code.program) walk(*unit->type, program_at_, "", false, true);
+  for (std::size_t i = 0; i < code.instances.size(); ++i) {
+    // One program's variables need no name before them.
+    const std::string prefix = code.instances.size() == 1 ? "" : code.instance_names[i].name;
+    walk(*connections_[i].unit->type, code.instances[i].cell, prefix, false, true);
+  }
   walk(*globals_, 0, "", false, true);
 }
 
@@ -90,11 +117,16 @@ void Compiler::add_symbol(const Type& type, int cell, const std::string& name, b
                                            : std::numeric_limits<double>::max();
     symbol.min = -symbol.max;
   } else {
-    const Range range = range_of(type.basic);
+    const Range range = range_of(type);
     symbol.min = static_cast<double>(range.low);
     symbol.max = static_cast<double>(range.high);
   }
-  if (type.basic == Basic::time) symbol.max /= 1000;
+  if (is_wide(type.basic) && !type.subrange)
+    symbol.max = static_cast<double>(std::numeric_limits<std::uint64_t>::max());
+  if (is_clock(type.basic)) {
+    symbol.unit = "s";
+    symbol.max /= per_second(type.basic);
+  }
   if (type.basic == Basic::enumeration) {
     const auto [low, high] =
         std::minmax_element(type.values.begin(), type.values.end(),

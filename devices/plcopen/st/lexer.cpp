@@ -2,11 +2,14 @@
 
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include <fmt/format.h>
+
+#include "devices/plcopen/st/pragmas.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
@@ -29,12 +32,13 @@ std::string without_underscores(std::string_view text) {
 class Lexer {
  public:
   Lexer(std::string_view text, const std::string& file, Problems& problems)
-      : text_(text), file_(file), problems_(problems) {}
+      : text_(text), file_(file), problems_(problems), pragmas_(file, problems) {}
 
   std::vector<Token> run() {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark
     line_start_ = at_;
     while (skip_blank(), at_ < text_.size()) next();
+    pragmas_.finish();
     add(Token::Kind::end, 0);
     return std::move(tokens_);
   }
@@ -91,10 +95,20 @@ class Lexer {
       else if (starts("/*"))
         skip_nested("/*", "*/");
       else if (c == '{')
-        skip_nested("{", "}");
-      else
+        pragma();
+      else if (pragmas_.active())
         return;
+      else
+        // Texts may hold what looks like a comment or a pragma.
+        advance(c == '\'' ? string_length().first : 1);
     }
+  }
+
+  void pragma() {
+    const Place begin = place();
+    const std::size_t from = at_ + 1;
+    skip_nested("{", "}");
+    if (text_[at_ - 1] == '}') pragmas_.read(text_.substr(from, at_ - from - 1), begin);
   }
 
   void skip_nested(std::string_view open, std::string_view close) {
@@ -154,9 +168,16 @@ class Lexer {
   void word() {
     const std::size_t size = length(belongs_to_name);
     const std::string_view name = text_.substr(at_, size);
-    const bool time = same_word(name, "T") || same_word(name, "TIME");
-    if (time && peek(size) == '#')
+    if (peek(size) != '#')
+      add(Token::Kind::name, size);
+    else if (same_word(name, "T") || same_word(name, "TIME"))
       time_literal(size + 1);
+    else if (same_word(name, "TOD") || same_word(name, "TIME_OF_DAY"))
+      date_literal(Token::Kind::tod, size + 1);
+    else if (same_word(name, "D") || same_word(name, "DATE"))
+      date_literal(Token::Kind::date, size + 1);
+    else if (same_word(name, "DT") || same_word(name, "DATE_AND_TIME"))
+      date_literal(Token::Kind::dt, size + 1);
     else
       add(Token::Kind::name, size);
   }
@@ -210,7 +231,8 @@ class Lexer {
   }
 
   void read_integer(Token& token, const std::string& digits, int base) {
-    constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+    constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t number = 0;
     if (digits.empty()) {
       complain(token, quoted(token.text) + " has no digits", "16#FF");
       return;
@@ -222,12 +244,14 @@ class Lexer {
                  "2#1010, 8#17 or 16#FF");
         return;
       }
-      if (token.number > (largest - digit) / base) {
-        complain(token, quoted(token.text) + " is out of range", "a LINT goes to 9223372036854775807");
+      if (number > (largest - static_cast<std::uint64_t>(digit)) / static_cast<std::uint64_t>(base)) {
+        complain(token, quoted(token.text) + " is out of range", "a ULINT goes to 18446744073709551615");
         return;
       }
-      token.number = token.number * base + digit;
+      number = number * static_cast<std::uint64_t>(base) + static_cast<std::uint64_t>(digit);
     }
+    token.number = static_cast<std::int64_t>(number);
+    token.wide = token.number < 0;
   }
 
   void time_literal(std::size_t prefix) {
@@ -244,6 +268,74 @@ class Lexer {
       complain(token, quoted(token.text) + " is finer than a TIME", "a TIME counts whole milliseconds");
     else
       token.number = std::llround(*ms);
+  }
+
+  // D#1996-08-15, TOD#15:36:55.36, DT#1996-08-15-15:36:55.
+  void date_literal(Token::Kind kind, std::size_t prefix) {
+    const std::size_t size =
+        length([](char x) { return belongs_to_name(x) || x == '.' || x == '-' || x == ':'; }, prefix);
+    Token& token = add(kind, size);
+    const std::string text = without_underscores(token.text.substr(prefix));
+    const std::optional<std::int64_t> number = clock_number(kind, text);
+    if (number)
+      token.number = *number;
+    else
+      complain(token, quoted(token.text) + " is no " + std::string(name_of(kind)), example_of(kind));
+  }
+
+  static std::string_view name_of(Token::Kind kind) {
+    return kind == Token::Kind::tod ? "TOD" : kind == Token::Kind::date ? "DATE" : "DT";
+  }
+  static std::string example_of(Token::Kind kind) {
+    if (kind == Token::Kind::tod) return "TOD#00:00:00 to TOD#23:59:59.999";
+    return kind == Token::Kind::date ? "D#1970-01-01 to D#2106-02-06"
+                                     : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15";
+  }
+
+  static std::optional<std::int64_t> clock_number(Token::Kind kind, std::string_view text) {
+    constexpr std::int64_t day = 86400;
+    std::int64_t seconds = 0;
+    if (kind != Token::Kind::tod) {
+      const auto year = leading(text, '-');
+      const auto month = leading(text, '-');
+      const auto days = leading(text, kind == Token::Kind::dt ? '-' : '\0');
+      if (!year || !month || !days) return std::nullopt;
+      const std::chrono::year_month_day date{std::chrono::year{static_cast<int>(*year)},
+                                             std::chrono::month{static_cast<unsigned>(*month)},
+                                             std::chrono::day{static_cast<unsigned>(*days)}};
+      if (!date.ok()) return std::nullopt;
+      seconds = std::chrono::sys_days(date).time_since_epoch().count() * day;
+    }
+    double clock = 0;
+    if (kind != Token::Kind::date) {
+      const auto hours = leading(text, ':');
+      const auto minutes = leading(text, text.find(':') == std::string_view::npos ? '\0' : ':');
+      if (!hours || !minutes || *hours > 23 || *minutes > 59) return std::nullopt;
+      double rest = 0;
+      const auto [end, error] =
+          std::from_chars(text.data(), text.data() + text.size(), rest, std::chars_format::fixed);
+      const bool whole = text.empty() || (error == std::errc{} && end == text.data() + text.size());
+      if (!whole || rest < 0 || rest >= 60) return std::nullopt;
+      clock = static_cast<double>(*hours * 3600 + *minutes * 60) + rest;
+    }
+    if (kind == Token::Kind::tod) return std::llround(clock * 1000) % (day * 1000);
+    seconds += static_cast<std::int64_t>(clock);
+    const bool kept = seconds >= 0 && seconds <= std::numeric_limits<std::uint32_t>::max();
+    return kept ? std::optional(seconds) : std::nullopt;
+  }
+
+  /// The number at the beginning of `text`, up to `until`, which goes too ('\0': the end).
+  static std::optional<std::int64_t> leading(std::string_view& text, char until) {
+    const std::size_t size = until == '\0' ? text.size() : text.find(until);
+    constexpr std::size_t longest = 5;
+    if (size == 0 || size > longest) return std::nullopt;
+    std::int64_t number = 0;
+    for (const char c : text.substr(0, size)) {
+      if (!is_digit(c)) return std::nullopt;
+      number = number * 10 + (c - '0');
+    }
+    text.remove_prefix(std::min(size + 1, text.size()));
+    return number;
   }
 
   static std::optional<double> milliseconds(std::string_view text) {
@@ -274,13 +366,20 @@ class Lexer {
     return sum;
   }
 
-  void string() {
-    const Place begin = place();
+  /// With its quotes, and whether it has both.
+  [[nodiscard]] std::pair<std::size_t, bool> string_length() const {
     std::size_t size = 1;
     while (at_ + size < text_.size() && peek(size) != '\'' && peek(size) != '\n')
       size += peek(size) == '$' && peek(size + 1) != '\n' ? 2 : 1;
     const bool closed = peek(size) == '\'';
-    Token& token = add(Token::Kind::string, std::min(size + (closed ? 1 : 0), text_.size() - at_));
+    return {std::min(size + (closed ? 1 : 0), text_.size() - at_), closed};
+  }
+
+  void string() {
+    const Place begin = place();
+    const auto [whole, closed] = string_length();
+    const std::size_t size = whole - 1;
+    Token& token = add(Token::Kind::string, whole);
     if (!closed) {
       complain(token, "a string is not closed on its line", "end it with '");
       return;
@@ -316,6 +415,7 @@ class Lexer {
   std::string_view text_;
   const std::string& file_;
   Problems& problems_;
+  Pragmas pragmas_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   std::size_t line_start_ = 0;

@@ -16,6 +16,9 @@ struct Token {
     integer,  ///< `number`, decimal or based
     real,     ///< `real`
     time,     ///< `number` in ms
+    tod,      ///< `number` in ms since midnight
+    date,     ///< `number` in s since 1970
+    dt,       ///< `number` in s since 1970
     string,   ///< `string`, without quotes and escapes
     address,  ///< %IX0.0
     sign,     ///< ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> ..
@@ -26,6 +29,7 @@ struct Token {
   std::string_view text;
   Place place;
   std::int64_t number = 0;
+  bool wide = false;  ///< of an integer: `number` is the bits of one above a LINT
   double real = 0;
   std::string string;
 
@@ -36,7 +40,8 @@ struct Token {
   }
 };
 
-/// The tokens of a file, comments and pragmas `{...}` left out, ended by one of Kind::end.
+/// The tokens of a file, comments, pragmas `{...}` and what they switch off left out, ended by one of
+/// Kind::end.
 std::vector<Token> tokens_of(std::string_view text, const std::string& file, Problems& problems);
 
 }  // namespace drycut::devices::plcopen::st

@@ -15,7 +15,7 @@ int Compiler::for_statement() {
   try {
     const Token name = peek();
     if (name.kind != Token::Kind::name) give_up(name.place, "FOR counts no variable", "FOR i := 0 TO 9 DO");
-    Expression counter = name_expression();
+    Expression counter = typed(name_tree());
     counter.place = name.place;
     if (!counter.unknown() && !is_integer(counter.type->basic)) {
       complain(name.place,
@@ -24,12 +24,14 @@ int Compiler::for_statement() {
       counter = Expression{type_of(Basic::unknown), name.place};
     }
     expect(":=", "stands behind the variable of a FOR");
-    const Expression from = expression();
+    const Expression from = expression(counter.type);
     start = assign(counter, from);
+    // Behind its last turn the counter of a subrange is out of it.
+    counter.type = base_of(counter.type);
     expect_word("TO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
-    Expression to = converted(expression(), *counter.type);
+    Expression to = converted(expression(counter.type), *counter.type);
     Expression step = constant(counter.type, 1, place);
-    if (accept_word("BY")) step = converted(expression(), *counter.type);
+    if (accept_word("BY")) step = converted(expression(counter.type), *counter.type);
     if (step.constant && step.value == 0)
       complain(step.place, "FOR with a step of 0 never ends", "BY 1 or BY -1");
     expect_word("DO", fmt::format("FOR {} := 0 TO 9 DO", name.text));
@@ -39,7 +41,7 @@ int Compiler::for_statement() {
         if (value.constant) return value;
         Expression cell{counter.type, value.place};
         cell.address = true;
-        cell.node = add_node(Op::address_pool, counter.type->basic, value.place, -1, -1, -1, scratch());
+        cell.node = add_node(Op::address_pool, counter.type->basic, value.place, -1, -1, -1, scratch(1));
         all.push_back(add_node(Op::store_at, counter.type->basic, value.place, cell.node, value_node(value)));
         return cell;
       };
@@ -47,7 +49,7 @@ int Compiler::for_statement() {
       step = kept(step);
       const int current = value_node(counter);
       const int end = value_node(to);
-      test = add_node(Op::passes, Basic::boolean, place, current, end, value_node(step));
+      test = add_node(Op::passes, counter.type->basic, place, current, end, value_node(step));
       step_on = assign(counter, apply_op(Op::add, counter.type, place, counter, step));
     }
   } catch (const GiveUp&) {
@@ -60,8 +62,7 @@ int Compiler::for_statement() {
   close(opened, "END_FOR");
   all.insert(all.begin(), start);
   all.push_back(add_node(Op::loop, Basic::unknown, place, test, body, step_on));
-  const int first = add_list(all);
-  return add_node(Op::sequence, Basic::unknown, place, first, static_cast<int>(all.size()));
+  return sequence_node(std::move(all), place);
 }
 
 int Compiler::while_statement() {

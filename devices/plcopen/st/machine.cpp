@@ -8,6 +8,7 @@
 
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/operations.hpp"
+#include "devices/plcopen/st/texts.hpp"
 #include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -34,13 +35,22 @@ void Machine::start(bool all) {
   }
 }
 
-void Machine::run(std::int64_t time_ms) {
+void Machine::run(const Compiled::Instance& program, std::int64_t time_ms) {
   time_ms_ = wrapped(Basic::time, time_ms);
-  statements_ = 0;
-  if (code_.program < 0) return;
-  const Pou& program = code_.pous[static_cast<std::size_t>(code_.program)];
-  reset(program, program.frame);
-  execute(program.body);
+  work_ = most_work;
+  const Pou& pou = code_.pous[static_cast<std::size_t>(program.pou)];
+  reset(pou, program.cell);
+  if (program.before >= 0) execute(program.before);
+  own_ = program.cell;
+  execute(pou.body);
+  if (program.after >= 0) execute(program.after);
+}
+
+void Machine::exhausted(const Node& n) {
+  throw RuntimeError(n,
+                     fmt::format("more than {} operations in one scan; a loop does not end, or there is more "
+                                 "to do than a scan can hold",
+                                 most_work));
 }
 
 void Machine::reset(const Pou& pou, std::int64_t frame) {
@@ -94,6 +104,7 @@ Cell Machine::call_function(const Node& n) {
   // An input may call the same function: all are computed before the frame is used.
   for (std::size_t i = 0; i < inputs; ++i, list += 3) given[i] = {value(list[0]), list[1], list[2]};
   const Pou& pou = code_.pous[static_cast<std::size_t>(n.c)];
+  spend(n, pou.type->cells / 8);
   reset(pou, pou.frame);
   for (std::size_t i = 0; i < inputs; ++i) {
     if (given[i].cells == 1)
@@ -106,14 +117,85 @@ Cell Machine::call_function(const Node& n) {
   const std::int64_t caller = own_;
   execute(pou.body);
   own_ = caller;
-  const Cell result = at(pou.frame + pou.result);
+  const std::int64_t from = pou.frame + pou.result;
+  Cell result = at(from);
+  if (n.b >= 0) {
+    result = value(n.b);
+    std::copy_n(memory_.begin() + from, n.imm, memory_.begin() + result);
+  }
   const int outputs = *list++;
   for (int i = 0; i < outputs; ++i) execute(list[i]);
   return result;
 }
 
+Cell Machine::enabled(const Node& n) {
+  const int* const list = code_.lists.data() + n.a;
+  const bool on = value(list[0]) != 0;
+  const Cell result = value(list[on ? 1 : 2]);
+  const int store = list[on ? 3 : 4];
+  if (store >= 0) execute(store);
+  return result;
+}
+
+Cell Machine::in_range(const Node& n) {
+  const Span& span = code_.spans[static_cast<std::size_t>(n.c)];
+  const Cell a = value(n.a);
+  if (a >= span.low && a <= span.high) return a;
+  throw RuntimeError(n, fmt::format("{} is out of the range; {} to {}", a, span.low, span.high));
+}
+
+Cell Machine::passes(const Node& n) {
+  const Cell step = value(n.c);
+  const Cell a = value(n.a);
+  const Cell b = value(n.b);
+  if (is_wide(n.basic)) return static_cast<std::uint64_t>(a) <= static_cast<std::uint64_t>(b) ? 1 : 0;
+  return (step >= 0 ? a <= b : a >= b) ? 1 : 0;
+}
+
+Cell Machine::compare(const Node& n) {
+  const std::string_view a = text(value(n.a), longest_string_length);
+  const std::string_view b = text(value(n.b), longest_string_length);
+  charge(static_cast<std::int64_t>(std::min(a.size(), b.size()) / 8));
+  const int order = a.compare(b);
+  return order < 0 ? -1 : order > 0 ? 1 : 0;
+}
+
+Cell Machine::text_value(const Node& n) {
+  const auto op = static_cast<TextOp>(n.imm);
+  const int* list = code_.lists.data() + n.a;
+  const int* const end = list + n.b;
+  const Cell target = op < TextOp::length ? value(*list++) : 0;
+  if (op == TextOp::from_value) {
+    put_string(text_of(n.basic, value(*list)), target, longest_string_length);
+    return target;
+  }
+  const bool two = op == TextOp::insert || op == TextOp::replace || op == TextOp::find;
+  const auto texts = op == TextOp::concat ? end - list : two ? 2 : 1;
+  // A part may be computed where another one has been: each has a place of its own.
+  std::vector<std::string_view> parts;
+  std::vector<Cell> numbers;
+  std::size_t size = 0;
+  for (std::ptrdiff_t i = 0; list != end; ++i, ++list) {
+    const Cell given = value(*list);
+    if (i >= texts) {
+      numbers.push_back(given);
+    } else {
+      parts.push_back(text(given, longest_string_length));
+      size += parts.back().size();
+    }
+  }
+  // FIND looks at each place.
+  charge(static_cast<std::int64_t>(op == TextOp::find ? 8 + size : 8 + size / 8));
+  if (op == TextOp::length) return static_cast<Cell>(parts[0].size());
+  if (op == TextOp::find) return found(parts[0], parts[1]);
+  if (op == TextOp::to_value) return value_of(n.basic, parts[0]);
+  put_string(edited(op, parts, numbers), target, longest_string_length);
+  return target;
+}
+
 Cell Machine::value(int number) {
   const Node& n = node(number);
+  charge(1);
   switch (n.op) {
     case Op::constant:
       return n.imm;
@@ -144,32 +226,27 @@ Cell Machine::value(int number) {
     }
     case Op::multiplex:
       return multiplex(n);
-    case Op::compare_strings: {
-      constexpr std::size_t longest = 256;
-      const int order = text(value(n.a), longest).compare(text(value(n.b), longest));
-      return order < 0 ? -1 : order > 0 ? 1 : 0;
-    }
+    case Op::compare_strings:
+      return compare(n);
+    case Op::text:
+      return text_value(n);
+    case Op::enabled:
+      return enabled(n);
+    case Op::in_range:
+      return in_range(n);
     case Op::time_now:
       return time_ms_;
-    case Op::passes: {
-      const Cell step = value(n.c);
-      return step >= 0 ? value(n.a) <= value(n.b) : value(n.a) >= value(n.b);
-    }
+    case Op::passes:
+      return passes(n);
     default:
       return operation(n);
   }
 }
 
-void Machine::count(const Node& n) {
-  if (++statements_ > most_statements)
-    throw RuntimeError(
-        n, fmt::format("more than {} statements in one scan; a loop does not end", most_statements));
-}
-
 Machine::Flow Machine::execute(int number) {
   const Node& n = node(number);
   if (n.op == Op::sequence) return sequence(n);
-  count(n);
+  spend(n, 1);
   switch (n.op) {
     case Op::store:
       at(n.imm) = value(n.a);
@@ -182,8 +259,12 @@ Machine::Flow Machine::execute(int number) {
       at(value(n.a)) = stored;
       return Flow::next;
     }
+    case Op::store_bits:
+      store_bits(n);
+      return Flow::next;
     case Op::copy: {
       const std::int64_t from = value(n.b);
+      spend(n, n.imm / 8);
       std::memmove(&at(value(n.a)), &at(from), static_cast<std::size_t>(n.imm) * sizeof(Cell));
       return Flow::next;
     }
@@ -231,6 +312,7 @@ Machine::Flow Machine::branch(const Node& n) {
 
 Machine::Flow Machine::choose(const Node& n) {
   const Cell selector = value(n.a);
+  spend(n, n.c / 8);
   for (int i = n.b; i < n.b + n.c; ++i) {
     const Choice& choice = code_.choices[static_cast<std::size_t>(i)];
     if (selector >= choice.range.low && selector <= choice.range.high) return execute(choice.body);
@@ -240,7 +322,7 @@ Machine::Flow Machine::choose(const Node& n) {
 
 Machine::Flow Machine::loop(const Node& n) {
   while (value(n.a) != 0) {
-    count(n);
+    spend(n, 1);
     const Flow flow = execute(n.b);
     if (flow == Flow::leave_loop) break;
     if (flow == Flow::leave_pou) return flow;
@@ -251,7 +333,7 @@ Machine::Flow Machine::loop(const Node& n) {
 
 Machine::Flow Machine::repeat(const Node& n) {
   do {
-    count(n);
+    spend(n, 1);
     const Flow flow = execute(n.a);
     if (flow == Flow::leave_loop) break;
     if (flow == Flow::leave_pou) return flow;
@@ -259,16 +341,31 @@ Machine::Flow Machine::repeat(const Node& n) {
   return Flow::next;
 }
 
+void Machine::store_bits(const Node& n) {
+  const auto part = static_cast<std::uint64_t>(value(n.b));
+  Cell& whole = at(value(n.a));
+  const std::uint64_t mask = ((std::uint64_t{1} << n.c) - 1) << n.imm;
+  const std::uint64_t rest = static_cast<std::uint64_t>(whole) & ~mask;
+  whole = wrapped(n.basic, static_cast<Cell>(rest | ((part << n.imm) & mask)));
+}
+
 void Machine::copy_string(std::int64_t from, std::int64_t to, std::size_t length) {
-  if (from == to) return;
-  const std::string_view source = text(from, length);
-  std::fill_n(memory_.begin() + to, string_cells(length), 0);
-  std::memcpy(&at(to), source.data(), source.size());
+  if (from != to) put_string(text(from, length), to, length);
+}
+
+/// As much of the text as fits; it may stand where it goes to.
+void Machine::put_string(std::string_view text, std::int64_t to, std::size_t length) {
+  const std::size_t size = std::min(text.size(), length);
+  char* const begin = reinterpret_cast<char*>(&at(to));
+  std::memmove(begin, text.data(), size);
+  std::memset(begin + size, 0, static_cast<std::size_t>(string_cells(length)) * sizeof(Cell) - size);
 }
 
 void Machine::call_block(const Node& n) {
   const std::int64_t instance = value(n.a);
   if (n.b < 0) {
+    constexpr std::int64_t work_of_a_motion_block = 50;
+    spend(n, work_of_a_motion_block);
     call_motion(instance);
     return;
   }

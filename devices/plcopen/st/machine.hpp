@@ -19,15 +19,16 @@ struct RuntimeError : std::runtime_error {
 /// The memory of a program and what runs on it.
 class Machine {
  public:
-  /// Statements of one scan above which it is taken for endless.
-  static constexpr int most_statements = 1'000'000;
+  /// Work of one program in one scan above which it is taken for endless: each operation, statement and call
+  /// is 1, and so are eight cells or characters that are copied.
+  static constexpr std::int64_t most_work = 10'000'000;
 
   Machine(const Compiled& code, MotionKernel& kernel);
 
   /// Initial values and new motion blocks; RETAIN variables keep theirs unless `all`.
   void start(bool all);
-  /// Runs the PROGRAM once; throws RuntimeError.
-  void run(std::int64_t time_ms);
+  /// Runs one program once; throws RuntimeError.
+  void run(const Compiled::Instance& program, std::int64_t time_ms);
 
   [[nodiscard]] Cell cell(int place) const { return memory_[static_cast<std::size_t>(place)]; }
   void set_cell(int place, Cell value) { memory_[static_cast<std::size_t>(place)] = value; }
@@ -47,6 +48,11 @@ class Machine {
   Cell multiplex(const Node& node);
   std::int64_t element(const Node& node);
   Cell call_function(const Node& node);
+  Cell enabled(const Node& node);
+  Cell in_range(const Node& node);
+  Cell passes(const Node& node);
+  Cell text_value(const Node& node);
+  Cell compare(const Node& node);
   /// Gives a POU's variables at `frame` that do not outlast a call their initial values.
   void reset(const Pou& pou, std::int64_t frame);
   [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
@@ -59,8 +65,15 @@ class Machine {
   Flow repeat(const Node& node);
   void call_block(const Node& node);
   void call_motion(std::int64_t instance);
+  void store_bits(const Node& node);
   void copy_string(std::int64_t from, std::int64_t to, std::size_t length);
-  void count(const Node& node);
+  void put_string(std::string_view text, std::int64_t to, std::size_t length);
+  /// Looked at by the next statement, so that it is statements that are told of.
+  void charge(std::int64_t work) { work_ -= work; }
+  void spend(const Node& node, std::int64_t work) {
+    if ((work_ -= work) < 0) exhausted(node);
+  }
+  [[noreturn]] static void exhausted(const Node& node);
 
   const Compiled& code_;
   MotionKernel& kernel_;
@@ -68,7 +81,7 @@ class Machine {
   std::vector<Motion> motions_;
   std::int64_t own_ = 0;  ///< where the instance begins whose block runs
   std::int64_t time_ms_ = 0;
-  int statements_ = 0;
+  std::int64_t work_ = 0;  ///< that is left in this scan
 };
 
 }  // namespace drycut::devices::plcopen::st

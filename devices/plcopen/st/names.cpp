@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -26,8 +28,9 @@ std::vector<std::string> Compiler::known_names() const {
   if (unit_ != nullptr && unit_->type != nullptr)
     for (const Variable& member : unit_->type->members) names.push_back(member.name);
   for (const Variable& global : globals_->members) names.push_back(global.name);
-  for (const auto& [name, type] : enumerations_)
-    for (const EnumValue& value : type->values) names.push_back(value.name);
+  for (const auto& [name, value] : enum_values_)
+    for (const EnumValue& known : value.first->values)
+      if (same_word(known.name, name)) names.push_back(known.name);
   for (const StartModeRow& row : start_mode_table) names.emplace_back(row.name);
   for (const DirectionName& direction : directions) names.emplace_back(direction.name);
   for (const auto& unit : units_)
@@ -48,8 +51,8 @@ std::optional<Expression> Compiler::predefined(const Token& name) {
   return std::nullopt;
 }
 
-Expression Compiler::variable_of(const Variable& variable, int node, const std::string& name) {
-  Expression result{variable.type, peek().place};
+Expression Compiler::variable_of(const Variable& variable, int node, const std::string& name, Place place) {
+  Expression result{variable.type, place};
   result.name = name;
   if (variable.constant && variable.value) {
     result.constant = true;
@@ -70,59 +73,50 @@ std::optional<Expression> Compiler::variable(const Token& name) {
   if (found == nullptr) found = find_member(*globals_, name.text);
   if (found == nullptr) return std::nullopt;
   const Basic basic = found->type->basic;
+  const bool function = unit_->kind == Unit::Kind::function;
   int node = -1;
-  if (own && unit_->kind == Unit::Kind::function_block) {
+  if (own && !function) {
     node = add_node(Op::address_own, basic, name.place, -1, -1, -1, found->offset);
   } else {
     const int base = own ? code_->pous[static_cast<std::size_t>(unit_->pou)].frame : 0;
     node = add_node(Op::address, basic, name.place, -1, -1, -1, base + found->offset);
   }
   if (found->section == Section::in_out) node = add_node(Op::follow, basic, name.place, node);
-  Expression result = variable_of(*found, node, found->name);
-  result.place = name.place;
-  if (own && found->section == Section::input)
+  Expression result = variable_of(*found, node, found->name, name.place);
+  // A FUNCTION's inputs are its own; a block's are kept for the next call.
+  if (own && found->section == Section::input && !function)
     result.locked = fmt::format("is an input of {}", quoted(unit_->name.text));
   return result;
 }
 
-Expression Compiler::name_expression() {
-  const Token name = peek();
-  if (name.word("TRUE") || name.word("FALSE")) {
-    take();
+Expression Compiler::name_expression(const Token& name, const Type* wanted) {
+  if (name.word("TRUE") || name.word("FALSE"))
     return constant(type_of(Basic::boolean), name.word("TRUE") ? 1 : 0, name.place);
-  }
-  const Token& next = peek(1);
-  if (is_keyword(name.text))
-    give_up(name.place, fmt::format("an expression is missing before {}", quoted(name.text)),
-            "a value stands here");
-  take();
-  if (next.is("#")) return typed_literal(name);
-  // A FUNCTION's own name is its result, and with arguments a call of itself.
-  const Unit* const unit = next.is("(") ? find_unit(name.text) : nullptr;
-  if (unit != nullptr && unit == unit_) return call(name);
-  if (std::optional<Expression> found = variable(name)) return selected(std::move(*found));
-  if (next.is("(")) return call(name);
-  if (next.is("."))
-    for (const auto& [type_name, type] : enumerations_)
-      if (name.word(type_name)) {
-        take();
-        return qualified_enum(*type);
-      }
-  if (std::optional<Expression> found = enum_value(name)) return *found;
+  if (std::optional<Expression> found = variable(name)) return *found;
+  if (std::optional<Expression> found = enum_value(name, wanted)) return *found;
   if (std::optional<Expression> found = predefined(name)) return *found;
   // Told once a POU; what hangs on it is passed over.
   if (told_.insert(lower(name.text)).second) {
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
                       find_block_type(name.text) != nullptr;
     complain(name.place, fmt::format("{} is {}", quoted(name.text), type ? "no variable" : "not declared"),
-             suggestion(name.text, known_names(),
-                        type ? "declare an instance of it in VAR" : "declare it in VAR ... END_VAR"));
+             suggested(
+                 name.text, [&] { return known_names(); },
+                 type ? "declare an instance of it in VAR" : "declare it in VAR ... END_VAR"));
   }
-  return selected({type_of(Basic::unknown), name.place});
+  return {type_of(Basic::unknown), name.place};
 }
 
-Expression Compiler::qualified_enum(const Type& type) {
-  const Token name = expect_name("a value of " + type.name);
+const Type* Compiler::enumeration(std::string_view name) {
+  // A constant may be needed before its type has been read.
+  Unit* const unit = find_unit(name);
+  constexpr int deepest = 100;
+  if (unit != nullptr && unit->kind == Unit::Kind::type && open_units_ <= deepest) declare(*unit);
+  const auto found = enumerations_.find(lower(name));
+  return found == enumerations_.end() ? nullptr : found->second;
+}
+
+Expression Compiler::qualified_enum(const Type& type, const Token& name) {
   for (const EnumValue& value : type.values)
     if (name.word(value.name)) return constant(&type, value.value, name.place);
   std::vector<std::string> names;
@@ -132,63 +126,90 @@ Expression Compiler::qualified_enum(const Type& type) {
   return {type_of(Basic::unknown), name.place};
 }
 
-std::optional<Expression> Compiler::enum_value(const Token& name) {
-  std::optional<Expression> found;
-  for (const auto& [type_name, type] : enumerations_)
-    for (const EnumValue& value : type->values) {
-      if (!name.word(value.name)) continue;
-      if (found)
-        give_up(name.place,
-                fmt::format("{} is a value of {} and of {}", quoted(name.text), found->type->name, type_name),
-                fmt::format("write {}#{}", type_name, value.name));
-      found = constant(type, value.value, name.place);
-    }
-  return found;
+std::optional<Expression> Compiler::enum_value(const Token& name, const Type* wanted) {
+  const auto [first, last] = enum_values_.equal_range(lower(name.text));
+  if (first == last) return std::nullopt;
+  for (auto value = first; value != last; ++value)
+    if (value->second.first == wanted || std::next(first) == last)
+      return constant(value->second.first, value->second.second, name.place);
+  const Type& one = *first->second.first;
+  give_up(name.place,
+          fmt::format("{} is a value of {} and of {}", quoted(name.text), one.name,
+                      std::next(first)->second.first->name),
+          fmt::format("write {}#{}", std::next(first)->second.first->name, name.text));
 }
 
-Expression Compiler::typed_literal(const Token& name) {
-  take();  // '#'
-  for (const auto& [type_name, type] : enumerations_)
-    if (name.word(type_name)) return qualified_enum(*type);
+Expression Compiler::typed_literal(const Tree& tree) {
+  const Token& name = *tree.token;
+  const Token& value = *tree.tokens[0];
+  if (const Type* type = enumeration(name.text)) return qualified_enum(*type, value);
   const Type* type = elementary_type(name.text);
-  if (type == nullptr || !is_elementary(type->basic) || type->basic == Basic::time)
+  if (type == nullptr || !is_elementary(type->basic) || is_clock(type->basic))
     give_up(name.place, fmt::format("{} is no type of a literal", quoted(name.text)),
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
-  Token value = peek();
-  if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE"))) {
-    take();
+  if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
     return constant(type, value.word("TRUE") ? 1 : 0, name.place);
-  }
-  const bool negative = accept("-");
-  value = take();
   if (value.kind != Token::Kind::integer && value.kind != Token::Kind::real)
     give_up(value.place, fmt::format("{}# has no number", upper(name.text)), "INT#5, WORD#16#FF, LREAL#1.5");
-  const bool real = value.kind == Token::Kind::real;
-  const Cell cell =
-      real ? cell_of(negative ? -value.real : value.real) : (negative ? -value.number : value.number);
-  return literal_as(constant(type_of(real ? Basic::lreal : Basic::lint), cell, name.place, true), *type);
+  Expression number = literal(value);
+  if (tree.negative && is_real(number.type->basic))
+    number.value = cell_of(-real_of(number.value));
+  else if (tree.negative)
+    number.value = wrapped(Basic::lint, static_cast<Cell>(0 - static_cast<std::uint64_t>(number.value)));
+  number.place = name.place;
+  return literal_as(std::move(number), *type);
 }
 
-Expression Compiler::selected(Expression result) {
-  constexpr int deepest = 50;
-  for (int depth = 0; at_ < stop_; ++depth) {
-    if (depth > deepest) give_up(peek().place, "the name is too long", "split it up");
-    if (accept("."))
-      result = member_of(result);
-    else if (accept("["))
-      result = element_of(result);
-    else
-      break;
+/// Bits of a whole number: w.3, w.%X3, w.%B1.
+Expression Compiler::bits_of_number(const Tree& tree, const Expression& owner) {
+  const Token& token = *tree.token;
+  const Basic basic = owner.type->basic;
+  std::int64_t number = token.number;
+  std::pair<Basic, int> part{Basic::boolean, 1};
+  if (token.kind == Token::Kind::address) {
+    constexpr std::array<std::pair<char, std::pair<Basic, int>>, 4> parts{{{'X', {Basic::boolean, 1}},
+                                                                           {'B', {Basic::byte, 8}},
+                                                                           {'W', {Basic::word, 16}},
+                                                                           {'D', {Basic::dword, 32}}}};
+    const std::string text = upper(token.text);
+    const auto kind = std::find_if(parts.begin(), parts.end(), [&](const auto& known) {
+      return text.size() > 2 && known.first == text[1];
+    });
+    const auto* const end = text.data() + text.size();
+    if (kind == parts.end() || std::from_chars(text.data() + 2, end, number).ptr != end)
+      give_up(token.place, quoted(token.text) + " is no part of a number", "%X3 is a bit, %B1 a byte");
+    part = kind->second;
   }
+  const int width = part.second;
+  if (!is_integer(basic) || width > bits_of(basic))
+    give_up(
+        token.place,
+        fmt::format("{} is {} and has no part {}", quoted(owner.name), owner.type->name, quoted(token.text)),
+        "whole numbers have bits, from 0");
+  const int count = bits_of(basic) / width;
+  if (number < 0 || number >= count)
+    give_up(token.place, fmt::format("{} has no part {}", owner.type->name, quoted(token.text)),
+            fmt::format("0 to {}", count - 1));
+  Expression result = owner;
+  result.bits = Bits{owner.type, static_cast<int>(number) * width, width};
+  result.type = type_of(part.first);
+  result.name += "." + std::string(token.text);
+  result.untyped = false;
+  if (!result.constant) return result;
+  result.value =
+      wrapped(part.first, static_cast<Cell>(static_cast<std::uint64_t>(owner.value) >> result.bits->shift));
+  result.bits.reset();
   return result;
 }
 
-Expression Compiler::member_of(const Expression& owner) {
-  const bool bit = peek().kind == Token::Kind::integer;
-  if (bit && !owner.unknown())
-    give_up(peek().place, "single bits are not known here", "SHR and AND, or a BOOL of its own");
-  const Token name = bit ? take() : expect_name("the name of a member");
+Expression Compiler::member_of(const Tree& tree) {
+  const Tree& before = tree.parts[0];
+  const Token& name = *tree.token;
+  if (before.kind == Tree::Kind::name && !variable(*before.token))
+    if (const Type* type = enumeration(before.token->text)) return qualified_enum(*type, name);
+  const Expression owner = typed(before);
   if (owner.unknown()) return owner;
+  if (name.kind != Token::Kind::name) return bits_of_number(tree, owner);
   const Type& type = *owner.type;
   const Variable* member = find_member(type, name.text);
   const bool inside = member != nullptr && type.basic == Basic::block &&
@@ -202,26 +223,13 @@ Expression Compiler::member_of(const Expression& owner) {
              inside ? "only its pins are seen from outside" : "use the variable that is connected to it");
     return {type_of(Basic::unknown), name.place};
   }
-  if (member == nullptr && type.broken) return {type_of(Basic::unknown), name.place};
-  if (member == nullptr) {
-    std::vector<std::string> names;
-    for (const Variable& known : type.members)
-      if (type.basic == Basic::structure || known.section == Section::input ||
-          known.section == Section::output)
-        names.push_back(known.name);
-    if (names.empty())
-      complain(name.place, fmt::format("{} is {} and has no members", quoted(owner.name), type.name),
-               "use it without '.'");
-    else
-      complain(name.place,
-               fmt::format("{} has no {} {}", type.name, type.basic == Basic::block ? "pin" : "member",
-                           quoted(name.text)),
-               suggestion(name.text, names, "it has " + listed(names)));
-    return {type_of(Basic::unknown), name.place};
-  }
-  Expression result =
-      variable_of(*member, address_plus(owner.node, member->offset), owner.name + "." + member->name);
-  result.place = owner.place;
+  if (member == nullptr) return no_member(owner, name);
+  if (!owner.address)
+    give_up(name.place, fmt::format("a member of a {} that is no variable", type.name),
+            "assign it to a variable before");
+  Expression result = variable_of(*member, address_plus(owner.node, member->offset),
+                                  owner.name + "." + member->name, owner.place);
+  result.depth = owner.depth;
   if (result.locked.empty()) result.locked = owner.locked;
   if (type.basic == Basic::block && member->section == Section::output)
     result.locked = fmt::format("is an output of {}", type.name);
@@ -229,44 +237,67 @@ Expression Compiler::member_of(const Expression& owner) {
   return result;
 }
 
-Expression Compiler::element_of(const Expression& owner) {
-  Expression result = owner;
-  do {
-    const Expression index = expression();
-    if (result.unknown() || index.unknown()) {
+Expression Compiler::no_member(const Expression& owner, const Token& name) {
+  const Type& type = *owner.type;
+  const Expression unknown{type_of(Basic::unknown), name.place};
+  if (type.broken) return unknown;
+  std::vector<std::string> names;
+  for (const Variable& known : type.members)
+    if (type.basic == Basic::structure || known.section == Section::input || known.section == Section::output)
+      names.push_back(known.name);
+  if (names.empty())
+    complain(name.place, fmt::format("{} is {} and has no members", quoted(owner.name), type.name),
+             "use it without '.'");
+  else
+    complain(name.place,
+             fmt::format("{} has no {} {}", type.name, type.basic == Basic::block ? "pin" : "member",
+                         quoted(name.text)),
+             suggestion(name.text, names, "it has " + listed(names)));
+  return unknown;
+}
+
+Expression Compiler::element_of(const Tree& tree) {
+  Expression result = typed(tree.parts[0]);
+  for (std::size_t i = 1; i < tree.parts.size(); ++i) {
+    const Expression index = typed(tree.parts[i]);
+    if (result.unknown() || index.unknown())
       result.type = type_of(Basic::unknown);
-      continue;
-    }
-    const Type& type = *result.type;
-    if (type.basic != Basic::array)
-      give_up(index.place, fmt::format("{} is {} and has no elements", quoted(result.name), type.name),
-              "only an ARRAY has an index");
-    if (!is_integer(index.type->basic)) {
-      complain(index.place, fmt::format("the index is {}", index.type->name), "an index is a whole number");
-      result.type = type_of(Basic::unknown);
-      continue;
-    }
-    const Place place = index.place;
-    if (index.constant && (index.value < type.low || index.value > type.high)) {
-      complain(place,
-               fmt::format("the index {} is out of the bounds of {}", index.value, quoted(result.name)),
-               fmt::format("{} to {}", type.low, type.high));
-      result.type = type_of(Basic::unknown);
-      continue;
-    }
-    if (index.constant) {
-      result.node = address_plus(result.node, (index.value - type.low) * type.element->cells);
-      result.name += fmt::format("[{}]", index.value);
-    } else {
-      code_->spans.push_back({type.low, type.high, type.element->cells});
-      result.node = add_node(Op::element, type.element->basic, place, result.node, value_node(index),
-                             static_cast<int>(code_->spans.size()) - 1);
-      result.depth = std::max(result.depth, index.depth) + 1;
-    }
-    result.type = type.element;
-  } while (accept(","));
-  expect("]", "closes the index");
+    else
+      result = element_at(std::move(result), index);
+  }
   return result;
+}
+
+Expression Compiler::element_at(Expression owner, const Expression& index) {
+  const Type& type = *owner.type;
+  const Place place = index.place;
+  if (type.basic != Basic::array)
+    give_up(place, fmt::format("{} is {} and has no elements", quoted(owner.name), type.name),
+            "only an ARRAY has an index");
+  if (!owner.address)
+    give_up(place, fmt::format("an element of an {} that is no variable", type.name),
+            "assign it to a variable before");
+  const bool outside = index.constant && (index.value < type.low || index.value > type.high);
+  if (!is_integer(index.type->basic))
+    complain(place, fmt::format("the index is {}", index.type->name), "an index is a whole number");
+  else if (outside)
+    complain(place, fmt::format("the index {} is out of the bounds of {}", index.value, quoted(owner.name)),
+             fmt::format("{} to {}", type.low, type.high));
+  if (!is_integer(index.type->basic) || outside) {
+    owner.type = type_of(Basic::unknown);
+    return owner;
+  }
+  if (index.constant) {
+    owner.node = address_plus(owner.node, (index.value - type.low) * type.element->cells);
+    owner.name += fmt::format("[{}]", index.value);
+  } else {
+    code_->spans.push_back({type.low, type.high, type.element->cells});
+    owner.node = add_node(Op::element, type.element->basic, place, owner.node, value_node(index),
+                          static_cast<int>(code_->spans.size()) - 1);
+    owner.depth = std::max(owner.depth, index.depth) + 1;
+  }
+  owner.type = type.element;
+  return owner;
 }
 
 }  // namespace drycut::devices::plcopen::st

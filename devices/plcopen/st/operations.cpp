@@ -21,6 +21,17 @@ std::int64_t whole(double value) {
   return static_cast<std::int64_t>(value);
 }
 
+/// The same for ULINT and LWORD.
+std::uint64_t whole_unsigned(double value) {
+  constexpr double limit = 18446744073709551616.0;
+  if (std::isnan(value) || value <= 0) return 0;
+  return value >= limit ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(value);
+}
+
+Cell whole_in(Basic basic, double value) {
+  return is_wide(basic) && value > 0 ? cell(whole_unsigned(value)) : wrapped(basic, whole(value));
+}
+
 /// Division towards zero; the one quotient that does not fit wraps.
 std::int64_t quotient(std::int64_t a, std::int64_t b) { return b == -1 ? cell(0 - bits(a)) : a / b; }
 std::int64_t remainder(std::int64_t a, std::int64_t b) { return b == -1 ? 0 : a % b; }
@@ -145,9 +156,9 @@ Cell apply(Op op, Basic basic, Cell a, Cell b) {
     case Op::multiply:
       return wrapped(basic, cell(bits(a) * bits(b)));
     case Op::divide:
-      return wrapped(basic, quotient(a, b));
+      return is_wide(basic) ? cell(bits(a) / bits(b)) : wrapped(basic, quotient(a, b));
     case Op::modulo:
-      return wrapped(basic, remainder(a, b));
+      return is_wide(basic) ? cell(bits(a) % bits(b)) : wrapped(basic, remainder(a, b));
     case Op::negate:
       return wrapped(basic, cell(0 - bits(a)));
     case Op::scale_time:
@@ -195,20 +206,24 @@ Cell apply(Op op, Basic basic, Cell a, Cell b) {
       return wrapped(basic, a);
     case Op::to_real:
       return cell_of(rounded(basic, static_cast<double>(a)));
+    case Op::unsigned_to_real:
+      return cell_of(rounded(basic, static_cast<double>(bits(a))));
     case Op::to_whole:
-      return wrapped(basic, whole(std::nearbyint(real_of(a))));
+      return whole_in(basic, std::nearbyint(real_of(a)));
     case Op::truncate:
-      return wrapped(basic, whole(std::trunc(real_of(a))));
+      return whole_in(basic, std::trunc(real_of(a)));
+    case Op::seconds_of_day:
+      return a % 86400;
     case Op::nonzero:
       return a != 0 ? 1 : 0;
     case Op::nonzero_real:
       return real_of(a) != 0 ? 1 : 0;
     case Op::absolute:
-      return a < 0 ? wrapped(basic, cell(0 - bits(a))) : a;
+      return a < 0 && !is_wide(basic) ? wrapped(basic, cell(0 - bits(a))) : a;
     case Op::minimum:
-      return std::min(a, b);
+      return is_wide(basic) ? cell(std::min(bits(a), bits(b))) : std::min(a, b);
     case Op::maximum:
-      return std::max(a, b);
+      return is_wide(basic) ? cell(std::max(bits(a), bits(b))) : std::max(a, b);
     default:
       return cell_of(rounded(basic, real_result(op, real_of(a), real_of(b))));
   }

@@ -44,6 +44,12 @@ Place Compiler::behind() const {
   return {last.place.line, last.place.column + static_cast<int>(last.text.size())};
 }
 
+std::string Compiler::suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
+                                const std::string& otherwise) const {
+  constexpr std::size_t enough = 50;
+  return problems_.size() - first_problem_ < enough ? suggestion(word, known(), otherwise) : otherwise;
+}
+
 void Compiler::complain(Place place, std::string what, std::string remedy) {
   problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
 }

@@ -12,6 +12,9 @@ Program::Program(std::shared_ptr<const Compiled> compiled) : compiled_(std::move
 const std::vector<Program::Name>& Program::externals() const { return compiled_->externals; }
 const std::vector<Program::Located>& Program::located() const { return compiled_->located; }
 const std::vector<Program::Name>& Program::tables() const { return compiled_->tables; }
+const std::vector<Program::Task>& Program::tasks() const { return compiled_->tasks; }
+const std::vector<Program::Instance>& Program::instances() const { return compiled_->instance_names; }
+bool Program::has_configuration() const { return compiled_->configured; }
 
 bool Program::has_motion_block(std::string_view name) const {
   return std::any_of(compiled_->motions.begin(), compiled_->motions.end(),

@@ -12,7 +12,7 @@ namespace drycut::devices::plcopen::st {
 
 struct Compiled;
 
-/// A compiled file: one PROGRAM with its types, functions and function blocks. Cheap to copy.
+/// A compiled file: PROGRAMs with their types, functions and function blocks. Cheap to copy.
 class Program {
  public:
   /// A name in the text and where it stands.
@@ -29,6 +29,23 @@ class Program {
     int column = 0;
   };
 
+  /// A TASK of a CONFIGURATION.
+  struct Task {
+    std::string name;
+    int line = 0;
+    int column = 0;
+    std::int64_t interval_ns = 0;       ///< 0: it runs at the rising edge of its SINGLE
+    int priority = 0;                   ///< 0 runs first
+    std::vector<std::string> programs;  ///< where a scenario names them
+  };
+  /// A program that runs: a PROGRAM of a CONFIGURATION, or without one each PROGRAM under its own name.
+  struct Instance {
+    std::string name;
+    int line = 0;
+    int column = 0;
+    int task = -1;  ///< of tasks(); -1: the controller's own task
+  };
+
   Program();
   explicit Program(std::shared_ptr<const Compiled> compiled);
 
@@ -37,6 +54,10 @@ class Program {
   [[nodiscard]] const std::vector<Located>& located() const;
   /// Cam table files that initial values and assignments of MC_CAM_REF.File name.
   [[nodiscard]] const std::vector<Name>& tables() const;
+  [[nodiscard]] const std::vector<Task>& tasks() const;
+  [[nodiscard]] const std::vector<Instance>& instances() const;
+  /// True if a CONFIGURATION says what runs.
+  [[nodiscard]] bool has_configuration() const;
   /// True if it has an instance of this motion block ("MC_CamIn").
   [[nodiscard]] bool has_motion_block(std::string_view name) const;
   [[nodiscard]] const Compiled& compiled() const { return *compiled_; }

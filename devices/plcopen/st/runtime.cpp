@@ -2,20 +2,82 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "devices/plcopen/st/machine.hpp"
+#include "devices/plcopen/st/operations.hpp"
+#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 
+namespace {
+
+/// A task and its programs.
+struct Due {
+  std::int64_t interval_ns = 0;
+  int priority = 0;
+  int single = -1;
+  bool last = false;  ///< of SINGLE
+  std::int64_t next_ns = 0;
+  std::vector<std::size_t> programs;
+
+  /// Moves on to the next moment.
+  void advance(std::int64_t time_ns) {
+    if (interval_ns > 0) next_ns = (time_ns / interval_ns + 1) * interval_ns;
+  }
+};
+
+/// The tasks by their priorities, the controller's own last.
+std::vector<Due> plan(const Compiled& code, const Schedule& schedule) {
+  const bool given = !schedule.tasks.empty();
+  std::vector<Due> plan;
+  const auto& tasks = given ? schedule.tasks : code.tasks;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const int single = given ? -1 : code.singles[i];
+    plan.push_back(
+        {single >= 0 ? schedule.cycle_ns : tasks[i].interval_ns, tasks[i].priority, single, false, 0, {}});
+  }
+  plan.push_back({schedule.task_ns, std::numeric_limits<int>::max(), -1, false, 0, {}});
+  for (std::size_t i = 0; i < code.instance_names.size() && i < code.instances.size(); ++i) {
+    const Program::Instance& instance = code.instance_names[i];
+    std::size_t task = instance.task < 0 || given ? tasks.size() : static_cast<std::size_t>(instance.task);
+    for (std::size_t t = 0; given && t < tasks.size(); ++t)
+      for (const std::string& name : tasks[t].programs)
+        if (same_word(name, instance.name)) task = t;
+    plan[task].programs.push_back(i);
+  }
+  std::erase_if(plan, [](const Due& due) { return due.programs.empty(); });
+  std::stable_sort(plan.begin(), plan.end(),
+                   [](const Due& a, const Due& b) { return a.priority < b.priority; });
+  return plan;
+}
+
+}  // namespace
+
 struct Runtime::State {
-  State(Program of, MotionKernel& kernel) : program(std::move(of)), machine(program.compiled(), kernel) {}
+  State(Program of, MotionKernel& kernel, const Schedule& schedule)
+      : program(std::move(of)),
+        machine(program.compiled(), kernel),
+        tasks(plan(program.compiled(), schedule)) {}
+
+  /// Whether a task runs now; an edge of its SINGLE is seen once.
+  bool is_due(Due& task, std::int64_t time_ns) const {
+    if (time_ns < task.next_ns) return false;
+    task.advance(time_ns);
+    if (task.single < 0) return true;
+    const bool before = std::exchange(task.last, machine.cell(task.single) != 0);
+    return task.last && !before;
+  }
+
   Program program;
   Machine machine;
+  std::vector<Due> tasks;
   std::optional<Fault> fault;
 };
 
-Runtime::Runtime(Program program, MotionKernel& kernel)
-    : state_(std::make_unique<State>(std::move(program), kernel)) {
+Runtime::Runtime(Program program, MotionKernel& kernel, Schedule schedule)
+    : state_(std::make_unique<State>(std::move(program), kernel, schedule)) {
   cold_start(true);
 }
 Runtime::~Runtime() = default;
@@ -23,16 +85,33 @@ Runtime::~Runtime() = default;
 void Runtime::cold_start(bool all) {
   state_->fault.reset();
   state_->machine.start(all);
+  for (Due& task : state_->tasks) task.last = false;
 }
 
 void Runtime::scan(std::int64_t time_ns) {
-  if (state_->fault) return;
+  if (state_->fault) return pass(time_ns);
   constexpr std::int64_t ns_per_ms = 1'000'000;
+  const auto& instances = state_->program.compiled().instances;
   try {
-    state_->machine.run(time_ns / ns_per_ms);
+    for (Due& task : state_->tasks) {
+      if (!state_->is_due(task, time_ns)) continue;
+      for (const std::size_t program : task.programs)
+        state_->machine.run(instances[program], time_ns / ns_per_ms);
+    }
   } catch (const RuntimeError& error) {
     state_->fault = Fault{error.line, error.column, error.what()};
   }
+}
+
+void Runtime::pass(std::int64_t time_ns) {
+  for (Due& task : state_->tasks)
+    if (time_ns >= task.next_ns) task.advance(time_ns);
+}
+
+std::int64_t Runtime::next_ns() const {
+  std::int64_t next = std::numeric_limits<std::int64_t>::max();
+  for (const Due& task : state_->tasks) next = std::min(next, task.next_ns);
+  return next;
 }
 
 std::span<const Symbol> Runtime::symbols() const { return state_->program.compiled().symbols; }
@@ -41,7 +120,9 @@ double Runtime::read(std::size_t symbol) const {
   const SymbolPlace& place = state_->program.compiled().places.at(symbol);
   const Cell cell = state_->machine.cell(place.cell);
   if (is_real(place.basic)) return real_of(cell);
-  return place.basic == Basic::time ? static_cast<double>(cell) / 1000 : static_cast<double>(cell);
+  if (is_wide(place.basic)) return static_cast<double>(static_cast<std::uint64_t>(cell));
+  return is_clock(place.basic) ? static_cast<double>(cell) / per_second(place.basic)
+                               : static_cast<double>(cell);
 }
 
 void Runtime::write(std::size_t number, double value) {
@@ -54,11 +135,8 @@ void Runtime::write(std::size_t number, double value) {
     state_->machine.set_cell(place.cell, cell_of(rounded(place.basic, value)));
     return;
   }
-  // The largest LINT is no double: the one above it is meant for it.
-  const double whole = std::nearbyint(place.basic == Basic::time ? value * 1000 : value);
-  const Range range = range_of(place.basic);
-  state_->machine.set_cell(place.cell,
-                           whole >= 9223372036854775807.0 ? range.high : static_cast<Cell>(whole));
+  const double whole = std::nearbyint(is_clock(place.basic) ? value * per_second(place.basic) : value);
+  state_->machine.set_cell(place.cell, apply(Op::to_whole, place.basic, cell_of(whole), 0));
 }
 
 bool Runtime::located(std::size_t i) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/program.hpp"
@@ -15,9 +16,10 @@ namespace drycut::devices::plcopen::st {
 struct Symbol {
   std::string name;
   std::string type;       ///< "BOOL", "LREAL", ..., or the name of its enumeration
+  std::string unit;       ///< "s" of times and dates
   bool writable = false;  ///< not a constant, an output pin or a located input
   bool retain = false;
-  double min = 0;  ///< range of the type; TIME in s
+  double min = 0;  ///< range of the type; times in s
   double max = 0;
 };
 
@@ -28,22 +30,36 @@ struct Fault {
   std::string text;
 };
 
-/// A program in a controller: its variables and function blocks, and its scans.
+/// When the programs run.
+struct Schedule {
+  /// Instead of those of a CONFIGURATION, if there are any; their programs are those that they name.
+  std::vector<Program::Task> tasks;
+  std::int64_t task_ns = 0;   ///< of programs without a task; 0: at each scan
+  std::int64_t cycle_ns = 0;  ///< in which a task with a SINGLE looks at it; 0: at each scan
+};
+
+/// Programs in a controller: their variables and function blocks, and their scans.
 class Runtime {
  public:
   /// Binds the externals by their names; an axis that the kernel does not have stays unconnected.
-  Runtime(Program program, MotionKernel& kernel);
+  Runtime(Program program, MotionKernel& kernel, Schedule schedule = {});
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
   ~Runtime();
 
   /// Initial values, new function blocks, no fault. RETAIN variables keep theirs unless `all`.
   void cold_start(bool all = false);
-  /// One task cycle at the controller's time; nothing after a fault.
+  /// Runs the programs that are due at the controller's time, by the priorities of their tasks; nothing after
+  /// a fault.
   void scan(std::int64_t time_ns);
+  /// Leaves out what is due: there is no power.
+  void pass(std::int64_t time_ns);
+  /// When the next program is due.
+  [[nodiscard]] std::int64_t next_ns() const;
 
   [[nodiscard]] std::span<const Symbol> symbols() const;
-  /// BOOL as 0 and 1, TIME in s, an enumeration as its number.
+  /// BOOL as 0 and 1, TIME in s, TOD in s since midnight, DATE and DT in s since 1970, an enumeration as its
+  /// number.
   [[nodiscard]] double read(std::size_t symbol) const;
   /// Rounded and limited to the type's range; nothing if the symbol is not writable.
   void write(std::size_t symbol, double value);

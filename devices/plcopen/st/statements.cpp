@@ -23,9 +23,7 @@ void Compiler::compile_body(Unit& unit) {
              "what it belongs to does not stand before it, or has been closed");
     skip_statement();
   }
-  const int first = add_list(all);
-  code_->pous[static_cast<std::size_t>(unit.pou)].body =
-      add_node(Op::sequence, Basic::unknown, unit.name.place, first, static_cast<int>(all.size()));
+  code_->pous[static_cast<std::size_t>(unit.pou)].body = sequence_node(std::move(all), unit.name.place);
 }
 
 int Compiler::statements(std::initializer_list<std::string_view> closing) {
@@ -48,9 +46,7 @@ int Compiler::statements_until(const std::function<bool()>& closes) {
       if (at_ == before) ++at_;
     }
   }
-  std::erase(all, -1);
-  const int first = add_list(all);
-  return add_node(Op::sequence, Basic::unknown, place, first, static_cast<int>(all.size()));
+  return sequence_node(std::move(all), place);
 }
 
 int Compiler::statement() {
@@ -87,38 +83,51 @@ int Compiler::assignment_or_call() {
             declares ? "variables are declared before the statements"
                      : "a statement is an assignment, a call, IF, CASE, FOR, WHILE or REPEAT");
   }
-  Expression target = name_expression();
-  target.place = first.place;
-  if (peek().is("(") && (target.unknown() || target.address)) {
-    if (target.unknown()) {
-      arguments();
-      expect(";", "ends a call");
-      return -1;
-    }
-    if (target.type->basic != Basic::block)
-      give_up(first.place,
-              fmt::format("{} is {} and cannot be called", quoted(target.name), target.type->name),
-              "a function block is called by its instance");
-    const int call = block_call(target);
-    expect(";", "ends a call");
-    return call;
-  }
+  const Tree left = name_tree();
   if (!peek().is(":=")) {
-    // A function that is called for what it does.
-    if (!target.address && !target.constant && tokens_[at_ - 1].is(")")) {
-      expect(";", "ends a call");
-      return target.unknown() ? -1 : add_node(Op::evaluate, Basic::unknown, first.place, value_node(target));
-    }
+    if (left.kind == Tree::Kind::call) return call_statement(left);
+    const Expression target = typed(left);
     const bool block = target.type->basic == Basic::block;
     if (block) expect("(", fmt::format("and ')' call it: {}();", target.name));
     expect(":=", "assigns");
   }
+  Expression target = typed(left);
+  target.place = first.place;
   take();
   const Token value_token = peek();
-  const Expression value = expression();
+  const Expression value = expression(target.type);
   if (target.cam_file && value.string) cam_file(value_token);
+  const int assignment = assign(target, value);
   expect(";", "ends a statement");
-  return assign(target, value);
+  return assignment;
+}
+
+int Compiler::call_statement(const Tree& call) {
+  const Tree& callee = call.parts[0];
+  const Token& name = *callee.token;
+  const bool plain = callee.kind == Tree::Kind::name;
+  // A FUNCTION's own name is its result, and with arguments a call of itself.
+  if (plain && (find_unit(name.text) == unit_ || !variable(name))) {
+    const Expression value = typed(call);
+    expect(";", "ends a call");
+    // For what it does: what it gives, nobody wants.
+    if (value.unknown() || value.constant) return -1;
+    return add_node(Op::evaluate, Basic::unknown, name.place, value_node(value));
+  }
+  Expression instance = typed(callee);
+  instance.place = name.place;
+  if (instance.unknown()) {
+    for (const Argument& argument : arguments(call)) typed(*argument.tree);
+    expect(";", "ends a call");
+    return -1;
+  }
+  if (instance.type->basic != Basic::block)
+    give_up(name.place,
+            fmt::format("{} is {} and cannot be called", quoted(instance.name), instance.type->name),
+            "a function block is called by its instance");
+  const int node = block_call(instance, call);
+  expect(";", "ends a call");
+  return node;
 }
 
 int Compiler::assign(const Expression& target, const Expression& value) {
@@ -134,26 +143,35 @@ int Compiler::assign(const Expression& target, const Expression& value) {
   const Type& type = *target.type;
   if ((type.basic == Basic::axis && target.place.line > 0 &&
        find_member(*globals_, target.name) != nullptr) ||
-      type.basic == Basic::block) {
+      type.holds_block) {
     complain(target.place, fmt::format("{} is {} and is not assigned", quoted(target.name), type.name),
-             type.basic == Basic::axis ? "connect it in a call" : "assign its inputs");
+             type.basic == Basic::axis    ? "connect it in a call"
+             : type.basic == Basic::block ? "assign its inputs"
+                                          : "it holds function blocks: assign its other members");
     return -1;
   }
   const Expression source = converted(value, type);
   if (source.unknown() || target.node < 0) return -1;
+  return store(target, value_node(source));
+}
+
+int Compiler::store(const Expression& target, int value) {
+  const Type& type = *target.type;
+  if (target.bits)
+    return add_node(Op::store_bits, target.bits->of->basic, target.place, target.node, value,
+                    target.bits->width, target.bits->shift);
   if (is_elementary(type.basic) || type.basic == Basic::axis) {
-    const int node = value_node(source);
     const Node address = code_->nodes[static_cast<std::size_t>(target.node)];
     if (address.op == Op::address)
-      return add_node(Op::store, type.basic, target.place, node, -1, -1, address.imm);
+      return add_node(Op::store, type.basic, target.place, value, -1, -1, address.imm);
     if (address.op == Op::address_own)
-      return add_node(Op::store_own, type.basic, target.place, node, -1, -1, address.imm);
-    return add_node(Op::store_at, type.basic, target.place, target.node, node);
+      return add_node(Op::store_own, type.basic, target.place, value, -1, -1, address.imm);
+    return add_node(Op::store_at, type.basic, target.place, target.node, value);
   }
   if (type.basic == Basic::string)
-    return add_node(Op::copy_string, type.basic, target.place, target.node, source.node, -1,
+    return add_node(Op::copy_string, type.basic, target.place, target.node, value, -1,
                     static_cast<std::int64_t>(type.length));
-  return add_node(Op::copy, type.basic, target.place, target.node, source.node, -1, type.cells);
+  return add_node(Op::copy, type.basic, target.place, target.node, value, -1, type.cells);
 }
 
 int Compiler::condition(std::string_view closing) {
@@ -213,33 +231,41 @@ int Compiler::if_statement() {
                   otherwise);
 }
 
-void Compiler::case_labels(const Type& selector, std::vector<std::pair<Range, Place>>& labels) {
-  const auto label = [&]() -> std::int64_t {
-    const Place place = peek().place;
-    const Expression value = expression();
-    if (value.unknown()) throw GiveUp{};
-    if (!value.constant || !is_whole(value.type->basic))
-      give_up(place, "a label of a CASE that is not constant",
-              "whole numbers, constants and values of an enumeration");
-    const std::size_t before = problems_.size();
-    const Expression same = converted(value, selector);
-    if (problems_.size() != before) throw GiveUp{};
-    return same.value;
-  };
+std::int64_t Compiler::case_label(const Type& selector) {
+  const Place place = peek().place;
+  const Expression value = expression(&selector);
+  if (value.unknown()) throw GiveUp{};
+  if (!value.constant || !is_whole(value.type->basic))
+    give_up(place, "a label of a CASE that is not constant",
+            "whole numbers, constants and values of an enumeration");
+  const std::size_t before = problems_.size();
+  const Expression same = converted(value, selector);
+  if (problems_.size() != before) throw GiveUp{};
+  return same.value;
+}
+
+std::vector<Range> Compiler::case_labels(const Type& selector, Labels& labels) {
+  std::vector<Range> ranges;
   do {
     const Place place = peek().place;
     Range range;
-    range.low = range.high = label();
-    if (accept("..")) range.high = label();
+    range.low = range.high = case_label(selector);
+    if (accept("..")) range.high = case_label(selector);
     if (range.high < range.low)
       give_up(place, fmt::format("{}..{} is empty", range.low, range.high), "the lower one stands first");
-    for (const auto& [other, at] : labels)
-      if (range.low <= other.high && other.low <= range.high)
-        give_up(place, fmt::format("the label {} is there already", std::max(range.low, other.low)),
-                fmt::format("the first one is in line {}", at.line));
-    labels.emplace_back(range, place);
+    // Those before do not overlap: only the last that begins below its end can.
+    const auto next = labels.upper_bound(range.high);
+    if (next != labels.begin()) {
+      const auto& [low, other] = *std::prev(next);
+      if (other.first >= range.low)
+        give_up(place, fmt::format("the label {} is there already", std::max(range.low, low)),
+                fmt::format("the first one is in line {}", other.second.line));
+    }
+    labels.emplace(range.low, std::pair{range.high, place});
+    ranges.push_back(range);
   } while (accept(","));
   expect(":", "ends the labels");
+  return ranges;
 }
 
 int Compiler::case_statement() {
@@ -252,7 +278,7 @@ int Compiler::case_statement() {
       complain(value.place, fmt::format("CASE chooses by {}", value.type->name),
                "by a whole number or an enumeration");
     else if (!value.unknown())
-      type = value.untyped ? type_of(Basic::lint) : value.type;
+      type = value.untyped ? type_of(Basic::lint) : base_of(value.type);
     if (!value.unknown()) selector = value_node(value);
     expect_word("OF", fmt::format("stands behind the selector of the CASE of line {}", opened.place.line));
   } catch (const GiveUp&) {
@@ -261,7 +287,7 @@ int Compiler::case_statement() {
       ++at_;
     accept_word("OF");
   }
-  std::vector<std::pair<Range, Place>> labels;
+  Labels labels;
   std::vector<Choice> choices;
   int otherwise = -1;
   while (at_ < stop_ && !peek().word("END_CASE")) {
@@ -271,9 +297,9 @@ int Compiler::case_statement() {
       break;
     }
     if (peek().kind == Token::Kind::name && closes_block(peek().text)) break;
-    const std::size_t before = labels.size();
+    std::vector<Range> ranges;
     try {
-      case_labels(*type, labels);
+      ranges = case_labels(*type, labels);
     } catch (const GiveUp&) {
       while (at_ < stop_ && !peek().is(":") && !peek().is(";") &&
              !(peek().kind == Token::Kind::name && closes_block(peek().text)))
@@ -281,7 +307,7 @@ int Compiler::case_statement() {
       if (!accept(":")) accept(";");
     }
     const int body = statements_until([&] { return at_label(); });
-    for (std::size_t i = before; i < labels.size(); ++i) choices.push_back({labels[i].first, body});
+    for (const Range& range : ranges) choices.push_back({range, body});
   }
   close(opened, "END_CASE");
   const int first = static_cast<int>(code_->choices.size());

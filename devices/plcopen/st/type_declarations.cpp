@@ -9,9 +9,6 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-/// 8 MB of variables, far above what such controllers have.
-constexpr std::int64_t most_cells = 1'000'000;
-
 const Type* type_of_pin(const Pin& pin, const PinValue& value, const Type* cam_ref) {
   if (std::holds_alternative<CamRef*>(value)) return cam_ref;
   if (std::holds_alternative<AxisRef*>(value)) return type_of(Basic::axis);
@@ -29,6 +26,7 @@ Type& Compiler::new_type(Basic basic, std::string name) {
   type.basic = basic;
   type.name = std::move(name);
   type.initial.assign(1, 0);
+  type.holds_block = basic == Basic::block;
   return type;
 }
 
@@ -36,12 +34,30 @@ void Compiler::append(Type& owner, Variable variable, std::span<const Cell> init
   variable.offset = owner.cells;
   owner.cells += static_cast<int>(initial.size());
   owner.initial.insert(owner.initial.end(), initial.begin(), initial.end());
+  owner.depth = std::max(owner.depth, variable.type->depth + 1);
+  if (owner.basic == Basic::structure) {
+    owner.holds_block = owner.holds_block || variable.type->holds_block;
+    owner.holds_axis = owner.holds_axis || variable.type->holds_axis;
+  }
+  owner.index.emplace(lower(variable.name), owner.members.size());
   owner.members.push_back(std::move(variable));
+}
+
+void Compiler::check_size(Place place, int cells, int depth) {
+  // 128 MB of initial values, and no more recursion over a type than this.
+  constexpr std::int64_t most_in_all = 16'000'000;
+  constexpr int deepest = 60;
+  type_cells_ += cells;
+  if (type_cells_ > most_in_all)
+    give_up(place, "the types and variables take too much memory", "128 MB at most, all types together");
+  if (depth > deepest)
+    give_up(place, "the types are nested too deeply", fmt::format("{} within each other at most", deepest));
 }
 
 void Compiler::declare_type(Unit& unit) {
   try {
-    if (accept_word("STRUCT")) {
+    if (peek().word("STRUCT")) {
+      take();
       Type& type = new_type(Basic::structure, std::string(unit.name.text));
       type.cells = 0;
       type.initial.clear();
@@ -75,25 +91,26 @@ void Compiler::declare_structure(Type& type) {
     }
   }
   expect_word("END_STRUCT", "a STRUCT ends with END_STRUCT");
+  fill_empty(type);
 }
 
 void Compiler::declare_enumeration(Type& type) {
   expect("(", "begins an enumeration");
   std::int64_t next = 0;
+  std::set<std::string> names;
   do {
     const Token name = expect_name("the name of a value");
-    const auto twice = std::any_of(type.values.begin(), type.values.end(),
-                                   [&](const EnumValue& v) { return same_word(v.name, name.text); });
-    if (twice)
+    if (!names.insert(lower(name.text)).second)
       complain(name.place, quoted(name.text) + " is in the enumeration twice", "name each value once");
     if (accept(":=")) next = constant_expression(*type_of(Basic::int_)).value;
     if (next > range_of(Basic::int_).high)
       give_up(name.place, quoted(name.text) + " is above 32767", "an enumeration is kept as an INT");
+    enum_values_.emplace(lower(name.text), std::pair{&type, next});
     type.values.push_back({std::string(name.text), next++});
   } while (accept(","));
   expect(")", "ends an enumeration");
   type.initial.assign(1, type.values.front().value);
-  enumerations_.emplace_back(type.name, &type);
+  enumerations_.emplace(lower(type.name), &type);
 }
 
 const Type* Compiler::parse_type() {
@@ -154,6 +171,9 @@ const Type* Compiler::array_type() {
     type.low = bounds->low;
     type.high = bounds->high;
     type.cells = static_cast<int>(count) * element->cells;
+    type.depth = element->depth + 1;
+    type.holds_block = element->holds_block;
+    check_size(bounds->place, type.cells, type.depth);
     type.initial.clear();
     for (std::int64_t i = 0; i < count; ++i)
       type.initial.insert(type.initial.end(), element->initial.begin(), element->initial.end());
@@ -182,10 +202,7 @@ const Type* Compiler::string_type() {
 const Type* Compiler::named_type() {
   const Token name = expect_name("a type");
   if (const Type* type = elementary_type(name.text)) {
-    if (peek().is("(")) {
-      give_up(peek().place, "a range of a type is not known here", "take the type as it is");
-    }
-    return type;
+    return peek().is("(") ? subrange(*type) : type;
   }
   if (Unit* unit = find_unit(name.text)) {
     const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block;
@@ -195,21 +212,46 @@ const Type* Compiler::named_type() {
     if (unit->state == Unit::State::open)
       give_up(name.place, quoted(name.text) + " contains itself",
               "a type is made of types that do not need it");
+    constexpr int deepest = 100;
+    if (open_units_ > deepest)
+      give_up(name.place, "the types are nested too deeply",
+              fmt::format("declare {} before what is made of it", quoted(name.text)));
     declare(*unit);
     return unit->type;
   }
   if (same_word(name.text, "MC_CAM_REF")) return cam_ref();
   if (const BlockType* block = find_block_type(name.text)) return motion_type(*block);
-  std::vector<std::string> known = elementary_names();
-  for (const BlockType& block : block_types()) known.emplace_back(block.name);
-  for (const auto& unit : units_)
-    if (unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block)
-      known.emplace_back(unit->name.text);
-  known.emplace_back("MC_CAM_REF");
-  const bool wide = same_word(name.text, "ULINT") || same_word(name.text, "LWORD");
+  const auto known = [&] {
+    std::vector<std::string> names = elementary_names();
+    for (const BlockType& block : block_types()) names.emplace_back(block.name);
+    for (const auto& unit : units_)
+      if (unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block)
+        names.emplace_back(unit->name.text);
+    names.emplace_back("MC_CAM_REF");
+    return names;
+  };
   give_up(name.place, fmt::format("there is no type {}", quoted(name.text)),
-          wide ? "UDINT or LINT is as wide as it gets"
-               : suggestion(name.text, known, "BOOL, INT, LREAL, TIME, MC_CamIn, TON ..."));
+          suggested(name.text, known, "BOOL, INT, LREAL, TIME, MC_CamIn, TON ..."));
+}
+
+/// INT (0..9): the values between, which begin at the lower one.
+const Type* Compiler::subrange(const Type& base) {
+  const Place place = peek().place;
+  if (!is_integer(base.basic))
+    give_up(place, fmt::format("a range of {}", base.name), "whole numbers have ranges: INT (0..9)");
+  take();
+  const std::int64_t low = literal_as(constant_value("a bound", &base), base).value;
+  expect("..", "stands between the bounds: INT (0..9)");
+  const std::int64_t high = literal_as(constant_value("a bound", &base), base).value;
+  expect(")", "closes the bounds");
+  if (high < low)
+    give_up(place, fmt::format("a range from {} to {} is empty", low, high), "the lower bound stands first");
+  Type& type = new_type(base.basic, fmt::format("{} ({}..{})", base.name, low, high));
+  type.subrange = true;
+  type.low = low;
+  type.high = high;
+  type.initial.assign(1, low);
+  return &type;
 }
 
 const Type* Compiler::cam_ref() {

@@ -14,24 +14,18 @@ struct Row {
   bool sign;
 };
 // In the order of Basic.
-constexpr std::array<Row, 17> rows{{
-    {Basic::unknown, "?", 64, true},
-    {Basic::boolean, "BOOL", 1, false},
-    {Basic::sint, "SINT", 8, true},
-    {Basic::int_, "INT", 16, true},
-    {Basic::dint, "DINT", 32, true},
-    {Basic::lint, "LINT", 64, true},
-    {Basic::usint, "USINT", 8, false},
-    {Basic::uint, "UINT", 16, false},
-    {Basic::udint, "UDINT", 32, false},
-    {Basic::byte, "BYTE", 8, false},
-    {Basic::word, "WORD", 16, false},
-    {Basic::dword, "DWORD", 32, false},
-    {Basic::real, "REAL", 32, true},
-    {Basic::lreal, "LREAL", 64, true},
-    {Basic::time, "TIME", 32, false},
-    {Basic::string, "STRING", 0, false},
-    {Basic::axis, "AXIS_REF", 32, true},
+constexpr std::array<Row, 22> rows{{
+    {Basic::unknown, "?", 64, true},     {Basic::boolean, "BOOL", 1, false},
+    {Basic::sint, "SINT", 8, true},      {Basic::int_, "INT", 16, true},
+    {Basic::dint, "DINT", 32, true},     {Basic::lint, "LINT", 64, true},
+    {Basic::usint, "USINT", 8, false},   {Basic::uint, "UINT", 16, false},
+    {Basic::udint, "UDINT", 32, false},  {Basic::ulint, "ULINT", 64, false},
+    {Basic::byte, "BYTE", 8, false},     {Basic::word, "WORD", 16, false},
+    {Basic::dword, "DWORD", 32, false},  {Basic::lword, "LWORD", 64, false},
+    {Basic::real, "REAL", 32, true},     {Basic::lreal, "LREAL", 64, true},
+    {Basic::time, "TIME", 32, false},    {Basic::tod, "TOD", 32, false},
+    {Basic::date, "DATE", 32, false},    {Basic::dt, "DT", 32, false},
+    {Basic::string, "STRING", 0, false}, {Basic::axis, "AXIS_REF", 32, true},
 }};
 
 std::vector<Type> make_elementary() {
@@ -44,6 +38,7 @@ std::vector<Type> make_elementary() {
       type.length = default_string_length;
       type.cells = string_cells(type.length);
     }
+    type.holds_axis = row.basic == Basic::axis;
     const Cell initial = row.basic == Basic::axis ? -1 : is_real(row.basic) ? cell_of(0) : 0;
     type.initial.assign(static_cast<std::size_t>(type.cells), initial);
     types.push_back(std::move(type));
@@ -63,11 +58,13 @@ const Row& row_of(Basic basic) {
 
 }  // namespace
 
-bool is_integer(Basic basic) { return basic >= Basic::sint && basic <= Basic::dword; }
+bool is_integer(Basic basic) { return basic >= Basic::sint && basic <= Basic::lword; }
+bool is_wide(Basic basic) { return basic == Basic::ulint || basic == Basic::lword; }
 bool is_real(Basic basic) { return basic == Basic::real || basic == Basic::lreal; }
 bool is_number(Basic basic) { return is_integer(basic) || is_real(basic); }
+bool is_clock(Basic basic) { return basic >= Basic::time && basic <= Basic::dt; }
 bool is_whole(Basic basic) {
-  return is_integer(basic) || basic == Basic::boolean || basic == Basic::time || basic == Basic::enumeration;
+  return is_integer(basic) || basic == Basic::boolean || is_clock(basic) || basic == Basic::enumeration;
 }
 bool is_elementary(Basic basic) { return is_whole(basic) || is_real(basic); }
 
@@ -75,12 +72,17 @@ int bits_of(Basic basic) { return row_of(basic).bits; }
 
 Range range_of(Basic basic) {
   const Row& row = row_of(basic);
+  if (is_wide(basic)) return {0, std::numeric_limits<std::int64_t>::max()};
   if (row.sign) {
     const std::int64_t high = std::numeric_limits<std::int64_t>::max() >> (64 - row.bits);
     return {-high - 1, high};
   }
   return {0, static_cast<std::int64_t>((std::uint64_t{1} << row.bits) - 1)};
 }
+
+Range range_of(const Type& type) { return type.subrange ? Range{type.low, type.high} : range_of(type.basic); }
+
+int per_second(Basic basic) { return basic == Basic::time || basic == Basic::tod ? 1000 : 1; }
 
 std::int64_t wrapped(Basic basic, std::int64_t value) {
   switch (basic) {
@@ -102,6 +104,9 @@ std::int64_t wrapped(Basic basic, std::int64_t value) {
     case Basic::udint:
     case Basic::dword:
     case Basic::time:
+    case Basic::tod:
+    case Basic::date:
+    case Basic::dt:
       return static_cast<std::uint32_t>(value);
     default:
       return value;
@@ -122,6 +127,7 @@ bool widens(Basic from, Basic to) {
   if (to == Basic::real) return bits_of(from) <= 16;
   if (to == Basic::lreal) return bits_of(from) <= 32;
   if (!is_integer(to)) return false;
+  if (is_wide(from)) return is_wide(to);
   return range_of(from).low >= range_of(to).low && range_of(from).high <= range_of(to).high;
 }
 
@@ -134,12 +140,28 @@ bool same_type(const Type& a, const Type& b) {
 }
 
 const Type* elementary_type(std::string_view name) {
+  if (same_word(name, "TIME_OF_DAY")) name = "TOD";
+  if (same_word(name, "DATE_AND_TIME")) name = "DT";
   for (const Type& type : elementary())
     if (same_word(type.name, name)) return &type;
   return nullptr;
 }
 
 const Type* type_of(Basic basic) { return &elementary().at(static_cast<std::size_t>(basic)); }
+
+const Type* base_of(const Type* type) { return type->subrange ? type_of(type->basic) : type; }
+
+const Type* longest_string() {
+  static const Type type = [] {
+    Type longest = *type_of(Basic::string);
+    longest.name = "STRING[255]";
+    longest.length = longest_string_length;
+    longest.cells = string_cells(longest.length);
+    longest.initial.assign(static_cast<std::size_t>(longest.cells), 0);
+    return longest;
+  }();
+  return &type;
+}
 
 int string_cells(std::size_t length) { return static_cast<int>(length / sizeof(Cell)) + 1; }
 
@@ -154,9 +176,8 @@ const std::vector<std::string>& elementary_names() {
 }
 
 const Variable* find_member(const Type& type, std::string_view name) {
-  const auto found = std::find_if(type.members.begin(), type.members.end(),
-                                  [&](const Variable& member) { return same_word(member.name, name); });
-  return found == type.members.end() ? nullptr : &*found;
+  const auto found = type.index.find(lower(name));
+  return found == type.index.end() ? nullptr : &type.members[found->second];
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "devices/plcopen/pins.hpp"
@@ -11,8 +12,9 @@
 
 namespace drycut::devices::plcopen::st {
 
-/// One place of the memory. BOOL, integers, TIME [ms] and enumerations are numbers, REAL and LREAL the bits
-/// of a double, AXIS_REF the axis' number; a STRING takes eight characters a cell.
+/// One place of the memory. BOOL, integers, times, dates and enumerations are numbers (ULINT and LWORD the
+/// bits of an unsigned one), REAL and LREAL the bits of a double, AXIS_REF the axis' number; a STRING takes
+/// eight characters a cell.
 using Cell = std::int64_t;
 inline double real_of(Cell cell) { return std::bit_cast<double>(cell); }
 inline Cell cell_of(double value) { return std::bit_cast<Cell>(value); }
@@ -27,12 +29,17 @@ enum class Basic : std::uint8_t {
   usint,
   uint,
   udint,
+  ulint,
   byte,
   word,
   dword,
+  lword,
   real,
   lreal,
   time,  ///< whole ms in 32 bit, wraps after 49 days, as on CODESYS and TwinCAT
+  tod,   ///< ms since midnight
+  date,  ///< s since 1970-01-01 in 32 bit, whole days
+  dt,    ///< s since 1970-01-01 in 32 bit
   string,
   axis,
   enumeration,
@@ -41,7 +48,8 @@ enum class Basic : std::uint8_t {
   block,
 };
 
-/// Smallest and largest value of a type of whole numbers, BOOL, TIME included.
+/// Smallest and largest value of a type of whole numbers, BOOL and times included; of ULINT and LWORD what is
+/// a LINT too.
 struct Range {
   std::int64_t low = 0;
   std::int64_t high = 0;
@@ -78,23 +86,34 @@ struct Type {
 
   std::size_t length = 0;  ///< of a STRING
   const Type* element = nullptr;
-  std::int64_t low = 0;  ///< bounds of an array
+  std::int64_t low = 0;  ///< bounds of an array, or of a subrange INT (0..9)
   std::int64_t high = 0;
+  bool subrange = false;
+  int depth = 1;             ///< of arrays and structures within each other
+  bool holds_block = false;  ///< it is a function block, or an array or structure with one in it
+  bool holds_axis = false;
   std::vector<EnumValue> values;
   std::vector<Variable> members;  ///< of a structure or function block
+  /// Of the members by their names in lower case, and by the second names of standard blocks' pins.
+  std::unordered_map<std::string, std::size_t> index;
   const BlockType* motion = nullptr;
   int pou = -1;           ///< number of a user's function block
   bool standard = false;  ///< TON and its like
   bool broken = false;    ///< a declaration was given up: what is missing has been told
 };
 
-bool is_integer(Basic basic);  ///< SINT..UDINT, BYTE..DWORD
+bool is_integer(Basic basic);  ///< SINT..ULINT, BYTE..LWORD
+bool is_wide(Basic basic);     ///< ULINT, LWORD
 bool is_real(Basic basic);
 bool is_number(Basic basic);
-bool is_whole(Basic basic);  ///< what is kept as a whole number: integers, BOOL, TIME, enumerations
+bool is_clock(Basic basic);  ///< TIME, TOD, DATE, DT
+bool is_whole(Basic basic);  ///< what is kept as a whole number: integers, BOOL, times, dates, enumerations
 bool is_elementary(Basic basic);
 /// Of a type that is_whole.
 Range range_of(Basic basic);
+Range range_of(const Type& type);
+/// Units of a type that is_clock in one second.
+int per_second(Basic basic);
 int bits_of(Basic basic);
 /// `value` in the width of the type, as a machine drops the bits above.
 std::int64_t wrapped(Basic basic, std::int64_t value);
@@ -107,9 +126,14 @@ bool same_type(const Type& a, const Type& b);
 /// BOOL..STRING and AXIS_REF by name, any case; nullptr if there is none.
 const Type* elementary_type(std::string_view name);
 const Type* type_of(Basic basic);
+/// What values of the type are computed in: INT of INT (0..9).
+const Type* base_of(const Type* type);
+/// What string functions give.
+const Type* longest_string();
 /// Of a STRING of so many characters.
 int string_cells(std::size_t length);
 inline constexpr std::size_t default_string_length = 80;
+inline constexpr std::size_t longest_string_length = 255;
 const std::vector<std::string>& elementary_names();
 /// The member called `name`, any case; nullptr if there is none.
 const Variable* find_member(const Type& type, std::string_view name);

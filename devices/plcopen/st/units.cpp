@@ -23,16 +23,24 @@ std::shared_ptr<const Compiled> Compiler::run() {
   globals_ = &new_type(Basic::block, "VAR_GLOBAL");
   globals_->cells = 0;
   globals_->initial.clear();
+  outside_.kind = Unit::Kind::globals;
+  outside_.type = globals_;
   find_units(false);
   find_units(true);
+  // Types may have constants as bounds.
+  for (const auto& unit : units_)
+    if (unit->kind == Unit::Kind::globals && tokens_[unit->first + 1].word("CONSTANT")) declare(*unit);
   for (const Unit::Kind kind : {Unit::Kind::type, Unit::Kind::globals, Unit::Kind::function_block,
                                 Unit::Kind::function, Unit::Kind::program})
     for (const auto& unit : units_)
       if (unit->kind == kind && !unit->standard) declare(*unit);
   check_programs();
+  read_configuration();
   place_memory();
   for (const auto& unit : units_)
     if (unit->pou >= 0 && unit->state == Unit::State::done) compile_body(*unit);
+  connect_instances();
+  unit_ = nullptr;
   check_calls();
   finish();
   sort_from(problems_, first_problem_);
@@ -48,6 +56,10 @@ void Compiler::find_units(bool standard) {
     unit.standard = standard;
     if (opening.word("TYPE")) {
       find_types();
+      continue;
+    }
+    if (opening.word("CONFIGURATION")) {
+      find_configuration();
       continue;
     }
     const std::size_t first = at_;
@@ -157,18 +169,19 @@ void Compiler::add_unit(Unit unit) {
     }
   }
   units_.push_back(std::make_unique<Unit>(std::move(unit)));
+  if (units_.back()->kind != Unit::Kind::globals)
+    unit_index_.emplace(lower(units_.back()->name.text), units_.back().get());
 }
 
-Unit* Compiler::find_unit(std::string_view name) {
-  const auto found = std::find_if(units_.begin(), units_.end(), [&](const auto& unit) {
-    return unit->kind != Unit::Kind::globals && same_word(unit->name.text, name);
-  });
-  return found == units_.end() ? nullptr : found->get();
+Unit* Compiler::find_unit(std::string_view name) const {
+  const auto found = unit_index_.find(lower(name));
+  return found == unit_index_.end() ? nullptr : found->second;
 }
 
 void Compiler::declare(Unit& unit) {
   if (unit.state != Unit::State::untouched) return;
   const auto saved = std::tuple(at_, stop_, unit_);
+  ++open_units_;
   unit.state = Unit::State::open;
   at_ = unit.first;
   stop_ = unit.end;
@@ -178,44 +191,77 @@ void Compiler::declare(Unit& unit) {
   else
     declare_pou(unit);
   unit.state = Unit::State::done;
+  --open_units_;
   std::tie(at_, stop_, unit_) = saved;
 }
 
 void Compiler::check_programs() {
-  const Unit* program = nullptr;
-  for (const auto& unit : units_) {
-    if (unit->kind != Unit::Kind::program) continue;
-    if (program != nullptr)
-      complain(unit->name.place, "a second PROGRAM, " + quoted(unit->name.text),
-               fmt::format("one PROGRAM a file: the other is {}; make this one a FUNCTION_BLOCK",
-                           quoted(program->name.text)));
-    else
-      program = unit.get();
-  }
-  if (program != nullptr) {
-    code_->program = program->pou;
-    return;
-  }
+  const auto is_program = [](const auto& unit) { return unit->kind == Unit::Kind::program; };
   // A PROGRAM that is there but could not be read has been told.
-  if (problems_.size() == first_problem_)
+  if (std::none_of(units_.begin(), units_.end(), is_program) && problems_.size() == first_problem_)
     complain({1, 1}, "the file has no PROGRAM", "PROGRAM name ... END_PROGRAM is what the controller runs");
 }
 
+/// No call leads back to where it came from, and none goes deeper than the machine.
 void Compiler::check_calls() {
-  for (const auto& unit : units_) {
-    std::set<int> seen;
-    if (unit->pou < 0 || !calls_itself(unit->pou, seen, unit->pou)) continue;
-    complain(unit->name.place, quoted(unit->name.text) + " calls itself",
-             "IEC 61131-3 has no recursion: use a loop");
+  std::vector<Unit*> of_pou(code_->pous.size(), nullptr);
+  for (const auto& unit : units_)
+    if (unit->pou >= 0) of_pou[static_cast<std::size_t>(unit->pou)] = unit.get();
+  struct Step {
+    Unit* unit;
+    std::set<int>::const_iterator next;
+  };
+  enum class Seen : std::uint8_t { no, open, done };
+  std::vector<Seen> seen(of_pou.size(), Seen::no);
+  for (Unit* const first : of_pou) {
+    if (first == nullptr || seen[static_cast<std::size_t>(first->pou)] != Seen::no) continue;
+    std::vector<Step> way{{first, first->calls.begin()}};
+    seen[static_cast<std::size_t>(first->pou)] = Seen::open;
+    while (!way.empty()) {
+      Step& step = way.back();
+      if (step.next == step.unit->calls.end()) {
+        seen[static_cast<std::size_t>(step.unit->pou)] = Seen::done;
+        Unit* const called = step.unit;
+        way.pop_back();
+        called->levels += called->levels_below;
+        if (!way.empty())
+          way.back().unit->levels_below = std::max(way.back().unit->levels_below, called->levels);
+        continue;
+      }
+      Unit* const called = of_pou[static_cast<std::size_t>(*step.next++)];
+      if (called == nullptr) continue;
+      Seen& state = seen[static_cast<std::size_t>(called->pou)];
+      if (state == Seen::done) {
+        step.unit->levels_below = std::max(step.unit->levels_below, called->levels);
+      } else if (state == Seen::no) {
+        state = Seen::open;
+        way.push_back({called, called->calls.begin()});
+      } else {
+        tell_recursion(*called, *step.unit);
+      }
+    }
   }
+  check_depth();
 }
 
-bool Compiler::calls_itself(int pou, std::set<int>& seen, int wanted) const {
-  const auto unit = std::find_if(units_.begin(), units_.end(), [&](const auto& u) { return u->pou == pou; });
-  if (unit == units_.end()) return false;
-  return std::any_of((*unit)->calls.begin(), (*unit)->calls.end(), [&](int called) {
-    return called == wanted || (seen.insert(called).second && calls_itself(called, seen, wanted));
-  });
+void Compiler::tell_recursion(const Unit& called, const Unit& caller) {
+  complain(called.name.place, quoted(called.name.text) + " calls itself",
+           &called == &caller ? "IEC 61131-3 has no recursion: use a loop"
+                              : fmt::format("IEC 61131-3 has no recursion, here by {}: use a loop",
+                                            quoted(caller.name.text)));
+}
+
+/// The machine calls itself for each call, statement and operation within another.
+void Compiler::check_depth() {
+  constexpr int most_levels = 4000;
+  for (const auto& unit : units_) {
+    // The first that is too deep is told, not all that call it.
+    if (unit->levels <= most_levels || unit->levels_below > most_levels) continue;
+    complain(unit->name.place,
+             fmt::format("the calls, statements and operations of {} go {} levels deep",
+                         quoted(unit->name.text), unit->levels),
+             fmt::format("{} at most: let it call less that calls more", most_levels));
+  }
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -10,6 +10,15 @@
 
 // Nodes, constants and conversions.
 namespace drycut::devices::plcopen::st {
+namespace {
+
+/// Calls of the machine within each other for one statement in another.
+constexpr int levels_of_a_statement = 3;
+
+/// What a node's value is itself; of other types it is the address.
+bool is_scalar(Basic basic) { return is_elementary(basic) || basic == Basic::axis; }
+
+}  // namespace
 
 int Compiler::add_node(Op op, Basic basic, Place place, int a, int b, int c, std::int64_t imm) {
   code_->nodes.push_back({op, basic, place.line, place.column, a, b, c, imm});
@@ -22,7 +31,7 @@ int Compiler::add_list(const std::vector<int>& items) {
   return first;
 }
 
-Expression Compiler::constant(const Type* type, Cell value, Place place, bool untyped) const {
+Expression Compiler::constant(const Type* type, Cell value, Place place, bool untyped) {
   Expression result;
   result.type = type;
   result.place = place;
@@ -33,16 +42,36 @@ Expression Compiler::constant(const Type* type, Cell value, Place place, bool un
 }
 
 int Compiler::value_node(const Expression& expression) {
+  if (unit_ != nullptr)
+    unit_->levels = std::max(unit_->levels, expression.depth + levels_of_a_statement * nesting_);
+  if (expression.bits) return bits_node(expression);
   const Basic basic = expression.type->basic;
   if (expression.constant)
     return add_node(Op::constant, basic, expression.place, -1, -1, -1, expression.value);
-  if (!expression.address || basic == Basic::string) return expression.node;
+  if (!expression.address || !is_scalar(basic)) return expression.node;
   if (expression.node < 0) return -1;
   const Node address = code_->nodes[static_cast<std::size_t>(expression.node)];
   if (address.op == Op::address) return add_node(Op::load, basic, expression.place, -1, -1, -1, address.imm);
   if (address.op == Op::address_own)
     return add_node(Op::load_own, basic, expression.place, -1, -1, -1, address.imm);
   return add_node(Op::load_at, basic, expression.place, expression.node);
+}
+
+int Compiler::bits_node(const Expression& expression) {
+  Expression whole = expression;
+  whole.type = base_of(expression.bits->of);
+  whole.bits.reset();
+  const Expression places = constant(type_of(Basic::int_), expression.bits->shift, expression.place);
+  const Expression moved = apply_op(Op::shift_right, whole.type, expression.place, whole, places);
+  return value_node(apply_op(Op::wrap, expression.type, expression.place, moved));
+}
+
+Expression Compiler::as_value(Expression expression) {
+  expression.node = value_node(expression);
+  expression.type = base_of(expression.type);
+  expression.bits.reset();
+  expression.address = false;
+  return expression;
 }
 
 int Compiler::address_plus(int node, std::int64_t offset) {
@@ -62,23 +91,33 @@ int Compiler::literal_string(const std::string& text) {
   return entry->second;
 }
 
-int Compiler::scratch() {
-  pool_.push_back(0);
-  return static_cast<int>(pool_.size()) - 1;
+int Compiler::scratch(int cells) {
+  const std::size_t first = pool_.size();
+  pool_.resize(first + static_cast<std::size_t>(cells), 0);
+  return static_cast<int>(first);
 }
 
 Expression Compiler::literal_as(Expression literal, const Type& to) {
   const Basic basic = to.basic;
   const bool real = is_real(literal.type->basic);
+  const bool wide = is_wide(literal.type->basic);
+  const auto unsigned_value = static_cast<std::uint64_t>(literal.value);
   if (is_real(basic)) {
-    const double value = real ? real_of(literal.value) : static_cast<double>(literal.value);
+    const double value = real   ? real_of(literal.value)
+                         : wide ? static_cast<double>(unsigned_value)
+                                : static_cast<double>(literal.value);
     const double kept = rounded(basic, value);
     if (!std::isfinite(kept) && std::isfinite(value))
       complain(literal.place, fmt::format("the constant {} is out of the range of REAL", value),
                "a REAL goes to 3.4e38, an LREAL to 1.8e308");
     literal.value = cell_of(kept);
+  } else if (!real && wide && is_integer(basic)) {
+    if (!is_wide(basic))
+      complain(literal.place,
+               fmt::format("the constant {} is out of the range of {}", unsigned_value, to.name),
+               fmt::format("{} to {}", range_of(to).low, range_of(to).high));
   } else if (!real && (is_integer(basic) || basic == Basic::boolean)) {
-    const Range range = range_of(basic);
+    const Range range = range_of(to);
     if (literal.value < range.low || literal.value > range.high)
       complain(literal.place,
                fmt::format("the constant {} is out of the range of {}", literal.value, to.name),
@@ -88,6 +127,9 @@ Expression Compiler::literal_as(Expression literal, const Type& to) {
              fmt::format("LREAL_TO_{} rounds, TRUNC cuts off", to.name));
   } else {
     const char* remedy = basic == Basic::time          ? "a TIME is written T#500ms"
+                         : basic == Basic::tod         ? "a TOD is written TOD#06:30:00"
+                         : basic == Basic::date        ? "a DATE is written D#2024-02-29"
+                         : basic == Basic::dt          ? "a DT is written DT#2024-02-29-06:30:00"
                          : basic == Basic::enumeration ? "name one of its values"
                          : basic == Basic::boolean     ? "TRUE or FALSE"
                          : basic == Basic::string      ? "a text stands between single quotes"
@@ -103,11 +145,13 @@ Expression Compiler::literal_as(Expression literal, const Type& to) {
 
 Expression Compiler::converted(Expression expression, const Type& to) {
   const Type& from = *expression.type;
-  if (expression.unknown() || to.basic == Basic::unknown || same_type(from, to)) {
+  if (expression.unknown() || to.basic == Basic::unknown || (same_type(from, to) && !to.subrange)) {
     expression.untyped = false;
     return expression;
   }
-  if (expression.untyped) return literal_as(std::move(expression), to);
+  if (expression.untyped || (expression.constant && to.subrange && from.basic == to.basic))
+    return literal_as(std::move(expression), to);
+  if (to.subrange) return in_subrange(converted(std::move(expression), *base_of(&to)), to);
   // A text that is too long is cut off, as on the machine; a literal is refused.
   if (from.basic == Basic::string && to.basic == Basic::string) {
     if (expression.string && expression.string->size() > to.length)
@@ -118,28 +162,50 @@ Expression Compiler::converted(Expression expression, const Type& to) {
   }
   if (widens(from.basic, to.basic) && to.basic != Basic::enumeration)
     return cast(expression, to.basic, expression.place);
-  const bool casts = is_elementary(from.basic) && is_elementary(to.basic) && to.basic != Basic::enumeration;
-  const std::string from_name = from.basic == Basic::enumeration ? "INT" : from.name;
+  const auto convertible = [](const Type& type) {
+    return is_elementary(type.basic) || type.basic == Basic::string;
+  };
+  const bool casts = convertible(from) && convertible(to) && to.basic != Basic::enumeration;
+  const std::string from_name =
+      !casts || from.basic == Basic::enumeration ? "INT" : type_of(from.basic)->name;
   const std::string what = expression.name.empty()
                                ? fmt::format("a value of type {} does not", from.name)
                                : fmt::format("{} is {}, which does not", quoted(expression.name), from.name);
   complain(expression.place, fmt::format("{} go into {} by itself", what, to.name),
-           casts ? fmt::format("{}_TO_{}(...) converts", from_name, to.name)
+           casts ? fmt::format("{}_TO_{}(...) converts", from_name, type_of(to.basic)->name)
                  : fmt::format("a value of type {} is wanted", to.name));
   Expression unknown = constant(type_of(Basic::unknown), 0, expression.place);
   unknown.constant = false;
   return unknown;
 }
 
+/// A value of the base type, looked at when the program runs.
+Expression Compiler::in_subrange(const Expression& value, const Type& to) {
+  if (value.unknown()) return value;
+  if (value.constant) return literal_as(value, to);
+  code_->spans.push_back({to.low, to.high, 1});
+  Expression result{&to, value.place};
+  result.depth = value.depth + 1;
+  result.node = add_node(Op::in_range, to.basic, value.place, value_node(value), -1,
+                         static_cast<int>(code_->spans.size()) - 1);
+  return result;
+}
+
 Expression Compiler::cast(const Expression& expression, Basic to, Place place) {
   const Basic from = expression.type->basic;
   const Type* type = type_of(to);
   if (from == to) return expression;
+  if (from == Basic::dt && (to == Basic::tod || to == Basic::date)) {
+    const Expression seconds = apply_op(Op::seconds_of_day, type, place, expression);
+    return to == Basic::date
+               ? apply_op(Op::subtract, type, place, expression, seconds)
+               : apply_op(Op::multiply, type, place, seconds, constant(type_of(Basic::int_), 1000, place));
+  }
   Op op = Op::wrap;
   if (to == Basic::boolean) {
     op = is_real(from) ? Op::nonzero_real : Op::nonzero;
   } else if (is_real(to)) {
-    op = is_real(from) ? Op::round_real : Op::to_real;
+    op = is_real(from) ? Op::round_real : is_wide(from) ? Op::unsigned_to_real : Op::to_real;
   } else if (is_real(from)) {
     op = Op::to_whole;
   }
@@ -149,12 +215,9 @@ Expression Compiler::cast(const Expression& expression, Basic to, Place place) {
       (op == Op::wrap && range_of(from).low >= range_of(to).low && range_of(from).high <= range_of(to).high);
   if (!same) return apply_op(op, type, place, expression);
   Expression result = expression;
+  if (!result.constant) result = as_value(std::move(result));
   result.type = type;
   result.untyped = false;
-  if (!result.constant) {
-    result.node = value_node(expression);
-    result.address = false;
-  }
   return result;
 }
 
@@ -170,6 +233,7 @@ Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expres
                               const Expression& b) {
   constexpr int deepest = 400;
   if (a.unknown() || b.unknown()) return {type_of(Basic::unknown), place};
+  type = base_of(type);
   if (a.constant && b.constant && is_pure(op)) {
     Expression result = folded(op, type, place, a.value, b.value, a.untyped && b.untyped);
     if (type->basic == Basic::boolean) result.untyped = false;
@@ -185,6 +249,7 @@ Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expres
 
 Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expression& a) {
   if (a.unknown()) return {type_of(Basic::unknown), place};
+  type = base_of(type);
   if (a.constant) return folded(op, type, place, a.value, 0, a.untyped && op != Op::round_real);
   Expression result{type, place};
   result.depth = a.depth + 1;

@@ -1,0 +1,137 @@
+#include "devices/plcopen/st/texts.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace drycut::devices::plcopen::st {
+namespace {
+
+/// A number of characters, or a place, as one that the text has.
+std::size_t within(Cell number, std::size_t most) {
+  return static_cast<std::size_t>(std::clamp<Cell>(number, 0, static_cast<Cell>(most)));
+}
+
+std::string time_text(Cell ms) {
+  struct Unit {
+    const char* name;
+    Cell ms;
+  };
+  constexpr std::array<Unit, 5> units{
+      {{"d", 86'400'000}, {"h", 3'600'000}, {"m", 60'000}, {"s", 1000}, {"ms", 1}}};
+  std::string text = "T#";
+  for (const Unit& unit : units) {
+    if (ms >= unit.ms) text += fmt::format("{}{}", ms / unit.ms, unit.name);
+    ms %= unit.ms;
+  }
+  return text.size() > 2 ? text : "T#0ms";
+}
+
+std::string date_text(Cell seconds) {
+  const std::chrono::sys_days day{std::chrono::days(seconds / 86400)};
+  const std::chrono::year_month_day date(day);
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()));
+}
+
+std::string clock_text(Cell seconds) {
+  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
+}
+
+Cell time_value(Basic basic, std::string_view text) {
+  Problems problems;
+  const std::vector<Token> tokens = tokens_of(text, "", problems);
+  const Token::Kind kind = basic == Basic::time   ? Token::Kind::time
+                           : basic == Basic::tod  ? Token::Kind::tod
+                           : basic == Basic::date ? Token::Kind::date
+                                                  : Token::Kind::dt;
+  return tokens[0].kind == kind ? tokens[0].number : 0;
+}
+
+}  // namespace
+
+std::string edited(TextOp op, std::span<const std::string_view> texts, std::span<const Cell> numbers) {
+  const std::string_view text = texts[0];
+  const std::size_t size = text.size();
+  const std::size_t length = op == TextOp::concat || op == TextOp::insert ? 0 : within(numbers[0], size);
+  switch (op) {
+    case TextOp::left:
+      return std::string(text.substr(0, length));
+    case TextOp::right:
+      return std::string(text.substr(size - length));
+    case TextOp::mid: {
+      const std::size_t begin = within(numbers[1] - 1, size);
+      return std::string(text.substr(begin, length));
+    }
+    case TextOp::insert: {
+      const std::size_t behind = within(numbers[0], size);
+      return std::string(text.substr(0, behind)) + std::string(texts[1]) + std::string(text.substr(behind));
+    }
+    case TextOp::erase:
+    case TextOp::replace: {
+      const std::size_t begin = within(numbers[1] - 1, size);
+      const std::string_view put = op == TextOp::replace ? texts[1] : std::string_view();
+      return std::string(text.substr(0, begin)) + std::string(put) +
+             std::string(text.substr(begin + std::min(length, size - begin)));
+    }
+    default: {
+      std::string all;
+      for (const std::string_view part : texts) all += part;
+      return all;
+    }
+  }
+}
+
+Cell found(std::string_view text, std::string_view wanted) {
+  const std::size_t at = wanted.empty() ? std::string_view::npos : text.find(wanted);
+  return at == std::string_view::npos ? 0 : static_cast<Cell>(at) + 1;
+}
+
+std::string text_of(Basic basic, Cell value) {
+  switch (basic) {
+    case Basic::boolean:
+      return value != 0 ? "TRUE" : "FALSE";
+    case Basic::real:
+      return fmt::format("{}", static_cast<float>(real_of(value)));
+    case Basic::lreal:
+      return fmt::format("{}", real_of(value));
+    case Basic::ulint:
+    case Basic::lword:
+      return fmt::format("{}", static_cast<std::uint64_t>(value));
+    case Basic::time:
+      return time_text(value);
+    case Basic::tod:
+      return fmt::format("TOD#{}.{:03}", clock_text(value / 1000), value % 1000);
+    case Basic::date:
+      return "D#" + date_text(value);
+    case Basic::dt:
+      return fmt::format("DT#{}-{}", date_text(value), clock_text(value));
+    default:
+      return fmt::format("{}", value);
+  }
+}
+
+Cell value_of(Basic basic, std::string_view text) {
+  if (is_clock(basic)) return time_value(basic, text);
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  if (text.starts_with('+')) text.remove_prefix(1);
+  if (basic == Basic::boolean) return same_word(text, "TRUE") || text == "1" ? 1 : 0;
+  const char* const end = text.data() + text.size();
+  if (is_real(basic)) {
+    double number = 0;
+    const auto result = std::from_chars(text.data(), end, number);
+    return cell_of(result.ec == std::errc{} ? rounded(basic, number) : 0);
+  }
+  if (is_wide(basic)) {
+    std::uint64_t number = 0;
+    std::from_chars(text.data(), end, number);
+    return static_cast<Cell>(number);
+  }
+  std::int64_t number = 0;
+  std::from_chars(text.data(), end, number);
+  return wrapped(basic, number);
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/keywords.hpp"
+
+// From tokens to the tree of an expression. Operators by their precedence (IEC 61131-3, as CODESYS reads it):
+// parentheses and calls, **, - and NOT, * / MOD, + -, < > <= >=, = <>, AND, XOR, OR.
+namespace drycut::devices::plcopen::st {
+namespace {
+
+using Signs = std::array<std::string_view, 4>;
+// From the weakest on; "" fills up.
+constexpr std::array<Signs, 7> levels{{{"OR", "OR_ELSE", "", ""},
+                                       {"XOR", "", "", ""},
+                                       {"AND", "&", "AND_THEN", ""},
+                                       {"=", "<>", "", ""},
+                                       {"<", ">", "<=", ">="},
+                                       {"+", "-", "", ""},
+                                       {"*", "/", "MOD", ""}}};
+
+bool belongs(const Token& token, const Signs& signs) {
+  if (token.kind != Token::Kind::name && token.kind != Token::Kind::sign) return false;
+  return std::any_of(signs.begin(), signs.end(),
+                     [&](std::string_view sign) { return !sign.empty() && same_word(sign, token.text); });
+}
+
+/// Counts how deep the reader is in parentheses.
+class Depth {
+ public:
+  explicit Depth(int& count) : count_(count) { ++count_; }
+  ~Depth() { --count_; }
+  Depth(const Depth&) = delete;
+  Depth& operator=(const Depth&) = delete;
+
+ private:
+  int& count_;
+};
+constexpr int deepest = 60;
+
+Tree leaf(Tree::Kind kind, const Token& token) {
+  Tree tree;
+  tree.kind = kind;
+  tree.token = &token;
+  return tree;
+}
+
+Tree over(Tree::Kind kind, const Token& token, Tree part) {
+  Tree tree = leaf(kind, token);
+  tree.parts.push_back(std::move(part));
+  return tree;
+}
+
+/// AND(a, b): an operator as a function.
+bool is_operator_function(const Token& token) {
+  constexpr std::array<std::string_view, 4> words{"AND", "OR", "XOR", "MOD"};
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return token.word(word); });
+}
+
+}  // namespace
+
+Tree Compiler::tree() {
+  const Depth depth(nesting_);
+  if (nesting_ > deepest)
+    give_up(peek().place, "the expression is nested too deeply", "split it up by a variable");
+  return tree(0);
+}
+
+Tree Compiler::tree(int level) {
+  if (level == static_cast<int>(levels.size())) return unary_tree();
+  Tree first = tree(level + 1);
+  const Signs& signs = levels.at(static_cast<std::size_t>(level));
+  if (at_ >= stop_ || !belongs(peek(), signs)) return first;
+  Tree chain = over(Tree::Kind::chain, *first.token, std::move(first));
+  while (at_ < stop_ && belongs(peek(), signs)) {
+    chain.tokens.push_back(&take());
+    chain.parts.push_back(tree(level + 1));
+  }
+  return chain;
+}
+
+Tree Compiler::unary_tree() {
+  const Token& sign = peek();
+  // NOT(IN := a) is a call.
+  const bool call = sign.word("NOT") && peek(1).is("(") && peek(3).is(":=");
+  if (call || (!sign.is("-") && !sign.is("+") && !sign.word("NOT"))) return power_tree();
+  const Depth depth(nesting_);
+  if (nesting_ > deepest)
+    give_up(sign.place, "the expression is nested too deeply", "split it up by a variable");
+  take();
+  return over(Tree::Kind::sign, sign, unary_tree());
+}
+
+Tree Compiler::power_tree() {
+  Tree base = primary_tree();
+  if (at_ >= stop_ || !peek().is("**")) return base;
+  Tree chain = over(Tree::Kind::chain, *base.token, std::move(base));
+  while (at_ < stop_ && peek().is("**")) {
+    chain.tokens.push_back(&take());
+    chain.parts.push_back(peek().is("-") ? unary_tree() : primary_tree());
+  }
+  return chain;
+}
+
+Tree Compiler::primary_tree() {
+  if (at_ >= stop_) give_up(behind(), "an expression is missing at the end", "a value stands here");
+  const Token& token = peek();
+  switch (token.kind) {
+    case Token::Kind::integer:
+    case Token::Kind::real:
+    case Token::Kind::time:
+    case Token::Kind::tod:
+    case Token::Kind::date:
+    case Token::Kind::dt:
+    case Token::Kind::string:
+      take();
+      return leaf(Tree::Kind::literal, token);
+    case Token::Kind::name:
+      return name_tree();
+    case Token::Kind::address:
+      give_up(token.place, quoted(token.text) + " stands in an expression",
+              "declare a variable at it: start AT %IX0.0 : BOOL;");
+    default:
+      break;
+  }
+  if (!accept("("))
+    give_up(token.place, fmt::format("an expression is missing before {}", quoted(token.text)),
+            "a value stands here");
+  Tree inner = over(Tree::Kind::parenthesised, token, tree());
+  expect(")", fmt::format("closes the parenthesis of line {}", token.place.line));
+  return inner;
+}
+
+Tree Compiler::name_tree() {
+  const Token& name = peek();
+  const bool value = name.word("TRUE") || name.word("FALSE");
+  const bool function =
+      peek(1).is("(") && (is_operator_function(name) || (name.word("NOT") && peek(3).is(":=")));
+  if (is_keyword(name.text) && !value && !function)
+    give_up(name.place, fmt::format("an expression is missing before {}", quoted(name.text)),
+            "a value stands here");
+  take();
+  if (accept("#")) {
+    Tree typed = leaf(Tree::Kind::typed, name);
+    typed.negative = accept("-");
+    typed.tokens.push_back(&take());
+    return typed;
+  }
+  Tree result = leaf(Tree::Kind::name, name);
+  constexpr int longest = 50;
+  for (int parts = 0; at_ < stop_; ++parts) {
+    if (parts > longest) give_up(peek().place, "the name is too long", "split it up");
+    if (accept("."))
+      result = member_tree(std::move(result));
+    else if (accept("["))
+      result = element_tree(std::move(result));
+    else if (peek().is("("))
+      result = call_tree(std::move(result));
+    else
+      break;
+  }
+  return result;
+}
+
+Tree Compiler::member_tree(Tree owner) {
+  const Token::Kind kind = peek().kind;
+  if (kind != Token::Kind::integer && kind != Token::Kind::address) expect_name("the name of a member");
+  const Token& name = kind == Token::Kind::name ? tokens_[at_ - 1] : take();
+  return over(Tree::Kind::member, name, std::move(owner));
+}
+
+Tree Compiler::element_tree(Tree owner) {
+  const Token& name = *owner.token;
+  Tree element = over(Tree::Kind::element, name, std::move(owner));
+  do {
+    element.parts.push_back(tree());
+  } while (accept(","));
+  expect("]", "closes the index");
+  return element;
+}
+
+Tree Compiler::call_tree(Tree callee) {
+  const Token& name = *callee.token;
+  Tree call = over(Tree::Kind::call, name, std::move(callee));
+  const Token& opening = peek();
+  call.tokens.push_back(&opening);
+  expect("(", "opens the arguments");
+  if (accept(")")) return call;
+  do {
+    Tree::ArgumentName argument;
+    if (peek().kind == Token::Kind::name && (peek(1).is(":=") || peek(1).is("=>"))) {
+      argument.token = &take();
+      argument.output = take().is("=>");
+    }
+    // q => ; connects nothing.
+    if (argument.output && (peek().is(",") || peek().is(")"))) continue;
+    call.parts.push_back(tree());
+    call.names.push_back(argument);
+  } while (accept(","));
+  expect(")", fmt::format("closes the arguments opened in line {}", opening.place.line));
+  return call;
+}
+
+}  // namespace drycut::devices::plcopen::st
