@@ -136,9 +136,13 @@ std::unique_ptr<devices::Controller> load_lx3vp(const Lx3vpSection& section, con
 }
 
 /// The cam tables, each under its file's name and its own id.
-std::vector<plcopen::CamTable> read_tables(const PlcopenSection& section, const Scenario& scenario,
-                                           devices::Problems& problems) {
+std::vector<plcopen::CamTable> read_tables(const PlcopenSection& section,
+                                           const std::vector<plcopen::AxisConfiguration>& axes,
+                                           const Scenario& scenario, devices::Problems& problems) {
   std::vector<plcopen::CamTable> tables;
+  std::vector<plcopen::MasterTurn> masters;
+  for (const auto& [name, parameters, measure] : axes)
+    if (parameters.is_master != 0 && parameters.modulo > 0) masters.push_back({name, parameters.modulo});
   for (const auto& entry : section.tables) {
     const auto path = scenario.file.parent_path() / entry.file.text;
     const auto complain = [&](std::string what, std::string remedy) {
@@ -154,7 +158,7 @@ std::vector<plcopen::CamTable> read_tables(const PlcopenSection& section, const 
     std::optional<plcopen::CamTable> table;
     if (path.extension() == ".tab") {
       table = plcopen::parse_tab(*text, path.string(), problems);
-    } else if (auto cam = plcopen::parse_cam_csv(*text, path.string(), problems)) {
+    } else if (auto cam = plcopen::parse_cam_csv(*text, path.string(), problems, masters)) {
       table = std::move(cam->table);
     }
     if (!table) continue;
@@ -272,7 +276,7 @@ std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section,
   configuration.cycle_ns = section.cycle;
   configuration.task_ns = section.task_cycle;
   for (const auto& axis : section.axes) configuration.axes.push_back(axis.configuration);
-  configuration.tables = read_tables(section, scenario, problems);
+  configuration.tables = read_tables(section, configuration.axes, scenario, problems);
   const bool tables_sound = problems.size() == before;
   plcopen::st::Program program;
   if (const auto text = read_file(file, problems, problem_at(scenario, section.program.place, "", ""))) {

@@ -15,12 +15,14 @@ constexpr double pin_max = 2147483647;
 constexpr double microseconds = 1e-6;
 
 bool in_range(double value, double min) { return value >= min && value <= pin_max; }
+/// 0 takes the axis' own; the vendor's ranges begin at 1.
+bool slope_in_range(double value) { return value == 0 || in_range(value, 1); }
 
 }  // namespace
 
 Axis::Axis(std::string name, const AxisParameters& parameters)
     : name_(std::move(name)), parameters_(parameters) {
-  homed_ = parameters.homed_at_start != 0 || parameters.kind == static_cast<int>(AxisKind::virtual_axis);
+  homed_ = parameters.homed_at_start != 0;
 }
 
 bool Axis::set_parameter(const AxisParameter& parameter, double value) {
@@ -37,9 +39,9 @@ AxisMotion Axis::as_master(bool actual_values, double delay) const {
 
 ErrorId Axis::limits_of(const Dynamics& dynamics, JerkLimits& limits) const {
   if (!in_range(dynamics.velocity, 0)) return ErrorId::velocity_range;
-  if (!in_range(dynamics.acceleration, 0)) return ErrorId::acceleration_range;
-  if (!in_range(dynamics.deceleration, 0)) return ErrorId::deceleration_range;
-  if (!in_range(dynamics.jerk, 0)) return ErrorId::jerk_range;
+  if (!slope_in_range(dynamics.acceleration)) return ErrorId::acceleration_range;
+  if (!slope_in_range(dynamics.deceleration)) return ErrorId::deceleration_range;
+  if (!slope_in_range(dynamics.jerk)) return ErrorId::jerk_range;
   const double half = parameters_.a_max / 2;
   const auto own = [](double pin, double axis) { return pin > 0 ? pin : axis; };
   limits.velocity =
@@ -52,27 +54,32 @@ ErrorId Axis::limits_of(const Dynamics& dynamics, JerkLimits& limits) const {
   return ErrorId::none;
 }
 
-MotionState Axis::state_for_plan() const {
-  // The profile runs slower by the override: in its own time the axis is faster than it seems.
-  constexpr double standing = 1e-3;
-  if (override_ < standing) return {};
-  return {0, set_.velocity / override_, set_.acceleration / (override_ * override_)};
-}
-
 void Axis::run(const JerkProfile& profile) {
   profile_ = profile;
-  profile_origin_ = set_.position;
+  profile_origin_ = base_.position;
   profile_time_ = 0;
 }
 
-Order Axis::begin(AxisState to) {
+Order Axis::begin(AxisState to, std::uint64_t ticket) {
+  remember(ticket_, state_of(ticket_));
+  if (ticket == 0) {
+    abort_waiting({Progress::aborted});
+    end_overlay({Progress::aborted});
+    ticket = ++last_ticket_;
+  } else {
+    base_ = start_of(ticket);
+    overlay_sum_ = 0;
+  }
   state_ = to;
+  ticket_ = ticket;
   coupling_.reset();
   profile_.reset();
   target_.reset();
   stop_held_ = false;
+  speed_cut_ = false;
+  profile_ends_ = 0;
   done_ = false;
-  return {ErrorId::none, ++ticket_};
+  return {ErrorId::none, ticket_};
 }
 
 Order Axis::power(bool on) {
@@ -107,76 +114,14 @@ ErrorId Axis::set_override(double factor) {
   return ErrorId::none;
 }
 
-Order Axis::move_absolute(double position, const Dynamics& dynamics, Direction direction) {
-  const Verdict verdict = judge(state_, Command::move_absolute);
-  if (verdict.error != ErrorId::none) return {verdict.error};
-  JerkLimits limits;
-  if (!in_range(dynamics.velocity, 1)) return {ErrorId::velocity_range};
-  if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
-  if (!(std::abs(position) <= pin_max)) return {ErrorId::position_range};
-  if (limited() && (position < parameters_.swe_neg || position > parameters_.swe_pos))
-    return {ErrorId::position_range};
-  if (direction < Direction::positive || direction > Direction::current) return {ErrorId::direction_range};
-  const MotionState now = state_for_plan();
-  double way = position - set_.position.part;
-  if (modulo() > 0) {
-    way = shortest({0, position}, set_.position, modulo());
-    double sign = 0;
-    if (direction == Direction::positive) sign = 1;
-    if (direction == Direction::negative) sign = -1;
-    if (direction == Direction::current && now.velocity != 0) sign = now.velocity > 0 ? 1 : -1;
-    // In a direction of its own the axis stops in front of the target, or goes once more round to it.
-    const double least = std::max(0.0, sign * to_velocity(now, 0, limits)->end.position);
-    if (sign != 0) way += sign * modulo() * std::ceil((least - sign * way) / modulo());
-  }
-  const Order order = begin(verdict.to);
-  run(*to_position(now, way, limits));
-  target_ = position;
-  return order;
-}
-
-Order Axis::move_relative(double distance, const Dynamics& dynamics) {
-  const Verdict verdict = judge(state_, Command::move_relative);
-  if (verdict.error != ErrorId::none) return {verdict.error};
-  JerkLimits limits;
-  if (!in_range(dynamics.velocity, 1)) return {ErrorId::velocity_range};
-  if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
-  if (!(std::abs(distance) <= pin_max)) return {ErrorId::position_range};
-  const double target = advanced(set_.position, distance, modulo()).part;
-  if (limited() && (target < parameters_.swe_neg || target > parameters_.swe_pos))
-    return {ErrorId::position_range};
-  const MotionState now = state_for_plan();
-  const Order order = begin(verdict.to);
-  run(*to_position(now, distance, limits));
-  target_ = target;
-  return order;
-}
-
-Order Axis::move_velocity(double velocity, const Dynamics& dynamics, Direction direction) {
-  const Verdict verdict = judge(state_, Command::move_velocity);
-  if (verdict.error != ErrorId::none) return {verdict.error};
-  JerkLimits limits;
-  Dynamics checked = dynamics;
-  checked.velocity = velocity;
-  if (!in_range(velocity, 1)) return {ErrorId::velocity_range};
-  if (const ErrorId error = limits_of(checked, limits); error != ErrorId::none) return {error};
-  if (direction != Direction::positive && direction != Direction::negative && direction != Direction::current)
-    return {ErrorId::direction_range};
-  double sign = direction == Direction::negative ? -1 : 1;
-  if (direction == Direction::current && set_.velocity < 0) sign = -1;
-  const MotionState now = state_for_plan();
-  const Order order = begin(verdict.to);
-  run(*to_velocity(now, sign * limits.velocity, limits));
-  return order;
-}
-
 Order Axis::halt(const Dynamics& dynamics) {
   const Verdict verdict = judge(state_, Command::halt);
   if (verdict.error != ErrorId::none) return {verdict.error};
   JerkLimits limits;
   if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
-  const MotionState now = state_for_plan();
+  const MotionState now = plan_from(set_);
   const Order order = begin(verdict.to);
+  limits_ = limits;
   run(*to_velocity(now, 0, limits));
   return order;
 }
@@ -186,7 +131,7 @@ Order Axis::stop(const Dynamics& dynamics) {
   if (verdict.error != ErrorId::none) return {verdict.error};
   JerkLimits limits;
   if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
-  const MotionState now = state_for_plan();
+  const MotionState now = plan_from(set_);
   const Order order = begin(verdict.to);
   stop_held_ = true;
   run(*to_velocity(now, 0, limits));
@@ -202,15 +147,16 @@ void Axis::release_stop(std::uint64_t ticket) {
 Order Axis::reset() {
   const Verdict verdict = judge(state_, Command::reset);
   if (verdict.error != ErrorId::none) return {verdict.error};
+  remember(ticket_, state_of(ticket_));
   resetting_ = true;
   done_ = false;
-  return {ErrorId::none, ++ticket_};
+  return {ErrorId::none, ticket_ = ++last_ticket_};
 }
 
-Order Axis::couple(Coupling coupling, const CouplingLink& link, Command command) {
+Order Axis::couple(Coupling coupling, const CouplingLink& link, Command command, std::uint64_t ticket) {
   const Verdict verdict = judge(state_, command);
   if (verdict.error != ErrorId::none) return {verdict.error};
-  const Order order = begin(verdict.to);
+  const Order order = begin(verdict.to, ticket);
   coupling_ = std::move(coupling);
   link_ = link;
   override_ = 1;
@@ -224,9 +170,9 @@ Order Axis::uncouple(Command command) {
   const bool cam = coupling_ && coupling_->cam() != nullptr;
   if (cam != (command == Command::cam_out)) return {ErrorId::in_synchronized_motion};
   const Order order = begin(verdict.to);
-  set_.acceleration = 0;
+  base_.acceleration = set_.acceleration = 0;
   JerkProfile onward;
-  onward.start = onward.end = {0, set_.velocity, 0};
+  onward.start = onward.end = {0, base_.velocity, 0};
   override_ = 1;
   run(onward);
   done_ = true;
@@ -237,6 +183,8 @@ void Axis::fault(ErrorId error) {
   if (state_ == AxisState::disabled || state_ == AxisState::errorstop) return;
   error_ = error;
   state_ = AxisState::errorstop;
+  abort_waiting({Progress::failed, error});
+  end_overlay({Progress::failed, error});
   coupling_.reset();
   profile_.reset();
   resetting_ = false;

@@ -3,19 +3,14 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "devices/plcopen/axis_parameters.hpp"
 #include "devices/plcopen/coupling.hpp"
-#include "devices/plcopen/errors.hpp"
-#include "devices/plcopen/state_machine.hpp"
+#include "devices/plcopen/requests.hpp"
 
 namespace drycut::devices::plcopen {
-
-/// AXIS_REF: the number of an axis in its kernel; -1 = not connected.
-struct AxisRef {
-  int number = -1;
-  bool operator==(const AxisRef&) const = default;
-};
 
 /// What the drive tells the axis; the owner of the kernel writes it before each cycle.
 struct DriveInputs {
@@ -37,21 +32,6 @@ struct AxisControl {
   double override_percent = 100;  ///< 0..100
 };
 
-/// Speed and slopes of a command in the units of the blocks' pins: um/s or 0.001 deg/s, mm/s2, mm/s3 or
-/// deg/s2, deg/s3. An acceleration, deceleration or jerk of 0 means the axis' own.
-struct Dynamics {
-  double velocity = 0;
-  double acceleration = 0;
-  double deceleration = 0;
-  double jerk = 0;
-};
-
-/// What becomes of a command: taken, with the ticket by which its block asks on, or refused.
-struct Order {
-  ErrorId error = ErrorId::none;
-  std::uint64_t ticket = 0;
-};
-
 /// How a slave hangs on its master.
 struct CouplingLink {
   AxisRef master;
@@ -64,8 +44,27 @@ struct CouplingLink {
   Interpolation interpolation = Interpolation::linear;
 };
 
-/// Direction pin of the movements.
-enum class Direction : std::int16_t { positive = 1, shortest_way = 2, negative = 3, current = 4 };
+/// How far a command is. `failed` goes with the error that ended it.
+enum class Progress : std::uint8_t { none, waiting, active, done, aborted, failed };
+struct CommandState {
+  Progress progress = Progress::none;
+  ErrorId error = ErrorId::none;
+};
+
+/// A command that waits for its turn.
+struct WaitingCommand {
+  std::uint64_t ticket = 0;
+  BufferMode mode = BufferMode::buffered;
+  Request request = {};
+};
+/// Further ones are refused (44000). The kernel's own number is not published.
+inline constexpr std::size_t most_waiting = 8;
+
+/// What happened at an axis and is no error: an event's name and its text.
+struct AxisRemark {
+  std::string event;
+  std::string text;
+};
 
 /// One axis: setpoints by the state diagram, actual values from counts, and the position controller that
 /// makes the drive's reference. Lengths are increments of 0.1 um or 0.0001 deg throughout.
@@ -102,7 +101,15 @@ class Axis {
   /// Ticket of the command in force, and whether it has done what it was asked.
   [[nodiscard]] std::uint64_t ticket() const { return ticket_; }
   [[nodiscard]] bool done() const { return done_; }
-  /// Cam ends passed while engaged, counted over all couplings.
+  /// How far the command with this ticket is; of those that have ended only the last few are known.
+  [[nodiscard]] CommandState state_of(std::uint64_t ticket) const;
+  /// Where the movement under way leads to; where the axis is commanded to be if it leads nowhere.
+  [[nodiscard]] Position target() const { return target_.value_or(set_.position); }
+  /// The speed of the command in force was cut to dynamik.vb_max, or the slave cannot follow its law.
+  [[nodiscard]] bool warning() const { return speed_cut_ || (coupling_ && coupling_->clamped()); }
+  /// The slave is where its law wants it.
+  [[nodiscard]] bool in_place() const { return done_ && coupling_ && coupling_->in_place(); }
+  /// Cam ends passed while engaged, since the command in force began.
   [[nodiscard]] std::int64_t profile_ends() const { return profile_ends_; }
 
   Order power(bool on);
@@ -113,19 +120,39 @@ class Axis {
   ErrorId set_position(double position, bool relative);
   /// MC_SetOverride: share of the speeds of movements, 0..1, together with the operator's.
   ErrorId set_override(double factor);
-  Order move_absolute(double position, const Dynamics& dynamics, Direction direction);
-  /// By `distance` from the commanded position of this moment.
-  Order move_relative(double distance, const Dynamics& dynamics);
-  Order move_velocity(double velocity, const Dynamics& dynamics, Direction direction);
+  /// What is wrong with the request's pins.
+  [[nodiscard]] ErrorId check(const MoveRequest& request, JerkLimits& limits) const;
+  /// Each of MC_MoveAbsolute, Relative, Additive and Velocity. `ticket`: of a command whose turn has come;
+  /// 0: a new one, which ends whatever is under way.
+  Order move(const MoveRequest& request, std::uint64_t ticket = 0);
+  /// MC_MoveSuperImposed: `distance` more than what is under way. In Standstill a movement of its own.
+  Order superimpose(double distance, const Dynamics& dynamics);
   Order halt(const Dynamics& dynamics);
   Order stop(const Dynamics& dynamics);
   /// MC_Stop's Execute has become FALSE: Stopping ends as soon as the axis stands.
   void release_stop(std::uint64_t ticket);
   Order reset();
   /// Couples; the caller has checked master and cam.
-  Order couple(Coupling coupling, const CouplingLink& link, Command command);
+  Order couple(Coupling coupling, const CouplingLink& link, Command command, std::uint64_t ticket = 0);
   /// The slave goes on at its present speed.
   Order uncouple(Command command);
+
+  // Commands that wait for their turn. The kernel starts them: it knows masters and tables.
+
+  /// A command that waits would have its turn now.
+  [[nodiscard]] bool takes_next() const;
+  [[nodiscard]] const std::deque<WaitingCommand>& waiting() const { return waiting_; }
+  /// 44000 if too many wait.
+  Order wait(const Request& request, BufferMode mode);
+  WaitingCommand take_next();
+  /// The command could not be started: it has failed, those behind it are aborted, the axis comes to rest.
+  void drop(std::uint64_t ticket, ErrorId error);
+  /// The first waiting command shall find the axis at the speed of its mode where the present movement ends.
+  void blend();
+  /// The rest of a cycle in which one movement has passed over into the next.
+  void run_on();
+  /// Where a command begins: of a new one (ticket 0) with what is superimposed.
+  [[nodiscard]] AxisMotion start_of(std::uint64_t ticket) const;
 
   /// Touch probe: a new order, or an abortion, takes it from the order before.
   std::uint64_t take_probe() { return ++probe_ticket_; }
@@ -152,16 +179,41 @@ class Axis {
   void regulate();
 
   void fault(ErrorId error);
+  [[nodiscard]] bool has_remarks() const { return !remarks_.empty(); }
+  std::vector<AxisRemark> take_remarks() { return std::exchange(remarks_, {}); }
 
  private:
+  /// A superimposed movement.
+  struct Overlay {
+    JerkProfile profile = {};
+    double time = 0;
+    std::uint64_t ticket = 0;
+  };
+  /// How a command ended that is no longer in force.
+  struct Ended {
+    std::uint64_t ticket = 0;
+    CommandState state = {};
+  };
+
   [[nodiscard]] Position position_of(std::int64_t counts) const;
   [[nodiscard]] CouplingLimits coupling_limits() const;
   [[nodiscard]] bool limited() const;
   [[nodiscard]] bool passes_limit(const AxisMotion& next, bool with_braking) const;
-  [[nodiscard]] MotionState state_for_plan() const;
-  Order begin(AxisState to);
+  [[nodiscard]] MotionState plan_from(const AxisMotion& from) const;
+  [[nodiscard]] double way_of(const MoveRequest& request, const AxisMotion& from,
+                              const JerkLimits& limits) const;
+  [[nodiscard]] double changeover_speed(const WaitingCommand& next) const;
+  void remember(std::uint64_t ticket, CommandState state);
+  void abort_waiting(CommandState state);
+  void end_overlay(CommandState state);
+  void advance_overlay(double step);
+  [[nodiscard]] AxisMotion with_overlay(const AxisMotion& base) const;
+  /// `way` more, without an end of what is under way.
+  void shift(double way);
+  Order begin(AxisState to, std::uint64_t ticket = 0);
   void run(const JerkProfile& profile);
   void run_profile(double dt);
+  void advance(double step);
   void finish_profile();
   void brake(double dt);
   void move_zero(double shift);
@@ -169,10 +221,15 @@ class Axis {
 
   std::string name_;
   AxisParameters parameters_;
+  std::uint64_t last_ticket_ = 0;
   std::uint64_t ticket_ = 0;
   std::uint64_t probe_ticket_ = 0;
+  std::deque<WaitingCommand> waiting_;
+  std::deque<Ended> ended_;
+  std::vector<AxisRemark> remarks_;
 
-  AxisMotion set_;
+  AxisMotion base_;                 ///< commanded motion without what is superimposed
+  AxisMotion set_;                  ///< commanded motion
   double acceleration_before_ = 0;  ///< set_.acceleration at the end of the cycle before
   double cycle_time_ = 0;           ///< [s], 0 before the first cycle
   Position actual_;
@@ -184,9 +241,14 @@ class Axis {
   std::optional<JerkProfile> profile_;
   Position profile_origin_;
   double profile_time_ = 0;
-  double override_ = 1;           ///< in force
-  double program_override_ = 1;   ///< of MC_SetOverride
-  std::optional<double> target_;  ///< of a discrete movement, for the window
+  double override_ = 1;             ///< in force
+  double program_override_ = 1;     ///< of MC_SetOverride
+  double leftover_ = 0;             ///< of the profile's time after its end, when the next one takes over
+  JerkLimits limits_;               ///< of the movement under way
+  std::optional<Position> target_;  ///< of a discrete movement, without what is superimposed
+
+  std::optional<Overlay> overlay_;
+  double overlay_sum_ = 0;  ///< superimposed on a coupling so far
 
   std::optional<Coupling> coupling_;
   CouplingLink link_;
@@ -202,6 +264,8 @@ class Axis {
   bool done_ = false;
   bool latched_ = false;
   bool stop_held_ = false;
+  bool speed_cut_ = false;      ///< Velocity was above dynamik.vb_max
+  bool profile_ended_ = false;  ///< the cam came to its end in the last cycle
 };
 
 }  // namespace drycut::devices::plcopen

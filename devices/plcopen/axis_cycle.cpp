@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "devices/plcopen/axis.hpp"
 
 // What an axis does in each cycle.
@@ -15,6 +17,7 @@ constexpr double microseconds = 1e-6;
 void Axis::latch(double dt) {
   acceleration_before_ = set_.acceleration;
   cycle_time_ = dt;
+  profile_ended_ = false;
   if (parameters_.kind == static_cast<int>(AxisKind::virtual_axis)) return;
   const Position before = actual_;
   actual_ = position_of(drive.counts);
@@ -32,6 +35,7 @@ void Axis::stand_on_actual() {
   if (parameters_.kind != static_cast<int>(AxisKind::virtual_axis)) set_.position = actual_;
   set_.velocity = 0;
   set_.acceleration = 0;
+  base_ = set_;
 }
 
 bool Axis::limited() const { return modulo() <= 0 && homed_ && parameters_.swe_neg < parameters_.swe_pos; }
@@ -50,7 +54,7 @@ bool Axis::passes_limit(const AxisMotion& next, bool with_braking) const {
 
 void Axis::move(double dt) {
   if (parameters_.kind == static_cast<int>(AxisKind::encoder)) {
-    set_ = {actual_, actual_velocity_, 0};
+    base_ = set_ = {actual_, actual_velocity_, 0};
     return;
   }
   const bool drive_axis = parameters_.kind == static_cast<int>(AxisKind::drive);
@@ -65,13 +69,14 @@ void Axis::move(double dt) {
     state_ = AxisState::standstill;
     return;
   }
-  if (profile_) run_profile(dt);
+  if (profile_ || overlay_) run_profile(dt);
 }
 
 void Axis::move_zero(double shift) {
   home_offset_ += shift;
   actual_ = advanced(actual_, shift, modulo());
   set_.position = advanced(set_.position, shift, modulo());
+  base_.position = set_.position;
 }
 
 void Axis::run_profile(double dt) {
@@ -81,17 +86,27 @@ void Axis::run_profile(double dt) {
   const double slew =
       parameters_.a_max / 2 * increments_per_acceleration * dt / (parameters_.vb_max * increments_per_speed);
   override_ = std::clamp(wanted, override_ - slew, override_ + slew);
-  const double time = profile_time_ + dt * override_;
-  const MotionState state = at(*profile_, time);
-  AxisMotion next{advanced(profile_origin_, state.position, modulo()), state.velocity * override_,
-                  state.acceleration * override_ * override_};
-  if (passes_limit(next, true)) {
-    fault(ErrorId::software_limit);
-    return brake(dt);
+  advance_overlay(dt * override_);
+  advance(dt * override_);
+}
+
+void Axis::advance(double step) {
+  AxisMotion next = base_;
+  if (profile_) {
+    profile_time_ += step;
+    const MotionState state = at(*profile_, profile_time_);
+    next = {advanced(profile_origin_, state.position, modulo()), state.velocity * override_,
+            state.acceleration * override_ * override_};
   }
-  set_ = next;
-  profile_time_ = time;
-  if (time >= profile_->duration) finish_profile();
+  const AxisMotion sum = with_overlay(next);
+  if (passes_limit(sum, true)) {
+    fault(ErrorId::software_limit);
+    return brake(cycle_time_);
+  }
+  base_ = next;
+  set_ = sum;
+  if (profile_ && profile_time_ >= profile_->duration) return finish_profile();
+  if (!profile_ && !overlay_) state_ = AxisState::standstill;
 }
 
 void Axis::finish_profile() {
@@ -103,14 +118,22 @@ void Axis::finish_profile() {
     run(onward);
     return;
   }
-  if (target_ && parameters_.kind == static_cast<int>(AxisKind::drive) &&
+  // The next movement takes over at the target itself.
+  const bool passes_over = profile_->end.velocity != 0;
+  if (!passes_over && target_ && parameters_.kind == static_cast<int>(AxisKind::drive) &&
       std::abs(following_error()) > parameters_.window)
     return;
   // The target itself, not the sum that has come there.
-  if (target_)
-    set_.position = advanced(set_.position, shortest({0, *target_}, set_.position, modulo()), modulo());
+  if (target_) base_.position = *target_;
+  if (passes_over) {
+    leftover_ = profile_time_ - profile_->duration;
+    base_.velocity = profile_->end.velocity * override_;
+    base_.acceleration = 0;
+  }
+  set_ = with_overlay(base_);
   profile_.reset();
   done_ = true;
+  if (passes_over || overlay_) return;
   if (state_ == AxisState::discrete_motion || !stop_held_) state_ = AxisState::standstill;
 }
 
@@ -119,17 +142,18 @@ void Axis::brake(double dt) {
     stand_on_actual();
   } else {
     const double change = parameters_.a_grenz_stufe_1 * increments_per_acceleration * dt;
-    const double before = set_.velocity;
-    set_.velocity -= std::clamp(before, -change, change);
-    set_.acceleration = (set_.velocity - before) / dt;
-    set_.position = advanced(set_.position, (before + set_.velocity) / 2 * dt, modulo());
+    const double before = base_.velocity;
+    base_.velocity -= std::clamp(before, -change, change);
+    base_.acceleration = (base_.velocity - before) / dt;
+    base_.position = advanced(base_.position, (before + base_.velocity) / 2 * dt, modulo());
+    set_ = base_;
   }
   if (set_.velocity != 0 || !resetting_) return;
   resetting_ = false;
   error_ = ErrorId::none;
   done_ = true;
   override_ = 1;
-  set_.acceleration = 0;
+  base_.acceleration = set_.acceleration = 0;
   state_ = powered_ ? AxisState::standstill : AxisState::disabled;
 }
 
@@ -171,16 +195,28 @@ void Axis::follow(const AxisMotion& master, double dt) {
   if (drive.emergency_stop && parameters_.keep_coupling_on_lr_error == 0) fault(ErrorId::emergency_stop);
   if (!control.feed_enable && parameters_.keep_coupling_on_fe_drop == 0) fault(ErrorId::feed_enable_dropped);
   if (state_ != AxisState::synchronized_motion) return brake(dt);
-  AxisMotion next = set_;
+  advance_overlay(dt);
+  AxisMotion next = base_;
   const std::int64_t ends_before = coupling_->profile_ends();
-  const CouplingOutcome outcome = coupling_->step(master, next, dt, coupling_limits());
+  const bool clamped_before = coupling_->clamped();
+  const CouplingLimits limits = coupling_limits();
+  const CouplingOutcome outcome = coupling_->step(master, next, dt, limits);
+  const AxisMotion sum = with_overlay(next);
   // The cam's own range was checked when it was engaged; on the way to it the slave must be able to stop.
-  if (outcome == CouplingOutcome::timed_out || passes_limit(next, !coupling_->engaged())) {
+  if (outcome == CouplingOutcome::timed_out || passes_limit(sum, !coupling_->engaged())) {
     fault(outcome == CouplingOutcome::timed_out ? ErrorId::window_timeout : ErrorId::software_limit);
     return brake(dt);
   }
-  set_ = next;
+  base_ = next;
+  set_ = sum;
+  profile_ended_ = coupling_->profile_ends() != ends_before;
   profile_ends_ += coupling_->profile_ends() - ends_before;
+  if (coupling_->clamped() && !clamped_before)
+    remarks_.push_back(
+        {"warning", fmt::format("{} asks for more than {} {} allows: the slave lags",
+                                coupling_->cam() != nullptr ? "the cam" : "the gear",
+                                parameters_.v_max_slave > 0 ? "cam_gear.v_max_slave" : "dynamik.vb_max",
+                                limits.velocity / increments_per_speed)});
   if (coupling_->engaged()) done_ = true;
   if (outcome == CouplingOutcome::pass_complete) {
     coupling_.reset();

@@ -35,7 +35,8 @@ constexpr std::array table{
                   "way of path_counts counts of the encoder"},
     AxisParameter{"path_counts", "", "counts x4", 1, most, true, &P::path_counts, "see path_increments"},
     AxisParameter{"homed_at_start", "", "", 0, 1, true, &P::homed_at_start,
-                  "1: an absolute encoder, homed without MC_Home"},
+                  "1: an absolute encoder, or a virtual axis, homed without MC_Home; in a scenario the "
+                  "default of virtual ones"},
     AxisParameter{"antr.v_at_10v", "", "um/s, 0.001 deg/s", 1, most, false, &P::v_at_10v,
                   "speed of the drive at 10 V"},
     AxisParameter{"kv", "P-AXIS-00099", "0.01/s", 0, 100'000, false, &P::kv,

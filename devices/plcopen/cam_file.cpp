@@ -48,6 +48,7 @@ class CamReader {
   /// Nullopt if the comments had a fault.
   std::optional<CamFile> finished() {
     if (!reader_.sound()) return std::nullopt;
+    cam_.master_modulo_given = seen_.contains("master_modulo");
     if (!seen_.contains("slave_unit") && cam_.slave_modulo == 0) cam_.slave_unit = "mm";
     return std::move(cam_);
   }
@@ -226,6 +227,7 @@ std::vector<CamRefusal> refusals(const CamFile& cam) {
 }
 
 std::optional<CamFile> read_cam(std::string_view text, const std::string& file, Problems& problems) {
+  text = without_byte_order_mark(text);
   bool csv = true;
   for (const std::string_view line : split_lines(text)) {
     const Word word = trimmed(line, 0, line.size());
@@ -246,16 +248,28 @@ std::optional<CamFile> read_cam(std::string_view text, const std::string& file, 
   return table ? cam : std::nullopt;
 }
 
-std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& file, Problems& problems) {
-  std::optional<CamFile> cam = CamReader(file, problems).csv(text);
+std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& file, Problems& problems,
+                                     const std::vector<MasterTurn>& masters) {
+  std::optional<CamFile> cam = CamReader(file, problems).csv(without_byte_order_mark(text));
   if (!cam) return std::nullopt;
   cam->table.file = file;
-  const std::vector<CamRefusal> refused = refusals(*cam);
+  std::vector<CamRefusal> refused = refusals(*cam);
+  std::string behind;
+  for (const MasterTurn& master : cam->master_modulo_given ? std::vector<MasterTurn>{} : masters) {
+    cam->master_modulo = master.modulo;
+    std::vector<CamRefusal> here = refusals(*cam);
+    const bool fits = here.empty();
+    if (fits || behind.empty()) {
+      refused = std::move(here);
+      behind = fmt::format(" behind {}, whose turn is {}", master.name, master.modulo);
+    }
+    if (fits) break;
+  }
   for (const CamRefusal& refusal : refused)
-    problems.push_back(
-        {file, refusal.row == 0 ? cam->header : cam->lines[refusal.row - 1], 1,
-         fmt::format("error {}: {}", static_cast<unsigned>(refusal.error), meaning_of(refusal.error)),
-         refusal.remedy});
+    problems.push_back({file, refusal.row == 0 ? cam->header : cam->lines[refusal.row - 1], 1,
+                        fmt::format("error {}{}: {}", static_cast<unsigned>(refusal.error), behind,
+                                    meaning_of(refusal.error)),
+                        refusal.remedy});
   return refused.empty() ? std::move(cam) : std::nullopt;
 }
 

@@ -188,7 +188,7 @@ void PlcopenController::run_devices(std::int64_t time_ns) {
   latch_inputs();
   kernel_.cycle();
   give_outputs();
-  tell_errorstops();
+  tell_axes();
 }
 
 void PlcopenController::run_tasks(std::int64_t time_ns) {
@@ -204,7 +204,7 @@ void PlcopenController::run_programs(std::int64_t time_ns) {
   runtime_.scan(time_ns);
   for (std::size_t i = 0; i < located_outputs_.size(); ++i)
     if (located_outputs_[i] != nullptr) located_outputs_[i]->level = runtime_.located(i);
-  tell_errorstops();
+  tell_axes();
   tell_blocks();
 }
 
@@ -229,6 +229,9 @@ void PlcopenController::power(bool on) {
 }
 
 void PlcopenController::start_anew() {
+  // What has been written into the machine data stays there.
+  for (int i = 0; i < kernel_.axes(); ++i)
+    configuration_.axes[static_cast<std::size_t>(i)].parameters = axis(i).parameters();
   MotionKernel fresh = make_kernel(configuration_);
   for (int i = 0; i < kernel_.axes(); ++i) {
     Axis& made = *fresh.axis({i});
@@ -273,9 +276,12 @@ void PlcopenController::give_outputs() {
   }
 }
 
-void PlcopenController::tell_errorstops() {
+void PlcopenController::tell_axes() {
   for (std::size_t i = 0; i < plugs_.size(); ++i) {
-    const Axis& present = axis(static_cast<int>(i));
+    Axis& present = axis(static_cast<int>(i));
+    if (present.has_remarks())
+      for (const AxisRemark& remark : present.take_remarks())
+        events_.push_back({present.name(), remark.event, remark.text});
     const bool now = present.state() == AxisState::errorstop;
     if (now && !plugs_[i].in_errorstop)
       events_.push_back({present.name(), "errorstop", error_text(present.error())});
@@ -289,7 +295,10 @@ void PlcopenController::tell_blocks() {
     const bool now = runtime_.read(block.error) != 0;
     if (now && !block.seen) {
       const auto id = static_cast<ErrorId>(static_cast<std::uint32_t>(runtime_.read(block.id)));
-      events_.push_back({block.instance, "block_error", error_text(id)});
+      const FunctionBlock* motion = runtime_.block(block.error);
+      const Axis* about = motion == nullptr ? nullptr : kernel_.axis(motion->about);
+      events_.push_back(
+          {block.instance, "block_error", error_text(id) + (about == nullptr ? "" : ": " + about->name())});
     }
     block.seen = now;
   }

@@ -105,7 +105,7 @@ class PlcopenController : public Controller {
   void latch_inputs();
   void run_programs(std::int64_t time_ns);
   void give_outputs();
-  void tell_errorstops();
+  void tell_axes();
   void tell_blocks();
   [[nodiscard]] CamMoment cam_moment(int number) const;
   [[nodiscard]] std::string cam_table(int number) const;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/table_text.hpp"
 #include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
@@ -101,13 +102,9 @@ std::optional<ControllerValue> PlcopenController::parameter_value(int number,
   return value;
 }
 
-// The machine data keep it over power cycles.
 void PlcopenController::set_parameter(int number, const AxisParameter& parameter, double value) {
   Axis& written = axis(number);
-  if (written.set_parameter(parameter, value)) {
-    configuration_.axes[static_cast<std::size_t>(number)].parameters.*parameter.member = value;
-    return;
-  }
+  if (written.set_parameter(parameter, value)) return;
   const bool fits = value >= parameter.min && value <= parameter.max;
   const bool whole = !parameter.whole || value == std::round(value);
   if (fits && whole)
@@ -180,7 +177,7 @@ std::string PlcopenController::retentive_state() const {
 bool PlcopenController::restore(const std::string& text, Problems& problems, const std::string& file_name) {
   const std::size_t before = problems.size();
   std::vector<std::pair<std::size_t, double>> kept;
-  std::string_view rest = text;
+  std::string_view rest = without_byte_order_mark(text);
   for (int number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');
     read_kept(rest.substr(0, end), number, file_name, kept, problems);

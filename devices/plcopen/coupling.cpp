@@ -234,11 +234,13 @@ void Coupling::begin_phasing(const AxisMotion& wanted, const AxisMotion& master,
 void Coupling::follow(const AxisMotion& wanted, AxisMotion& slave, double dt, const CouplingLimits& limits) {
   const double way = difference(wanted.position, slave.position, slave_modulo_);
   const double most = limits.velocity * dt * (1 + 1e-9);
+  clamped_ = false;
   if (cam() != nullptr) {
     if (std::abs(way) <= most) {
       slave = wanted;
       return;
     }
+    clamped_ = true;
     slave.velocity = std::copysign(limits.velocity, way);
     slave.acceleration = 0;
     slave.position = advanced(slave.position, slave.velocity * dt, slave_modulo_);
@@ -251,6 +253,7 @@ void Coupling::follow(const AxisMotion& wanted, AxisMotion& slave, double dt, co
     slave = wanted;
     return;
   }
+  clamped_ = true;
   // Beyond its acceleration the slave lags and catches up no faster than it can brake again.
   const double lag = way - wanted.velocity * dt;
   const double catching_up =
@@ -306,13 +309,15 @@ void Coupling::rebase_gear(const AxisMotion& master) {
   const std::int64_t times = (master.position.turns - gear_master_.turns) / gear->denominator;
   if (times == 0) return;
   gear_master_.turns += times * gear->denominator;
-  const std::int64_t way = times * gear->numerator * static_cast<std::int64_t>(gear->master_modulo);
+  __extension__ using Wide = __int128;
+  const Wide way =
+      static_cast<Wide>(times) * gear->numerator * static_cast<std::int64_t>(gear->master_modulo);
   if (slave_modulo_ <= 0) {
     gear_slave_.part += static_cast<double>(way);
     return;
   }
   const auto turn = static_cast<std::int64_t>(slave_modulo_);
-  gear_slave_.turns += way / turn;
+  gear_slave_.turns = plus(gear_slave_.turns, static_cast<std::int64_t>(way / turn));
   gear_slave_ = advanced(gear_slave_, static_cast<double>(way % turn), slave_modulo_);
 }
 

@@ -94,6 +94,10 @@ class Coupling {
 
   [[nodiscard]] CouplingPhase phase() const { return phase_; }
   [[nodiscard]] bool engaged() const { return phase_ == CouplingPhase::coupled; }
+  /// In the last cycle the law asked for more than the slave's limits allow: it lags behind.
+  [[nodiscard]] bool clamped() const { return clamped_; }
+  /// The slave is where the law wants it.
+  [[nodiscard]] bool in_place() const { return engaged() && !clamped_; }
   /// Cam ends passed while engaged, since the start.
   [[nodiscard]] std::int64_t profile_ends() const { return profile_ends_; }
   [[nodiscard]] const CamFollow* cam() const { return std::get_if<CamFollow>(&law_); }
@@ -124,6 +128,7 @@ class Coupling {
   std::variant<CamFollow, GearFollow> law_;
   double slave_modulo_ = 0;
   CouplingPhase phase_ = CouplingPhase::slip;
+  bool clamped_ = false;
   double time_ = 0;  ///< for the timeout
   double time_in_window_ = 0;
 

@@ -3,13 +3,14 @@
 namespace drycut::devices::plcopen {
 
 void McCamTableSelect::call(MotionKernel& kernel) {
+  about = Slave;
   if (edge_.rising(Execute)) {
     const plcopen::CamTable* table =
         CamTable.file.empty() ? kernel.tables().find(CamTable.id) : kernel.tables().find_file(CamTable.file);
     const bool axes = kernel.axis(Master) != nullptr && kernel.axis(Slave) != nullptr;
     ErrorId error = table == nullptr ? ErrorId::selected_table_missing : ErrorId::none;
     if (!axes) error = ErrorId::no_such_axis;
-    answered(error);
+    answered({error});
     CamTableID = error == ErrorId::none ? table->id : std::uint16_t{0};
   }
   show();
@@ -17,37 +18,45 @@ void McCamTableSelect::call(MotionKernel& kernel) {
 
 void McCamIn::call(MotionKernel& kernel) {
   const plcopen::Axis* axis = kernel.axis(Slave);
+  about = Slave;
   EndOfProfile = false;
   if (edge_.rising(Execute)) {
     const std::uint64_t own = axis != nullptr && axis->ticket() == ticket_ ? ticket_ : 0;
-    taken(kernel.cam_in({Master, Slave, MasterOffset, SlaveOffset, MasterScaling, SlaveScaling, StartMode,
-                         CamTableID, TableFctType},
-                        own));
-    if (axis != nullptr && own == 0) ends_seen_ = axis->profile_ends();
+    taken(kernel.give(Slave,
+                      CamInRequest{Master, Slave, MasterOffset, SlaveOffset, MasterScaling, SlaveScaling,
+                                   StartMode, CamTableID, TableFctType},
+                      static_cast<plcopen::BufferMode>(BufferMode), own));
+    if (ticket_ != own) ends_seen_ = 0;
   }
   watch(axis, true);
-  if (axis != nullptr && axis->ticket() == ticket_) {
+  const bool in_force = axis != nullptr && axis->ticket() == ticket_;
+  if (in_force) {
     EndOfProfile = axis->profile_ends() != ends_seen_;
     ends_seen_ = axis->profile_ends();
   }
   show();
   // A pass that has ended leaves its command in force, but nothing follows it any more.
-  InSync = Done && axis != nullptr && axis->state() == AxisState::synchronized_motion;
+  InSync = Done && in_force && axis->in_place();
 }
 
 void McGearIn::call(MotionKernel& kernel) {
   const plcopen::Axis* axis = kernel.axis(Slave);
+  about = Slave;
   if (edge_.rising(Execute)) {
-    taken(kernel.gear_in(
-        {Master, Slave, RatioNumerator, RatioDenominator, {0, Acceleration, Deceleration, Jerk}, Mode}));
+    taken(kernel.give(
+        Slave,
+        GearInRequest{
+            Master, Slave, RatioNumerator, RatioDenominator, {0, Acceleration, Deceleration, Jerk}, Mode},
+        static_cast<plcopen::BufferMode>(BufferMode)));
   }
   watch(axis, true);
   show();
-  InGear = Done;
+  InGear = Done && axis != nullptr && axis->in_place();
 }
 
 void Uncoupling::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Slave);
+  about = Slave;
   if (edge_.rising(Execute)) taken(axis == nullptr ? Order{ErrorId::no_such_axis} : axis->uncouple(command_));
   watch(axis);
   show();
@@ -55,16 +64,16 @@ void Uncoupling::call(MotionKernel& kernel) {
 
 void McPhasing::call(MotionKernel& kernel) {
   const plcopen::Axis* axis = kernel.axis(Slave);
+  about = Slave;
   if (edge_.rising(Execute)) {
-    taken({kernel.phase(Master, Slave, PhaseShift, {Velocity, Acceleration, Deceleration, Jerk}),
-           axis != nullptr ? axis->ticket() : 0});
-    if (watch_ == Watch::busy && axis != nullptr) shift_ = axis->coupling()->shifts();
+    taken(kernel.phase(Master, Slave, PhaseShift, {Velocity, Acceleration, Deceleration, Jerk}));
+    if (progress_ == Progress::active) shift_ = axis->coupling()->shifts();
   }
-  if (watch_ == Watch::busy && axis != nullptr) {
+  if (progress_ == Progress::active && axis != nullptr) {
     if (axis->ticket() != ticket_ || axis->coupling() == nullptr || axis->coupling()->shifts() != shift_) {
-      watch_ = Watch::aborted;
+      progress_ = Progress::aborted;
     } else if (axis->coupling()->phase_shifted()) {
-      watch_ = Watch::done;
+      progress_ = Progress::done;
     }
   }
   show();
@@ -85,7 +94,7 @@ void CamTableWrite::change(MotionKernel& kernel) {
 void CamTableWrite::call(MotionKernel& kernel) {
   change(kernel);
   // The program counts from 1; a 0 wraps to a line or column that no table has.
-  if (edge_.rising(Execute)) answered(kernel.write_table(CamTableID, Line - 1U, Column - 1, Value));
+  if (edge_.rising(Execute)) answered({kernel.write_table(CamTableID, Line - 1U, Column - 1, Value)});
   show();
   Changing = changed_ != 0;
   if (Error || change_error_ == ErrorId::none) return;

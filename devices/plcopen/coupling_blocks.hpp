@@ -23,6 +23,7 @@ struct McCamIn final : ExecutedBlock {
   std::uint32_t StartMode = 0;
   std::uint16_t CamTableID = 0;
   std::uint32_t TableFctType = static_cast<std::uint32_t>(Interpolation::table_defined);
+  std::int16_t BufferMode = static_cast<std::int16_t>(plcopen::BufferMode::aborting);
   bool InSync = false;
   bool EndOfProfile = false;
   void call(MotionKernel& kernel) override;
@@ -41,6 +42,7 @@ struct McGearIn final : ExecutedBlock {
   double Deceleration = 0;
   double Jerk = 0;
   std::uint32_t Mode = 0;
+  std::int16_t BufferMode = static_cast<std::int16_t>(plcopen::BufferMode::aborting);
   bool InGear = false;
   void call(MotionKernel& kernel) override;
   PinValue pin(std::size_t number) override;

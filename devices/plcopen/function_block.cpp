@@ -3,57 +3,66 @@
 namespace drycut::devices::plcopen {
 
 void ExecutedBlock::taken(const Order& order) {
+  if (order.about.number >= 0) about = order.about;
   if (order.error != ErrorId::none) return refused(order.error);
   ticket_ = order.ticket;
-  watch_ = Watch::busy;
+  progress_ = Progress::active;
   Error = false;
   ErrorID = 0;
 }
 
-void ExecutedBlock::answered(ErrorId error) {
-  taken({error});
-  if (watch_ == Watch::busy) watch_ = Watch::done;
+void ExecutedBlock::answered(const Order& order) {
+  taken(order);
+  if (progress_ == Progress::active) progress_ = Progress::done;
 }
 
 void ExecutedBlock::refused(ErrorId error) {
-  watch_ = Watch::failed;
+  progress_ = Progress::failed;
   Error = true;
   ErrorID = static_cast<std::uint32_t>(error);
 }
 
 void ExecutedBlock::watch(const Axis* axis, bool goes_on) {
-  const bool under_way = watch_ == Watch::busy || (watch_ == Watch::done && goes_on);
-  if (axis == nullptr || !under_way) return;
-  if (axis->ticket() != ticket_) {
-    watch_ = Watch::aborted;
-  } else if (axis->state() == AxisState::errorstop && axis->error() != ErrorId::none) {
-    refused(axis->error());
-  } else if (axis->done()) {
-    watch_ = Watch::done;
+  const bool under_way = progress_ == Progress::waiting || progress_ == Progress::active ||
+                         (progress_ == Progress::done && goes_on);
+  if (axis != nullptr && under_way) {
+    const CommandState now = axis->state_of(ticket_);
+    progress_ = now.progress;
+    if (now.progress == Progress::failed) refused(now.error);
   }
+  holds_ = axis != nullptr && goes_on && progress_ == Progress::done && axis->ticket() == ticket_ &&
+           axis->state() != AxisState::standstill;
 }
 
 void ExecutedBlock::show() {
-  Done = Execute && watch_ == Watch::done;
-  CommandAborted = Execute && watch_ == Watch::aborted;
-  if (Execute) return;
+  const bool told = Execute || progress_ != shown_;
+  shown_ = progress_;
+  Done = told && progress_ == Progress::done;
+  CommandAborted = told && progress_ == Progress::aborted;
+  Active = progress_ == Progress::active || holds_;
+  Busy = Active || progress_ == Progress::waiting;
+  if (told) return;
   Error = false;
   ErrorID = 0;
 }
 
 void AxisCommand::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
-  if (edge_.rising(Execute)) taken(axis == nullptr ? Order{ErrorId::no_such_axis} : give(*axis));
-  watch(axis);
+  about = Axis;
+  if (edge_.rising(Execute)) taken(axis == nullptr ? Order{ErrorId::no_such_axis} : give(kernel, *axis));
+  watch(axis, goes_on());
   show();
 }
 
 void AxisReading::call(MotionKernel& kernel) {
-  const plcopen::Axis* axis = Enable ? kernel.axis(Axis) : nullptr;
-  Valid = axis != nullptr;
-  Error = Enable && !Valid;
-  ErrorID = Error ? static_cast<std::uint32_t>(ErrorId::no_such_axis) : 0;
-  read(axis);
+  const plcopen::Axis* axis = kernel.axis(Axis);
+  about = Axis;
+  ErrorId error = axis == nullptr ? ErrorId::no_such_axis : check();
+  if (!Enable) error = ErrorId::none;
+  Error = error != ErrorId::none;
+  ErrorID = static_cast<std::uint32_t>(error);
+  Valid = Busy = Enable && !Error;
+  read(Valid ? axis : nullptr);
 }
 
 }  // namespace drycut::devices::plcopen

@@ -21,30 +21,37 @@ class Edge {
 };
 
 /// What all blocks with Execute share: ticket, end, error, abortion. A block whose table has no pin for one
-/// of these outputs does not show it.
+/// of these outputs does not show it. By PLCopen's rules one of Busy, Done, CommandAborted and Error is TRUE
+/// once the command is given (MC_Stop: Done and Busy, for it holds the axis), and how a command ended is
+/// shown for one call even if Execute has become FALSE before.
 struct ExecutedBlock : FunctionBlock {
   bool Execute = false;
   bool Done = false;
+  bool Busy = false;    ///< it waits for its turn, or is at work
+  bool Active = false;  ///< it has control of the axis
   bool CommandAborted = false;
   bool Error = false;
   std::uint32_t ErrorID = 0;
 
  protected:
-  enum class Watch : std::uint8_t { idle, busy, done, aborted, failed };
   /// Takes an order given at an edge: the outputs of the last one are gone.
   void taken(const Order& order);
   /// Takes what is done at the edge itself, or refused.
-  void answered(ErrorId error);
+  void answered(const Order& order);
   void refused(ErrorId error);
   /// Looks after the order given to `axis`. A command that `goes_on` once done, a speed or a coupling, is
   /// still aborted or ended by an error; another one keeps its Done.
   void watch(const Axis* axis, bool goes_on = false);
-  /// Writes the outputs. When Execute is FALSE they are FALSE too; the command goes on.
+  /// Writes the outputs.
   void show();
 
   Edge edge_;
   std::uint64_t ticket_ = 0;
-  Watch watch_ = Watch::idle;
+  Progress progress_ = Progress::none;
+
+ private:
+  Progress shown_ = Progress::none;
+  bool holds_ = false;  ///< done, and still in control
 };
 
 /// A block that gives its axis one command and looks after it until it is done.
@@ -53,7 +60,9 @@ struct AxisCommand : ExecutedBlock {
   void call(MotionKernel& kernel) override;
 
  protected:
-  virtual Order give(plcopen::Axis& axis) = 0;
+  virtual Order give(MotionKernel& kernel, plcopen::Axis& axis) = 0;
+  /// See watch().
+  [[nodiscard]] virtual bool goes_on() const { return false; }
 };
 
 /// A block with Enable that reads from its axis in every call.
@@ -61,6 +70,7 @@ struct AxisReading : FunctionBlock {
   AxisRef Axis;
   bool Enable = false;
   bool Valid = false;
+  bool Busy = false;
   bool Error = false;
   std::uint32_t ErrorID = 0;
   void call(MotionKernel& kernel) override;
@@ -68,6 +78,8 @@ struct AxisReading : FunctionBlock {
  protected:
   /// nullptr: there is nothing to read, the outputs go to 0.
   virtual void read(const plcopen::Axis* axis) = 0;
+  /// What cannot be read.
+  [[nodiscard]] virtual ErrorId check() const { return ErrorId::none; }
 };
 
 }  // namespace drycut::devices::plcopen

@@ -52,12 +52,12 @@ struct Builder {
   }
 };
 
-/// To a cruising velocity, there for `cruise` [s], and to rest.
-Builder way(const MotionState& from, double cruising, double cruise, const JerkLimits& limits) {
+/// To a cruising velocity, there for `cruise` [s], and to the velocity at the end.
+Builder way(const MotionState& from, double cruising, double cruise, double end, const JerkLimits& limits) {
   Builder builder(from);
   builder.velocity(cruising, limits);
   builder.phase(cruise, 0);
-  builder.velocity(0, limits);
+  builder.velocity(end, limits);
   return builder;
 }
 
@@ -72,40 +72,68 @@ double root(double low, double high, double target, const Position& position) {
   return high;
 }
 
+JerkLimits with_one_slope(JerkLimits limits) {
+  limits.acceleration = limits.deceleration = std::min(limits.acceleration, limits.deceleration);
+  return limits;
+}
+
+/// The part of `end` that can be had at `target`: straight to it from a velocity of at least 0.
+double reachable(const MotionState& from, double released, double target, double end,
+                 const JerkLimits& limits) {
+  const auto straight = [&](double velocity) {
+    Builder builder(from);
+    builder.velocity(velocity, end < 0 ? with_one_slope(limits) : limits);
+    return builder.now.position;
+  };
+  if (end < 0) {
+    // Only a way that has to come back passes its target backwards.
+    if (target >= straight(0)) return 0;
+    return straight(end) >= target ? end : root(end, 0, target, straight);
+  }
+  if (straight(end) <= target) return end;
+  // The next number below: the root itself may lie beyond the target by a rounding.
+  if (end > released && straight(released) <= target)
+    return std::nextafter(root(released, end, target, straight), 0);
+  return 0;
+}
+
 /// `from` reaches a velocity of at least 0 when its acceleration is let go.
-JerkProfile forward(const MotionState& from, double target, const JerkLimits& limits) {
+Builder forward(const MotionState& from, double target, double wanted, const JerkLimits& limits) {
   const double jerk = limits.jerk;
   const double released = from.velocity + from.acceleration * std::abs(from.acceleration) / (2 * jerk);
   const double top = limits.velocity;
-  const auto end_of = [&](double cruising) { return way(from, cruising, 0, limits).now.position; };
+  const double end = wanted == 0 ? 0 : reachable(from, released, target, wanted, limits);
+  const auto end_of = [&](double cruising) { return way(from, cruising, 0, end, limits).now.position; };
   const auto braked = [&](double release) {
     Builder builder(from);
     builder.phase(release, jerk);
-    builder.velocity(0, limits);
+    builder.velocity(end, limits);
     return builder;
   };
   const double shortest = braked(0).now.position;
-  if (target == shortest) return braked(0).profile;
-  if (target < shortest) {
+  if (target == shortest) return braked(0);
+  if (target < shortest || end < 0) {
     // It cannot stop in time and comes back; one acceleration for all keeps the ways of a kind.
-    JerkLimits both = limits;
-    both.acceleration = both.deceleration = std::min(limits.acceleration, limits.deceleration);
-    const double all_the_way = way(from, -top, 0, both).now.position;
-    if (target <= all_the_way) return way(from, -top, (all_the_way - target) / top, both).profile;
-    return way(from,
-               root(-top, 0, target,
-                    [&](double cruising) { return way(from, cruising, 0, both).now.position; }),
-               0, both)
-        .profile;
+    const JerkLimits both = with_one_slope(limits);
+    const auto back = [&](double cruising) { return way(from, cruising, 0, end, both).now.position; };
+    const double all_the_way = back(-top);
+    if (target <= all_the_way) return way(from, -top, (all_the_way - target) / top, end, both);
+    return way(from, root(-top, end > -top ? end : 0, target, back), 0, end, both);
   }
   if (const double at_top = end_of(top); target >= at_top)
-    return way(from, top, (target - at_top) / top, limits).profile;
-  if (released > top) return way(from, root(0, top, target, end_of), 0, limits).profile;
-  if (target >= end_of(released)) return way(from, root(released, top, target, end_of), 0, limits).profile;
+    return way(from, top, (target - at_top) / top, end, limits);
+  // Between a speed that it has and one that it shall have the way only grows from the higher one on.
+  const double least = end < top && (end > released || released > top) ? end : released;
+  if (released > top || target >= end_of(least))
+    return way(from, root(least, top, target, end_of), 0, end, limits);
+  if (end > released) {
+    // No room to be even on the way up: a little less at the end.
+    const auto up = [&](double less) { return way(from, released, 0, less, limits); };
+    return up(root(released, end, target, [&](double less) { return up(less).now.position; }));
+  }
   // It brakes already, and harder than it has to: less for a while, then on.
   const double longest = std::abs(from.acceleration) / jerk;
-  return braked(root(0, longest, target, [&](double release) { return braked(release).now.position; }))
-      .profile;
+  return braked(root(0, longest, target, [&](double release) { return braked(release).now.position; }));
 }
 
 MotionState mirrored(const MotionState& state) {
@@ -148,18 +176,25 @@ std::optional<JerkProfile> to_velocity(const MotionState& state, double velocity
   return builder.profile;
 }
 
-std::optional<JerkProfile> to_position(const MotionState& state, double position, const JerkLimits& limits) {
+std::optional<JerkProfile> to_position(const MotionState& state, double position, const JerkLimits& limits,
+                                       double velocity) {
   if (!usable(limits)) return std::nullopt;
   const double released =
       state.velocity + state.acceleration * std::abs(state.acceleration) / (2 * limits.jerk);
   const bool backward = released < 0 || (released == 0 && position < state.position);
-  JerkProfile profile =
-      backward ? forward(mirrored(state), -position, limits) : forward(state, position, limits);
-  if (backward) {
-    profile.start = state;
+  const auto build = [&](double end) {
+    return backward ? forward(mirrored(state), -position, -end, limits)
+                    : forward(state, position, end, limits);
+  };
+  Builder built = build(velocity);
+  // A turn on the way may leave no room for the speed.
+  const double missed = std::abs(built.now.position - (backward ? -position : position));
+  if (velocity != 0 && missed > 1e-6 * std::max(1.0, std::abs(position - state.position))) built = build(0);
+  JerkProfile profile = built.profile;
+  profile.start = state;
+  if (backward)
     for (JerkProfile::Phase& phase : profile.phases) phase.jerk = -phase.jerk;
-  }
-  profile.end = {position, 0, 0};
+  profile.end = {position, backward ? 0 - built.now.velocity : built.now.velocity, 0};
   return profile;
 }
 

@@ -51,6 +51,10 @@ std::optional<JerkProfile> to_velocity(const MotionState& state, double velocity
 /// The way from any state to rest at `position`: the fastest one, except where the state is above the
 /// velocity limit or a reversal has to do with two different accelerations; such a way keeps the limits
 /// as soon as it can. Nullopt if a limit is not above 0.
-std::optional<JerkProfile> to_position(const MotionState& state, double position, const JerkLimits& limits);
+///
+/// With `velocity` it passes `position` at that speed, in the direction in which it comes there, and may be
+/// above the velocity limit; where the way is too short, at the speed nearest to it that can be had.
+std::optional<JerkProfile> to_position(const MotionState& state, double position, const JerkLimits& limits,
+                                       double velocity = 0);
 
 }  // namespace drycut::devices::plcopen

@@ -30,6 +30,23 @@ ErrorId check_pins(const CamInRequest& request) {
   return std::abs(request.slave_scaling) <= pin_max ? ErrorId::none : ErrorId::slave_scaling;
 }
 
+ErrorId check_pins(const GearInRequest& request) {
+  if (request.mode != 0 && request.mode != gear_on_actual_values) return ErrorId::gear_mode;
+  constexpr std::uint32_t most = 2147483647;
+  const bool ratio = request.numerator != 0 && request.denominator != 0 && request.denominator <= most;
+  return ratio ? ErrorId::none : ErrorId::gear_ratio;
+}
+
+/// The scaled cam stays where positions are exact, 100 km at most.
+bool within_reach(const CamCurve& curve, double scaling) {
+  constexpr double farthest = 1e12;
+  return std::all_of(curve.segments.begin(), curve.segments.end(), [&](const CamSegment& segment) {
+    double most = 0;
+    for (const double c : segment.c) most += std::abs(c);
+    return std::abs(scaling) * most <= std::max(farthest, most);
+  });
+}
+
 /// Smallest and largest position of a curve, by samples that lie near enough for a cubic or quintic.
 std::pair<double, double> range_of(const CamCurve& curve) {
   std::pair range{curve.segments.front().c[0], curve.segments.front().c[0]};
@@ -88,31 +105,34 @@ bool MotionKernel::follows(const Axis& slave, const Axis& master) const {
   return axis == &master;
 }
 
-ErrorId MotionKernel::check_axes(AxisRef master, AxisRef slave) const {
+Order MotionKernel::check_axes(AxisRef master, AxisRef slave) const {
   const Axis* ahead = axis(master);
   const Axis* behind = axis(slave);
-  if (ahead == nullptr || behind == nullptr) return ErrorId::no_such_axis;
-  if (follows(*ahead, *behind)) return ErrorId::own_master;
-  return ahead->parameters().is_master != 0 ? ErrorId::none : ErrorId::not_a_master;
+  if (ahead == nullptr || behind == nullptr) return {ErrorId::no_such_axis};
+  if (follows(*ahead, *behind)) return {ErrorId::own_master};
+  if (ahead->parameters().is_master == 0) return {ErrorId::not_a_master, 0, master};
+  return {};
 }
 
-ErrorId MotionKernel::check_cam(const CamInRequest& request, const CamTable& table,
-                                Interpolation interpolation) const {
+Order MotionKernel::check_cam(const CamInRequest& request, const CamTable& table,
+                              Interpolation interpolation) const {
   const Axis& master = *axis(request.master);
   const Axis& slave = *axis(request.slave);
   const bool pairs = interpolation == Interpolation::line_poly5 || interpolation == Interpolation::poly5_line;
   const bool turns_on = endless_of(request.start_mode) != Endless::no;
-  if (master.modulo() <= 0 || (slave.modulo() <= 0 && (pairs || turns_on))) return ErrorId::not_modulo;
-  if (const ErrorId error = check(table, interpolation, master.modulo()); error != ErrorId::none)
-    return error;
-  if (tables_.busy(request.table)) return ErrorId::table_busy;
-  if (!slave.homed()) return ErrorId::not_homed;
-  return slave.control.feed_enable ? ErrorId::none : ErrorId::feed_enable_missing;
+  if (master.modulo() <= 0) return {ErrorId::not_modulo, 0, request.master};
+  if (slave.modulo() <= 0 && (pairs || turns_on)) return {ErrorId::not_modulo};
+  if (const ErrorId error = plcopen::check(table, interpolation, master.modulo()); error != ErrorId::none)
+    return {error};
+  if (tables_.busy(request.table)) return {ErrorId::table_busy};
+  if (!slave.homed()) return {ErrorId::not_homed};
+  return {slave.control.feed_enable ? ErrorId::none : ErrorId::feed_enable_missing};
 }
 
 ErrorId MotionKernel::check_curve(const CamInRequest& request, const CamCurve& curve) const {
   const double turns = request.slave_scaling * static_cast<double>(curve.turns);
-  if (turns != std::round(turns)) return ErrorId::slave_scaling;
+  if (turns != std::round(turns) || !within_reach(curve, request.slave_scaling))
+    return ErrorId::slave_scaling;
   const AxisParameters& slave = axis(request.slave)->parameters();
   if (slave.modulo > 0 || !(slave.swe_neg < slave.swe_pos)) return ErrorId::none;
   const auto [low, high] = range_of(curve);
@@ -123,8 +143,52 @@ ErrorId MotionKernel::check_curve(const CamInRequest& request, const CamCurve& c
   return ErrorId::none;
 }
 
-Order MotionKernel::cam_in(const CamInRequest& request, std::uint64_t again) {
-  if (const ErrorId error = check_axes(request.master, request.slave); error != ErrorId::none) return {error};
+Order MotionKernel::check(AxisRef ref, const Request& request) const {
+  if (const auto* cam = std::get_if<CamInRequest>(&request)) {
+    const Order order = check_axes(cam->master, cam->slave);
+    return order.error != ErrorId::none ? order : Order{check_pins(*cam)};
+  }
+  JerkLimits limits;
+  if (const auto* gear = std::get_if<GearInRequest>(&request)) {
+    const Order order = check_axes(gear->master, gear->slave);
+    if (order.error != ErrorId::none) return order;
+    if (const ErrorId error = check_pins(*gear); error != ErrorId::none) return {error};
+    return {axis(ref)->limits_of(gear->dynamics, limits)};
+  }
+  return {axis(ref)->check(std::get<MoveRequest>(request), limits)};
+}
+
+Order MotionKernel::start(AxisRef ref, const Request& request, std::uint64_t again, std::uint64_t ticket) {
+  if (const auto* cam = std::get_if<CamInRequest>(&request)) return cam_in(*cam, again, ticket);
+  if (const auto* gear = std::get_if<GearInRequest>(&request)) return gear_in(*gear, ticket);
+  return axis(ref)->move(std::get<MoveRequest>(request), ticket);
+}
+
+Order MotionKernel::give(AxisRef ref, const Request& request, BufferMode mode, std::uint64_t again) {
+  Axis* moved = axis(ref);
+  if (moved == nullptr) return {ErrorId::no_such_axis};
+  if (mode < BufferMode::aborting || mode > BufferMode::blending_high) return {ErrorId::buffer_mode};
+  if (mode == BufferMode::aborting || (moved->waiting().empty() && moved->takes_next()))
+    return start(ref, request, again, 0);
+  const Order order = check(ref, request);
+  return order.error != ErrorId::none ? order : moved->wait(request, mode);
+}
+
+/// In the cycle in which a command is done the one that waits takes over.
+void MotionKernel::start_waiting(AxisRef ref) {
+  Axis& moved = *axis(ref);
+  while (!moved.waiting().empty() && moved.takes_next()) {
+    const WaitingCommand next = moved.take_next();
+    const Order order = start(ref, next.request, 0, next.ticket);
+    if (order.error != ErrorId::none) return moved.drop(next.ticket, order.error);
+    moved.blend();
+    moved.run_on();
+  }
+}
+
+Order MotionKernel::cam_in(const CamInRequest& request, std::uint64_t again, std::uint64_t ticket) {
+  if (const Order order = check_axes(request.master, request.slave); order.error != ErrorId::none)
+    return order;
   Axis& slave = *axis(request.slave);
   if (const Verdict verdict = judge(slave.state(), Command::cam_in); verdict.error != ErrorId::none)
     return {verdict.error};
@@ -133,8 +197,8 @@ Order MotionKernel::cam_in(const CamInRequest& request, std::uint64_t again) {
   if (table == nullptr) return {ErrorId::no_such_table};
   const std::optional<Interpolation> interpolation = interpolation_of(*table, request.interpolation);
   if (!interpolation) return {ErrorId::unknown_interpolation};
-  if (const ErrorId error = check_cam(request, *table, *interpolation); error != ErrorId::none)
-    return {error};
+  if (const Order order = check_cam(request, *table, *interpolation); order.error != ErrorId::none)
+    return order;
 
   const bool periodic = (request.start_mode & hli_ci_f_periodic) != 0;
   Coupling* present = slave.coupling();
@@ -160,21 +224,20 @@ Order MotionKernel::cam_in(const CamInRequest& request, std::uint64_t again) {
       .periodic = periodic};
   if (const ErrorId error = check_curve(request, law.curve); error != ErrorId::none) return {error};
   Coupling coupling(std::move(law), slave.modulo());
+  const AxisMotion from = slave.start_of(ticket);
   if (present != nullptr && slave.link().master == request.master)
-    coupling.take_over(*present, master, slave.set(), in_place);
-  if (!periodic) coupling.start_in_place(master, slave.set(), in_place);
-  return slave.couple(std::move(coupling), link, Command::cam_in);
+    coupling.take_over(*present, master, from, in_place);
+  if (!periodic) coupling.start_in_place(master, from, in_place);
+  return slave.couple(std::move(coupling), link, Command::cam_in, ticket);
 }
 
-Order MotionKernel::gear_in(const GearInRequest& request) {
-  if (const ErrorId error = check_axes(request.master, request.slave); error != ErrorId::none) return {error};
+Order MotionKernel::gear_in(const GearInRequest& request, std::uint64_t ticket) {
+  if (const Order order = check_axes(request.master, request.slave); order.error != ErrorId::none)
+    return order;
   Axis& slave = *axis(request.slave);
   if (const Verdict verdict = judge(slave.state(), Command::gear_in); verdict.error != ErrorId::none)
     return {verdict.error};
-  if (request.mode != 0 && request.mode != gear_on_actual_values) return {ErrorId::gear_mode};
-  constexpr std::uint32_t most = 2147483647;
-  if (request.numerator == 0 || request.denominator == 0 || request.denominator > most)
-    return {ErrorId::gear_ratio};
+  if (const ErrorId error = check_pins(request); error != ErrorId::none) return {error};
   JerkLimits limits;
   if (const ErrorId error = slave.limits_of(request.dynamics, limits); error != ErrorId::none) return {error};
   if (!slave.control.feed_enable) return {ErrorId::feed_enable_missing};
@@ -183,7 +246,7 @@ Order MotionKernel::gear_in(const GearInRequest& request) {
   link.actual_values = request.mode == gear_on_actual_values;
   const GearFollow gear{request.numerator, request.denominator, axis(request.master)->modulo()};
   slave.set_gear_dynamics(request.dynamics);
-  return slave.couple(Coupling(gear, slave.modulo()), link, Command::gear_in);
+  return slave.couple(Coupling(gear, slave.modulo()), link, Command::gear_in, ticket);
 }
 
 ErrorId MotionKernel::set_position(AxisRef ref, double position, bool relative) {
@@ -196,22 +259,20 @@ ErrorId MotionKernel::set_position(AxisRef ref, double position, bool relative) 
   return moved->set_position(position, relative);
 }
 
-ErrorId MotionKernel::phase(AxisRef master, AxisRef slave_ref, double shift, const Dynamics& dynamics) {
+Order MotionKernel::phase(AxisRef master, AxisRef slave_ref, double shift, const Dynamics& dynamics) {
   Axis* slave = axis(slave_ref);
   const Axis* ahead = axis(master);
-  if (slave == nullptr || ahead == nullptr) return ErrorId::no_such_axis;
+  if (slave == nullptr || ahead == nullptr) return {ErrorId::no_such_axis};
   if (const Verdict verdict = judge(slave->state(), Command::phasing); verdict.error != ErrorId::none)
-    return verdict.error;
-  if (slave->link().master != master) return ErrorId::phasing_not_synchronous;
-  if (!slave->coupling()->engaged())
-    return slave->coupling()->cam() != nullptr ? ErrorId::phasing_master_not_reached
-                                               : ErrorId::phasing_slave_not_reached;
-  if (!(std::abs(shift) <= pin_max)) return ErrorId::offset_range;
-  if (!(dynamics.velocity >= 1)) return ErrorId::velocity_range;
+    return {verdict.error};
+  if (slave->link().master != master) return {ErrorId::phasing_not_synchronous};
+  if (!slave->coupling()->engaged()) return {ErrorId::phasing_slave_not_reached};
+  if (!(std::abs(shift) <= pin_max)) return {ErrorId::offset_range};
+  if (!(dynamics.velocity >= 1)) return {ErrorId::velocity_range};
   JerkLimits limits;
-  if (const ErrorId error = ahead->limits_of(dynamics, limits); error != ErrorId::none) return error;
+  if (const ErrorId error = ahead->limits_of(dynamics, limits); error != ErrorId::none) return {error};
   slave->coupling()->shift_phase(shift, limits);
-  return ErrorId::none;
+  return {ErrorId::none, slave->ticket()};
 }
 
 void MotionKernel::refresh(Axis& slave) {
@@ -221,8 +282,10 @@ void MotionKernel::refresh(Axis& slave) {
   const CamTable& table = *tables_.find(link.table);
   const double modulo = axis(link.master)->modulo();
   link.revision = tables_.revision(link.table);
-  if (check(table, link.interpolation, modulo) != ErrorId::none) return;
-  slave.coupling()->replace_curve(curve_of(table, link.interpolation, modulo, slave.modulo(), link.endless));
+  if (plcopen::check(table, link.interpolation, modulo) != ErrorId::none) return;
+  CamCurve curve = curve_of(table, link.interpolation, modulo, slave.modulo(), link.endless);
+  if (within_reach(curve, slave.coupling()->cam()->slave_scaling))
+    slave.coupling()->replace_curve(std::move(curve));
 }
 
 void MotionKernel::set_points(std::size_t number) {
@@ -230,12 +293,16 @@ void MotionKernel::set_points(std::size_t number) {
   moved_[number] = true;
   Axis& axis = axes_[number];
   const double dt = static_cast<double>(cycle_ns_) * 1e-9;
-  if (axis.coupling() == nullptr) return axis.move(dt);
+  if (axis.coupling() == nullptr) {
+    axis.move(dt);
+    return start_waiting({static_cast<int>(number)});
+  }
   const CouplingLink& link = axis.link();
   set_points(static_cast<std::size_t>(link.master.number));
   refresh(axis);
   axis.follow(this->axis(link.master)->as_master(link.actual_values, axis.parameters().delay_time * 1e-6),
               dt);
+  start_waiting({static_cast<int>(number)});
 }
 
 void MotionKernel::cycle() {

@@ -9,58 +9,6 @@
 
 namespace drycut::devices::plcopen {
 
-/// Bits of MC_CamIn.StartMode (004 "startmode"). The first three have no effect: ramp-in and absolute are
-/// always used.
-enum StartMode : std::uint32_t {
-  hli_ci_ramp_in = 0x01,
-  hli_ci_absolute = 0x02,
-  hli_ci_relative = 0x04,
-  hli_ci_lock_table = 0x08,
-  hli_ci_f_periodic = 0x10,
-  hli_ci_endless_positive = 0x20,
-  hli_ci_endless_negative = 0x40,
-};
-struct StartModeRow {
-  std::string_view name;
-  std::uint32_t bit = 0;
-  std::string_view meaning;
-};
-inline constexpr std::array start_mode_table{
-    StartModeRow{"HLI_CI_RAMP_IN", hli_ci_ramp_in, "no effect: always"},
-    StartModeRow{"HLI_CI_ABSOLUTE", hli_ci_absolute, "no effect: always"},
-    StartModeRow{"HLI_CI_RELATIVE", hli_ci_relative, "no effect"},
-    StartModeRow{"HLI_CI_LOCK_TABLE", hli_ci_lock_table, "the table cannot be written while coupled"},
-    StartModeRow{"HLI_CI_F_PERIODIC", hli_ci_f_periodic, "endless; without it one pass for each Execute"},
-    StartModeRow{"HLI_CI_ENDLESS_POSITIVE", hli_ci_endless_positive,
-                 "the cam turns the slave on in positive direction"},
-    StartModeRow{"HLI_CI_ENDLESS_NEGATIVE", hli_ci_endless_negative,
-                 "the cam turns the slave on in negative direction"},
-};
-
-/// Inputs of MC_CamIn, without its edge.
-struct CamInRequest {
-  AxisRef master;
-  AxisRef slave;
-  double master_offset = 0;
-  double slave_offset = 0;
-  double master_scaling = 1;
-  double slave_scaling = 1;
-  std::uint32_t start_mode = 0;
-  std::uint16_t table = 0;
-  std::uint32_t interpolation = static_cast<std::uint32_t>(Interpolation::table_defined);
-};
-
-/// Inputs of MC_GearIn.
-struct GearInRequest {
-  AxisRef master;
-  AxisRef slave;
-  std::int32_t numerator = 1;
-  std::uint32_t denominator = 1;
-  Dynamics dynamics;
-  std::uint32_t mode = 0;
-};
-inline constexpr std::uint32_t gear_on_actual_values = 0x80;
-
 /// The axes of a controller, its cam tables and their cycle. Function blocks give their commands between two
 /// cycles.
 class MotionKernel {
@@ -86,14 +34,15 @@ class MotionKernel {
   void end_table_change(std::uint16_t id) { tables_.end_change(id); }
   [[nodiscard]] const CamTables& tables() const { return tables_; }
 
-  /// MC_CamIn, MC_GearIn. `again` is the ticket of the block's own coupling, if it has one: a non-periodic
-  /// pass under way is then given one pass more instead of being engaged anew.
-  Order cam_in(const CamInRequest& request, std::uint64_t again = 0);
-  Order gear_in(const GearInRequest& request);
+  /// Gives `axis` a command: at once, or when its turn has come. `again` is the ticket of MC_CamIn's own
+  /// coupling, if it has one: a non-periodic pass under way is then given one pass more instead of being
+  /// engaged anew. 44000 if too many commands wait, 65019 if there is no such mode.
+  Order give(AxisRef axis, const Request& request, BufferMode mode = BufferMode::aborting,
+             std::uint64_t again = 0);
   /// MC_SetPosition, see Axis::set_position. 44020 while a slave follows the axis: it would leap.
   ErrorId set_position(AxisRef axis, double position, bool relative);
   /// MC_Phasing: shifts the apparent master of the slave; does not take the axis from its coupling.
-  ErrorId phase(AxisRef master, AxisRef slave, double shift, const Dynamics& dynamics);
+  Order phase(AxisRef master, AxisRef slave, double shift, const Dynamics& dynamics);
 
   /// One cycle: actual values, setpoints (masters before slaves), position controllers.
   void cycle();
@@ -101,8 +50,15 @@ class MotionKernel {
  private:
   [[nodiscard]] bool locked(std::uint16_t table) const;
   [[nodiscard]] bool follows(const Axis& slave, const Axis& master) const;
-  ErrorId check_axes(AxisRef master, AxisRef slave) const;
-  ErrorId check_cam(const CamInRequest& request, const CamTable& table, Interpolation interpolation) const;
+  [[nodiscard]] Order check_axes(AxisRef master, AxisRef slave) const;
+  /// What is wrong with a request whatever the axis does; its turn may come later.
+  [[nodiscard]] Order check(AxisRef axis, const Request& request) const;
+  Order start(AxisRef axis, const Request& request, std::uint64_t again, std::uint64_t ticket);
+  Order cam_in(const CamInRequest& request, std::uint64_t again, std::uint64_t ticket);
+  Order gear_in(const GearInRequest& request, std::uint64_t ticket);
+  void start_waiting(AxisRef axis);
+  [[nodiscard]] Order check_cam(const CamInRequest& request, const CamTable& table,
+                                Interpolation interpolation) const;
   ErrorId check_curve(const CamInRequest& request, const CamCurve& curve) const;
   void refresh(Axis& slave);
   void set_points(std::size_t number);

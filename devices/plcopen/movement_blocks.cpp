@@ -4,6 +4,7 @@ namespace drycut::devices::plcopen {
 
 void McPower::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
+  about = Axis;
   Error = axis == nullptr;
   ErrorID = Error ? static_cast<std::uint32_t>(ErrorId::no_such_axis) : 0;
   Status = false;
@@ -19,9 +20,10 @@ void McPower::call(MotionKernel& kernel) {
 
 void McReset::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
+  about = Axis;
   if (edge_.rising(Execute)) {
     taken(axis == nullptr ? Order{ErrorId::no_such_axis} : axis->reset());
-  } else if (axis != nullptr && watch_ == Watch::busy && axis->ticket() == ticket_ &&
+  } else if (axis != nullptr && progress_ == Progress::active && axis->ticket() == ticket_ &&
              axis->state() == AxisState::errorstop) {
     // The error that it resets is none of its own.
   } else {
@@ -36,31 +38,33 @@ void McStop::call(MotionKernel& kernel) {
   if (!Execute && axis != nullptr && ticket_ != 0) axis->release_stop(ticket_);
 }
 
+Order MoveCommand::order(MotionKernel& kernel, Command command, double way, std::int16_t direction) const {
+  return kernel.give(
+      Axis,
+      MoveRequest{
+          command, way, {Velocity, Acceleration, Deceleration, Jerk}, static_cast<Direction>(direction)},
+      static_cast<plcopen::BufferMode>(BufferMode));
+}
+
 void McMoveVelocity::call(MotionKernel& kernel) {
-  plcopen::Axis* axis = kernel.axis(Axis);
-  if (edge_.rising(Execute)) {
-    taken(axis == nullptr ? Order{ErrorId::no_such_axis}
-                          : axis->move_velocity(Velocity, {0, Acceleration, Deceleration, Jerk},
-                                                static_cast<plcopen::Direction>(Direction)));
-  }
-  // At its speed the axis is not done: another command aborts it still.
-  watch(axis, true);
-  show();
+  AxisCommand::call(kernel);
   InVelocity = Done;
 }
 
 void McSetPosition::call(MotionKernel& kernel) {
-  if (edge_.rising(Execute)) answered(kernel.set_position(Axis, Position, Relative));
+  about = Axis;
+  if (edge_.rising(Execute)) answered({kernel.set_position(Axis, Position, Relative)});
   show();
 }
 
 void McSetOverride::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
+  about = Axis;
   ErrorId error = ErrorId::none;
   if (Enable) error = axis == nullptr ? ErrorId::no_such_axis : axis->set_override(VelFactor);
   Error = error != ErrorId::none;
   ErrorID = static_cast<std::uint32_t>(error);
-  Enabled = Enable && !Error;
+  Enabled = Busy = Enable && !Error;
 }
 
 }  // namespace drycut::devices::plcopen

@@ -23,7 +23,7 @@ struct McHome final : AxisCommand {
   PinValue pin(std::size_t number) override;
 
  private:
-  Order give(plcopen::Axis& axis) override { return axis.home(Position); }
+  Order give(MotionKernel&, plcopen::Axis& axis) override { return axis.home(Position); }
 };
 
 struct McReset final : ExecutedBlock {
@@ -39,7 +39,11 @@ struct McStop final : AxisCommand {
   PinValue pin(std::size_t number) override;
 
  private:
-  Order give(plcopen::Axis& axis) override { return axis.stop({.deceleration = Deceleration, .jerk = Jerk}); }
+  Order give(MotionKernel&, plcopen::Axis& axis) override {
+    return axis.stop({.deceleration = Deceleration, .jerk = Jerk});
+  }
+  /// It holds the axis while Execute is TRUE.
+  [[nodiscard]] bool goes_on() const override { return Execute; }
 };
 
 struct McHalt final : AxisCommand {
@@ -48,49 +52,80 @@ struct McHalt final : AxisCommand {
   PinValue pin(std::size_t number) override;
 
  private:
-  Order give(plcopen::Axis& axis) override { return axis.halt({.deceleration = Deceleration, .jerk = Jerk}); }
+  Order give(MotionKernel&, plcopen::Axis& axis) override {
+    return axis.halt({.deceleration = Deceleration, .jerk = Jerk});
+  }
 };
 
-struct McMoveAbsolute final : AxisCommand {
-  double Position = 0;
+/// What the blocks share that take the axis to a target or a speed.
+struct MoveCommand : AxisCommand {
   double Velocity = 0;
   double Acceleration = 0;
   double Deceleration = 0;
   double Jerk = 0;
+  std::int16_t BufferMode = static_cast<std::int16_t>(plcopen::BufferMode::aborting);
+
+ protected:
+  /// Position or Distance, and Direction.
+  Order order(MotionKernel& kernel, Command command, double way, std::int16_t direction) const;
+};
+
+struct McMoveAbsolute final : MoveCommand {
+  double Position = 0;
   std::int16_t Direction = static_cast<std::int16_t>(plcopen::Direction::shortest_way);
   PinValue pin(std::size_t number) override;
 
  private:
-  Order give(plcopen::Axis& axis) override {
-    return axis.move_absolute(Position, {Velocity, Acceleration, Deceleration, Jerk},
-                              static_cast<plcopen::Direction>(Direction));
+  Order give(MotionKernel& kernel, plcopen::Axis&) override {
+    return order(kernel, Command::move_absolute, Position, Direction);
   }
 };
 
-struct McMoveRelative final : AxisCommand {
+/// MC_MoveRelative, from where the axis is commanded to be, and MC_MoveAdditive, from where it is to go.
+template <Command command>
+struct McMoveBy final : MoveCommand {
   double Distance = 0;
-  double Velocity = 0;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  Order give(MotionKernel& kernel, plcopen::Axis&) override {
+    return order(kernel, command, Distance, static_cast<std::int16_t>(Direction::shortest_way));
+  }
+};
+using McMoveRelative = McMoveBy<Command::move_relative>;
+using McMoveAdditive = McMoveBy<Command::move_additive>;
+template <>
+PinValue McMoveRelative::pin(std::size_t number);
+template <>
+PinValue McMoveAdditive::pin(std::size_t number);
+
+/// On top of the movement or coupling under way, which goes on.
+struct McMoveSuperImposed final : AxisCommand {
+  double Distance = 0;
+  double VelocityDiff = 0;
   double Acceleration = 0;
   double Deceleration = 0;
   double Jerk = 0;
   PinValue pin(std::size_t number) override;
 
  private:
-  Order give(plcopen::Axis& axis) override {
-    return axis.move_relative(Distance, {Velocity, Acceleration, Deceleration, Jerk});
+  Order give(MotionKernel&, plcopen::Axis& axis) override {
+    return axis.superimpose(Distance, {VelocityDiff, Acceleration, Deceleration, Jerk});
   }
 };
 
-struct McMoveVelocity final : ExecutedBlock {
-  AxisRef Axis;
-  double Velocity = 0;
-  double Acceleration = 0;
-  double Deceleration = 0;
-  double Jerk = 0;
+struct McMoveVelocity final : MoveCommand {
   std::int16_t Direction = static_cast<std::int16_t>(plcopen::Direction::positive);
   bool InVelocity = false;
   void call(MotionKernel& kernel) override;
   PinValue pin(std::size_t number) override;
+
+ private:
+  Order give(MotionKernel& kernel, plcopen::Axis&) override {
+    return order(kernel, Command::move_velocity, 0, Direction);
+  }
+  /// At its speed the axis is not done: another command aborts it still.
+  [[nodiscard]] bool goes_on() const override { return true; }
 };
 
 struct McSetPosition final : ExecutedBlock {
@@ -107,6 +142,7 @@ struct McSetOverride final : FunctionBlock {
   bool Enable = false;
   double VelFactor = 1;
   bool Enabled = false;
+  bool Busy = false;
   bool Error = false;
   std::uint32_t ErrorID = 0;
   void call(MotionKernel& kernel) override;

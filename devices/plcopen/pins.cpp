@@ -30,7 +30,12 @@ constexpr PinDirection out = PinDirection::output;
 
 #define PIN(block, type, direction, name, meaning) bind<block>(#name, type, direction, &block::name, meaning)
 #define EXECUTE(block) PIN(block, "BOOL", in, Execute, "the rising edge gives the command")
+#define BUSY(block) PIN(block, "BOOL", out, Busy, "the block is not finished")
+#define ACTIVE(block) BUSY(block), PIN(block, "BOOL", out, Active, "it has control of the axis")
 #define DONE(block, meaning) PIN(block, "BOOL", out, Done, meaning)
+#define BUFFER(block)               \
+  PIN(block, "INT", in, BufferMode, \
+      "0 mcAborting, 1 mcBuffered, 2 Low, 3 Previous, 4 Next, 5 mcBlendingHigh: when its turn comes")
 #define ABORTED(block) PIN(block, "BOOL", out, CommandAborted, "another command has taken over")
 #define ERRORS(block)                                                          \
   PIN(block, "BOOL", out, Error, "refused, or ended by an error of the axis"), \
@@ -51,9 +56,10 @@ constexpr std::tuple home{
     EXECUTE(McHome),
     PIN(McHome, "LREAL", in, Position, "the present position's new value [0.1 um or 0.0001 deg]"),
     DONE(McHome, "homed"),
+    ACTIVE(McHome),
     ABORTED(McHome),
     ERRORS(McHome)};
-constexpr std::tuple reset{AXIS(McReset), EXECUTE(McReset), DONE(McReset, "out of Errorstop"),
+constexpr std::tuple reset{AXIS(McReset), EXECUTE(McReset), DONE(McReset, "out of Errorstop"), BUSY(McReset),
                            ERRORS(McReset)};
 constexpr std::tuple stop{
     AXIS(McStop),
@@ -61,12 +67,15 @@ constexpr std::tuple stop{
     PIN(McStop, "LREAL", in, Deceleration, "mm/s2 or deg/s2; 0 = half of a_max"),
     PIN(McStop, "LREAL", in, Jerk, "mm/s3 or deg/s3; 0 = half of a_max in tr_min"),
     DONE(McStop, "the axis stands"),
+    ACTIVE(McStop),
+    ABORTED(McStop),
     ERRORS(McStop)};
 constexpr std::tuple halt{AXIS(McHalt),
                           EXECUTE(McHalt),
                           PIN(McHalt, "LREAL", in, Deceleration, "mm/s2 or deg/s2; 0 = half of a_max"),
                           PIN(McHalt, "LREAL", in, Jerk, "mm/s3 or deg/s3; 0 = half of a_max in tr_min"),
                           DONE(McHalt, "the axis stands"),
+                          ACTIVE(McHalt),
                           ABORTED(McHalt),
                           ERRORS(McHalt)};
 constexpr std::tuple move_absolute{
@@ -77,7 +86,9 @@ constexpr std::tuple move_absolute{
     SLOPES(McMoveAbsolute),
     PIN(McMoveAbsolute, "INT", in, Direction,
         "of a modulo axis: 1 positive, 2 shortest way, 3 negative, 4 current"),
+    BUFFER(McMoveAbsolute),
     DONE(McMoveAbsolute, "at the target, the actual position within the window"),
+    ACTIVE(McMoveAbsolute),
     ABORTED(McMoveAbsolute),
     ERRORS(McMoveAbsolute)};
 constexpr std::tuple move_relative{
@@ -86,16 +97,44 @@ constexpr std::tuple move_relative{
     PIN(McMoveRelative, "LREAL", in, Distance, "from the commanded position [0.1 um or 0.0001 deg]"),
     PIN(McMoveRelative, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
     SLOPES(McMoveRelative),
+    BUFFER(McMoveRelative),
     DONE(McMoveRelative, "at the target, the actual position within the window"),
+    ACTIVE(McMoveRelative),
     ABORTED(McMoveRelative),
     ERRORS(McMoveRelative)};
+constexpr std::tuple move_additive{
+    AXIS(McMoveAdditive),
+    EXECUTE(McMoveAdditive),
+    PIN(McMoveAdditive, "LREAL", in, Distance,
+        "from the target of the movement under way, else from the commanded position [0.1 um or 0.0001 deg]"),
+    PIN(McMoveAdditive, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
+    SLOPES(McMoveAdditive),
+    BUFFER(McMoveAdditive),
+    DONE(McMoveAdditive, "at the target, the actual position within the window"),
+    ACTIVE(McMoveAdditive),
+    ABORTED(McMoveAdditive),
+    ERRORS(McMoveAdditive)};
+constexpr std::tuple move_superimposed{
+    AXIS(McMoveSuperImposed),
+    EXECUTE(McMoveSuperImposed),
+    PIN(McMoveSuperImposed, "LREAL", in, Distance,
+        "on top of what is under way; in Standstill as MC_MoveRelative [0.1 um or 0.0001 deg]"),
+    PIN(McMoveSuperImposed, "LREAL", in, VelocityDiff,
+        "largest difference to the speed under way, um/s or 0.001 deg/s, 1 or more"),
+    SLOPES(McMoveSuperImposed),
+    DONE(McMoveSuperImposed, "the distance has been added"),
+    BUSY(McMoveSuperImposed),
+    ABORTED(McMoveSuperImposed),
+    ERRORS(McMoveSuperImposed)};
 constexpr std::tuple move_velocity{
     AXIS(McMoveVelocity),
     EXECUTE(McMoveVelocity),
     PIN(McMoveVelocity, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
     SLOPES(McMoveVelocity),
     PIN(McMoveVelocity, "INT", in, Direction, "1 positive, 3 negative, 4 current"),
+    BUFFER(McMoveVelocity),
     PIN(McMoveVelocity, "BOOL", out, InVelocity, "the speed is reached"),
+    ACTIVE(McMoveVelocity),
     ABORTED(McMoveVelocity),
     ERRORS(McMoveVelocity)};
 constexpr std::tuple set_position{
@@ -104,12 +143,14 @@ constexpr std::tuple set_position{
     PIN(McSetPosition, "LREAL", in, Position, "the actual position's new value [0.1 um or 0.0001 deg]"),
     PIN(McSetPosition, "BOOL", in, Relative, "TRUE: Position is added to the present one"),
     DONE(McSetPosition, "the position has its new value"),
+    BUSY(McSetPosition),
     ERRORS(McSetPosition)};
 constexpr std::tuple set_override{
     AXIS(McSetOverride),
     PIN(McSetOverride, "BOOL", in, Enable, "TRUE takes the factor; it stays when FALSE"),
     PIN(McSetOverride, "LREAL", in, VelFactor, "share of the speed of movements, 0..1"),
     PIN(McSetOverride, "BOOL", out, Enabled, "the factor is in force"),
+    PIN(McSetOverride, "BOOL", out, Busy, "the factor is taken in every call"),
     PIN(McSetOverride, "BOOL", out, Error, "refused"),
     PIN(McSetOverride, "UDINT", out, ErrorID, "which; see the table of errors")};
 constexpr std::tuple cam_table_select{
@@ -117,6 +158,7 @@ constexpr std::tuple cam_table_select{
     EXECUTE(McCamTableSelect),
     PIN(McCamTableSelect, "MC_CAM_REF", in, CamTable, "the table by its file's name, which wins, or its id"),
     DONE(McCamTableSelect, "the table is there"),
+    BUSY(McCamTableSelect),
     ERRORS(McCamTableSelect),
     PIN(McCamTableSelect, "UINT", out, CamTableID, "for MC_CamIn")};
 constexpr std::tuple cam_in{
@@ -129,12 +171,15 @@ constexpr std::tuple cam_in{
     PIN(McCamIn, "DWORD", in, StartMode, "HLI_CI_ bits"),
     PIN(McCamIn, "UINT", in, CamTableID, "the table"),
     PIN(McCamIn, "UDINT", in, TableFctType, "0 STEP_DIRECT .. 5 POLY5_LINE, 6 as the table says"),
-    PIN(McCamIn, "BOOL", out, InSync, "engaged"),
+    BUFFER(McCamIn),
+    PIN(McCamIn, "BOOL", out, InSync, "engaged; FALSE while the cam asks for more than the slave's speed"),
+    ACTIVE(McCamIn),
     ABORTED(McCamIn),
     ERRORS(McCamIn),
     PIN(McCamIn, "BOOL", out, EndOfProfile, "for one call: the cam has come to its end")};
 constexpr std::tuple cam_out{PIN(McCamOut, "AXIS_REF", io, Slave, "the axis that follows"), EXECUTE(McCamOut),
-                             DONE(McCamOut, "uncoupled, the slave keeps its speed"), ERRORS(McCamOut)};
+                             DONE(McCamOut, "uncoupled, the slave keeps its speed"), BUSY(McCamOut),
+                             ERRORS(McCamOut)};
 constexpr std::tuple gear_in{
     MASTER_SLAVE(McGearIn),
     EXECUTE(McGearIn),
@@ -142,12 +187,14 @@ constexpr std::tuple gear_in{
     PIN(McGearIn, "UDINT", in, RatioDenominator, "master, above 0"),
     SLOPES(McGearIn),
     PIN(McGearIn, "DWORD", in, Mode, "0 setpoints of the master, 16#80 its actual values"),
-    PIN(McGearIn, "BOOL", out, InGear, "engaged"),
+    BUFFER(McGearIn),
+    PIN(McGearIn, "BOOL", out, InGear, "engaged; FALSE while the slave's limits hold it back"),
+    ACTIVE(McGearIn),
     ABORTED(McGearIn),
     ERRORS(McGearIn)};
 constexpr std::tuple gear_out{PIN(McGearOut, "AXIS_REF", io, Slave, "the axis that follows"),
                               EXECUTE(McGearOut), DONE(McGearOut, "uncoupled, the slave keeps its speed"),
-                              ERRORS(McGearOut)};
+                              BUSY(McGearOut), ERRORS(McGearOut)};
 constexpr std::tuple phasing{MASTER_SLAVE(McPhasing),
                              EXECUTE(McPhasing),
                              PIN(McPhasing, "LREAL", in, PhaseShift,
@@ -155,6 +202,7 @@ constexpr std::tuple phasing{MASTER_SLAVE(McPhasing),
                              PIN(McPhasing, "LREAL", in, Velocity, "um/s or 0.001 deg/s, 1 or more"),
                              SLOPES(McPhasing),
                              DONE(McPhasing, "shifted"),
+                             ACTIVE(McPhasing),
                              ABORTED(McPhasing),
                              ERRORS(McPhasing)};
 
@@ -166,14 +214,16 @@ constexpr std::tuple cam_table_write{
     PIN(CamTableWrite, "UINT", in, Column, "of the element, from 1"),
     PIN(CamTableWrite, "LREAL", in, Value, "the element's new value"),
     DONE(CamTableWrite, "written"),
+    BUSY(CamTableWrite),
     PIN(CamTableWrite, "BOOL", out, Changing, "the change has begun"),
     PIN(CamTableWrite, "BOOL", out, Error, "not written, or the change has not begun"),
     PIN(CamTableWrite, "UDINT", out, ErrorID, "which; see the table of errors")};
 
-#define READING(block)                                                \
-  AXIS(block), PIN(block, "BOOL", in, Enable, "TRUE reads"),          \
-      PIN(block, "BOOL", out, Valid, "the outputs are of this call"), \
-      PIN(block, "BOOL", out, Error, "there is no such axis"),        \
+#define READING(block)                                                 \
+  AXIS(block), PIN(block, "BOOL", in, Enable, "TRUE reads"),           \
+      PIN(block, "BOOL", out, Valid, "the outputs are of this call"),  \
+      PIN(block, "BOOL", out, Busy, "it reads in every call"),         \
+      PIN(block, "BOOL", out, Error, "there is nothing such to read"), \
       PIN(block, "UDINT", out, ErrorID, "which; see the table of errors")
 #define STATE(name, meaning) PIN(McReadStatus, "BOOL", out, name, meaning)
 
@@ -195,6 +245,44 @@ constexpr std::tuple read_status{READING(McReadStatus),
 constexpr std::tuple read_error{
     READING(McReadAxisError),
     PIN(McReadAxisError, "UDINT", out, AxisErrorID, "of the axis, 0 = none; see the table of errors")};
+constexpr std::tuple read_info{
+    READING(McReadAxisInfo),
+    PIN(McReadAxisInfo, "BOOL", out, Simulation, "a virtual axis"),
+    PIN(McReadAxisInfo, "BOOL", out, CommunicationReady, "the axis can be spoken to"),
+    PIN(McReadAxisInfo, "BOOL", out, ReadyForPowerOn, "its drive is ready"),
+    PIN(McReadAxisInfo, "BOOL", out, PowerOn, "MC_Power has switched it on"),
+    PIN(McReadAxisInfo, "BOOL", out, IsHomed, "its zero is known"),
+    PIN(McReadAxisInfo, "BOOL", out, AxisWarning,
+        "the command in force asks for more speed than the axis has")};
+constexpr std::tuple read_motion{
+    READING(McReadMotionState),
+    PIN(McReadMotionState, "BOOL", out, ConstantVelocity, "the commanded speed does not change; it may be 0"),
+    PIN(McReadMotionState, "BOOL", out, Accelerating, "it grows, whatever the direction"),
+    PIN(McReadMotionState, "BOOL", out, Decelerating, "it falls"),
+    PIN(McReadMotionState, "BOOL", out, DirectionPositive, "the commanded position grows"),
+    PIN(McReadMotionState, "BOOL", out, DirectionNegative, "it falls"),
+    PIN(McReadMotionState, "BOOL", out, RevZero, "the actual speed is 0"),
+    PIN(McReadMotionState, "BOOL", out, InWindow, "the actual position is within the window of the target"),
+    PIN(McReadMotionState, "BOOL", out, InPosition, "likewise, and the commanded speed is 0"),
+    PIN(McReadMotionState, "BOOL", out, IsMoving, "the commanded speed is not 0"),
+    PIN(McReadMotionState, "LREAL", out, LrCommandedPos, "the target [0.1 um or 0.0001 deg]"),
+    PIN(McReadMotionState, "LREAL", out, LrActualPos, "of the encoder [0.1 um or 0.0001 deg]"),
+    PIN(McReadMotionState, "LREAL", out, LrSetPos, "the commanded position [0.1 um or 0.0001 deg]"),
+    PIN(McReadMotionState, "LREAL", out, LrActualRev, "of the encoder [um/s or 0.001 deg/s]"),
+    PIN(McReadMotionState, "LREAL", out, LrSetRev, "the commanded speed [um/s or 0.001 deg/s]"),
+    PIN(McReadMotionState, "LREAL", out, LrSetAccel, "the commanded acceleration [mm/s2 or deg/s2]")};
+constexpr std::tuple read_parameter{
+    READING(McReadParameter),
+    PIN(McReadParameter, "INT", in, ParameterNumber, "PLCopen's number; see the table of parameters"),
+    PIN(McReadParameter, "LREAL", out, Value, "in the kernel's unit")};
+constexpr std::tuple write_parameter{
+    AXIS(McWriteParameter),
+    EXECUTE(McWriteParameter),
+    PIN(McWriteParameter, "INT", in, ParameterNumber, "PLCopen's number; see the table of parameters"),
+    PIN(McWriteParameter, "LREAL", in, Value, "in the kernel's unit"),
+    DONE(McWriteParameter, "in force, and kept over power cycles"),
+    BUSY(McWriteParameter),
+    ERRORS(McWriteParameter)};
 constexpr std::tuple touch_probe{
     AXIS(McTouchProbe),
     PIN(McTouchProbe, "UINT", in, TriggerInput, "0, the axis' own probe"),
@@ -204,18 +292,23 @@ constexpr std::tuple touch_probe{
     PIN(McTouchProbe, "LREAL", in, LastPosition,
         "where it ends; of a modulo axis it may lie before FirstPosition, over the end of the turn"),
     DONE(McTouchProbe, "recorded"),
+    BUSY(McTouchProbe),
     ABORTED(McTouchProbe),
     ERRORS(McTouchProbe),
     PIN(McTouchProbe, "LREAL", out, RecordedPosition, "where the axis was at the edge itself")};
 constexpr std::tuple abort_trigger{
-    AXIS(McAbortTrigger), PIN(McAbortTrigger, "UINT", in, TriggerInput, "0, the axis' own probe"),
-    EXECUTE(McAbortTrigger), DONE(McAbortTrigger, "no block waits any more"), ERRORS(McAbortTrigger)};
+    AXIS(McAbortTrigger),    PIN(McAbortTrigger, "UINT", in, TriggerInput, "0, the axis' own probe"),
+    EXECUTE(McAbortTrigger), DONE(McAbortTrigger, "no block waits any more"),
+    BUSY(McAbortTrigger),    ERRORS(McAbortTrigger)};
 
 #undef READING
 #undef STATE
 #undef PIN
 #undef EXECUTE
 #undef DONE
+#undef BUSY
+#undef ACTIVE
+#undef BUFFER
 #undef ABORTED
 #undef ERRORS
 #undef AXIS
@@ -253,6 +346,10 @@ const std::array types{
     BlockType{"MC_Halt", "stops", pins<halt>, &make<McHalt>},
     BlockType{"MC_MoveAbsolute", "moves to a position", pins<move_absolute>, &make<McMoveAbsolute>},
     BlockType{"MC_MoveRelative", "moves by a distance", pins<move_relative>, &make<McMoveRelative>},
+    BlockType{"MC_MoveAdditive", "moves by a distance beyond the last target", pins<move_additive>,
+              &make<McMoveAdditive>},
+    BlockType{"MC_MoveSuperImposed", "moves by a distance on top of what is under way",
+              pins<move_superimposed>, &make<McMoveSuperImposed>},
     BlockType{"MC_MoveVelocity", "moves at a speed", pins<move_velocity>, &make<McMoveVelocity>},
     BlockType{"MC_CamTableSelect", "finds a cam table", pins<cam_table_select>, &make<McCamTableSelect>},
     BlockType{"MC_CamIn", "couples by a cam", pins<cam_in>, &make<McCamIn>},
@@ -269,6 +366,12 @@ const std::array types{
               &make<McReadActualVelocity>},
     BlockType{"MC_ReadStatus", "reads the state", pins<read_status>, &make<McReadStatus>},
     BlockType{"MC_ReadAxisError", "reads the error of an axis", pins<read_error>, &make<McReadAxisError>},
+    BlockType{"MC_ReadAxisInfo", "reads what the axis is ready for", pins<read_info>, &make<McReadAxisInfo>},
+    BlockType{"MC_ReadMotionState", "reads how the axis moves", pins<read_motion>, &make<McReadMotionState>},
+    BlockType{"MC_ReadParameter", "reads a parameter by PLCopen's number", pins<read_parameter>,
+              &make<McReadParameter>},
+    BlockType{"MC_WriteParameter", "writes a parameter by PLCopen's number", pins<write_parameter>,
+              &make<McWriteParameter>},
     BlockType{"MC_TouchProbe", "records the position at an edge of the probe", pins<touch_probe>,
               &make<McTouchProbe>},
     BlockType{"MC_AbortTrigger", "ends a waiting MC_TouchProbe", pins<abort_trigger>, &make<McAbortTrigger>},
@@ -284,7 +387,19 @@ PinValue McReset::pin(std::size_t number) { return value_of(*this, reset, number
 PinValue McStop::pin(std::size_t number) { return value_of(*this, stop, number); }
 PinValue McHalt::pin(std::size_t number) { return value_of(*this, halt, number); }
 PinValue McMoveAbsolute::pin(std::size_t number) { return value_of(*this, move_absolute, number); }
-PinValue McMoveRelative::pin(std::size_t number) { return value_of(*this, move_relative, number); }
+template <>
+PinValue McMoveRelative::pin(std::size_t number) {
+  return value_of(*this, move_relative, number);
+}
+template <>
+PinValue McMoveAdditive::pin(std::size_t number) {
+  return value_of(*this, move_additive, number);
+}
+PinValue McMoveSuperImposed::pin(std::size_t number) { return value_of(*this, move_superimposed, number); }
+PinValue McReadAxisInfo::pin(std::size_t number) { return value_of(*this, read_info, number); }
+PinValue McReadMotionState::pin(std::size_t number) { return value_of(*this, read_motion, number); }
+PinValue McReadParameter::pin(std::size_t number) { return value_of(*this, read_parameter, number); }
+PinValue McWriteParameter::pin(std::size_t number) { return value_of(*this, write_parameter, number); }
 PinValue McMoveVelocity::pin(std::size_t number) { return value_of(*this, move_velocity, number); }
 PinValue McCamTableSelect::pin(std::size_t number) { return value_of(*this, cam_table_select, number); }
 PinValue McCamIn::pin(std::size_t number) { return value_of(*this, cam_in, number); }

@@ -47,6 +47,9 @@ class FunctionBlock {
   virtual void call(MotionKernel& kernel) = 0;
   /// The value of pin `number` of the block type's table.
   virtual PinValue pin(std::size_t number) = 0;
+
+  /// The axis that an error of the last call is about.
+  AxisRef about;
 };
 
 /// A kind of function block: its name, its pins in the order of declaration, and how to make one.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "devices/plcopen/numbered_parameters.hpp"
+
 namespace drycut::devices::plcopen {
 namespace {
 
@@ -42,6 +44,54 @@ void McReadAxisError::read(const plcopen::Axis* axis) {
   AxisErrorID = axis == nullptr ? 0 : static_cast<std::uint32_t>(axis->error());
 }
 
+void McReadAxisInfo::read(const plcopen::Axis* axis) {
+  const AxisKind kind = axis == nullptr ? AxisKind::drive : static_cast<AxisKind>(axis->parameters().kind);
+  Simulation = axis != nullptr && kind == AxisKind::virtual_axis;
+  CommunicationReady = axis != nullptr;
+  ReadyForPowerOn = axis != nullptr && (kind != AxisKind::drive || axis->drive.ready);
+  PowerOn = axis != nullptr && axis->powered();
+  IsHomed = axis != nullptr && axis->homed();
+  AxisWarning = axis != nullptr && axis->warning();
+}
+
+void McReadMotionState::read(const plcopen::Axis* axis) {
+  const AxisMotion set = axis == nullptr ? AxisMotion{} : axis->set();
+  const double grows = set.acceleration * (set.velocity < 0 ? -1 : 1);
+  ConstantVelocity = axis != nullptr && set.acceleration == 0;
+  Accelerating = set.velocity != 0 ? grows > 0 : set.acceleration != 0;
+  Decelerating = set.velocity != 0 && grows < 0;
+  DirectionPositive = set.velocity > 0;
+  DirectionNegative = set.velocity < 0;
+  IsMoving = set.velocity != 0;
+  LrCommandedPos = axis == nullptr ? 0 : axis->target().part;
+  LrActualPos = axis == nullptr ? 0 : axis->actual().part;
+  LrSetPos = set.position.part;
+  LrActualRev = axis == nullptr ? 0 : axis->actual_velocity() / increments_per_speed;
+  LrSetRev = set.velocity / increments_per_speed;
+  LrSetAccel = set.acceleration / increments_per_acceleration;
+  RevZero = axis != nullptr && axis->actual_velocity() == 0;
+  InWindow = axis != nullptr && std::abs(difference(axis->target(), axis->actual(), axis->modulo())) <=
+                                    axis->parameters().window;
+  InPosition = InWindow && !IsMoving;
+}
+
+ErrorId McReadParameter::check() const {
+  return find_numbered_parameter(ParameterNumber) == nullptr ? ErrorId::no_such_parameter : ErrorId::none;
+}
+
+void McReadParameter::read(const plcopen::Axis* axis) {
+  Value = axis == nullptr ? 0 : find_numbered_parameter(ParameterNumber)->read(*axis);
+}
+
+void McWriteParameter::call(MotionKernel& kernel) {
+  plcopen::Axis* axis = kernel.axis(Axis);
+  about = Axis;
+  if (edge_.rising(Execute))
+    answered(
+        {axis == nullptr ? ErrorId::no_such_axis : write_numbered_parameter(*axis, ParameterNumber, Value)});
+  show();
+}
+
 ErrorId McTouchProbe::check(const plcopen::Axis* axis) const {
   constexpr double most = 2147483648.0;
   if (const ErrorId error = check_probe(axis, TriggerInput); error != ErrorId::none) return error;
@@ -59,20 +109,21 @@ bool McTouchProbe::wanted(double position, double modulo) const {
 
 void McTouchProbe::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
+  about = Axis;
   if (edge_.rising(Execute)) {
     const ErrorId error = check(axis);
     taken(error != ErrorId::none ? Order{error} : Order{ErrorId::none, axis->take_probe()});
     if (error == ErrorId::none) edges_ = axis->drive.probe_edges;
   }
-  if (watch_ == Watch::busy && axis != nullptr) {
+  if (progress_ == Progress::active && axis != nullptr) {
     if (axis->probe_ticket() != ticket_) {
-      watch_ = Watch::aborted;
+      progress_ = Progress::aborted;
     } else if (axis->drive.probe_edges != edges_) {
       edges_ = axis->drive.probe_edges;
       const double position = axis->probe_position().part;
       if (wanted(position, axis->modulo())) {
         RecordedPosition = position;
-        watch_ = Watch::done;
+        progress_ = Progress::done;
       }
     }
   }
@@ -81,8 +132,9 @@ void McTouchProbe::call(MotionKernel& kernel) {
 
 void McAbortTrigger::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
+  about = Axis;
   if (edge_.rising(Execute)) {
-    answered(check_probe(axis, TriggerInput));
+    answered({check_probe(axis, TriggerInput)});
     if (!Error) axis->take_probe();
   }
   show();

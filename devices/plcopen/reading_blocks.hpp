@@ -44,6 +44,62 @@ struct McReadAxisError final : AxisReading {
   void read(const plcopen::Axis* axis) override;
 };
 
+/// The axis has no switches of its own at its ends and its zero.
+struct McReadAxisInfo final : AxisReading {
+  bool Simulation = false;
+  bool CommunicationReady = false;
+  bool ReadyForPowerOn = false;
+  bool PowerOn = false;
+  bool IsHomed = false;
+  bool AxisWarning = false;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  void read(const plcopen::Axis* axis) override;
+};
+
+/// PLCopen's outputs are of the commanded motion; the others are ISG's.
+struct McReadMotionState final : AxisReading {
+  bool ConstantVelocity = false;
+  bool Accelerating = false;
+  bool Decelerating = false;
+  bool DirectionPositive = false;
+  bool DirectionNegative = false;
+  bool RevZero = false;
+  bool InWindow = false;
+  bool InPosition = false;
+  bool IsMoving = false;
+  double LrCommandedPos = 0;
+  double LrActualPos = 0;
+  double LrSetPos = 0;
+  double LrActualRev = 0;
+  double LrSetRev = 0;
+  double LrSetAccel = 0;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  void read(const plcopen::Axis* axis) override;
+};
+
+struct McReadParameter final : AxisReading {
+  std::int16_t ParameterNumber = 0;
+  double Value = 0;
+  PinValue pin(std::size_t number) override;
+
+ private:
+  void read(const plcopen::Axis* axis) override;
+  [[nodiscard]] ErrorId check() const override;
+};
+
+/// The value is in force at once, and the machine data keep it.
+struct McWriteParameter final : ExecutedBlock {
+  AxisRef Axis;
+  std::int16_t ParameterNumber = 0;
+  double Value = 0;
+  void call(MotionKernel& kernel) override;
+  PinValue pin(std::size_t number) override;
+};
+
 /// Records where the axis was when its probe's signal rose: the exact count, not the one of the next cycle.
 /// The axis' own movement and state do not matter. Of several edges in one cycle the last counts.
 struct McTouchProbe final : ExecutedBlock {

@@ -53,10 +53,14 @@ Verdict judge(AxisState from, Command command) {
       if (from == AxisState::homing) return {from, ErrorId::home_again};
       return if_allowed(from == AxisState::standstill, AxisState::homing);
     case Command::set_position:
+    case Command::write_parameter:
       return if_allowed(from == AxisState::standstill || from == AxisState::disabled, from);
     case Command::move_absolute:
     case Command::move_relative:
+    case Command::move_additive:
       return if_allowed(moves_or_stands(from) || stopping, AxisState::discrete_motion);
+    case Command::move_superimposed:
+      return if_allowed(moves_or_stands(from), from);
     case Command::move_velocity:
       return if_allowed(moves_or_stands(from) || stopping, AxisState::continuous_motion);
     case Command::halt:

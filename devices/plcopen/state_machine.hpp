@@ -37,6 +37,8 @@ enum class Command : std::uint8_t {
   set_position,
   move_absolute,
   move_relative,
+  move_additive,
+  move_superimposed,
   move_velocity,
   halt,
   stop,
@@ -45,6 +47,7 @@ enum class Command : std::uint8_t {
   gear_in,
   gear_out,
   phasing,
+  write_parameter,
   reset,
 };
 

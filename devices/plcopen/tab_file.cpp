@@ -66,7 +66,7 @@ std::optional<CamTable> parse_tab(std::string_view text, const std::string& file
   enum class Part { header, rows, after } part = Part::header;
   int number = 0;
   int rows = 0;
-  for (std::string_view line : split_lines(text)) {
+  for (std::string_view line : split_lines(without_byte_order_mark(text))) {
     ++number;
     line = line.substr(0, std::min(line.find('#'), line.size()));
     const std::vector<Word> words = words_of(line);

@@ -32,6 +32,7 @@ struct CamFile {
   Interpolation interpolation = Interpolation::linear;  ///< table_defined: a .tab file that says none
   Endless endless = Endless::no;
   double master_modulo = 3'600'000;  ///< [0.0001 deg or 0.1 um]
+  bool master_modulo_given = false;  ///< else it is assumed
   double slave_modulo = 3'600'000;   ///< 0 = linear slave
   bool periodic = true;              ///< StartMode F_PERIODIC
   std::string master_unit = "deg";   ///< or "mm": what the master's increments are 10000 to one of
@@ -48,8 +49,15 @@ struct CamFile {
 /// other comments are remarks. Nullopt if there is a fault.
 std::optional<CamFile> read_cam(std::string_view text, const std::string& file, Problems& problems);
 
-/// Reads a cam as CSV; the table is checked as MC_CamIn does, with its error ids, too.
-std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& file, Problems& problems);
+/// An axis that a cam may follow.
+struct MasterTurn {
+  std::string name;
+  double modulo = 0;
+};
+/// Reads a cam as CSV; the table is checked as MC_CamIn does, with its error ids, too. One that does not say
+/// its master_modulo is judged by the `masters`: it is refused if it goes behind none of them.
+std::optional<CamFile> parse_cam_csv(std::string_view text, const std::string& file, Problems& problems,
+                                     const std::vector<MasterTurn>& masters = {});
 
 /// One thing that MC_CamIn would refuse.
 struct CamRefusal {

@@ -11,6 +11,11 @@
 // What the readers of cam files share: lines, words with their places, numbers, rows.
 namespace drycut::devices::plcopen {
 
+/// Windows' editors begin a UTF-8 text with a byte order mark.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
+
 /// A word of a line with its place.
 struct Word {
   std::string_view text;

@@ -6,6 +6,7 @@
 #include "devices/plcopen/axis_values.hpp"
 #include "devices/plcopen/errors.hpp"
 #include "devices/plcopen/kernel.hpp"
+#include "devices/plcopen/numbered_parameters.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/commands/controller_table.hpp"
@@ -125,6 +126,11 @@ void print_plcopen() {
   for (const auto& mode : plcopen::start_mode_table)
     modes.add({std::string(mode.name), fmt::format("16#{:02X}", mode.bit), std::string(mode.meaning)});
   modes.print("StartMode of MC_CamIn");
+  TextTable parameters({"number", "parameter", "unit", "access", "meaning"});
+  for (const auto& row : plcopen::numbered_parameters())
+    parameters.add({std::to_string(row.number), std::string(row.name), std::string(row.unit),
+                    row.written == nullptr ? "read" : "read/write", std::string(row.meaning)});
+  parameters.print("Parameters of MC_ReadParameter and MC_WriteParameter, by PLCopen's numbers");
   TextTable errors({"error", "meaning"});
   for (const auto& row : plcopen::error_table)
     errors.add({fmt::format("{}", static_cast<std::uint32_t>(row.id)), std::string(row.meaning)});
@@ -137,6 +143,12 @@ ordered_json plcopen_json() {
     json["blocks"].push_back({{"name", type.name}, {"meaning", type.meaning}});
   for (const auto& mode : plcopen::start_mode_table)
     json["start_modes"].push_back({{"name", mode.name}, {"bit", mode.bit}, {"meaning", mode.meaning}});
+  for (const auto& row : plcopen::numbered_parameters())
+    json["parameters"].push_back({{"number", row.number},
+                                  {"name", row.name},
+                                  {"unit", row.unit},
+                                  {"access", row.written == nullptr ? "read" : "read/write"},
+                                  {"meaning", row.meaning}});
   for (const auto& row : plcopen::error_table)
     json["errors"].push_back({{"id", static_cast<std::uint32_t>(row.id)}, {"meaning", row.meaning}});
   return json;

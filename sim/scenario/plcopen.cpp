@@ -35,6 +35,11 @@ class AxisReader {
     read_level(node, "");
     if (findings_.count() == before) check_software_limits();
     AxisParameters& parameters = axis_.configuration.parameters;
+    // A virtual axis has no zero to look for, unless the scenario wants it to be homed by the program.
+    const bool given = std::any_of(axis_.places.begin(), axis_.places.end(),
+                                   [](const auto& place) { return place.first == "homed_at_start"; });
+    if (!given && parameters.kind == static_cast<double>(plcopen::AxisKind::virtual_axis))
+      parameters.homed_at_start = 1;
     if (measured_by_)
       axis_.configuration.measure = measure_;
     else if (parameters.modulo == 0)

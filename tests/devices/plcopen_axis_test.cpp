@@ -55,6 +55,7 @@ struct One {
 AxisParameters servo() {
   AxisParameters parameters = Bench::virtual_axis();
   parameters.kind = static_cast<int>(AxisKind::drive);
+  parameters.homed_at_start = 0;
   return parameters;
 }
 

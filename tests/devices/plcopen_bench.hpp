@@ -38,6 +38,7 @@ struct Bench {
   static AxisParameters virtual_axis() {
     AxisParameters parameters;
     parameters.kind = static_cast<int>(AxisKind::virtual_axis);
+    parameters.homed_at_start = 1;
     parameters.is_master = 1;
     parameters.j_vel_sync = 100'000;
     parameters.v_phasing = 200'000;

@@ -90,7 +90,7 @@ TEST(PlcopenCamOrders, PhasingShiftsTheApparentMasterJerkLimited) {
   phasing.Jerk = 20'000;
   phasing.Execute = true;
   phasing.call(b.kernel);
-  EXPECT_EQ(phasing.ErrorID, id(ErrorId::phasing_master_not_reached));
+  EXPECT_EQ(phasing.ErrorID, id(ErrorId::phasing_slave_not_reached));
   ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
   phasing.Execute = false;
   phasing.call(b.kernel);
@@ -137,7 +137,7 @@ TEST(PlcopenCamOrders, PhasingShiftsTheApparentMasterJerkLimited) {
     b.step();
     ASSERT_LT(++cycles, 4'000);
   }
-  covers({"60174", "MC_Phasing.Master", "MC_Phasing.Slave", "MC_Phasing.PhaseShift", "MC_Phasing.Velocity",
+  covers({"60175", "MC_Phasing.Master", "MC_Phasing.Slave", "MC_Phasing.PhaseShift", "MC_Phasing.Velocity",
           "MC_Phasing.Acceleration", "MC_Phasing.Deceleration", "MC_Phasing.Jerk", "MC_Phasing.Done",
           "MC_Phasing.CommandAborted"});
 }

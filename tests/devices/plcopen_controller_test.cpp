@@ -48,6 +48,7 @@ struct Rig {
     knife.parameters.tr_min = 1'000;
     AxisConfiguration line{"Line", {}, Measure::length};
     line.parameters.kind = 1;
+    line.parameters.homed_at_start = 1;
     made.axes = {web, knife, line};
     CamTable table;
     table.file = "knife.tab";
@@ -310,12 +311,88 @@ END_PROGRAM
   EXPECT_THAT(rig.told(), IsEmpty());
   rig.write("go", 1);
   rig.run(10);
-  EXPECT_THAT(rig.told(), ElementsAre("Move block_error: 44028 not allowed in Disabled"));
+  EXPECT_THAT(rig.told(), ElementsAre("Move block_error: 44028 not allowed in Disabled: Knife"));
   rig.write("go", 0);
   rig.run(10);
   rig.write("go", 1);
   rig.run(10);
-  EXPECT_THAT(rig.told(), ElementsAre("Move block_error: 44028 not allowed in Disabled"));
+  EXPECT_THAT(rig.told(), ElementsAre("Move block_error: 44028 not allowed in Disabled: Knife"));
+}
+
+TEST(PlcopenController, ARefusalNamesTheAxisThatItIsAbout) {
+  Configuration made = Rig::configuration();
+  for (AxisConfiguration& axis : made.axes) axis.parameters.is_master = axis.name == "Line" ? 0 : 1;
+  made.axes[0].parameters.modulo = 0;
+  made.axes[1].parameters.homed_at_start = 1;
+  Rig rig(R"(PROGRAM line
+VAR_EXTERNAL Web : AXIS_REF; Knife : AXIS_REF; Line : AXIS_REF; END_VAR
+VAR go : BOOL; Power : MC_Power; Off, Lawless, NoMaster : MC_CamIn; END_VAR
+Off(Master := Web, Slave := Line, Execute := go, CamTableID := 1);
+Power(Axis := Knife, Enable := TRUE);
+Lawless(Master := Web, Slave := Knife, Execute := go, CamTableID := 1);
+NoMaster(Master := Line, Slave := Knife, Execute := go, CamTableID := 1);
+END_PROGRAM
+)",
+          made);
+  rig.run(10);
+  rig.write("go", 1);
+  rig.run(10);
+  EXPECT_THAT(
+      rig.told(),
+      testing::UnorderedElementsAre(
+          "Off block_error: 44028 not allowed in Disabled: Line",
+          "Lawless block_error: 42006 the interpolation is not one of 0..6, or the table names none: Knife",
+          "NoMaster block_error: 65010 the master's parameter cam_gear.is_master is 0: Line"));
+}
+
+TEST(PlcopenController, ACamBehindALinearMasterNamesTheMaster) {
+  Configuration made = Rig::configuration();
+  made.axes[0].parameters.is_master = 1;
+  made.axes[0].parameters.modulo = 0;
+  made.axes[1].parameters.homed_at_start = 1;
+  made.tables[0].interpolation = Interpolation::poly5_line;
+  Rig rig(R"(PROGRAM line
+VAR_EXTERNAL Web : AXIS_REF; Knife : AXIS_REF; END_VAR
+VAR Power : MC_Power; CamIn : MC_CamIn; END_VAR
+Power(Axis := Knife, Enable := TRUE);
+CamIn(Master := Web, Slave := Knife, Execute := Power.Status, CamTableID := 1);
+END_PROGRAM
+)",
+          made);
+  rig.run(10);
+  EXPECT_THAT(rig.told(), ElementsAre("CamIn block_error: 60181 this cam needs modulo axes: Web"));
+  made.axes[0].parameters.modulo = 8'000'000;
+  made.axes[1].parameters.modulo = 0;
+  Rig other(R"(PROGRAM line
+VAR_EXTERNAL Web : AXIS_REF; Knife : AXIS_REF; END_VAR
+VAR Power : MC_Power; CamIn : MC_CamIn; END_VAR
+Power(Axis := Knife, Enable := TRUE);
+CamIn(Master := Web, Slave := Knife, Execute := Power.Status, CamTableID := 1);
+END_PROGRAM
+)",
+            made);
+  other.run(10);
+  EXPECT_THAT(other.told(), ElementsAre("CamIn block_error: 60181 this cam needs modulo axes: Knife"));
+}
+
+TEST(PlcopenController, WhatIsWrittenByTheProgramStaysInTheMachineData) {
+  Rig rig(R"(PROGRAM line
+VAR_EXTERNAL Knife : AXIS_REF; END_VAR
+VAR go : BOOL; Power : MC_Power; Write : MC_WriteParameter; Run : MC_MoveVelocity; END_VAR
+Power(Axis := Knife, Enable := TRUE);
+Write(Axis := Knife, Execute := go, ParameterNumber := 9, Value := 123000.0);
+Run(Axis := Knife, Execute := Write.Done, Velocity := 200000.0);
+END_PROGRAM
+)");
+  rig.run(10);
+  rig.write("go", 1);
+  rig.run(10);
+  EXPECT_EQ(rig.read("Knife.dynamik.vb_max"), 123'000);
+  EXPECT_THAT(rig.told(),
+              ElementsAre("Knife warning: Velocity 200000 is above dynamik.vb_max: it goes at 123000"));
+  rig.controller.power(false);
+  rig.controller.power(true);
+  EXPECT_EQ(rig.read("Knife.dynamik.vb_max"), 123'000);
 }
 
 TEST(PlcopenController, AFaultOfTheProgramNamesItsPlaceOnce) {

@@ -16,7 +16,7 @@ TEST(PlcopenCoverage, KnowsWhatThereIs) {
   for (const char* name : {"MC_CamIn.EndOfProfile", "MC_Power.Enable", "cam_gear.j_vel_sync", "60172",
                            "240010", "HLI_CI_LOCK_TABLE", "POLY5_LINE", "type 6"})
     EXPECT_TRUE(marks.contains(name)) << name;
-  EXPECT_EQ(block_types().size(), 23u);
+  EXPECT_EQ(block_types().size(), 29u);
   EXPECT_EQ(start_mode_table.size(), 7u);
   EXPECT_GT(marks.size(), 200u);
 }

@@ -172,5 +172,43 @@ TEST(PlcopenJerk, ReplanningOnTheWayLeadsToTheSameEnd) {
   }
 }
 
+// Ways that pass their target at a speed (blending): the end is exact, no limit is passed on the way.
+TEST(PlcopenJerk, AWayMayEndAtASpeed) {
+  const JerkLimits bounds{1'000, 2'000, 1'500, 50'000};
+  std::uint64_t seed = 7;
+  const auto random = [&](double low, double high) {
+    seed = seed * 6364136223846793005U + 1442695040888963407U;
+    return low + (high - low) * static_cast<double>(seed >> 11U) / 9007199254740992.0;
+  };
+  int reached = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double sign = i % 2 == 0 ? 1 : -1;
+    const MotionState from{random(-100, 100), sign * random(0, 1'000), sign * random(-1'000, 1'000)};
+    const double position = from.position + sign * random(1, 3'000);
+    const double wanted = sign * random(0, 1'400);
+    const JerkProfile profile = *to_position(from, position, bounds, wanted);
+    ASSERT_EQ(profile.end.position, position);
+    const MotionState before = at(profile, profile.duration * (1 - 1e-12));
+    ASSERT_NEAR(before.position, position, 1e-3) << i;
+    ASSERT_NEAR(before.velocity, profile.end.velocity, 1e-3) << i;
+    ASSERT_NEAR(before.acceleration, 0, 1e-2) << i;
+    ASSERT_LE(std::abs(profile.end.velocity), std::abs(wanted) * (1 + 1e-9)) << i;
+    reached += profile.end.velocity == wanted ? 1 : 0;
+    for (int k = 0; k <= 50; ++k) {
+      const MotionState now = at(profile, profile.duration * k / 50);
+      ASSERT_LE(std::abs(now.velocity), std::max({1'000.0 + 25, std::abs(wanted)}) + 1e-6) << i;
+      ASSERT_LE(std::abs(now.acceleration), 2'000 * (1 + 1e-9)) << i;
+    }
+  }
+  EXPECT_GT(reached, 10'000) << "short ways apart";
+  // Straight up to the speed: the way of a ramp with jerk, v*v/2a + v*a/2j.
+  const double ramp = 800 * 800 / (2 * 2'000.0) + 800 * 2'000.0 / (2 * 50'000.0);
+  const JerkProfile up = *to_position({}, ramp, bounds, 800);
+  EXPECT_NEAR(up.end.velocity, 800, 1e-6);
+  EXPECT_NEAR(up.duration, 800 / 2'000.0 + 2'000.0 / 50'000.0, 1e-6);
+  EXPECT_LT(to_position({}, ramp * 0.9, bounds, 800)->end.velocity, 800);
+  EXPECT_GT(to_position({}, ramp * 0.9, bounds, 800)->end.velocity, 700);
+}
+
 }  // namespace
 }  // namespace drycut::devices::plcopen

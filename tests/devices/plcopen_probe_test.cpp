@@ -163,7 +163,7 @@ TEST(PlcopenProbe, MovementsDoNotTouchIt) {
   touch.Axis = b.slave;
   touch.Execute = true;
   touch.call(b.kernel);
-  b.s().move_velocity(1'000, {}, Direction::positive);
+  b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
   b.kernel.cycle();
   b.s().fault(ErrorId::drive_error);
   touch.call(b.kernel);

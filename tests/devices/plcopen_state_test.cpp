@@ -77,6 +77,9 @@ struct Walk : Bench {
     set("Master", master);
     set("Execute", true);
     set("Velocity", 1'000.0);
+    set("VelocityDiff", 1'000.0);
+    set("ParameterNumber", std::int16_t{9});
+    set("Value", 900'000.0);
     set("Position", 700'000.0);
     set("Distance", 700'000.0);
     set("PhaseShift", 10'000.0);
@@ -116,6 +119,14 @@ const std::array walk{
     Row{"MC_MoveRelative",
         {e_disabled, discrete_motion, e_homing, discrete_motion, discrete_motion, discrete_motion,
          discrete_motion, e_errorstop}},
+    Row{"MC_MoveAdditive",
+        {e_disabled, discrete_motion, e_homing, discrete_motion, discrete_motion, discrete_motion,
+         discrete_motion, e_errorstop}},
+    Row{"MC_MoveSuperImposed",
+        {e_disabled, discrete_motion, e_homing, e_stopping, discrete_motion, continuous_motion,
+         synchronized_motion, e_errorstop}},
+    Row{"MC_WriteParameter",
+        {disabled, standstill, e_homing, e_stopping, e_discrete, e_continuous, e_synchronized, e_errorstop}},
     Row{"MC_SetPosition",
         {disabled, standstill, e_homing, e_stopping, e_discrete, e_continuous, e_synchronized, e_errorstop}},
     Row{"MC_MoveVelocity",

@@ -97,6 +97,42 @@ TEST(PlcopenTable, ACsvGivesTheTableItsLawsAndItsAxes) {
   EXPECT_EQ(parse_cam_csv("# slave_modulo: 0\nslave\n1\n", "c", problems)->slave_modulo, 0);
 }
 
+TEST(PlcopenTable, AByteOrderMarkIsNoPartOfAnyFile) {
+  const std::string mark = "\xEF\xBB\xBF";
+  Problems problems;
+  EXPECT_TRUE(
+      parse_tab(mark + "Tabletype = 1\nTable-ID = 5\nLines = 1\nBegintable\n1\nEndTable\n", "c", problems));
+  EXPECT_TRUE(
+      read_cam(mark + "Tabletype = 1\nTable-ID = 5\nLines = 1\nBegintable\n1\nEndTable\n", "c", problems));
+  for (const char* csv : {"slave\n1\n", "# interpolation: LINEAR\nslave\n1\n"}) {
+    EXPECT_TRUE(parse_cam_csv(mark + csv, "c", problems));
+    EXPECT_TRUE(read_cam(mark + csv, "c", problems));
+  }
+  EXPECT_THAT(faults(problems), testing::IsEmpty());
+}
+
+TEST(PlcopenTable, ATableWithoutMasterModuloIsJudgedByTheMastersThatThereAre) {
+  const std::string text = "master,slave\n0,0\n5000000,100\n";  // beyond 360 deg
+  const auto told = [&](const std::string& csv, const std::vector<MasterTurn>& masters) {
+    Problems problems;
+    parse_cam_csv(csv, "c.csv", problems, masters);
+    return faults(problems);
+  };
+  EXPECT_THAT(told(text, {{"Web", 8'000'000}}), testing::IsEmpty());
+  EXPECT_THAT(told(text, {{"Short", 4'000'000}, {"Web", 8'000'000}}), testing::IsEmpty());
+  const std::string what =
+      ": masters must ascend by 0.1 deg (1000) at least, over the wrap too; let the masters ascend inside "
+      "one turn";
+  EXPECT_THAT(told(text, {{"Short", 4'000'000}, {"Shorter", 3'000'000}}),
+              ElementsAre("c.csv:3:1: error 60260 behind Short, whose turn is 4000000" + what));
+  EXPECT_THAT(told(text, {}), ElementsAre("c.csv:3:1: error 60260" + what));
+  EXPECT_THAT(told("# master_modulo: 4000000\n" + text, {{"Web", 8'000'000}}),
+              ElementsAre("c.csv:4:1: error 60260" + what));
+  // A table that a turn of 360 deg would take, but not the one that there is.
+  EXPECT_THAT(told("master,slave\n0,0\n2000000,100\n", {{"Short", 1'000'000}}),
+              ElementsAre("c.csv:3:1: error 60260 behind Short, whose turn is 1000000" + what));
+}
+
 TEST(PlcopenTable, ACsvsFaultsAreAllToldAtTheirPlace) {
   EXPECT_THAT(csv_faults("# interpolaton: LINEAR\n# endless: up\n# interpolation: SPLINE\nslave\n1,2\nx\n"),
               ElementsAre("c.csv:1:3: unknown key 'interpolaton'; did you mean interpolation?; a "

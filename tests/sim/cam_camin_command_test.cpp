@@ -130,6 +130,15 @@ TEST_F(CamInCommand, TheReportNamesPiecesAndKnots) {
                         "master), 0.8 s\n"));
 }
 
+TEST_F(CamInCommand, AMastersTurnThatTheFileDoesNotGiveIsSaidToBeAssumed) {
+  EXPECT_EQ(run(options("slave\n0\n1000\n")), all_passed);
+  EXPECT_THAT(
+      out, HasSubstr("master turn 3600000 (360 deg) assumed, for there is no # master_modulo, slave turn"));
+  out.clear();
+  EXPECT_EQ(run(options("# master_modulo: 3600000\nslave\n0\n1000\n")), all_passed);
+  EXPECT_THAT(out, HasSubstr("master turn 3600000 (360 deg), slave turn"));
+}
+
 TEST_F(CamInCommand, WhatRoundingLeavesIsNoJump) {
   EXPECT_EQ(run(options("a0,a1,a2,a3\n0,0,0,0\n0.005,0,0,0\n")), all_passed);
   EXPECT_THAT(out, testing::ContainsRegex("2 +1800000 +C3 +0 +0 +0 +0\n"));

@@ -311,6 +311,31 @@ TEST_F(PlcopenScenario, TablesAreReadAndHaveNamesAndIdsOfTheirOwn) {
           Contains(HasSubstr("line.yaml:6:69: ")), Contains(HasSubstr("wrong.tab:"))));
 }
 
+TEST_F(PlcopenScenario, AVirtualAxisIsHomedUnlessTheScenarioSaysOtherwise) {
+  const auto homed = [&](const std::string& more) {
+    const auto scenario = read(with("    program: line.st\n    axes: {Line: {kind: virtual" + more +
+                                    "}, Knife: {}}\n    tables: [cam.csv]\n"));
+    EXPECT_THAT(told(), IsEmpty());
+    const auto controller = load_controller(scenario, problems);
+    return controller->find("Line.homed")->read();
+  };
+  EXPECT_EQ(homed(""), 1);
+  EXPECT_EQ(homed(", homed_at_start: on"), 1);
+  EXPECT_EQ(homed(", homed_at_start: off"), 0);
+}
+
+TEST_F(PlcopenScenario, ACamWithoutMasterModuloIsJudgedByTheSceneOwnMaster) {
+  write("cam.csv", "master,slave\n0,0\n5000000,1800000\n");
+  const auto axes = [&](const std::string& modulo) {
+    return build(with(
+        "    program: line.st\n    axes: {Line: {kind: virtual, cam_gear.is_master: on, modulo: " + modulo +
+        "}, Knife: {}}\n    tables: [cam.csv]\n"));
+  };
+  EXPECT_THAT(axes("800 mm"), IsEmpty());
+  EXPECT_THAT(axes("400 mm"),
+              ElementsAre(HasSubstr("cam.csv:3:1: error 60260 behind Line, whose turn is 4000000: ")));
+}
+
 TEST_F(PlcopenScenario, ValuesBeforePowerUpAreChecked) {
   EXPECT_THAT(
       build(with(

@@ -377,6 +377,14 @@ void Machine::call_block(const Node& n) {
   own_ = caller;
 }
 
+const FunctionBlock* Machine::motion_at(int place) const {
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const Compiled::Motion& motion = code_.motions[i];
+    if (place >= motion.cell && place < motion.cell + motion.type->cells) return motions_[i].block.get();
+  }
+  return nullptr;
+}
+
 void Machine::call_motion(std::int64_t instance) {
   Motion& motion = motions_[static_cast<std::size_t>(at(instance))];
   for (std::size_t i = 0; i < motion.pins.size(); ++i) {

@@ -31,6 +31,8 @@ class Machine {
   void run(const Compiled::Instance& program, std::int64_t time_ms);
 
   [[nodiscard]] Cell cell(int place) const { return memory_[static_cast<std::size_t>(place)]; }
+  /// The motion block with this cell among its pins.
+  [[nodiscard]] const FunctionBlock* motion_at(int place) const;
   void set_cell(int place, Cell value) { memory_[static_cast<std::size_t>(place)] = value; }
 
  private:

@@ -10,19 +10,6 @@
 
 // What a name in an expression means, and what may follow it: .member and [index].
 namespace drycut::devices::plcopen::st {
-namespace {
-
-struct DirectionName {
-  std::string_view name;
-  Direction value;
-};
-constexpr std::array directions{DirectionName{"mcPositiveDirection", Direction::positive},
-                                DirectionName{"mcShortestWay", Direction::shortest_way},
-                                DirectionName{"mcNegativeDirection", Direction::negative},
-                                DirectionName{"mcCurrentDirection", Direction::current}};
-
-}  // namespace
-
 std::vector<std::string> Compiler::known_names() const {
   std::vector<std::string> names;
   if (unit_ != nullptr && unit_->type != nullptr)
@@ -32,22 +19,17 @@ std::vector<std::string> Compiler::known_names() const {
     for (const EnumValue& known : value.first->values)
       if (same_word(known.name, name)) names.push_back(known.name);
   for (const StartModeRow& row : start_mode_table) names.emplace_back(row.name);
-  for (const DirectionName& direction : directions) names.emplace_back(direction.name);
+  for (const NamedNumber& named : named_numbers) names.emplace_back(named.name);
   for (const auto& unit : units_)
     if (unit->kind == Unit::Kind::function) names.emplace_back(unit->name.text);
   return names;
 }
 
 std::optional<Expression> Compiler::predefined(const Token& name) {
-  const auto number = [&](std::int64_t value) {
-    return constant(type_of(Basic::lint), value, name.place, true);
-  };
   for (const StartModeRow& row : start_mode_table)
     if (name.word(row.name)) return constant(type_of(Basic::dword), row.bit, name.place, false);
-  for (const DirectionName& direction : directions)
-    if (name.word(direction.name)) return number(static_cast<std::int64_t>(direction.value));
-  for (int i = 0; i <= static_cast<int>(Interpolation::table_defined); ++i)
-    if (name.word(plcopen::name_of(static_cast<Interpolation>(i)))) return number(i);
+  for (const NamedNumber& named : named_numbers)
+    if (name.word(named.name)) return constant(type_of(Basic::lint), named.number, name.place, true);
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "devices/plcopen/kernel.hpp"
+#include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/st/program.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -61,6 +62,8 @@ class Runtime {
   /// BOOL as 0 and 1, TIME in s, TOD in s since midnight, DATE and DT in s since 1970, an enumeration as its
   /// number.
   [[nodiscard]] double read(std::size_t symbol) const;
+  /// The motion block whose pin the symbol is; nullptr if it is none.
+  [[nodiscard]] const FunctionBlock* block(std::size_t symbol) const;
   /// Rounded and limited to the type's range; nothing if the symbol is not writable.
   void write(std::size_t symbol, double value);
   /// By index into Program::located().

@@ -220,6 +220,8 @@ const Type* Compiler::named_type() {
     return unit->type;
   }
   if (same_word(name.text, "MC_CAM_REF")) return cam_ref();
+  for (const NamedType& named : named_types)
+    if (same_word(name.text, named.name)) return elementary_type(named.type);
   if (const BlockType* block = find_block_type(name.text)) return motion_type(*block);
   const auto known = [&] {
     std::vector<std::string> names = elementary_names();

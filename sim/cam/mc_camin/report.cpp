@@ -74,9 +74,10 @@ std::string heading(const CamInRun& run) {
   std::string text = fmt::format("{}: MC_CamIn, {} row{}", cam.table.file, rows, rows == 1 ? "" : "s");
   if (cam.interpolation != Interpolation::table_defined)
     text += fmt::format(", {}", name_of(cam.interpolation));
-  text +=
-      fmt::format("{}, {}\nmaster {}, slave {}", endless, cam.periodic ? "periodic" : "one pass",
-                  turn_text(cam.master_modulo, cam.master_unit), turn_text(cam.slave_modulo, cam.slave_unit));
+  text += fmt::format("{}, {}\nmaster {}, slave {}", endless, cam.periodic ? "periodic" : "one pass",
+                      turn_text(cam.master_modulo, cam.master_unit) +
+                          (cam.master_modulo_given ? "" : " assumed, for there is no # master_modulo"),
+                      turn_text(cam.slave_modulo, cam.slave_unit));
   if (run.master_speed)
     text +=
         fmt::format("; master at {} {}/s", plain(*run.master_speed / increments_per_unit), cam.master_unit);
