@@ -25,8 +25,8 @@ struct ControllerValue {
 /// Something that happened inside the controller: a refused command, a run-time error, a device warning.
 struct ControllerEvent {
   std::string source;  ///< device or task name
-  std::string
-      event;  ///< "refused", "out_of_range", "error", "warning", "contradiction", "held_up", "stopped", ...
+  /// "refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up", "stopped", "errorstop" ...
+  std::string event;
   std::string text;
 };
 

@@ -7,7 +7,7 @@ namespace drycut::sim {
 std::vector<KnownEvent> events_of_every_run() {
   std::vector<KnownEvent> events;
   for (const auto* name : {"set", "ramp", "fault", "power"}) events.push_back({"timeline", name, {}});
-  for (const auto* name : {"refused", "out_of_range", "error", "warning", "contradiction", "held_up",
+  for (const auto* name : {"refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up",
                            "stopped", "errorstop", "block_error"})
     events.push_back({"controller", name, {}});
   return events;

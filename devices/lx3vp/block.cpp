@@ -1,5 +1,7 @@
 #include "devices/lx3vp/block.hpp"
 
+#include <fmt/format.h>
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -27,7 +29,7 @@ constexpr BlockWord words[] = {
      "last master position at which the synchronous output is on"},
     {13, 1, "reserved", "u16", "", 0, Access::reserved, "", "remaining master pulses"},
     {14, 1, "repeats", "u16", "", 0, Access::write, "start",
-     "non-cyclic: n makes n + 1 cycles a start signal, 65535 makes them endless"},
+     "non-cyclic: n makes n + 1 cycles a start signal, 65535 (HFFFF) turns it cyclic from the start on"},
     {15, 2, "delay", "u32", "", 0, Access::write, "start",
      "non-cyclic, with function bit 0: master counts from the start signal to the start of the cam"},
     {17, 2, "start position", "u32", "", 0, Access::write, "start",
@@ -43,7 +45,9 @@ constexpr BlockWord words[] = {
      "master counts since the start, before the zoom; function bit 6 starts from here"},
     {29, 1, "master denominator", "u16", "1..65535", 1, Access::write, "start", "of the master's zoom"},
     {30, 1, "master numerator", "u16", "1..65535", 1, Access::write, "start", "of the master's zoom"},
-    {31, 7, "reserved", "u16", "", 0, Access::reserved, "", ""},
+    {31, 1, "stops by itself", "u16", "", 0, Access::read, "",
+     "ECAMTBX writes 3 as it switches on word 4 bit 1 for midCAMend, and 0 as it takes that back"},
+    {32, 6, "reserved", "u16", "", 0, Access::reserved, "", ""},
     {38, 1, "rows", "u16", "2..512", 0, Access::write, "start",
      "number of rows of the table; ECAMTBX writes it too"},
     {39, 1, "table offset", "u16", "40", 40, Access::write, "start",
@@ -61,8 +65,8 @@ constexpr BlockFlag flags[] = {
     {1, 3, "stopped", "read", "an error has stopped the cam"},
     {1, 4, "parameter error", "read", "6781, the code is in word 2"},
     {1, 5, "table error", "read", "6782, the row is in word 2"},
-    {1, 6, "cyclic", "read", "a cyclic cam is active"},
-    {1, 7, "non-cyclic", "read", "a non-cyclic cam is active"},
+    {1, 6, "cyclic", "read", "a cyclic cam is active; with `repeats` HFFFF from the start signal on"},
+    {1, 7, "non-cyclic", "read", "a non-cyclic cam is active; with `repeats` HFFFF until the start signal"},
     {1, 9, "cycle completed", "reset", "a cycle has ended, each repeat too"},
     {1, 10, "in window", "read", "the synchronous output is on"},
     {1, 11, "time axis", "read", "the master is the time"},
@@ -76,6 +80,32 @@ constexpr BlockFlag flags[] = {
     {4, 1, "stop after cycle", "write", "the cam stops exactly at the end of the present cycle"},
 };
 
+constexpr Reading readings[] = {
+    {"initial values",
+     "the manual gives words 6, 23, 24, 29, 30 and 39 initial values and does not say who writes them: words "
+     "that no program, file or scenario has written have them when the cam starts; a 0 that was written "
+     "stays"},
+    {"word 4", "the register table names bits 1 and 2, the text and the examples bits 0 and 1: bits 0 and 1"},
+    {"words 9 to 12",
+     "the table crosses low and high, the text and the example do not: 9 and 10 are the low threshold, 11 "
+     "and "
+     "12 the high one; both ends are inside"},
+    {"thresholds beyond the table",
+     "the manual does not limit them: the master's position in the cycle never reaches what lies beyond the "
+     "last row, which is told"},
+    {"word 14",
+     "HFFFF turns a non-cyclic cam cyclic: from its start signal on it is one, flags included, and also runs "
+     "backwards past its first row"},
+    {"word 17", "the cam begins at this position; it does not wait for the master to come there"},
+    {"words 19 and 21", "printed as unsigned; a slave that runs backwards needs them signed"},
+    {"word 31",
+     "reserved in print; midCAMend stops by itself, which is word 4 bit 1: the word remembers that ECAMTBX "
+     "has "
+     "switched it on, so that the table of another curve does not inherit it"},
+    {"word 3 bit 5", "off: a non-cyclic cam runs once each time that word 5 starts it"},
+    {"word 6", "0 is in the printed range: nothing comes out, which is told"},
+};
+
 constexpr SpecialRegister specials[] = {
     {"M8000", "bit", "read", "on while the program runs"},
     {"M8001", "bit", "read", "off while the program runs"},
@@ -86,7 +116,11 @@ constexpr SpecialRegister specials[] = {
     {"M8012", "bit", "read", "clock of 100 ms"},
     {"M8013", "bit", "read", "clock of 1 s"},
     {"M8014", "bit", "read", "clock of 1 min"},
-    {"M8029", "bit", "read", "DDRVI or DDRVA has arrived"},
+    {"M8020", "bit", "read", "the result of the last calculation is 0"},
+    {"M8021", "bit", "read", "it is below the smallest number; of SQR: it had decimals"},
+    {"M8022", "bit", "read", "it is above the largest number; of ROL and ROR: the bit that went round last"},
+    {"M8029", "bit", "read", "DDRVI, DDRVA, PLSY or ZRN is done"},
+    {"M8061", "bit", "read", "the PLC has stopped by itself; the code is in D8061"},
     {"M8067", "bit", "read", "an instruction failed; the code is in D8067"},
     {"M8145", "bit", "write", "stops the pulses of Y0 at once"},
     {"M8146", "bit", "write", "stops the pulses of Y1 at once"},
@@ -99,13 +133,14 @@ constexpr SpecialRegister specials[] = {
     {"M8235", "bit", "write", "C235 counts down; so on to M8245"},
     {"M8246", "bit", "read", "C246 is counting down; so on to M8255"},
     {"D8010", "u16", "read", "time of a scan [0.1 ms]"},
+    {"D8061", "u16", "read", "6105: a scan worked longer than the watchdog time of 200 ms"},
     {"D8067", "u16", "read", "code of the last instruction error"},
     {"D8069", "u16", "read", "step of the last instruction error"},
     {"D8140", "i32", "write", "pulses of Y0, less those backwards"},
     {"D8142", "i32", "write", "pulses of Y1, less those backwards"},
-    {"D8145", "u16", "write", "bias speed of DDRVI and DDRVA [Hz]"},
-    {"D8146", "i32", "write", "top speed of DDRVI and DDRVA [Hz]"},
-    {"D8148", "u16", "write", "ramp of DDRVI and DDRVA from bias to top speed [ms]"},
+    {"D8145", "u16", "write", "bias speed of DDRVI, DDRVA and ZRN [Hz]"},
+    {"D8146", "i32", "write", "top speed of DDRVI, DDRVA and ZRN [Hz]"},
+    {"D8148", "u16", "write", "ramp of DDRVI, DDRVA and ZRN from bias to top speed [ms]"},
     {"D8150", "i32", "write", "pulses of Y2, less those backwards"},
     {"D8152", "i32", "write", "pulses of Y3, less those backwards"},
 };
@@ -130,7 +165,8 @@ static_assert(in_table(word::version, "version") && in_table(word::status, "stat
               in_table(word::master_position, "master position") &&
               in_table(word::master_counts, "master counts") &&
               in_table(word::master_denominator, "master denominator") &&
-              in_table(word::master_numerator, "master numerator") && in_table(word::rows, "rows") &&
+              in_table(word::master_numerator, "master numerator") &&
+              in_table(word::own_stop, "stops by itself") && in_table(word::rows, "rows") &&
               in_table(word::table_offset, "table offset") && in_table(word::table, "row master"));
 
 }  // namespace
@@ -138,5 +174,20 @@ static_assert(in_table(word::version, "version") && in_table(word::status, "stat
 std::span<const BlockWord> block_words() { return words; }
 std::span<const BlockFlag> block_flags() { return flags; }
 std::span<const SpecialRegister> special_registers() { return specials; }
+std::span<const Reading> block_readings() { return readings; }
+
+std::string take_initial_values(Registers& registers, int block) {
+  std::string given;
+  for (const BlockWord& entry : words) {
+    if (entry.access != Access::write || entry.set_up == 0) continue;
+    const auto at = static_cast<std::size_t>(block + entry.offset);
+    if (registers.written[at] || (entry.words == 2 && registers.written[at + 1])) continue;
+    // Not marked as written: what the program writes later is its own.
+    registers.d[at] = static_cast<std::uint16_t>(entry.set_up);
+    if (entry.words == 2) registers.d[at + 1] = static_cast<std::uint16_t>(entry.set_up >> 16);
+    given += fmt::format("{}D{} {}", given.empty() ? "" : ", ", at, entry.set_up);
+  }
+  return given;
+}
 
 }  // namespace drycut::devices::lx3vp

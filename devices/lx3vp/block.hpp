@@ -1,7 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
+
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -17,7 +20,7 @@ struct BlockWord {
   std::string_view name;
   std::string_view type;    ///< "flags", "u16", "i32", "u32"
   std::string_view range;   ///< "" = the type's
-  std::int64_t set_up = 0;  ///< what the manual has written at set-up; the register itself is 0 until then
+  std::int64_t set_up = 0;  ///< the manual's initial value; see `take_initial_values`
   Access access = Access::write;
   std::string_view taken;  ///< when the cam reads it: "start", "always"; "" = it writes it
   std::string_view meaning;
@@ -43,6 +46,17 @@ struct SpecialRegister {
 };
 std::span<const SpecialRegister> special_registers();
 
+/// A place where the manual is silent or contradicts itself, and what is done here.
+struct Reading {
+  std::string_view where;  ///< "word 4", "status bit 6"
+  std::string_view text;
+};
+std::span<const Reading> block_readings();
+
+/// Gives the words of the block at D`block` that nothing has written the manual's initial values (003 5).
+/// What it gave and where, in words; "" if all of them were written.
+std::string take_initial_values(Registers& registers, int block);
+
 // Offsets, by the table's names.
 namespace word {
 inline constexpr int version = 0;
@@ -66,6 +80,7 @@ inline constexpr int master_position = 25;
 inline constexpr int master_counts = 27;
 inline constexpr int master_denominator = 29;
 inline constexpr int master_numerator = 30;
+inline constexpr int own_stop = 31;
 inline constexpr int rows = 38;
 inline constexpr int table_offset = 39;
 inline constexpr int table = 40;

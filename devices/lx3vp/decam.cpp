@@ -1,5 +1,7 @@
 #include "devices/lx3vp/decam.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -94,7 +96,10 @@ void Decam::fail(CamPort& port, CamFault fault) {
 }
 
 std::optional<CamFault> Decam::take_fault() { return std::exchange(fault_, std::nullopt); }
-bool Decam::take_delayed() { return std::exchange(newly_delayed_, false); }
+
+bool Decam::stops_after_cycle(CamPort& port) const {
+  return (block(port, word::live) & live::stop_after_cycle) != 0;
+}
 
 PulseTick Decam::tick(CamPort& port, PulseOutput& output, bool stop, bool taken) {
   if (!enabled_ || !has_block_) return {0, output.forwards(), false};
@@ -120,7 +125,7 @@ PulseTick Decam::tick(CamPort& port, PulseOutput& output, bool stop, bool taken)
     tick = output.follow(target_, most < 0 || most > max_frequency_hz ? max_frequency_hz : most);
     if (tick.late) {
       status_ |= status::delayed;
-      newly_delayed_ = newly_delayed_ || !std::exchange(told_delayed_, true);
+      tell_late(port);
     }
     if (state_ != State::init && state_ != State::armed)
       show_positions(port, place_, output.position() - base_ - law_.pulses_before(place_.cycle));
@@ -128,6 +133,19 @@ PulseTick Decam::tick(CamPort& port, PulseOutput& output, bool stop, bool taken)
   drive_sync_output(port);
   show_status(port);
   return tick;
+}
+
+// Once a start.
+void Decam::tell_late(CamPort& port) {
+  if (std::exchange(told_late_, true)) return;
+  const int limit = operands_.block + word::max_frequency;
+  if (port.registers.i32(limit) == 0)
+    notes_.push_back({true, fmt::format("D{} is 0: nothing comes out of Y{:o}; write 1 to {}", limit,
+                                        operands_.output, max_frequency_hz)});
+  else
+    notes_.push_back(
+        {true, fmt::format("the frequency limit of D{} holds back pulses of Y{:o}; they come later", limit,
+                           operands_.output)});
 }
 
 // Word 5 starts and stops; the flag of the output stops too, and lasts until word 5 starts anew.
@@ -152,12 +170,16 @@ void Decam::obey_start_word(CamPort& port, PulseOutput& output, bool stop_pulses
 void Decam::begin(CamPort& port, PulseOutput& output, bool taken) {
   status_ = 0;
   block(port, word::error) = 0;
+  if (const auto given = take_initial_values(port.registers, operands_.block); !given.empty())
+    notes_.push_back({false, fmt::format("the block D{} has the initial values of its words that nothing has "
+                                         "written: {}",
+                                         operands_.block, given)});
   if (auto fault = take_block(port, taken)) {
     fail(port, std::move(*fault));
     return;
   }
   state_ = State::init;
-  told_delayed_ = false;
+  told_late_ = false;
   target_ = output.position();
   output.halt();
   output.face(true);
@@ -209,9 +231,8 @@ void Decam::run(CamPort& port, std::int64_t counts) {
   place_ = law_.place(counts_, first_);
   const bool at_end = limit(port, place_);
   target_ = base_ + law_.pulses(place_);
-  const bool repeating = cyclic_ || cycles_ == 0;
   if (place_.cycle > cycle_)
-    raise(port, repeating ? status::completed | status::cycle_completed : status::cycle_completed);
+    raise(port, repeats_for_ever() ? status::completed | status::cycle_completed : status::cycle_completed);
   cycle_ = place_.cycle;
   if (at_end) finish(port);
 }
@@ -232,13 +253,12 @@ CamMoment Decam::moment(const PulseOutput& output) const {
 
 bool Decam::limit(CamPort& port, CamLaw::Place& place) const {
   // A non-cyclic cam has nothing before its first row.
-  if (!cyclic_ && place.cycle < 0) place = {0, 0};
-  const bool last_cycle = (block(port, word::live) & live::stop_after_cycle) != 0;
-  if (last_cycle && state_ == State::run && place.cycle != cycle_) {
+  if (!repeats_for_ever() && place.cycle < 0) place = {0, 0};
+  if (stops_after_cycle(port) && state_ == State::run && place.cycle != cycle_) {
     place = {cycle_, place.cycle > cycle_ ? law_.length() : Wide{0}};
     return true;
   }
-  if (cyclic_ || cycles_ == 0 || place.cycle < cycles_) return false;
+  if (repeats_for_ever() || place.cycle < cycles_) return false;
   place = {cycles_ - 1, law_.length()};
   return true;
 }
@@ -247,8 +267,7 @@ void Decam::finish(CamPort& port) {
   raise(port, status::completed | status::cycle_completed);
   lower(port, status::initialised);
   ended_ = true;
-  const bool stop = (block(port, word::live) & live::stop_after_cycle) != 0;
-  const bool again = !cyclic_ && !stop && (function_ & function::external_start) != 0;
+  const bool again = !cyclic_ && !stops_after_cycle(port) && (function_ & function::external_start) != 0;
   state_ = again ? State::pause : State::done;
   pause_ticks_ = ticks_between_runs;
 }
@@ -265,7 +284,8 @@ void Decam::show_positions(CamPort& port, const CamLaw::Place& place, std::int64
 void Decam::show_status(CamPort& port) {
   status_ &= ~(status::cyclic | status::non_cyclic | status::in_window | status::time_axis);
   const bool active = state_ != State::idle && state_ != State::done;
-  if (active) status_ |= cyclic_ ? status::cyclic : status::non_cyclic;
+  const bool turned = cycles_ == 0 && running();
+  if (active) status_ |= cyclic_ || turned ? status::cyclic : status::non_cyclic;
   if (sync_output_ && port.outputs[static_cast<std::size_t>(*sync_output_)]) status_ |= status::in_window;
   if (operands_.master.kind == MasterSource::Kind::time) status_ |= status::time_axis;
   block(port, word::status) = static_cast<std::uint16_t>((block(port, word::status) & shared_bits) | status_);
@@ -281,13 +301,28 @@ void Decam::drive_sync_output(CamPort& port) {
     port.registers.y[static_cast<std::size_t>(output)] = level;
   };
   if (sync_output_ && (!works || *sync_output_ != number)) give(*sync_output_, false);
+  const bool begins = works && !sync_output_;
   sync_output_.reset();
   if (!works) return;
   sync_output_ = number;
   const std::int64_t position = law_.master_position(place_);
   const std::int64_t low = port.registers.u32(operands_.block + word::sync_low);
   const std::int64_t high = port.registers.u32(operands_.block + word::sync_high);
+  if (begins) judge_thresholds(low, high);
   give(number, low <= position && position <= high);
+}
+
+void Decam::judge_thresholds(std::int64_t low, std::int64_t high) {
+  const std::int64_t last = law_.rows().back().master;
+  if (high <= last) return;
+  const int at = operands_.block + (low > last ? word::sync_low : word::sync_high);
+  notes_.push_back(
+      {true,
+       fmt::format("the threshold {} of the synchronous output (D{}) lies beyond the table's "
+                   "last master {}: {}; write up to {}",
+                   low > last ? low : high, at, last,
+                   low > last ? "the output never comes on" : "the output stays on to the end of the cycle",
+                   last)});
 }
 
 }  // namespace drycut::devices::lx3vp

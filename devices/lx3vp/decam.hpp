@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "devices/cam_axis.hpp"
 #include "devices/lx3vp/block.hpp"
@@ -25,6 +27,12 @@ struct CamPort {
 struct CamFault {
   int code = 0;
   int row = 0;  ///< 6782: of the table
+  std::string text;
+};
+
+/// Something to tell that is no error.
+struct CamNote {
+  bool warns = true;  ///< else it only informs
   std::string text;
 };
 
@@ -72,7 +80,7 @@ class Decam {
   /// Starts of a run so far, and what the last one took from the block.
   [[nodiscard]] std::uint64_t starts() const { return starts_; }
   [[nodiscard]] const CamLaw& law() const { return law_; }
-  [[nodiscard]] bool cyclic() const { return cyclic_; }
+  [[nodiscard]] bool cyclic() const { return repeats_for_ever(); }
   /// The run in table units, from the first row on: the master by its counts, the slave by the pulses given.
   [[nodiscard]] CamMoment moment(const PulseOutput& output) const;
   /// The plain number of the Y that is now its synchronous output.
@@ -83,8 +91,8 @@ class Decam {
 
   /// What has gone wrong since the last call; nothing if the code is 0.
   std::optional<CamFault> take_fault();
-  /// True once a start if the frequency limit held pulses back.
-  bool take_delayed();
+  /// What is worth telling since the last call.
+  std::vector<CamNote> take_notes() { return std::exchange(notes_, {}); }
 
  private:
   enum class State : std::uint8_t {
@@ -111,12 +119,18 @@ class Decam {
   void start(CamPort& port);
   void count_delay(CamPort& port);
   void run(CamPort& port, std::int64_t counts);
+  /// Cyclic, or non-cyclic with HFFFF repeats.
+  [[nodiscard]] bool repeats_for_ever() const { return cyclic_ || cycles_ == 0; }
+  /// The present cycle is the last.
+  [[nodiscard]] bool stops_after_cycle(CamPort& port) const;
   /// Keeps the place within what the cam may do; true if it is at its end.
   bool limit(CamPort& port, CamLaw::Place& place) const;
   void finish(CamPort& port);
   void show_positions(CamPort& port, const CamLaw::Place& place, std::int64_t pulses) const;
   void show_status(CamPort& port);
   void drive_sync_output(CamPort& port);
+  void tell_late(CamPort& port);
+  void judge_thresholds(std::int64_t low, std::int64_t high);
   void raise(CamPort& port, unsigned bits) const;
   void lower(CamPort& port, unsigned bits) const;
 
@@ -151,8 +165,8 @@ class Decam {
   CamLaw::Place place_;
   int pause_ticks_ = 0;
   std::optional<int> sync_output_;
-  bool told_delayed_ = false;
-  bool newly_delayed_ = false;
+  bool told_late_ = false;
+  std::vector<CamNote> notes_;
 };
 
 }  // namespace drycut::devices::lx3vp

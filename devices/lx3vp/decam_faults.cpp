@@ -89,7 +89,7 @@ std::optional<CamFault> Decam::take_block(CamPort& port, bool taken) {
   cyclic_ = block(port, word::start) == 1;
   function_ = block(port, word::function);
   const std::uint16_t repeats = block(port, word::repeats);
-  cycles_ = repeats == endless ? 0 : repeats + 1;
+  cycles_ = repeats == endless && !cyclic_ ? 0 : repeats + 1;
   delay_ = registers.u32(at + word::delay);
   resume_ = (function_ & function::resume) != 0;
   std::vector<CamLaw::Row> rows(block(port, word::rows));

@@ -16,7 +16,8 @@ constexpr EcamtbxWord saw[] = {
     {saw_word::acceleration, 1, "P6 low", "u16", "", "0..2",
      "acceleration: 0 uniform speed (steps), 1 uniform acceleration, 2 B type"},
     {saw_word::curve, 1, "P6 high", "u16", "", "0..3, 5",
-     "K100: 0 leftCAM, 1 midCAMall, 2 midCAMbegin, 3 midCAMend, 5 rightCAM; plus H1000 backwards"},
+     "K100: 0 leftCAM, 1 midCAMall, 2 midCAMbegin, 3 midCAMend (stops by itself), 5 rightCAM; plus H1000 "
+     "backwards"},
     {saw_word::resolution, 1, "P7", "u16", "rows", "0, 10..512", "rows of the table; 0 makes 200"},
 };
 
@@ -33,8 +34,27 @@ constexpr EcamtbxWord s_curve[] = {
     {s_curve_word::result, 1, "P13", "i16", "", "", "ECAMTBX writes it: the result, as in D1"},
 };
 
+constexpr Reading readings[] = {
+    {"results", "the manual says only that they are below 0 on an error: the numbers are ours"},
+    {"laws", "the manual names them and shows results: the profiles are derived from its demos"},
+    {"P6 high 3",
+     "midCAMend: the cam stops at the end of its cycle by word 4 bit 1 of the block, which the table of "
+     "another "
+     "curve takes back"},
+    {"P6 high H1000", "the demo of the negative square: the slave runs backwards"},
+    {"P2, P3 with the sync function",
+     "the manual gives them a second meaning and does not explain it: they stay lengths, the zone's "
+     "thresholds "
+     "go to words 9 to 12 of the block"},
+    {"P7 0", "the manual's demo: 200 rows"},
+    {"P6 of K101", "the low word chooses the ramps; the high word is ignored, as the demo says"},
+    {"K0 and K1", "the manual does not tell them apart: K0 accelerates by a cosine, K1 by parabolas"},
+    {"initial values", "words of the block that nothing has written get them (see DECAM)"},
+};
+
 }  // namespace
 
+std::span<const Reading> ecamtbx_readings() { return readings; }
 std::span<const EcamtbxWord> saw_words() { return saw; }
 std::span<const EcamtbxWord> s_curve_words() { return s_curve; }
 

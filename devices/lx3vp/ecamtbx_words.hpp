@@ -2,6 +2,8 @@
 #include <span>
 #include <string_view>
 
+#include "devices/lx3vp/block.hpp"
+
 namespace drycut::devices::lx3vp {
 
 // The parameter lists of ECAMTBX, word by word (003 appendix): one table for what reads the registers, for
@@ -21,6 +23,8 @@ struct EcamtbxWord {
 std::span<const EcamtbxWord> saw_words();
 /// Of K0 and K1 (S-curves).
 std::span<const EcamtbxWord> s_curve_words();
+/// Where the manual is silent or contradicts itself.
+std::span<const Reading> ecamtbx_readings();
 
 // Offsets, by the manual's numbers.
 namespace saw_word {

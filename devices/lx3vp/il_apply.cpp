@@ -2,82 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "devices/lx3vp/il_values.hpp"
+#include "devices/lx3vp/block.hpp"
+#include "devices/lx3vp/il_call.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
 namespace {
-
-constexpr int zero_flag = 8020;    ///< M8020: the result is 0
-constexpr int borrow_flag = 8021;  ///< M8021: below the smallest number
-constexpr int carry_flag = 8022;   ///< M8022: above the largest
-
-/// Narrowest and widest number of an instruction.
-std::int64_t smallest(bool wide) {
-  return wide ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int16_t>::min();
-}
-std::int64_t largest(bool wide) {
-  return wide ? std::numeric_limits<std::int32_t>::max() : std::numeric_limits<std::int16_t>::max();
-}
-
-/// The operands of a step as it is executed.
-class Call {
- public:
-  Call(Registers& registers, const Step& step) : registers_(registers), step_(step), wide_(step.wide()) {}
-
-  [[nodiscard]] std::int32_t value(std::size_t i) const {
-    return read_value(registers_, step_.operands[i], wide_);
-  }
-  void set(std::size_t i, std::int32_t value) { write_value(registers_, step_.operands[i], wide_, value); }
-  [[nodiscard]] float real(std::size_t i) const { return read_float(registers_, step_.operands[i]); }
-  [[nodiscard]] int number(std::size_t i) const { return step_.operands[i].number; }
-  [[nodiscard]] bool wide() const { return wide_; }
-  [[nodiscard]] Registers& registers() const { return registers_; }
-
-  /// A sum or a difference: wraps, and the flags say so.
-  void set_sum(std::size_t i, std::int64_t sum) {
-    registers_.m[borrow_flag] = sum < smallest(wide_);
-    registers_.m[carry_flag] = sum > largest(wide_);
-    const auto wrapped = static_cast<std::int32_t>(static_cast<std::uint32_t>(sum));
-    set(i, wrapped);
-    registers_.m[zero_flag] = value(i) == 0;
-  }
-
-  void set_real(std::size_t i, double result) {
-    const auto rounded = static_cast<float>(result);
-    if (!std::isfinite(rounded)) throw RuntimeError(bad_operand, "the result is no floating-point number");
-    registers_.m[zero_flag] = rounded == 0;
-    registers_.set_f32(number(i), rounded);
-  }
-
-  /// The three devices of CMP and ZCP: exactly one is ON.
-  void set_three(std::size_t i, int which) {
-    auto device = step_.operands[i];
-    for (int n = 0; n < 3; ++n, ++device.number) write_bit(registers_, device, n == which);
-  }
-
-  /// K or D that counts devices.
-  [[nodiscard]] int count(std::size_t i) const {
-    constexpr int most = 512;  // FX
-    const int count = read_value(registers_, step_.operands[i], false);
-    if (count < 1 || count > most)
-      throw RuntimeError(bad_operand, fmt::format("a count of {} is none of 1 to {}", count, most));
-    return count;
-  }
-  void need_words(std::size_t i, int words) const {
-    if (number(i) + words > data_words)
-      throw RuntimeError(bad_operand,
-                         fmt::format("{} words from D{} on go beyond D{}", words, number(i), data_words - 1));
-  }
-
- private:
-  Registers& registers_;
-  const Step& step_;
-  bool wide_;
-};
 
 void multiply(Call& call) {
   const std::int64_t product = static_cast<std::int64_t>(call.value(0)) * call.value(1);
@@ -110,15 +43,15 @@ void move_block(Call& call) {
   const int count = call.count(2);
   call.need_words(0, count);
   call.need_words(1, count);
-  auto& d = call.registers().d;
-  const auto from = static_cast<std::size_t>(call.number(0));
-  const auto to = static_cast<std::size_t>(call.number(1));
-  const auto size = static_cast<std::size_t>(count);
+  auto& registers = call.registers();
+  const int from = call.number(0);
+  const int to = call.number(1);
+  const auto move = [&](int i) { registers.put(to + i, registers.d[static_cast<std::size_t>(from + i)]); };
   // Blocks may overlap: nothing is overwritten before it was moved.
   if (to <= from)
-    for (std::size_t i = 0; i < size; ++i) d[to + i] = d[from + i];
+    for (int i = 0; i < count; ++i) move(i);
   else
-    for (std::size_t i = size; i-- > 0;) d[to + i] = d[from + i];
+    for (int i = count; i-- > 0;) move(i);
 }
 
 void fill_block(Call& call) {
@@ -293,8 +226,30 @@ void apply(Registers& registers, const Step& step) {
   Call call(registers, step);
   if (step.op() >= Op::flt)
     apply_reals(call, step.op());
+  else if (step.op() >= Op::sftl)
+    apply_shifts(call, step.op());
   else
     apply_words(call, step.op());
+}
+
+std::int64_t work_of(const Registers& registers, const Step& step) {
+  const auto count = [&](std::size_t i) {
+    return std::int64_t{std::max(0, read_value(registers, step.operands[i], false))};
+  };
+  switch (step.op()) {
+    case Op::bmov:
+    case Op::fmov:
+    case Op::mean:
+    case Op::sftl:
+    case Op::sftr:
+      return count(2);
+    case Op::zrst:
+      return std::max(0, step.operands[1].number - step.operands[0].number);
+    case Op::ecamtbx:
+      return 10 * max_rows;
+    default:
+      return 0;
+  }
 }
 
 EcamtbxReport apply_ecamtbx(Registers& registers, const Step& step) {
@@ -305,25 +260,67 @@ EcamtbxReport apply_ecamtbx(Registers& registers, const Step& step) {
                      step.operands[3].number);
 }
 
+namespace {
+
+/// A frequency that PLSY and ZRN take, a count that PLSY takes.
+void need_at_least(std::int64_t value, int least, std::string_view name) {
+  if (value < least)
+    throw RuntimeError(bad_operand, fmt::format("{} is {}; write {} or more", name, value, least));
+}
+
+DecamOperands decam_operands(const Step& step) {
+  const auto number = [&](std::size_t i) { return step.operands[i].number; };
+  const auto& master = step.operands[0];
+  DecamOperands operands;
+  operands.master.kind = master.kind == Kind::C   ? MasterSource::Kind::counter
+                         : master.kind == Kind::D ? MasterSource::Kind::word
+                                                  : MasterSource::Kind::time;
+  operands.master.number = master.kind == Kind::constant ? master.value : master.number;
+  operands.block = number(1);
+  operands.start = {step.operands[2].kind == Kind::X, number(2)};
+  operands.output = number(3);
+  operands.direction = number(4);
+  return operands;
+}
+
+DogSignal dog_signal(const Operand& operand) {
+  switch (operand.kind) {
+    case Kind::X:
+      return {DogSignal::Kind::x, operand.number};
+    case Kind::Y:
+      return {DogSignal::Kind::y, operand.number};
+    case Kind::M:
+      return {DogSignal::Kind::m, operand.number};
+    default:
+      return {DogSignal::Kind::s, operand.number};
+  }
+}
+
+}  // namespace
+
 void drive_outputs(const Registers& registers, const Step& step, bool powered, Instructions& instructions) {
   const auto number = [&](std::size_t i) { return step.operands[i].number; };
-  const auto value = [&](std::size_t i) { return read_value(registers, step.operands[i], step.wide()); };
-  if (step.op() == Op::plsv) {
-    instructions.plsv(step.number, value(0), number(1), number(2), powered);
-  } else if (step.op() == Op::decam) {
-    const auto& master = step.operands[0];
-    DecamOperands operands;
-    operands.master.kind = master.kind == Kind::C   ? MasterSource::Kind::counter
-                           : master.kind == Kind::D ? MasterSource::Kind::word
-                                                    : MasterSource::Kind::time;
-    operands.master.number = master.kind == Kind::constant ? master.value : master.number;
-    operands.block = number(1);
-    operands.start = {step.operands[2].kind == Kind::X, number(2)};
-    operands.output = number(3);
-    operands.direction = number(4);
-    instructions.decam(step.number, operands, powered);
-  } else {
-    instructions.drive(step.number, step.op() == Op::drva, value(0), value(1), number(2), number(3), powered);
+  // Without power index registers are not applied, and nobody looks at the values.
+  const auto value = [&](std::size_t i) {
+    return powered || !step.indexed ? read_value(registers, step.operands[i], step.wide()) : 0;
+  };
+  switch (step.op()) {
+    case Op::plsv:
+      return instructions.plsv(step.number, value(0), number(1), number(2), powered);
+    case Op::decam:
+      return instructions.decam(step.number, decam_operands(step), powered);
+    case Op::plsy:
+      if (powered) need_at_least(value(0), 0, "the frequency S1");
+      if (powered) need_at_least(value(1), 0, "the number of pulses S2");
+      return instructions.pulse_train(step.number, value(0), value(1), number(2), powered);
+    case Op::zrn:
+      if (powered) need_at_least(value(0), 1, "the speed S1");
+      if (powered) need_at_least(value(1), 1, "the creep speed S2");
+      return instructions.zero_return(step.number, value(0), value(1), dog_signal(step.operands[2]),
+                                      number(3), powered);
+    default:
+      return instructions.drive(step.number, step.op() == Op::drva, value(0), value(1), number(2), number(3),
+                                powered);
   }
 }
 

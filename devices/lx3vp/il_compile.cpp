@@ -1,41 +1,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
+#include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_rungs.hpp"
+#include "devices/lx3vp/il_structure.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
 namespace {
 
 constexpr std::size_t most_problems = 1000;
-
-struct Word {
-  std::string_view text;
-  int column = 1;
-};
-
-/// The words of a line, without its comment.
-std::vector<Word> words_of(std::string_view line) {
-  line = line.substr(0, std::min({line.find(';'), line.find("//"), line.size()}));
-  const auto is_gap = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; };
-  std::vector<Word> words;
-  for (std::size_t i = 0; i < line.size();) {
-    if (is_gap(line[i])) {
-      ++i;
-      continue;
-    }
-    std::size_t end = i;
-    while (end < line.size() && !is_gap(line[end])) ++end;
-    words.push_back({line.substr(i, end - i), static_cast<int>(i) + 1});
-    i = end;
-  }
-  return words;
-}
 
 std::string quoted(std::string_view text) {
   constexpr std::size_t most = 24;
@@ -47,7 +26,7 @@ std::string quoted(std::string_view text) {
 bool needs_memory(const Step& step) {
   const Op op = step.op();
   return (op >= Op::ldp && op <= Op::orf) || op == Op::pls || op == Op::plf || op == Op::out ||
-         (step.spelling != nullptr && step.spelling->pulse);
+         op == Op::stl || (step.spelling != nullptr && step.spelling->pulse);
 }
 
 class Compiler {
@@ -58,13 +37,14 @@ class Compiler {
   }
 
   Program compile() {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
-    while (!text_.empty() && !full_) {
-      const auto end = std::min(text_.find('\n'), text_.size());
-      ++line_;
-      const auto words = words_of(text_.substr(0, end));
-      if (!words.empty()) read_line(words);
-      text_.remove_prefix(std::min(end + 1, text_.size()));
+    const auto tell = [this](int line, int column, std::string what, std::string remedy) {
+      problem_at(line, column, std::move(what), std::move(remedy));
+      refused_ = true;
+    };
+    for (const auto& words : statements_of(text_, tell)) {
+      if (full_) break;
+      line_ = words.front().line;
+      read_statement(words);
     }
     if (!full_) finish();
     return std::move(program_);
@@ -83,9 +63,9 @@ class Compiler {
                          "is this an instruction list?"});
   }
 
-  // Lines.
+  // Statements.
 
-  void read_line(const std::vector<Word>& words) {
+  void read_statement(const Statement& words) {
     if (ended_) {
       problem(words.front().column, "stands behind END", "END is the last instruction");
       full_ = true;
@@ -113,13 +93,14 @@ class Compiler {
            word[1] <= '9';
   }
 
-  void read_label(const std::vector<Word>& words) {
+  void read_label(const Statement& words) {
     auto text = words.front().text;
-    if (text.ends_with(':')) text.remove_suffix(1);
+    if (text.ends_with(':')) text.pop_back();
     OperandFault fault;
     auto operand = read_operand(text, fault);
     if (!operand) {
       problem(words.front().column, std::move(fault.what), std::move(fault.remedy));
+      refused_ = true;
       return;
     }
     if (words.size() > 1)
@@ -139,6 +120,8 @@ class Compiler {
   }
 
   void refuse_mnemonic(const Word& word) {
+    refused_ = true;
+    rungs_.lose();
     if (is_not_simulated(word.text)) {
       problem(word.column, fmt::format("{} is not simulated", word.text),
               "`drycut devices LX3VP` lists what is");
@@ -146,42 +129,54 @@ class Compiler {
     }
     std::vector<std::string> names;
     for (const auto& spelling : spellings()) names.push_back(spelling.text);
-    const auto near = nearest(std::string(word.text.substr(0, 24)), names);
+    const auto near = nearest(word.text.substr(0, 24), names);
     problem(word.column, fmt::format("there is no instruction {}", quoted(word.text)),
             near.empty() ? "one instruction a line: LD X0" : fmt::format("did you mean {}?", near));
   }
 
   // Operands.
 
-  void read_operands(Step& step, const std::vector<Word>& words) {
+  /// One problem an instruction: the others may only follow from it.
+  void read_operands(Step& step, const Statement& words) {
     std::string kinds(step.spelling->mnemonic->operands);
+    std::optional<OperandFault> fault;
+    const Word* at = &words.front();
+    const auto refuse = [&](const Word& word, OperandFault what) {
+      if (!fault) at = &word;
+      if (!fault) fault = std::move(what);
+    };
     for (std::size_t i = 1; i < words.size(); ++i) {
-      OperandFault fault;
-      auto operand = read_operand(words[i].text, fault);
+      OperandFault unread;
+      auto operand = read_operand(words[i].text, unread);
       if (!operand) {
-        problem(words[i].column, std::move(fault.what), std::move(fault.remedy));
+        refuse(words[i], std::move(unread));
         continue;
       }
+      operand->line = words[i].line;
       operand->column = words[i].column;
+      step.indexed = step.indexed || operand->index != Operand::no_index;
       step.operands.push_back(*operand);
       const auto place = i - 1;
       // The set value of a timer or a counter.
       if (place == 0 && step.op() == Op::out && (operand->kind == Kind::T || operand->kind == Kind::C))
         kinds += 'v';
-      if (place < kinds.size()) check_operand(step, *operand, kinds[place]);
+      if (place >= kinds.size()) continue;
+      if (auto wrong = kinds[place] == 'v' ? misfit_of_set_value(step, *operand)
+                                           : misfit(*operand, kinds[place], *step.spelling))
+        refuse(words[i], std::move(*wrong));
     }
-    if (words.size() - 1 != kinds.size()) {
-      const auto at = words.size() - 1 > kinds.size() ? words[kinds.size() + 1] : words.back();
-      problem(at.column,
-              fmt::format("{} has {} operand{}, not {}", step.spelling->text, kinds.size(),
+    if (words.size() - 1 != kinds.size())
+      refuse(words.size() - 1 > kinds.size() ? words[kinds.size() + 1] : words.back(),
+             {fmt::format("{} has {} operand{}, not {}", step.spelling->text, kinds.size(),
                           kinds.size() == 1 ? "" : "s", words.size() - 1),
-              operands_text(step, kinds));
-      return;
-    }
-    check_together(step);
+              operands_text(kinds)});
+    if (!fault) fault = misfit_together(step);
+    if (!fault) return;
+    const auto& last = step.operands.empty() || at != &words.front() ? *at : words.back();
+    problem_at(last.line, last.column, std::move(fault->what), std::move(fault->remedy));
   }
 
-  static std::string operands_text(const Step& step, const std::string& kinds) {
+  static std::string operands_text(const std::string& kinds) {
     if (kinds.empty()) return "write it alone";
     std::string text = "give ";
     for (std::size_t i = 0; i < kinds.size(); ++i)
@@ -190,54 +185,69 @@ class Compiler {
                           : i + 1 == kinds.size() ? " and then "
                                                   : ", then ",
                           operand_text(kinds[i]));
-    (void)step;
     return text;
   }
 
-  void check_operand(const Step& step, const Operand& operand, char kind) {
-    if (kind == 'v') {
-      check_set_value(step, operand);
-      return;
-    }
-    if (auto fault = misfit(operand, kind, *step.spelling))
-      problem(operand.column, std::move(fault->what), std::move(fault->remedy));
-  }
-
-  void check_set_value(const Step& step, const Operand& operand) {
+  static std::optional<OperandFault> misfit_of_set_value(const Step& step, const Operand& operand) {
     constexpr int most = 32767;
     const auto& coil = step.operands.front();
-    const bool wide = coil.kind == Kind::C && coil.number >= 200;
+    const bool wide = coil.kind == Kind::C && coil.number >= first_wide_counter;
     const auto remedy =
         wide ? "give a set value K or the first D of a pair" : "give a set value K1 to K32767 or a D";
     const bool is_number = operand.kind == Kind::constant;
+    if (coil.index != Operand::no_index || operand.index != Operand::no_index)
+      return OperandFault{fmt::format("OUT {} {} has an index register", to_string(coil), to_string(operand)),
+                          "timers, counters and their set values take none"};
     if (!is_number && operand.kind != Kind::D)
-      problem(operand.column, fmt::format("{} is no set value", to_string(operand)), remedy);
-    else if (is_number && !wide && (operand.value < 1 || operand.value > most))
-      problem(operand.column, fmt::format("set value {} is out of range", to_string(operand)), remedy);
-    else if (!is_number && wide && operand.number == 8255)
-      problem(operand.column, fmt::format("{} is no pair of words", to_string(operand)), remedy);
+      return OperandFault{fmt::format("{} is no set value", to_string(operand)), remedy};
+    if (is_number && !wide && (operand.value < 1 || operand.value > most))
+      return OperandFault{fmt::format("set value {} is out of range", to_string(operand)), remedy};
+    if (!is_number && wide && operand.number + 1 >= data_words)
+      return OperandFault{fmt::format("{} is no pair of words", to_string(operand)), remedy};
+    return {};
   }
 
-  /// Operands that must go together.
-  void check_together(const Step& step) {
-    if (step.op() == Op::zrst && step.operands.size() == 2) {
-      const auto& first = step.operands[0];
-      const auto& last = step.operands[1];
-      if (first.kind != last.kind)
-        problem(last.column, fmt::format("ZRST from {} to {}", to_string(first), to_string(last)),
-                "name two devices of the same letter");
-      else if (first.number > last.number)
-        problem(last.column, fmt::format("ZRST from {} to {}", to_string(first), to_string(last)),
-                "name the lower one first");
-    }
+  /// Operands that must go together: all of them are there. Told at the last.
+  static std::optional<OperandFault> misfit_together(const Step& step) {
     const Op op = step.op();
-    const bool pulses = op == Op::plsv || op == Op::drvi || op == Op::drva || op == Op::decam;
-    if (!pulses || step.operands.size() < 3) return;
-    const auto& direction = step.operands.back();
-    const auto& output = step.operands[step.operands.size() - 2];
+    const auto& operands = step.operands;
+    if (op == Op::zrst) {
+      const auto pair = fmt::format("ZRST from {} to {}", to_string(operands[0]), to_string(operands[1]));
+      if (operands[0].kind != operands[1].kind)
+        return OperandFault{pair, "name two devices of the same letter"};
+      if (!step.indexed && operands[0].number > operands[1].number)
+        return OperandFault{pair, "name the lower one first"};
+    }
+    if (op == Op::rol || op == Op::ror) {
+      const int width = step.wide() ? 32 : 16;
+      const auto& count = operands[1];
+      if (operands[0].kind == Kind::bits && 4 * operands[0].count != width)
+        return OperandFault{fmt::format("{} turns {} bits, not those of {}", step.spelling->text, width,
+                                        to_string(operands[0])),
+                            fmt::format("group K{}", width / 4)};
+      if (count.kind == Kind::constant && !step.indexed && (count.value < 1 || count.value > width))
+        return OperandFault{fmt::format("{} turns by {} bits", step.spelling->text, to_string(count)),
+                            fmt::format("write K1 to K{}", width)};
+    }
+    if (op == Op::sftl || op == Op::sftr) return misfit_of_shift(step);
+    const bool directs = op == Op::plsv || op == Op::drvi || op == Op::drva || op == Op::decam;
+    if (!directs) return {};
+    const auto& direction = operands.back();
+    const auto& output = operands[operands.size() - 2];
     if (output.kind == direction.kind && output.number == direction.number)
-      problem(direction.column, fmt::format("{} is the pulse output itself", to_string(direction)),
-              "name another Y for the direction");
+      return OperandFault{fmt::format("{} is the pulse output itself", to_string(direction)),
+                          "name another Y for the direction"};
+    return {};
+  }
+
+  static std::optional<OperandFault> misfit_of_shift(const Step& step) {
+    constexpr int most = 1024;
+    const auto& length = step.operands[2];
+    const auto& by = step.operands[3];
+    if (length.kind != Kind::constant || by.kind != Kind::constant || step.indexed) return {};
+    if (by.value >= 1 && by.value <= length.value && length.value <= most) return {};
+    return OperandFault{fmt::format("{} shifts {} bits by {}", step.spelling->text, length.value, by.value),
+                        fmt::format("n1 is up to K{}, n2 K1 up to n1", most)};
   }
 
   // Structure.
@@ -255,42 +265,33 @@ class Compiler {
     if (step.spelling == nullptr) return 1;
     const auto& mnemonic = *step.spelling->mnemonic;
     if (step.op() == Op::out && step.operands.size() == 2)
-      return step.operands[0].kind == Kind::C && step.operands[0].number >= 200 ? 5 : 3;
+      return step.operands[0].kind == Kind::C && step.operands[0].number >= first_wide_counter ? 5 : 3;
     return step.wide() && mnemonic.wide_steps > 0 ? mnemonic.wide_steps : mnemonic.steps;
   }
 
   void finish() {
-    if (!ended_) {
+    if (!ended_ && !refused_)
       problem(1, program_.steps.empty() ? "there is no program" : "END is missing",
               "end the program with END");
-    }
-    for (auto& step : program_.steps) {
-      if (step.op() != Op::cj || step.operands.empty()) continue;
-      const auto found = labels_.find(step.operands[0].number);
-      if (found != labels_.end())
-        step.target = static_cast<int>(found->second.place);
-      else
-        problem_at(step.line, step.operands[0].column,
-                   fmt::format("there is no label {}", to_string(step.operands[0])),
-                   "give it a line of its own");
-    }
+    // What an instruction that was refused would have begun or ended is not known.
+    if (refused_) return;
+    join_structure(program_, labels_, [this](int line, int column, std::string what, std::string remedy) {
+      problem_at(line, column, std::move(what), std::move(remedy));
+    });
   }
 
-  struct Label {
-    int line = 0;
-    std::size_t place = 0;
-  };
   std::string_view text_;
   Problems& problems_;
   std::size_t before_;
   bool full_ = false;
+  bool refused_ = false;  ///< an instruction could not be read
   Program program_;
   int line_ = 0;
   bool ended_ = false;
   Rungs rungs_{[this](int column, std::string what, std::string remedy) {
     problem(column, std::move(what), std::move(remedy));
   }};
-  std::map<int, Label> labels_;
+  Labels labels_;
 };
 
 }  // namespace

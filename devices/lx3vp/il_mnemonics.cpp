@@ -78,6 +78,15 @@ constexpr std::array table = {
     Mnemonic{"WXOR", Op::wxor, "nnw", nwp, 7, 13, "D = S1 exclusive or S2, bit by bit (32 bit: DXOR)"},
     Mnemonic{"CMP", Op::cmp, "nnB", nwp, 7, 13, "three devices from D on: S1 > S2, S1 = S2, S1 < S2"},
     Mnemonic{"ZCP", Op::zcp, "nnnB", nwp, 9, 17, "three devices from D on: S below, within, above S1..S2"},
+    Mnemonic{"SFTL", Op::sftl, "ghkk", np, 9, 0, "shifts n1 bits from D on up by n2, from S on fill in"},
+    Mnemonic{"SFTR", Op::sftr, "ghkk", np, 9, 0, "shifts n1 bits from D on down by n2, from S on fill in"},
+    Mnemonic{"ROL", Op::rol, "wk", nwp, 5, 7,
+             "turns D round to the left by n bits, the last of them in M8022"},
+    Mnemonic{"ROR", Op::ror, "wk", nwp, 5, 7, "turns D round to the right by n bits, the last in M8022"},
+    Mnemonic{"BCD", Op::bcd, "nw", nwp, 5, 9, "D = S with a decimal digit in each four bits"},
+    Mnemonic{"BIN", Op::bin, "nw", nwp, 5, 9, "D = S, which has a decimal digit in each four bits"},
+    Mnemonic{"MEAN", Op::mean, "uwk", nwp, 7, 13, "D = mean of n values (1 to 64) from S on, no decimals"},
+    Mnemonic{"SQR", Op::sqr, "ji", nwp, 5, 9, "D = square root of S, no decimals"},
     Mnemonic{"FLT", Op::flt, "iF", nwp, 5, 9, "D = S as a floating-point number"},
     Mnemonic{"INT", Op::int_, "Fi", nwp, 5, 9, "D = S without its decimals"},
     Mnemonic{"EMOV", Op::emov, "fF", wp, 9, 9, "D = S, floating point"},
@@ -90,10 +99,22 @@ constexpr std::array table = {
     Mnemonic{"PLSV", Op::plsv, "npy", nw, 9, 17, "pulses at S Hz from D1, direction on D2 (ON: S above 0)"},
     Mnemonic{"DRVI", Op::drvi, "nnpy", nw, 9, 17, "S1 pulses at S2 Hz from D1, direction on D2"},
     Mnemonic{"DRVA", Op::drva, "nnpy", nw, 9, 17, "pulses to position S1 at S2 Hz from D1, direction on D2"},
+    Mnemonic{"PLSY", Op::plsy, "nnp", nw, 7, 13, "S2 pulses (0: without end) at S1 Hz from D, no direction"},
+    Mnemonic{"ZRN", Op::zrn, "nngp", nw, 9, 17,
+             "backwards at S1 Hz to the signal S3, at S2 Hz until it ends; position 0"},
     Mnemonic{"DECAM", Op::decam, "mdxpy", n, 21, 0,
              "electronic cam: master, block, start, pulses, direction"},
     Mnemonic{"ECAMTBX", Op::ecamtbx, "atdD", n, 17, 0, "makes a cam table: parameters, type, block, result"},
-    Mnemonic{"CJ", Op::cj, "P", np, 3, 0, "goes on at a label"},
+    Mnemonic{"MC", Op::mc, "Ne", n, 3, 0,
+             "a master contact for all that follows, to MCR; its device shows it"},
+    Mnemonic{"MCR", Op::mcr, "N", n, 2, 0, "ends the master contact"},
+    Mnemonic{"STL", Op::stl, "S", n, 1, 0, "what follows works while this step of a sequence is active"},
+    Mnemonic{"RET", Op::ret, "", n, 1, 0, "ends the steps of a sequence"},
+    Mnemonic{"FOR", Op::for_, "n", n, 3, 0, "repeats what follows n times, to NEXT; five in each other"},
+    Mnemonic{"NEXT", Op::next, "", n, 1, 0, "ends what FOR repeats"},
+    Mnemonic{"CJ", Op::cj, "P", np, 3, 0, "goes on at a label; at END if it is P63 and not given"},
+    Mnemonic{"CALL", Op::call, "P", np, 3, 0, "runs the subroutine at a label, behind FEND, to its SRET"},
+    Mnemonic{"SRET", Op::sret, "", n, 1, 0, "ends a subroutine"},
     Mnemonic{"NOP", Op::nop, "", n, 1, 0, "does nothing"},
     Mnemonic{"FEND", Op::fend, "", n, 1, 0, "ends the scan before the end of the text"},
     Mnemonic{"END", Op::end, "", n, 1, 0, "ends the program"},
@@ -129,6 +150,32 @@ std::vector<Spelling> all_spellings() {
 
 std::span<const Mnemonic> mnemonics() { return table; }
 
+std::span<const Reading> instruction_readings() {
+  static constexpr Reading readings[] = {
+      {"all",
+       "the cam manual has no instruction list: mnemonics, steps, ranges, flags and codes are the FX "
+       "family's, which the unit follows"},
+      {"index",
+       "added to numbers of devices and to constants; a 32-bit instruction takes V with Z; what then "
+       "does not exist is 6706; none at labels, pulse terminals, DECAM, ECAMTBX, timers and counters of "
+       "OUT"},
+      {"FOR", "five in each other; 0 and less are once; CJ may leave a loop, not enter one"},
+      {"CALL", "five deep, else 6702; subroutines stand behind FEND and hold no STL and no MC"},
+      {"MC", "without power coils go off and what was set stays; LDI, INV and the like have no power either"},
+      {"STL",
+       "SET and OUT of a state with an STL switch the present one off at once; its instructions run once "
+       "more, without power, in the next scan and are then left alone; CJ stays inside a state"},
+      {"PLSY", "no ramp, no direction output; D8140.. count forwards; S2 = 0 without end"},
+      {"ZRN",
+       "backwards with the ramp of D8148, no direction output and no clear signal; zero where the dog "
+       "ends; a start on the dog creeps"},
+      {"6105",
+       "an instruction, and each word or bit that one moves, is 0.2 us of the watchdog's 200 ms; the PLC "
+       "then stops until power-up"},
+  };
+  return readings;
+}
+
 const std::vector<Spelling>& spellings() {
   static const std::vector<Spelling> all = all_spellings();
   return all;
@@ -147,14 +194,12 @@ const Spelling* find_spelling(std::string_view text) {
 bool is_not_simulated(std::string_view text) {
   // FX, and the pulse and CAN instructions of the LX3V series.
   static constexpr std::string_view names[] = {
-      "FOR",  "NEXT", "CALL", "SRET", "IRET", "STL",  "RET",  "MC",   "MCR",  "WDT",  "EI",   "DI",
-      "ZRN",  "DSZR", "DVIT", "TBL",  "ABS",  "PLSY", "PLSR", "PWM",  "PTO",  "SPD",  "HSCS", "HSCR",
-      "HSZ",  "SFTL", "SFTR", "WSFL", "WSFR", "SFWR", "SFRD", "ROL",  "ROR",  "RCL",  "RCR",  "TO",
-      "FROM", "RS",   "CCD",  "PRUN", "ASCI", "HEX",  "PID",  "SMOV", "BCD",  "BIN",  "DECO", "ENCO",
-      "SUM",  "BON",  "MEAN", "ANS",  "ANR",  "SQR",  "SQRT", "ESQR", "EBCD", "EBIN", "SIN",  "COS",
-      "TAN",  "SWAP", "REF",  "REFF", "MTR",  "IST",  "SER",  "ABSD", "INCD", "TTMR", "STMR", "RAMP",
-      "ROTC", "SORT", "TKY",  "HKY",  "DSW",  "SEGD", "SEGL", "ARWS", "ASC",  "PR",   "VRRD", "VRSC",
-      "TCMP", "TZCP", "TADD", "TSUB", "TRD",  "TWR",  "HOUR", "GRY",  "GBIN", "CRC"};
+      "IRET", "WDT",  "EI",   "DI",   "DSZR", "DVIT", "TBL",  "ABS",  "PLSR", "PWM",  "PTO",  "SPD",  "HSCS",
+      "HSCR", "HSZ",  "WSFL", "WSFR", "SFWR", "SFRD", "RCL",  "RCR",  "TO",   "FROM", "RS",   "CCD",  "PRUN",
+      "ASCI", "HEX",  "PID",  "SMOV", "DECO", "ENCO", "SUM",  "BON",  "ANS",  "ANR",  "SQRT", "ESQR", "EBCD",
+      "EBIN", "SIN",  "COS",  "TAN",  "SWAP", "REF",  "REFF", "MTR",  "IST",  "SER",  "ABSD", "INCD", "TTMR",
+      "STMR", "RAMP", "ROTC", "SORT", "TKY",  "HKY",  "DSW",  "SEGD", "SEGL", "ARWS", "ASC",  "PR",   "VRRD",
+      "VRSC", "TCMP", "TZCP", "TADD", "TSUB", "TRD",  "TWR",  "HOUR", "GRY",  "GBIN", "CRC"};
   const auto told = upper(text);
   const auto is_name = [](std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
@@ -180,9 +225,17 @@ std::string_view operand_text(char kind) {
     case 'l':
       return "Y, M, S, T, C or D";
     case 'n':
-      return "K, H, D, T, C or bits (K4M0) of X, Y, M or S";
+      return "K, H, D, T, C, V, Z or bits (K4M0) of X, Y, M or S";
     case 'w':
-      return "D, T, C or bits (K4M0) of Y, M or S";
+      return "D, T, C, V, Z or bits (K4M0) of Y, M or S";
+    case 'u':
+      return "D, T, C or bits (K4M0) of X, Y, M or S";
+    case 'g':
+      return "X, Y, M or S";
+    case 'S':
+      return "S";
+    case 'N':
+      return "N0 to N7";
     case 'q':
     case 'i':
     case 'a':
@@ -194,10 +247,12 @@ std::string_view operand_text(char kind) {
       return "E (E1.5), K, H or D";
     case 'k':
     case 't':
+    case 'j':
       return "K, H or D";
     case 'v':
       return "K or D";
     case 'B':
+    case 'h':
       return "Y, M or S";
     case 'm':
       return "C, D or K";

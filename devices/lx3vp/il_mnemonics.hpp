@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "devices/lx3vp/block.hpp"
+
 namespace drycut::devices::lx3vp::il {
 
 /// What an instruction does. Contacts come in the order LD, AND, OR: `Op::and_` of a kind is `Op::ld` + 1.
@@ -74,6 +76,15 @@ enum class Op : std::uint8_t {
   wxor,
   cmp,
   zcp,
+  // Shifts and conversions.
+  sftl,
+  sftr,
+  rol,
+  ror,
+  bcd,
+  bin,
+  mean,
+  sqr,
   // Floating point.
   flt,
   int_,
@@ -88,10 +99,20 @@ enum class Op : std::uint8_t {
   plsv,
   drvi,
   drva,
+  plsy,
+  zrn,
   decam,
   ecamtbx,
   // Flow.
+  mc,
+  mcr,
+  stl,
+  ret,
+  for_,
+  next,
   cj,
+  call,
+  sret,
   label,
   nop,
   fend,
@@ -117,6 +138,9 @@ struct Mnemonic {
 
 /// All instructions, in the order of a reference.
 std::span<const Mnemonic> mnemonics();
+
+/// Where no manual of the unit is at hand and the FX family's conventions, or a choice of ours, stand in.
+std::span<const Reading> instruction_readings();
 
 /// A mnemonic as it is written: "DMOVP" is MOV, wide, pulse.
 struct Spelling {

@@ -27,6 +27,8 @@ constexpr Family families[] = {
     {'M', Kind::M, false, {{0, 3071}, {8000, 8255}}}, {'S', Kind::S, false, {{0, 999}, {0, -1}}},
     {'T', Kind::T, false, {{0, 255}, {0, -1}}},       {'C', Kind::C, false, {{0, 255}, {0, -1}}},
     {'D', Kind::D, false, {{0, 8255}, {0, -1}}},      {'P', Kind::label, false, {{0, 127}, {0, -1}}},
+    {'V', Kind::V, false, {{0, 7}, {0, -1}}},         {'Z', Kind::Z, false, {{0, 7}, {0, -1}}},
+    {'N', Kind::nesting, false, {{0, 7}, {0, -1}}},
 };
 constexpr int first_wide_counter = 200;
 constexpr int parameter_words = 20;  // of ECAMTBX
@@ -58,7 +60,7 @@ std::string range_text(const Family& family) {
 }
 bool exists(const Family& family, int first, int count = 1) {
   return std::any_of(std::begin(family.ranges), std::end(family.ranges), [&](const Range& range) {
-    return first >= range.first && first + count - 1 <= range.last;
+    return first >= range.first && first <= range.last - (count - 1);
   });
 }
 
@@ -76,18 +78,39 @@ class Reader {
   }
 
   std::optional<Operand> read() {
+    const auto at = text_.find_first_of("VZ", 1);
+    if (at == std::string::npos) return read_plain();
+    // Behind the operand: D10Z0; Z alone is Z0.
+    const auto digits = std::string_view(text_).substr(at + 1);
+    const bool exists = digits.empty() || (digits.size() == 1 && digits[0] >= '0' && digits[0] <= '7');
+    if (!exists) return refuse("has no such index register", "there are V0 to V7 and Z0 to Z7: D10Z0");
+    const int number = (digits.empty() ? 0 : digits[0] - '0') + (text_[at] == 'Z' ? Operand::first_z : 0);
+    const auto whole = text_;
+    text_.resize(at);
+    auto operand = read_plain();
+    text_ = whole;
+    if (!operand) return std::nullopt;
+    if (operand->kind == Kind::V || operand->kind == Kind::Z || operand->kind == Kind::real ||
+        operand->kind == Kind::word_bit || operand->kind == Kind::label || operand->kind == Kind::nesting)
+      return refuse("takes no index register", "index a device, bits or a number: D10Z0, K4M0Z0, K5V1");
+    operand->index = number;
+    return operand;
+  }
+
+ private:
+  std::optional<Operand> read_plain() {
     const char letter = text_.empty() ? ' ' : text_.front();
     const auto rest = std::string_view(text_).substr(std::min<std::size_t>(1, text_.size()));
     if (letter == 'K') return read_constant(rest);
     if (letter == 'H') return read_hexadecimal(rest);
     if (letter == 'E') return read_real(rest);
     const auto* family = family_of(letter);
+    if ((letter == 'V' || letter == 'Z') && rest.empty()) return read_device(*family, "0");
     if (family == nullptr || rest.empty() || rest.front() < '0' || rest.front() > '9')
       return refuse("is no operand", "write a device (X0, D100), K10, H1F or E1.5");
     return read_device(*family, rest);
   }
 
- private:
   std::nullopt_t refuse(std::string_view what, std::string remedy) {
     constexpr std::size_t most = 24;
     std::string shown;
@@ -111,7 +134,7 @@ class Reader {
     operand.kind = Kind::bits;
     const auto& family = *family_of(letter);
     operand.of = family.kind;
-    if (letter == 'T' || letter == 'C' || letter == 'D' || letter == 'P')
+    if (letter != 'X' && letter != 'Y' && letter != 'M' && letter != 'S')
       return refuse("groups no bits", "bits are grouped of X, Y, M or S: K4M0");
     if (!read_whole(groups, operand.count) || operand.count < 1 || operand.count > 8)
       return refuse("has no such groups of bits", "group K1 (4 bits) to K8 (32 bits)");
@@ -187,16 +210,27 @@ bool takes(char kind, const Operand& operand) {
     case 'l':
       return any({Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::D});
     case 'n':
-      return any({Kind::constant, Kind::D, Kind::T, Kind::C, Kind::bits});
+      return any({Kind::constant, Kind::D, Kind::T, Kind::C, Kind::V, Kind::Z, Kind::bits});
     case 'w':
-      return any({Kind::D, Kind::T, Kind::C}) || (operand.kind == Kind::bits && operand.of != Kind::X);
+      return any({Kind::D, Kind::T, Kind::C, Kind::V, Kind::Z}) ||
+             (operand.kind == Kind::bits && operand.of != Kind::X);
+    case 'u':
+      return any({Kind::D, Kind::T, Kind::C, Kind::bits});
+    case 'g':
+      return any({Kind::X, Kind::Y, Kind::M, Kind::S});
+    case 'S':
+      return operand.kind == Kind::S;
+    case 'N':
+      return operand.kind == Kind::nesting;
     case 'f':
       return any({Kind::real, Kind::constant, Kind::D});
     case 'k':
     case 't':
     case 'v':
+    case 'j':
       return any({Kind::constant, Kind::D});
     case 'B':
+    case 'h':
       return any({Kind::Y, Kind::M, Kind::S});
     case 'm':
       return any({Kind::C, Kind::D, Kind::constant});
@@ -213,7 +247,28 @@ bool takes(char kind, const Operand& operand) {
   }
 }
 
-bool is_word(char kind) { return kind == 'n' || kind == 'w'; }
+bool is_word(char kind) { return kind == 'n' || kind == 'w' || kind == 'u'; }
+
+/// Whether an operand of the kind may have an index register: all that instructions read and write, not what
+/// says where a program goes or which terminals pulses take.
+bool takes_index(char kind) {
+  return std::string_view("bosrelnwuqifFkvjBgh").find(kind) != std::string::npos;
+}
+
+/// V and Z, as devices and as indexes.
+std::optional<OperandFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
+  if (operand.kind == Kind::V && spelling.wide)
+    return OperandFault{fmt::format("{} is the upper half of a 32-bit index", to_string(operand)),
+                        fmt::format("use Z{0}: a 32-bit instruction takes V{0} with it", operand.number)};
+  if (operand.index == Operand::no_index) return {};
+  if (!takes_index(kind))
+    return OperandFault{fmt::format("{} does not take an index register here", spelling.text),
+                        fmt::format("write the number itself, not {}", to_string(operand))};
+  if (spelling.wide && operand.index < Operand::first_z)
+    return OperandFault{fmt::format("{} is indexed by V in a 32-bit instruction", to_string(operand)),
+                        "use Z: a 32-bit instruction takes V with it"};
+  return {};
+}
 
 std::optional<OperandFault> misfit_of_constant(const Operand& operand, char kind, const Spelling& spelling) {
   if (kind == 'm') {
@@ -241,7 +296,9 @@ int extent(char kind, const Spelling& spelling) {
   switch (kind) {
     case 'n':
     case 'w':
+    case 'u':
     case 'i':
+    case 'j':
       return spelling.wide ? 2 : 1;
     case 'q':
       return spelling.wide ? 4 : 2;
@@ -260,12 +317,22 @@ int extent(char kind, const Spelling& spelling) {
   }
 }
 
+bool exists(const Operand& operand) {
+  const auto* family = family_of(operand.kind == Kind::bits ? operand.of : operand.kind);
+  return family == nullptr || exists(*family, operand.number);
+}
+
 std::optional<OperandFault> misfit(const Operand& operand, char kind, const Spelling& spelling) {
   if (!takes(kind, operand))
     return OperandFault{fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
                         fmt::format("it takes {}", operand_text(kind))};
+  if (auto fault = misfit_of_index(operand, kind, spelling)) return fault;
+  if (operand.kind == Kind::V || operand.kind == Kind::Z) return {};
   if (operand.kind == Kind::constant) return misfit_of_constant(operand, kind, spelling);
   if (operand.kind == Kind::bits) {
+    if (!exists(*family_of(operand.of), operand.number, 4 * operand.count))
+      return OperandFault{fmt::format("{} goes beyond the devices", to_string(operand)),
+                          fmt::format("there are {}", range_text(*family_of(operand.of)))};
     if (spelling.wide || operand.count <= 4) return {};
     return OperandFault{fmt::format("{} is wider than 16 bits", to_string(operand)),
                         "group K1 to K4, or use the 32-bit instruction"};
@@ -289,6 +356,12 @@ std::optional<OperandFault> misfit(const Operand& operand, char kind, const Spel
 }
 
 std::string to_string(const Operand& operand) {
+  if (operand.index != Operand::no_index) {
+    auto plain = operand;
+    plain.index = Operand::no_index;
+    return fmt::format("{}{}{}", to_string(plain), operand.index < Operand::first_z ? 'V' : 'Z',
+                       operand.index % Operand::first_z);
+  }
   switch (operand.kind) {
     case Kind::constant:
       return operand.hexadecimal ? fmt::format("H{:X}", static_cast<std::uint32_t>(operand.value))

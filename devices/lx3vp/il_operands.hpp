@@ -20,6 +20,9 @@ std::optional<Operand> read_operand(std::string_view text, OperandFault& fault);
 /// its range with all the words or bits that the instruction takes there; else what is wrong.
 std::optional<OperandFault> misfit(const Operand& operand, char kind, const Spelling& spelling);
 
+/// Whether there is such a device, or such bits; true for what is none.
+bool exists(const Operand& operand);
+
 /// Words or bits that an instruction takes from an operand on: 1, 2 or more.
 int extent(char kind, const Spelling& spelling);
 

@@ -11,21 +11,27 @@ namespace drycut::devices::lx3vp::il {
 
 // A controller program as a text of instructions, with the mnemonics of the FX family that the LX3V has: one
 // instruction a line, operands behind it, comments behind ; or //. `LD X0`, `OUT T0 K10`, `DMOV K50000
-// D2044`.
+// D2044`. Step numbers before it, brackets around it and the tables that editors export are read too
+// (il_lines.hpp).
 
 /// What an operand names.
-enum class Kind : std::uint8_t { X, Y, M, S, T, C, D, constant, real, bits, word_bit, label };
+enum class Kind : std::uint8_t { X, Y, M, S, T, C, D, V, Z, constant, real, bits, word_bit, label, nesting };
 
 /// A checked operand.
 struct Operand {
   Kind kind = Kind::constant;
   Kind of = Kind::M;         ///< bits: of which devices
-  int number = 0;            ///< of the device (X and Y: decimal), first of the bits, of the label
+  int number = 0;            ///< of the device (X and Y: decimal), first of the bits, of the label, of N
+  int index = no_index;      ///< 0..7 V0..V7, 8..15 Z0..Z7: added to the number, of a constant to its value
   int count = 0;             ///< bits: groups of four, 1..8; word_bit: the bit, 0..15
   std::int32_t value = 0;    ///< constant
   bool hexadecimal = false;  ///< constant: a pattern of bits, H
   float real = 0;            ///< real
-  int column = 1;            ///< in its line
+  int line = 0;              ///< in the text; a table has operands on lines of their own
+  int column = 1;
+
+  static constexpr int no_index = -1;
+  static constexpr int first_z = 8;
 };
 
 /// One instruction.
@@ -35,7 +41,10 @@ struct Step {
   int line = 0;
   int column = 1;
   int memory = -1;           ///< place among the program's edge memories, -1 = needs none
-  int target = 0;            ///< of a jump: place of its label
+  int target = 0;            ///< place: of CJ and CALL their label, of FOR and NEXT each other, of STL what
+                             ///< comes behind its state
+  int depth = 0;             ///< FORs around it
+  bool indexed = false;      ///< an operand has an index register
   int number = 0;            ///< of the first step of program memory, as D8069 tells it
   bool opens_block = false;  ///< LD and its kind: keeps the block before it for ANB, ORB
 
@@ -47,14 +56,15 @@ struct Step {
 struct Program {
   std::string file;
   std::vector<Step> steps;
-  int memories = 0;  ///< edge memories
-  int size = 0;      ///< steps of program memory
+  int memories = 0;          ///< edge memories
+  int size = 0;              ///< steps of program memory
+  std::vector<bool> states;  ///< S0..S999: those that have an STL
 };
 
 /// Compiles a text. Every fault becomes a problem; the program is only to be run if there was none.
 Program compile(std::string_view text, const std::string& file, Problems& problems);
 
-/// "D100", "X17", "K4M0", "H1F"; as the text would have it.
+/// "D100", "X17", "K4M0", "H1F", "D10Z0"; as the text would have it.
 std::string to_string(const Operand& operand);
 
 }  // namespace drycut::devices::lx3vp::il

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace drycut::devices::lx3vp::il {
 
 namespace {
@@ -10,7 +13,7 @@ constexpr int most_blocks = 8;     // FX: LD without ANB or ORB
 constexpr int most_branches = 11;  // FX: MPS without MPP
 
 /// Where an instruction may stand in a rung.
-enum class Place { opens, contact, joins, branch, output, free };
+enum class Place { opens, contact, joins, branch, output, state, free };
 
 Place place_of(Op op) {
   switch (op) {
@@ -32,6 +35,13 @@ Place place_of(Op op) {
     case Op::mrd:
     case Op::mpp:
       return Place::branch;
+    case Op::stl:
+      return Place::state;
+    case Op::mcr:
+    case Op::ret:
+    case Op::for_:
+    case Op::next:
+    case Op::sret:
     case Op::label:
     case Op::nop:
     case Op::fend:
@@ -55,8 +65,8 @@ void Rungs::add(Step& step) {
       break;
     case Place::joins:
       if (blocks_ < 2)
-        tell_(step.column, fmt::format("{} has no two blocks to join", step.spelling->text),
-              "begin each block with LD");
+        tell(step.column, fmt::format("{} has no two blocks to join", step.spelling->text),
+             "begin each block with LD");
       else
         --blocks_;
       after_output_ = false;
@@ -69,23 +79,39 @@ void Rungs::add(Step& step) {
       need_one_block(step);
       after_output_ = true;
       break;
+    case Place::state:
+      end_rung(step.column);
+      // A contact that coils and new rungs may follow.
+      blocks_ = 1;
+      after_output_ = true;
+      break;
     case Place::free:
       if (step.op() != Op::nop) end_rung(step.column);
       break;
   }
 }
 
+void Rungs::lose() {
+  lost_ = true;
+  blocks_ = std::max(blocks_, 1);
+}
+
+void Rungs::tell(int column, std::string what, std::string remedy) {
+  if (!lost_) tell_(column, std::move(what), std::move(remedy));
+}
+
 void Rungs::open(Step& step) {
   const bool new_rung = blocks_ == 0 || (after_output_ && branches_ == 0);
   if (new_rung) {
+    lost_ = false;
     blocks_ = 1;
   } else {
     step.opens_block = true;
     if (++blocks_ > most_blocks)
-      tell_(step.column, fmt::format("more than {} blocks wait for ANB or ORB", most_blocks),
-            "join blocks as you go");
+      tell(step.column, fmt::format("more than {} blocks wait for ANB or ORB", most_blocks),
+           "join blocks as you go");
     if (after_output_)
-      tell_(step.column, "a branch goes on behind a coil with LD", "take it up with MRD or MPP before");
+      tell(step.column, "a branch goes on behind a coil with LD", "take it up with MRD or MPP before");
   }
   after_output_ = false;
 }
@@ -95,11 +121,11 @@ void Rungs::branch(const Step& step) {
   need_one_block(step);
   if (step.op() == Op::mps) {
     if (++branches_ > most_branches)
-      tell_(step.column, fmt::format("more than {} branches wait for MPP", most_branches),
-            "end branches with MPP");
+      tell(step.column, fmt::format("more than {} branches wait for MPP", most_branches),
+           "end branches with MPP");
   } else if (branches_ == 0) {
-    tell_(step.column, fmt::format("{} has no branch to take up", step.spelling->text),
-          "keep the result with MPS before");
+    tell(step.column, fmt::format("{} has no branch to take up", step.spelling->text),
+         "keep the result with MPS before");
   } else if (step.op() == Op::mpp) {
     --branches_;
   }
@@ -108,22 +134,23 @@ void Rungs::branch(const Step& step) {
 
 void Rungs::need_contact(const Step& step) {
   if (blocks_ > 0) return;
-  tell_(step.column, fmt::format("{} has no contact before it", step.spelling->text),
-        "begin with LD; LD M8000 is always ON");
+  tell(step.column, fmt::format("{} has no contact before it", step.spelling->text),
+       "begin with LD; LD M8000 is always ON");
   blocks_ = 1;
 }
 
 void Rungs::need_one_block(const Step& step) {
   if (blocks_ <= 1) return;
-  tell_(step.column, fmt::format("{} blocks are not joined at {}", blocks_, step.spelling->text),
-        "join them with ANB or ORB");
+  tell(step.column, fmt::format("{} blocks are not joined at {}", blocks_, step.spelling->text),
+       "join them with ANB or ORB");
   blocks_ = 1;
 }
 
 void Rungs::end_rung(int column) {
   if (blocks_ > 0 && !after_output_)
-    tell_(column, "the contacts before it lead to no coil", "end them with OUT or another instruction");
-  if (branches_ > 0) tell_(column, "a branch is not ended", "take it up for the last time with MPP");
+    tell(column, "the contacts before it lead to no coil", "end them with OUT or another instruction");
+  if (branches_ > 0) tell(column, "a branch is not ended", "take it up for the last time with MPP");
+  lost_ = false;
   blocks_ = branches_ = 0;
   after_output_ = false;
 }

@@ -14,6 +14,8 @@ class Rungs {
   explicit Rungs(Tell tell) : tell_(std::move(tell)) {}
   /// The next instruction; says in the step whether it opens a block.
   void add(Step& step);
+  /// An instruction was refused: what follows in its rung is not judged.
+  void lose();
 
  private:
   void open(Step& step);
@@ -21,11 +23,13 @@ class Rungs {
   void need_contact(const Step& step);
   void need_one_block(const Step& step);
   void end_rung(int column);
+  void tell(int column, std::string what, std::string remedy);
 
   Tell tell_;
   int blocks_ = 0;    ///< begun and not joined, in this rung
   int branches_ = 0;  ///< kept by MPS
   bool after_output_ = false;
+  bool lost_ = false;
 };
 
 }  // namespace drycut::devices::lx3vp::il

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "devices/lx3vp/il_apply.hpp"
-#include "devices/lx3vp/il_values.hpp"
+#include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/il_rung.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
@@ -17,7 +19,7 @@ constexpr int count_down_flags = 8000;  ///< M8200..M8234: C200..C234 count down
 void reset(Registers& registers, const Operand& device) {
   const auto place = static_cast<std::size_t>(device.number);
   if (device.kind == Kind::D) {
-    registers.d[place] = 0;
+    registers.put(device.number, 0);
     return;
   }
   if (device.kind == Kind::T) registers.t[place].value = 0;
@@ -31,23 +33,12 @@ void reset_all(Registers& registers, Operand first, const Operand& last) {
 
 }  // namespace
 
-/// What a scan carries from instruction to instruction.
-struct Scanner::Rung {
-  Registers& registers;
-  Instructions& instructions;
-  std::int64_t passed_ns = 0;       ///< since the scan before
-  std::vector<bool> blocks = {};    ///< begun before the present one
-  std::vector<bool> branches = {};  ///< kept by MPS
-  bool flow = false;
-  std::size_t next = 0;
-  bool over = false;
-};
-
 Scanner::Scanner(const Program& program) : program_(program) { restart(); }
 
 void Scanner::restart() {
   memories_.assign(static_cast<std::size_t>(program_.memories), false);
   fractions_.assign(timers, 0);
+  timed_ns_.assign(timers, -1);
   last_scan_ns_ = 0;
   scanned_ = false;
 }
@@ -57,21 +48,44 @@ void Scanner::scan(Registers& registers, Instructions& instructions) {
   rung.passed_ns = scanned_ ? registers.time_ns - last_scan_ns_ : 0;
   last_scan_ns_ = registers.time_ns;
   scanned_ = true;
-  // A label before a jump could make a loop without end: the watchdog of the PLC (D8000, 200 ms) stops it.
-  constexpr int most_jumps_back = 1000;
-  int jumps_back = 0;
   while (!rung.over && rung.next < program_.steps.size()) {
-    const auto place = rung.next;
     const auto& step = program_.steps[rung.next++];
     execute(step, rung);
-    if (rung.next <= place && ++jumps_back > most_jumps_back) {
-      constexpr int watchdog = 6105;  // FX
-      instructions.error(step.number, watchdog,
-                         fmt::format("{}:{}: {}: CJ jumps back without end; let it jump forward",
-                                     program_.file, step.line, watchdog));
-      return;
-    }
+    if (++rung.work <= most_work) continue;
+    constexpr int watchdog = 6105;  // FX
+    instructions.watchdog(step.number,
+                          fmt::format("{}:{}: {}: the scan works longer than the watchdog's 200 ms; repeat "
+                                      "less in a scan (CJ back, FOR, blocks)",
+                                      program_.file, step.line, watchdog));
+    return;
   }
+}
+
+const Step* Scanner::indexed(const Step& step, Rung& rung) {
+  if (!step.indexed) return &step;
+  scratch_ = step;
+  const auto kinds = step.spelling->mnemonic->operands;
+  for (std::size_t i = 0; i < scratch_.operands.size(); ++i) {
+    auto& operand = scratch_.operands[i];
+    if (operand.index == Operand::no_index) continue;
+    apply_index(rung.registers, operand, step.wide());
+    if (operand.kind == Kind::constant || (exists(operand) && !misfit(operand, kinds[i], *step.spelling)))
+      continue;
+    tell_error(
+        step,
+        RuntimeError(bad_operand, fmt::format("{} is no device that it takes: the index register leads "
+                                              "to number {}",
+                                              to_string(step.operands[i]), operand.number)),
+        rung);
+    return nullptr;
+  }
+  return &scratch_;
+}
+
+void Scanner::tell_error(const Step& step, const RuntimeError& error, Rung& rung) const {
+  rung.instructions.error(step.number, error.code,
+                          fmt::format("{}:{}: {}: {}: {}", program_.file, step.line, error.code,
+                                      step.spelling->text, error.what()));
 }
 
 bool Scanner::rises(const Step& step, bool now) {
@@ -88,10 +102,12 @@ bool Scanner::falls(const Step& step, bool now) {
   return !now && before;
 }
 
-bool Scanner::contact(const Step& step, const Rung& rung) {
+bool Scanner::contact(const Step& step, Rung& rung) {
   const Op op = step.op();
-  if (op >= Op::ld_equal) return compare(rung.registers, step);
-  const bool on = read_bit(rung.registers, step.operands[0]);
+  const Step* taken = indexed(step, rung);
+  if (taken == nullptr) return false;
+  if (op >= Op::ld_equal) return compare(rung.registers, *taken);
+  const bool on = read_bit(rung.registers, taken->operands[0]);
   if (op >= Op::ldf) return falls(step, on);
   if (op >= Op::ldp) return rises(step, on);
   return op >= Op::ldi ? !on : on;
@@ -147,41 +163,45 @@ void Scanner::execute(const Step& step, Rung& rung) {
     join(op, rung);
   } else if (op <= Op::plf) {
     coil(step, rung);
-  } else if (op == Op::fend || op == Op::end) {
-    rung.over = true;
-  } else if (op < Op::cj) {
+  } else if (op >= Op::mc) {
+    flow(step, rung);
+  } else {
     call(step, rung);
-  } else if (op == Op::cj) {
-    const bool jumps = step.memory >= 0 ? rises(step, rung.flow) : rung.flow;
-    if (!jumps) return;
-    rung.branches.clear();
-    rung.next = static_cast<std::size_t>(step.target);
   }
 }
 
 void Scanner::coil(const Step& step, Rung& rung) {
+  const Step* taken = indexed(step, rung);
+  if (taken == nullptr) return;
   auto& registers = rung.registers;
-  const auto& device = step.operands[0];
+  const auto& device = taken->operands[0];
+  const bool power = rung.power();
   switch (step.op()) {
     case Op::out:
       if (device.kind == Kind::T)
-        timer(step, rung.flow, rung);
+        timer(step, power, rung);
       else if (device.kind == Kind::C)
-        counter(step, rung.flow, rung);
-      else
-        write_bit(registers, device, rung.flow);
+        counter(step, power, rung);
+      else if (!transfers(device, rung))
+        write_bit(registers, device, power);
+      else if (power)
+        transfer(device, rung);
       break;
     case Op::set:
-      if (rung.flow) write_bit(registers, device, true);
+      if (!power) break;
+      if (transfers(device, rung))
+        transfer(device, rung);
+      else
+        write_bit(registers, device, true);
       break;
     case Op::rst:
-      if (rung.flow) reset(registers, device);
+      if (power) reset(registers, device);
       break;
     case Op::pls:
-      write_bit(registers, device, rises(step, rung.flow));
+      write_bit(registers, device, rises(step, power));
       break;
     default:
-      write_bit(registers, device, falls(step, rung.flow));
+      write_bit(registers, device, falls(step, power));
       break;
   }
 }
@@ -199,8 +219,10 @@ void Scanner::timer(const Step& step, bool on, Rung& rung) {
     fraction = 0;
     return;
   }
+  auto& timed_ns = timed_ns_[static_cast<std::size_t>(number)];
+  const bool again = std::exchange(timed_ns, rung.registers.time_ns) == rung.registers.time_ns;
   const int preset = read_value(rung.registers, step.operands[1], false);
-  if (ran && timer.value < preset) {
+  if (ran && !again && timer.value < preset) {
     fraction += rung.passed_ns;
     const auto unit = timer_unit_ns(number);
     const auto value = std::min<std::int64_t>(timer.value + fraction / unit, preset);
@@ -238,25 +260,26 @@ void Scanner::counter(const Step& step, bool on, Rung& rung) {
 
 void Scanner::call(const Step& step, Rung& rung) {
   const Op op = step.op();
-  if (op == Op::plsv || op == Op::drvi || op == Op::drva || op == Op::decam) {
-    drive_outputs(rung.registers, step, rung.flow, rung.instructions);
-    return;
-  }
-  const bool executes = step.spelling->pulse ? rises(step, rung.flow) : rung.flow;
-  if (!executes) return;
+  const bool power = rung.power();
+  const bool drives = op >= Op::plsv && op <= Op::decam;
+  const bool executes = step.spelling->pulse ? rises(step, power) : power;
+  if (!executes && !drives) return;
+  const Step* taken = executes ? indexed(step, rung) : &step;
+  if (taken == nullptr) return;
   try {
-    if (op == Op::zrst)
-      reset_all(rung.registers, step.operands[0], step.operands[1]);
+    if (drives)
+      drive_outputs(rung.registers, *taken, power, rung.instructions);
+    else if (op == Op::zrst)
+      reset_all(rung.registers, taken->operands[0], taken->operands[1]);
     else if (op == Op::alt)
-      write_bit(rung.registers, step.operands[0], !read_bit(rung.registers, step.operands[0]));
+      write_bit(rung.registers, taken->operands[0], !read_bit(rung.registers, taken->operands[0]));
     else if (op == Op::ecamtbx)
-      make_cam_table(step, rung);
+      make_cam_table(*taken, rung);
     else
-      apply(rung.registers, step);
+      apply(rung.registers, *taken);
+    rung.work += work_of(rung.registers, *taken);
   } catch (const RuntimeError& error) {
-    rung.instructions.error(step.number, error.code,
-                            fmt::format("{}:{}: {}: {}: {}", program_.file, step.line, error.code,
-                                        step.spelling->text, error.what()));
+    tell_error(step, error, rung);
   }
 }
 

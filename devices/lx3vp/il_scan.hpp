@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "devices/lx3vp/il_program.hpp"
+#include "devices/lx3vp/il_values.hpp"
 #include "devices/lx3vp/instructions.hpp"
 #include "devices/lx3vp/registers.hpp"
 
@@ -13,6 +14,10 @@ namespace drycut::devices::lx3vp::il {
 /// unit) is here; the program must outlive it.
 class Scanner {
  public:
+  /// Work that a scan may do before the watchdog (D8000, 200 ms) stops it, an instruction or a word that one
+  /// moves being 1. At 0.2 us each, which is the order of the real unit's, these are the 200 ms.
+  static constexpr std::int64_t most_work = 1'000'000;
+
   explicit Scanner(const Program& program);
 
   /// One scan at `registers.time_ns`. Timers advance by the time since the scan before.
@@ -23,7 +28,17 @@ class Scanner {
  private:
   struct Rung;
   void execute(const Step& step, Rung& rung);
-  [[nodiscard]] bool contact(const Step& step, const Rung& rung);
+  /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
+  const Step* indexed(const Step& step, Rung& rung);
+  void tell_error(const Step& step, const RuntimeError& error, Rung& rung) const;
+  // il_flow.cpp: what says where a program goes on and which power it has.
+  void flow(const Step& step, Rung& rung);
+  void begin_state(const Step& step, Rung& rung);
+  void jump(const Step& step, Rung& rung);
+  void call_subroutine(const Step& step, Rung& rung);
+  bool transfers(const Operand& device, const Rung& rung) const;
+  void transfer(const Operand& device, Rung& rung);
+  [[nodiscard]] bool contact(const Step& step, Rung& rung);
   void join(Op op, Rung& rung);
   void coil(const Step& step, Rung& rung);
   void timer(const Step& step, bool on, Rung& rung);
@@ -37,6 +52,8 @@ class Scanner {
   const Program& program_;
   std::vector<bool> memories_;
   std::vector<std::int64_t> fractions_;  ///< of each timer's unit [ns]
+  std::vector<std::int64_t> timed_ns_;   ///< when each timer was last passed: a loop passes it more than once
+  Step scratch_;                         ///< the step that `indexed` has made
   std::int64_t last_scan_ns_ = 0;
   bool scanned_ = false;
 };

@@ -1,5 +1,8 @@
 #include "devices/lx3vp/il_values.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace drycut::devices::lx3vp::il {
 
 namespace {
@@ -54,16 +57,28 @@ void set_bit(Registers& registers, Kind kind, int number, bool on) {
 std::uint16_t word_of(const Registers& registers, Kind kind, int number) {
   if (kind == Kind::D) return registers.d[place(number)];
   if (kind == Kind::T) return registers.t[place(number)].value;
+  if (kind == Kind::V) return registers.v[place(number)];
+  if (kind == Kind::Z) return registers.z[place(number)];
   return static_cast<std::uint16_t>(registers.c[place(number)].value);
 }
 
 void set_word(Registers& registers, Kind kind, int number, std::uint16_t value) {
   if (kind == Kind::D)
-    registers.d[place(number)] = value;
+    registers.put(number, value);
   else if (kind == Kind::T)
     registers.t[place(number)].value = value;
+  else if (kind == Kind::V)
+    registers.v[place(number)] = value;
+  else if (kind == Kind::Z)
+    registers.z[place(number)] = value;
   else
     registers.c[place(number)].value = static_cast<std::int16_t>(value);
+}
+
+/// The upper word of a 32-bit value: of Z it is V.
+std::pair<Kind, int> upper_word(const Operand& operand) {
+  if (operand.kind == Kind::Z) return {Kind::V, operand.number};
+  return {operand.kind, operand.number + 1};
 }
 
 bool is_wide_counter(const Operand& operand) {
@@ -82,9 +97,9 @@ void write_bit(Registers& registers, const Operand& operand, bool on) {
     set_bit(registers, operand.kind, operand.number, on);
     return;
   }
-  auto& word = registers.d[place(operand.number)];
+  const auto word = registers.d[place(operand.number)];
   const auto bit = static_cast<std::uint16_t>(1U << operand.count);
-  word = static_cast<std::uint16_t>(on ? word | bit : word & ~bit);
+  registers.put(operand.number, static_cast<std::uint16_t>(on ? word | bit : word & ~bit));
 }
 
 std::int32_t read_value(const Registers& registers, const Operand& operand, bool wide) {
@@ -100,7 +115,8 @@ std::int32_t read_value(const Registers& registers, const Operand& operand, bool
     return registers.c[place(operand.number)].value;
   } else {
     value = word_of(registers, operand.kind, operand.number);
-    if (wide) value |= static_cast<std::uint32_t>(word_of(registers, operand.kind, operand.number + 1)) << 16;
+    const auto [kind, number] = upper_word(operand);
+    if (wide) value |= static_cast<std::uint32_t>(word_of(registers, kind, number)) << 16;
   }
   return wide ? static_cast<std::int32_t>(value) : static_cast<std::int16_t>(value & 0xFFFF);
 }
@@ -114,8 +130,25 @@ void write_value(Registers& registers, const Operand& operand, bool wide, std::i
     registers.c[place(operand.number)].value = value;
   } else {
     set_word(registers, operand.kind, operand.number, static_cast<std::uint16_t>(bits & 0xFFFF));
-    if (wide) set_word(registers, operand.kind, operand.number + 1, static_cast<std::uint16_t>(bits >> 16));
+    const auto [kind, number] = upper_word(operand);
+    if (wide) set_word(registers, kind, number, static_cast<std::uint16_t>(bits >> 16));
   }
+}
+
+void apply_index(const Registers& registers, Operand& operand, bool wide) {
+  const bool is_z = operand.index >= Operand::first_z;
+  const auto at = place(operand.index % Operand::first_z);
+  std::int64_t index = static_cast<std::int16_t>(is_z ? registers.z[at] : registers.v[at]);
+  if (wide)
+    index = static_cast<std::int32_t>(static_cast<std::uint32_t>(registers.v[at]) << 16 | registers.z[at]);
+  operand.index = Operand::no_index;
+  if (operand.kind == Kind::constant) {
+    const auto sum = static_cast<std::uint32_t>(operand.value + index);
+    operand.value = wide ? static_cast<std::int32_t>(sum) : static_cast<std::int16_t>(sum & 0xFFFF);
+    return;
+  }
+  constexpr std::int64_t beyond = 1'000'000;  // of every device: none has such a number
+  operand.number = static_cast<int>(std::clamp(operand.number + index, -beyond, beyond));
 }
 
 float read_float(const Registers& registers, const Operand& operand) {

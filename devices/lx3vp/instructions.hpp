@@ -23,6 +23,13 @@ struct StartSignal {
   bool operator==(const StartSignal&) const = default;
 };
 
+/// S3 of ZRN: the switch near the zero point.
+struct DogSignal {
+  enum class Kind : std::uint8_t { x, y, m, s };
+  Kind kind = Kind::x;
+  int number = 0;  ///< plain: X10 is 8
+};
+
 /// Operands of DECAM as the program gives them; what they must be is checked when they are executed (6781).
 struct DecamOperands {
   MasterSource master;
@@ -55,6 +62,18 @@ class Instructions {
   virtual void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
                      int direction, bool powered) = 0;
 
+  /// PLSY S1 S2 D: on the rising edge of power `pulses` at `frequency` [Hz], at once and without ramp; 0
+  /// pulses are a train without end. The frequency may change on the way; off stops it. Counts forwards and
+  /// leaves the direction to the program. Sets M8029 when all are given.
+  virtual void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output,
+                           bool powered) = 0;
+
+  /// ZRN S1 S2 S3 D: on the rising edge of power backwards at `speed` [Hz], from the dog on at `creep` [Hz],
+  /// to where the dog ends; the position is 0 then and M8029 set. Off stops it. Leaves the direction to the
+  /// program.
+  virtual void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
+                           bool powered) = 0;
+
   /// OUT C235..C255 K: counts the pulses of its terminals while powered; the contact is on from `preset` on.
   /// Register and contact are the controller's work then; RST C sets both back in the registers.
   virtual void high_speed_counter(int number, std::int32_t preset, bool powered) = 0;
@@ -62,6 +81,9 @@ class Instructions {
   /// An error of an instruction while it runs (M8067, D8067, D8069 = step); the scan goes on behind it.
   /// `text` says where and what: "saw.il:12: 6706: ...".
   virtual void error(int step, int code, const std::string& text) = 0;
+
+  /// The scan works longer than the PLC lets it (6105): it is broken off at `step`, and the PLC stops.
+  virtual void watchdog(int step, const std::string& text) = 0;
 
   /// The result of an ECAMTBX: rows, or below 0 the error, then `text` says where and what:
   /// "saw.il:29: ECAMTBX -3: ...". Comes in every scan that executes it.

@@ -19,6 +19,9 @@ constexpr int error_relay = 8004;
 constexpr int instruction_error_relay = 8067;
 constexpr int instruction_error_register = 8067;
 constexpr int error_step_register = 8069;
+constexpr int stop_relay = 8061;  // M8061, D8061
+constexpr int stop_register = 8061;
+constexpr std::uint16_t watchdog_error = 6105;
 
 constexpr std::uint16_t default_ramp_ms = 100;       // D8148
 constexpr std::int32_t default_top_speed = 100'000;  // D8146 [Hz]
@@ -87,12 +90,13 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
 void Lx3vpController::run_tasks(std::int64_t time_ns) {
   if (time_ns < next_scan_ns_) return;
   next_scan_ns_ = next_multiple(time_ns, scan_ns_);
-  if (!powered_) return;
+  if (!powered_ || stopped_) return;
   registers_.time_ns = time_ns - power_up_ns_;
   take_inputs();
   registers_.x = inputs_;
   set_system_relays(registers_.time_ns);
   scanner_.scan(registers_, *this);
+  if (stopped_) return;
   first_scan_ = false;
   // What works tick by tick has its own level; the image shows it.
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
@@ -114,10 +118,7 @@ void Lx3vpController::power(bool on) {
   if (on == powered_) return;
   powered_ = on;
   if (!on) {
-    for (int i = 0; i < pulse_outputs; ++i) pulses_before_[static_cast<std::size_t>(i)] += pulses_.pulses(i);
-    pulses_ = {};
-    outputs_.fill(false);
-    give_outputs();
+    stop_outputs();
     return;
   }
   reset_registers();
@@ -125,9 +126,28 @@ void Lx3vpController::power(bool on) {
   for (const auto& [address, counter] : cards_.counters) counters_.restart(address.number, counter.count);
   scanner_.restart();
   first_scan_ = true;
+  stopped_ = false;
   power_up_due_ = true;
   said_.clear();
   cam_tables_.clear();
+}
+
+void Lx3vpController::stop_outputs() {
+  for (int i = 0; i < pulse_outputs; ++i) pulses_before_[static_cast<std::size_t>(i)] += pulses_.pulses(i);
+  pulses_ = {};
+  outputs_.fill(false);
+  registers_.y.fill(false);
+  give_outputs();
+}
+
+void Lx3vpController::watchdog(int step, const std::string& text) {
+  registers_.m[error_relay] = true;
+  registers_.m[stop_relay] = true;
+  registers_.d[stop_register] = watchdog_error;
+  registers_.d[error_step_register] = static_cast<std::uint16_t>(step);
+  stopped_ = true;
+  stop_outputs();
+  tell(step, "error", text + "; the PLC stops until it is switched on again");
 }
 
 // What power-up leaves of the registers.
@@ -144,6 +164,10 @@ void Lx3vpController::reset_registers() {
   clear(registers_.t, 0, first_retentive_timer);
   clear(registers_.c, 0, first_retentive_counter);
   clear(registers_.c, first_wide_counter, first_retentive_wide);
+  for (int i = 0; i < data_words; ++i)
+    if (i < first_retentive_word || i >= first_special) registers_.written.reset(static_cast<std::size_t>(i));
+  registers_.v.fill(0);
+  registers_.z.fill(0);
   registers_.x.fill(false);
   registers_.y.fill(false);
   registers_.set_i32(8146, default_top_speed);
@@ -192,6 +216,16 @@ void Lx3vpController::drive(int step, bool absolute, std::int32_t pulses, std::i
   pulses_.drive(step, absolute, pulses, frequency, output, direction, powered, registers_);
 }
 
+void Lx3vpController::pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output,
+                                  bool powered) {
+  pulses_.pulse_train(step, frequency, pulses, output, powered, registers_);
+}
+
+void Lx3vpController::zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
+                                  bool powered) {
+  pulses_.zero_return(step, speed, creep, dog, output, powered, registers_);
+}
+
 void Lx3vpController::high_speed_counter(int number, std::int32_t preset, bool powered) {
   counters_.enable(number, preset, powered);
 }
@@ -219,8 +253,8 @@ void Lx3vpController::tell_notes() {
                                    [&](const il::Step& candidate) { return candidate.number == note.step; });
     const std::string place =
         step == program_.steps.end() ? "" : fmt::format("{}:{}: ", program_.file, step->line);
-    if (note.code == 0)
-      tell(note.step, "warning", place + note.text);
+    if (note.code <= 0)
+      tell(note.step, note.code == 0 ? "warning" : "note", place + note.text);
     else
       error(note.step, note.code, fmt::format("{}{}: {}", place, note.code, note.text));
   }

@@ -26,7 +26,8 @@ namespace drycut::devices::lx3vp {
 ///
 /// Terminals: X and Y of the base unit, C235..C255 as the high-speed counters, Y0..Y3 for pulses too. Inputs
 /// are taken into the registers at the start of a scan, outputs given at its end; DECAM's start signal, its
-/// direction and its synchronous output go by the tick. An instruction that fails is told once and skipped.
+/// direction and its synchronous output go by the tick. An instruction that fails is told once and skipped. A
+/// scan that works too long (6105) stops program and outputs until the next power-up.
 class Lx3vpController : public Controller, private Instructions {
  public:
   /// `program` is free of problems; `scan_ns` > 0. Begins powered on, at time 0, registers at their reset
@@ -68,7 +69,11 @@ class Lx3vpController : public Controller, private Instructions {
   void plsv(int step, std::int32_t frequency, int output, int direction, bool powered) override;
   void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output, int direction,
              bool powered) override;
+  void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered) override;
+  void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
+                   bool powered) override;
   void high_speed_counter(int number, std::int32_t preset, bool powered) override;
+  void watchdog(int step, const std::string& text) override;
   void error(int step, int code, const std::string& text) override;
   void cam_table(int step, std::int32_t result, const std::string& text) override;
 
@@ -85,6 +90,7 @@ class Lx3vpController : public Controller, private Instructions {
   void add_used_terminals();
   void add_names();
   void reset_registers();
+  void stop_outputs();
   void take_inputs();
   void give_outputs();
   void set_system_relays(std::int64_t time_ns);
@@ -104,6 +110,7 @@ class Lx3vpController : public Controller, private Instructions {
   std::array<std::int64_t, pulse_outputs> pulses_before_{};  ///< given in earlier times of power
   bool powered_ = true;
   bool first_scan_ = true;
+  bool stopped_ = false;  ///< by the watchdog, until power-up
   std::int64_t power_up_ns_ = 0;
   bool power_up_due_ = false;  ///< the next period is the first with power
   std::int64_t next_tick_ns_ = 0;

@@ -12,9 +12,9 @@ namespace {
 
 // Where an instruction names a pulse output, -1 = it names none.
 int pulse_operand(il::Op op) {
-  if (op == il::Op::decam) return 3;
+  if (op == il::Op::decam || op == il::Op::zrn) return 3;
   if (op == il::Op::plsv) return 1;
-  return op == il::Op::drvi || op == il::Op::drva ? 2 : -1;
+  return op == il::Op::drvi || op == il::Op::drva || op == il::Op::plsy ? 2 : -1;
 }
 
 bool is_retentive(const RegisterName& name) {
@@ -39,6 +39,8 @@ bool is_retentive(const RegisterName& name) {
       return n >= first_retentive_wide || (n >= first_retentive_counter && n < first_wide_counter);
     case Kind::x:
     case Kind::y:
+    case Kind::v:
+    case Kind::z:
       return false;
   }
   return false;
@@ -107,7 +109,12 @@ void Lx3vpController::add_names() {
         return add(Kind::counter, operand.number);
       case il::Kind::D:
         return add(wide ? Kind::wide : Kind::word, operand.number);
+      case il::Kind::V:
+        return add(Kind::v, operand.number);
+      case il::Kind::Z:
+        return add(Kind::z, operand.number);
       case il::Kind::constant:
+      case il::Kind::nesting:
       case il::Kind::real:
       case il::Kind::bits:
       case il::Kind::word_bit:
@@ -151,7 +158,10 @@ std::string Lx3vpController::retentive_state() const {
   std::string text = fmt::format("; retentive registers of {}\n", program_.file);
   for_each_retentive([&](const RegisterName& name) {
     const double value = lx3vp::read(registers_, name);
-    if (value != 0) text += fmt::format("{} = {}\n", to_string(name), value);
+    // A 0 that was written is not the same as a word that never was.
+    const bool written =
+        name.kind == RegisterName::Kind::word && registers_.written[static_cast<std::size_t>(name.number)];
+    if (value != 0 || written) text += fmt::format("{} = {}\n", to_string(name), value);
   });
   return text;
 }
@@ -160,7 +170,11 @@ bool Lx3vpController::restore(const std::string& text, Problems& problems, const
   const std::size_t before = problems.size();
   const auto values = read_register_values(text, file_name, '=', problems);
   if (problems.size() > before) return false;
-  for_each_retentive([&](const RegisterName& name) { lx3vp::write(registers_, name, 0); });
+  for_each_retentive([&](const RegisterName& name) {
+    lx3vp::write(registers_, name, 0);
+    if (name.kind == RegisterName::Kind::word)
+      registers_.written.reset(static_cast<std::size_t>(name.number));
+  });
   for (const RegisterValue& entry : values)
     if (is_retentive(entry.name)) lx3vp::write(registers_, entry.name, entry.value);
   return true;

@@ -83,42 +83,137 @@ void PulseUnit::plsv(int step, std::int32_t frequency, int output, int direction
   }
 }
 
-void PulseUnit::drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
-                      int direction, bool powered, Registers& registers) {
+bool PulseUnit::begins(int step, int output, bool powered, Registers& registers) {
   Line& line = lines_[static_cast<std::size_t>(output)];
   Progress& progress = drives_[step];
+  bool begins = false;
   if (!powered) {
     refused_[step] = false;
     progress = Progress::off;
     if (line.motion.step == step) line.motion = {};
   } else if (progress == Progress::off && take(line, step, output)) {
     progress = Progress::on;
-    const std::int64_t from =
-        absolute ? registers.i32(position_registers[static_cast<std::size_t>(output)]) : 0;
-    line.motion.positioning = true;
-    line.motion.direction = direction;
-    line.motion.frequency = std::clamp(std::abs(std::max(frequency, -max_frequency_hz)), 1, max_frequency_hz);
-    line.motion.target = line.output.position() + (pulses - from);
+    begins = true;
   }
   registers.m[arrived_relay] = progress == Progress::arrived;
+  return begins;
 }
 
-// A trapezoid of speed: the least speed from which a motor may start and stop, then a ramp, and a speed that
-// still leaves the way to stop.
+void PulseUnit::drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
+                      int direction, bool powered, Registers& registers) {
+  if (!begins(step, output, powered, registers)) return;
+  Line& line = lines_[static_cast<std::size_t>(output)];
+  const std::int64_t from =
+      absolute ? registers.i32(position_registers[static_cast<std::size_t>(output)]) : 0;
+  line.motion.kind = Motion::Kind::position;
+  line.motion.direction = direction;
+  line.motion.frequency = std::clamp(std::abs(std::max(frequency, -max_frequency_hz)), 1, max_frequency_hz);
+  line.motion.target = line.output.position() + (pulses - from);
+}
+
+void PulseUnit::pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered,
+                            Registers& registers) {
+  Line& line = lines_[static_cast<std::size_t>(output)];
+  if (begins(step, output, powered, registers)) {
+    line.motion.kind = Motion::Kind::train;
+    line.motion.endless = pulses == 0;
+    line.motion.target = line.output.position() + pulses;
+    line.output.face(true);
+  }
+  if (powered && line.motion.step == step) line.motion.frequency = std::min(frequency, max_frequency_hz);
+}
+
+void PulseUnit::zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
+                            bool powered, Registers& registers) {
+  if (!begins(step, output, powered, registers)) return;
+  Line& line = lines_[static_cast<std::size_t>(output)];
+  line.motion.kind = Motion::Kind::zero;
+  line.motion.frequency = std::min(speed, max_frequency_hz);
+  line.motion.creep = std::min(creep, line.motion.frequency);
+  line.motion.dog = dog;
+  line.output.face(false);
+}
+
+namespace {
+
+/// A trapezoid of speed by D8145, D8146 and D8148.
+struct Ramp {
+  explicit Ramp(const Registers& registers)
+      : top(std::clamp(registers.i32(top_speed_register), 10, max_frequency_hz)) {
+    const double bias = std::clamp<double>(registers.d[bias_speed_register], 0, top / 10);
+    const double ramp_s = std::clamp<double>(registers.d[ramp_register], 50, 5000) / 1000;
+    slope = (top - bias) / ramp_s;
+    least = std::max({bias, std::sqrt(slope / 2), 1.0});
+  }
+  double top;        ///< [Hz]
+  double slope = 0;  ///< [Hz/s]
+  double least = 0;  ///< from which a motor may start and stop [Hz]
+};
+
+bool is_on(const DogSignal& dog, const CamPort& port) {
+  const auto at = static_cast<std::size_t>(dog.number);
+  switch (dog.kind) {
+    case DogSignal::Kind::x:
+      return port.inputs[at];
+    case DogSignal::Kind::y:
+      return port.outputs[at];
+    case DogSignal::Kind::m:
+      return port.registers.m[at];
+    case DogSignal::Kind::s:
+      return port.registers.s[at];
+  }
+  return false;
+}
+
+}  // namespace
+
+// A ramp, and a speed that still leaves the way to stop.
 PulseTick PulseUnit::move(Line& line, const Registers& registers) {
   Motion& motion = line.motion;
+  const Ramp ramp(registers);
   const auto remaining = static_cast<double>(std::abs(motion.target - line.output.position()));
-  const double top = std::clamp(registers.i32(top_speed_register), 10, max_frequency_hz);
-  const double bias = std::clamp<double>(registers.d[bias_speed_register], 0, top / 10);
-  const double ramp_s = std::clamp<double>(registers.d[ramp_register], 50, 5000) / 1000;
-  const double slope = (top - bias) / ramp_s;
-  const double least = std::max({bias, std::sqrt(slope / 2), 1.0});
-  const double most = std::max(least, std::min<double>(motion.frequency, top));
-  motion.speed = std::clamp(motion.speed + slope / ticks_per_second, least, most);
-  motion.speed = std::min(motion.speed, std::sqrt(least * least + 2 * slope * remaining));
+  const double most = std::max(ramp.least, std::min<double>(motion.frequency, ramp.top));
+  motion.speed = std::clamp(motion.speed + ramp.slope / ticks_per_second, ramp.least, most);
+  motion.speed = std::min(motion.speed, std::sqrt(ramp.least * ramp.least + 2 * ramp.slope * remaining));
   const auto frequency = static_cast<std::int32_t>(std::lround(motion.speed));
-  return line.output.run(motion.target > line.output.position() ? frequency : -frequency,
-                         static_cast<std::int64_t>(remaining));
+  const auto tick = line.output.run(motion.target > line.output.position() ? frequency : -frequency,
+                                    static_cast<std::int64_t>(remaining));
+  if (line.output.position() == motion.target) arrive(line);
+  return tick;
+}
+
+PulseTick PulseUnit::train(Line& line) {
+  const Motion& motion = line.motion;
+  const auto left = motion.endless ? max_frequency_hz : motion.target - line.output.position();
+  const auto tick = line.output.run(motion.frequency, left);
+  if (!motion.endless && line.output.position() == motion.target) arrive(line);
+  return tick;
+}
+
+// Backwards to the dog, slower from there on, to where it ends: that is 0.
+PulseTick PulseUnit::seek(Line& line, const CamPort& port) {
+  Motion& motion = line.motion;
+  const bool dog = is_on(motion.dog, port);
+  if (motion.at_dog && !dog) {
+    port.registers.set_i32(position_registers[static_cast<std::size_t>(&line - lines_.data())], 0);
+    arrive(line);
+    return {0, false, false};
+  }
+  // A start on the dog has no way left to be fast.
+  if (dog && motion.speed == 0) motion.speed = motion.creep;
+  motion.at_dog = dog;
+  const Ramp ramp(port.registers);
+  const double wanted = dog ? motion.creep : std::min<double>(motion.frequency, ramp.top);
+  const double change = ramp.slope / ticks_per_second;
+  motion.speed = std::max(motion.speed, std::min(ramp.least, wanted));
+  motion.speed = motion.speed < wanted ? std::min(motion.speed + change, wanted)
+                                       : std::max(motion.speed - change, wanted);
+  return line.output.run(-static_cast<std::int32_t>(std::lround(motion.speed)), max_frequency_hz);
+}
+
+void PulseUnit::arrive(Line& line) {
+  drives_[line.motion.step] = Progress::arrived;
+  line.motion = {};
 }
 
 void PulseUnit::count(int output, const PulseTick& tick, Registers& registers) {
@@ -134,37 +229,27 @@ void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
   count(output, cam.tick(port, line.output, stopped(port.registers, output), line.motion.step >= 0),
         port.registers);
   if (line.motion.step < 0) give(port, cam.operands().direction, line.output.forwards());
+  for (auto& note : cam.take_notes()) notes_.push_back({step, note.warns ? 0 : -1, std::move(note.text)});
   if (auto fault = cam.take_fault()) notes_.push_back({step, fault->code, std::move(fault->text)});
-  if (!cam.take_delayed()) return;
-  const int limit = cam.operands().block + word::max_frequency;
-  if (port.registers.i32(limit) == 0)
-    notes_.push_back({step, 0,
-                      fmt::format("D{} is 0: nothing comes out of Y{:o}; write 1 to {}", limit, output,
-                                  max_frequency_hz)});
-  else
-    notes_.push_back({step, 0,
-                      fmt::format("the frequency limit of D{} holds back pulses of Y{:o}; they come later",
-                                  limit, output)});
 }
 
 void PulseUnit::tick_motion(int output, CamPort& port) {
   Line& line = lines_[static_cast<std::size_t>(output)];
   if (line.motion.step < 0) return;
-  const int step = line.motion.step;
   const int direction = line.motion.direction;
-  PulseTick tick;
-  if (!line.motion.positioning) {
-    tick = line.output.run(stopped(port.registers, output) ? 0 : line.motion.frequency, max_frequency_hz);
-  } else if (stopped(port.registers, output)) {
+  const bool stop = stopped(port.registers, output);
+  PulseTick tick{0, line.output.forwards(), false};
+  if (line.motion.kind == Motion::Kind::speed)
+    tick = line.output.run(stop ? 0 : line.motion.frequency, max_frequency_hz);
+  else if (stop)
     line.motion = {};
-  } else {
+  else if (line.motion.kind == Motion::Kind::position)
     tick = move(line, port.registers);
-    if (line.output.position() == line.motion.target) {
-      drives_[step] = Progress::arrived;
-      line.motion = {};
-    }
-  }
-  give(port, direction, line.output.forwards());
+  else if (line.motion.kind == Motion::Kind::train)
+    tick = train(line);
+  else
+    tick = seek(line, port);
+  if (direction >= 0) give(port, direction, line.output.forwards());
   count(output, tick, port.registers);
 }
 
@@ -174,7 +259,7 @@ void PulseUnit::tick(CamPort& port) {
   for (int output = 0; output < pulse_outputs; ++output) {
     tick_motion(output, port);
     const Motion& motion = lines_[static_cast<std::size_t>(output)].motion;
-    const bool moves = motion.step >= 0 && (motion.positioning || motion.frequency != 0);
+    const bool moves = motion.step >= 0 && (motion.kind != Motion::Kind::speed || motion.frequency != 0);
     port.registers.m[static_cast<std::size_t>(first_busy_relay + output)] = moves || cam_uses(output);
   }
 }

@@ -15,18 +15,22 @@ inline constexpr int pulse_outputs = 4;  ///< Y0..Y3
 /// Something that an instruction of the pulse outputs has to tell.
 struct PulseNote {
   int step = 0;  ///< of the program
-  int code = 0;  ///< of an error (6781 to 6783), 0 = a warning
+  int code = 0;  ///< of an error (6781 to 6783), 0 = a warning, -1 = it only informs
   std::string text;
 };
 
-/// The pulse outputs Y0..Y3 with all that gives pulses on them: cams, DPLSV, DDRVI and DDRVA. One of them has
-/// an output at a time; who comes second is refused and told. Calls as in `Instructions`.
+/// The pulse outputs Y0..Y3 with all that gives pulses on them: cams, DPLSV, DDRVI, DDRVA, PLSY and ZRN. One
+/// of them has an output at a time; who comes second is refused and told. Calls as in `Instructions`.
 class PulseUnit {
  public:
   void decam(int step, const DecamOperands& operands, bool powered, CamPort& port);
   void plsv(int step, std::int32_t frequency, int output, int direction, bool powered);
   void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output, int direction,
              bool powered, Registers& registers);
+  void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered,
+                   Registers& registers);
+  void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output, bool powered,
+                   Registers& registers);
 
   /// A tick of 100 us: pulses, directions, D8140.. and M8147...
   void tick(CamPort& port);
@@ -50,26 +54,37 @@ class PulseUnit {
   std::vector<PulseNote> take_notes();
 
  private:
-  /// DPLSV or DDRV. on an output.
+  /// What an instruction does on an output.
   struct Motion {
+    enum class Kind : std::uint8_t { speed, position, train, zero };
     int step = -1;  ///< whose; -1 = none
-    bool positioning = false;
-    int direction = 0;
+    Kind kind = Kind::speed;
+    int direction = -1;  ///< plain number of the Y; -1: the program's own affair
     std::int32_t frequency = 0;
-    std::int64_t target = 0;
-    double speed = 0;  ///< positioning: present [Hz]
+    std::int64_t target = 0;  ///< of `position` and `train`
+    bool endless = false;     ///< `train`
+    double speed = 0;         ///< with ramps: present [Hz]
+    std::int32_t creep = 0;   ///< `zero` [Hz]
+    DogSignal dog = {};
+    bool at_dog = false;  ///< `zero`: the dog has come
   };
   struct Line {
     PulseOutput output;
     Motion motion;
     std::int64_t given = 0;
   };
-  enum class Progress : std::uint8_t { off, on, arrived };  ///< of a DDRV. instruction
+  enum class Progress : std::uint8_t { off, on, arrived };  ///< of an instruction that comes to an end
 
   [[nodiscard]] bool cam_uses(int output) const;
   /// True if the instruction has the output, taking it if it is free.
   bool take(Line& line, int step, int output);
+  /// The same for an instruction that comes to an end: true in the scan in which it begins. Tells in M8029
+  /// whether it is done.
+  bool begins(int step, int output, bool powered, Registers& registers);
   PulseTick move(Line& line, const Registers& registers);
+  PulseTick train(Line& line);
+  PulseTick seek(Line& line, const CamPort& port);
+  void arrive(Line& line);
   void count(int output, const PulseTick& tick, Registers& registers);
   void tick_cam(int step, Decam& cam, CamPort& port);
   void tick_motion(int output, CamPort& port);

@@ -48,9 +48,13 @@ std::optional<double> read_number(std::string_view text) {
   return number;
 }
 
-// What a line says, without comment and blanks.
+// What a line says, without comment and blanks. A # inside a word is none: 16#1000 is refused, not 16.
 std::string_view content_of(std::string_view line) {
-  return trimmed(line.substr(0, line.find_first_of("#;")));
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool in_word = i > 0 && line[i - 1] != ' ' && line[i - 1] != '\t' && line[i - 1] != '\r';
+    if (line[i] == ';' || (line[i] == '#' && !in_word)) return trimmed(line.substr(0, i));
+  }
+  return trimmed(line);
 }
 
 // Takes the first line off the text.
@@ -89,7 +93,7 @@ class RowReader {
     const auto value = read_number(value_text);
     if (!value)
       complain(value_text, fmt::format("'{}' is no number", shown(value_text)),
-               "write 5, -5, K5, H1F or 1.5");
+               "write 5, -5 or K5, hexadecimal H1F, or 1.5");
     if (name && value) take(name_text, *name, value_text, *value);
   }
   std::vector<RegisterValue> take_values() { return std::move(values_); }

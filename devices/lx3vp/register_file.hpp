@@ -23,8 +23,8 @@ struct ValueFault {
 std::optional<ValueFault> misfit(const RegisterName& name, double value);
 
 /// Reads lines of name, `separator` and value: `D10,5`, `D20:L,100000`, `D30:F,1.5`, `M0,1`, `D40,H1F`.
-/// Comments begin with # or ;. A first line `address,value` is a heading. Every fault becomes a problem, and
-/// so does a register that is given twice.
+/// Comments begin with ; or, at the beginning of a line or after a blank, #. A first line `address,value` is
+/// a heading. Every fault becomes a problem, and so does a register that is given twice.
 std::vector<RegisterValue> read_register_values(std::string_view text, const std::string& file,
                                                 char separator, Problems& problems);
 

@@ -35,6 +35,8 @@ constexpr Prefix prefixes[] = {
     {"Y", Kind::y, terminals, 8},
     {"T", Kind::timer, timers},
     {"C", Kind::counter, counters},
+    {"V", Kind::v, index_registers},
+    {"Z", Kind::z, index_registers},
 };
 
 // What stands behind the number: `D10:L`, `D10:F`, `D10.A`.
@@ -61,8 +63,8 @@ std::uint32_t Registers::u32(int index) const {
 }
 float Registers::f32(int index) const { return std::bit_cast<float>(u32(index)); }
 void Registers::set_u32(int index, std::uint32_t value) {
-  d[static_cast<std::size_t>(index)] = static_cast<std::uint16_t>(value);
-  d[static_cast<std::size_t>(index) + 1] = static_cast<std::uint16_t>(value >> 16U);
+  put(index, static_cast<std::uint16_t>(value));
+  put(index + 1, static_cast<std::uint16_t>(value >> 16U));
 }
 void Registers::set_f32(int index, float value) { set_u32(index, std::bit_cast<std::uint32_t>(value)); }
 
@@ -121,6 +123,10 @@ double read(const Registers& registers, const RegisterName& name) {
       return registers.c[at].value;
     case Kind::counter_contact:
       return registers.c[at].contact ? 1 : 0;
+    case Kind::v:
+      return static_cast<std::int16_t>(registers.v[at]);
+    case Kind::z:
+      return static_cast<std::int16_t>(registers.z[at]);
   }
   return 0;
 }
@@ -128,6 +134,8 @@ double read(const Registers& registers, const RegisterName& name) {
 ValueRange range_of(const RegisterName& name) {
   switch (name.kind) {
     case Kind::word:
+    case Kind::v:
+    case Kind::z:
       return {-32768, 65535};
     case Kind::wide:
       return {-2147483648.0, 2147483647.0};
@@ -159,14 +167,15 @@ void write(Registers& registers, const RegisterName& name, double value) {
   const bool on = whole != 0;
   switch (name.kind) {
     case Kind::word:
-      registers.d[at] = static_cast<std::uint16_t>(whole);
+      registers.put(name.number, static_cast<std::uint16_t>(whole));
       break;
     case Kind::wide:
       registers.set_i32(name.number, static_cast<std::int32_t>(whole));
       break;
     case Kind::bit: {
       const unsigned mask = 1U << static_cast<unsigned>(name.bit);
-      registers.d[at] = static_cast<std::uint16_t>(on ? registers.d[at] | mask : registers.d[at] & ~mask);
+      registers.put(name.number,
+                    static_cast<std::uint16_t>(on ? registers.d[at] | mask : registers.d[at] & ~mask));
       break;
     }
     case Kind::m:
@@ -192,6 +201,12 @@ void write(Registers& registers, const RegisterName& name, double value) {
       break;
     case Kind::counter_contact:
       registers.c[at].contact = on;
+      break;
+    case Kind::v:
+      registers.v[at] = static_cast<std::uint16_t>(whole);
+      break;
+    case Kind::z:
+      registers.z[at] = static_cast<std::uint16_t>(whole);
       break;
     case Kind::real:
       break;

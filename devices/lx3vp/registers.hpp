@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ inline constexpr int terminals = 256;                 ///< X0..X377 and Y0..Y377
 inline constexpr int states = 1000;                   ///< S0..S999
 inline constexpr int timers = 256;                    ///< T0..T255
 inline constexpr int counters = 256;                  ///< C0..C255
+inline constexpr int index_registers = 8;             ///< V0..V7 and Z0..Z7
 inline constexpr int first_wide_counter = 200;        ///< C200..C255 count 32 bit
 inline constexpr int first_high_speed_counter = 235;  ///< C235..C255 count pulses of terminals by themselves
 inline constexpr int first_two_way_counter = 246;  ///< C246..C255 count both ways; those below as M82nn says
@@ -60,7 +62,12 @@ struct Registers {
   std::array<bool, states> s{};
   std::array<Timer, timers> t{};
   std::array<PlcCounter, counters> c{};
+  std::array<std::uint16_t, index_registers> v{};  ///< V0..V7; of a 32-bit index the upper word
+  std::array<std::uint16_t, index_registers> z{};  ///< Z0..Z7
   std::int64_t time_ns = 0;  ///< since power-up, at the start of the scan: what timers run by
+  /// Words of D that a program, a file or a scenario has written, be it 0 (003 5: the others have their
+  /// initial values).
+  std::bitset<data_words> written;
 
   // Accessors of D; a 32-bit value's second word is index + 1.
   [[nodiscard]] std::int16_t i16(int index) const {
@@ -69,9 +76,12 @@ struct Registers {
   [[nodiscard]] std::uint32_t u32(int index) const;
   [[nodiscard]] std::int32_t i32(int index) const { return static_cast<std::int32_t>(u32(index)); }
   [[nodiscard]] float f32(int index) const;
-  void set_i16(int index, std::int16_t value) {
-    d[static_cast<std::size_t>(index)] = static_cast<std::uint16_t>(value);
+  /// Writes a word and notes that it was written.
+  void put(int index, std::uint16_t value) {
+    d[static_cast<std::size_t>(index)] = value;
+    written.set(static_cast<std::size_t>(index));
   }
+  void set_i16(int index, std::int16_t value) { put(index, static_cast<std::uint16_t>(value)); }
   void set_u32(int index, std::uint32_t value);
   void set_i32(int index, std::int32_t value) { set_u32(index, static_cast<std::uint32_t>(value)); }
   void set_f32(int index, float value);
@@ -79,7 +89,8 @@ struct Registers {
 
 /// A value by its name in scenarios, recordings and register files: `D10` signed word, `DD10` (also `D10:L`)
 /// signed 32 bit of D10 and D11, `FD10` (also `D10:F`) float of both, `D10.A` bit 10 of D10 (hexadecimal),
-/// `M0`, `S0`, `X10` and `Y10` (octal) 0 or 1, `T0` and `C0` values, `TS0` and `CS0` contacts. Any case.
+/// `M0`, `S0`, `X10` and `Y10` (octal) 0 or 1, `T0` and `C0` values, `TS0` and `CS0` contacts, `V0` and `Z0`
+/// the index registers. Any case.
 struct RegisterName {
   enum class Kind : std::uint8_t {
     word,
@@ -93,7 +104,9 @@ struct RegisterName {
     timer,
     timer_contact,
     counter,
-    counter_contact
+    counter_contact,
+    v,
+    z
   };
   Kind kind = Kind::word;
   int number = 0;  ///< plain, of X and Y too

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "devices/catalogue.hpp"
+#include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/plcopen/st/program.hpp"
@@ -99,9 +100,11 @@ class Checker {
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
   }
 
-  /// Registers of the LX3VP or a cam table, as its lines say.
+  /// Registers or a program of the LX3VP, or a cam table, as its lines say.
   void check_table(const std::string& text, const std::string& file) {
-    if (devices::lx3vp::is_register_file(text, ','))
+    if (devices::lx3vp::il::is_table(text))
+      devices::lx3vp::il::compile(text, file, problems_);
+    else if (devices::lx3vp::is_register_file(text, ','))
       devices::lx3vp::read_register_values(text, file, ',', problems_);
     else
       cam_kind("", text).check(text, file, problems_);

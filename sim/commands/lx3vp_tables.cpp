@@ -40,23 +40,36 @@ std::string offsets(const BlockWord& word) {
                          : fmt::format("{}-{}", word.offset, word.offset + word.words - 1);
 }
 
-/// What the program has to write; the cam writes what is only to be read.
-std::string set_up_text(const BlockWord& word) {
+std::string initial_text(const BlockWord& word) {
   return word.access == BlockWord::Access::write && word.set_up != 0 ? fmt::format("{}", word.set_up) : "";
+}
+
+/// Where the manual is silent and what is done here.
+void print_readings(std::span<const lx3vp::Reading> readings) {
+  TextTable table({"where", "reading"});
+  for (const auto& reading : readings) table.add({std::string(reading.where), std::string(reading.text)});
+  table.print("Readings of ours, where the manual is silent or contradicts itself");
+}
+
+ordered_json readings_json(std::span<const lx3vp::Reading> readings) {
+  ordered_json json = ordered_json::array();
+  for (const auto& reading : readings) json.push_back({{"where", reading.where}, {"reading", reading.text}});
+  return json;
 }
 
 void print_decam() {
   fmt::print(
       "DECAM: {}\n\nDECAM S1 S2 S3 D1 D2: master C, D or K (x 100 us), block D, start signal X or M, "
       "pulse output Y0..Y3, direction Y\n\n"
-      "Registers are 0 until something writes them: \"write at set-up\" is what the program, or the "
-      "scenario's\n"
-      "set or registers, has to write there before the cam is enabled.\n",
+      "Words that no program, file or scenario has written have their initial value when the cam starts, "
+      "which "
+      "is\n"
+      "told as a note; else what was written counts, a 0 too.\n",
       decam_summary);
-  TextTable words({"word", "name", "type", "range", "write at set-up", "access", "taken", "meaning"});
+  TextTable words({"word", "name", "type", "range", "initial", "access", "taken", "meaning"});
   for (const auto& word : lx3vp::block_words()) {
     words.add({offsets(word), std::string(word.name), std::string(word.type), std::string(word.range),
-               set_up_text(word), std::string(access_text(word.access)), std::string(word.taken),
+               initial_text(word), std::string(access_text(word.access)), std::string(word.taken),
                std::string(word.meaning)});
   }
   words.print("Words; 32-bit values have their low word first");
@@ -66,6 +79,7 @@ void print_decam() {
                std::string(flag.access), std::string(flag.meaning)});
   }
   flags.print("Flags");
+  print_readings(lx3vp::block_readings());
 }
 
 ordered_json decam_json() {
@@ -76,7 +90,7 @@ ordered_json decam_json() {
                              {"name", word.name},
                              {"type", word.type},
                              {"range", word.range},
-                             {"write_at_set_up", word.set_up},
+                             {"initial", word.set_up},
                              {"access", access_text(word.access)},
                              {"taken", word.taken},
                              {"meaning", word.meaning}});
@@ -88,6 +102,7 @@ ordered_json decam_json() {
                              {"access", flag.access},
                              {"meaning", flag.meaning}});
   }
+  json["readings"] = readings_json(lx3vp::block_readings());
   return json;
 }
 
@@ -122,6 +137,7 @@ void print_ecamtbx() {
   for (const auto error : lx3vp::ecam_errors())
     results.add({fmt::format("{}", static_cast<int>(error)), std::string(lx3vp::error_text(error))});
   results.print("Results in D1");
+  print_readings(lx3vp::ecamtbx_readings());
 }
 
 ordered_json words_json(std::span<const lx3vp::EcamtbxWord> list) {
@@ -143,6 +159,7 @@ ordered_json ecamtbx_json() {
   json["s_curve_words"] = words_json(lx3vp::s_curve_words());
   for (const auto error : lx3vp::ecam_errors())
     json["results"].push_back({{"result", static_cast<int>(error)}, {"meaning", lx3vp::error_text(error)}});
+  json["readings"] = readings_json(lx3vp::ecamtbx_readings());
   return json;
 }
 
@@ -171,6 +188,7 @@ void print_lx3vp() {
                       std::move(operands)});
   }
   instructions.print("Instructions");
+  print_readings(lx3vp::il::instruction_readings());
 }
 
 ordered_json lx3vp_json() {
@@ -187,6 +205,7 @@ ordered_json lx3vp_json() {
     json["instructions"].push_back(
         {{"names", spellings_of(entry)}, {"operands", std::move(operands)}, {"meaning", entry.meaning}});
   }
+  json["readings"] = readings_json(lx3vp::il::instruction_readings());
   return json;
 }
 

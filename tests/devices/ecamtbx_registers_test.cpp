@@ -60,9 +60,14 @@ TEST(EcamtbxRegisters, MidCamEndStopsAtTheEndOfTheCycle) {
     d.d[block + 4] = 0x8000;
     run_ecamtbx(d, 100, 100, block, result);
     ASSERT_EQ(d.i32(result), 200) << curve;
+    EXPECT_EQ(d.d[block + 31], (curve & 0xFFF) == 3 ? 3 : 0) << curve;
     EXPECT_EQ(d.d[block + 4], (curve & 0xFFF) == 3 ? 0x8002 : 0x8000) << curve;
     // What the program has switched on stays on.
     d.d[block + 4] = 2;
+    d.d[block + 31] = 0;
+    run_ecamtbx(d, 100, 100, block, result);
+    EXPECT_EQ(d.d[block + 4], 2) << curve;
+    d.set_i16(111, left_cam);
     run_ecamtbx(d, 100, 100, block, result);
     EXPECT_EQ(d.d[block + 4], 2) << curve;
   }
@@ -92,6 +97,26 @@ TEST(EcamtbxRegisters, ACyclicCamByMidCamEndRunsOneCycle) {
   bench.tick(3);
   for (int i = 0; i < 300; ++i) bench.travel(10);
   EXPECT_EQ(d.i32(8140), 3000);
+}
+
+// What midCAMend has switched on a later curve does not inherit, and the program's own bit stays the
+// program's.
+TEST(EcamtbxRegisters, ALeftCamAfterAMidCamEndRunsOn) {
+  CamBench bench;
+  auto& d = bench.registers;
+  for (const int word : {0, 2, 4}) d.set_i32(300 + word, word == 0 ? 1000 : word == 2 ? 1500 : 300);
+  d.set_f32(306, 2);
+  d.set_f32(308, 8);
+  d.set_i16(310, 1);
+  for (const int curve : {mid_cam_end, left_cam}) {
+    d.set_i16(311, static_cast<std::int16_t>(curve));
+    run_ecamtbx(d, 300, 100, CamBench::block, 330);
+    ASSERT_GT(d.i32(330), 0);
+  }
+  EXPECT_EQ(bench.get(word::live), 0);
+  bench.start(1);
+  for (int i = 0; i < 300; ++i) bench.travel(10);
+  EXPECT_EQ(d.i32(8140), 4500) << "three cycles";
 }
 
 TEST(EcamtbxRegisters, AnErrorLeavesTheBlockAsItIs) {

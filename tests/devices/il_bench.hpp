@@ -45,11 +45,24 @@ struct Notes : Instructions {
                     " " + std::to_string(frequency) + " Y" + std::to_string(output) + " Y" +
                     std::to_string(direction) + state(powered));
   }
+  void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered) override {
+    calls.push_back("plsy " + std::to_string(step) + " " + std::to_string(frequency) + " " +
+                    std::to_string(pulses) + " Y" + std::to_string(output) + state(powered));
+  }
+  void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
+                   bool powered) override {
+    calls.push_back("zrn " + std::to_string(step) + " " + std::to_string(speed) + " " +
+                    std::to_string(creep) + " " + "XYMS"[static_cast<int>(dog.kind)] +
+                    std::to_string(dog.number) + " Y" + std::to_string(output) + state(powered));
+  }
   void high_speed_counter(int number, std::int32_t preset, bool powered) override {
     calls.push_back("counter C" + std::to_string(number) + " " + std::to_string(preset) + state(powered));
   }
   void error(int step, int code, const std::string& text) override {
     calls.push_back("error " + std::to_string(step) + " " + std::to_string(code) + " " + text);
+  }
+  void watchdog(int step, const std::string& text) override {
+    calls.push_back("watchdog " + std::to_string(step) + " " + text);
   }
   void cam_table(int step, std::int32_t result, const std::string& text) override {
     if (result < 0) calls.push_back("cam " + std::to_string(step) + " " + text);

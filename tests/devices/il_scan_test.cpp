@@ -303,15 +303,6 @@ TEST(IlJumps, FendEndsTheScan) {
   EXPECT_TRUE(plc.registers.y[1]);
 }
 
-TEST(IlJumps, ALoopWithoutEndIsAnError) {
-  Plc plc("P0\nLD M8000\nCJ P0\nLD M8000\nOUT Y0");
-  plc.registers.m[8000] = true;
-  plc.scan();
-  EXPECT_THAT(plc.notes.calls,
-              ElementsAre("error 2 6105 p.il:3: 6105: CJ jumps back without end; let it jump forward"));
-  EXPECT_FALSE(plc.registers.y[0]);
-}
-
 TEST(IlJumps, OutOfABranch) {
   Plc plc("LD X0\nMPS\nAND X1\nCJ P1\nMPP\nOUT Y0\nP1\nLD X2\nMPS\nOUT Y1\nMPP\nOUT Y2");
   out(plc, {0, 1});

@@ -35,7 +35,7 @@ class CamBench {
       if (word.words == 2)
         registers.set_i32(at + word.offset, static_cast<std::int32_t>(word.set_up));
       else
-        registers.d[static_cast<std::size_t>(at + word.offset)] = static_cast<std::uint16_t>(word.set_up);
+        registers.put(at + word.offset, static_cast<std::uint16_t>(word.set_up));
     }
   }
   void table(const std::vector<std::pair<std::int32_t, std::int32_t>>& rows, int at = block) {
@@ -47,7 +47,7 @@ class CamBench {
     }
   }
   void set(int offset, int value, int at = block) {
-    registers.d[static_cast<std::size_t>(at + offset)] = static_cast<std::uint16_t>(value);
+    registers.put(at + offset, static_cast<std::uint16_t>(value));
   }
   void set_wide(int offset, std::int32_t value, int at = block) { registers.set_i32(at + offset, value); }
   [[nodiscard]] int get(int offset, int at = block) const {
@@ -101,7 +101,7 @@ class CamBench {
   std::vector<std::string> notes() {
     std::vector<std::string> texts;
     for (const PulseNote& note : unit.take_notes())
-      texts.push_back(note.code == 0 ? note.text : std::to_string(note.code) + ": " + note.text);
+      texts.push_back(note.code <= 0 ? note.text : std::to_string(note.code) + ": " + note.text);
     return texts;
   }
 

@@ -66,8 +66,8 @@ class Plc {
   void block(int at, const std::vector<std::pair<std::int32_t, std::int32_t>>& rows) {
     Registers& registers = controller_.registers();
     registers.set_i32(at + word::max_frequency, 200'000);
-    for (const int ratio : {23, 24, 29, 30}) registers.d[static_cast<std::size_t>(at + ratio)] = 1;
-    registers.d[static_cast<std::size_t>(at + word::table_offset)] = 40;
+    for (const int ratio : {23, 24, 29, 30}) registers.put(at + ratio, 1);
+    registers.put(at + word::table_offset, 40);
     registers.d[static_cast<std::size_t>(at + word::rows)] = static_cast<std::uint16_t>(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       registers.set_i32(at + 40 + 4 * static_cast<int>(i), rows[i].first);
@@ -248,6 +248,7 @@ TEST(Lx3vpController, ErrorsAreToldOnceWithTheirLine) {
   covers({"M8004", "M8067", "D8067", "D8069"});
 
   Plc second("LD M8000\nDECAM K1 D2000 X2 Y0 Y4\nEND\n");
+  second.set("D2023", 0);
   second.set("D2005", 1);
   second.run_ms(5);
   EXPECT_EQ(second.get("D8067"), 6781);
@@ -397,7 +398,8 @@ TEST(Lx3vpController, TheRetentiveStateComesBackWhole) {
   EXPECT_EQ(other.controller_.retentive_state(), text);
   EXPECT_FALSE(other.controller_.restore("D300 = x\n", problems, "kept.txt"));
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(to_string(problems[0]), "kept.txt:1:8: 'x' is no number; write 5, -5, K5, H1F or 1.5");
+  EXPECT_EQ(to_string(problems[0]),
+            "kept.txt:1:8: 'x' is no number; write 5, -5 or K5, hexadecimal H1F, or 1.5");
   EXPECT_EQ(other.get("D300"), 7);
 }
 
@@ -451,6 +453,85 @@ TEST(Lx3vpController, TheSameRunGivesTheSameRegisters) {
     return std::make_pair(plc.controller_.registers().d, plc.get("DD8140"));
   };
   EXPECT_EQ(run(), run());
+}
+
+// The manual's first demo (003 appendix 1.3), with nothing but what it says: the list of the rotary saw, its
+// table, the cam of 4.1.1. The words of frequency and ratios keep their initial values.
+TEST(Lx3vpController, TheManualsDemoOfTheRotarySawRuns) {
+  Plc plc(R"(
+LD M8002
+DMOV K3183 D500       ; 1000 mm of material
+DMOV K1000 D502       ; a turn of the cutter
+DMOV K333 D504        ; synchronous over a third of it
+DEMOV E1.6666666 D506 ; 5/3
+DEMOV E16.666666 D508 ; ten times as much at most
+MOV H1 D510           ; uniform acceleration
+MOV H0 D511           ; leftCAM
+MOV K0 D512
+ECAMTBX D500 K100 D2000 D540
+MOV K1 D2005
+LD M8000
+OUT C235 K0
+LD M0
+DPLSV K1000 Y1 Y5
+DECAM C235 D2000 X2 Y0 Y4
+END
+)");
+  plc.run_ms(2);
+  EXPECT_EQ(plc.get("D540"), 200);
+  plc.set("M0", 1);
+  plc.run_ms(10'000);
+  EXPECT_THAT(
+      plc.events(),
+      ElementsAre("LX3VP note: test.il:17: the block D2000 has the initial values of its words that nothing "
+                  "has written: D2006 200000, D2023 1, D2024 1, D2029 1, D2030 1"));
+  // 10 s at 1 kHz are 3.14 cycles of 3183: three turns, and 620 of the fourth: 333 in the
+  // synchronous zone of 200, 287 on the way to rest.
+  EXPECT_NEAR(plc.get("DD2027"), 9'999, 5);
+  EXPECT_NEAR(plc.get("DD8140"), 3620, 4);
+}
+
+TEST(Lx3vpController, AZeroThatWasWrittenOutlivesTheProcess) {
+  Plc plc("LD M8000\nMOV K0 D2023\nEND\n");
+  plc.run_ms(1);
+  const auto text = plc.controller_.retentive_state();
+  EXPECT_EQ(text, "; retentive registers of test.il\nD2023 = 0\n");
+  Plc other("END\n");
+  Problems problems;
+  ASSERT_TRUE(other.controller_.restore(text, problems));
+  EXPECT_TRUE(other.controller_.registers().written[2023]);
+  EXPECT_FALSE(other.controller_.registers().written[2024]);
+}
+
+// 6105 stops the PLC: no scan tries again, no pulse and no output is left, until it is switched on again.
+TEST(Lx3vpController, TheWatchdogStopsItUntilPowerUp) {
+  covers({"M8061", "D8061", "M8020", "M8021", "M8022"});
+  Plc plc(
+      "LD M8000\nINC D0\nOUT Y7\nDPLSV K1000 Y0 Y5\nLD M1\nOUT M2\nFOR K32767\nFOR D300\nNEXT\nNEXT\nEND\n");
+  plc.set("D300", 1);
+  plc.run_ms(20);
+  EXPECT_TRUE(plc.lamp(7));
+  plc.set("D300", 32767);
+  plc.run_ms(100);
+  EXPECT_THAT(
+      plc.events(),
+      ElementsAre(HasSubstr("LX3VP error: test.il:9: 6105: the scan works longer than the watchdog's 200 ms; "
+                            "repeat less in a scan (CJ back, FOR, blocks); the PLC stops until")));
+  EXPECT_EQ(plc.get("D0"), 21);
+  EXPECT_FALSE(plc.lamp(7));
+  EXPECT_EQ(plc.get("M8061"), 1);
+  EXPECT_EQ(plc.get("D8061"), 6105);
+  const auto given = plc.controller_.cards().pulse_outputs[{Kind::output, 0, 0}].count;
+  plc.run_ms(100);
+  EXPECT_EQ((plc.controller_.cards().pulse_outputs[{Kind::output, 0, 0}].count), given);
+  plc.set("D300", 1);
+  plc.controller_.power(false);
+  plc.run_ms(1);
+  plc.controller_.power(true);
+  plc.run_ms(10);
+  EXPECT_EQ(plc.get("D0"), 10);
+  EXPECT_TRUE(plc.lamp(7));
+  EXPECT_EQ(plc.get("M8061"), 0);
 }
 
 }  // namespace

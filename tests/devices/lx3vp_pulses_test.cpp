@@ -271,5 +271,90 @@ TEST(Lx3vpCounters, TheRegisterMayBeWrittenAndIsARing) {
   EXPECT_EQ(unit.pulses()[251], 2);
 }
 
+// PLSY and ZRN.
+
+TEST_F(Lx3vpPulses, PlsyGivesItsPulsesWithoutARamp) {
+  const auto plsy = [&](std::int32_t frequency, std::int32_t pulses, bool powered = true) {
+    bench.unit.pulse_train(3, frequency, pulses, 0, powered, bench.registers);
+  };
+  plsy(10'000, 500);
+  bench.tick(100);
+  EXPECT_EQ(bench.output(), 100);
+  EXPECT_TRUE(bench.registers.m[8147]);
+  plsy(20'000, 7);  // the frequency at once, the number with the next power
+  bench.tick(100);
+  EXPECT_EQ(bench.output(), 300);
+  EXPECT_FALSE(bench.registers.m[8029]);
+  bench.tick(1000);
+  plsy(20'000, 7);
+  EXPECT_EQ(bench.output(), 500);
+  EXPECT_TRUE(bench.registers.m[8029]);
+  EXPECT_FALSE(bench.registers.m[8147]);
+  plsy(20'000, 7);
+  bench.tick(100);
+  EXPECT_EQ(bench.output(), 500) << "once a rising edge";
+  plsy(20'000, 7, false);
+  EXPECT_FALSE(bench.registers.m[8029]);
+  plsy(20'000, 7);
+  bench.tick(100);
+  EXPECT_EQ(bench.output(), 507);
+  EXPECT_FALSE(bench.unit.holds(10)) << "the direction is the program's";
+}
+
+TEST_F(Lx3vpPulses, PlsyWithoutNumberGoesOnUntilItLosesPower) {
+  const auto plsy = [&](bool powered) { bench.unit.pulse_train(3, 200'000, 0, 0, powered, bench.registers); };
+  plsy(true);
+  bench.tick(10'000);
+  EXPECT_EQ(bench.output(), 200'000);
+  plsy(false);
+  bench.tick(10);
+  EXPECT_EQ(bench.output(), 200'000);
+  plsy(true);
+  bench.registers.m[8145] = true;
+  bench.tick(10);
+  bench.registers.m[8145] = false;
+  bench.tick(10);
+  EXPECT_EQ(bench.output(), 200'000) << "M8145 ends it until the next rising edge";
+}
+
+TEST_F(Lx3vpPulses, ZrnSeeksTheEndOfTheDog) {
+  constexpr DogSignal dog{DogSignal::Kind::x, 5};
+  const auto zrn = [&](bool powered = true) {
+    bench.unit.zero_return(4, 20'000, 1'000, dog, 0, powered, bench.registers);
+  };
+  bench.registers.set_i32(8140, 12'345);
+  zrn();
+  bench.tick(2'000);  // 100 ms of ramp at most
+  const auto at_speed = bench.output();
+  bench.tick(100);
+  EXPECT_EQ(bench.output(), at_speed - 200) << "backwards at 20 kHz";
+  bench.inputs[5] = true;
+  bench.tick(2'000);
+  const auto at_creep = bench.output();
+  bench.tick(1'000);
+  EXPECT_EQ(bench.output(), at_creep - 100) << "at 1 kHz";
+  bench.inputs[5] = false;
+  bench.tick();
+  EXPECT_EQ(bench.output(), 0) << "the position is 0 where the dog ends";
+  const auto given = bench.unit.pulses(0);
+  bench.tick(100);
+  zrn();
+  EXPECT_EQ(bench.unit.pulses(0), given);
+  EXPECT_TRUE(bench.registers.m[8029]);
+  // A start on the dog creeps from the beginning.
+  zrn(false);
+  bench.inputs[5] = true;
+  zrn();
+  bench.tick(1'000);
+  EXPECT_EQ(bench.output(), -100);
+}
+
+TEST_F(Lx3vpPulses, AnOutputIsOneInstructionsAtATime) {
+  plsv(1'000);
+  bench.unit.pulse_train(3, 1'000, 5, 0, true, bench.registers);
+  EXPECT_THAT(bench.notes(),
+              ElementsAre("Y0 is in use by another instruction; this instruction gives no pulses"));
+}
+
 }  // namespace
 }  // namespace drycut::devices::lx3vp

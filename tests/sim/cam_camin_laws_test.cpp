@@ -152,7 +152,19 @@ TEST(CamInSamples, ByThemselvesAreEvenWithEveryBoundaryAndBothSidesOfAJump) {
   std::vector<std::pair<double, double>> twice;
   for (std::size_t i = 1; i < steps.size(); ++i)
     if (steps[i].master == steps[i - 1].master) twice.emplace_back(steps[i - 1].slave, steps[i].slave);
-  EXPECT_THAT(twice, ElementsAre(std::pair{100.0, 350.0}, std::pair{350.0, 100.0}, std::pair{100.0, 350.0}));
+  EXPECT_THAT(twice, ElementsAre(std::pair{100.0, 350.0}, std::pair{350.0, 100.0}, std::pair{100.0, 350.0},
+                                 std::pair{350.0, 100.0}));
+}
+
+// A row of STEP_DIRECT is held up to the next one: at the end of a turn that is the first of the next turn.
+TEST(CamInSamples, TheEndOfAStepIsWhereTheNextTurnBegins) {
+  const auto run = run_cam_in(camin::table("# interpolation: STEP_DIRECT\nslave\n100\n350\n"), {}, 1);
+  const auto points = sample_cam_in_at(run, {1'800'000 - 1.0, 1'800'000, 3'600'000 - 1.0, 3'600'000});
+  std::vector<double> slaves;
+  for (const auto& point : points) slaves.push_back(point.slave);
+  EXPECT_THAT(slaves, ElementsAre(100, 350, 350, 100));
+  EXPECT_EQ(points.back().master, 3'600'000);
+  EXPECT_EQ(sample_cam_in(run).back().slave, 100);
 }
 
 TEST(CamInSamples, CoefficientsAreTheLawThatTheySay) {

@@ -35,15 +35,21 @@ TEST(Lx3vpTables, DecamIsTheWholeBlock) {
   EXPECT_EQ(json.at("flags").size(), devices::lx3vp::block_flags().size());
 }
 
-// The registers are 0 at power-up: the table says what to write, and only where there is something to write.
-TEST(Lx3vpTables, DecamSaysWhatToWriteAtSetUp) {
+// The initial values of the manual, where the program may write them, and what we read into it.
+TEST(Lx3vpTables, DecamHasInitialValuesAndReadings) {
   const auto text = printed("DECAM", false);
-  EXPECT_THAT(text, HasSubstr("write at set-up"));
-  EXPECT_THAT(text, HasSubstr("Registers are 0 until something writes them"));
   EXPECT_THAT(text, testing::ContainsRegex("\n  6-7 +max frequency +i32 +1..200000 +200000 +read/write"));
   EXPECT_THAT(text, testing::ContainsRegex("\n  39 +table offset +u16 +40 +40 +read/write.*ECAMTBX"));
   EXPECT_THAT(text, testing::ContainsRegex("\n  0 +version +u16 +read "));
-  EXPECT_THAT(text, testing::Not(HasSubstr("initial ")));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  31 +stops by itself +u16 +read +.*midCAMend"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  words 9 to 12 +the table crosses low and high"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  word 14 +HFFFF turns a non-cyclic cam cyclic"));
+  EXPECT_THAT(text,
+              testing::ContainsRegex("\n  thresholds beyond the table +the manual does not limit them"));
+  const auto json = nlohmann::json::parse(printed("DECAM", true));
+  EXPECT_EQ(json.at("readings").size(), devices::lx3vp::block_readings().size());
+  EXPECT_THAT(printed("ECAMTBX", false), testing::ContainsRegex("\n  P6 high 3 +midCAMend: the cam stops"));
+  EXPECT_THAT(printed("LX3VP", false), testing::ContainsRegex("\n  STL +SET and OUT of a state"));
 }
 
 TEST(Lx3vpTables, EcamtbxHasItsListsAndResults) {

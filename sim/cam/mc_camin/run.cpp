@@ -122,6 +122,9 @@ std::vector<CamPoint> sample_cam_in(const CamInRun& run, bool both_sides) {
           std::abs(after.slave + onward - last.slave) > 0.01 ||
           std::abs(after.velocity - last.velocity) > 1e-9 * std::max(1.0, std::abs(last.velocity));
       if (is_last || both_sides || jumps) points.push_back(last);
+      // A row that is held ends where the next one begins: the end of the run is the next turn's first.
+      if (is_last && jumps && run.curve.segments[i].step)
+        points.push_back(point_at(run, pass + 1, 0, run.begin_of(0)));
     }
   }
   return points;
@@ -133,9 +136,12 @@ std::vector<CamPoint> sample_cam_in_at(const CamInRun& run, std::vector<double> 
   for (const double master : masters) {
     const int pass = std::clamp(static_cast<int>(std::floor(master / run.curve.modulo)), 0, run.loops - 1);
     const double x = master - pass * run.curve.modulo;
-    const std::size_t segment =
-        x < run.curve.modulo ? segment_at(run.curve, x) : run.curve.segments.size() - 1;
-    points.push_back(point_at(run, pass, segment, x));
+    if (x < run.curve.modulo)
+      points.push_back(point_at(run, pass, segment_at(run.curve, x), x));
+    else if (run.curve.segments.back().step)
+      points.push_back(point_at(run, pass + 1, 0, run.begin_of(0)));
+    else
+      points.push_back(point_at(run, pass, run.curve.segments.size() - 1, x));
     points.back().master = master;
   }
   return points;

@@ -1,0 +1,183 @@
+#include "devices/lx3vp/il_lines.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "devices/text.hpp"
+
+namespace drycut::devices::lx3vp::il {
+
+namespace {
+
+/// As one byte a character: instruction lists are ASCII but for their comments.
+std::string decoded(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const bool low_first = text.starts_with("\xFF\xFE");
+  if (!low_first && !text.starts_with("\xFE\xFF")) return std::string(text);
+  std::string result;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    const char low = text[low_first ? i : i + 1];
+    const char high = text[low_first ? i + 1 : i];
+    const bool is_ascii = high == 0 && low > 0;
+    result += is_ascii ? low : '?';
+  }
+  return result;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+bool is_gap(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
+
+void append_words(std::string_view text, int line, int column, Statement& words) {
+  for (std::size_t i = 0; i < text.size();) {
+    if (is_gap(text[i])) {
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    while (end < text.size() && !is_gap(text[end])) ++end;
+    words.push_back({std::string(text.substr(i, end - i)), line, column + static_cast<int>(i)});
+    i = end;
+  }
+}
+
+// Lines.
+
+bool is_step_number(std::string_view word) {
+  if (word.ends_with(':')) word.remove_suffix(1);
+  return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Takes brackets off around the words; they are told if they do not match.
+void take_brackets(Statement& words, const TellLine& tell) {
+  const Word first = words.front();
+  const bool opens = first.text.front() == '[';
+  const bool closes = words.back().text.ends_with(']');
+  if (!opens && !closes) return;
+  if (opens != closes) {
+    tell(first.line, first.column, opens ? "'[' is not closed" : "']' was not opened", "write [MOV K5 D0]");
+    words.clear();
+    return;
+  }
+  words.back().text.pop_back();
+  words.front().text.erase(0, 1);
+  ++words.front().column;
+  std::erase_if(words, [](const Word& word) { return word.text.empty(); });
+  if (words.empty())
+    tell(first.line, first.column, "there is nothing between the brackets", "write [MOV K5 D0]");
+}
+
+Statement statement_of(std::string_view line, int number, const TellLine& tell) {
+  line = line.substr(0, std::min({line.find(';'), line.find("//"), line.size()}));
+  Statement words;
+  append_words(line, number, 1, words);
+  if (words.size() > 1 && is_step_number(words.front().text)) words.erase(words.begin());
+  if (!words.empty()) take_brackets(words, tell);
+  return words;
+}
+
+// Tables.
+
+struct Cell {
+  std::string text;
+  int column = 1;
+};
+
+std::vector<Cell> cells_of(std::string_view line, char separator) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<Cell> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    auto& cell = cells.back();
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cell.text += line[i++];
+    } else if (line[i] == '"') {
+      quoted = !quoted;
+      if (quoted && cell.text.empty()) cell.column = static_cast<int>(i) + 2;
+    } else if (line[i] == separator && !quoted) {
+      cells.push_back({{}, static_cast<int>(i) + 2});
+    } else {
+      cell.text += line[i];
+    }
+  }
+  return cells;
+}
+
+/// Where a table has what.
+struct Columns {
+  char separator = ',';
+  std::size_t heading = 0;  ///< its line, from 0
+  std::size_t instruction = 0;
+  std::size_t operand = 0;
+};
+
+std::optional<Columns> columns_of(const std::vector<std::string_view>& lines) {
+  constexpr std::size_t most = 20;  // titles before the heading
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) {
+    for (const char separator : {'\t', ',', ';'}) {
+      const auto cells = cells_of(lines[i], separator);
+      Columns columns{separator, i, cells.size(), cells.size()};
+      for (std::size_t c = cells.size(); c-- > 0;) {
+        const auto name = upper(cells[c].text);
+        if (name == "INSTRUCTION") columns.instruction = c;
+        if (name.starts_with("I/O") || name.starts_with("DEVICE") || name.starts_with("OPERAND"))
+          columns.operand = c;
+      }
+      if (columns.instruction < cells.size() && columns.operand < cells.size()) return columns;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const Columns& columns,
+                               const TellLine& tell) {
+  std::vector<Statement> statements;
+  for (std::size_t i = columns.heading + 1; i < lines.size(); ++i) {
+    const auto cells = cells_of(lines[i], columns.separator);
+    const int line = static_cast<int>(i) + 1;
+    const auto take = [&](std::size_t column, Statement& words) {
+      if (column < cells.size()) append_words(cells[column].text, line, cells[column].column, words);
+    };
+    Statement words;
+    take(columns.instruction, words);
+    const bool continues = words.empty();
+    take(columns.operand, words);
+    if (words.empty()) continue;  // a note or a title
+    if (!continues)
+      statements.push_back(std::move(words));
+    else if (!statements.empty())
+      statements.back().insert(statements.back().end(), words.begin(), words.end());
+    else
+      tell(line, words.front().column, "an operand stands before the first instruction",
+           "name the instruction in its column");
+  }
+  return statements;
+}
+
+}  // namespace
+
+std::vector<Statement> statements_of(std::string_view text, const TellLine& tell) {
+  const auto plain = decoded(text);
+  const auto lines = lines_of(plain);
+  if (const auto columns = columns_of(lines)) return rows_of(lines, *columns, tell);
+  std::vector<Statement> statements;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (auto words = statement_of(lines[i], static_cast<int>(i) + 1, tell); !words.empty())
+      statements.push_back(std::move(words));
+  return statements;
+}
+
+bool is_table(std::string_view text) {
+  const auto plain = decoded(text);
+  return columns_of(lines_of(plain)).has_value();
+}
+
+}  // namespace drycut::devices::lx3vp::il

@@ -1,0 +1,140 @@
+// Shifts, rotations and conversions of whole numbers.
+#include <cmath>
+#include <vector>
+
+#include "devices/lx3vp/il_call.hpp"
+#include "devices/lx3vp/il_operands.hpp"
+
+namespace drycut::devices::lx3vp::il {
+
+namespace {
+
+constexpr int most_shifted = 1024;  // FX
+constexpr int most_averaged = 64;   // FX
+
+/// Whether `count` devices from a bit on exist.
+void need_bits(const Call& call, std::size_t i, int count) {
+  const Operand& first = call.operand(i);
+  Operand last = first;
+  last.number += count - 1;
+  if (!exists(last))
+    throw RuntimeError(bad_operand,
+                       fmt::format("{} devices from {} on go beyond what there is", count, to_string(first)));
+}
+
+/// SFTL and SFTR: n1 bits from D on move by n2; what becomes free is filled from S on.
+void shift(Call& call, bool up) {
+  const int length = call.count(2, most_shifted);
+  const int by = call.count(3, most_shifted);
+  if (by > length)
+    throw RuntimeError(bad_operand, fmt::format("{} bits of {} are to be shifted", by, length));
+  need_bits(call, 0, by);
+  need_bits(call, 1, length);
+  auto& registers = call.registers();
+  const auto bit = [&](std::size_t i, int n) {
+    Operand device = call.operand(i);
+    device.number += n;
+    return device;
+  };
+  // Taken before anything moves: S and D may overlap.
+  std::vector<bool> bits;
+  for (int n = 0; n < by; ++n) bits.push_back(read_bit(registers, bit(0, n)));
+  const auto kept_from = up ? 0 : by;
+  std::vector<bool> kept;
+  for (int n = 0; n < length - by; ++n) kept.push_back(read_bit(registers, bit(1, kept_from + n)));
+  bits.insert(up ? bits.end() : bits.begin(), kept.begin(), kept.end());
+  for (int n = 0; n < length; ++n) write_bit(registers, bit(1, n), bits[static_cast<std::size_t>(n)]);
+}
+
+/// ROL and ROR: what leaves at one end comes in at the other.
+void rotate(Call& call, bool left) {
+  const int width = call.wide() ? 32 : 16;
+  const int by = call.count(1, width);
+  const std::uint64_t mask = (std::uint64_t{1} << width) - 1;
+  const auto bits = static_cast<std::uint64_t>(call.value(0)) & mask;
+  const int to_left = left ? by : width - by;
+  const auto turned = (bits << to_left | bits >> (width - to_left)) & mask;
+  call.set(0, static_cast<std::int32_t>(static_cast<std::uint32_t>(turned)));
+  call.set_flag(carry_flag, (turned >> (left ? 0 : width - 1) & 1) != 0);
+}
+
+/// Four bits a digit: four digits, of a 32-bit number eight.
+int digits_of(const Call& call) { return call.wide() ? 8 : 4; }
+
+void to_decimal_digits(Call& call) {
+  const std::int64_t most = call.wide() ? 99'999'999 : 9999;
+  std::int64_t rest = call.value(0);
+  if (rest < 0 || rest > most)
+    throw RuntimeError(bad_operand, fmt::format("{} has no BCD; it goes from 0 to {}", rest, most));
+  std::uint32_t digits = 0;
+  for (int i = 0; i < digits_of(call); ++i, rest /= 10)
+    digits |= static_cast<std::uint32_t>(rest % 10) << 4 * i;
+  call.set(1, static_cast<std::int32_t>(digits));
+}
+
+void from_decimal_digits(Call& call) {
+  const auto digits = static_cast<std::uint32_t>(call.value(0));
+  std::int32_t number = 0;
+  for (int i = digits_of(call) - 1; i >= 0; --i) {
+    const auto digit = digits >> 4 * i & 0xF;
+    if (digit > 9)
+      throw RuntimeError(bad_operand, fmt::format("H{:X} is no BCD: it has a digit {:X}",
+                                                  call.wide() ? digits : digits & 0xFFFF, digit));
+    number = number * 10 + static_cast<std::int32_t>(digit);
+  }
+  call.set(1, number);
+}
+
+void average(Call& call) {
+  const int count = call.count(2, most_averaged);
+  const Operand& first = call.operand(0);
+  const bool is_bits = first.kind == Kind::bits;
+  const bool two_words =
+      call.wide() && !is_bits && !(first.kind == Kind::C && first.number >= first_wide_counter);
+  const int stride = is_bits ? 4 * first.count : two_words ? 2 : 1;
+  Operand last = first;
+  last.number += stride * count - 1;
+  if (!exists(last))
+    throw RuntimeError(bad_operand,
+                       fmt::format("{} values from {} on go beyond what there is", count, to_string(first)));
+  std::int64_t sum = 0;
+  for (int i = 0; i < count; ++i) {
+    Operand value = first;
+    value.number += stride * i;
+    sum += read_value(call.registers(), value, call.wide());
+  }
+  call.set(1, static_cast<std::int32_t>(sum / count));
+}
+
+void square_root(Call& call) {
+  const std::int32_t square = call.value(0);
+  if (square < 0) throw RuntimeError(bad_operand, fmt::format("{} has no square root", square));
+  // Exact: a double holds all of 32 bit.
+  const auto root = static_cast<std::int32_t>(std::sqrt(static_cast<double>(square)));
+  call.set(1, root);
+  call.set_flag(zero_flag, root == 0);
+  call.set_flag(borrow_flag, root * root != square);
+}
+
+}  // namespace
+
+void apply_shifts(Call& call, Op op) {
+  switch (op) {
+    case Op::sftl:
+    case Op::sftr:
+      return shift(call, op == Op::sftl);
+    case Op::rol:
+    case Op::ror:
+      return rotate(call, op == Op::rol);
+    case Op::bcd:
+      return to_decimal_digits(call);
+    case Op::bin:
+      return from_decimal_digits(call);
+    case Op::mean:
+      return average(call);
+    default:
+      return square_root(call);
+  }
+}
+
+}  // namespace drycut::devices::lx3vp::il

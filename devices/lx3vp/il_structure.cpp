@@ -1,0 +1,278 @@
+#include "devices/lx3vp/il_structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "devices/lx3vp/registers.hpp"
+
+namespace drycut::devices::lx3vp::il {
+
+namespace {
+
+constexpr std::size_t most_loops = 5;   // FX: FOR in each other
+constexpr std::size_t most_joined = 8;  // FX: STL in a row
+constexpr int end_label = 63;           // FX: P63 is END
+
+class Structure {
+ public:
+  Structure(Program& program, const Labels& labels, const TellAt& tell)
+      : steps_(program.steps), labels_(labels), tell_(tell), places_(steps_.size()) {
+    program.states.assign(states, false);
+    states_ = &program.states;
+  }
+
+  void join() {
+    for (place_ = 0; place_ < steps_.size(); ++place_) visit(steps_[place_]);
+    if (!steps_.empty() && steps_.back().op() != Op::end) close_all("the end of the text");
+    for (place_ = 0; place_ < steps_.size(); ++place_)
+      if (const Op op = steps_[place_].op(); op == Op::cj || op == Op::call) aim(steps_[place_]);
+  }
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// What is around a step.
+  struct Place {
+    std::size_t loop = none;   ///< place of the FOR
+    std::size_t state = none;  ///< place of the STL
+    std::size_t part = 0;      ///< of the program: FEND, SRET and END end one
+  };
+  struct Part {
+    bool subroutine = false;  ///< it ends with SRET
+  };
+  struct Master {
+    int nesting = 0;
+    const Step* step = nullptr;
+  };
+
+  void tell(const Step& step, std::string what, std::string remedy) {
+    tell_(step.line, step.column, std::move(what), std::move(remedy));
+  }
+
+  void visit(Step& step) {
+    step.depth = static_cast<int>(loops_.size());
+    places_[place_] = {loops_.empty() ? none : loops_.back(), state_, parts_.size()};
+    switch (step.op()) {
+      case Op::for_:
+        if (loops_.size() == most_loops)
+          tell(step, fmt::format("FOR stands inside {} others", most_loops),
+               fmt::format("no more than {} FORs in each other", most_loops));
+        loops_.push_back(place_);
+        break;
+      case Op::next:
+        end_loop(step);
+        break;
+      case Op::mc:
+        begin_master(step);
+        break;
+      case Op::mcr:
+        end_master(step);
+        break;
+      case Op::stl:
+        begin_state(step);
+        break;
+      case Op::ret:
+        refuse_in_loop(step);
+        if (state_ == none) tell(step, "RET has no STL before it", "begin a step of a sequence with STL");
+        end_state(place_);
+        break;
+      case Op::sret:
+        if (parts_.empty()) tell(step, "SRET stands in the main program", "put subroutines behind FEND");
+        end_part(step, true);
+        break;
+      case Op::fend:
+      case Op::end:
+        end_part(step, false);
+        break;
+      default:
+        break;
+    }
+  }
+
+  // Loops.
+
+  void end_loop(Step& step) {
+    if (loops_.empty()) return tell(step, "NEXT has no FOR", "begin what is repeated with FOR");
+    steps_[loops_.back()].target = static_cast<int>(place_);
+    loops_.pop_back();
+  }
+
+  void refuse_in_loop(const Step& step) {
+    if (loops_.empty()) return;
+    tell(step,
+         fmt::format("{} stands between FOR in line {} and its NEXT", step.spelling->text,
+                     steps_[loops_.back()].line),
+         "loops hold no master contacts and no steps of sequences");
+  }
+
+  // Master contacts.
+
+  void refuse_in_state(const Step& step) {
+    if (state_ != none)
+      tell(step, fmt::format("{} stands inside the step {}", step.spelling->text, state_name()),
+           "end the sequence with RET before");
+  }
+
+  void begin_master(const Step& step) {
+    note_main_only();
+    refuse_in_loop(step);
+    refuse_in_state(step);
+    if (step.operands.empty()) return;
+    const auto& nesting = step.operands[0];
+    if (!masters_.empty() && nesting.number <= masters_.back().nesting)
+      tell(step,
+           fmt::format("MC {} stands inside N{} of line {}", to_string(nesting), masters_.back().nesting,
+                       masters_.back().step->line),
+           "inner master contacts have the higher number");
+    masters_.push_back({nesting.number, &step});
+  }
+
+  void end_master(const Step& step) {
+    refuse_in_loop(step);
+    refuse_in_state(step);
+    if (step.operands.empty()) return;
+    const auto& nesting = step.operands[0];
+    const auto opens = std::find_if(masters_.begin(), masters_.end(),
+                                    [&](const Master& master) { return master.nesting == nesting.number; });
+    if (opens == masters_.end())
+      return tell(step, fmt::format("MCR {0} has no MC {0}", to_string(nesting)), "begin it with MC");
+    masters_.erase(opens, masters_.end());
+  }
+
+  // Sequences.
+
+  [[nodiscard]] std::string state_name() const { return to_string(steps_[state_].operands[0]); }
+
+  void begin_state(Step& step) {
+    refuse_in_loop(step);
+    if (!masters_.empty())
+      tell(step, fmt::format("STL stands inside MC of line {}", masters_.back().step->line),
+           "end the master contact with MCR before");
+    note_main_only();
+    if (step.operands.empty()) return;
+    const auto state = static_cast<std::size_t>(step.operands[0].number);
+    if ((*states_)[state])
+      tell(step, fmt::format("there is an STL {} already", to_string(step.operands[0])),
+           "give each step of a sequence one STL");
+    (*states_)[state] = true;
+    const bool joins = state_ != none && place_ > 0 && steps_[place_ - 1].op() == Op::stl;
+    if (!joins) {
+      end_state(place_);
+      state_ = place_;
+      return;
+    }
+    auto& first = steps_[state_];
+    if (first.operands.size() == most_joined)
+      tell(step, fmt::format("more than {} STL in a row", most_joined), "join fewer steps of a sequence");
+    first.operands.push_back(step.operands[0]);
+    step.memory = -1;  // the first does the work
+  }
+
+  void end_state(std::size_t behind) {
+    if (state_ != none) steps_[state_].target = static_cast<int>(behind);
+    state_ = none;
+  }
+
+  // Parts of the program.
+
+  void close_all(std::string_view where) {
+    for (const auto loop : loops_)
+      tell(steps_[loop], fmt::format("FOR has no NEXT before {}", where), "end what is repeated with NEXT");
+    for (const auto& master : masters_)
+      tell(*master.step, fmt::format("MC N{0} has no MCR N{0} before {1}", master.nesting, where),
+           fmt::format("end it with MCR N{}", master.nesting));
+    if (state_ != none)
+      tell(steps_[state_], fmt::format("the sequence with {} has no RET before {}", state_name(), where),
+           "end the last step of a sequence with RET");
+    end_state(place_);
+    loops_.clear();
+    masters_.clear();
+  }
+
+  void note_main_only() {
+    if (!parts_.empty() && main_only_ == none) main_only_ = place_;
+  }
+
+  void end_part(const Step& step, bool subroutine) {
+    if (subroutine && main_only_ != none)
+      tell(steps_[main_only_], fmt::format("{} stands in a subroutine", steps_[main_only_].spelling->text),
+           "put master contacts and sequences into the main program");
+    main_only_ = none;
+    close_all(fmt::format("{} in line {}", step.spelling->text, step.line));
+    parts_.push_back({subroutine});
+  }
+
+  [[nodiscard]] bool is_subroutine(std::size_t part) const {
+    return part < parts_.size() && parts_[part].subroutine;
+  }
+
+  // Jumps.
+
+  void aim(Step& step) {
+    if (step.operands.empty() || step.operands[0].kind != Kind::label) return;
+    const auto& name = step.operands[0];
+    const auto refuse = [&](std::string what, std::string remedy) {
+      tell_(name.line, name.column, std::move(what), std::move(remedy));
+    };
+    const auto found = labels_.find(name.number);
+    const bool calls = step.op() == Op::call;
+    if (found == labels_.end() && name.number == end_label && !calls) {
+      step.target = static_cast<int>(steps_.size()) - 1;
+      return;
+    }
+    if (found == labels_.end())
+      return refuse(fmt::format("there is no label {}", to_string(name)), "give it a line of its own");
+    step.target = static_cast<int>(found->second.place);
+    const Place& from = places_[place_];
+    const Place& to = places_[found->second.place];
+    if (calls) {
+      if (!is_subroutine(to.part))
+        refuse(fmt::format("{} in line {} is no subroutine: it has no SRET", to_string(name),
+                           found->second.line),
+               "put it behind FEND and end it with SRET");
+      else if (to.loop != none)
+        refuse(fmt::format("{} stands between FOR in line {} and its NEXT", to_string(name),
+                           steps_[to.loop].line),
+               "call a subroutine at its beginning");
+      return;
+    }
+    if (is_subroutine(from.part) != is_subroutine(to.part))
+      refuse(fmt::format("CJ jumps {} a subroutine", is_subroutine(to.part) ? "into" : "out of"),
+             is_subroutine(to.part) ? "use CALL" : "leave it by SRET");
+    else if (!is_around(to.loop, place_))
+      refuse(fmt::format("CJ jumps between FOR in line {} and its NEXT", steps_[to.loop].line),
+             "begin the loop at its FOR");
+    else if (from.state != to.state)
+      refuse(fmt::format("CJ jumps {} a step of a sequence", to.state == none ? "out of" : "into"),
+             "go on to another step with SET");
+  }
+
+  /// Whether the loop that begins at `loop` is around a place.
+  [[nodiscard]] bool is_around(std::size_t loop, std::size_t place) const {
+    return loop == none || (place > loop && place <= static_cast<std::size_t>(steps_[loop].target));
+  }
+
+  std::vector<Step>& steps_;
+  const Labels& labels_;
+  const TellAt& tell_;
+  std::vector<Place> places_;
+  std::vector<bool>* states_ = nullptr;
+  std::size_t place_ = 0;
+  std::vector<std::size_t> loops_;  ///< places of the FORs around
+  std::vector<Master> masters_;
+  std::size_t state_ = none;      ///< place of the STL around
+  std::size_t main_only_ = none;  ///< place of the first STL or MC in this part, behind the first FEND
+  std::vector<Part> parts_;
+};
+
+}  // namespace
+
+void join_structure(Program& program, const Labels& labels, const TellAt& tell) {
+  Structure(program, labels, tell).join();
+}
+
+}  // namespace drycut::devices::lx3vp::il
