@@ -35,11 +35,7 @@ TEST_P(DeviceCommands, RandomSequencesBreakNoLawAndEndInAStart) {
 
 TEST_P(DeviceCommands, AMillionSamplesAtAGigahertzAreCountedToTheBit) {
   DevicePlayer player(entry(), 1, 2);
-  const auto write = [&](std::string_view name, std::int32_t value) {
-    if (const auto symbol = devices::find_symbol(player.type, name)) player.device->write(*symbol, value);
-  };
-  for (const char* one : {"measure", "pulse", "measurem", "pulsem", "unitvel"}) write(one, 1);
-  write("cntratio", 400000);
+  player.set_up();
   for (const char* name : {"INIT", "LOOPON", "CNTUNLOCK"}) player.command(name);
   player.device->sample();
   constexpr std::int64_t bits = 1'000'000;  // a sample

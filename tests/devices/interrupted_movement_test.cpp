@@ -47,23 +47,19 @@ constexpr const char* interruptions[] = {"STOP",   "EMRG",   "LOOPOFF", "LOOPON"
 class Axis : public fuzz::DevicePlayer {
  public:
   explicit Axis(const CatalogueEntry& entry) : DevicePlayer(entry, period, 2) {
-    set({{"measure", 1},   {"pulse", 1},     {"measurem", 1},  {"pulsem", 1},    {"cntratio", 400000},
-         {"unitvel", 1},   {"maxvel", 5000}, {"tacc", 10},     {"tdec", 10},     {"taccdec", 10},
-         {"minpos", -999}, {"maxpos", 999},  {"feedfw", 1000}, {"pgain", 500},   {"setvel", 2000},
-         {"prsvel", 2000}, {"sprsvel", 500}, {"toll", 3},      {"tollp", 400},   {"tolln", 400},
-         {"slowpos", 60},  {"slowdly", 4},   {"tbrake", 3},    {"toldly", 5},    {"tinvt", 2},
-         {"prspos", 30},   {"enstol", 1},    {"codeG1", 131},  {"codeQm1", 100}, {"codeQs1", 50},
-         {"codeG2", 135},  {"codeQm2", 100}, {"codeQs2", 50},  {"codeG3", 136}});
+    set_up();
+    set({{"codeG1", 131},
+         {"codeQm1", 100},
+         {"codeQs1", 50},
+         {"codeG2", 135},
+         {"codeQm2", 100},
+         {"codeQs2", 50},
+         {"codeG3", 136}});
     switch_on();
   }
 
-  void set(const std::vector<std::pair<const char*, std::int32_t>>& values) {
-    for (const auto& [name, value] : values)
-      if (const auto symbol = find_symbol(type, name)) device->write(*symbol, value);
-  }
-  [[nodiscard]] bool has(std::string_view name) const { return find_command(type, name).has_value(); }
   void begin(const Movement& movement) {
-    set(movement.parameters);
+    for (const auto& parameter : movement.parameters) set({parameter});
     for (const char* name : movement.commands) command(name);
     if (movement.then == nullptr) return;
     ticks(movement.runs);

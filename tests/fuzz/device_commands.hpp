@@ -3,11 +3,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "devices/camming4/codes.hpp"
 #include "devices/catalogue.hpp"
 
 // Bytes played as what can happen to a device inside a controller: writes and commands of a program, counts,
@@ -74,8 +78,37 @@ class DevicePlayer {
   DevicePlayer(const devices::CatalogueEntry& entry, int period_ms, int slot)
       : type(*entry.type), device(entry.make(wired(type, period_ms, slot), cards)) {}
 
+  /// Writes values by name, those that the device has.
+  void set(std::initializer_list<std::pair<std::string_view, std::int32_t>> values) {
+    for (const auto& [name, value] : values)
+      if (const auto symbol = devices::find_symbol(type, name)) device->write(*symbol, value);
+  }
+  /// The parameters of a small machine: 1 Um is 1 bit, 10 V are 5000 Um/s.
+  void set_up() {
+    set({{"measure", 1},   {"pulse", 1},     {"measurem", 1},  {"pulsem", 1},  {"cntratio", 400000},
+         {"unitvel", 1},   {"maxvel", 5000}, {"tacc", 10},     {"tdec", 10},   {"taccdec", 10},
+         {"minpos", -999}, {"maxpos", 999},  {"feedfw", 1000}, {"pgain", 500}, {"setvel", 2000},
+         {"prsvel", 2000}, {"sprsvel", 500}, {"toll", 3},      {"tollp", 400}, {"tolln", 400},
+         {"slowpos", 60},  {"slowdly", 4},   {"tbrake", 3},    {"toldly", 5},  {"tinvt", 2},
+         {"prspos", 30},   {"enstol", 1}});
+  }
+  /// A cam of any sectors.
+  void set_up_cam(Bytes& bytes) {
+    for (const char row : {'1', '2', '3', '4', '5', '6'}) {
+      const auto& codes = devices::camming4::codes;
+      const auto name = [&](std::string_view column) { return std::string(column) + row; };
+      set({{name("codeG"), codes.at(static_cast<std::size_t>(bytes.below(codes.size()))).code},
+           {name("codeQm"), bytes.byte()},
+           {name("codeQs"), bytes.small()},
+           {name("codeQma"), bytes.byte()},
+           {name("codeQsa"), bytes.small()}});
+    }
+  }
+
   /// Plays all `bytes`; the first law that the device broke, or "".
   std::string play(Bytes& bytes) {
+    if (bytes.byte() % 4 != 0) set_up();
+    set_up_cam(bytes);
     std::string broken;
     while (bytes.left() && broken.empty()) broken = happen(bytes);
     return broken;
@@ -83,10 +116,11 @@ class DevicePlayer {
 
   /// Ends whatever runs as the manuals say, and asks for a START: "" if it is taken, else why not.
   std::string start_again() {
-    for (const char* step : {"INIT", "EMRG", "STOP", "RSERR", "RESUME", "CALOFF", "REGON"}) {
+    for (const char* step : {"INIT", "EMRG", "STOP"}) {
       command(step);
       sample();
     }
+    get_ready();
     // An on/off axis has no EMRG: STOP ends after toldly, at most 327.67 s.
     for (int ms = 0; get("st_still") == 0 && ms < 330'000; ms += device->period_ms()) sample();
     static_cast<void>(device->take_diagnostics());
@@ -103,8 +137,10 @@ class DevicePlayer {
   void command(std::string_view name) {
     if (const auto row = devices::find_command(type, name)) device->command(*row);
   }
-  /// One sampling, the axis where the output drives it.
+  /// One sampling, the axis where the output drives it, the master on its way.
   void sample() {
+    for (auto counter = std::next(cards.counters.begin()); counter != cards.counters.end(); ++counter)
+      counter->second.count += master_;
     for (const auto& [address, dac] : cards.analogue_outputs) slave().count += dac.word / 64;
     if (cards.analogue_outputs.empty() && cards.outputs.size() > 1) {
       const auto on = [&](int number) { return cards.outputs.at({devices::Kind::output, 2, number}).level; };
@@ -119,6 +155,16 @@ class DevicePlayer {
 
  private:
   devices::Counter& slave() { return cards.counters.begin()->second; }
+
+  /// Out of the states in which nothing starts, as the manuals say.
+  void get_ready() {
+    for (const char* step : {"INIT", "RSERR", "RESUME", "CALOFF", "REGON", "LOOPON"}) {
+      command(step);
+      sample();
+    }
+  }
+
+  int master_ = 0;  ///< bits a sample of all counters but the first
 
   /// The next thing that the bytes say.
   std::string happen(Bytes& bytes) {
@@ -136,7 +182,7 @@ class DevicePlayer {
         device->command(bytes.below(type.commands.size()));
         return "";
       case 8:
-        std::next(cards.counters.begin(), bytes.below(cards.counters.size()))->second.count += bytes.small();
+        master_ = bytes.small();
         return "";
       case 9:
         std::next(cards.counters.begin(), bytes.below(cards.counters.size()))->second.count += bytes.number();
@@ -151,7 +197,9 @@ class DevicePlayer {
         return "";
       case 12:
         if (bytes.byte() % 8 == 0) device->power_up();
-        command("INIT");
+        get_ready();
+        command(
+            std::array{"START", "STARTCAM", "PRESET", "MANFW"}.at(static_cast<std::size_t>(bytes.below(4))));
         return "";
       default:
         for (int samples = 1 + bytes.byte() % 32; samples > 0; --samples) {
