@@ -69,7 +69,7 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& kind, const std::
   std::error_code error;
   fs::create_directories(folder_, error);
   if (folder_.empty() || error || !fs::is_directory(folder_)) {
-    refuse(fmt::format("the directory '{}' cannot be made{}{}", folder_.string(), error ? ": " : "",
+    refuse(fmt::format("the directory {} cannot be made{}{}", folder_.string(), error ? ": " : "",
                        error ? error.message() : ""),
            "name one that can be written");
     return;

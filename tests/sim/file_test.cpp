@@ -13,13 +13,13 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr auto* mark = "\xEF\xBB\xBF";
+const std::string mark = "\xEF\xBB\xBF";
 
 struct Files : CommandTest {
   void write(const fs::path& file, const std::string& text) {
-    OutputFile out(file);
-    out.write(text);
-    out.finish();
+    OutputFile written(file);
+    written.write(text);
+    written.finish();
   }
   std::string trouble(const fs::path& file) {
     try {
@@ -100,10 +100,10 @@ TEST_F(Files, AByteOrderMarkIsNoMatterInAnyKindOfFile) {
                            "cams/ecam_s_curve.csv", "cams/mc_stroke_80.csv", "cams/mc_rotary_knife.tab"}) {
     files.push_back(folder.file(fs::path(name).filename().string(), mark + content(scenes / name)));
   }
-  folder.file("axis.cnf", mark + std::string(tuning::configuration));
-  folder.file("axis.mod", mark + std::string(tuning::program));
+  folder.file("axis.cnf", mark + tuning::configuration);
+  folder.file("axis.mod", mark + tuning::program);
   files.push_back(folder.file("axis.yaml", mark + tuning::scenario));
-  files.push_back(folder.file("registers.csv", mark + std::string("D10,5\n")));
+  files.push_back(folder.file("registers.csv", mark + "D10,5\n"));
   EXPECT_EQ(check(files), all_passed) << err;
 }
 
@@ -122,15 +122,15 @@ TEST_F(Files, EscapesOfAScenarioCanMakeACharacterButNoControlCharacter) {
   folder.file("axis.cnf", tuning::configuration);
   folder.file("axis.mod", tuning::program);
   const auto file = [&](const std::string& name) {
-    return folder.file("axis.yaml", tuning::scenario + "checks: [{name: \"" + name +
+    return folder.file("axis.yaml", std::string(tuning::scenario) + "checks: [{name: \"" + name +
                                         "\", eventually: axis.position > 1}]\n");
   };
   EXPECT_EQ(check({file("half\\_way")}), all_passed) << err;
   EXPECT_EQ(check({file("half\\Nway")}), bad_input);
   EXPECT_THAT(err,
-              HasSubstr("axis.yaml:8:16: an escape makes what is no text: U+0085 is no text; leave it out"));
+              HasSubstr("axis.yaml:8:17: an escape makes what is no text: U+0085 is no text; leave it out"));
   EXPECT_EQ(check({file("\\e[31mred")}), bad_input);
-  EXPECT_THAT(err, HasSubstr("axis.yaml:8:16: an escape makes what is no text: byte 0x1b is no text"));
+  EXPECT_THAT(err, HasSubstr("axis.yaml:8:17: an escape makes what is no text: byte 0x1b is no text"));
   EXPECT_EQ(check({file("\\uD800")}), bad_input);
   EXPECT_THAT(err, HasSubstr("axis.yaml:8:"));
 }
