@@ -37,7 +37,7 @@ inline constexpr std::array language{
     LanguageRow{"+ - * /  EQ  AND OR NOT", "arithmetic in 32 bits, wraps; division cuts off; by 0: error 6"},
     LanguageRow{"% LT LE GT GE ANDB ORB XORB NOTB", "remainder, comparisons, bits", public_word},
     LanguageRow{"NEQ NE", "not equal", ours},
-    LanguageRow{"order of operators", "signs and NOT, * / %, + -, LT..GE, EQ NEQ, ANDB, XORB, ORB, AND, OR",
+    LanguageRow{"order of operators", "signs and NOT, * / %, + -, comparisons, ANDB, XORB, ORB, AND, OR",
                 "the manuals give no order; WAIT NOT a AND b of their programs reads (NOT a) AND b"},
     LanguageRow{"IF e / ELSE / ENDIF", "parentheses round e or none"},
     LanguageRow{"WAIT e",
