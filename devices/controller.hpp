@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
+#include "devices/value_range.hpp"
 
 namespace drycut::devices {
 
@@ -19,7 +19,7 @@ struct ControllerValue {
   std::string unit;
   std::function<double()> read;
   std::function<void(double)> write;  ///< empty if read-only; acts as a program's store does (device mailbox)
-  std::optional<std::pair<double, double>> range = {};  ///< that the manual gives, of a device's parameter
+  std::optional<ValueRange> range = {};  ///< of one that can be written: the manual's, of a parameter
 };
 
 /// Something that happened inside the controller: a refused command, a run-time error, a device warning.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "plants/axis_objections.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -164,17 +166,7 @@ namespace {
 
 using Objections = std::vector<PlantDefinition::Objection>;
 
-void object_to_servo(const ServoData& servo, Objections& found) {
-  if (servo.max_speed < servo.rated_speed)
-    found.push_back({"servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed"});
-  if (servo.peak_torque < servo.rated_torque)
-    found.push_back({"servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque"});
-  if (servo.torque_at_max_speed > servo.peak_torque)
-    found.push_back(
-        {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
-}
-
-void object_to_winding(const WindingData& data, const std::string& prefix, double inertia, double step,
+void object_to_winding(const WindingData& data, const std::string& prefix, double inertia, double h,
                        Objections& found) {
   if (data.rated_speed >= data.synchronous_speed) {
     found.push_back({prefix + "rated_speed", "it is not below synchronous_speed: no torque without slip",
@@ -186,28 +178,21 @@ void object_to_winding(const WindingData& data, const std::string& prefix, doubl
         {prefix + "pullout_torque", "it is not above rated_torque", "1.6 to 3 times rated_torque"});
     return;
   }
-  // The curve is steepest at no slip; explicit steps follow a time constant longer than a step.
-  const double steepness = 2 * data.pullout_torque / Winding(data).pullout_slip();
-  if (steepness * step > inertia)
-    found.push_back(
-        {prefix + "rated_speed",
-         fmt::format("{:.4g} N m s/rad of torque over slip pull the rotor faster than steps of 100 "
-                     "us can follow",
-                     steepness),
-         "more slip at rated torque or more inertia"});
+  // The curve is steepest at no slip.
+  AxisObjections steep("rotor", h);
+  steep.damper(prefix + "rated_speed", 2 * data.pullout_torque / Winding(data).pullout_slip(), inertia,
+               "field and rotor");
+  for (auto& objection : steep.take()) found.push_back(std::move(objection));
 }
 
 }  // namespace
 
-Objections axis_drive_objections(const AxisDriveData& data, double inertia, double usual_step) {
+Objections axis_drive_objections(const AxisDriveData& data, double inertia, double h) {
+  if (data.kind == "servo") return servo_objections(data.servo, inertia, h);
   Objections found;
-  if (data.kind == "servo") {
-    object_to_servo(data.servo, found);
-    return found;
-  }
-  object_to_winding(data.motor.winding, "induction_motor.", inertia, usual_step, found);
+  object_to_winding(data.motor.winding, "induction_motor.", inertia, h, found);
   if (data.kind == "contactors") {
-    object_to_winding(data.contactors.slow, "contactors.slow.", inertia, usual_step, found);
+    object_to_winding(data.contactors.slow, "contactors.slow.", inertia, h, found);
     return found;
   }
   const auto frequency = [&](const char* name, double hertz) {

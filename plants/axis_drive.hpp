@@ -26,9 +26,10 @@ struct AxisDriveData {
 
 /// Rows for a parameter table: `drive`, `servo.`, `induction_motor.`, `inverter.`, `contactors.`, `brake.`.
 Parameters axis_drive_parameters(AxisDriveData& data);
-/// What is wrong with the data taken together; `usual_step` [s], `inertia` that turns with the motor [kg m2].
+/// What is wrong with the data taken together; `inertia` turns with the motor [kg m2], steps of `h`
+/// seconds.
 std::vector<PlantDefinition::Objection> axis_drive_objections(const AxisDriveData& data, double inertia,
-                                                              double usual_step);
+                                                              double h);
 
 class AxisDrive {
  public:

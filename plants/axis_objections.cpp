@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace drycut::plants {
@@ -10,30 +12,36 @@ void AxisObjections::object(std::string_view parameter, std::string what, std::s
   found_.push_back({std::string(parameter), std::move(what), std::move(remedy)});
 }
 
+void AxisObjections::pair(std::string_view stiffness, std::string_view damping, const StiffPair& pair,
+                          std::string_view pair_name) {
+  const double spring = longest_step_of_spring(pair);
+  const double damper = longest_step_of_damper(pair);
+  const double longest = std::min(spring, damper);
+  if (h_ <= longest * (1 + 1e-9)) return;  // a step at the bound, whatever the last digit says
+  const double hertz = std::sqrt(pair.stiffness / pair.inertia) / (2 * std::numbers::pi);
+  const auto motion = spring <= damper
+                          ? fmt::format("oscillate at {:.4g} Hz", hertz)
+                          : fmt::format("settle in {:.3g} us", pair.inertia / pair.damping * 1e6);
+  object(spring <= damper ? stiffness : damping,
+         fmt::format("{} {}, steps of {:g} us cannot follow", pair_name, motion, h_ * 1e6),
+         fmt::format("{}, or softer, less damped, heavier parts", step_remedy(longest)));
+}
+
 void AxisObjections::gear(const TransmissionData& gear, double motor_inertia, double load_inertia) {
-  if (stable(gear, motor_inertia, load_inertia, usual_step)) return;
-  object("gear.stiffness",
-         fmt::format("motor and {} oscillate at {:.0f} Hz, or are damped so hard that steps of 100 us cannot "
-                     "follow",
-                     what_moves_, resonance(gear, motor_inertia, load_inertia) / (2 * std::numbers::pi)),
-         "a softer gear, less damping or more inertia");
+  pair("gear.stiffness", "gear.damping",
+       {gear.stiffness, gear.damping, reduced(motor_inertia * gear.ratio * gear.ratio, load_inertia)},
+       fmt::format("motor and {}", what_moves_));
 }
 
 void AxisObjections::viscous(std::string_view parameter, const Friction& friction, double inertia,
-                             std::string_view unit) {
-  if (friction.viscous * usual_step <= inertia) return;
-  object(parameter,
-         fmt::format("{:g} {} brakes faster than steps of 100 us can follow", friction.viscous, unit),
-         fmt::format("at most {:g} {}", inertia / usual_step, unit));
+                             std::string_view part) {
+  damper(parameter, friction.viscous, inertia, fmt::format("{} and its friction", part));
 }
 
-// Stiff spring and damper on a mass, explicit steps: k h2 + 2 c h < 4 m.
-void AxisObjections::contact(std::string_view parameter, const EndStopData& stop, double mass,
+void AxisObjections::contact(const std::string& group, const EndStopData& stop, double mass,
                              std::string_view what) {
-  if (stop.stiffness * usual_step * usual_step + 2 * stop.damping * usual_step < 4 * mass) return;
-  object(parameter,
-         fmt::format("the {} bounces off the {} faster than steps of 100 us can follow", what_moves_, what),
-         fmt::format("a softer {}, less damping or more mass", what));
+  pair(group + ".stiffness", group + ".damping", {stop.stiffness, stop.damping, mass},
+       fmt::format("{} and {}", what_moves_, what));
 }
 
 void AxisObjections::travel(double travel_min, double travel_max, double start) {
@@ -51,6 +59,13 @@ void AxisObjections::limit_switches(double limit_min, double limit_max) {
 
 void AxisObjections::add(std::vector<PlantDefinition::Objection> more) {
   for (auto& objection : more) found_.push_back(std::move(objection));
+}
+
+std::string step_remedy(double longest) {
+  // 1, 2 or 5 of a decade divides the periods of controllers and records.
+  const double decade = std::pow(10, std::floor(std::log10(longest * 1e9)));
+  const double ns = decade * (longest * 1e9 >= 5 * decade ? 5 : longest * 1e9 >= 2 * decade ? 2 : 1);
+  return fmt::format("scene.step of at most {:g} us", ns / 1e3);
 }
 
 }  // namespace drycut::plants

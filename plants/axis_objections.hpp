@@ -7,29 +7,35 @@
 #include "plants/end_stop.hpp"
 #include "plants/friction.hpp"
 #include "plants/plant.hpp"
+#include "plants/stiff_pair.hpp"
 #include "plants/transmission.hpp"
 
 namespace drycut::plants {
 
-// What every axis on a gear objects to when its data are taken together: motions that are too fast for the
-// usual step, and places that contradict each other.
+// What a plant objects to when its data are taken together: motions that are too fast for the step, and
+// places that contradict each other.
 
-/// The step for which data are judged [s].
-inline constexpr double usual_step = 100e-6;
-
-/// Parameters of an axis with complaints about them.
+/// Parameters of a plant with complaints about them.
 class AxisObjections {
  public:
-  /// `what_moves`: "carriage", "ram".
-  explicit AxisObjections(std::string_view what_moves) : what_moves_(what_moves) {}
+  /// `what_moves`: "carriage", "ram". `h`: the step for which the data are judged [s].
+  AxisObjections(std::string_view what_moves, double h) : what_moves_(what_moves), h_(h) {}
 
   void object(std::string_view parameter, std::string what, std::string remedy);
-  /// Motor and load on the gear oscillate too fast; inertias on the motor's shaft [kg m2].
+  /// A pair, "motor and drum", whose spring or damper (parameters `stiffness`, `damping`) is faster than the
+  /// step.
+  void pair(std::string_view stiffness, std::string_view damping, const StiffPair& pair,
+            std::string_view pair_name);
+  /// A damper alone.
+  void damper(std::string_view parameter, double damping, double inertia, std::string_view pair_name) {
+    pair(parameter, parameter, {0, damping, inertia}, pair_name);
+  }
+  /// Motor and load on the gear; inertias of the motor on its own shaft and of the load [kg m2].
   void gear(const TransmissionData& gear, double motor_inertia, double load_inertia);
-  /// Friction that stops `inertia` [kg m2 or kg] within a step; `unit` of the friction.
-  void viscous(std::string_view parameter, const Friction& friction, double inertia, std::string_view unit);
-  /// A spring with a damper that throws `mass` [kg] back within a few steps.
-  void contact(std::string_view parameter, const EndStopData& stop, double mass, std::string_view what);
+  /// Friction that stops `inertia` [kg m2 or kg].
+  void viscous(std::string_view parameter, const Friction& friction, double inertia, std::string_view part);
+  /// A spring with a damper, of parameters `group`.stiffness and .damping, that throws `mass` [kg] back.
+  void contact(const std::string& group, const EndStopData& stop, double mass, std::string_view what);
   /// End stops and start [m].
   void travel(double travel_min, double travel_max, double start);
   /// Limit switches [m].
@@ -40,7 +46,11 @@ class AxisObjections {
 
  private:
   std::string_view what_moves_;
+  double h_;
   std::vector<PlantDefinition::Objection> found_;
 };
+
+/// "scene.step of at most 50 us": the largest round step up to `longest` [s].
+[[nodiscard]] std::string step_remedy(double longest);
 
 }  // namespace drycut::plants

@@ -28,7 +28,7 @@ void AxisTransducers::sense(const Shaft& rotor, const Slide& part, double h) {
   const double before = (part.position_before - start_) / data_.scale_resolution;
   const double now = (part.position - start_) / data_.scale_resolution;
   scale_.carry(before, now);
-  scale_index_.edge_count = 0;
+  scale_index_.edges.clear();
   if (before != now && !scale_.stuck())
     put_index(scale_index_, part.position_before / data_.scale_pitch, part.position / data_.scale_pitch,
               before, now, data_.scale_pitch / data_.scale_resolution);

@@ -88,14 +88,12 @@ Parameters BacklashAxisDefinition::parameters() {
   return table;
 }
 
-std::vector<PlantDefinition::Objection> BacklashAxisDefinition::objections() {
+std::vector<PlantDefinition::Objection> BacklashAxisDefinition::objections(double h) {
   apply_flanks();
-  std::vector<Objection> found = axis.objections();
+  std::vector<Objection> found = axis.objections(h);
   for (Objection& objection : found)
-    if (objection.parameter == "gear.stiffness") {
+    if (objection.parameter == "gear.stiffness" || objection.parameter == "gear.damping")
       objection.parameter = "contact.stiffness";
-      objection.remedy = "a softer contact or more mass";
-    }
   return found;
 }
 

@@ -29,7 +29,7 @@ class BacklashAxisDefinition : public PlantDefinition {
   FlankData flanks;
   LinearAxisDefinition axis;  ///< its gear stiffness, damping and backlash follow from `flanks` in build()
   Parameters parameters() override;
-  std::vector<Objection> objections() override;
+  std::vector<Objection> objections(double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 
  private:

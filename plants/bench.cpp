@@ -9,12 +9,11 @@ void Bench::CounterInput::sense(double h) {
   position.add(rate * h);
   port.now = position.value();
   port.count = port.count_at(1);
-  index.edge_count = 0;
-  if (pulse_wanted) {
-    // The timeline acts at the start of a step: the index latches the count of that moment.
+  index.edges.clear();
+  // The timeline acts at the start of a step: the index latches the count of that moment.
+  for (; pulses_wanted > 0; --pulses_wanted) {
     index.add_edge(true, 0);
     index.add_edge(false, 0);
-    pulse_wanted = false;
     ++pulses;
   }
 }
@@ -30,7 +29,7 @@ Bench::Bench() = default;
 void Bench::sense(double h) {
   for (CounterInput& counter : counters_) counter.sense(h);
   for (DigitalInput& input : inputs_) {
-    input.port.edge_count = 0;
+    input.port.edges.clear();
     if (input.shown == input.port.level) continue;
     input.shown = input.port.level;
     input.port.add_edge(input.shown, 0);
@@ -90,12 +89,16 @@ std::vector<Setting> Bench::settings() {
   for (int i = 0; i < counters; ++i) {
     CounterInput& c = counters_[static_cast<std::size_t>(i)];
     const std::string name = fmt::format("counter{}", i + 1);
-    settings.push_back({name + ".rate", "1/s", [&c](double v) { c.rate = v; }, [&c] { return c.rate; },
-                        "counts (x4) per second"});
+    settings.push_back({name + ".rate",
+                        "1/s",
+                        [&c](double v) { c.rate = v; },
+                        [&c] { return c.rate; },
+                        "counts (x4) per second",
+                        {-1e9, 1e9, false}});
     settings.push_back({name + ".count", "", [&c](double v) { c.set_count(v); },
-                        [&c] { return c.position.value(); }, "steps the count to a value"});
-    settings.push_back({name + ".index", "", [&c](double v) { c.pulse_wanted = v != 0; },
-                        [&c] { return c.pulse_wanted ? 1.0 : 0.0; }, "1: one index pulse now"});
+                        [&c] { return c.position.value(); }, "steps the count to a value", in_counts});
+    settings.push_back({name + ".index", "", [&c](double v) { c.pulses_wanted += v != 0 ? 1 : 0; },
+                        [&c] { return static_cast<double>(c.pulses_wanted); }, "1: one index pulse now"});
   }
   for (int i = 0; i < digital; ++i) {
     DigitalInput& input = inputs_[static_cast<std::size_t>(i)];

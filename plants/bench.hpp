@@ -29,7 +29,7 @@ class Bench : public Plant {
     SignalPort index;
     ExactSum position;  // [bits x4]
     double rate = 0;    // [bits x4 / s]
-    bool pulse_wanted = false;
+    int pulses_wanted = 0;
     int pulses = 0;
     void sense(double h);
     void set_count(double count);

@@ -53,11 +53,10 @@ class PulseLine {
   double jitter_now_ = 0;
 };
 
-/// Puts the index pulse of a step on `index`: a pulse without width, a rising and a falling edge at the exact
+/// Puts the index pulses of a step on `index`: pulses without width, a rising and a falling edge at the exact
 /// fraction at which `turns` passes a whole number, (before, now] forwards and [now, before) backwards. The
 /// counts are the same motion in bits x4: the fraction is taken from them, so that
-/// EncoderPort::count_at(fraction) gives the index's own count to the last digit. Expects less than a whole
-/// turn a step.
+/// EncoderPort::count_at(fraction) gives the index's own count to the last digit.
 void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
                double count_per_turn);
 

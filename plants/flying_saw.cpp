@@ -204,8 +204,12 @@ std::vector<Channel> FlyingSaw::channels() {
 }
 
 std::vector<Setting> FlyingSaw::settings() {
-  return {{"force", "N", [this](double v) { outer_force_ = v; }, [this] { return outer_force_; },
-           "force of hoses and cables on the carriage, positive with the line"}};
+  return {{"force",
+           "N",
+           [this](double v) { outer_force_ = v; },
+           [this] { return outer_force_; },
+           "force of hoses and cables on the carriage, positive with the line",
+           {-1e6, 1e6, false}}};
 }
 
 std::vector<Fault> FlyingSaw::faults() {

@@ -10,7 +10,7 @@ void Clamp::move_jaws(double h) {
   constexpr double hair = 1e-9;
   const bool before = closed_;
   closed_ = closed_ ? stroke_ > hair : stroke_ > 1 - hair;
-  closed.edge_count = 0;
+  closed.edges.clear();
   if (closed_ == before) return;
   closed.level = closed_;
   closed.add_edge(closed_, 0);
@@ -33,8 +33,8 @@ void Clamp::sense(const Slide& carriage, const Slide& material, double h) {
 }
 
 void Clamp::offer_faults(std::vector<Fault>& faults, const std::string& component) {
-  faults.push_back({component, "force_loss", "%", [this](double v) { lost_ = std::clamp(v, 0.0, 1.0); },
-                    "share of the clamping force that is missing: a leak, oil on the jaws"});
+  faults.push_back({component, "force_loss", "%", [this](double v) { lost_ = v; },
+                    "share of the clamping force that is missing: a leak, oil on the jaws", in_percent});
 }
 
 Parameters clamp_parameters(ClampData& data, const std::string& prefix) {

@@ -22,7 +22,8 @@ Parameters mechanics(FlyingSawData& data) {
        .unit = "",
        .meaning = "the web, strip or tube, that it cuts",
        .value = &data.web,
-       .reference = "web"},
+       .reference = "web",
+       .sole = true},
       row("mass", "kg", "mass of the carriage with clamps and saw head", data.mass, 1, 1e5,
           "estimate: a light saw"),
       row("lead", "mm", "travel for one turn of the pinion, or of the screw", data.lead, 0.1, 5000,
@@ -118,25 +119,31 @@ Parameters FlyingSawDefinition::parameters() {
   return table;
 }
 
-Objections FlyingSawDefinition::objections() {
-  AxisObjections found("carriage");
+Objections FlyingSawDefinition::objections(double h) {
+  AxisObjections found("carriage", h);
   found.gear(data.gear, motor_inertia(data), reflected_inertia(data));
-  found.contact("stop.stiffness", data.stop, data.mass, "end stop");
-  found.contact("blade.stiffness", {data.blade.stiffness, data.blade.damping}, data.mass, "blade");
-  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
-  found.viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "N s/m");
+  found.contact("stop", data.stop, data.mass, "end stop");
+  found.pair("head.mass", "head.mass", head_cushion(data.head), "head and the end of its cylinder");
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "motor");
+  found.viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "carriage");
   found.travel(data.travel_min, data.travel_max, data.start);
   found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
   if (return_speed(data.head) <= 0)
     found.object("head.up_force", fmt::format("it does not lift the head of {:g} kg", data.head.mass),
                  fmt::format("more than {:.0f} N", data.head.mass * 9.80665));
-  found.add(servo_axis_objections(data.drive));
+  found.add(servo_axis_objections(data.drive, motor_inertia(data), h));
   return found.take();
 }
 
-Objections FlyingSawDefinition::objections_with(const FindDefinition& find) {
+Objections FlyingSawDefinition::objections_with(const FindDefinition& find, double h) {
   const auto* web = dynamic_cast<WebDefinition*>(find(data.web));
-  return web != nullptr ? objections_to(web->data, data) : Objections();
+  if (web == nullptr) return {};
+  AxisObjections found("carriage", h);
+  found.add(objections_to(web->data, data));
+  found.pair("blade.stiffness", "blade.damping",
+             {data.blade.stiffness, data.blade.damping, reduced(data.mass, web->data.mass)},
+             "blade and material");
+  return found.take();
 }
 
 std::unique_ptr<Plant> FlyingSawDefinition::build(World& world,

@@ -22,6 +22,8 @@ double return_speed(const SawHeadData& data) {
   return (data.up_force - data.mass * gravity) / data.up_throttle;
 }
 
+StiffPair head_cushion(const SawHeadData& data) { return {cushion.stiffness, cushion.damping, data.mass}; }
+
 SawHead::SawHead(const SawHeadData& data, World& world)
     : data_(data),
       body_(world.add_slide({.name = "saw head", .mass = data.mass, .axis = {0, -1, 0}, .gravity = true})),
@@ -84,9 +86,8 @@ void SawHead::offer_channels(std::vector<Channel>& channels) const {
 }
 
 void SawHead::offer_faults(std::vector<Fault>& faults) {
-  faults.push_back({"head", "pressure_loss", "%",
-                    [this](double v) { pressure_loss_ = std::clamp(v, 0.0, 1.0); },
-                    "share of the cylinder's force that is missing, both ways"});
+  faults.push_back({"head", "pressure_loss", "%", [this](double v) { pressure_loss_ = v; },
+                    "share of the cylinder's force that is missing, both ways", in_percent});
   up_.offer_faults(faults, "head.up");
   down_.offer_faults(faults, "head.down");
 }

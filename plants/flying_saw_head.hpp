@@ -5,6 +5,7 @@
 #include "plants/end_stop.hpp"
 #include "plants/plant.hpp"
 #include "plants/position_switch.hpp"
+#include "plants/stiff_pair.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {
@@ -31,6 +32,8 @@ Parameters saw_head_parameters(SawHeadData& data, const std::string& prefix);
 /// Speed at which the cylinder's force, the weight and the throttle balance with the blade in the air [m/s].
 [[nodiscard]] double plunge_speed(const SawHeadData& data);
 [[nodiscard]] double return_speed(const SawHeadData& data);
+/// The head on the cushion at either end of its cylinder.
+[[nodiscard]] StiffPair head_cushion(const SawHeadData& data);
 
 class SawHead {
  public:

@@ -9,8 +9,12 @@ void HoldingBrake::offer_faults(std::vector<Fault>& faults) {
                     "1: it does not hold any more"});
   faults.push_back({"brake", "stuck_closed", "", [this](double v) { stuck_closed_ = v != 0; },
                     "1: it does not release any more"});
-  faults.push_back({"brake", "worn", "", [this](double v) { worn_ = std::clamp(v, 0.0, 1.0); },
-                    "this share (0..1) of its torque is lost"});
+  faults.push_back({"brake",
+                    "worn",
+                    "",
+                    [this](double v) { worn_ = v; },
+                    "this share of its torque is lost",
+                    {0, 1, false}});
 }
 
 Parameters holding_brake_parameters(HoldingBrakeData& data, const std::string& prefix) {

@@ -1,5 +1,7 @@
 #include "plants/ideal_axis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace drycut::plants {
@@ -22,7 +24,7 @@ void IdealAxis::sense(double h) {
 
   const double direction = data_.reverse ? -1 : 1;
   pulses_.carry(direction * before, direction * now);
-  index_.edge_count = 0;
+  index_.edges.clear();
   const double counts_per_pitch = data_.index_pitch / data_.resolution;
   const double origin = data_.start / data_.resolution;
   if (before != now && !pulses_.stuck())
@@ -87,6 +89,16 @@ Parameters IdealAxisDefinition::parameters() {
           0, 1000),
       row("switch2.delay", "ms", "delay of its filter", &data.switches[1].delay, 0, 1000),
   };
+}
+
+std::vector<PlantDefinition::Objection> IdealAxisDefinition::objections(double h) {
+  constexpr double most = 1000;  // more pulses a step are a slip of a unit, and slow
+  const double pulses = data.speed_at_10v * h / data.index_pitch;
+  if (pulses <= most) return {};
+  return {{"index_pitch",
+           fmt::format("at {:g} mm/s the axis passes {:.0f} index pulses in a step of {:g} us",
+                       data.speed_at_10v * millimetres, pulses, h * 1e6),
+           fmt::format("at least {:.3g} mm", data.speed_at_10v * h / most * millimetres)}};
 }
 
 std::unique_ptr<Plant> IdealAxisDefinition::build(World& world,

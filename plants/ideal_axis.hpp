@@ -43,6 +43,7 @@ class IdealAxisDefinition : public PlantDefinition {
  public:
   IdealAxisData data;
   Parameters parameters() override;
+  std::vector<Objection> objections(double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };
 

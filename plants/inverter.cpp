@@ -94,12 +94,15 @@ void Inverter::offer_faults(std::vector<Fault>& faults) {
                       if (!trip_ && state_ == State::tripped) state_ = State::off;
                     },
                     "1: the drive switches itself off, the motor coasts; 0 resets it"});
-  faults.push_back({"drive", "torque_limit", "N m",
+  faults.push_back({"drive",
+                    "torque_limit",
+                    "N m",
                     [this](double v) {
-                      limit_slip_ = winding_.slip(v != 0 ? std::min(std::abs(v), data_.torque_limit)
-                                                         : data_.torque_limit);
+                      limit_slip_ =
+                          winding_.slip(v != 0 ? std::min(v, data_.torque_limit) : data_.torque_limit);
                     },
-                    "the torque is limited to this; 0 takes the limit away"});
+                    "the torque is limited to this; 0 takes the limit away",
+                    {0, 1e5, false}});
   faults.push_back({"drive", "phase_lost", "", [this](double v) { phase_lost_ = v != 0; },
                     "1: a phase of the motor is interrupted: the drive trips when it runs"});
   forward_filter_.offer_faults(faults, "drive.forward");

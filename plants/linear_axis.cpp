@@ -105,8 +105,12 @@ std::vector<Channel> LinearAxis::channels() {
 }
 
 std::vector<Setting> LinearAxis::settings() {
-  return {{"force", "N", [this](double v) { outer_force_ = v; }, [this] { return outer_force_; },
-           "force of the process on the carriage, positive in positive direction"}};
+  return {{"force",
+           "N",
+           [this](double v) { outer_force_ = v; },
+           [this] { return outer_force_; },
+           "force of the process on the carriage, positive in positive direction",
+           {-1e6, 1e6, false}}};
 }
 
 std::vector<EventType> LinearAxis::event_types() {

@@ -105,7 +105,7 @@ class LinearAxisDefinition : public PlantDefinition {
  public:
   LinearAxisData data;
   Parameters parameters() override;
-  std::vector<Objection> objections() override;
+  std::vector<Objection> objections(double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };
 

@@ -107,15 +107,15 @@ Parameters LinearAxisDefinition::parameters() {
   return table;
 }
 
-std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections() {
-  AxisObjections found("carriage");
+std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections(double h) {
+  AxisObjections found("carriage", h);
   found.gear(data.gear, motor_inertia(data), reflected_inertia(data));
-  found.contact("stop.stiffness", data.stop, data.mass, "end stop");
-  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
-  found.viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "N s/m");
+  found.contact("stop", data.stop, data.mass, "end stop");
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "motor");
+  found.viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "carriage");
   found.travel(data.travel_min, data.travel_max, data.start);
   found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
-  found.add(axis_drive_objections(data.drive, motor_inertia(data), usual_step));
+  found.add(axis_drive_objections(data.drive, motor_inertia(data), h));
   return found.take();
 }
 

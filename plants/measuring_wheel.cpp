@@ -20,15 +20,16 @@ void MeasuringWheel::sense(double before, double now) {
   travel_ = now;
   const double bits_per_turn = 4.0 * data_.lines;
   pulses.carry(turns_before * bits_per_turn, revolutions_ * bits_per_turn);
-  index.edge_count = 0;
+  index.edges.clear();
   if (!pulses.stuck())
     put_index(index, turns_before, revolutions_, turns_before * bits_per_turn, revolutions_ * bits_per_turn,
               bits_per_turn);
 }
 
 void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string& component) {
-  faults.push_back({component, "slip", "%", [this](double v) { set_slip(std::clamp(v, 0.0, 1.0)); },
-                    "share of the travel that the wheel does not follow, instead of the parameter's"});
+  faults.push_back({component, "slip", "%", [this](double v) { set_slip(v); },
+                    "share of the travel that the wheel does not follow, instead of the parameter's",
+                    in_percent});
   pulses.offer_faults(faults, component);
 }
 

@@ -24,6 +24,7 @@ struct Parameter {
   std::vector<std::string> choices = {};  ///< of a word; empty = free
   std::string_view reference = {};        ///< of a word: it names another plant of this type
   std::string_view source = {};           ///< where the default is from ("data sheet ...", "estimate")
+  bool sole = false;                      ///< of a reference: no other plant may refer to the same one so
 };
 using Parameters = std::vector<Parameter>;
 

@@ -30,6 +30,15 @@ struct Channel {
   std::string meaning;
 };
 
+/// What a setting or fault takes, in its unit. The default is a switch: 0 or 1.
+struct Range {
+  double min = 0;
+  double max = 1;
+  bool whole = true;
+};
+inline constexpr Range in_percent = {0, 100, false};                     ///< a share
+inline constexpr Range in_counts = {-2147483648.0, 2147483647.0, true};  ///< what counters hold
+
 /// A number that the timeline can set or ramp: the line speed, a bench input. Value in SI.
 struct Setting {
   std::string name;       ///< within the plant: "speed"
@@ -37,15 +46,17 @@ struct Setting {
   std::function<void(double)> write;
   std::function<double()> read;
   std::string meaning;
+  Range range = {};  ///< whoever writes keeps to it
 };
 
-/// A fault that a component offers. Value in SI; a fault without a quantity takes 0 or 1.
+/// A fault that a component offers. Value in SI.
 struct Fault {
   std::string component;  ///< within the plant: "encoder", "servo"
   std::string name;       ///< "lose_counts", "stuck", "drift"
   std::string_view unit;  ///< "" = pure number
   std::function<void(double)> act;
   std::string meaning;
+  Range range = {};  ///< whoever acts keeps to it
 };
 
 /// Something that happened in the machine, at an exact time inside the step.
@@ -113,19 +124,23 @@ class PlantDefinition {
   virtual ~PlantDefinition() = default;
   /// The parameter table, bound to this definition.
   virtual Parameters parameters() = 0;
-  /// What is wrong with the parameters taken together ("blade_count 0 ..."), each naming its parameter;
-  /// ranges of single parameters are checked by the reader.
+  /// What is wrong with the parameters taken together ("blade_count 0 ..."), each naming its parameter, where
+  /// the simulation steps by `h` seconds; ranges of single parameters are checked by the reader.
   struct Objection {
     std::string parameter;
     std::string what;
     std::string remedy;
   };
-  virtual std::vector<Objection> objections() { return {}; }
+  virtual std::vector<Objection> objections(double h) {
+    (void)h;
+    return {};
+  }
   /// Gives the definition of the plant of that name, null where there is none.
   using FindDefinition = std::function<PlantDefinition*(std::string_view)>;
   /// What is wrong with the parameters together with those of the plants that they refer to.
-  virtual std::vector<Objection> objections_with(const FindDefinition& find) {
+  virtual std::vector<Objection> objections_with(const FindDefinition& find, double h) {
     (void)find;
+    (void)h;
     return {};
   }
   /// Builds the machine into `world`. `find` gives the already built plant that a reference parameter names.

@@ -1,7 +1,7 @@
 #pragma once
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace drycut::plants {
 
@@ -27,12 +27,9 @@ struct SignalPort {
     bool rising = false;
     double fraction = 0;  ///< when in the last step, 0..1
   };
-  bool level = false;         ///< at the end of the last step
-  std::array<Edge, 8> edges;  ///< of the last step, in order of time
-  int edge_count = 0;
-  void add_edge(bool rising, double fraction) {
-    if (edge_count < static_cast<int>(edges.size())) edges[edge_count++] = {rising, fraction};
-  }
+  bool level = false;       ///< at the end of the last step
+  std::vector<Edge> edges;  ///< of the last step, in order of time
+  void add_edge(bool rising, double fraction) { edges.push_back({rising, fraction}); }
 };
 
 /// A signal that the plant takes: enable, forward, brake release.

@@ -8,42 +8,59 @@ namespace drycut::plants {
 PositionSwitch::PositionSwitch(const PositionSwitchData& data, double period, double start)
     : data_(data),
       period_(period),
-      distance_(distance(start)),
+      distance_(std::abs(offset(start))),
       raw_(distance_ <= data.width / 2),
       filtered_(raw_) {
   port.level = raw_;
 }
 
-double PositionSwitch::distance(double position) const {
+double PositionSwitch::offset(double position) const {
   const double d = position - data_.centre;
-  return std::abs(period_ > 0 ? d - period_ * std::nearbyint(d / period_) : d);
+  return period_ > 0 ? d - period_ * std::nearbyint(d / period_) : d;
 }
 
 void PositionSwitch::sense(double before, double now, double h) {
-  if (before == now && !pending_) {
-    port.edge_count = 0;
-    return;
+  port.edges.clear();
+  if (before == now && !pending_) return;
+  const double way =
+      period_ > 0 ? now - before - period_ * std::nearbyint((now - before) / period_) : now - before;
+  const double from = offset(before);
+  double rest = 0;
+  if (from * (from + way) < 0) {  // over the centre: towards it first, then away
+    rest = -from / way;
+    move(0, 0, rest, h);
   }
-  follow(distance(now), h);
+  move(std::abs(offset(now)), rest, 1, h);
+  filter(h);
 }
 
 void PositionSwitch::follow(double distance, double h) {
-  port.edge_count = 0;
+  port.edges.clear();
+  move(distance, 0, 1, h);
+  filter(h);
+}
+
+void PositionSwitch::move(double distance, double begin, double end, double h) {
   const double was = distance_;
   distance_ = distance;
   const double edge = data_.width / 2 + (raw_ ? data_.hysteresis : 0);
-  if ((distance_ <= edge) != raw_) {
-    const double fraction = was != distance_ ? std::clamp((edge - was) / (distance_ - was), 0.0, 1.0) : 1.0;
-    raw_ = !raw_;
-    // A change back within the delay leaves the output as it is.
-    pending_ = raw_ != filtered_;
-    remaining_ = data_.delay + fraction * h;
-  }
+  if ((distance_ <= edge) == raw_) return;
+  const double share = was != distance_ ? std::clamp((edge - was) / (distance_ - was), 0.0, 1.0) : 1.0;
+  const double fraction = begin + share * (end - begin);
+  if (pending_ && remaining_ <= fraction * h) let_through(h);
+  raw_ = !raw_;
+  // A change back within the delay leaves the output as it is.
+  pending_ = raw_ != filtered_;
+  remaining_ = data_.delay + fraction * h;
+}
+
+void PositionSwitch::filter(double h) {
   if (!pending_) return;
-  if (remaining_ > h) {
-    remaining_ -= h;
-    return;
-  }
+  if (remaining_ <= h) return let_through(h);
+  remaining_ -= h;
+}
+
+void PositionSwitch::let_through(double h) {
   pending_ = false;
   filtered_ = raw_;
   show(filtered_, remaining_ / h);

@@ -23,7 +23,7 @@ class PositionSwitch {
 
   SignalPort port;  ///< edges with their exact fraction of the step, after the delay
 
-  /// Follows the motion over the last step of `h` seconds.
+  /// Follows the motion over the last step of `h` seconds, over the whole target if it goes so far.
   void sense(double before, double now, double h);
   /// The same for a target that is not at one place: `distance` from its centre now.
   void follow(double distance, double h);
@@ -32,7 +32,10 @@ class PositionSwitch {
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
 
  private:
-  [[nodiscard]] double distance(double position) const;  // from the centre, >= 0
+  [[nodiscard]] double offset(double position) const;              // from the nearest centre
+  void move(double distance, double begin, double end, double h);  // in this part of the step, straight
+  void filter(double h);
+  void let_through(double h);
   void show(bool level, double fraction);
 
   PositionSwitchData data_;

@@ -73,8 +73,12 @@ void PrintMarks::sense(double now, double h) {
 void PrintMarks::offer_faults(std::vector<Fault>& faults, const std::string& marks,
                               const std::string& photocell) {
   if (!printed()) return;
-  faults.push_back({marks, "shift", "mm", [this](double v) { shift_ = v; },
-                    "the marks after the next one lie this much further back: a splice"});
+  faults.push_back({marks,
+                    "shift",
+                    "mm",
+                    [this](double v) { shift_ = v; },
+                    "the marks after the next one lie this much further back: a splice",
+                    {-1e5, 1e5, false}});
   photocell_.offer_faults(faults, photocell);
 }
 

@@ -8,7 +8,7 @@ namespace drycut::plants {
 namespace {
 
 void show(SignalPort& port, bool level) {
-  port.edge_count = 0;
+  port.edges.clear();
   if (level == port.level) return;
   port.level = level;
   port.add_edge(level, 1);
@@ -81,7 +81,7 @@ void PulseServo::offer_faults(std::vector<Fault>& faults, const std::string& com
                       reference_ -= static_cast<double>(lost);
                       gear_.add(-lost);
                     },
-                    "so many pulses are lost at once, negative: too many are counted"});
+                    "so many pulses are lost at once, negative: too many are counted", in_counts});
   faults.push_back(
       {component, "broken_cable", "", [this](double v) { cable_broken_ = v != 0; }, "1: no pulse arrives"});
 }

@@ -85,8 +85,8 @@ class RotaryKnifeDefinition : public PlantDefinition {
  public:
   RotaryKnifeData data;
   Parameters parameters() override;
-  std::vector<Objection> objections() override;
-  std::vector<Objection> objections_with(const FindDefinition& find) override;
+  std::vector<Objection> objections(double h) override;
+  std::vector<Objection> objections_with(const FindDefinition& find, double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };
 

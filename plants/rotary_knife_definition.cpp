@@ -13,7 +13,12 @@ Parameters RotaryKnifeDefinition::parameters() {
     return Parameter{name, unit, meaning, value, min, max, {}, {}, source};
   };
   Parameters table = {
-      {.name = "web", .unit = "", .meaning = "the web that it cuts", .value = &data.web, .reference = "web"},
+      {.name = "web",
+       .unit = "",
+       .meaning = "the web that it cuts",
+       .value = &data.web,
+       .reference = "web",
+       .sole = true},
       row("circumference", "mm", "circumference of the circle of the blade tips", &data.circumference, 50,
           10000, "a usual size: drum of 191 mm"),
       {"blade_count", "", "blades, evenly on the drum", &data.blade_count, 1, 24, {}, {}, "one cut a turn"},
@@ -69,13 +74,13 @@ Parameters RotaryKnifeDefinition::parameters() {
   return table;
 }
 
-std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections() {
+std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double h) {
   const double motor_inertia = data.drive.servo.rotor_inertia;
-  AxisObjections found("drum");
+  AxisObjections found("drum", h);
   found.gear(data.gear, motor_inertia, data.drum_inertia);
-  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia, "N m s/rad");
-  found.viscous("drum_friction.viscous", data.drum_friction, data.drum_inertia, "N m s/rad");
-  found.add(servo_axis_objections(data.drive));
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia, "motor");
+  found.viscous("drum_friction.viscous", data.drum_friction, data.drum_inertia, "drum");
+  found.add(servo_axis_objections(data.drive, motor_inertia, h));
   if (data.home.width + 2 * data.home.hysteresis >= 2 * std::numbers::pi)
     found.object("home.width", "target and hysteresis cover the whole turn: the switch never lets go",
                  "a narrower target");
@@ -107,9 +112,16 @@ std::vector<PlantDefinition::Objection> objections_to(const WebData& web, const 
 
 }  // namespace
 
-std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections_with(const FindDefinition& find) {
+std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections_with(const FindDefinition& find,
+                                                                               double h) {
   const auto* web = dynamic_cast<WebDefinition*>(find(data.web));
-  return web != nullptr ? objections_to(web->data, data) : std::vector<Objection>();
+  if (web == nullptr) return {};
+  AxisObjections found("drum", h);
+  found.add(objections_to(web->data, data));
+  const double radius = data.circumference / (2 * std::numbers::pi);
+  found.damper("coupling", data.coupling, reduced(data.drum_inertia / (radius * radius), web->data.mass),
+               "blade and web");
+  return found.take();
 }
 
 std::unique_ptr<Plant> RotaryKnifeDefinition::build(World& world,

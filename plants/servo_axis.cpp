@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "plants/axis_objections.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -103,16 +105,13 @@ Parameters servo_axis_parameters(ServoAxisData& data) {
   return table;
 }
 
-std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data) {
-  std::vector<PlantDefinition::Objection> found;
-  if (data.servo.max_speed < data.servo.rated_speed)
-    found.push_back({"servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed"});
-  if (data.servo.peak_torque < data.servo.rated_torque)
-    found.push_back({"servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque"});
-  if (data.servo.torque_at_max_speed > data.servo.peak_torque)
-    found.push_back(
-        {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
-  return found;
+std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data, double inertia,
+                                                              double h) {
+  AxisObjections found("servo", h);
+  found.add(servo_objections(data.servo, inertia, h));
+  if (data.kind == "pulses")
+    found.damper("servo.pulses.position_gain", data.pulses.position_gain, 1, "reference and position loop");
+  return found.take();
 }
 
 }  // namespace drycut::plants

@@ -18,8 +18,10 @@ struct ServoAxisData {
 
 /// Rows for a parameter table: `drive`, `servo.`, `servo.pulses.`.
 Parameters servo_axis_parameters(ServoAxisData& data);
-/// What is wrong with the data taken together.
-std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data);
+/// What is wrong with the data taken together, with `inertia` on the motor's shaft [kg m2] and steps of `h`
+/// seconds.
+std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data, double inertia,
+                                                              double h);
 
 /// Event: `following_error` (turns, speed) when a position loop has tripped.
 class ServoAxis {

@@ -1,5 +1,7 @@
 #include "plants/servo_drive.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,11 +17,46 @@ double driving_torque_limit(const ServoData& data, double speed) {
   return std::max(0.0, data.torque_at_max_speed * (1 - overspeed));
 }
 
+namespace {
+
+// How much of a change a lag of first order follows in a step.
+double share_of(double lag, double h) { return lag > 0 ? -std::expm1(-h / lag) : 1; }
+
+double loop_gain(const ServoData& data) {
+  return (1 + data.inertia_ratio) * data.rotor_inertia * data.speed_gain;
+}
+
+// Speed loop and current lag on the rotor alone, as it is while the play of a gear parts it from its load,
+// turn by the arc cosine of (2 - s - s g) / (2 root(1 - s)) a step, s the share of the lag and g the gain on
+// the inertia in a step. At s g = 0.5 that is right to 5 %, and a real drive samples its loop too.
+constexpr double most_correction = 0.5;
+
+}  // namespace
+
+std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, double inertia, double h) {
+  std::vector<PlantDefinition::Objection> found;
+  if (data.max_speed < data.rated_speed)
+    found.push_back({"servo.max_speed", "it is below servo.rated_speed", "at least servo.rated_speed"});
+  if (data.peak_torque < data.rated_torque)
+    found.push_back({"servo.peak_torque", "it is below servo.rated_torque", "at least servo.rated_torque"});
+  if (data.torque_at_max_speed > data.peak_torque)
+    found.push_back(
+        {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
+  const double most = most_correction * inertia / (share_of(data.current_lag, h) * h);
+  if (loop_gain(data) > most)
+    found.push_back({"servo.speed_gain",
+                     fmt::format("the speed loop of {:g} rad/s, set for {:g} rotors, turns the motor's own "
+                                 "{:.3g} kg m2 faster than steps of {:g} us can follow",
+                                 data.speed_gain, 1 + data.inertia_ratio, inertia, h * 1e6),
+                     fmt::format("a shorter scene.step, or at most {:.3g} rad/s",
+                                 data.speed_gain * most / loop_gain(data))});
+  return found;
+}
+
 void ServoDrive::prepare(double h) {
   h_ = h;
-  const auto share = [h](double lag) { return lag > 0 ? -std::expm1(-h / lag) : 1; };
-  filter_share_ = share(data_.filter);
-  lag_share_ = share(data_.current_lag);
+  filter_share_ = share_of(data_.filter, h);
+  lag_share_ = share_of(data_.current_lag, h);
   speed_per_volt_ = data_.speed_at_10v / 10;
   lsb_ = 20.0 / static_cast<double>(1LL << data_.adc_bits);
 }
@@ -29,7 +66,7 @@ double ServoDrive::convert(double volts) const {
 }
 
 double ServoDrive::speed_loop(double speed, double h) {
-  const double gain = (1 + data_.inertia_ratio) * data_.rotor_inertia * data_.speed_gain;
+  const double gain = loop_gain(data_);
   const double error = filtered_ - speed;
   const double wanted = gain * error + integral_;
   double limit = std::abs(speed) > data_.rated_speed && wanted * speed > 0
@@ -77,16 +114,27 @@ void ServoDrive::coast(Shaft& rotor, double h) {
 
 void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& component) {
   Faults& f = faults_;
-  faults.push_back(
-      {component, "offset", "V", [&f](double v) { f.offset = v; }, "added to the analogue input"});
-  faults.push_back({component, "drift", "V/s",
+  faults.push_back({component,
+                    "offset",
+                    "V",
+                    [&f](double v) { f.offset = v; },
+                    "added to the analogue input",
+                    {-20, 20, false}});
+  faults.push_back({component,
+                    "drift",
+                    "V/s",
                     [&f](double v) {
                       f.drift = v;
                       if (v == 0) f.drifted = 0;
                     },
-                    "the analogue input drifts at this rate; 0 takes the drift away"});
-  faults.push_back({component, "noise", "V", [&f](double v) { f.noise = std::abs(v); },
-                    "white noise on the analogue input, rms"});
+                    "the analogue input drifts at this rate; 0 takes the drift away",
+                    {-1e3, 1e3, false}});
+  faults.push_back({component,
+                    "noise",
+                    "V",
+                    [&f](double v) { f.noise = v; },
+                    "white noise on the analogue input, rms",
+                    {0, 20, false}});
   faults.push_back({component, "stuck", "",
                     [this](double v) {
                       if (v != 0 && !faults_.stuck) faults_.stuck_at = reference.volts;
@@ -100,8 +148,12 @@ void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::strin
   Faults& f = faults_;
   faults.push_back({component, "disabled", "", [&f](double v) { f.disabled = v != 0; },
                     "1: the amplifier trips, the motor coasts"});
-  faults.push_back({component, "torque_limit", "N m", [&f](double v) { f.torque_limit = std::abs(v); },
-                    "the torque is limited to this; 0 takes the limit away"});
+  faults.push_back({component,
+                    "torque_limit",
+                    "N m",
+                    [&f](double v) { f.torque_limit = v; },
+                    "the torque is limited to this; 0 takes the limit away",
+                    {0, 1e5, false}});
 }
 
 Parameters servo_parameters(ServoData& data, const std::string& prefix) {

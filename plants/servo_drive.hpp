@@ -35,6 +35,10 @@ struct ServoData {
 /// Rows for a parameter table; `prefix` ends with a dot: "servo.".
 Parameters servo_parameters(ServoData& data, const std::string& prefix);
 
+/// What is wrong with the data taken together, with `inertia` on the motor's shaft [kg m2] and steps of `h`
+/// seconds.
+std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, double inertia, double h);
+
 /// Largest torque of the motor [N m] while it drives at `speed` [rad/s, either sign]. Braking has the peak
 /// torque at any speed.
 [[nodiscard]] double driving_torque_limit(const ServoData& data, double speed);

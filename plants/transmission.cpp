@@ -2,16 +2,13 @@
 
 #include <cmath>
 
+#include "plants/stiff_pair.hpp"
+
 namespace drycut::plants {
 
 namespace {
 
 constexpr double no_backlash = 1e-10;  // [rad]: less play than this is none
-
-double reduced_inertia(const TransmissionData& data, double motor, double load) {
-  const double reflected = motor * data.ratio * data.ratio;
-  return reflected * load / (reflected + load);
-}
 
 }  // namespace
 
@@ -31,13 +28,7 @@ double transmission_torque(const TransmissionData& data, double twist, double tw
 }
 
 double resonance(const TransmissionData& data, double motor_inertia, double load_inertia) {
-  return std::sqrt(data.stiffness / reduced_inertia(data, motor_inertia, load_inertia));
-}
-
-bool stable(const TransmissionData& data, double motor_inertia, double load_inertia, double h) {
-  // Symplectic Euler with an explicit damper: k h2 + 2 c h < 4 J.
-  const double j = reduced_inertia(data, motor_inertia, load_inertia);
-  return data.stiffness * h * h + 2 * data.damping * h < 4 * j;
+  return std::sqrt(data.stiffness / reduced(motor_inertia * data.ratio * data.ratio, load_inertia));
 }
 
 Parameters transmission_parameters(TransmissionData& data, const std::string& prefix) {

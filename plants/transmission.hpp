@@ -52,7 +52,5 @@ class Transmission {
 
 /// Angular frequency of the free two-mass oscillation [rad/s], inertias in kg m2.
 [[nodiscard]] double resonance(const TransmissionData& data, double motor_inertia, double load_inertia);
-/// True if explicit steps of `h` seconds follow that oscillation without growing.
-[[nodiscard]] bool stable(const TransmissionData& data, double motor_inertia, double load_inertia, double h);
 
 }  // namespace drycut::plants

@@ -147,10 +147,18 @@ std::vector<Channel> VerticalPress::channels() {
 }
 
 std::vector<Setting> VerticalPress::settings() {
-  return {{"load", "kg", [this](double v) { world_.set_mass(ram_, data_.mass + std::max(0.0, v)); },
-           [this] { return ram_.mass - data_.mass; }, "what the ram carries besides itself, not less than 0"},
-          {"force", "N", [this](double v) { outer_force_ = v; }, [this] { return outer_force_; },
-           "force of the process on the ram, positive upwards"}};
+  return {{"load",
+           "kg",
+           [this](double v) { world_.set_mass(ram_, data_.mass + v); },
+           [this] { return ram_.mass - data_.mass; },
+           "what the ram carries besides itself",
+           {0, 1e6, false}},
+          {"force",
+           "N",
+           [this](double v) { outer_force_ = v; },
+           [this] { return outer_force_; },
+           "force of the process on the ram, positive upwards",
+           {-1e7, 1e7, false}}};
 }
 
 std::vector<EventType> VerticalPress::event_types() {

@@ -97,7 +97,7 @@ class VerticalPressDefinition : public PlantDefinition {
  public:
   VerticalPressData data;
   Parameters parameters() override;
-  std::vector<Objection> objections() override;
+  std::vector<Objection> objections(double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };
 

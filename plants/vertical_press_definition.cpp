@@ -96,19 +96,19 @@ Parameters VerticalPressDefinition::parameters() {
   return table;
 }
 
-std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections() {
+std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections(double h) {
   const double metre = data.lead / turn;
-  AxisObjections found("ram");
+  AxisObjections found("ram", h);
   found.gear(data.gear, motor_inertia(data), data.mass * metre * metre);
-  found.contact("stop.stiffness", data.stop, data.mass, "end stop");
-  found.contact("workpiece.stiffness", data.workpiece, data.mass, "workpiece");
-  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "N m s/rad");
-  found.viscous("ram_friction.viscous", data.ram_friction, data.mass, "N s/m");
+  found.contact("stop", data.stop, data.mass, "end stop");
+  found.contact("workpiece", data.workpiece, data.mass, "workpiece");
+  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "motor");
+  found.viscous("ram_friction.viscous", data.ram_friction, data.mass, "ram");
   found.travel(data.travel_min, data.travel_max, data.start);
   found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
   if (data.workpiece.stiffness > 0 && data.start < data.workpiece_height)
     found.object("workpiece.height", "the ram starts in the workpiece", "below start");
-  found.add(axis_drive_objections(data.drive, motor_inertia(data), usual_step));
+  found.add(axis_drive_objections(data.drive, motor_inertia(data), h));
   return found.take();
 }
 

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "plants/axis_objections.hpp"
+
 namespace drycut::plants {
 
 namespace {
 
 constexpr double metres_a_minute = 60;  // m/s -> m/min
 constexpr double millimetres = 1000;
+constexpr double fastest = 1000;  // [m/min]
 
 }  // namespace
 
@@ -74,8 +77,12 @@ std::vector<Channel> Web::channels() {
 }
 
 std::vector<Setting> Web::settings() {
-  return {{"speed", "m/min", [this](double v) { drive_.set_speed(v); }, [this] { return drive_.set_speed(); },
-           "set speed of the line drive"}};
+  return {{"speed",
+           "m/min",
+           [this](double v) { drive_.set_speed(v); },
+           [this] { return drive_.set_speed(); },
+           "set speed of the line drive",
+           {-fastest, fastest, false}}};
 }
 
 std::vector<Fault> Web::faults() {
@@ -91,8 +98,8 @@ Parameters WebDefinition::parameters() {
     return Parameter{name, unit, meaning, value, min, max, {}, {}, source};
   };
   Parameters table = {
-      row("speed", "m/min", "line speed at the start; the web already runs at it", &data.drive.speed, 0, 1000,
-          "a usual speed of a cut-to-length line"),
+      row("speed", "m/min", "line speed at the start; the web already runs at it", &data.drive.speed, 0,
+          fastest, "a usual speed of a cut-to-length line"),
       {.name = "section",
        .unit = "",
        .meaning = "what the material is: a flat strip or a round tube",
@@ -132,27 +139,28 @@ Parameters WebDefinition::parameters() {
   return table;
 }
 
-std::vector<PlantDefinition::Objection> WebDefinition::objections() {
-  std::vector<Objection> found;
-  const double share = data.drive.damping / data.mass;
-  if (share > 2000)
-    found.push_back({"drive.damping",
-                     fmt::format("{:g} N s/m on {:g} kg settles faster than steps of 1 ms can follow",
-                                 data.drive.damping, data.mass),
-                     fmt::format("at most {:g} N s/m, or more mass", 2000 * data.mass)});
+std::vector<PlantDefinition::Objection> WebDefinition::objections(double h) {
+  AxisObjections found("web", h);
+  found.pair("drive.stiffness", "drive.damping", {data.drive.stiffness, data.drive.damping, data.mass},
+             "web and line drive");
   if (data.section == "tube" && 2 * data.thickness > data.width)
-    found.push_back(
-        {"thickness",
-         fmt::format("a tube of {:g} mm has no wall of {:g} mm", data.width * 1000, data.thickness * 1000),
-         fmt::format("at most {:g} mm", data.width * 500)});
+    found.object(
+        "thickness",
+        fmt::format("a tube of {:g} mm has no wall of {:g} mm", data.width * 1000, data.thickness * 1000),
+        fmt::format("at most {:g} mm", data.width * 500));
   const auto& marks = data.marks;
   if (marks.pitch > 0 && marks.pitch <= marks.width + 2 * marks.hysteresis + 6 * marks.scatter)
-    found.push_back(
-        {"marks.pitch",
-         fmt::format("marks of {:g} mm at {:g} mm leave no gap", marks.width * 1000, marks.pitch * 1000),
-         fmt::format("more than {:g} mm (width, twice the hysteresis, six times the scatter)",
-                     (marks.width + 2 * marks.hysteresis + 6 * marks.scatter) * 1000)});
-  return found;
+    found.object(
+        "marks.pitch",
+        fmt::format("marks of {:g} mm at {:g} mm leave no gap", marks.width * 1000, marks.pitch * 1000),
+        fmt::format("more than {:g} mm (width, twice the hysteresis, six times the scatter)",
+                    (marks.width + 2 * marks.hysteresis + 6 * marks.scatter) * 1000));
+  if (marks.pitch > 0 && data.drive.speed * h > marks.width)
+    found.object("marks.width",
+                 fmt::format("at {:g} m/min a mark of {:g} mm is past the photocell within a step of {:g} us",
+                             data.drive.speed * metres_a_minute, marks.width * 1000, h * 1e6),
+                 step_remedy(marks.width / data.drive.speed));
+  return found.take();
 }
 
 std::unique_ptr<Plant> WebDefinition::build(World& world,

@@ -293,13 +293,13 @@ void Bus::plants_to_inputs() {
   for (const auto& wire : loops_) wire.to->count = 4 * wire.from->count;
   for (const auto& wire : inputs_) wire.to->level = wire.from->level;
   for (const auto& wire : interrupts_) {
-    if (wire.from->edge_count > 0) {
+    if (!wire.from->edges.empty()) {
       deliver_interrupts();
       break;
     }
   }
   for (const auto& wire : interrupts_) wire.level->level = wire.from->level;
-  for (auto& [name, port] : panel_.switches) port.edge_count = 0;
+  for (auto& [name, port] : panel_.switches) port.edges.clear();
 }
 
 void Bus::deliver_interrupts() {
@@ -310,9 +310,7 @@ void Bus::deliver_interrupts() {
   };
   std::vector<Arrival> arrivals;
   for (const auto& wire : interrupts_) {
-    for (int i = 0; i < wire.from->edge_count; ++i) {
-      arrivals.push_back({wire.from->edges[i].fraction, wire.line, wire.from->edges[i].rising});
-    }
+    for (const auto& edge : wire.from->edges) arrivals.push_back({edge.fraction, wire.line, edge.rising});
   }
   std::stable_sort(arrivals.begin(), arrivals.end(),
                    [](const Arrival& a, const Arrival& b) { return a.fraction < b.fraction; });

@@ -33,7 +33,10 @@ void set_values(const std::vector<std::pair<Text, double>>& values, const Scenar
   for (const auto& [name, number] : values) {
     const auto value = controller.find(name.text);
     if (value && value->write) {
-      value->write(number);
+      const auto fault =
+          value->range ? devices::misfit(value->name, *value->range, number, value->unit) : std::nullopt;
+      if (fault) problems.push_back(problem_at(scenario, name.place, fault->what, fault->remedy));
+      if (!fault) value->write(number);
       continue;
     }
     const auto near = devices::nearest(name.text, controller.names());
@@ -99,16 +102,6 @@ std::unique_ptr<devices::Controller> load_qmove(const QmoveSection& section, con
   return controller;
 }
 
-/// A register takes only what it holds.
-void check_registers(const Lx3vpSection& section, const Scenario& scenario, devices::Problems& problems) {
-  for (const auto& [name, number] : section.set) {
-    const auto named = lx3vp::parse_register(name.text);
-    if (!named) continue;  // told by set_values
-    if (auto fault = lx3vp::misfit(*named, number))
-      problems.push_back(problem_at(scenario, name.place, std::move(fault->what), std::move(fault->remedy)));
-  }
-}
-
 std::unique_ptr<devices::Controller> load_lx3vp(const Lx3vpSection& section, const Scenario& scenario,
                                                 devices::Problems& problems) {
   const auto before = problems.size();
@@ -129,7 +122,6 @@ std::unique_ptr<devices::Controller> load_lx3vp(const Lx3vpSection& section, con
   auto controller = std::make_unique<lx3vp::Lx3vpController>(std::move(program), section.scan);
   for (const auto& entry : registers) lx3vp::write(controller->registers(), entry.name, entry.value);
   restore(section.retentive, scenario, *controller, problems);
-  check_registers(section, scenario, problems);
   set_values(section.set, scenario, *controller,
              "name a register: D10, DD10 (32 bit), FD10 (float), D10.A, M0, S0, T0 or C0", problems);
   return controller;
@@ -221,20 +213,6 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
                       "CONFIGURATION ... TASK ... END_CONFIGURATION says when each runs"});
 }
 
-/// A value takes only what it holds.
-void check_ranges(const PlcopenSection& section, const Scenario& scenario, devices::Controller& controller,
-                  devices::Problems& problems) {
-  for (const auto& [name, number] : section.set) {
-    const auto value = controller.find(name.text);
-    if (!value || !value->write || !value->range) continue;  // told by set_values, or any number fits
-    if (number >= value->range->first && number <= value->range->second) continue;
-    problems.push_back(problem_at(scenario, name.place,
-                                  fmt::format("{} does not hold {}", value->name, number),
-                                  fmt::format("write {} to {}{}{}", value->range->first, value->range->second,
-                                              value->unit.empty() ? "" : " ", value->unit)));
-  }
-}
-
 /// True if the scenario sets the value, before power-up or in its timeline.
 bool sets(const Scenario& scenario, const PlcopenSection& section, const std::string& value) {
   const auto names_it = [&](const auto& list) {
@@ -290,7 +268,6 @@ std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section,
   auto controller =
       std::make_unique<plcopen::PlcopenController>(std::move(program), file, std::move(configuration));
   restore(section.retentive, scenario, *controller, problems);
-  check_ranges(section, scenario, *controller, problems);
   set_values(section.set, scenario, *controller,
              "name a variable of the program, or a value or parameter of an axis (drycut devices AXIS)",
              problems);

@@ -19,6 +19,7 @@
 #include "renders/video.hpp"
 #include "sim/figures.hpp"
 #include "sim/file.hpp"
+#include "sim/half_step.hpp"
 #include "sim/results.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/parameter_text.hpp"
@@ -294,6 +295,12 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
   for (const auto& check : outcome.checks) {
     report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
+  }
+  if (outcome.half_step) {
+    auto margins = margin_table(outcome, scenario.scene.step);
+    renders::ReportTable table{"Margins at half the step", std::move(margins.headings), {}, false, true};
+    for (auto& row : margins.rows) table.rows.push_back({std::move(row)});
+    report.summary.push_back(std::move(table));
   }
   if (!drawn.frames.empty()) {
     for (const auto index : chosen_frames(simulation, report_frames))

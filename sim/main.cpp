@@ -184,6 +184,8 @@ int run(int argc, char** argv) {
       run->add_option("--seed", seed, "Seed of every random source, in place of the scenarios'");
   run->add_flag("--no-pictures", no_pictures, "No frames, plots or report");
   run->add_flag("--gltf", run_options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
+  run->add_flag("--verify-step", run_options.verify_step,
+                "Run again at half scene.step and tell how far every check's margin moved");
   run->add_option("--set", run_options.set, "Override a value of the scenarios: path=value, may be repeated")
       ->allow_extra_args(false);
   run->callback([&] {

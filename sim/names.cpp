@@ -20,6 +20,26 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 
 }  // namespace
 
+devices::ValueRange range_of(const plants::Range& range) { return {range.min, range.max, range.whole}; }
+
+// As it is written: controllers find their names in any case, but `knife.angle` beside `Knife.posit` are two.
+void refuse_shared_names(const Scenario& scenario, devices::Controller& controller,
+                         devices::Problems& problems) {
+  const auto names = controller.names();
+  for (const auto& plant : scenario.plants) {
+    const auto& name = plant.name.text;
+    const auto value = controller.find(name);
+    const bool shared = (value && value->name == name) ||
+                        std::any_of(names.begin(), names.end(), [&](const std::string& other) {
+                          return other.substr(0, other.find_first_of(".:[")) == name;
+                        });
+    if (!shared) continue;
+    problems.push_back(problem_at(scenario, plant.name.place,
+                                  fmt::format("plants.{0}: the controller has {0} too", name),
+                                  "give the plant a name of its own, or another spelling: knife and Knife"));
+  }
+}
+
 Names::Names(std::vector<NamedPlant> plants, devices::Controller* controller, Panel& panel)
     : plants_(std::move(plants)), controller_(controller), panel_(panel) {
   for (const auto& [name, plant] : plants_) {
@@ -77,18 +97,19 @@ std::optional<Reading> Names::reading(const std::string& name) {
 std::optional<Target> Names::target(const std::string& name) {
   if (const auto found = settings_.find(name); found != settings_.end()) {
     const auto& setting = found->second;
-    return Target{name, setting.unit, setting.write, setting.read};
+    return Target{name, setting.unit, setting.write, setting.read, range_of(setting.range)};
   }
   if (assumed_ && of_controller(name)) return Target{name, "", [](double) {}, [] { return 0.0; }};
   if (name.starts_with(panel_prefix)) {
     const auto plug = name.substr(panel_prefix.size());
     if (!panel_.switches.contains(plug)) return {};
     return Target{name, "", [this, plug](double on) { panel_.set(plug, on != 0); },
-                  [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; }};
+                  [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; },
+                  range_of(plants::Range{})};
   }
   if (controller_ != nullptr) {
     if (auto value = controller_->find(name); value && value->write)
-      return Target{name, "", value->write, value->read};
+      return Target{name, "", value->write, value->read, value->range};
   }
   return {};
 }

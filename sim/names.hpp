@@ -26,7 +26,15 @@ struct Target {
   std::string_view unit;  ///< "" = pure number
   std::function<void(double)> write;
   std::function<double()> read;
+  std::optional<devices::ValueRange> range = {};  ///< in `unit`; absent: any number
 };
+
+/// What a plant's setting or fault takes, in its unit.
+devices::ValueRange range_of(const plants::Range& range);
+
+/// Says which plants are called like something of the controller: their names would mean two things.
+void refuse_shared_names(const Scenario& scenario, devices::Controller& controller,
+                         devices::Problems& problems);
 
 /// Every name of a running scenario: `knife.angle`, `AxisX.posit`, `panel.start`, `slLength`, `2.AN01`.
 /// Plants come first, then the panel, then the controller; any of them may be absent.

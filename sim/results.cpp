@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/file.hpp"
+#include "sim/half_step.hpp"
 #include "sim/plain_text.hpp"
 
 namespace drycut::sim {
@@ -72,8 +73,11 @@ void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
   json["passed"] = outcome.passed();
   json["end"] = seconds(outcome.end);
   json["failure"] = outcome.failure;
+  const auto& half = outcome.half_step;
+  if (half) json["half_step"] = {{"step", seconds(half->step)}, {"failure", half->failure}};
   json["checks"] = nlohmann::ordered_json::array();
-  for (const auto& check : outcome.checks) {
+  for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
+    const auto& check = outcome.checks[i];
     json["checks"].push_back({{"name", check.name},
                               {"expectation", check.expectation},
                               {"passed", check.passed},
@@ -81,6 +85,11 @@ void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
                               {"unit", check.unit},
                               {"at", number_or_null(check.at)},
                               {"detail", check.detail}});
+    if (!half || i >= half->checks.size()) continue;
+    const auto& other = half->checks[i];
+    json["checks"].back()["half_step"] = {{"passed", other.passed},
+                                          {"margin", number_or_null(other.margin)},
+                                          {"moved", number_or_null(moved(check, other))}};
   }
   OutputFile out(file);
   out.write(json.dump(2) + "\n");

@@ -16,7 +16,8 @@ struct RunResult {
   bool has_report = false;
 };
 
-/// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check.
+/// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check; with
+/// --verify-step also what it came to at half the step.
 void write_checks(const Outcome& outcome, const std::filesystem::path& file);
 
 /// The files of a run that a comparison reads.

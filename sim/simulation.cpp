@@ -45,6 +45,7 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
   build_plants();
   if (controller_) {
     bus_.connect(scenario, *controller_, named_, problems);
+    refuse_shared_names(scenario, *controller_, problems);
     check_periods(problems);
     check_plant_names(scenario, *controller_, problems);
   }

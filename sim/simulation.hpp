@@ -20,11 +20,19 @@
 
 namespace drycut::sim {
 
+/// What the checks came to at half the step.
+struct HalfStep {
+  Time step = 0;
+  std::string failure;
+  std::vector<CheckResult> checks;  ///< the run's own, in its order
+};
+
 /// How a run ended.
 struct Outcome {
   Time end = 0;         ///< simulated until
   std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
   std::vector<CheckResult> checks;
+  std::optional<HalfStep> half_step = {};  ///< where it was asked for
   [[nodiscard]] bool passed() const;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 #include "sim/scenario/units.hpp"
@@ -28,8 +29,22 @@ class Binder {
     problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 
-  /// The quantity as a setting or fault with `unit` takes it (SI); nullopt after a problem.
-  std::optional<double> value(const std::string& name, std::string_view unit, const Quantity& quantity) {
+  /// The quantity as a setting or fault with `unit` and `range` takes it (SI); nullopt after a problem.
+  std::optional<double> value(const std::string& name, std::string_view unit,
+                              const std::optional<devices::ValueRange>& range, const Quantity& quantity) {
+    const auto si = converted(name, unit, quantity);
+    if (!si || !range) return si;
+    // Another unit's conversion may miss a limit by its last digit.
+    const double number = quantity.unit == unit
+                              ? quantity.number
+                              : std::strtod(fmt::format("{:.12g}", from_si(*si, unit)).c_str(), nullptr);
+    const auto fault = devices::misfit(name, *range, number, unit);
+    if (!fault) return si;
+    problem(quantity.place, fault->what, fault->remedy);
+    return {};
+  }
+
+  std::optional<double> converted(const std::string& name, std::string_view unit, const Quantity& quantity) {
     if (unit.empty()) {
       if (quantity.unit.empty()) return quantity.number;
       problem(quantity.place, fmt::format("{} takes a plain number, not '{}'", name, quantity.unit),
@@ -106,20 +121,20 @@ Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* 
     for (const auto& [name, quantity] : stimulus.set) {
       const auto target = binder.target(name);
       if (!target) continue;
-      const auto value = binder.value(name.text, target->unit, quantity);
+      const auto value = binder.value(name.text, target->unit, target->range, quantity);
       if (value) entry.sets.push_back({*target, *value, text_of(name.text, quantity, "=")});
     }
     for (const auto& [name, quantity] : stimulus.ramp) {
       const auto target = binder.target(name);
       if (!target) continue;
-      const auto value = binder.value(name.text, target->unit, quantity);
+      const auto value = binder.value(name.text, target->unit, target->range, quantity);
       if (value) entry.ramps.push_back({*target, *value, text_of(name.text, quantity, "->")});
     }
     for (const auto& action : stimulus.faults) {
       const auto fault = binder.fault(action);
       if (!fault) continue;
       const auto name = action.component.text + "." + action.fault.text;
-      const auto value = binder.value(name, fault->unit, action.value);
+      const auto value = binder.value(name, fault->unit, range_of(fault->range), action.value);
       if (value) entry.faults.push_back({fault->act, *value, text_of(name, action.value, "=")});
     }
     if (stimulus.power && controller == nullptr) {

@@ -150,6 +150,7 @@ std::optional<ControllerValue> Lx3vpController::find(const std::string& name) {
   } else {
     value.read = [this, at = *named] { return lx3vp::read(registers_, at); };
     value.write = [this, at = *named](double number) { lx3vp::write(registers_, at, number); };
+    value.range = range_of(*named);
   }
   return value;
 }

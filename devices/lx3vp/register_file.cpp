@@ -151,18 +151,7 @@ class RowReader {
 }  // namespace
 
 std::optional<ValueFault> misfit(const RegisterName& name, double value) {
-  const ValueRange range = range_of(name);
-  if (name.kind != Kind::real && value != std::round(value)) {
-    return ValueFault{fmt::format("{} holds whole numbers, not {}", to_string(name), value),
-                      name.kind == Kind::word || name.kind == Kind::wide
-                          ? fmt::format("write D{}:F for a float", name.number)
-                          : "write a whole number"};
-  }
-  if (value >= range.low && value <= range.high) return std::nullopt;
-  return ValueFault{fmt::format("{} does not hold {}", to_string(name), value),
-                    name.kind == Kind::word
-                        ? fmt::format("write {} to {}, or D{}:L", range.low, range.high, name.number)
-                        : fmt::format("write {} to {}", range.low, range.high)};
+  return devices::misfit(to_string(name), range_of(name), value);
 }
 
 std::vector<RegisterValue> read_register_values(std::string_view text, const std::string& file,

@@ -14,11 +14,6 @@ struct RegisterValue {
   double value = 0;
 };
 
-struct ValueFault {
-  std::string what;
-  std::string remedy;
-  bool operator==(const ValueFault&) const = default;
-};
 /// What is wrong with giving `value` to the register, nullopt if it takes it as it is.
 std::optional<ValueFault> misfit(const RegisterName& name, double value);
 

@@ -132,20 +132,23 @@ double read(const Registers& registers, const RegisterName& name) {
 }
 
 ValueRange range_of(const RegisterName& name) {
+  constexpr double most = 2147483647.0;
+  const auto as_float = fmt::format("D{}:F for a float", name.number);
   switch (name.kind) {
     case Kind::word:
+      return {-32768, 65535, true, as_float, fmt::format("D{}:L", name.number)};
     case Kind::v:
     case Kind::z:
-      return {-32768, 65535};
+      return {-32768, 65535, true};
     case Kind::wide:
-      return {-2147483648.0, 2147483647.0};
+      return {-most - 1, most, true, as_float};
     case Kind::real:
       return {-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
     case Kind::timer:
-      return {0, 32767};
+      return {0, 32767, true};
     case Kind::counter:
-      if (name.number < first_wide_counter) return {-32768, 32767};
-      return {-2147483648.0, 2147483647.0};
+      if (name.number < first_wide_counter) return {-32768, 32767, true};
+      return {-most - 1, most, true};
     case Kind::bit:
     case Kind::m:
     case Kind::s:
@@ -153,7 +156,7 @@ ValueRange range_of(const RegisterName& name) {
     case Kind::y:
     case Kind::timer_contact:
     case Kind::counter_contact:
-      return {0, 1};
+      return {0, 1, true};
   }
   return {};
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "devices/value_range.hpp"
+
 namespace drycut::devices::lx3vp {
 
 // The registers of the PLC: what programs, the cams and a panel on its port share. Numbers of X and Y are
@@ -120,11 +122,7 @@ std::string to_string(const RegisterName& name);
 
 /// The value behind a name.
 double read(const Registers& registers, const RegisterName& name);
-/// The range that `write` takes without changing the value: -32768..65535 of a word, and so on.
-struct ValueRange {
-  double low = 0;
-  double high = 0;
-};
+/// What `write` takes without changing the value: -32768..65535 of a word, and so on.
 ValueRange range_of(const RegisterName& name);
 /// Stores `value`, rounded to a whole number where the register holds one and limited to `range_of`.
 void write(Registers& registers, const RegisterName& name, double value);

@@ -75,7 +75,7 @@ std::optional<ControllerValue> PlcopenController::axis_value(int number, std::st
     };
     const auto terminals = axis_terminal_table();
     if (row.write == nullptr || std::any_of(terminals.begin(), terminals.end(), wired)) return value;
-    value.range = {row.min, row.max};
+    value.range = ValueRange{row.min, row.max};
     value.write = [this, number, &row](double wish) {
       if (wish >= row.min && wish <= row.max) return row.write(axis(number), wish);
       events_.push_back({axis(number).name(), "out_of_range",
@@ -97,7 +97,7 @@ std::optional<ControllerValue> PlcopenController::parameter_value(int number,
       {}};
   // What an axis is made of has been wired.
   if (parameter.member == &AxisParameters::kind) return value;
-  value.range = {parameter.min, parameter.max};
+  value.range = ValueRange{parameter.min, parameter.max, parameter.whole};
   value.write = [this, number, &parameter](double wish) { set_parameter(number, parameter, wish); };
   return value;
 }
@@ -149,7 +149,8 @@ ControllerValue PlcopenController::symbol_value(std::size_t symbol) {
       {},
       {}};
   if (!of.writable) return value;
-  value.range = {of.min, of.max};
+  const bool whole = of.type != "REAL" && of.type != "LREAL" && of.type != "TIME";
+  value.range = ValueRange{of.min, of.max, whole};
   value.write = [this, symbol](double number) { runtime_.write(symbol, number); };
   return value;
 }

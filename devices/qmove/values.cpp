@@ -41,6 +41,22 @@ std::int64_t whole(double value) {
   return std::isnan(value) ? 0 : static_cast<std::int64_t>(std::clamp(value, -most, most));
 }
 
+ValueRange range_of(Size size) {
+  switch (size) {
+    case Size::F:
+      return {0, 1, true};
+    case Size::B:
+      return {-128, 127, true};
+    case Size::W:
+      return {-32768, 32767, true};
+    case Size::L:
+      return {-2147483648.0, 2147483647.0, true};
+    case Size::S:
+      break;
+  }
+  return {-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
+}
+
 }  // namespace
 
 std::optional<QmoveController::Location> QmoveController::locate(std::string_view text) const {
@@ -137,6 +153,7 @@ std::optional<ControllerValue> QmoveController::find(const std::string& name) {
     case Location::Kind::cell:
       value.read = [this, index, size] { return cell_value(index, size); };
       value.write = [this, index, size](double x) { set_cell(index, size, x); };
+      value.range = range_of(size);
       break;
     case Location::Kind::timer:
       value.read = [this, index] { return machine_.now >= machine_.timers[index] ? 1.0 : 0.0; };
@@ -144,6 +161,7 @@ std::optional<ControllerValue> QmoveController::find(const std::string& name) {
         constexpr std::int64_t ns_per_ms = 1'000'000;
         machine_.timers[index] = machine_.now + std::max(wrap(Size::L, whole(ms)), 0) * ns_per_ms;
       };
+      value.range = ValueRange{0, std::numeric_limits<std::int32_t>::max(), true};
       break;
     case Location::Kind::input:
       value.read = [this, index] { return machine_.inputs[index]->level ? 1.0 : 0.0; };
@@ -160,7 +178,7 @@ std::optional<ControllerValue> QmoveController::find(const std::string& name) {
       if (symbol.kind == Symbol::Kind::state) break;
       const Variable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
       value.unit = variable.unit;
-      value.range = {variable.min, variable.max};
+      value.range = ValueRange{variable.min, variable.max, true};
       if (variable.access == Access::read_write)
         value.write = [this, index, symbol](double x) { write_device(index, symbol, x); };
       break;

@@ -141,6 +141,9 @@ std::string_view plug_text(const plants::Port& port) {
   return names[port.plug.index()];
 }
 
+std::string range_text(const plants::Range& range) {
+  return fmt::format("{:.12g} {} {:.12g}", range.min, range.whole && range.max == 1 ? "or" : "to", range.max);
+}
 std::string range_text(const plants::Parameter& parameter) {
   if (!parameter.choices.empty()) {
     std::string text;
@@ -183,12 +186,19 @@ ordered_json plant_json(const plants::PlantType& type) {
     json["channels"].push_back(
         with_drives({{"name", o.item.name}, {"unit", o.item.unit}, {"meaning", o.item.meaning}}, o));
   for (const auto& o : specimens.settings())
-    json["settings"].push_back(
-        with_drives({{"name", o.item.name}, {"unit", o.item.unit}, {"meaning", o.item.meaning}}, o));
+    json["settings"].push_back(with_drives({{"name", o.item.name},
+                                            {"unit", o.item.unit},
+                                            {"range", range_text(o.item.range)},
+                                            {"meaning", o.item.meaning}},
+                                           o));
   for (const auto& o : specimens.faults()) {
     const auto& f = o.item;
-    json["faults"].push_back(with_drives(
-        {{"component", f.component}, {"name", f.name}, {"unit", f.unit}, {"meaning", f.meaning}}, o));
+    json["faults"].push_back(with_drives({{"component", f.component},
+                                          {"name", f.name},
+                                          {"unit", f.unit},
+                                          {"range", range_text(f.range)},
+                                          {"meaning", f.meaning}},
+                                         o));
   }
   for (const auto& o : specimens.events()) {
     ordered_json values = ordered_json::array();
@@ -245,13 +255,14 @@ void print_plant(const plants::PlantType& type) {
   TextTable channels({"channel", "unit", "meaning"});
   for (const auto& o : specimens.channels()) channels.add({o.item.name, o.item.unit, meaning_text(o)});
   channels.print("Channels, for record, checks and plots");
-  TextTable settings({"setting", "unit", "meaning"});
+  TextTable settings({"setting", "unit", "range", "meaning"});
   for (const auto& o : specimens.settings())
-    settings.add({o.item.name, std::string(o.item.unit), meaning_text(o)});
+    settings.add({o.item.name, std::string(o.item.unit), range_text(o.item.range), meaning_text(o)});
   settings.print("Settings, for the timeline");
-  TextTable faults({"component", "fault", "unit", "meaning"});
+  TextTable faults({"component", "fault", "unit", "range", "meaning"});
   for (const auto& o : specimens.faults())
-    faults.add({o.item.component, o.item.name, std::string(o.item.unit), meaning_text(o)});
+    faults.add(
+        {o.item.component, o.item.name, std::string(o.item.unit), range_text(o.item.range), meaning_text(o)});
   faults.print("Faults, for the timeline");
   TextTable events({"event", "values", "meaning"});
   for (const auto& o : specimens.events()) {

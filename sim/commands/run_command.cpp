@@ -11,10 +11,12 @@
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/progress.hpp"
+#include "sim/commands/text_table.hpp"
 #include "sim/compare/scene_run.hpp"
 #include "sim/controller_loader.hpp"
 #include "sim/file.hpp"
 #include "sim/gallery.hpp"
+#include "sim/half_step.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/plain_text.hpp"
 #include "sim/results.hpp"
@@ -29,6 +31,7 @@ constexpr auto* junit_file = "junit.xml";
 /// One scenario on its way from file to report.
 struct Job {
   Scenario scenario;
+  std::optional<Scenario> half;  ///< the same at half its step, with --verify-step
   std::unique_ptr<Simulation> simulation;
   PartMeshes meshes;
   RunResult result;
@@ -103,6 +106,18 @@ bool put_together(Job& job, const std::string& name, const RunOptions& options, 
   return problems.empty();
 }
 
+/// Reads a sound scenario once more, at half its step.
+void read_half(Job& job, std::vector<Override> overrides, const RunOptions& options,
+               const std::function<Scenario(const std::vector<Override>&)>& read,
+               devices::Problems& problems) {
+  if (!options.verify_step || !problems.empty()) return;
+  const auto half = halved_step(job.scenario, problems);
+  if (!half) return;
+  overrides.push_back(*half);
+  job.half = read(overrides);
+  job.half->scene.seed = job.scenario.scene.seed;
+}
+
 /// The members of a comparing scene as jobs, in a folder of its own each inside the scene's.
 void prepare_members(ComparisonScene scene, const std::vector<Override>& overrides, const RunOptions& options,
                      Claims& claims, Work& work, devices::Problems& problems) {
@@ -114,6 +129,8 @@ void prepare_members(ComparisonScene scene, const std::vector<Override>& overrid
     devices::Problems own;
     job->scenario = read_member(scene, member, overrides, own);
     sound = put_together(*job, stem + "/" + member.name.text, options, claims, own) && sound;
+    read_half(
+        *job, overrides, options, [&](const auto& set) { return read_member(scene, member, set, own); }, own);
     place_in_scene(scene, member, own);
     problems.insert(problems.end(), own.begin(), own.end());
     group.members.push_back(job.get());
@@ -141,6 +158,8 @@ Work prepare(const RunOptions& options, devices::Problems& problems) {
       auto job = std::make_unique<Job>();
       job->scenario = read_scenario(file, overrides, own);
       put_together(*job, file.stem().string(), options, claims, own);
+      read_half(
+          *job, overrides, options, [&](const auto& set) { return read_scenario(file, set, own); }, own);
       work.jobs.push_back(std::move(job));
     }
     problems.insert(problems.end(), own.begin(), own.end());
@@ -180,6 +199,10 @@ void run_job(Job& job, const RunOptions& options, int threads,
   if (options.pictures) job.simulation->follow_cams();
   job.result.outcome =
       job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
+  if (job.half)
+    job.result.outcome.half_step = run_half_step(std::move(*job.half), [&](Time now) {
+      progress("at half the step", static_cast<double>(now) / duration);
+    });
   write_trace(job.simulation->recording(), folder.add(trace_file));
   write_events(job.simulation->recording(), folder.add(events_file));
   write_scenario(job.scenario, folder.add(scenario_file));
@@ -286,6 +309,12 @@ void print_result(const Job& job) {
              job.trouble.empty() ? verdict_text(result.outcome) : job.trouble,
              seconds_text(result.outcome.end));
   print_checks(result.outcome.checks);
+  if (result.outcome.half_step) {
+    auto margins = margin_table(result.outcome, job.scenario.scene.step);
+    TextTable table(std::move(margins.headings));
+    for (auto& row : margins.rows) table.add(std::move(row));
+    table.print("  margins at half the step");
+  }
   for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
   for (const auto& why : job.left_out) tell_left_out(why);
   if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());

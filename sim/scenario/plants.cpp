@@ -23,13 +23,13 @@ std::string shown(double number, std::string_view unit) {
 // Reads the parameters of one plant.
 class ParameterReader {
  public:
-  ParameterReader(PlantEntry& entry, Findings& findings)
-      : entry_(entry), parameters_(entry.definition->parameters()), findings_(findings) {}
+  ParameterReader(PlantEntry& entry, Time step, Findings& findings)
+      : entry_(entry), step_(step), parameters_(entry.definition->parameters()), findings_(findings) {}
 
   void read(const YamlNode& node) {
     read_level(node, "");
     if (findings_.count() != at_start_) return;  // an objection to a default would only be an echo
-    for (const auto& objection : entry_.definition->objections()) {
+    for (const auto& objection : entry_.definition->objections(seconds(step_))) {
       findings_.add(place_of(objection.parameter),
                     fmt::format("{}.{}: {}", entry_.name.text, objection.parameter, objection.what),
                     objection.remedy);
@@ -169,6 +169,7 @@ class ParameterReader {
   }
 
   PlantEntry& entry_;
+  Time step_;
   Parameters parameters_;
   Findings& findings_;
   std::size_t at_start_ = findings_.count();
@@ -276,22 +277,44 @@ std::vector<PlantEntry> sorted(std::vector<PlantEntry> plants, const YamlNode& s
 }
 
 // What plants object to in each other.
-void object_to_each_other(const std::vector<PlantEntry>& all, Findings& findings) {
+void object_to_each_other(const std::vector<PlantEntry>& all, Time step, Findings& findings) {
   const auto find = [&all](std::string_view name) -> plants::PlantDefinition* {
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](const PlantEntry& entry) { return entry.name.text == name; });
     return found == all.end() ? nullptr : found->definition.get();
   };
   for (const auto& plant : all)
-    for (const auto& objection : plant.definition->objections_with(find))
+    for (const auto& objection : plant.definition->objections_with(find, seconds(step)))
       findings.add(place_of(plant, objection.parameter),
                    fmt::format("{}.{}: {}", plant.name.text, objection.parameter, objection.what),
                    objection.remedy);
 }
 
+// A reference that is `sole` is a place for one: a web has one cut.
+void refuse_shared_places(const std::vector<PlantEntry>& all, Findings& findings) {
+  std::vector<std::pair<std::string, const PlantEntry*>> taken;
+  for (const auto& plant : all) {
+    for (const auto& parameter : plant.definition->parameters()) {
+      if (!parameter.sole) continue;
+      const auto& name = *std::get<std::string*>(parameter.value);
+      const auto other =
+          std::find_if(taken.begin(), taken.end(), [&](const auto& place) { return place.first == name; });
+      if (other == taken.end()) {
+        taken.emplace_back(name, &plant);
+        continue;
+      }
+      findings.add(place_of(plant, parameter.name),
+                   fmt::format("plants.{}.{}: {} has the {} {} already", plant.name.text, parameter.name,
+                               name, other->second->type.text, other->second->name.text),
+                   fmt::format("give it a {} of its own: behind one cut the {} is in pieces",
+                               parameter.reference, parameter.reference));
+    }
+  }
+}
+
 }  // namespace
 
-std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types,
+std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types, Time step,
                                     Findings& findings) {
   const auto before = findings.count();
   std::vector<PlantEntry> plants;
@@ -308,11 +331,12 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     if (is_repeated(node, entry)) continue;
     auto plant = read_plant(entry, types, findings);
     if (!plant) continue;
-    ParameterReader(*plant, findings).read(entry.value);
+    ParameterReader(*plant, step, findings).read(entry.value);
     plants.push_back(std::move(*plant));
   }
   auto order = sorted(std::move(plants), node, findings);
-  if (findings.count() == before) object_to_each_other(order, findings);
+  if (findings.count() == before) refuse_shared_places(order, findings);
+  if (findings.count() == before) object_to_each_other(order, step, findings);
   return order;
 }
 

@@ -180,6 +180,13 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
                              format_time(scenario.scene.duration), format_time(step)),
                  "let it last at least one step");
   }
+  constexpr Time most_steps = Time{1} << 53U;  // a recorder's row has a number that a double holds
+  if (scenario.scene.duration / step > most_steps) {
+    findings.add(place_at(root, {"scene", "step"}),
+                 fmt::format("scene.duration {} takes {} steps of {}", format_time(scenario.scene.duration),
+                             scenario.scene.duration / step, format_time(step)),
+                 fmt::format("at most {} steps: a longer step or a shorter duration", most_steps));
+  }
 }
 
 void read_sections(const YamlNode& root, std::span<const plants::PlantType> types, Scenario& scenario,
@@ -187,7 +194,8 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
   MapReader reader(root, "", findings);
   if (const auto* node = reader.map("scene")) scenario.scene = read_scene(*node, findings);
   const auto before = findings.count();
-  if (const auto* node = reader.map("plants")) scenario.plants = read_plants(*node, types, findings);
+  if (const auto* node = reader.map("plants"))
+    scenario.plants = read_plants(*node, types, scenario.scene.step, findings);
   if (const auto* node = reader.map("controller")) {
     scenario.controller = read_controller(*node, findings);
   }

@@ -13,8 +13,8 @@ namespace drycut::sim {
 
 // The readers of the sections, one a section; used by read_scenario only. Each takes the section's value.
 
-/// Plants with their parameters, each after the plants that it refers to.
-std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types,
+/// Plants with their parameters, each after the plants that it refers to; judged for the scenario's step.
+std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types, Time step,
                                     Findings& findings);
 PlcopenSection read_plcopen(const YamlNode& node, const Place& place, Findings& findings);
 /// The `set` of a controller called `of`: values before power-up.

@@ -100,7 +100,8 @@ std::optional<Time> read_time(const Text& text, const std::string& name, Sign si
                  "give a shorter time");
     return {};
   }
-  if (std::abs(exact - whole) > 1e-6 + 1e-15 * exact) {
+  const bool none = *value > 0 && whole == 0;
+  if (none || std::abs(exact - whole) > 1e-6 + 1e-15 * exact) {
     const auto next = static_cast<Time>(std::max(1.0, whole));
     findings.add(text.place, fmt::format("{}: {} is no whole number of nanoseconds", name, text.text),
                  fmt::format("the nearest is {}", format_time(next)));

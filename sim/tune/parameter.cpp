@@ -203,36 +203,13 @@ void check_against_controller(TunedParameter& parameter, const Scenario& scenari
   if (!preset) return;
   const auto [controller, value] = value_at_start(scenario, preset->value);
   if (!value || !value->write) return;
-  constexpr double between = 0.5;  // what no integer variable keeps
-  value->write(between);
-  if (value->read() != between) parameter.integer = true;
+  if (!value->range) return;
+  parameter.integer = parameter.integer || value->range->whole;
   for (const bool upper : {false, true}) {
-    const double bound = upper ? parameter.high : parameter.low;
+    const auto fault =
+        devices::misfit(value->name, *value->range, upper ? parameter.high : parameter.low, value->unit);
     const int column = upper ? parameter.high_column : parameter.low_column;
-    if (parameter.integer && bound != std::rint(bound)) {
-      problems.push_back({parameter.option, 1, column,
-                          fmt::format("{} holds whole numbers, not {}", value->name, bound),
-                          "end the range at whole numbers"});
-      continue;
-    }
-    if (value->range && (bound < value->range->first || bound > value->range->second)) {
-      problems.push_back({parameter.option, 1, column,
-                          fmt::format("{} goes from {} to {}, not to {}", value->name, value->range->first,
-                                      value->range->second, bound),
-                          "stay within the range"});
-      continue;
-    }
-    (void)controller->take_events();
-    value->write(bound);
-    const auto events = controller->take_events();
-    const auto refused = std::find_if(events.begin(), events.end(),
-                                      [](const auto& event) { return event.event == "out_of_range"; });
-    if (refused != events.end()) {
-      problems.push_back({parameter.option, 1, column, refused->text, "stay within the range"});
-    } else if (value->read() != bound) {
-      problems.push_back({parameter.option, 1, column, fmt::format("{} cannot hold {}", value->name, bound),
-                          fmt::format("it became {}; stay within its size", value->read())});
-    }
+    if (fault) problems.push_back({parameter.option, 1, column, fault->what, fault->remedy});
   }
 }
 

@@ -45,7 +45,7 @@ TEST(HoldingBrake, Faults) {
   brake.offer_faults(faults);
   fault(faults, "brake", "worn", 0.75);
   EXPECT_EQ(brake.torque(), 5);
-  fault(faults, "brake", "worn", 7);
+  fault(faults, "brake", "worn", 1);
   EXPECT_EQ(brake.torque(), 0);
   fault(faults, "brake", "worn", 0);
   fault(faults, "brake", "stuck_open", 1);

@@ -208,8 +208,8 @@ TEST(PrintMarksShown, AMarkPassesUnderThePhotocellWhenThePhotocellSaysSo) {
   int edges = 0;
   for (int i = 0; i < 10'000; ++i) {
     line.run(h);
-    for (int e = 0; e < cell.edge_count; ++e) {
-      if (!cell.edges[e].rising) continue;
+    for (const SignalPort::Edge& edge : cell.edges) {
+      if (!edge.rising) continue;
       ++edges;
       // The cell stands 900 mm before the cut; the front edge is half a mark of 5 mm before its middle.
       double nearest = 1;

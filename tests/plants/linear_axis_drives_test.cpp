@@ -103,7 +103,7 @@ TEST(LinearAxisDrives, TheBacklashAxisKeepsItsGapUnderContactors) {
   BacklashAxisDefinition definition;
   definition.axis.data.drive.kind = "contactors";
   definition.axis.data.start = 0.5;
-  ASSERT_TRUE(definition.objections().empty());
+  ASSERT_TRUE(definition.objections(1e-4).empty());
   Unit unit(definition);
   const auto ahead_after = [&](int direction) {
     unit.command(direction, true);

@@ -44,8 +44,7 @@ TEST(Encoder, CountsExactlyOverAMillionTurnsBothWays) {
     for (int i = 0; i < steps; ++i) {
       t.world.step(h);
       t.encoder.sense(t.shaft);
-      for (int e = 0; e < t.encoder.index.edge_count; ++e) {
-        const SignalPort::Edge edge = t.encoder.index.edges[static_cast<std::size_t>(e)];
+      for (const SignalPort::Edge& edge : t.encoder.index.edges) {
         if (!edge.rising) continue;
         ++indexes;
         // The index is at a whole turn: its count is a multiple of the counts per turn, exactly.
@@ -83,10 +82,10 @@ TEST(Encoder, StartsAtZeroWhereTheShaftStandsAndKeepsTheIndexWhereItIs) {
   EXPECT_NEAR(t.encoder.pulses.port.now, 0.6 * 8192, 1e-6);
   Turning back({.lines = 2048}, 2.5);
   back.run(0.1, 5);  // reaches 3.0 in the fifth step, or the next by rounding
-  if (back.encoder.index.edge_count == 0) back.run(0.1, 1);
-  ASSERT_EQ(back.encoder.index.edge_count, 2);
+  if (back.encoder.index.edges.empty()) back.run(0.1, 1);
+  ASSERT_EQ(back.encoder.index.edges.size(), 2U);
   EXPECT_EQ(back.encoder.pulses.port.count_at(back.encoder.index.edges[0].fraction), 4096);
-  EXPECT_EQ(index.edge_count, 0);
+  EXPECT_EQ(index.edges.size(), 0U);
 }
 
 TEST(Encoder, IndexIsTheSameCountFromBothSides) {
@@ -97,12 +96,12 @@ TEST(Encoder, IndexIsTheSameCountFromBothSides) {
   Turning u({.lines = 1024}, 0.93);
   for (int i = 0; i < 8; ++i) {
     u.run(0.0171, 1);
-    if (u.encoder.index.edge_count > 0)
+    if (!u.encoder.index.edges.empty())
       forwards = u.encoder.pulses.port.count_at(u.encoder.index.edges[0].fraction);
   }
   for (int i = 0; i < 8; ++i) {
     u.run(-0.0171, 1);
-    if (u.encoder.index.edge_count > 0)
+    if (!u.encoder.index.edges.empty())
       backwards = u.encoder.pulses.port.count_at(u.encoder.index.edges[0].fraction);
   }
   EXPECT_EQ(forwards, static_cast<std::int64_t>(std::floor(0.07 * 4096 + 0.5)));
@@ -136,7 +135,7 @@ TEST(EncoderFaults, StuckHoldsTheCountAndTheIndex) {
   for (int i = 0; i < 20; ++i) {
     t.run(0.1, 1);
     EXPECT_EQ(t.count(), held);
-    EXPECT_EQ(t.encoder.index.edge_count, 0);
+    EXPECT_EQ(t.encoder.index.edges.size(), 0U);
   }
   fault(t.faults, "encoder", "stuck", 0);
   t.run(0.1, 5);
@@ -194,11 +193,34 @@ TEST(MeasuringWheel, IndexComesOnceATurnAtItsCount) {
   for (int i = 0; i < 10000; ++i) {
     wheel.sense(x, x + 1.3e-3);
     x += 1.3e-3;
-    if (wheel.index.edge_count == 0) continue;
+    if (wheel.index.edges.empty()) continue;
     ++indexes;
     EXPECT_EQ(wheel.pulses.port.count_at(wheel.index.edges[0].fraction), 10000 * indexes);
   }
   EXPECT_EQ(indexes, 26);
+}
+
+TEST(MeasuringWheel, EveryIndexOfAStepComesAtItsCount) {
+  // A wheel of 10 mm and steps of 25.31 mm, 253.1 turns there and 250.6 back: two or three turns a step.
+  MeasuringWheel wheel({.circumference = 0.01}, Random());
+  double x = 0;
+  std::int64_t turns = 0;  // of the last index
+  for (const int way : {1, -1}) {
+    if (way < 0) ++turns;
+    for (int i = 0; i < (way > 0 ? 100 : 99); ++i) {
+      wheel.sense(x, x + way * 0.02531);
+      x += way * 0.02531;
+      double last = 0;
+      for (const SignalPort::Edge& edge : wheel.index.edges) {
+        EXPECT_GE(edge.fraction, last);
+        last = edge.fraction;
+        if (!edge.rising) continue;
+        turns += way;
+        EXPECT_EQ(wheel.pulses.port.count_at(edge.fraction), 10000 * turns);
+      }
+    }
+    EXPECT_EQ(turns, way > 0 ? 253 : 3);
+  }
 }
 
 TEST(MeasuringWheelFaults, SlipFromNowOnKeepsWhatWasCounted) {
@@ -226,11 +248,31 @@ std::vector<double> edges(PositionSwitch& s, double from, double to, double step
   const double dx = to > from ? step : -step;
   for (int i = 0; i < std::lround((to - from) / dx); ++i) {
     s.sense(x, x + dx, h);
-    for (int e = 0; e < s.port.edge_count; ++e)
-      found.push_back(x + dx * s.port.edges[static_cast<std::size_t>(e)].fraction);
+    for (const SignalPort::Edge& edge : s.port.edges) found.push_back(x + dx * edge.fraction);
     x += dx;
   }
   return found;
+}
+
+TEST(PositionSwitch, ATargetThatIsPassedWithinAStepGivesBothEdges) {
+  using ::testing::DoubleNear;
+  using ::testing::ElementsAre;
+  PositionSwitch s({.centre = 1, .width = 0.01, .hysteresis = 0.002}, 0, 0);
+  EXPECT_THAT(edges(s, 0.1, 2.1, 0.4), ElementsAre(DoubleNear(0.995, 1e-12), DoubleNear(1.007, 1e-12)));
+  EXPECT_THAT(edges(s, 2.1, 0.1, 0.4), ElementsAre(DoubleNear(1.005, 1e-12), DoubleNear(0.993, 1e-12)));
+  EXPECT_FALSE(s.port.level);
+  // A turn of 1 and a step over its end.
+  PositionSwitch drum({.centre = 0.99, .width = 0.01}, 1, 0.95);
+  drum.sense(0.95, 0.05, h);
+  ASSERT_EQ(drum.port.edges.size(), 2U);
+  EXPECT_NEAR(drum.port.edges[0].fraction, 0.35, 1e-12);
+  EXPECT_NEAR(drum.port.edges[1].fraction, 0.45, 1e-12);
+  // The way over the target takes 0.012 / 0.4 of a step: a filter of a hundredth lets it pass, of a tenth
+  // not.
+  PositionSwitch fast({.centre = 1, .width = 0.01, .hysteresis = 0.002, .delay = h / 100}, 0, 0);
+  EXPECT_THAT(edges(fast, 0.1, 2.1, 0.4), ElementsAre(DoubleNear(0.999, 1e-12), DoubleNear(1.011, 1e-12)));
+  PositionSwitch slow({.centre = 1, .width = 0.01, .hysteresis = 0.002, .delay = h / 10}, 0, 0);
+  EXPECT_THAT(edges(slow, 0.1, 2.1, 0.4), ElementsAre());
 }
 
 TEST(PositionSwitch, SwitchesAtTheTargetAndLetsGoBehindTheHysteresis) {
@@ -254,8 +296,7 @@ TEST(PositionSwitch, RepeatsWithItsPeriod) {
     const double next = part + 0.01 >= 1 ? part + 0.01 - 1 : part + 0.01;
     s.sense(part, next, h);
     part = next;
-    for (int e = 0; e < s.port.edge_count; ++e)
-      rising += s.port.edges[static_cast<std::size_t>(e)].rising ? 1 : 0;
+    for (const SignalPort::Edge& edge : s.port.edges) rising += edge.rising ? 1 : 0;
   }
   EXPECT_EQ(rising, 30);
 }

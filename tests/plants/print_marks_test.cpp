@@ -32,8 +32,8 @@ struct PrintedLine {
       web.drive(h);
       world.step(h);
       web.sense(h);
-      for (int e = 0; e < port.edge_count; ++e)
-        if (port.edges[e].rising) found.push_back(web.travel(port.edges[e].fraction));
+      for (const SignalPort::Edge& edge : port.edges)
+        if (edge.rising) found.push_back(web.travel(edge.fraction));
     }
     return found;
   }
@@ -143,9 +143,14 @@ TEST(PrintMarks, TheCutOfAPrintedWebTellsItsRegisterAndThatOfAPlainOneDoesNot) {
 TEST(PrintMarks, MarksWithoutAGapAreRefused) {
   WebDefinition definition;
   definition.data = PrintedLine::printed();
-  EXPECT_THAT(definition.objections(), testing::IsEmpty());
+  EXPECT_THAT(definition.objections(1e-4), testing::IsEmpty());
+  const auto fast = definition.objections(6e-3);
+  ASSERT_FALSE(fast.empty());
+  EXPECT_EQ(fast.back().parameter, "marks.width");
+  EXPECT_EQ(fast.back().what, "at 60 m/min a mark of 5 mm is past the photocell within a step of 6000 us");
+  EXPECT_EQ(fast.back().remedy, "scene.step of at most 5000 us");
   definition.data.marks.scatter = 0.05;
-  const auto objections = definition.objections();
+  const auto objections = definition.objections(1e-4);
   ASSERT_EQ(objections.size(), 1U);
   EXPECT_EQ(objections[0].what, "marks of 5 mm at 300 mm leave no gap");
   EXPECT_EQ(objections[0].remedy, "more than 305.4 mm (width, twice the hysteresis, six times the scatter)");

@@ -133,7 +133,7 @@ TEST(PulseServo, TripsCoastsAndIsReset) {
   EXPECT_NEAR(value(axis.trips[0], "turns"), 0.5, 0.01);
   EXPECT_NEAR(value(axis.trips[0], "speed"), axis.rotor.speed * 60 / turn, 1e-9);
   EXPECT_TRUE(axis.plug<SignalPort>("servo.alarm").level);
-  EXPECT_EQ(axis.plug<SignalPort>("servo.alarm").edge_count, 1);
+  EXPECT_EQ(axis.plug<SignalPort>("servo.alarm").edges.size(), 1U);
   EXPECT_FALSE(axis.plug<SignalPort>("servo.in_position").level);
 
   axis.load_torque = 0;

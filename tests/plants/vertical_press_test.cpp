@@ -197,7 +197,7 @@ TEST(VerticalPress, TheLoadChangesMassAndWeight) {
   set(*press.plant, "force", 400 * g);
   press.run(0.05);
   EXPECT_NEAR(press.ram().speed, speed, 1e-6);
-  set(*press.plant, "load", -5);
+  set(*press.plant, "load", 0);
   EXPECT_EQ(channel(*press.plant, "mass"), 600);
   press.run(0.05);
   EXPECT_NEAR(press.ram().speed - speed, 400 * g / 600 * 0.05, 1e-6);
@@ -305,7 +305,7 @@ TEST(VerticalPress, WhatCannotBeBuiltIsRefused) {
     VerticalPressDefinition definition;
     change(definition.data);
     std::vector<std::string> names;
-    for (const auto& o : definition.objections()) {
+    for (const auto& o : definition.objections(1e-4)) {
       EXPECT_FALSE(o.remedy.empty());
       names.push_back(o.parameter + ": " + o.what);
     }
@@ -318,11 +318,11 @@ TEST(VerticalPress, WhatCannotBeBuiltIsRefused) {
   EXPECT_THAT(objections([](Data& d) { d.gear.stiffness = 1e6; }),
               ElementsAre(StartsWith("gear.stiffness: motor and ram oscillate at")));
   EXPECT_THAT(objections([](Data& d) { d.stop.damping = 1e8; }),
-              ElementsAre(StartsWith("stop.stiffness: the ram bounces off the end stop")));
+              ElementsAre(StartsWith("stop.damping: ram and end stop settle in 6 us, steps of 100 us")));
   EXPECT_THAT(objections([](Data& d) { d.workpiece.stiffness = 1e12; }),
-              ElementsAre(StartsWith("workpiece.stiffness: the ram bounces off the workpiece")));
+              ElementsAre(StartsWith("workpiece.stiffness: ram and workpiece oscillate at 6497 Hz")));
   EXPECT_THAT(objections([](Data& d) { d.motor_friction.viscous = 99; }),
-              ElementsAre(StartsWith("motor_friction.viscous: 99 N m s/rad brakes faster")));
+              ElementsAre(StartsWith("motor_friction.viscous: motor and its friction settle in")));
   EXPECT_THAT(objections([](Data& d) { d.ram_friction.viscous = 9e7; }),
               ElementsAre(StartsWith("ram_friction.viscous: ")));
   EXPECT_THAT(objections([](Data& d) { d.travel_max = -1; }),

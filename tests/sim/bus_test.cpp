@@ -81,9 +81,21 @@ TEST_F(BusTest, InterruptLatchesTheCountAtTheEdgeInOrderOfTime) {
   EXPECT_THAT(controller.interrupts, ElementsAre(I{5, true, 0}, I{1, true, 0}, I{1, false, 0}));
   EXPECT_TRUE(controller.cards().interrupt_lines.at(5).level);
   controller.interrupts.clear();
-  plant.index.edge_count = 0;
+  plant.index.edges.clear();
   bus.plants_to_inputs();
   EXPECT_TRUE(controller.interrupts.empty()) << "a switch edge is told once";
+}
+
+TEST_F(BusTest, EveryEdgeOfAStepArrives) {
+  connect({{"2.CNT01", "axis.encoder"}, {"INT1", "axis.index"}, {"INT5", "panel.trigger"}});
+  plant.encoder = {.count = 200, .before = 0, .now = 200};
+  for (int i = 0; i < 10; ++i) {
+    plant.index.add_edge(true, 0.05 + 0.1 * i);
+    plant.index.add_edge(false, 0.1 + 0.1 * i);
+    bus.panel().set("trigger", i % 2 == 0);
+  }
+  bus.plants_to_inputs();
+  EXPECT_EQ(controller.interrupts.size(), 30U);
 }
 
 TEST_F(BusTest, PanelHasSwitchesAndLamps) {

@@ -32,7 +32,8 @@ class FakeController : public devices::Controller {
     const auto found = values.find(name);
     if (found == values.end()) return {};
     return devices::ControllerValue{name, "Um", [found] { return found->second; },
-                                    [found](double v) { found->second = v; }};
+                                    [found](double v) { found->second = v; },
+                                    devices::ValueRange{-2147483648.0, 2147483647.0, true}};
   }
   [[nodiscard]] std::vector<std::string> names() const override {
     std::vector<std::string> all;
@@ -70,10 +71,11 @@ class FakePlant : public plants::Plant {
     return {{"speed", "m/min", [this] { return speed * 60; }, ""}};
   }
   std::vector<plants::Setting> settings() override {
-    return {{"speed", "m/min", [this](double v) { speed = v; }, [this] { return speed; }, ""}};
+    return {
+        {"speed", "m/min", [this](double v) { speed = v; }, [this] { return speed; }, "", {0, 300, false}}};
   }
   std::vector<plants::Fault> faults() override {
-    return {{"encoder", "lose_counts", "", [this](double v) { lost += v; }, ""}};
+    return {{"encoder", "lose_counts", "", [this](double v) { lost += v; }, "", plants::in_counts}};
   }
 
   plants::EncoderPort encoder;

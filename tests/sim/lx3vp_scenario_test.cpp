@@ -115,12 +115,12 @@ TEST_F(Lx3vpScenario, PresetsAreChecked) {
       ElementsAre(
           "line.yaml:6:7: D1 does not hold 70000; write -32768 to 65535, or D1:L",
           "line.yaml:7:7: D2 holds whole numbers, not 1.5; write D2:F for a float",
-          "line.yaml:10:7: M0 does not hold 3; write 0 to 1",
-          "line.yaml:11:7: DD4 holds whole numbers, not 1.5; write D4:F for a float",
           "line.yaml:8:7: the controller has nothing called 'Q7'; name a register: D10, DD10 (32 bit), FD10 "
           "(float), D10.A, M0, S0, T0 or C0",
           "line.yaml:9:7: 'X2' can only be read; name a register: D10, DD10 (32 bit), FD10 (float), D10.A, "
-          "M0, S0, T0 or C0"));
+          "M0, S0, T0 or C0",
+          "line.yaml:10:7: M0 does not hold 3; write 0 to 1",
+          "line.yaml:11:7: DD4 holds whole numbers, not 1.5; write D4:F for a float"));
 }
 
 TEST_F(Lx3vpScenario, MissingFilesAreToldAtTheirPlace) {

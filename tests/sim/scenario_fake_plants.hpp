@@ -22,7 +22,7 @@ struct FakeWeb : plants::PlantDefinition {
         {"friction", "", "coefficient", &friction, 0, 1}, {"mass", "kg", "moving mass", &mass, 0.1, 1000},
         {"lines", "", "lines a turn", &lines, 1, 100000}, {"brake", "", "has a brake", &brake}};
   }
-  std::vector<Objection> objections() override {
+  std::vector<Objection> objections(double) override {
     if (brake && mass > 500) return {{"mass", "too heavy for the brake", "at most 500 kg with a brake"}};
     return {};
   }

@@ -108,6 +108,32 @@ TEST_F(TimelineTest, SwitchesThePower) {
   EXPECT_FALSE(controller.powered);
 }
 
+TEST_F(TimelineTest, NothingIsSetBeyondItsRange) {
+  auto& wrong = at(0);
+  wrong.set = {
+      {text("web.speed"), {-1e5, "m/min", {1, 20}}}, {text("web.speed"), {5, "m/s", {2, 20}}},  // 300 m/min
+      {text("web.speed"), {5.001, "m/s", {3, 20}}},  {text("slLength"), {2.7, "", {4, 20}}},
+      {text("slLength"), {5e9, "", {5, 20}}},        {text("panel.start"), {70000, "", {6, 20}}}};
+  wrong.ramp = {{text("web.speed"), {1e308, "m/min", {7, 20}}}};
+  wrong.over = millisecond;
+  wrong.faults = {{text("web.encoder"), text("lose_counts"), {1e308, "", {8, 20}}},
+                  {text("web.encoder"), text("lose_counts"), {0.5, "", {9, 20}}}};
+  make();
+  std::vector<std::string> all;
+  for (const auto& problem : problems) all.push_back(to_string(problem));
+  EXPECT_THAT(all, testing::ElementsAre(
+                       "line.yaml:1:20: web.speed does not hold -100000; write 0 to 300 m/min",
+                       "line.yaml:3:20: web.speed does not hold 300.06; write 0 to 300 m/min",
+                       "line.yaml:4:20: slLength holds whole numbers, not 2.7; write a whole number",
+                       "line.yaml:5:20: slLength does not hold 5000000000; write -2147483648 to 2147483647",
+                       "line.yaml:6:20: panel.start does not hold 70000; write 0 to 1",
+                       "line.yaml:7:20: web.speed does not hold 1e+308; write 0 to 300 m/min",
+                       "line.yaml:8:20: web.encoder.lose_counts does not hold 1e+308; write -2147483648 to "
+                       "2147483647",
+                       "line.yaml:9:20: web.encoder.lose_counts holds whole numbers, not 0.5; write a whole "
+                       "number"));
+}
+
 TEST_F(TimelineTest, SaysWhatDoesNotFit) {
   auto& wrong = at(0);
   wrong.set = {{text("web.sped", 1, 5), quantity(1, "m/min")},  {text("web.speed", 2, 5), quantity(1)},
