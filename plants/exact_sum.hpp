@@ -2,15 +2,20 @@
 
 namespace drycut::plants {
 
-/// A running sum that keeps what rounding takes away (two-sum of Knuth): the sum of millions of steps is as
-/// exact as each of them.
+/// What rounding took away from `sum`, the rounded a + b (two-sum of Knuth).
+[[nodiscard]] inline double rounded_off(double a, double b, double sum) {
+  const double virtual_b = sum - a;
+  return (a - (sum - virtual_b)) + (b - virtual_b);
+}
+
+/// A running sum that keeps what rounding takes away: the sum of millions of steps is as exact as each of
+/// them.
 class ExactSum {
  public:
   explicit ExactSum(double start = 0) : high_(start) {}
   void add(double x) {
     const double sum = high_ + x;
-    const double virtual_x = sum - high_;
-    low_ += (high_ - (sum - virtual_x)) + (x - virtual_x);
+    low_ += rounded_off(high_, x, sum);
     high_ = sum;
   }
   [[nodiscard]] double value() const { return high_ + low_; }

@@ -32,6 +32,7 @@ void Outfeed::add(double tail, double length, double speed, double fraction, dou
   const double early = (world_.since_slow() - 1 + fraction) * h;
   const double since = world_.since_slow() == 0 ? (1 - fraction) * h : -early;
   body.position = body.position_before = tail + length / 2 + speed * since;
+  body.remainder = 0;
 }
 
 void Outfeed::drive(double line_speed, double h) {

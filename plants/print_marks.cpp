@@ -41,16 +41,16 @@ Parameters print_mark_parameters(PrintMarkData& data, const std::string& prefix)
 PrintMarks::PrintMarks(const PrintMarkData& data, Random noise)
     : data_(data), noise_(noise), photocell_(reader(data), 0, far_away) {
   if (!printed()) return;
-  next_ = data.pitch + data.offset;
+  next_ = ExactSum(data.pitch + data.offset);
   while (places_.empty() || places_.back() <= data.photocell) print();
   photocell_ = PositionSwitch(reader(data), 0, std::abs(behind_mark(data.photocell)));
 }
 
 // Scatter as large as the pitch brings two marks out of order: each goes to its place.
 void PrintMarks::print() {
-  const double place = next_ + shift_ + data_.scatter * noise_.gaussian();
+  const double place = next_.value() + shift_ + data_.scatter * noise_.gaussian();
   places_.insert(std::upper_bound(places_.begin(), places_.end(), place), place);
-  next_ += data_.pitch * (1 + data_.stretch);
+  next_.add(data_.pitch * (1 + data_.stretch));
 }
 
 double PrintMarks::nearest(double place) const {

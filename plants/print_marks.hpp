@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "plants/exact_sum.hpp"
 #include "plants/plant.hpp"
 #include "plants/position_switch.hpp"
 #include "plants/random.hpp"
@@ -49,7 +50,7 @@ class PrintMarks {
   PrintMarkData data_;
   Random noise_;
   std::deque<double> places_;
-  double next_ = 0;   // place of the next mark without its scatter [m]
+  ExactSum next_;     // place of the next mark without its scatter [m]
   double shift_ = 0;  // since the last splice [m]
   PositionSwitch photocell_;
 };

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "plants/exact_sum.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -121,7 +123,9 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
     state.speed_before = state.speed;
     state.speed = speed;
     state.position_before = state.position;
-    state.position += speed * h;
+    const double way = speed * h + state.remainder;
+    state.position += way;
+    state.remainder = rounded_off(state.position_before, way, state.position);
     body.getWorldTransform().setOrigin(s.axis * state.position);
   }
 

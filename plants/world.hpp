@@ -40,7 +40,8 @@ struct Slide {
   double speed_before = 0;     ///< at its start
   double position = 0;         ///< at the end of the last step [m]
   double position_before = 0;  ///< at its start
-  bool awake = true;           ///< an asleep slide keeps its place
+  double remainder = 0;  ///< what rounding took away from `position` [m]: a day of travel must not drift
+  bool awake = true;     ///< an asleep slide keeps its place
 
   void add_force(double newton) { force += newton; }
 };

@@ -15,16 +15,20 @@ int pixel(double value, double low, double high, int pixels) {
   return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(pixels)));
 }
 
+std::size_t cell_of(double x, double y, const PixelGrid& grid) {
+  const int column = pixel(x, grid.x_low, grid.x_high, grid.columns) + 1;
+  const int row = pixel(y, grid.y_low, grid.y_high, grid.rows) + 1;
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns + 2) +
+         static_cast<std::size_t>(column);
+}
+
 Points thinned_points(const Curve& curve, const PixelGrid& grid) {
   Points kept;
   std::vector<bool> taken(static_cast<std::size_t>(grid.columns + 2) *
                           static_cast<std::size_t>(grid.rows + 2));
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (!drawn(curve.x[i], curve.y[i])) continue;
-    const int column = pixel(curve.x[i], grid.x_low, grid.x_high, grid.columns) + 1;
-    const int row = pixel(curve.y[i], grid.y_low, grid.y_high, grid.rows) + 1;
-    const auto place = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns + 2) +
-                       static_cast<std::size_t>(column);
+    const std::size_t place = cell_of(curve.x[i], curve.y[i], grid);
     if (taken[place]) continue;
     taken[place] = true;
     kept.x.push_back(curve.x[i]);
@@ -126,6 +130,68 @@ Points thinned_path(const Curve& curve, const PixelGrid& grid) {
     }
   }
   return kept;
+}
+
+void Envelope::add(double x, double y) {
+  if (stretch_ == 1) {
+    kept_.x.push_back(x);
+    kept_.y.push_back(y);
+    return;
+  }
+  if (count_ == 0 || y < low_.y || !std::isfinite(low_.y)) low_ = {x, y};
+  if (count_ == 0 || y > high_.y || !std::isfinite(high_.y)) high_ = {x, y};
+  if (++count_ == stretch_) close();
+}
+
+void Envelope::close() {
+  const bool falls = high_.x < low_.x;
+  for (const Sample& sample : {falls ? high_ : low_, falls ? low_ : high_}) {
+    if (!kept_.x.empty() && low_.x == high_.x && kept_.x.back() == sample.x) continue;
+    kept_.x.push_back(sample.x);
+    kept_.y.push_back(sample.y);
+  }
+  count_ = 0;
+}
+
+Points Envelope::take() {
+  if (count_ > 0) close();
+  return std::move(kept_);
+}
+
+void thin(std::vector<double>& x, std::vector<double>& y) {
+  if (x.size() <= kMostSamples) return;
+  Envelope envelope(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) envelope.add(x[i], y[i]);
+  Points kept = envelope.take();
+  x = std::move(kept.x);
+  y = std::move(kept.y);
+}
+
+Cloud::Cloud(std::size_t samples, const PixelGrid& bounds, bool path) : grid_(bounds), path_(path) {
+  constexpr int cells = 2000;  // across and up: finer than any picture
+  grid_.columns = grid_.rows = cells;
+  if (samples > kMostSamples) taken_.resize(static_cast<std::size_t>(cells + 2) * (cells + 2));
+}
+
+void Cloud::add(double x, double y) {
+  if (!taken_.empty()) {
+    const std::size_t cell = cell_of(x, y, grid_);
+    const bool same = cell == last_;
+    last_ = cell;
+    if (taken_[cell]) {
+      if (path_ && !same) gap();
+      return;
+    }
+    taken_[cell] = true;
+  }
+  kept_.x.push_back(x);
+  kept_.y.push_back(y);
+}
+
+void Cloud::gap() {
+  if (kept_.x.empty() || !drawn(kept_.x.back(), kept_.y.back())) return;
+  kept_.x.push_back(std::numeric_limits<double>::quiet_NaN());
+  kept_.y.push_back(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace drycut::renders

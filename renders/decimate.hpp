@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "renders/plots.hpp"
@@ -28,5 +29,58 @@ Points decimated(const Curve& curve, const PixelGrid& grid);
 /// What is left of a path in a plane, which may run any way: a point that is less than half a pixel from the
 /// last one kept is left out, the last of a stretch stays. Gaps stay gaps.
 Points thinned_path(const Curve& curve, const PixelGrid& grid);
+
+/// More samples of a curve than this are thinned before they are drawn or put into a report.
+inline constexpr std::size_t kMostSamples = 50'000;
+/// To the lowest and highest of each of so many equal stretches.
+inline constexpr std::size_t kStretches = 10'000;
+
+/// Takes the samples of a curve from left to right and keeps a bounded number of them, so that every peak
+/// stays: see kMostSamples.
+class Envelope {
+ public:
+  /// `samples`: how many are to come.
+  explicit Envelope(std::size_t samples)
+      : stretch_(samples <= kMostSamples ? 1 : (samples + kStretches - 1) / kStretches) {}
+  /// Samples in a stretch; 1: all are kept.
+  [[nodiscard]] std::size_t stretch() const { return stretch_; }
+  void add(double x, double y);
+  /// What is left.
+  Points take();
+
+ private:
+  struct Sample {
+    double x = 0, y = 0;
+  };
+  void close();
+
+  std::size_t stretch_;
+  std::size_t count_ = 0;  // in the present stretch
+  Sample low_, high_;
+  Points kept_;
+};
+
+/// The samples of a whole curve.
+void thin(std::vector<double>& x, std::vector<double>& y);
+
+/// Takes the points of a path or a cloud in a plane. Of more than kMostSamples only those are kept that lie
+/// in a cell of the plane where none lay before: a path that is run again and again is drawn once. What
+/// is left out of a path is a gap.
+class Cloud {
+ public:
+  /// `samples` points are to come, all between these bounds.
+  Cloud(std::size_t samples, const PixelGrid& bounds, bool path);
+  void add(double x, double y);
+  /// Interrupts a path.
+  void gap();
+  Points take() { return std::move(kept_); }
+
+ private:
+  PixelGrid grid_;
+  bool path_;
+  std::vector<bool> taken_;  // empty: all are kept
+  std::size_t last_ = 0;     // cell
+  Points kept_;
+};
 
 }  // namespace drycut::renders

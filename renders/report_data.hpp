@@ -10,8 +10,8 @@ namespace drycut::renders {
 bool can_be_live(const Plot& plot);
 
 /// The plots as JSON: "columns" of numbers in base64 (little-endian; x as 64-bit floats, y as 32-bit), each
-/// written once, and "plots" that refer to them by index. Every sample is in it. Safe inside a script
-/// element.
+/// written once, and "plots" that refer to them by index. Every sample of the plots is in it. Safe inside a
+/// script element.
 std::string plot_data(const std::vector<Plot>& plots);
 
 /// What the end of a page needs to make its plots live: dygraphs, from the folder where its package

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/names.hpp"
+
 namespace drycut::sim {
 
 using devices::Address;
@@ -38,10 +40,14 @@ std::size_t plug_for(Kind kind) {
   return 0;
 }
 
+/// The first of them, where there are very many.
 std::string list(const std::vector<std::string>& names, std::string_view none) {
+  constexpr std::size_t most = 50;
   if (names.empty()) return std::string(none);
   std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+    text += (text.empty() ? "" : ", ") + names[i];
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
   return text;
 }
 
@@ -62,6 +68,7 @@ class Connector {
     for (const auto& [name, plant] : plants) {
       for (auto& port : plant->ports()) ports_.emplace(name + "." + port.name, port);
       plant_names_.push_back(name);
+      known_plants_.insert(name);
     }
   }
 
@@ -108,10 +115,13 @@ class Connector {
   const plants::Port* plug(const Text& text) {
     if (const auto found = ports_.find(text.text); found != ports_.end()) return &found->second;
     const auto plant = text.text.substr(0, text.text.find('.'));
-    const bool known_plant = std::find(plant_names_.begin(), plant_names_.end(), plant) != plant_names_.end();
+    // The plugs of one plant stand together.
+    const auto first = ports_.lower_bound(plant + ".");
+    const bool known_plant = known_plants_.contains(plant);
     std::vector<std::string> candidates;
-    for (const auto& [name, port] : ports_) {
-      if (!known_plant || name.starts_with(plant + ".")) candidates.push_back(name);
+    for (auto port = known_plant ? first : ports_.begin(); port != ports_.end(); ++port) {
+      if (known_plant ? !port->first.starts_with(plant + ".") : problems_.size() > most_suggestions) break;
+      candidates.push_back(port->first);
     }
     const auto near = devices::nearest(text.text, candidates);
     if (!known_plant) {
@@ -128,12 +138,14 @@ class Connector {
     return nullptr;
   }
 
-  std::vector<std::string> plugs_of_kind(std::size_t kind) {
+  const std::string& plugs_of_kind(std::size_t kind) {
+    auto& text = plugs_of_kind_[kind];
+    if (!text.empty()) return text;
     std::vector<std::string> names;
     for (const auto& [name, port] : ports_) {
       if (port.plug.index() == kind) names.push_back(name);
     }
-    return names;
+    return text = list(names, "no plug of that kind here");
   }
 
   /// A pulse output of the controller, counted by one of its own counters: the manual's way to have a master.
@@ -171,8 +183,7 @@ class Connector {
       problem(wire.plug.place,
               fmt::format("{} is a {}, {} is {}", controller_.terminal_name(address), name_of(address.kind),
                           wire.plug.text, kind_of(port)),
-              fmt::format("wire it to one of: {}",
-                          list(plugs_of_kind(plug_for(address.kind)), "no plug of that kind here")));
+              fmt::format("wire it to one of: {}", plugs_of_kind(plug_for(address.kind))));
       return;
     }
     auto& cards = controller_.cards();
@@ -225,8 +236,7 @@ class Connector {
         problem(wire.plug.place,
                 fmt::format("{} is a {}, the panel has switches and lamps",
                             controller_.terminal_name(address), name_of(address.kind)),
-                fmt::format("wire it to one of: {}",
-                            list(plugs_of_kind(plug_for(address.kind)), "no plug of that kind here")));
+                fmt::format("wire it to one of: {}", plugs_of_kind(plug_for(address.kind))));
         return;
     }
     if (panel.switches.contains(name) && panel.lamps.contains(name)) {
@@ -252,6 +262,8 @@ class Connector {
   devices::Problems& problems_;
   std::map<std::string, plants::Port> ports_;
   std::vector<std::string> plant_names_;
+  std::set<std::string> known_plants_;
+  std::map<std::size_t, std::string> plugs_of_kind_;  // as messages list them
   std::map<std::string, Address> drivers_;
 };
 

@@ -46,9 +46,11 @@ bool in_window(const Check& check, double at) {
 
 Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
                const std::vector<KnownEvent>& events, devices::Problems& problems) {
+  auto known = names.reading_names();
   for (const auto& check : scenario.checks) {
     states_.emplace_back().check = check;
-    bind(states_.back(), scenario, watch, names, events, problems);
+    if (problems.size() > most_suggestions) known.clear();
+    bind(states_.back(), scenario, watch, known, events, problems);
   }
 }
 
@@ -72,7 +74,7 @@ const KnownEvent* Checks::bind_event(State& state, const Scenario& scenario,
   return found;
 }
 
-void Checks::bind(State& state, const Scenario& scenario, Watch& watch, const Names& names,
+void Checks::bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
                   const std::vector<KnownEvent>& events, devices::Problems& problems) {
   const auto& check = state.check;
   if (!check.event.text.empty() && bind_event(state, scenario, events, problems) == nullptr) return;
@@ -99,9 +101,10 @@ void Checks::bind(State& state, const Scenario& scenario, Watch& watch, const Na
     }
     return slot;
   };
-  auto known = names.reading_names();
+  const auto of_all = known.size();
   for (const auto& slot : state.slots) known.push_back(slot.name);
   state.expression = Expression::compile(check.expression, scenario, resolve, known, problems);
+  known.resize(of_all);
   units.erase("");
   if (units.size() == 1) state.unit = *units.begin();
 }

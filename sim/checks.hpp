@@ -74,7 +74,8 @@ class Checks {
     std::optional<double> held_at;  ///< eventually: first time
   };
 
-  void bind(State& state, const Scenario& scenario, Watch& watch, const Names& names,
+  /// `known`: the names that may be suggested; left as it was.
+  void bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
             const std::vector<KnownEvent>& events, devices::Problems& problems);
   static const KnownEvent* bind_event(State& state, const Scenario& scenario,
                                       const std::vector<KnownEvent>& events, devices::Problems& problems);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "renders/caption_bar.hpp"
+#include "renders/decimate.hpp"
 #include "renders/filmstrip.hpp"
 #include "renders/mesh.hpp"
 #include "renders/part_models.hpp"
@@ -19,6 +20,7 @@
 #include "renders/video.hpp"
 #include "sim/figures.hpp"
 #include "sim/file.hpp"
+#include "sim/gallery_plots.hpp"
 #include "sim/half_step.hpp"
 #include "sim/results.hpp"
 #include "sim/scenario/axis_units.hpp"
@@ -70,11 +72,37 @@ std::string caption_number(double number, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
+/// Takes the rows of a table as they come; of very many the first and the last stay.
+class TableRows {
+ public:
+  explicit TableRows(renders::ReportTable& table) : table_(table) {}
+  void add(renders::ReportRow row) {
+    if (count_ < 2 * most)
+      table_.rows.push_back(std::move(row));
+    else
+      table_.rows[most + count_ % most] = std::move(row);
+    ++count_;
+  }
+  void finish() {
+    if (count_ <= 2 * most) return;
+    const auto oldest = static_cast<std::ptrdiff_t>(most + count_ % most);
+    std::rotate(table_.rows.begin() + most, table_.rows.begin() + oldest, table_.rows.end());
+    table_.title +=
+        fmt::format(": the first {0} and the last {0} of {1}, all are in events.csv", most, count_);
+  }
+
+ private:
+  static constexpr std::size_t most = 1000;
+  renders::ReportTable& table_;
+  std::size_t count_ = 0;
+};
+
 renders::ReportTable event_table(const Recording& recording, const KnownEvent& known) {
   renders::ReportTable table{fmt::format("{} of {}", known.name, known.source), {"time [s]"}, {}, true};
   for (const auto& [name, unit] : known.values) {
     table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
   }
+  TableRows rows(table);
   for (const auto& event : recording.events()) {
     if (event.source != known.source || event.event != known.name) continue;
     renders::ReportRow row{{fmt::format("{:.6f}", event.at_seconds())}};
@@ -82,8 +110,9 @@ renders::ReportTable event_table(const Recording& recording, const KnownEvent& k
       const auto* value = event.find(name);
       row.cells.push_back(value == nullptr ? "" : fmt::format("{:.6g}", without_noise(value->number)));
     }
-    table.rows.push_back(std::move(row));
+    rows.add(std::move(row));
   }
+  rows.finish();
   return table;
 }
 
@@ -196,12 +225,23 @@ std::vector<renders::Callout> chosen_callouts(const PicturesSection::Overlays& o
   return chosen;
 }
 
-std::vector<renders::LiveCurve> live_curves(const PicturesSection& pictures, const Recording& recording) {
+/// Of a long run only what a short film of it shows.
+std::vector<renders::LiveCurve> live_curves(const PicturesSection& pictures, const Recording& recording,
+                                            const renders::Film& film) {
+  Rows rows{0, recording.times().size()};
+  if (rows.count() > renders::kMostSamples && !film.frames.empty()) {
+    const auto ns = [](double time) { return static_cast<Time>(std::max(0.0, time) * second); };
+    rows = rows_between(recording, ns(film.frames.front().time_s - film.live_window_s),
+                        ns(film.frames.back().time_s));
+  }
   std::vector<renders::LiveCurve> curves;
   for (const auto& name : pictures.live) {
     const auto* column = recording.column(name.text);
-    auto& curve = curves.emplace_back(renders::LiveCurve{name.text, column->unit, {}, column->values});
-    for (const auto time : recording.times()) curve.times_s.push_back(seconds(time));
+    auto& curve = curves.emplace_back(renders::LiveCurve{name.text, column->unit, {}, {}});
+    for (auto row = rows.first; row < rows.end; ++row) {
+      curve.times_s.push_back(seconds(recording.times()[row]));
+      curve.values.push_back(column->values[row]);
+    }
   }
   return curves;
 }
@@ -271,8 +311,8 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
   }
   film.follow = part_number(film, scenario.pictures.follow.text);
   film.trails = scenario.pictures.overlays.trail;
-  film.live = live_curves(scenario.pictures, simulation.recording());
   film.live_window_s /= scenario.pictures.slow;
+  film.live = live_curves(scenario.pictures, simulation.recording(), film);
   film.camera = scenario.pictures.own_camera ? own_camera(*scenario.pictures.own_camera)
                                              : named_camera(film, scenario.pictures.camera);
   return film;
@@ -292,6 +332,11 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   for (const auto& override : scenario.overrides) {
     report.facts.push_back({{"--set", fmt::format("{} = {}", override.path, override.value)}});
   }
+  if (const auto samples = simulation.recording().times().size(); samples > renders::kMostSamples)
+    report.facts.push_back(
+        {{"note", fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
+                              "highest of {} stretches of equal length; all are in trace.csv",
+                              samples, renders::kStretches)}});
   for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
   for (const auto& check : outcome.checks) {
     report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
@@ -312,14 +357,15 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
     if (!table.rows.empty()) report.tables.push_back(std::move(table));
   }
   renders::ReportTable others{"Other events", {"time [s]", "source", "event", "what"}, {}, false};
+  TableRows rows(others);
   for (const auto& event : simulation.recording().events()) {
     const auto is_known = [&](const KnownEvent& k) {
       return k.source == event.source && k.name == event.event;
     };
     if (std::any_of(simulation.known_events().begin(), simulation.known_events().end(), is_known)) continue;
-    others.rows.push_back(
-        {{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, values_text(event)}});
+    rows.add({{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, values_text(event)}});
   }
+  rows.finish();
   if (!others.rows.empty()) report.tables.push_back(std::move(others));
   if (auto table = controller_table(simulation); !table.rows.empty())
     report.tables.push_back(std::move(table));

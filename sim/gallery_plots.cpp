@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
-#include "sim/gallery_plots.hpp"
-
+#include "renders/decimate.hpp"
 #include "sim/gallery.hpp"
+#include "sim/gallery_plots.hpp"
 
 namespace drycut::sim {
 
@@ -29,6 +28,7 @@ renders::Curve event_curve(const Recording& recording, const PlotRequest& plot, 
     curve.x.push_back(plot.against_number ? number : at);
     curve.y.push_back(found->number);
   }
+  renders::thin(curve.x, curve.y);
   return curve;
 }
 
@@ -40,22 +40,66 @@ std::string event_unit(const Recording& recording, const std::string& event, con
   return "";
 }
 
-renders::Curve channel_curve(const Recording& recording, const Recording::Column& column, Time from,
-                             const std::optional<Time>& until) {
-  renders::Curve curve;
-  curve.label = column.name;
-  for (std::size_t row = 0; row < recording.times().size(); ++row) {
-    const auto time = recording.times()[row];
-    if (time < from || (until && time > *until)) continue;
-    curve.x.push_back(seconds(time));
-    curve.y.push_back(column.values[row]);
-  }
-  return curve;
+}  // namespace
+
+Rows rows_between(const Recording& recording, Time from, const std::optional<Time>& until) {
+  const auto& times = recording.times();
+  const auto first = std::lower_bound(times.begin(), times.end(), from);
+  const auto end = until ? std::upper_bound(first, times.end(), *until) : times.end();
+  return {static_cast<std::size_t>(first - times.begin()), static_cast<std::size_t>(end - times.begin())};
 }
 
+renders::Curve channel_curve(const Recording& recording, const Recording::Column& column, Rows rows) {
+  renders::Envelope envelope(rows.count());
+  for (auto row = rows.first; row < rows.end; ++row)
+    envelope.add(seconds(recording.times()[row]), column.values[row]);
+  auto kept = envelope.take();
+  return {column.name, std::move(kept.x), std::move(kept.y)};
+}
+
+std::string time_label(const Recording& recording, Rows rows) {
+  const renders::Envelope envelope(rows.count());
+  if (envelope.stretch() == 1) return "time [s]";
+  const auto& times = recording.times();
+  const double every =
+      seconds(times[rows.end - 1] - times[rows.first]) / static_cast<double>(rows.count() - 1);
+  return fmt::format("time [s], thinned: the lowest and the highest of {} samples, {:.4g} s",
+                     envelope.stretch(), every * static_cast<double>(envelope.stretch()));
+}
+
+namespace {
+
+/// Every change of a state, and its last instant; of a short run every instant.
 renders::Lane lane_of(const Recording& recording, const PlotRequest& plot, const std::string& name) {
-  auto samples = channel_curve(recording, *recording.column(name), plot.from, plot.until);
-  return {std::move(samples.label), std::move(samples.x), std::move(samples.y)};
+  const auto& values = recording.column(name)->values;
+  const auto rows = rows_between(recording, plot.from, plot.until);
+  renders::Lane lane{name, {}, {}};
+  for (auto row = rows.first; row < rows.end; ++row) {
+    const double state = values[row];
+    const bool same = rows.count() > renders::kMostSamples && !lane.y.empty() && lane.y.back() == state;
+    if (same && row + 1 < rows.end) continue;
+    lane.x.push_back(seconds(recording.times()[row]));
+    lane.y.push_back(state);
+  }
+  renders::thin(lane.x, lane.y);
+  return lane;
+}
+
+/// The corners of all that two channels ever were together.
+renders::PixelGrid bounds_of(const Series<double>& x, const Series<double>& y) {
+  renders::PixelGrid bounds;
+  const auto spread = [](const Series<double>& of, double& low, double& high) {
+    if (of.empty()) return;
+    low = high = of.front();
+    for (const double number : of) {
+      low = std::min(low, number);
+      high = std::max(high, number);
+    }
+    if (low == high) high = low + 1;
+  };
+  spread(x, bounds.x_low, bounds.x_high);
+  spread(y, bounds.y_low, bounds.y_high);
+  return bounds;
 }
 
 /// A path in a plane: one curve, or one for each whole value of the split channel.
@@ -64,21 +108,16 @@ renders::Panel path_panel(const Recording& recording, const PlotRequest& plot,
   const auto& x = *recording.column(request.x.text);
   const auto& y = *recording.column(request.y.text);
   const auto* split = request.split.text.empty() ? nullptr : recording.column(request.split.text);
-  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-  std::map<double, renders::Curve> curves;
+  const auto rows = rows_between(recording, plot.from, plot.until);
+  const auto bounds = bounds_of(x.values, y.values);
+  std::map<double, renders::Cloud> paths;
   double before = 0;
-  for (std::size_t row = 0; row < recording.times().size(); ++row) {
-    const auto time = recording.times()[row];
-    if (time < plot.from || (plot.until && time > *plot.until)) continue;
+  for (auto row = rows.first; row < rows.end; ++row) {
     const double part = split == nullptr ? 1 : split->values[row];
     if (part >= 1) {
-      auto& curve = curves[part];
-      if (part != before && !curve.x.empty()) {
-        curve.x.push_back(gap);
-        curve.y.push_back(gap);
-      }
-      curve.x.push_back(x.values[row]);
-      curve.y.push_back(y.values[row]);
+      auto& path = paths.try_emplace(part, rows.count(), bounds, true).first->second;
+      if (part != before) path.gap();
+      path.add(x.values[row], y.values[row]);
     }
     before = part;
   }
@@ -86,7 +125,9 @@ renders::Panel path_panel(const Recording& recording, const PlotRequest& plot,
   panel.title = request.title;
   panel.y_label = axis_label(y.name, {y.unit});
   panel.equal_scale = true;
-  for (auto& [part, curve] : curves) {
+  for (auto& [part, path] : paths) {
+    auto points = path.take();
+    renders::Curve curve{"", std::move(points.x), std::move(points.y)};
     if (split != nullptr) {
       curve.label = fmt::format("{:g}", part);
       if (part <= static_cast<double>(request.labels.size()))
@@ -109,7 +150,7 @@ renders::Panel panel_of(const Recording& recording, const PlotRequest& plot,
   std::vector<std::string> units;
   for (const auto& name : request.channels) {
     const auto* column = recording.column(name.text);
-    panel.curves.push_back(channel_curve(recording, *column, plot.from, plot.until));
+    panel.curves.push_back(channel_curve(recording, *column, rows_between(recording, plot.from, plot.until)));
     units.push_back(column->unit);
   }
   for (const auto& value : request.values) {
@@ -135,6 +176,18 @@ std::string mark_label(const RecordedEvent& event, int number) {
   return dot == std::string::npos ? event.text : event.text.substr(dot + 1);
 }
 
+/// Of a thousand marks of a kind and more every second one, every third one ...: the others would hide them.
+void thin(std::vector<renders::Mark>& marks) {
+  constexpr std::size_t most = 1000;
+  for (const bool strong : {false, true}) {
+    const auto count = static_cast<std::size_t>(
+        std::count_if(marks.begin(), marks.end(), [&](const auto& mark) { return mark.strong == strong; }));
+    const auto step = count / most + 1;
+    std::size_t number = 0;
+    std::erase_if(marks, [&](const auto& mark) { return mark.strong == strong && number++ % step != 0; });
+  }
+}
+
 /// The events asked for, or faults and power changes, as marks in the plot's time.
 std::vector<renders::Mark> marks_of(const Recording& recording, const PlotRequest& plot) {
   static const std::vector<Text> usual = {{"timeline.fault", {}}, {"timeline.power", {}}};
@@ -150,6 +203,7 @@ std::vector<renders::Mark> marks_of(const Recording& recording, const PlotReques
     }
   }
   std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  thin(marks);
   return marks;
 }
 
@@ -172,7 +226,8 @@ void draw_own_x(const Scenario& scenario, const Recording& recording, const Plot
 
 /// Without a request: every recorded channel, channels of one unit together.
 renders::Plot overview(const Recording& recording) {
-  renders::Plot plot{"recorded", "Recorded channels", "time [s]", {}, 1200, 260};
+  const Rows all{0, recording.times().size()};
+  renders::Plot plot{"recorded", "Recorded channels", time_label(recording, all), {}, 1200, 260};
   for (const auto& column : recording.columns()) {
     const auto label = axis_label("", {column.unit});
     auto found = std::find_if(plot.panels.begin(), plot.panels.end(),
@@ -181,7 +236,7 @@ renders::Plot overview(const Recording& recording) {
       plot.panels.push_back({"", label, {}, {}, {}});
       found = std::prev(plot.panels.end());
     }
-    found->curves.push_back(channel_curve(recording, column, 0, {}));
+    found->curves.push_back(channel_curve(recording, column, all));
   }
   plot.marks = marks_of(recording, {});
   return plot;
@@ -208,7 +263,7 @@ std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& r
     renders::Plot plot;
     plot.name = request.name.text;
     plot.title = request.title.empty() ? request.name.text : request.title;
-    plot.x_label = "time [s]";
+    plot.x_label = time_label(recording, rows_between(recording, request.from, request.until));
     if (request.against_number) plot.x_label = request.panels.front().event.text + " number";
     if (!request.panels.empty() && request.panels.front().has_own_x()) {
       draw_own_x(scenario, recording, request, plot);

@@ -1,9 +1,27 @@
 #pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "renders/plots.hpp"
 #include "sim/recorder.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
+
+/// Rows of a recording.
+struct Rows {
+  std::size_t first = 0;
+  std::size_t end = 0;
+  [[nodiscard]] std::size_t count() const { return end - first; }
+};
+/// Those from one time to another, both included.
+Rows rows_between(const Recording& recording, Time from, const std::optional<Time>& until);
+/// A channel over time [s]; of many rows a thinned one (renders/decimate.hpp).
+renders::Curve channel_curve(const Recording& recording, const Recording::Column& column, Rows rows);
+/// "time [s]", with how the curves over it are thinned, if they are.
+std::string time_label(const Recording& recording, Rows rows);
 
 // Plots whose x is not time, for plots_of.
 

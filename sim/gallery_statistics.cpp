@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "plants/servo_drive.hpp"
+#include "renders/decimate.hpp"
 #include "sim/gallery_plots.hpp"
 #include "sim/known_events.hpp"
 #include "sim/scenario/units.hpp"
@@ -203,17 +204,19 @@ void draw_motor(const Scenario& scenario, const Recording& recording, const Plot
   double largest_torque = 0;
   double largest_speed = 0;
   bool both_ways = false;
-  for (std::size_t row = 0; row < recording.times().size(); ++row) {
-    const auto time = recording.times()[row];
-    if (time < request.from || (request.until && time > *request.until)) continue;
-    points.x.push_back(speed.values[row]);
-    points.y.push_back(torque.values[row]);
+  const auto rows = rows_between(recording, request.from, request.until);
+  for (auto row = rows.first; row < rows.end; ++row) {
     squares += torque.values[row] * torque.values[row];
     largest_torque = std::max(largest_torque, std::abs(torque.values[row]));
     largest_speed = std::max(largest_speed, std::abs(speed.values[row]));
     both_ways = both_ways || speed.values[row] * speed_unit < -0.02 * data.max_speed;
   }
-  const double rms = points.x.empty() ? 0 : std::sqrt(squares / static_cast<double>(points.x.size()));
+  renders::Cloud cloud(rows.count(), {-largest_speed, largest_speed, -largest_torque, largest_torque}, false);
+  for (auto row = rows.first; row < rows.end; ++row) cloud.add(speed.values[row], torque.values[row]);
+  auto kept = cloud.take();
+  points.x = std::move(kept.x);
+  points.y = std::move(kept.y);
+  const double rms = rows.count() == 0 ? 0 : std::sqrt(squares / static_cast<double>(rows.count()));
   renders::Panel shown;
   shown.title = fmt::format(
       "{}{}rms torque {:.3g} {} ({:.0f} % of rated), largest {:.3g} {} ({:.0f} % of peak torque), "

@@ -39,6 +39,7 @@ HalfStep run_half_step(Scenario scenario, const std::function<void(Time)>& progr
   devices::Problems problems;
   Simulation simulation(scenario, problems);
   if (!problems.empty()) throw std::runtime_error("at half the step: " + to_string(problems.front()));
+  simulation.keep_nothing();
   auto outcome = simulation.run(progress);
   return {scenario.scene.step, std::move(outcome.failure), std::move(outcome.checks)};
 }

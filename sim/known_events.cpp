@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/names.hpp"
+
 namespace drycut::sim {
 
 std::vector<KnownEvent> events_of_every_run() {
@@ -14,14 +16,18 @@ std::vector<KnownEvent> events_of_every_run() {
 }
 
 bool names_event(const std::string& wanted, const std::string& source, const std::string& event) {
-  return wanted == event || wanted == source + "." + event;
+  if (wanted == event) return true;
+  return wanted.size() == source.size() + 1 + event.size() && wanted.starts_with(source) &&
+         wanted[source.size()] == '.' && wanted.ends_with(event);
 }
 
 const KnownEvent* find_event(const std::vector<KnownEvent>& events, const Text& wanted,
                              const Scenario& scenario, devices::Problems& problems) {
+  for (const auto& event : events)
+    if (names_event(wanted.text, event.source, event.name)) return &event;
   std::vector<std::string> known;
   for (const auto& event : events) {
-    if (names_event(wanted.text, event.source, event.name)) return &event;
+    if (problems.size() > most_suggestions) break;
     known.push_back(event.name);
     known.push_back(event.source + "." + event.name);
   }

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "devices/plcopen/terminals.hpp"
 
 namespace drycut::sim {
@@ -40,12 +38,17 @@ void refuse_shared_names(const Scenario& scenario, devices::Controller& controll
   }
 }
 
-Names::Names(std::vector<NamedPlant> plants, devices::Controller* controller, Panel& panel)
-    : plants_(std::move(plants)), controller_(controller), panel_(panel) {
-  for (const auto& [name, plant] : plants_) {
+Names::Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, Panel& panel)
+    : controller_(controller), panel_(panel) {
+  for (const auto& [name, plant] : plants) {
     for (auto& channel : plant->channels()) channels_.emplace(name + "." + channel.name, channel);
     for (auto& setting : plant->settings()) settings_.emplace(name + "." + setting.name, setting);
-    for (auto& fault : plant->faults()) faults_.emplace_back(name + "." + fault.component, fault);
+    for (auto& fault : plant->faults()) {
+      const auto component = name + "." + fault.component;
+      fault_index_.emplace(std::pair(component, fault.name), faults_.size());
+      faults_.emplace_back(component, fault);
+    }
+    plant_names_.insert(name);
   }
 }
 
@@ -69,8 +72,7 @@ void Names::assume_controller(const std::vector<Wire>& wiring) {
 
 bool Names::of_controller(const std::string& name) const {
   const auto plant = name.substr(0, name.find('.'));
-  return plant != "panel" &&
-         std::none_of(plants_.begin(), plants_.end(), [&](const auto& p) { return p.name == plant; });
+  return plant != "panel" && !plant_names_.contains(plant);
 }
 
 std::optional<Reading> Names::reading(const std::string& name) {
@@ -115,10 +117,9 @@ std::optional<Target> Names::target(const std::string& name) {
 }
 
 std::optional<plants::Fault> Names::fault(const std::string& component, const std::string& fault) {
-  for (const auto& [name, candidate] : faults_) {
-    if (name == component && candidate.name == fault) return candidate;
-  }
-  return {};
+  const auto found = fault_index_.find({component, fault});
+  if (found == fault_index_.end()) return {};
+  return faults_[found->second].second;
 }
 
 std::vector<std::string> Names::reading_names() const {
@@ -133,6 +134,10 @@ std::vector<std::string> Names::reading_names() const {
 }
 
 std::string Names::suggest_reading(const std::string& name) const {
+  constexpr auto* where_names_are =
+      "name a plant's channel (drycut plants), a device variable or state (drycut devices) or a "
+      "variable of the program";
+  if (++suggestions_ > most_suggestions) return where_names_are;
   std::vector<std::string> own;  // of the same plant, if the plant is right
   const auto plant = name.substr(0, name.find('.') + 1);
   for (const auto& [full, channel] : channels_) {
@@ -143,13 +148,13 @@ std::string Names::suggest_reading(const std::string& name) const {
     for (const auto& full : own) all += (all.empty() ? "" : ", ") + full;
     return did_you_mean(name, own, "it has: " + all);
   }
-  return did_you_mean(
-      name, reading_names(),
-      "name a plant's channel (drycut plants), a device variable or state (drycut devices) or a "
-      "variable of the program");
+  return did_you_mean(name, reading_names(), where_names_are);
 }
 
 std::string Names::suggest_target(const std::string& name) const {
+  constexpr auto* where_names_are =
+      "name a plant's setting (drycut plants), a wired panel switch or a controller value";
+  if (++suggestions_ > most_suggestions) return where_names_are;
   std::vector<std::string> names;
   for (const auto& [full, setting] : settings_) names.push_back(full);
   for (const auto& [plug, port] : panel_.switches) names.push_back(std::string(panel_prefix) + plug);
@@ -163,15 +168,16 @@ std::string Names::suggest_target(const std::string& name) const {
   if (controller_ != nullptr) {
     for (auto& other : controller_->names()) names.push_back(other);
   }
-  return did_you_mean(name, names,
-                      "name a plant's setting (drycut plants), a wired panel switch or a controller value");
+  return did_you_mean(name, names, where_names_are);
 }
 
 std::string Names::suggest_fault(const std::string& component) const {
+  if (++suggestions_ > most_suggestions) return "drycut plants lists the faults of components";
   std::vector<std::string> components;
+  std::set<std::string> seen;
   std::string offered;
   for (const auto& [name, candidate] : faults_) {
-    if (std::find(components.begin(), components.end(), name) == components.end()) components.push_back(name);
+    if (seen.insert(name).second) components.push_back(name);
     if (name == component) offered += (offered.empty() ? "" : ", ") + candidate.name;
   }
   if (!offered.empty()) return fmt::format("{} offers: {}", component, offered);

@@ -2,6 +2,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,11 +37,15 @@ devices::ValueRange range_of(const plants::Range& range);
 void refuse_shared_names(const Scenario& scenario, devices::Controller& controller,
                          devices::Problems& problems);
 
+/// The nearest name is looked for so often at most, for it takes a look at all names: of ten thousand slips
+/// the first ones tell enough.
+inline constexpr std::size_t most_suggestions = 100;
+
 /// Every name of a running scenario: `knife.angle`, `AxisX.posit`, `panel.start`, `slLength`, `2.AN01`.
 /// Plants come first, then the panel, then the controller; any of them may be absent.
 class Names {
  public:
-  Names(std::vector<NamedPlant> plants, devices::Controller* controller, Panel& panel);
+  Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, Panel& panel);
   /// For a scenario whose controller has problems of its own: every name that no plant and no panel could
   /// have is taken for one of the controller's, and the panel has what `wiring` names, so that only what is
   /// wrong is told.
@@ -61,7 +66,6 @@ class Names {
   [[nodiscard]] std::vector<std::string> reading_names() const;
 
  private:
-  std::vector<NamedPlant> plants_;
   devices::Controller* controller_;
   [[nodiscard]] bool of_controller(const std::string& name) const;
 
@@ -69,7 +73,10 @@ class Names {
   bool assumed_ = false;
   std::map<std::string, plants::Channel> channels_;
   std::map<std::string, plants::Setting> settings_;
-  std::vector<std::pair<std::string, plants::Fault>> faults_;  ///< full component name, fault
+  std::vector<std::pair<std::string, plants::Fault>> faults_;               ///< full component name, fault
+  std::map<std::pair<std::string, std::string>, std::size_t> fault_index_;  ///< component and fault
+  std::set<std::string> plant_names_;
+  mutable std::size_t suggestions_ = 0;  ///< made so far
 };
 
 }  // namespace drycut::sim

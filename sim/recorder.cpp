@@ -2,49 +2,38 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
-
-#include "sim/file.hpp"
 
 namespace drycut::sim {
-
-const RecordedEvent::Value* RecordedEvent::find(const std::string& name) const {
-  const auto found =
-      std::find_if(values.begin(), values.end(), [&](const Value& value) { return value.name == name; });
-  return found == values.end() ? nullptr : &*found;
-}
-
-Recording Recording::restored(std::vector<Time> times, std::vector<Column> columns) {
-  Recording recording;
-  recording.times_ = std::move(times);
-  recording.columns_ = std::move(columns);
-  return recording;
-}
 
 bool Recording::add(Watch& watch, const std::string& name) {
   if (column(name) != nullptr) return true;
   const auto* slot = watch.slot(name);
   if (slot == nullptr) return false;
-  columns_.push_back({name, watch.unit(name), slot, {}});
+  add(name, watch.unit(name)).slot = slot;
   return true;
 }
 
-void Recording::reserve(std::size_t rows) {
-  times_.reserve(rows);
-  for (auto& column : columns_) column.values.reserve(rows);
+Recording::Column& Recording::add(std::string name, std::string unit) {
+  index_.emplace(name, columns_.size());
+  return columns_.emplace_back(Column{std::move(name), std::move(unit), nullptr, Series<double>(spool_)});
 }
 
 void Recording::sample(Time time) {
-  times_.push_back(time);
+  if (!kept_) return;
+  // The time last: a row for which there is no room is none.
   for (auto& column : columns_) column.values.push_back(*column.slot);
+  times_.push_back(time);
+}
+
+void Recording::append(Time time, const std::vector<double>& row) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i].values.push_back(row[i]);
+  times_.push_back(time);
 }
 
 const Recording::Column* Recording::column(const std::string& name) const {
-  const auto found = std::find_if(columns_.begin(), columns_.end(),
-                                  [&](const Column& column) { return column.name == name; });
-  return found == columns_.end() ? nullptr : &*found;
+  const auto found = index_.find(name);
+  return found == index_.end() ? nullptr : &columns_[found->second];
 }
 
 std::string seconds_text(Time time) {
@@ -65,53 +54,6 @@ std::string values_text(const RecordedEvent& event, int digits) {
   }
   if (!event.text.empty()) text += (text.empty() ? "" : "; ") + event.text;
   return text;
-}
-
-namespace {
-
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-  std::string text = "\"";
-  for (const char c : cell) {
-    if (c == '"') text += '"';
-    text += c;
-  }
-  return text + '"';
-}
-
-}  // namespace
-
-void write_trace(const Recording& recording, const std::filesystem::path& file) {
-  OutputFile out(file);
-  fmt::memory_buffer line;
-  auto end = std::back_inserter(line);
-  fmt::format_to(end, "time [s]");
-  for (const auto& column : recording.columns()) {
-    fmt::format_to(end, ",{}",
-                   quoted(fmt::format("{} [{}]", column.name, column.unit.empty() ? "-" : column.unit)));
-  }
-  fmt::format_to(end, "\n");
-  for (std::size_t row = 0; row < recording.times().size(); ++row) {
-    fmt::format_to(end, "{}", seconds_text(recording.times()[row]));
-    for (const auto& column : recording.columns()) fmt::format_to(end, ",{}", column.values[row]);
-    fmt::format_to(end, "\n");
-    if (line.size() > 1 << 16) {
-      out.write({line.data(), line.size()});
-      line.clear();
-    }
-  }
-  out.write({line.data(), line.size()});
-  out.finish();
-}
-
-void write_events(const Recording& recording, const std::filesystem::path& file) {
-  OutputFile out(file);
-  out.write("time [s],source,event,values\n");
-  for (const auto& event : recording.events()) {
-    out.write(fmt::format("{:.9f},{},{},{}\n", event.at_seconds(), quoted(event.source), quoted(event.event),
-                          quoted(values_text(event))));
-  }
-  out.finish();
 }
 
 }  // namespace drycut::sim

@@ -1,60 +1,64 @@
 #pragma once
+#include <cstddef>
+#include <deque>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "sim/event_log.hpp"
+#include "sim/series.hpp"
 #include "sim/time.hpp"
 #include "sim/watch.hpp"
 
 namespace drycut::sim {
 
-/// Something that happened: in a plant, in the controller, in the timeline.
-struct RecordedEvent {
-  struct Value {
-    std::string name;
-    double number = 0;
-    std::string unit;
-  };
-  Time time = 0;
-  double within = 0;   ///< [s] to add to `time`: events lie inside steps
-  std::string source;  ///< plant, device, task or "timeline"
-  std::string event;
-  std::vector<Value> values;
-  std::string text;
-
-  [[nodiscard]] double at_seconds() const { return seconds(time) + within; }
-  [[nodiscard]] const Value* find(const std::string& name) const;
-};
-
-/// What a run leaves behind: channels over time and events.
+/// What a run leaves behind: channels over time and events. However long the run, it takes little memory:
+/// what is old waits in a file without a name.
 class Recording {
  public:
   struct Column {
     std::string name;
     std::string unit;
-    const double* slot;
-    std::vector<double> values;
+    const double* slot;  ///< where sample() takes it from, if it does
+    Series<double> values;
   };
 
-  /// A recording that was read back from its files: columns as long as `times`. Nothing is sampled into it.
-  static Recording restored(std::vector<Time> times, std::vector<Column> columns);
+  Recording() = default;
+  Recording(Recording&&) = default;
+  Recording& operator=(Recording&&) = default;
 
   /// Adds a channel; false if nothing has this name. A channel added twice is recorded once.
   bool add(Watch& watch, const std::string& name);
-  void reserve(std::size_t rows);
-  /// Takes the slots' present values.
-  void sample(Time time);
-  void happened(RecordedEvent event) { events_.push_back(std::move(event)); }
+  /// Adds a channel that is not sampled: append() or the caller fills it. Before that column of the name, if
+  /// there is one, keeps the name.
+  Column& add(std::string name, std::string unit);
+  /// Where the file without a name is; the system's temporary folder unless it is said before the first row.
+  void spool_in(const std::filesystem::path& folder) { spool_->lies_in(folder); }
+  /// From now on rows and events are only passed on, not kept.
+  void keep_nothing() { kept_ = false; }
+  [[nodiscard]] bool keeps() const { return kept_; }
 
-  [[nodiscard]] const std::vector<Time>& times() const { return times_; }
-  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  /// Takes the slots' present values. Throws std::runtime_error if there is no room.
+  void sample(Time time);
+  /// Takes a row with a number a column.
+  void append(Time time, const std::vector<double>& row);
+  void happened(const RecordedEvent& event) { events_.push_back(event); }
+  void forget_events() { events_.clear(); }
+
+  [[nodiscard]] const Series<Time>& times() const { return times_; }
+  [[nodiscard]] const std::deque<Column>& columns() const { return columns_; }
   [[nodiscard]] const Column* column(const std::string& name) const;
-  [[nodiscard]] const std::vector<RecordedEvent>& events() const { return events_; }
+  [[nodiscard]] const EventLog& events() const { return events_; }
 
  private:
-  std::vector<Time> times_;
-  std::vector<Column> columns_;
-  std::vector<RecordedEvent> events_;
+  std::shared_ptr<Spool> spool_ = std::make_shared<Spool>();
+  Series<Time> times_ = Series<Time>(spool_);
+  std::deque<Column> columns_;
+  std::unordered_map<std::string, std::size_t> index_;  ///< of the columns
+  EventLog events_;
+  bool kept_ = true;
 };
 
 /// "12.0004": a time in seconds, exact.
@@ -63,9 +67,5 @@ std::string seconds_text(Time time);
 double without_noise(double number);
 /// `name=number unit; ...` or the event's text, as events.csv and the report show it.
 std::string values_text(const RecordedEvent& event, int digits = 9);
-
-/// trace.csv and events.csv (design §6). Throw std::runtime_error if the file cannot be written.
-void write_trace(const Recording& recording, const std::filesystem::path& file);
-void write_events(const Recording& recording, const std::filesystem::path& file);
 
 }  // namespace drycut::sim

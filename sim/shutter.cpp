@@ -21,6 +21,8 @@ Shutter::Shutter(const PicturesSection& pictures)
       around_(pictures.around),
       next_(pictures.frames ? std::max(period_, pictures.from) : never) {}
 
+void Shutter::close() { next_ = never; }
+
 Snapshot* Shutter::take(Time now) {
   next_ = std::max(now + period_, from_);
   if (around_ && !event_) return hold(now);

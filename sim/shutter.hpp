@@ -23,6 +23,8 @@ class Shutter {
  public:
   explicit Shutter(const PicturesSection& pictures);
 
+  /// No shots any more.
+  void close();
   /// A shot is due at the first step at or after this time.
   [[nodiscard]] Time next() const { return next_; }
   /// The object to fill with the shot at `now`; nullptr if none is wanted after all.

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 
 #include "sim/controller_loader.hpp"
 #include "sim/gallery_plots.hpp"
@@ -75,14 +78,15 @@ void Simulation::load_controller(devices::Problems& problems) {
 }
 
 void Simulation::build_plants() {
-  const auto find = [this](std::string_view name) -> plants::Plant* {
-    const auto found =
-        std::find_if(named_.begin(), named_.end(), [&](const NamedPlant& p) { return p.name == name; });
-    return found == named_.end() ? nullptr : found->plant;
+  std::unordered_map<std::string_view, plants::Plant*> built;
+  const auto find = [&](std::string_view name) -> plants::Plant* {
+    const auto found = built.find(name);
+    return found == built.end() ? nullptr : found->second;
   };
   for (const auto& entry : scenario_.plants) {
     plants_.push_back(entry.definition->build(world_, find));
     named_.push_back({entry.name.text, plants_.back().get()});
+    built.emplace(entry.name.text, plants_.back().get());
   }
 }
 
@@ -105,7 +109,6 @@ void Simulation::add_channel(const Text& name, devices::Problems& problems) {
 
 void Simulation::bind_recording(devices::Problems& problems) {
   for (const auto& name : scenario_.record.channels) add_channel(name, problems);
-  recording_.reserve(static_cast<std::size_t>(scenario_.scene.duration / scenario_.record.every) + 2);
 }
 
 void Simulation::check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const {
@@ -197,6 +200,16 @@ void Simulation::bind_caption(const std::vector<Text>& names, devices::Problems&
   }
 }
 
+void Simulation::write_to(const std::filesystem::path& trace, const std::filesystem::path& events) {
+  recording_.spool_in(trace.parent_path());
+  files_ = std::make_unique<TraceFiles>(recording_, trace, events);
+}
+
+void Simulation::keep_nothing() {
+  recording_.keep_nothing();
+  shutter_.close();
+}
+
 void Simulation::follow_cams() {
   if (!controller_) return;
   // A servo behind a pulse output tells on its own channel how far it is behind.
@@ -261,15 +274,33 @@ void Simulation::collect_events() {
   }
   if (events_seen_ == recording_.events().size()) return;
   watch_->update();
-  for (; events_seen_ < recording_.events().size(); ++events_seen_) {
-    checks_->happened(recording_.events()[events_seen_]);
-    shutter_.happened(recording_.events()[events_seen_]);
-  }
+  while (events_seen_ < recording_.events().size()) tell(recording_.events()[events_seen_++]);
+  if (recording_.keeps()) return;
+  recording_.forget_events();
+  events_seen_ = 0;
+}
+
+void Simulation::tell(const RecordedEvent& event) {
+  constexpr std::size_t shown = 5;
+  checks_->happened(event);
+  shutter_.happened(event);
+  if (files_) files_->happened(event);
+  if (event.text.empty() || event.source == "timeline") return;
+  ++remark_count_;
+  // What a program may wait for in vain, or lose, stands before remarks on values.
+  const bool urgent = event.event == "contradiction" || event.event == "held_up";
+  if ((urgent ? urgent_remarks_ : remarks_.size()) >= shown) return;
+  const auto place = urgent ? urgent_remarks_++ : remarks_.size();
+  remarks_.insert(
+      remarks_.begin() + static_cast<std::ptrdiff_t>(place),
+      fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event, event.text));
+  if (remarks_.size() > shown) remarks_.pop_back();
 }
 
 void Simulation::record() {
   watch_->update();
   recording_.sample(time_);
+  if (files_) files_->sample(time_);
   checks_->sample(time_);
   if (cams_) cams_->sample(time_);
   next_record_ = time_ + scenario_.record.every;
@@ -295,7 +326,6 @@ void Simulation::snapshot() {
 }
 
 std::vector<std::string> Simulation::notes() const {
-  constexpr std::size_t shown = 5;
   std::vector<std::string> notes;
   if (const auto open = bus_.unwired(); !open.empty())
     notes.push_back(fmt::format("not wired: {}", fmt::join(open, ", ")));
@@ -305,19 +335,9 @@ std::vector<std::string> Simulation::notes() const {
     notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
                                 around->number, shutter_.seen()));
   }
-  // What a program may wait for in vain, or lose, stands before remarks on values.
-  std::size_t remarks = 0;
-  for (const bool urgent : {true, false}) {
-    for (const auto& event : recording_.events()) {
-      if (event.text.empty() || event.source == "timeline") continue;
-      if (urgent != (event.event == "contradiction" || event.event == "held_up")) continue;
-      if (++remarks <= shown) {
-        notes.push_back(fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event,
-                                    event.text));
-      }
-    }
-  }
-  if (remarks > shown) notes.push_back(fmt::format("and {} more remarks, see events.csv", remarks - shown));
+  notes.insert(notes.end(), remarks_.begin(), remarks_.end());
+  if (remark_count_ > remarks_.size())
+    notes.push_back(fmt::format("and {} more remarks, see events.csv", remark_count_ - remarks_.size()));
   return notes;
 }
 
@@ -334,7 +354,7 @@ std::vector<Reading> Simulation::controller_values() {
   return values;
 }
 
-Outcome Simulation::run(const std::function<void(Time)>& progress) {
+void Simulation::run_to_end(const std::function<void(Time)>& progress) {
   constexpr int steps_between_reports = 2000;
   record();
   int countdown = steps_between_reports;
@@ -344,6 +364,15 @@ Outcome Simulation::run(const std::function<void(Time)>& progress) {
       countdown = steps_between_reports;
       if (progress) progress(time_);
     }
+  }
+}
+
+Outcome Simulation::run(const std::function<void(Time)>& progress) {
+  try {
+    run_to_end(progress);
+    if (files_) files_->flush();
+  } catch (const std::runtime_error& no_room) {
+    failure_ = no_room.what();
   }
   Outcome outcome;
   outcome.end = time_;

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -16,6 +17,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/shutter.hpp"
 #include "sim/timeline.hpp"
+#include "sim/trace_files.hpp"
 #include "sim/watch.hpp"
 
 namespace drycut::sim {
@@ -47,6 +49,10 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// Writes trace.csv and events.csv, here and while it runs; before run().
+  void write_to(const std::filesystem::path& trace, const std::filesystem::path& events);
+  /// Keeps nothing for pictures of the run: no rows, no events, no poses. Before run().
+  void keep_nothing();
   /// Keeps what the controller's cams play, for pictures of it; before run().
   void follow_cams();
   /// What was kept; nullptr if nothing was asked for.
@@ -83,6 +89,8 @@ class Simulation {
     return controller_ ? controller_->retentive_state() : "";
   }
   [[nodiscard]] const Recording& recording() const { return recording_; }
+  /// The same, given away after run().
+  [[nodiscard]] Recording take_recording() { return std::move(recording_); }
   [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return shutter_.kept(); }
   /// When the event happened that the frames are about [s]; absent if they are about none.
   [[nodiscard]] std::optional<double> frames_event() const { return shutter_.event_at(); }
@@ -106,8 +114,10 @@ class Simulation {
   void add_lane(const Text& name, devices::Problems& problems);
   void add_channel(const Text& name, devices::Problems& problems);
 
+  void run_to_end(const std::function<void(Time)>& progress);
   void step();
   void collect_events();
+  void tell(const RecordedEvent& event);
   void record();
   void snapshot();
 
@@ -126,6 +136,7 @@ class Simulation {
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
   Recording recording_;
+  std::unique_ptr<TraceFiles> files_;
   std::unique_ptr<CamRecorder> cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
@@ -136,7 +147,10 @@ class Simulation {
   std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
-  std::string program_error_;  ///< first run-time error of the controller's program
+  std::string program_error_;         ///< first run-time error of the controller's program
+  std::vector<std::string> remarks_;  ///< the first of the controller
+  std::size_t urgent_remarks_ = 0;    ///< that stand at their beginning
+  std::size_t remark_count_ = 0;
 };
 
 }  // namespace drycut::sim

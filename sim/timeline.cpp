@@ -104,9 +104,10 @@ Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* 
       controller_(controller),
       look_every_((millisecond + scenario.scene.step - 1) / scenario.scene.step * scenario.scene.step) {
   Binder binder(names, scenario, problems);
-  const auto known = names.reading_names();
+  auto known = names.reading_names();
   const auto slot = [this](const std::string& name) { return watch_.slot(name); };
   for (const auto& stimulus : scenario.timeline) {
+    if (problems.size() > most_suggestions) known.clear();
     Entry entry;
     entry.after = stimulus.after;
     entry.every = stimulus.every;

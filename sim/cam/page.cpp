@@ -121,6 +121,11 @@ class PageMaker {
   CamPage make() {
     if (played_.samples.empty())
       page_.notes.emplace_back("No slave was on this cam in the run: only the cam is shown.");
+    if (played_.left_out > 0)
+      page_.notes.push_back(
+          fmt::format("Shown and measured over the last {} samples, from {:.1f} s on; {} "
+                      "before them are left out.",
+                      played_.samples.size(), seconds(played_.samples.front().time), played_.left_out));
     ideal_ = kind_.ideal(played_.table, range_of(played_));
     draw_cam();
     if (!ideal_.silence.empty())

@@ -5,6 +5,12 @@
 
 namespace drycut::sim {
 
+namespace {
+
+constexpr std::ptrdiff_t most_samples = 100'000;  // of a cam at least, twice as many at most
+
+}  // namespace
+
 CamRecorder::CamRecorder(std::vector<devices::CamAxis> axes, const Deviation& deviation) {
   for (auto& axis : axes) {
     Follower follower;
@@ -53,7 +59,12 @@ void CamRecorder::sample(Time time) {
     const double behind = moment.behind        ? *moment.behind
                           : follower.deviation ? follower.deviation()
                                                : nothing;
-    played_[follower.now].samples.push_back({time, begins, moment.master, moment.set, behind, moment.turn});
+    auto& cam = played_[follower.now];
+    if (cam.samples.size() == 2 * most_samples) {
+      cam.samples.erase(cam.samples.begin(), cam.samples.begin() + most_samples);
+      cam.left_out += most_samples;
+    }
+    cam.samples.push_back({time, begins, moment.master, moment.set, behind, moment.turn});
   }
 }
 

@@ -24,6 +24,7 @@ struct PlayedCam {
   std::string_view kind;  ///< of the table, as `drycut cam --device` names it
   std::string table;      ///< as the device held it when it took it over
   std::vector<Sample> samples;
+  std::size_t left_out = 0;  ///< earlier samples: of a long run the last ones are kept
 };
 
 /// Follows the cams of a controller through a run.

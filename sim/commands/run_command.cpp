@@ -197,14 +197,14 @@ void run_job(Job& job, const RunOptions& options, int threads,
   auto& folder = *job.folder;
   const auto duration = static_cast<double>(job.scenario.scene.duration);
   if (options.pictures) job.simulation->follow_cams();
+  if (!options.pictures && !options.gltf) job.simulation->keep_nothing();
+  job.simulation->write_to(folder.add(trace_file), folder.add(events_file));
   job.result.outcome =
       job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
   if (job.half)
     job.result.outcome.half_step = run_half_step(std::move(*job.half), [&](Time now) {
       progress("at half the step", static_cast<double>(now) / duration);
     });
-  write_trace(job.simulation->recording(), folder.add(trace_file));
-  write_events(job.simulation->recording(), folder.add(events_file));
   write_scenario(job.scenario, folder.add(scenario_file));
   write_checks(job.result.outcome, folder.add(checks_file));
   if (const auto kept = retentive_file(job.scenario)) {

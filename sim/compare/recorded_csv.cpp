@@ -115,16 +115,20 @@ bool has_width(const Row& row, std::size_t width, TableProblems& problems) {
 }
 
 /// "knife.angle [deg]"
-Recording::Column column_of(const QuotedCell& cell, TableProblems& problems) {
+void add_column(const QuotedCell& cell, Recording& recording, TableProblems& problems) {
   const auto open = cell.text.rfind(" [");
   if (open == std::string::npos || open == 0 || !cell.text.ends_with(']')) {
     problems.add(1, cell.column, fmt::format("{} is no channel with its unit", sim::quoted(cell.text)),
                  "the header has channel [unit], as drycut run writes it");
-    return {cell.text, "", nullptr, {}};
+    recording.add(cell.text, "");
+    return;
   }
   auto unit = cell.text.substr(open + 2, cell.text.size() - open - 3);
   if (unit == "-") unit.clear();
-  return {cell.text.substr(0, open), std::move(unit), nullptr, {}};
+  const auto name = cell.text.substr(0, open);
+  if (recording.column(name) != nullptr)
+    problems.add(1, cell.column, fmt::format("channel {} stands twice", sim::quoted(name)), run_again);
+  recording.add(name, std::move(unit));
 }
 
 /// The next of the pieces that "; " separates.
@@ -174,27 +178,21 @@ Recording read_trace(std::string_view text, const std::string& file, devices::Pr
   CsvRows rows(text, found);
   Row row;
   if (!read_header(rows, row, "time [s],channel [unit],...", found)) return {};
-  std::vector<Recording::Column> columns;
-  for (std::size_t i = 1; i < row.cells.size(); ++i) {
-    columns.push_back(column_of(row.cells[i], found));
-    for (std::size_t k = 0; k + 1 < columns.size(); ++k) {
-      if (columns[k].name != columns.back().name) continue;
-      found.add(1, row.cells[i].column, fmt::format("channel {} stands twice", sim::quoted(columns[k].name)),
-                run_again);
-      break;
-    }
-  }
-  std::vector<Time> times;
+  Recording recording;
+  for (std::size_t i = 1; i < row.cells.size(); ++i) add_column(row.cells[i], recording, found);
+  const auto width = row.cells.size();
+  std::vector<double> numbers(width - 1);
+  Time last = -1;
   while (!found.full() && rows.next(row)) {
-    if (!has_width(row, columns.size() + 1, found)) continue;
+    if (!has_width(row, width, found)) continue;
     const auto time = time_of(row.cells[0], row.line, found);
-    if (time && !times.empty() && *time <= times.back())
-      found.add(row.line, 1, "the time does not rise", run_again);
-    if (time) times.push_back(*time);
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      columns[i].values.push_back(number_of(row.cells[i + 1], row.line, found).value_or(0));
+    if (time && *time <= last) found.add(row.line, 1, "the time does not rise", run_again);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      numbers[i] = number_of(row.cells[i + 1], row.line, found).value_or(0);
+    last = time.value_or(last);
+    recording.append(last, numbers);
   }
-  return Recording::restored(std::move(times), std::move(columns));
+  return recording;
 }
 
 void read_events(std::string_view text, const std::string& file, Recording& recording,

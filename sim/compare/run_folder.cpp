@@ -1,6 +1,9 @@
 #include "sim/compare/run_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -21,13 +24,37 @@ namespace {
 
 constexpr auto* run_again = "run the scenario again: drycut run writes the file";
 
-constexpr std::uintmax_t largest_trace = std::uintmax_t{1} << 40U;  // [bytes]
+/// A file that is read where it lies: a trace may be larger than the memory.
+class MappedFile {
+ public:
+  explicit MappedFile(const fs::path& file) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const auto end = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
+    if (end > 0) place_ = mmap(nullptr, static_cast<std::size_t>(end), PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (place_ != MAP_FAILED) size_ = static_cast<std::size_t>(end);
+    if (descriptor >= 0) close(descriptor);
+  }
+  ~MappedFile() {
+    if (size_ > 0) munmap(place_, size_);
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  [[nodiscard]] std::string_view text() const { return {static_cast<const char*>(place_), size_}; }
 
-/// A whole file of a run; traces may be large.
+ private:
+  void* place_ = MAP_FAILED;
+  std::size_t size_ = 0;
+};
+
+void refuse_file(const fs::path& file, devices::Problems& problems) {
+  problems.push_back({file.string(), 1, 1, "the file cannot be read, or is empty", run_again});
+}
+
+/// A whole file of a run.
 std::optional<std::string> whole_file(const fs::path& file, devices::Problems& problems) {
-  auto text = read_file(file, problems, largest_trace);
+  auto text = read_file(file, problems);
   if (!text || !text->empty()) return text;
-  problems.push_back({file.string(), 1, 1, "the file is empty", run_again});
+  refuse_file(file, problems);
   return {};
 }
 
@@ -180,8 +207,11 @@ RunFolder read_run(const fs::path& folder, devices::Problems& problems) {
   run.label = folder.string();
   if (!is_run(folder, problems)) return run;
   const auto name = [&](const char* file) { return (folder / file).string(); };
-  if (const auto text = whole_file(folder / trace_file, problems))
-    run.recording = read_trace(*text, name(trace_file), problems);
+  const MappedFile trace(folder / trace_file);
+  if (trace.text().empty())
+    refuse_file(folder / trace_file, problems);
+  else
+    run.recording = read_trace(trace.text(), name(trace_file), problems);
   if (const auto text = whole_file(folder / events_file, problems))
     read_events(*text, name(events_file), run.recording, problems);
   if (const auto text = whole_file(folder / checks_file, problems))

@@ -61,15 +61,13 @@ class Formula {
     }
   }
 
-  std::vector<double> over(const Recording& recording) {
+  void over(const Recording& recording, Series<double>& numbers) {
     std::vector<const Recording::Column*> columns;
     for (const auto& slot : slots_) columns.push_back(recording.column(slot.name));
-    std::vector<double> numbers;
     for (std::size_t row = 0; row < recording.times().size(); ++row) {
       for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].number = columns[i]->values[row];
       numbers.push_back(expression_->evaluate().margin.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
-    return numbers;
   }
 
  private:
@@ -221,16 +219,11 @@ CheckResult result_of(const ComparisonScene::Check& check, const std::deque<Chec
 
 /// The run with the channels that the scene makes of what it recorded.
 void add_channels(const ComparisonScene::Member& member, const MemberNames& names, RunFolder& run) {
-  if (member.channels.empty()) return;
-  auto columns = run.recording.columns();
   for (const auto& channel : member.channels) {
     std::vector<ExpressionFault> faults;
     Formula formula(channel.of.text, names.channels, faults);
-    columns.push_back({channel.name.text, channel.unit, nullptr, formula.over(run.recording)});
+    formula.over(run.recording, run.recording.add(channel.name.text, channel.unit).values);
   }
-  auto recording = Recording::restored(run.recording.times(), std::move(columns));
-  for (const auto& event : run.recording.events()) recording.happened(event);
-  run.recording = std::move(recording);
 }
 
 double number_of(const ComparisonScene::FigureRequest& figure, const ComparisonScene& scene,

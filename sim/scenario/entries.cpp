@@ -1,8 +1,8 @@
 // timeline and checks: lists of small maps.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
+#include <unordered_map>
 
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_reader.hpp"
@@ -180,14 +180,13 @@ std::vector<Stimulus> read_timeline(const YamlNode& node, Findings& findings) {
 
 std::vector<Check> read_checks(const YamlNode& node, Findings& findings) {
   std::vector<Check> checks;
+  std::unordered_map<std::string, int> lines;  // of the names
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     auto check = read_check(node.items[i], fmt::format("checks.{}", i), findings);
-    const auto same = std::find_if(checks.begin(), checks.end(), [&](const Check& other) {
-      return !check.name.text.empty() && other.name.text == check.name.text;
-    });
-    if (same != checks.end()) {
+    const auto [same, fresh] = lines.emplace(check.name.text, check.name.place.line);
+    if (!fresh && !check.name.text.empty()) {
       findings.add(check.name.place, fmt::format("there are two checks named '{}'", check.name.text),
-                   fmt::format("rename one; the first is at line {}", same->name.place.line));
+                   fmt::format("rename one; the first is at line {}", same->second));
     }
     checks.push_back(std::move(check));
   }

@@ -234,7 +234,8 @@ std::optional<Expression> Expression::compile(const Text& text, const Scenario& 
     const auto problem =
         problem_at(scenario, text.at(fault.offset), std::move(fault.what), std::move(fault.remedy));
     const bool said = std::any_of(problems.begin(), problems.end(), [&](const devices::Problem& other) {
-      return devices::to_string(other) == devices::to_string(problem);
+      return other.line == problem.line && other.column == problem.column && other.what == problem.what &&
+             other.remedy == problem.remedy && other.file == problem.file;
     });
     if (!said) problems.push_back(problem);
   }

@@ -53,7 +53,7 @@ std::vector<PicturesSection::MeshRequest> read_meshes(const YamlNode& node, Find
   refuse_duplicates(node, name, findings);
   std::vector<PicturesSection::MeshRequest> meshes;
   for (const auto& entry : node.entries) {
-    if (is_repeated(node, entry)) continue;
+    if (entry.is_repeated()) continue;
     const auto full = fmt::format("{}.{}", name, entry.key.text);
     if (entry.value.kind != YamlNode::Kind::map) {
       refuse_kind(entry.value, full, YamlNode::Kind::map, findings);

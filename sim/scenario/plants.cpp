@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
+#include <unordered_map>
 
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/units.hpp"
@@ -42,8 +45,9 @@ class ParameterReader {
     const auto where = "plants." + entry_.name.text + (prefix.empty() ? "" : "." + prefix);
     refuse_duplicates(node, where, findings_);
     for (const auto& entry : node.entries) {
-      const auto& [key, value] = entry;
-      if ((prefix.empty() && key.text == "type") || is_repeated(node, entry)) continue;
+      const auto& key = entry.key;
+      const auto& value = entry.value;
+      if ((prefix.empty() && key.text == "type") || entry.is_repeated()) continue;
       const auto name = prefix.empty() ? key.text : prefix + "." + key.text;
       const auto full = "plants." + entry_.name.text + "." + name;
       if (auto* parameter = find(name)) {
@@ -215,9 +219,33 @@ Place place_of(const PlantEntry& plant, const std::string& parameter) {
   return plant.name.place;
 }
 
-// The plants that `plant` refers to; names that lead nowhere are problems.
-std::vector<std::size_t> references(const std::vector<PlantEntry>& all, const PlantEntry& plant,
-                                    const YamlNode& section, Findings& findings) {
+// Where each plant is in a list.
+using Index = std::unordered_map<std::string_view, std::size_t>;
+
+Index index_of(const std::vector<PlantEntry>& plants) {
+  Index index;
+  for (std::size_t i = 0; i < plants.size(); ++i) index.emplace(plants[i].name.text, i);
+  return index;
+}
+
+// The plants that one could refer to.
+std::string fitting(const std::vector<PlantEntry>& all, const std::string& type) {
+  constexpr std::size_t most = 10;
+  std::vector<std::string> names;
+  for (const auto& plant : all) {
+    if (plant.type.text != type) continue;
+    names.push_back(names.size() < most ? plant.name.text : "...");
+    if (names.size() > most) break;
+  }
+  return names.empty() ? fmt::format("add a plant of type {}", type)
+                       : fmt::format("name one of: {}", fmt::join(names, ", "));
+}
+
+// The plants that `plant` refers to; names that lead nowhere are problems. `given` are the names of the
+// section, of plants that could not be read as well.
+std::vector<std::size_t> references(const std::vector<PlantEntry>& all, const Index& index,
+                                    const PlantEntry& plant, const std::set<std::string_view>& given,
+                                    Findings& findings) {
   std::vector<std::size_t> found;
   for (const auto& parameter : plant.definition->parameters()) {
     if (parameter.reference.empty()) continue;
@@ -225,24 +253,20 @@ std::vector<std::size_t> references(const std::vector<PlantEntry>& all, const Pl
     if (name == plants::no_plant) continue;
     const auto place = place_of(plant, parameter.name);
     const auto full = fmt::format("plants.{}.{}", plant.name.text, parameter.name);
-    const auto target = std::find_if(all.begin(), all.end(),
-                                     [&](const PlantEntry& other) { return other.name.text == name; });
-    std::vector<std::string> fitting;
-    for (const auto& other : all) {
-      if (other.type.text == parameter.reference) fitting.push_back(other.name.text);
+    const auto target = index.find(name);
+    if (target != index.end() && all[target->second].type.text == parameter.reference) {
+      found.push_back(target->second);
+      continue;
     }
-    const auto remedy = fitting.empty() ? fmt::format("add a plant of type {}", parameter.reference)
-                                        : fmt::format("name one of: {}", fmt::join(fitting, ", "));
-    if (target != all.end() && target->type.text == parameter.reference) {
-      found.push_back(static_cast<std::size_t>(target - all.begin()));
-    } else if (target != all.end()) {
-      findings.add(
-          place, fmt::format("{}: {} is a {}, not a {}", full, name, target->type.text, parameter.reference),
-          remedy);
+    const auto remedy = fitting(all, std::string(parameter.reference));
+    if (target != index.end()) {
+      findings.add(place,
+                   fmt::format("{}: {} is a {}, not a {}", full, name, all[target->second].type.text,
+                               parameter.reference),
+                   remedy);
     } else if (name.empty()) {
       findings.add(place, fmt::format("{} names no plant", full), remedy);
-    } else if (std::none_of(section.entries.begin(), section.entries.end(),
-                            [&](const YamlNode::Entry& e) { return e.key.text == name; })) {
+    } else if (!given.contains(name)) {
       findings.add(place, fmt::format("{}: there is no plant '{}'", full, name), remedy);
     }
   }
@@ -251,20 +275,27 @@ std::vector<std::size_t> references(const std::vector<PlantEntry>& all, const Pl
 
 // Every plant behind those that it refers to, else in the order of the file; a circle is a problem.
 std::vector<PlantEntry> sorted(std::vector<PlantEntry> plants, const YamlNode& section, Findings& findings) {
-  std::vector<std::vector<std::size_t>> needs;
-  for (const auto& plant : plants) needs.push_back(references(plants, plant, section, findings));
+  std::set<std::string_view> given;
+  for (const auto& entry : section.entries) given.insert(entry.key.text);
+  const auto index = index_of(plants);
+  std::vector<std::size_t> open(plants.size());  // plants that each one waits for
+  std::vector<std::vector<std::size_t>> waiting(plants.size());
+  std::set<std::size_t> ready;
+  for (std::size_t i = 0; i < plants.size(); ++i) {
+    const auto needs = references(plants, index, plants[i], given, findings);
+    open[i] = needs.size();
+    for (const auto need : needs) waiting[need].push_back(i);
+    if (needs.empty()) ready.insert(i);
+  }
   std::vector<PlantEntry> order;
   std::vector<bool> placed(plants.size(), false);
-  const auto ready = [&](std::size_t i) {
-    return !placed[i] &&
-           std::all_of(needs[i].begin(), needs[i].end(), [&](std::size_t need) { return placed[need]; });
-  };
-  while (order.size() < plants.size()) {
-    std::size_t next = 0;
-    while (next < plants.size() && !ready(next)) ++next;
-    if (next == plants.size()) break;
+  while (!ready.empty()) {
+    const auto next = *ready.begin();
+    ready.erase(ready.begin());
     placed[next] = true;
     order.push_back(std::move(plants[next]));
+    for (const auto other : waiting[next])
+      if (--open[other] == 0) ready.insert(other);
   }
   for (std::size_t i = 0; i < plants.size(); ++i) {
     if (placed[i]) continue;
@@ -278,10 +309,10 @@ std::vector<PlantEntry> sorted(std::vector<PlantEntry> plants, const YamlNode& s
 
 // What plants object to in each other.
 void object_to_each_other(const std::vector<PlantEntry>& all, Time step, Findings& findings) {
-  const auto find = [&all](std::string_view name) -> plants::PlantDefinition* {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const PlantEntry& entry) { return entry.name.text == name; });
-    return found == all.end() ? nullptr : found->definition.get();
+  const auto index = index_of(all);
+  const auto find = [&](std::string_view name) -> plants::PlantDefinition* {
+    const auto found = index.find(name);
+    return found == index.end() ? nullptr : all[found->second].definition.get();
   };
   for (const auto& plant : all)
     for (const auto& objection : plant.definition->objections_with(find, seconds(step)))
@@ -328,7 +359,7 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
                    "letters, digits and underscores; panel is the operator's panel");
       continue;
     }
-    if (is_repeated(node, entry)) continue;
+    if (entry.is_repeated()) continue;
     auto plant = read_plant(entry, types, findings);
     if (!plant) continue;
     ParameterReader(*plant, step, findings).read(entry.value);

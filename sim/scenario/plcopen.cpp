@@ -52,7 +52,7 @@ class AxisReader {
     const auto where = prefix.empty() ? full_ : full_ + "." + prefix;
     refuse_duplicates(node, where, findings_);
     for (const auto& entry : node.entries) {
-      if (is_repeated(node, entry)) continue;
+      if (entry.is_repeated()) continue;
       const auto name = prefix.empty() ? entry.key.text : prefix + "." + entry.key.text;
       if (name == "path") {
         read_path(entry);
@@ -239,7 +239,7 @@ class AxisReader {
 void read_axes(const YamlNode& node, std::vector<PlcopenSection::Axis>& axes, Findings& findings) {
   refuse_duplicates(node, axes_name, findings);
   for (const auto& entry : node.entries) {
-    if (is_repeated(node, entry)) continue;
+    if (entry.is_repeated()) continue;
     const auto& name = entry.key;
     if (!devices::is_identifier(name.text) || name.text == "panel") {
       findings.add(name.place, fmt::format("'{}' is no name of an axis", name.text),

@@ -31,7 +31,8 @@ void read_limits(const YamlNode& list, const std::string& name, PlotRequest::Pan
 void read_points(const YamlNode& map, const std::string& name, PlotRequest::Panel& panel,
                  Findings& findings) {
   refuse_duplicates(map, name, findings);
-  for (const auto& [key, value] : map.entries) {
+  for (const auto& [key, value, first_line] : map.entries) {
+    if (first_line > 0) continue;
     const auto full = name + "." + key.text;
     std::vector<double> numbers;
     if (value.kind == YamlNode::Kind::sequence) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <unordered_set>
 
 #include "sim/file.hpp"
 #include "sim/plain_text.hpp"
@@ -76,7 +77,7 @@ ControllerSection read_controller(const YamlNode& node, Findings& findings) {
     if (kind != "qmove" && kind != "lx3vp" && kind != "plcopen") {
       findings.add(entry.key.place, fmt::format("unknown controller '{}'", kind),
                    "known: qmove, lx3vp, plcopen");
-    } else if (!is_repeated(node, entry)) {
+    } else if (!entry.is_repeated()) {
       if (&entry != &node.entries.front()) {
         findings.add(entry.key.place,
                      fmt::format("a second controller, after {}", node.entries.front().key.text), "keep one");
@@ -102,7 +103,7 @@ std::vector<Wire> read_wiring(const YamlNode& node, Findings& findings) {
   refuse_duplicates(node, "wiring", findings);
   for (const auto& entry : node.entries) {
     const auto name = "wiring." + entry.key.text;
-    if (is_repeated(node, entry)) continue;
+    if (entry.is_repeated()) continue;
     if (entry.value.kind == YamlNode::Kind::scalar) {
       wiring.push_back({entry.key, entry.value.text});
     } else if (entry.value.kind == YamlNode::Kind::null) {
@@ -122,14 +123,10 @@ RecordSection read_record(const YamlNode& node, Findings& findings) {
   reader.time("every", record.every, Sign::positive);
   reader.texts("channels", record.channels);
   reader.finish();
-  for (std::size_t i = 0; i < record.channels.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (record.channels[i].text != record.channels[j].text) continue;
-      findings.add(record.channels[i].place,
-                   fmt::format("channel {} is recorded twice", record.channels[i].text), "keep one");
-      break;
-    }
-  }
+  std::unordered_set<std::string> known;
+  for (const auto& channel : record.channels)
+    if (!known.insert(channel.text).second)
+      findings.add(channel.place, fmt::format("channel {} is recorded twice", channel.text), "keep one");
   return record;
 }
 

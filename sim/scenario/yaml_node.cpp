@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <unordered_map>
 
 #include "sim/plain_text.hpp"
 
@@ -37,11 +38,15 @@ class Lines {
   [[nodiscard]] Place place(std::size_t offset) const {
     const auto after = std::upper_bound(starts_.begin(), starts_.end(), offset);
     const auto line = static_cast<std::size_t>(after - starts_.begin()) - 1;
-    int column = 1;
-    for (std::size_t i = starts_[line]; i < offset; ++i) {
-      if ((static_cast<unsigned char>(text_[i]) & 0xC0) != 0x80) ++column;
+    // From the place asked for last, if it is before this one in the line: a line may be a whole file.
+    if (starts_[line] > last_offset_ || offset < last_offset_) {
+      last_offset_ = starts_[line];
+      last_column_ = 1;
     }
-    return {static_cast<int>(line) + 1, column, source_};
+    for (; last_offset_ < offset; ++last_offset_) {
+      if ((static_cast<unsigned char>(text_[last_offset_]) & 0xC0) != 0x80) ++last_column_;
+    }
+    return {static_cast<int>(line) + 1, last_column_, source_};
   }
   [[nodiscard]] Place place(const YAML::Mark& mark) const { return place(offset(mark)); }
   [[nodiscard]] std::string_view text() const { return text_; }
@@ -58,6 +63,8 @@ class Lines {
   std::string_view text_;
   int source_;
   std::vector<std::size_t> starts_;
+  mutable std::size_t last_offset_ = 0;
+  mutable int last_column_ = 1;
 };
 
 // Bytes of the escape sequence of a double-quoted text that starts at `at`.
@@ -231,6 +238,7 @@ class Builder : public YAML::EventHandler {
     YamlNode node;
     std::optional<Text> key;
     bool bracket = false;
+    std::unordered_map<std::string, int> keys = {};  // of a map: first line of each
   };
 
   bool refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
@@ -268,7 +276,9 @@ class Builder : public YAML::EventHandler {
     if (level.node.kind == YamlNode::Kind::sequence) {
       level.node.items.push_back(std::move(node));
     } else if (level.key) {
-      level.node.entries.push_back({std::move(*level.key), std::move(node)});
+      const int line = level.key->place.line;
+      const auto [first, fresh] = level.keys.emplace(level.key->text, line);
+      level.node.entries.push_back({std::move(*level.key), std::move(node), fresh ? 0 : first->second});
       level.key.reset();
     } else {
       if (node.kind != YamlNode::Kind::scalar) {

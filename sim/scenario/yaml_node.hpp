@@ -21,6 +21,9 @@ struct YamlNode {
 struct YamlNode::Entry {
   Text key;
   YamlNode value;
+  int first_line = 0;  ///< of the first entry with this key, if this is another one
+  /// refuse_duplicates has told it; it is not to be read.
+  [[nodiscard]] bool is_repeated() const { return first_line > 0; }
 };
 
 /// The problems of a scenario while it is being read: every text that takes part has a name, and the problems

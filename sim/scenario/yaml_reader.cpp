@@ -17,26 +17,12 @@ void refuse_kind(const YamlNode& node, const std::string& name, YamlNode::Kind w
                fmt::format("write {}", form));
 }
 
-namespace {
-
-const YamlNode::Entry& first_of(const YamlNode& map, const YamlNode::Entry& entry) {
-  return *std::find_if(map.entries.begin(), map.entries.end(),
-                       [&](const YamlNode::Entry& other) { return other.key.text == entry.key.text; });
-}
-
-}  // namespace
-
-bool is_repeated(const YamlNode& map, const YamlNode::Entry& entry) {
-  return &first_of(map, entry) != &entry;
-}
-
 void refuse_duplicates(const YamlNode& map, const std::string& name, Findings& findings) {
   for (const auto& entry : map.entries) {
-    const auto& first = first_of(map, entry);
-    if (&first == &entry) continue;
+    if (!entry.is_repeated()) continue;
     const auto where = name.empty() ? std::string("the file") : name;
     findings.add(entry.key.place, fmt::format("'{}' is given twice in {}", entry.key.text, where),
-                 fmt::format("keep one; the first is at line {}", first.key.place.line));
+                 fmt::format("keep one; the first is at line {}", entry.first_line));
   }
 }
 

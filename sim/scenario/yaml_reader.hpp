@@ -80,8 +80,6 @@ class MapReader {
 void refuse_kind(const YamlNode& node, const std::string& name, YamlNode::Kind wanted, Findings& findings);
 /// Refuses every key that stands twice in the map.
 void refuse_duplicates(const YamlNode& map, const std::string& name, Findings& findings);
-/// True if an earlier entry of `map` has the same key: refused already, not to be read.
-bool is_repeated(const YamlNode& map, const YamlNode::Entry& entry);
 /// Texts of a list of single values.
 std::vector<Text> read_texts(const YamlNode& list, const std::string& name, Findings& findings);
 

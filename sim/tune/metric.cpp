@@ -257,13 +257,12 @@ std::vector<std::pair<double, double>> event_numbers(const Recording& recording,
   return numbers;
 }
 
-Metric::Series Metric::series_of(Term& term, const Recording& recording, Time from) {
-  Series series;
-  std::vector<const std::vector<double>*> columns;
-  std::vector<std::vector<double>> of_events;
+Metric::Numbers Metric::series_of(Term& term, const Recording& recording, Time from) {
+  Numbers series;
+  std::vector<const Series<double>*> columns;
+  std::deque<Series<double>> of_events;
   std::vector<double> times;
   const bool events = !term.slots[0].name.event.empty();
-  of_events.reserve(term.slots.size());
   for (const auto& slot : term.slots) {
     if (events) {
       auto& numbers = of_events.emplace_back();
@@ -290,7 +289,7 @@ Metric::Series Metric::series_of(Term& term, const Recording& recording, Time fr
   return series;
 }
 
-double Metric::reduce(const Term& term, const Series& series, double from) {
+double Metric::reduce(const Term& term, const Numbers& series, double from) {
   const auto& x = series.numbers;
   if (term.function == Function::count) return static_cast<double>(x.size());
   if (x.empty() || std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); })) return nothing;

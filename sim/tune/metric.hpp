@@ -74,14 +74,14 @@ class Metric {
     double LoopFigures::*figure;
     double number = 0;
   };
-  struct Series {
+  struct Numbers {
     std::vector<double> times;  ///< [s]
     std::vector<double> numbers;
   };
   class Compiler;
 
-  static Series series_of(Term& term, const Recording& recording, Time from);
-  static double reduce(const Term& term, const Series& series, double from);
+  static Numbers series_of(Term& term, const Recording& recording, Time from);
+  static double reduce(const Term& term, const Numbers& series, double from);
 
   std::deque<Term> terms_;
   std::deque<Figure> figures_;

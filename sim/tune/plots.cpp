@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "renders/decimate.hpp"
+#include "sim/gallery_plots.hpp"
+
 namespace drycut::sim {
 
 namespace {
@@ -24,6 +27,7 @@ renders::Curve curve_of(const Recording& recording, const MetricName& name, Time
       curve.x.push_back(time);
       curve.y.push_back(number);
     }
+    renders::thin(curve.x, curve.y);
     for (const auto& happened : recording.events())
       if (happened.event == name.event)
         if (const auto* value = happened.find(name.value)) unit = value->unit;
@@ -32,12 +36,9 @@ renders::Curve curve_of(const Recording& recording, const MetricName& name, Time
   const auto* column = recording.column(name.text);
   if (column == nullptr) return curve;
   unit = column->unit;
-  for (std::size_t row = 0; row < recording.times().size(); ++row) {
-    if (recording.times()[row] < from) continue;
-    curve.x.push_back(seconds(recording.times()[row]));
-    curve.y.push_back(column->values[row]);
-  }
-  return curve;
+  auto of_time = channel_curve(recording, *column, rows_between(recording, from, {}));
+  of_time.label = std::move(curve.label);
+  return of_time;
 }
 
 renders::Plot before_after(const Tuning& tuning, std::size_t index) {
@@ -47,7 +48,8 @@ renders::Plot before_after(const Tuning& tuning, std::size_t index) {
   plot.name =
       tuning.study.cases.size() == 1 ? "before_after" : fmt::format("before_after_{}_{}", index + 1, stem);
   plot.title = fmt::format("Before and after: {}", stem);
-  plot.x_label = "time [s]";
+  const auto& times = tuning.runs_before[index].recording;
+  plot.x_label = time_label(times, rows_between(times, tuning.study.from, {}));
   for (const auto& name : names_of(tuning.study, entry)) {
     renders::Panel panel;
     std::string unit;

@@ -183,7 +183,7 @@ KeptRun keep_run(const Study& study, const Study::Case& entry, const std::vector
   if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
   KeptRun kept;
   kept.outcome = simulation.run();
-  kept.recording = simulation.recording();
+  kept.recording = simulation.take_recording();
   kept.expanded = expand(scenario);
   return kept;
 }

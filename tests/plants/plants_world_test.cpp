@@ -45,6 +45,24 @@ TEST(World, SlideFallsUnderGravity) {
   EXPECT_NEAR(pose.position[1], -0.6 * ramp.position, 1e-12);
 }
 
+TEST(World, SlideThatHasTravelledADayAndAHalfDriftsByNothing) {
+  // 36 h at 1 m/s: there a step of 0.1 mm alone is rounded to 1.5e-11 m, 5 nm short or long in each metre.
+  constexpr double far = 129600;
+  World world;
+  Slide& web = world.add_slide({.name = "web", .position = far, .speed = 1});
+  Slide& back = world.add_slide({.name = "back", .position = -far, .speed = -1});
+  Slide& piece = world.add_slide({.name = "piece", .position = far, .speed = 0.7, .slow = true});
+  double plain = far;
+  for (int i = 0; i < 1000000; ++i) {
+    world.step(1e-4);
+    plain += 1 * 1e-4;
+  }
+  EXPECT_NEAR(web.position, far + 100, 2e-11);
+  EXPECT_NEAR(back.position, -far - 100, 2e-11);
+  EXPECT_NEAR(piece.position, far + 70, 2e-11);
+  EXPECT_GT(std::abs(plain - far - 100), 1e-6) << "what adding alone makes of it";
+}
+
 TEST(World, AngleAgreesWithBulletsOrientationOverAMillionSteps) {
   for (const double per_step : {0.0037, 0.31, -0.011}) {  // [rad]: series, sine and backwards
     World world;

@@ -34,6 +34,56 @@ Curve ramp(std::size_t count) {
   return curve;
 }
 
+TEST(Envelope, KeepsEveryPeakOfALongCurve) {
+  Curve curve = ramp(1'000'000);
+  curve.y[123'456] = 7;
+  curve.y[123'457] = -5;
+  curve.y[999'999] = 9;
+  thin(curve.x, curve.y);
+  EXPECT_LE(curve.x.size(), 2 * kStretches);
+  EXPECT_TRUE(std::is_sorted(curve.x.begin(), curve.x.end()));
+  const auto at = [&](double x) {
+    const auto found = std::lower_bound(curve.x.begin(), curve.x.end(), x);
+    return found != curve.x.end() && *found == x ? curve.y[static_cast<std::size_t>(found - curve.x.begin())]
+                                                 : kNan;
+  };
+  EXPECT_EQ(at(123'456), 7);
+  EXPECT_EQ(at(123'457), -5);
+  EXPECT_EQ(at(999'999), 9);
+  // What is left are samples, and of every stretch the extremes: nowhere more than a stretch apart.
+  for (std::size_t i = 1; i < curve.x.size(); ++i) ASSERT_LE(curve.x[i] - curve.x[i - 1], 200);
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (std::abs(curve.y[i]) > 1) continue;
+    ASSERT_EQ(curve.y[i], std::sin(0.01 * curve.x[i]));
+  }
+}
+
+TEST(Envelope, LeavesWhatIsShortAsItIs) {
+  Curve curve = ramp(kMostSamples);
+  const Curve before = curve;
+  thin(curve.x, curve.y);
+  EXPECT_EQ(curve.x, before.x);
+  EXPECT_EQ(curve.y, before.y);
+}
+
+TEST(Cloud, DrawsAPathThatIsRunAgainAndAgainOnce) {
+  const auto circle = [](std::size_t samples) {
+    Cloud cloud(samples, {-1, 1, -1, 1}, true);
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double angle = 0.001 * static_cast<double>(i);
+      cloud.add(std::cos(angle), std::sin(angle));
+    }
+    return cloud.take();
+  };
+  EXPECT_EQ(circle(kMostSamples).x.size(), kMostSamples);
+  const Points once = circle(1'000'000);
+  EXPECT_LT(once.x.size(), 30'000U);
+  double top = 0;
+  for (const double y : once.y)
+    if (std::isfinite(y)) top = std::max(top, y);
+  EXPECT_NEAR(top, 1, 1e-6);
+}
+
 Plot plot_of(std::vector<Curve> curves) {
   Plot plot;
   plot.name = "axis_x";

@@ -43,11 +43,14 @@ struct Played {
   Scenario scenario;
   std::unique_ptr<Simulation> simulation;
   Outcome outcome;
-  explicit Played(const fs::path& file) : scenario(read_scenario(file, {}, problems)) {
+  explicit Played(const fs::path& file, const fs::path& out = "")
+      : scenario(read_scenario(file, {}, problems)) {
     scenario.pictures.frames = false;
     if (!problems.empty()) return;
     simulation = std::make_unique<Simulation>(scenario, problems);
-    if (problems.empty()) outcome = simulation->run();
+    if (!problems.empty()) return;
+    if (!out.empty()) simulation->write_to(out / "trace.csv", out / "events.csv");
+    outcome = simulation->run();
   }
 };
 
@@ -105,10 +108,8 @@ TEST(Determinism, TwoRunsLeaveTheSameBytes) {
   std::vector<std::string> traces;
   std::vector<std::string> events;
   for (int i = 0; i < 2; ++i) {
-    const Played run(root / "scenes/rotary_knife_short.yaml");
+    const Played run(root / "scenes/rotary_knife_short.yaml", folder);
     ASSERT_EQ(listed(run.problems), "");
-    write_trace(run.simulation->recording(), folder / "trace.csv");
-    write_events(run.simulation->recording(), folder / "events.csv");
     traces.push_back(bytes_of(folder / "trace.csv"));
     events.push_back(bytes_of(folder / "events.csv"));
   }

@@ -2,6 +2,7 @@
 // machine.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/gallery.hpp"
@@ -54,6 +55,29 @@ struct GalleryPlots : ::testing::Test {
   Watch watch{names};
   Recording recording;
 };
+
+TEST_F(GalleryPlots, OfALongRunThePeaksAndTheChangesAreShownAndTheAxisSaysSo) {
+  for (int i = 10; i < 200'000; ++i) {
+    panel.lamps["busy"].level = i >= 150'001;
+    web.speed = i == 77'777 ? 2.5 : 1;
+    watch.update();
+    recording.sample(i * millisecond);
+  }
+  const auto made = plot("panels: [{lanes: [panel.busy]}, {channels: [web.speed]}]");
+  const auto& curve = made.panels.at(1).curves.at(0);
+  EXPECT_LE(curve.x.size(), 20'000U);
+  const auto peak = std::max_element(curve.y.begin(), curve.y.end()) - curve.y.begin();
+  EXPECT_EQ(curve.y[static_cast<std::size_t>(peak)], 150);
+  EXPECT_DOUBLE_EQ(curve.x[static_cast<std::size_t>(peak)], 77.777);
+  EXPECT_EQ(made.x_label, "time [s], thinned: the lowest and the highest of 20 samples, 0.02 s");
+  const auto& lane = made.panels.at(0).lanes.at(0);
+  EXPECT_THAT(lane.x, ElementsAre(0, 0.002, 0.004, 0.006, 0.008, 0.010, 150.001, 199.999));
+  EXPECT_THAT(lane.y, ElementsAre(0, 1, 0, 1, 0, 0, 1, 1)) << "changes, and the end";
+
+  const auto window = plot("from: 77 s, until: 78 s, panels: [{channels: [web.speed]}]");
+  EXPECT_EQ(window.x_label, "time [s]") << "a window is shown whole";
+  EXPECT_EQ(window.panels.at(0).curves.at(0).x.size(), 1001U);
+}
 
 TEST_F(GalleryPlots, LanesShowTheRecordedStatesInTheOrderAskedFor) {
   const auto made = plot(

@@ -123,9 +123,9 @@ TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
   KnifeLine line(second_cut);
   const auto film = line.film();
   const auto& events = line.simulation->recording().events();
-  std::vector<const RecordedEvent*> cuts;
+  std::vector<RecordedEvent> cuts;
   for (const auto& event : events)
-    if (event.event == "cut") cuts.push_back(&event);
+    if (event.event == "cut") cuts.push_back(event);
   ASSERT_GE(cuts.size(), 2U);
   // The newest piece lies nearest to the cut.
   const auto& last = film.frames.back();
@@ -135,14 +135,14 @@ TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
       newest = &one;
   ASSERT_NE(newest, nullptr);
   char length[32];
-  std::snprintf(length, sizeof length, "%.1f mm", cuts[1]->find("length")->number);
+  std::snprintf(length, sizeof length, "%.1f mm", cuts[1].find("length")->number);
   EXPECT_EQ(newest->text, length);
   double largest = 0;
   for (const auto& frame : film.frames)
     for (const auto& one : frame.callouts)
       if (one.kind == renders::Callout::Kind::force) largest = std::max(largest, one.to[1]);
-  EXPECT_LE(largest, cuts[1]->find("force")->number * (1 + 1e-9));
-  EXPECT_GT(largest, 0.5 * cuts[1]->find("force")->number);
+  EXPECT_LE(largest, cuts[1].find("force")->number * (1 + 1e-9));
+  EXPECT_GT(largest, 0.5 * cuts[1].find("force")->number);
 }
 
 TEST(PicturesFilm, LiveCurvesAreTheRecordedChannels) {

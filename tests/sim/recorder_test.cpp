@@ -2,12 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
 #include "sim/file.hpp"
 #include "sim/results.hpp"
+#include "sim/trace_files.hpp"
 #include "tests/sim/fakes.hpp"
+#include "tests/test_folder.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -45,12 +48,13 @@ TEST_F(RecorderTest, TraceHasTimeThenChannelsWithUnits) {
   ASSERT_TRUE(recording.add(watch, "panel.start"));
   ASSERT_TRUE(recording.add(watch, "web.speed")) << "twice is once";
   EXPECT_FALSE(recording.add(watch, "web.sped"));
+  TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
   watch.update();
-  recording.sample(0);
+  files.sample(0);
   plant.speed = 1.0 / 3;
   watch.update();
-  recording.sample(2'100'000);
-  write_trace(recording, folder / "trace.csv");
+  files.sample(2'100'000);
+  files.flush();
   EXPECT_EQ(contents(folder / "trace.csv"),
             "time [s],web.speed [m/min],error [Um],panel.start [-]\n"
             "0.0,60,0,0\n"
@@ -61,12 +65,82 @@ TEST_F(RecorderTest, EventsCarryTheirTimeInsideTheStep) {
   recording.happened({100'000, 0.00005, "knife", "cut", {{"length", 800.0125, "mm"}, {"number", 3, ""}}, ""});
   recording.happened({200'000, 0, "AxisX", "refused", {}, "START: st_still is 0, must be 1"});
   recording.happened({300'000, 0, "task", "error", {}, "say \"no\", twice"});
-  write_events(recording, folder / "events.csv");
+  TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
+  for (const auto& event : recording.events()) files.happened(event);
+  files.flush();
   EXPECT_EQ(contents(folder / "events.csv"),
             "time [s],source,event,values\n"
             "0.000150000,knife,cut,length=800.0125 mm; number=3\n"
             "0.000200000,AxisX,refused,\"START: st_still is 0, must be 1\"\n"
             "0.000300000,task,error,\"say \"\"no\"\", twice\"\n");
+}
+
+TEST_F(RecorderTest, FilesGrowByWholeLinesASecondAtATime) {
+  ASSERT_TRUE(recording.add(watch, "web.speed"));
+  TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
+  std::size_t lines = 0;
+  for (Time now = 0; now <= 20 * second; now += 2 * millisecond) {
+    files.sample(now);
+    if (now % second == 0) files.happened({now, 0, "task", "note", {}, "second"});
+    if (now % (90 * millisecond) != 0 && now != 20 * second) continue;
+    const auto text = contents(folder / "trace.csv");
+    ASSERT_TRUE(text.ends_with('\n')) << now;
+    lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    ASSERT_GE(static_cast<Time>(lines), 1 + (now - second) / (2 * millisecond)) << "a second behind at most";
+  }
+  EXPECT_EQ(lines, 10002U);
+  const auto events = contents(folder / "events.csv");
+  EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 22);
+}
+
+TEST_F(RecorderTest, AFullDiskIsTold) {
+  ASSERT_TRUE(recording.add(watch, "web.speed"));
+  TraceFiles files(recording, folder / "trace.csv", "/dev/full");
+  files.happened({0, 0, "task", "note", {}, "first"});
+  try {
+    files.flush();
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "cannot write /dev/full: No space left on device");
+  }
+}
+
+TEST(Series, ReadsBackWhatWentToTheFile) {
+  const TestFolder folder;
+  const auto spool = std::make_shared<Spool>();
+  spool->lies_in(folder.path);
+  Series<double> half(spool);
+  Series<Time> whole(spool);
+  constexpr std::size_t count = 3 * Series<double>::block + 7;
+  for (std::size_t i = 0; i < count; ++i) {
+    half.push_back(0.5 * static_cast<double>(i));
+    whole.push_back(static_cast<Time>(i) << 40U);
+  }
+  ASSERT_EQ(half.size(), count);
+  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(half[i], 0.5 * static_cast<double>(i)) << i;
+  for (const std::size_t i : {count - 1, std::size_t{3}, count / 2})
+    EXPECT_EQ(whole[i], static_cast<Time>(i) << 40U);
+  EXPECT_EQ(std::lower_bound(half.begin(), half.end(), 40000.0) - half.begin(), 80000);
+  EXPECT_TRUE(half == Series<double>(half));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path)) << "the file has no name";
+}
+
+TEST(EventLog, GivesBackWhatItTook) {
+  EventLog log;
+  for (int i = 0; i < 1000; ++i)
+    log.push_back(
+        {i * second, 0.25, "knife", "cut", {{"length", 800.0 + i, "mm"}, {"number", 1.0 * i, ""}}, ""});
+  log.push_back({7, 0, "task", "note", {}, "what"});
+  ASSERT_EQ(log.size(), 1001U);
+  const auto cut = log[999];
+  EXPECT_EQ(cut.at_seconds(), 999.25);
+  ASSERT_NE(cut.find("length"), nullptr);
+  EXPECT_EQ(cut.find("length")->number, 1799);
+  EXPECT_EQ(cut.find("length")->unit, "mm");
+  EXPECT_EQ(cut.find("number")->number, 999);
+  EXPECT_EQ(log.back().text, "what");
+  EXPECT_TRUE(log.back().values.empty());
+  EXPECT_EQ(std::distance(log.begin(), log.end()), 1001);
 }
 
 TEST(SecondsText, IsExact) {
