@@ -4,7 +4,7 @@
 #   make test    builds and runs all tests
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
-#   make sanitize, make lint, make format, make meshes: for those who change the code
+#   make sanitize, make fuzz, make same-bytes, make lint, make tidy, make format, make meshes: for those who change the code
 
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
@@ -13,6 +13,7 @@ PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev
             fonts-dejavu-core libjs-dygraphs ffmpeg
 TEST_PACKAGES  := libgtest-dev libgmock-dev
 BENCH_PACKAGES := libmujoco-dev
+CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
 SOURCES := $(wildcard devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp)
 
@@ -29,7 +30,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test bench sanitize lint format meshes clean
+.PHONY: all setup demo test bench clang sanitize fuzz same-bytes lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -56,17 +57,45 @@ bench: setup
 	cmake --build $(BUILD) -j $(JOBS) --target drycut_bench
 	$(BUILD)/drycut_bench
 
-sanitize: setup
-	$(call install,$(TEST_PACKAGES))
-	$(CONFIGURE) -S . -B $(BUILD)-sanitize -DBUILD_TESTING=ON -DDRYCUT_SANITIZE=ON
-	cmake --build $(BUILD)-sanitize -j $(JOBS)
-	cd $(BUILD)-sanitize && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp ctest --output-on-failure -j $(JOBS)
+# A second compiler, with assertions, AddressSanitizer, UndefinedBehaviorSanitizer and the fuzzers' counters.
+CLANG := $(BUILD)-clang
+clang: setup
+	$(call install,$(TEST_PACKAGES) $(CLANG_PACKAGES))
+	CC=clang CXX=clang++ $(CONFIGURE) -S . -B $(CLANG) -DBUILD_TESTING=ON -DDRYCUT_SANITIZE=ON -DDRYCUT_FUZZ=ON
+
+# ROOMS="devices sim": the tests of those rooms only.
+ROOMS ?= devices plants renders sim scenes
+sanitize: clang
+	cmake --build $(CLANG) -j $(JOBS) --target $(ROOMS:%=%_tests)
+	cd $(CLANG) && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp \
+	  ctest --output-on-failure -j $(JOBS) -R '^($(subst $(eval ) ,|,$(strip $(ROOMS))))\.'
+
+# Every kind of input, 10 minutes each; FUZZ="-runs=2000 -seed=1" is the same work on every machine.
+FUZZ ?= -max_total_time=600
+fuzz: clang
+	cmake --build $(CLANG) -j $(JOBS) --target fuzzers
+	tests/fuzz/run $(CLANG) $(FUZZ)
+
+# One scene by both compilers: the same bytes.
+same-bytes: all clang
+	cmake --build $(CLANG) -j $(JOBS) --target drycut
+	for c in $(BUILD) $(CLANG); do $$c/drycut run scenes/rotary_knife.yaml --no-pictures --out $$c/bytes || exit 1; done
+	for f in trace.csv events.csv; do cmp $(BUILD)/bytes/rotary_knife/$$f $(CLANG)/bytes/rotary_knife/$$f || exit 1; done
 
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
 	clang-format --dry-run -Werror $(SOURCES)
 	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 	printf '%s\n' $(filter %.cpp,$(SOURCES)) | xargs -P $(JOBS) -n 4 clang-tidy -quiet -p $(BUILD)-lint
+
+# clang-tidy over what the last day changed, at most TIDY_MOST files, the latest first.
+TIDY_MOST ?= 40
+tidy: setup
+	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
+	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+	git log --since=1.day --name-only --format= --diff-filter=AM -- '*.cpp' | awk 'NF && !seen[$$0]++' | \
+	  while read -r f; do [ -f "$$f" ] && echo "$$f"; done | head -n $(TIDY_MOST) | \
+	  xargs -r -P $(JOBS) -n 4 clang-tidy -quiet -p $(BUILD)-lint
 
 format:
 	$(call install,$(LINT_PACKAGES))
@@ -81,4 +110,4 @@ scenes/meshes/%.stl: scenes/meshes/%.scad scenes/meshes/common.scad
 	openscad -q --export-format binstl -o $@ $<
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-sanitize $(BUILD)-lint out
+	rm -rf $(BUILD) $(CLANG) $(BUILD)-lint out

@@ -1,0 +1,19 @@
+// Cam tables of MC_CamIn: .tab and CSV.
+#include "devices/plcopen/tab_file.hpp"
+#include "sim/cam/study.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+namespace drycut {
+
+DRYCUT_FUZZ(text) {
+  devices::Problems problems;
+  devices::plcopen::parse_tab(text, "f.tab", problems);
+  fuzz::expect_placed(problems, text);
+  problems.clear();
+  const auto study =
+      sim::cam_kind("mc_camin", text).study(text, "f.csv", sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
+  fuzz::expect_placed(problems, text);
+  if (problems.empty()) sim::cam_report(study);
+}
+
+}  // namespace drycut
