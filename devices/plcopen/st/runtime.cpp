@@ -129,10 +129,6 @@ const FunctionBlock* Runtime::block(std::size_t symbol) const {
   return state_->machine.motion_at(state_->program.compiled().places.at(symbol).cell);
 }
 
-const FunctionBlock* Runtime::block(std::size_t symbol) const {
-  return state_->machine.motion_at(state_->program.compiled().places.at(symbol).cell);
-}
-
 void Runtime::write(std::size_t number, double value) {
   const Compiled& code = state_->program.compiled();
   const SymbolPlace& place = code.places.at(number);
