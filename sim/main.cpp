@@ -257,14 +257,17 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // What cannot be told, because standard error takes nothing either, is still told by the status.
+  const auto failed = [](const std::string& what) {
+    std::fputs(("drycut: " + what + "\n").c_str(), stderr);
+    return simulation_failed;
+  };
   try {
     const int status = run(argc, argv);
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return status;
-    fmt::print(stderr, "drycut: standard output cannot be written: {}\n", std::strerror(errno));
-    return simulation_failed;
+    return failed(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "drycut: {}\n", error.what());
-    return simulation_failed;
+    return failed(error.what());
   }
 }
