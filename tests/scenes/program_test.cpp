@@ -168,10 +168,12 @@ TEST_F(ProgramTest, CheckTakesOverrides) {
 }
 
 TEST_F(ProgramTest, DivergedSimulationIsStatusThreeAndKeepsWhatItHas) {
-  // A gear far too stiff for the step.
+  // A motor fifty times as fast as the loop is tuned for, and strong enough to get there.
   const auto result = call("run " + scenes +
-                           "rotary_knife_short.yaml --no-pictures --set scene.step='1 ms'"
-                           " --set plants.knife.gear.stiffness='1e6 N m/rad'" +
+                           "rotary_knife_short.yaml --no-pictures"
+                           " --set plants.knife.servo.peak_torque='100000 N m'"
+                           " --set plants.knife.servo.speed_at_10v='100000 rpm'"
+                           " --set plants.knife.servo.max_speed='100000 rpm'" +
                            to());
   EXPECT_EQ(result.status, 3) << result.text;
   EXPECT_THAT(result.text, testing::HasSubstr("STOPPED, the simulation stopped: knife"));

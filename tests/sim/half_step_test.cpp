@@ -60,7 +60,7 @@ TEST_F(HalfStepTest, TellsHowFarEveryMarginMoved) {
     EXPECT_EQ(check["half_step"]["margin"], at_half);
     EXPECT_EQ(check["half_step"]["moved"], at_half - margin);
     EXPECT_EQ(check["half_step"]["passed"], true);
-    EXPECT_NE(margin, at_half) << "the overshoot hangs on the step";
+    EXPECT_EQ(margin == at_half, i == 1) << "the overshoot hangs on the step, the start does not";
     EXPECT_NEAR(margin, at_half, 0.01);
   }
   EXPECT_THAT(out, HasSubstr("margin at 100 us"));

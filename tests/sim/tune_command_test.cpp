@@ -325,7 +325,7 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
         "--vary:1:35: controller.qmove.set.AxisX.feedfv: the controller has nothing called 'AxisX.feedfv'; "
         "did "
         "you mean AxisX.feedfw?",
-        "--vary:1:34: AxisX.pgain holds whole numbers, not 0.5",
+        "--vary:1:34: controller.qmove.set.AxisX.pgain: AxisX.pgain holds whole numbers, not 0.5",
         "--vary:1:24: plants.axis.resolution: ", "is given twice; keep one", "--vary:1:38: 'x' is no number",
         "the ends are in m and s; give both ends in one unit",
         "--minimise:1:5: there is no channel 'AxisX.foller'; did you mean AxisX.follerr?",
@@ -338,8 +338,13 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
 TEST_F(TuneCommand, RefusesBoundsOutsideTheDocumentedRange) {
   options.vary = {pgain + "=-5..100", "controller.qmove.set.AxisX.rtype=0..7"};
   EXPECT_EQ(run(), bad_input);
-  EXPECT_THAT(err, HasSubstr("--vary:1:34: AxisX.pgain does not hold -5; write 0 to 32767"));
-  EXPECT_THAT(err, HasSubstr("--vary:1:37: AxisX.rtype does not hold 7; write 0 to 1"));
+  EXPECT_THAT(
+      err,
+      HasSubstr(
+          "--vary:1:34: controller.qmove.set.AxisX.pgain: AxisX.pgain does not hold -5; write 0 to 32767"));
+  EXPECT_THAT(
+      err,
+      HasSubstr("--vary:1:37: controller.qmove.set.AxisX.rtype: AxisX.rtype does not hold 7; write 0 to 1"));
 }
 
 TEST_F(TuneCommand, RefusesAFolderThatCannotBeMade) {
@@ -354,7 +359,8 @@ TEST_F(TuneCommand, RefusesWhatTheVariableCannotHold) {
   options.from = "1 s";
   options.spread = {pgain + "=±10%"};
   EXPECT_EQ(run(), bad_input);
-  EXPECT_THAT(err, HasSubstr("--vary:1:37: AxisX.pgain does not hold 70000; write 0 to 32767"));
+  EXPECT_THAT(err, HasSubstr("--vary:1:37: controller.qmove.set.AxisX.pgain: AxisX.pgain does not hold "
+                             "70000; write 0 to 32767"));
   EXPECT_THAT(err, HasSubstr("--from:1:1: 1 s is not before the end of"));
   EXPECT_THAT(err, HasSubstr("--spread:1:1: controller.qmove.set.AxisX.pgain is what --vary tunes"));
   EXPECT_THAT(err, HasSubstr("has no value to spread around"));

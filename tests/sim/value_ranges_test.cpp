@@ -102,16 +102,16 @@ TEST_F(ValueRanges, TheTimelineKeepsToTheTables) {
   - {at: 0.4 s, set: {web.speed: -1000 m/min, bench.input1: on}}
 )"),
       ElementsAre(
-          "line.yaml:11:32: web.speed does not hold -100000; write -1000 to 1000 m/min",
-          "line.yaml:11:57: AxisX.pgain holds whole numbers, not 2.7; write a whole number",
-          "line.yaml:11:72: slLength does not hold 1e+308; write -2147483648 to 2147483647",
-          "line.yaml:12:33: web.speed does not hold 1e+308; write -1000 to 1000 m/min",
-          "line.yaml:12:67: bench.counter1.rate does not hold 2000000000; write -1000000000 to 1000000000 "
+          "line.yaml:11:34: web.speed does not hold -100000; write -1000 to 1000 m/min",
+          "line.yaml:11:59: AxisX.pgain holds whole numbers, not 2.7; write a whole number",
+          "line.yaml:11:74: slLength does not hold 1e+308; write -2147483648 to 2147483647",
+          "line.yaml:12:35: web.speed does not hold 1e+308; write -1000 to 1000 m/min",
+          "line.yaml:12:69: bench.counter1.rate does not hold 2000000000; write -1000000000 to 1000000000 "
           "1/s",
-          "line.yaml:13:51: axis.encoder.lose_counts does not hold 1e+308; write -2147483648 to 2147483647",
-          "line.yaml:13:65: axis.encoder.stuck does not hold 2; write 0 to 1",
-          "line.yaml:13:76: axis.encoder.jitter does not hold -1; write 0 to 1000000",
-          "line.yaml:13:99: web.wheel.slip does not hold 101; write 0 to 100 %"));
+          "line.yaml:13:53: axis.encoder.lose_counts does not hold 1e+308; write -2147483648 to 2147483647",
+          "line.yaml:13:67: axis.encoder.stuck does not hold 2; write 0 to 1",
+          "line.yaml:13:78: axis.encoder.jitter does not hold -1; write 0 to 1000000",
+          "line.yaml:13:101: web.wheel.slip does not hold 101; write 0 to 100 %"));
 }
 
 TEST_F(ValueRanges, RegistersAreNotWrapped) {
@@ -119,7 +119,7 @@ TEST_F(ValueRanges, RegistersAreNotWrapped) {
                     "  - {at: 0.1 s, set: {D10: 70000, D11: 65535, M3: 2}}\n"
                     "  - {at: 0.2 s, ramp: {DD20: 5e9, FD30: 1e39}, over: 1 s}\n"),
               ElementsAre("line.yaml:4:28: D10 does not hold 70000; write -32768 to 65535, or D10:L",
-                          "line.yaml:4:52: M3 does not hold 2; write 0 to 1",
+                          "line.yaml:4:51: M3 does not hold 2; write 0 to 1",
                           "line.yaml:5:30: DD20 does not hold 5000000000; write -2147483648 to 2147483647",
                           testing::StartsWith("line.yaml:5:41: FD30 does not hold 1e+39; write -3.4028")));
 }
