@@ -273,11 +273,14 @@ class Compiler {
     if (!ended_ && !refused_)
       problem(1, program_.steps.empty() ? "there is no program" : "END is missing",
               "end the program with END");
-    // What an instruction that was refused would have begun or ended is not known.
-    if (refused_) return;
-    join_structure(program_, labels_, [this](int line, int column, std::string what, std::string remedy) {
+    const auto tell = [this](int line, int column, std::string what, std::string remedy) {
       problem_at(line, column, std::move(what), std::move(remedy));
-    });
+    };
+    // What an instruction that was refused would have begun or ended is not known.
+    if (refused_)
+      find_labels(program_, labels_, tell);
+    else
+      join_structure(program_, labels_, tell);
   }
 
   std::string_view text_;

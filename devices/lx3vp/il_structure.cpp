@@ -17,6 +17,26 @@ constexpr std::size_t most_loops = 5;   // FX: FOR in each other
 constexpr std::size_t most_joined = 8;  // FX: STL in a row
 constexpr int end_label = 63;           // FX: P63 is END
 
+/// Aims a jump or a call at its label; tells if there is none.
+bool find_label(Step& step, const Labels& labels, int end_place, const TellAt& tell) {
+  if (step.operands.empty() || step.operands[0].kind != Kind::label) return false;
+  const auto& name = step.operands[0];
+  const auto found = labels.find(name.number);
+  if (found != labels.end()) {
+    step.target = static_cast<int>(found->second.place);
+    return true;
+  }
+  if (name.number == end_label && step.op() == Op::cj) {
+    step.target = end_place;
+    return true;
+  }
+  tell(name.line, name.column, fmt::format("there is no label {}", to_string(name)),
+       "give it a line of its own");
+  return false;
+}
+
+bool is_aimed(const Step& step) { return step.op() == Op::cj || step.op() == Op::call; }
+
 class Structure {
  public:
   Structure(Program& program, const Labels& labels, const TellAt& tell)
@@ -29,7 +49,7 @@ class Structure {
     for (place_ = 0; place_ < steps_.size(); ++place_) visit(steps_[place_]);
     if (!steps_.empty() && steps_.back().op() != Op::end) close_all("the end of the text");
     for (place_ = 0; place_ < steps_.size(); ++place_)
-      if (const Op op = steps_[place_].op(); op == Op::cj || op == Op::call) aim(steps_[place_]);
+      if (is_aimed(steps_[place_])) aim(steps_[place_]);
   }
 
  private:
@@ -213,20 +233,14 @@ class Structure {
   // Jumps.
 
   void aim(Step& step) {
-    if (step.operands.empty() || step.operands[0].kind != Kind::label) return;
+    const bool calls = step.op() == Op::call;
+    if (!find_label(step, labels_, static_cast<int>(steps_.size()) - 1, tell_)) return;
     const auto& name = step.operands[0];
+    const auto found = labels_.find(name.number);
+    if (found == labels_.end()) return;  // P63
     const auto refuse = [&](std::string what, std::string remedy) {
       tell_(name.line, name.column, std::move(what), std::move(remedy));
     };
-    const auto found = labels_.find(name.number);
-    const bool calls = step.op() == Op::call;
-    if (found == labels_.end() && name.number == end_label && !calls) {
-      step.target = static_cast<int>(steps_.size()) - 1;
-      return;
-    }
-    if (found == labels_.end())
-      return refuse(fmt::format("there is no label {}", to_string(name)), "give it a line of its own");
-    step.target = static_cast<int>(found->second.place);
     const Place& from = places_[place_];
     const Place& to = places_[found->second.place];
     if (calls) {
@@ -270,6 +284,11 @@ class Structure {
 };
 
 }  // namespace
+
+void find_labels(Program& program, const Labels& labels, const TellAt& tell) {
+  for (auto& step : program.steps)
+    if (is_aimed(step)) find_label(step, labels, 0, tell);
+}
 
 void join_structure(Program& program, const Labels& labels, const TellAt& tell) {
   Structure(program, labels, tell).join();

@@ -17,6 +17,9 @@ using Labels = std::map<int, Label>;
 /// Tells what is wrong at a line and a column, and what would be right.
 using TellAt = std::function<void(int line, int column, std::string what, std::string remedy)>;
 
+/// Looks only whether each jump and call has its label.
+void find_labels(Program& program, const Labels& labels, const TellAt& tell);
+
 /// Joins what belongs together in a program that is read: jumps and calls with their labels, FOR with NEXT,
 /// the steps of sequences, subroutines with SRET; sets Step::target, Step::depth and Program::states. Tells
 /// what has no counterpart, stands where it may not, or is jumped into from outside.

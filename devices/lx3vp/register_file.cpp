@@ -93,7 +93,7 @@ class RowReader {
     const auto value = read_number(value_text);
     if (!value)
       complain(value_text, fmt::format("'{}' is no number", shown(value_text)),
-               "write 5, -5 or K5, hexadecimal H1F, or 1.5");
+               "write 5, -5, K5, H1F or 1.5");
     if (name && value) take(name_text, *name, value_text, *value);
   }
   std::vector<RegisterValue> take_values() { return std::move(values_); }

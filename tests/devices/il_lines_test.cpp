@@ -79,6 +79,9 @@ TEST(IlLines, OneRefusedLineIsOneMessage) {
   EXPECT_THAT(faults("FORR K5\nLD X0\nINC D0\nNEXT\nENDE"),
               ElementsAre("1:1: there is no instruction 'FORR'; did you mean FOR?",
                           "5:1: there is no instruction 'ENDE'; did you mean END?"));
+  EXPECT_THAT(faults("LDX X0\nCJ P5\nEND"),
+              ElementsAre("1:1: there is no instruction 'LDX'; did you mean LD?",
+                          "2:4: there is no label P5; give it a line of its own"));
   EXPECT_THAT(faults("LD X0\nOUTT Y0\nLD X1\nMPP\nOUT Y1\nLD X2\nMPP\nOUT Y0\nEND"),
               ElementsAre("2:1: there is no instruction 'OUTT'; did you mean OUT?",
                           "7:1: MPP has no branch to take up; keep the result with MPS before"));

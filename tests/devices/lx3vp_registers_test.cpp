@@ -137,7 +137,7 @@ TEST(Lx3vpRegisterFile, EveryFaultIsToldInOneRun) {
           "saw.csv:2:1: 'Q3' is no register; write D10, D10:L (32 bit), D10:F (float), D10.A (bit 10), "
           "M0, S0, T0 or C0",
           "saw.csv:3:1: no ',' in 'D11'; write register,value: D10,5",
-          "saw.csv:4:5: 'abc' is no number; write 5, -5 or K5, hexadecimal H1F, or 1.5",
+          "saw.csv:4:5: 'abc' is no number; write 5, -5, K5, H1F or 1.5",
           "saw.csv:5:5: D13 holds whole numbers, not 1.5; write D13:F for a float",
           "saw.csv:6:4: M0 does not hold 2; write 0 to 1",
           "saw.csv:7:3: X4 is an input; wire it to a plug of a plant",
@@ -153,7 +153,7 @@ TEST(Lx3vpRegisterFile, SixteenHashIsNoNumber) {
                                            "saw.csv", ',', problems);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(to_string(problems[0]),
-            "saw.csv:1:5: '16#1000' is no number; write 5, -5 or K5, hexadecimal H1F, or 1.5");
+            "saw.csv:1:5: '16#1000' is no number; write 5, -5, K5, H1F or 1.5");
   ASSERT_EQ(values.size(), 2U);
   EXPECT_EQ(values[0].value, 5);
   EXPECT_EQ(values[1].value, 4096);

@@ -145,7 +145,7 @@ TEST_F(Lx3vpScenario, TheStepDividesTheTick) {
 }
 
 TEST_F(Lx3vpScenario, ErrorsOfTheCamFailTheRun) {
-  write("saw.csv", "D2005,1\n");
+  write("saw.csv", "D2005,1\nD2023,0\n");
   const auto scenario = read(line);
   Simulation simulation(scenario, problems);
   ASSERT_THAT(told(), IsEmpty());
@@ -185,6 +185,19 @@ TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {
   EXPECT_THAT(refused("deep"),
               ElementsAre(testing::MatchesRegex("line.yaml:3:50: .*/deep cannot be written at the end of the "
                                                 "run: it is a directory; name another file")));
+}
+
+// A block with no more than its table runs: the manual's initial values are a note, no error.
+TEST_F(Lx3vpScenario, InitialValuesOfABlockAreANote) {
+  write("saw.csv", "D2005,1\nD2038,2\nD2044:L,1000\nD2046:L,500\n");
+  const auto scenario = read(line);
+  Simulation simulation(scenario, problems);
+  ASSERT_THAT(told(), IsEmpty());
+  EXPECT_TRUE(simulation.run().passed());
+  EXPECT_THAT(
+      simulation.notes(),
+      Contains(HasSubstr("saw.il:3: the block D2000 has the initial values of its words that nothing has "
+                         "written: D2006 200000, D2023 1, D2024 1, D2029 1, D2030 1, D2039 40")));
 }
 
 TEST_F(Lx3vpScenario, RetentiveRegistersOutliveTheRun) {
