@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <iconv.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,13 +23,31 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
+/// Vendors' editors export UTF-16, with its mark. Nullopt if it is broken.
+std::optional<std::string> from_utf16(std::string text) {
+  const auto converter = iconv_open("UTF-8", "UTF-16");
+  std::string result(2 * text.size(), '\0');  // a unit of two bytes becomes three at most
+  auto* in = text.data();
+  auto* out = result.data();
+  auto in_left = text.size();
+  auto out_left = result.size();
+  const bool sound = iconv(converter, &in, &in_left, &out, &out_left) != static_cast<std::size_t>(-1);
+  iconv_close(converter);
+  result.resize(result.size() - out_left);
+  return sound ? std::optional(std::move(result)) : std::nullopt;
+}
+
 /// A text as an editor saved it, as the readers want it: without its mark. A problem if it is no plain text.
 std::optional<std::string> plain(std::string text, const fs::path& file, devices::Problems& problems) {
   const auto refuse = [&](int line, int column, const std::string& what) {
     problems.push_back({file.string(), line, column, what, "save it as plain text in UTF-8"});
     return std::nullopt;
   };
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return refuse(1, 1, "this is UTF-16");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    auto converted = from_utf16(std::move(text));
+    if (!converted) return refuse(1, 1, "this is broken UTF-16");
+    text = std::move(*converted);
+  }
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   const auto fault = text_fault(text);
   if (!fault) return text;

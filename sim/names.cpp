@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "devices/plcopen/terminals.hpp"
 
 namespace drycut::sim {
@@ -23,15 +25,12 @@ devices::ValueRange range_of(const plants::Range& range) { return {range.min, ra
 // As it is written: controllers find their names in any case, but `knife.angle` beside `Knife.posit` are two.
 void refuse_shared_names(const Scenario& scenario, devices::Controller& controller,
                          devices::Problems& problems) {
-  const auto names = controller.names();
+  std::set<std::string> taken;
+  for (const auto& name : controller.names()) taken.insert(name.substr(0, name.find_first_of(".:[")));
   for (const auto& plant : scenario.plants) {
     const auto& name = plant.name.text;
     const auto value = controller.find(name);
-    const bool shared = (value && value->name == name) ||
-                        std::any_of(names.begin(), names.end(), [&](const std::string& other) {
-                          return other.substr(0, other.find_first_of(".:[")) == name;
-                        });
-    if (!shared) continue;
+    if (!taken.contains(name) && (!value || value->name != name)) continue;
     problems.push_back(problem_at(scenario, plant.name.place,
                                   fmt::format("plants.{0}: the controller has {0} too", name),
                                   "give the plant a name of its own, or another spelling: knife and Knife"));

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -13,25 +12,6 @@
 #include "sim/gallery_plots.hpp"
 
 namespace drycut::sim {
-
-namespace {
-
-/// "AxisX.posit" must be one thing: no plant is called as a device, an axis, a variable or a register is.
-void check_plant_names(const Scenario& scenario, devices::Controller& controller,
-                       devices::Problems& problems) {
-  std::set<std::string> taken;
-  for (const auto& name : controller.names()) taken.insert(name.substr(0, name.find_first_of(".[")));
-  for (const auto& entry : scenario.plants) {
-    const auto& name = entry.name.text;
-    const auto value = controller.find(name);
-    if (!taken.contains(name) && (!value || value->name != name)) continue;
-    problems.push_back(problem_at(scenario, entry.name.place,
-                                  fmt::format("the controller has a '{}' of its own", name),
-                                  "give the plant another name"));
-  }
-}
-
-}  // namespace
 
 bool Outcome::passed() const {
   return failure.empty() &&
@@ -50,7 +30,6 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
     bus_.connect(scenario, *controller_, named_, problems);
     refuse_shared_names(scenario, *controller_, problems);
     check_periods(problems);
-    check_plant_names(scenario, *controller_, problems);
   }
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
   if (!controller_ && !std::holds_alternative<std::monostate>(scenario.controller))

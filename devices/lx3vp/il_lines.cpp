@@ -9,21 +9,6 @@ namespace drycut::devices::lx3vp::il {
 
 namespace {
 
-/// As one byte a character: instruction lists are ASCII but for their comments.
-std::string decoded(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const bool low_first = text.starts_with("\xFF\xFE");
-  if (!low_first && !text.starts_with("\xFE\xFF")) return std::string(text);
-  std::string result;
-  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
-    const char low = text[low_first ? i : i + 1];
-    const char high = text[low_first ? i + 1 : i];
-    const bool is_ascii = high == 0 && low > 0;
-    result += is_ascii ? low : '?';
-  }
-  return result;
-}
-
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {
@@ -165,8 +150,7 @@ std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const
 }  // namespace
 
 std::vector<Statement> statements_of(std::string_view text, const TellLine& tell) {
-  const auto plain = decoded(text);
-  const auto lines = lines_of(plain);
+  const auto lines = lines_of(text);
   if (const auto columns = columns_of(lines)) return rows_of(lines, *columns, tell);
   std::vector<Statement> statements;
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -176,8 +160,7 @@ std::vector<Statement> statements_of(std::string_view text, const TellLine& tell
 }
 
 bool is_table(std::string_view text) {
-  const auto plain = decoded(text);
-  return columns_of(lines_of(plain)).has_value();
+  return columns_of(lines_of(text)).has_value();
 }
 
 }  // namespace drycut::devices::lx3vp::il

@@ -107,14 +107,24 @@ TEST_F(Files, AByteOrderMarkIsNoMatterInAnyKindOfFile) {
   EXPECT_EQ(check(files), all_passed) << err;
 }
 
+TEST_F(Files, TextsOfSixteenBitsAreReadInBothOrders) {
+  for (const bool low_first : {true, false}) {
+    std::string wide = low_first ? "\xFF\xFE" : "\xFE\xFF";
+    for (const char c : std::string("LD X0\nOUTT Y0\nEND\n"))
+      wide += low_first ? std::string{c, '\0'} : std::string{'\0', c};
+    EXPECT_EQ(check({folder.file("wide.il", wide)}), bad_input);
+    EXPECT_THAT(err, HasSubstr(":2:1: there is no instruction 'OUTT'"));
+  }
+}
+
 TEST_F(Files, WhatIsNoTextIsRefusedInAnyKindOfFileWithItsPlace) {
   for (const auto* name : {"a.cnf", "a.il", "a.st", "a.csv", "a.tab", "a.yaml"}) {
     const auto file = folder.file(name, "x\n; m\xE8\n");
     EXPECT_EQ(check({file}), bad_input) << name;
     EXPECT_THAT(err, HasSubstr(file.string() + ":2:4: byte 0xe8 is no text; ")) << name;
-    folder.file(name, std::string("\xFF\xFEx\0", 4));
+    folder.file(name, std::string("\xFF\xFEx\0\0\xD8", 6));  // ends in half a character
     EXPECT_EQ(check({file}), bad_input) << name;
-    EXPECT_THAT(err, HasSubstr(file.string() + ":1:1: this is UTF-16; save it as plain text in UTF-8\n"));
+    EXPECT_THAT(err, HasSubstr(file.string() + ":1:1: this is broken UTF-16; save it as plain text in UTF-8\n"));
   }
 }
 

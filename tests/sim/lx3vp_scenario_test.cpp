@@ -162,9 +162,8 @@ TEST_F(Lx3vpScenario, NoPlantIsCalledAsARegisterIs) {
   const auto scenario = read(
       "scene: {duration: 0.1 s}\nplants: {D300: {type: bench}}\ncontroller: {lx3vp: {program: saw.il}}\n");
   const Simulation simulation(scenario, problems);
-  EXPECT_THAT(
-      told(),
-      ElementsAre("line.yaml:2:10: the controller has a 'D300' of its own; give the plant another name"));
+  EXPECT_THAT(told(), ElementsAre("line.yaml:2:10: plants.D300: the controller has D300 too; give the plant a name "
+                                  "of its own, or another spelling: knife and Knife"));
 }
 
 TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {
