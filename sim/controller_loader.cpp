@@ -15,6 +15,7 @@
 #include "sim/file.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
+#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim {
 
@@ -197,20 +198,41 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
   check(program.tables(), tables, false, "cam table", "tables");
 }
 
-/// Several programs need tasks, and these fit the axes' cycle.
+/// The scenario's tasks name programs that are there; several programs need tasks, the CONFIGURATION's own
+/// fit the axes' cycle.
 void check_tasks(const plcopen::st::Program& program, const std::string& file, const PlcopenSection& section,
-                 devices::Problems& problems) {
+                 const Scenario& scenario, devices::Problems& problems) {
   for (const auto& task : program.tasks())
     if (task.interval_ns % section.cycle != 0)
       problems.push_back({file, task.line, task.column,
                           fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}",
                                       task.name, format_time(task.interval_ns), format_time(section.cycle)),
                           "change INTERVAL or controller.plcopen.cycle"});
-  if (program.has_configuration() || program.instances().size() < 2) return;
-  const auto& second = program.instances()[1];
-  problems.push_back({file, second.line, second.column,
-                      fmt::format("a second PROGRAM, '{}', without a task", second.name),
-                      "CONFIGURATION ... TASK ... END_CONFIGURATION says when each runs"});
+  if (section.tasks.empty()) {
+    if (program.has_configuration() || program.instances().size() < 2) return;
+    const auto& second = program.instances()[1];
+    problems.push_back(
+        {file, second.line, second.column, fmt::format("a second PROGRAM, '{}', without a task", second.name),
+         fmt::format("CONFIGURATION ... TASK says when it runs, or the scenario: controller.plcopen.tasks: "
+                     "{{slow: {{cycle: 20 ms, programs: [{}]}}}}",
+                     second.name)});
+    return;
+  }
+  if (program.has_configuration()) {
+    problems.push_back(problem_at(scenario, section.tasks.front().name.place,
+                                  "the program's CONFIGURATION has the tasks",
+                                  "leave out controller.plcopen.tasks, or the CONFIGURATION"));
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto& instance : program.instances()) names.push_back(instance.name);
+  for (const auto& task : section.tasks)
+    for (const auto& wanted : task.programs)
+      if (std::none_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return devices::same_word(name, wanted.text); }))
+        problems.push_back(problem_at(scenario, wanted.place,
+                                      fmt::format("there is no PROGRAM '{}'", wanted.text),
+                                      did_you_mean(wanted.text, names)));
 }
 
 /// True if the scenario sets the value, before power-up or in its timeline.
@@ -254,6 +276,10 @@ std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section,
   configuration.cycle_ns = section.cycle;
   configuration.task_ns = section.task_cycle;
   for (const auto& axis : section.axes) configuration.axes.push_back(axis.configuration);
+  for (const auto& task : section.tasks) {
+    configuration.tasks.push_back({task.name.text, 0, 0, task.cycle, task.priority, {}});
+    for (const auto& name : task.programs) configuration.tasks.back().programs.push_back(name.text);
+  }
   configuration.tables = read_tables(section, configuration.axes, scenario, problems);
   const bool tables_sound = problems.size() == before;
   plcopen::st::Program program;
@@ -261,7 +287,7 @@ std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section,
     program = plcopen::st::compile(*text, file, problems);
     // A table that could not be read is not missing.
     if (tables_sound) check_names(program, file, configuration, problems);
-    if (problems.size() == before) check_tasks(program, file, section, problems);
+    if (problems.size() == before) check_tasks(program, file, section, scenario, problems);
   }
   if (problems.size() != before) return nullptr;
   if (notes != nullptr) note_slow_phasing(program, section, scenario, *notes);

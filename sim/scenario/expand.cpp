@@ -127,6 +127,13 @@ class Writer {
     line(2, fmt::format("program: {}", yaml_text(section.program.text)));
     line(2, fmt::format("cycle: {}", format_time(section.cycle)));
     line(2, fmt::format("task_cycle: {}", format_time(section.task_cycle)));
+    line(2, section.tasks.empty() ? "tasks: {}" : "tasks:");
+    for (const auto& task : section.tasks) {
+      std::vector<std::string> programs;
+      for (const auto& program : task.programs) programs.push_back(yaml_text(program.text));
+      line(3, fmt::format("{}: {{cycle: {}, priority: {}, programs: [{}]}}", yaml_text(task.name.text),
+                          format_time(task.cycle), task.priority, fmt::join(programs, ", ")));
+    }
     line(2, section.axes.empty() ? "axes: {}" : "axes:");
     for (const auto& axis : section.axes) {
       line(3, fmt::format("{}:", axis.name.text));

@@ -286,6 +286,47 @@ void read_tables(const YamlNode& node, std::vector<PlcopenSection::Table>& table
   }
 }
 
+const std::string tasks_name = "controller.plcopen.tasks";
+
+void check_multiple(Time time, Time cycle, const std::string& name, Place place, Findings& findings) {
+  if (time % cycle == 0) return;
+  findings.add(place,
+               fmt::format("{} {} is not a whole multiple of the cycle {}", name, format_time(time),
+                           format_time(cycle)),
+               fmt::format("for example {}", format_time(std::max<Time>(1, time / cycle) * cycle)));
+}
+
+// tasks: {fast: {cycle: 2 ms, priority: 1, programs: [Main]}}
+void read_tasks(const YamlNode& node, PlcopenSection& plcopen, Findings& findings) {
+  constexpr int last_priority = 65535;
+  refuse_duplicates(node, tasks_name, findings);
+  for (const auto& entry : node.entries) {
+    if (is_repeated(node, entry)) continue;
+    const auto name = fmt::format("{}.{}", tasks_name, entry.key.text);
+    if (entry.value.kind != YamlNode::Kind::map) {
+      refuse_kind(entry.value, name, YamlNode::Kind::map, findings);
+      continue;
+    }
+    PlcopenSection::Task task;
+    task.name = entry.key;
+    task.cycle = plcopen.task_cycle;
+    MapReader reader(entry.value, name, findings);
+    reader.time("cycle", task.cycle, Sign::positive);
+    reader.integer("priority", task.priority, 0, last_priority);
+    reader.texts("programs", task.programs);
+    reader.finish();
+    if (task.programs.empty()) reader.missing("programs", "name its PROGRAMs: programs: [Main]");
+    check_multiple(task.cycle, plcopen.cycle, name + ".cycle", reader.place("cycle"), findings);
+    for (const auto& other : plcopen.tasks)
+      for (const auto& program : other.programs)
+        for (const auto& again : task.programs)
+          if (devices::same_word(program.text, again.text))
+            findings.add(again.place, fmt::format("{} runs in {} already", again.text, other.name.text),
+                         "a program has one task");
+    plcopen.tasks.push_back(std::move(task));
+  }
+}
+
 }  // namespace
 
 PlcopenSection read_plcopen(const YamlNode& node, const Place& place, Findings& findings) {
@@ -298,17 +339,13 @@ PlcopenSection read_plcopen(const YamlNode& node, const Place& place, Findings& 
   reader.time("task_cycle", plcopen.task_cycle, Sign::positive);
   if (const auto* axes = reader.map("axes")) read_axes(*axes, plcopen.axes, findings);
   if (const auto* tables = reader.list("tables")) read_tables(*tables, plcopen.tables, findings);
+  if (const auto* tasks = reader.map("tasks")) read_tasks(*tasks, plcopen, findings);
   reader.text("retentive", plcopen.retentive);
   read_preset(reader, "controller.plcopen", plcopen.set, findings);
   reader.finish();
   if (!reader.has("program")) reader.missing("program", "add program: programs/knife.st");
-  if (plcopen.task_cycle % plcopen.cycle != 0)
-    findings.add(
-        reader.place("task_cycle"),
-        fmt::format("controller.plcopen.task_cycle {} is not a whole multiple of the cycle {}",
-                    format_time(plcopen.task_cycle), format_time(plcopen.cycle)),
-        fmt::format("for example {}",
-                    format_time(std::max<Time>(1, plcopen.task_cycle / plcopen.cycle) * plcopen.cycle)));
+  check_multiple(plcopen.task_cycle, plcopen.cycle, "controller.plcopen.task_cycle",
+                 reader.place("task_cycle"), findings);
   return plcopen;
 }
 

@@ -89,6 +89,13 @@ struct PlcopenSection {
     int id = 0;  ///< in place of the file's own; 0 = that
   };
   std::vector<Table> tables;
+  struct Task {
+    Text name;
+    Time cycle = 0;              ///< a whole multiple of the axes' `cycle`
+    int priority = 0;            ///< 0 runs first
+    std::vector<Text> programs;  ///< of the program's file
+  };
+  std::vector<Task> tasks;                   ///< of several PROGRAMs; others run every `task_cycle`
   Text retentive;                            ///< as of QmoveSection
   std::vector<std::pair<Text, double>> set;  ///< values before power-up, after the retentive file
   Place place;

@@ -167,6 +167,8 @@ TEST(StErrors, OfDeclarations) {
   };
   EXPECT_THAT(declared("a : INT (3..1);"),
               ElementsAre("1:23: a range from 3 to 1 is empty; the lower bound stands first"));
+  EXPECT_THAT(declared("a : ULINT := -1;"),
+              ElementsAre("1:28: the constant -1 is out of the range of ULINT; 0 to 18446744073709551615"));
   EXPECT_THAT(declared("a : REAL (1..3);"),
               ElementsAre(StartsWith("1:24: a range of REAL; whole numbers have ranges")));
   EXPECT_THAT(declared("a : INT (0..9) := 10;"),

@@ -437,7 +437,7 @@ TEST(StTasks, FaultsOfAConfigurationAreTold) {
                           "PROGRAM p WITH a : PP;\n"
                           "PROGRAM r WITH a : P;\n"
                           "PROGRAM g : P(v := TRUE, w := g);\n"
-                          "PROGRAM q1 : Q; PROGRAM q2 : Q;\n"
+                          "PROGRAM q1 : Q; PROGRAM q2 : Q; PROGRAM RETAIN q3 : P;\n"
                           "VAR_ACCESS END_VAR\n"
                           "nonsense;\n"
                           "END_CONFIGURATION"),
@@ -451,6 +451,7 @@ TEST(StTasks, FaultsOfAConfigurationAreTold) {
                           StartsWith("9:9: w is not connected in the call of 'r'"),
                           StartsWith("10:9: 'g' is declared twice"),
                           StartsWith("10:20: a value of type BOOL does not go into INT by itself"),
+                          StartsWith("11:41: RETAIN of a whole program; VAR RETAIN"),
                           StartsWith("12:1: VAR_ACCESS is not known here"),
                           StartsWith("13:1: 'nonsense' stands in the CONFIGURATION")));
 }
@@ -569,6 +570,14 @@ TEST(StLong, ChainsOfTypesAndFunctionsAreReadInTime) {
                   "T20000 : INT; END_TYPE " + end),
       testing::Contains(
           HasSubstr("the types are nested too deeply; declare 'T101' before what is made of it")));
+}
+
+TEST(StLong, TheDeepestChainThatIsTakenRuns) {
+  const std::string chain = numbered(990, [](int i) {
+    return "FUNCTION F" + std::to_string(i + 1) + " : INT F" + std::to_string(i + 1) + " := F" +
+           std::to_string(i) + "(); END_FUNCTION\n";
+  });
+  EXPECT_EQ(run("x : INT;", "x := F990();", "FUNCTION F0 : INT F0 := 7; END_FUNCTION\n" + chain), 7);
 }
 
 TEST(StLong, UnknownNamesOfALongFileAreAllTold) {

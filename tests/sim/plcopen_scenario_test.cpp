@@ -252,6 +252,8 @@ TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
   auto text = std::string(line);
   text.replace(text.find("tables: [cam.csv]"), 17, "tables: [{file: cam.csv, id: 3}]");
   text.replace(text.find("vb_max: 1000 deg/s"), 18, "vb_max: 1234.56789");
+  text.replace(text.find("    cycle: 2 ms"), 15,
+               "    cycle: 2 ms\n    tasks: {slow: {cycle: 20 ms, priority: 3, programs: [line]}}");
   const auto scenario = read(text, {{"controller.plcopen.set.speed", "5"}});
   ASSERT_THAT(told(), IsEmpty());
   const auto expanded = expand(scenario);
@@ -261,6 +263,7 @@ TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
   EXPECT_THAT(
       expanded,
       HasSubstr("    tables: [{file: cam.csv, id: 3}]\n    retentive: kept.txt\n    set: {speed: 5}"));
+  EXPECT_THAT(expanded, HasSubstr("    tasks:\n      slow: {cycle: 20 ms, priority: 3, programs: [line]}\n"));
   const auto again = read(expanded);
   ASSERT_THAT(told(), IsEmpty());
   EXPECT_EQ(expand(again), expanded);
@@ -291,6 +294,38 @@ TEST_F(PlcopenScenario, WhatTheProgramNamesMustBeThere) {
       ElementsAre("line.st:2:31: the scenario has no axis 'Knife'; did you mean Knive? Else add it to "
                   "controller.plcopen.axes",
                   HasSubstr("the scenario has no cam table 'cam.csv'; add it to controller.plcopen.tables")));
+}
+
+TEST_F(PlcopenScenario, SeveralProgramsHaveTasks) {
+  const auto built = [&](const std::string& text) {
+    problems.clear();
+    return build(text);
+  };
+  write("two.st", "PROGRAM Main END_PROGRAM\nPROGRAM Hmi END_PROGRAM");
+  EXPECT_THAT(built(with("    program: two.st\n    tasks:\n      fast: {cycle: 2 ms, programs: [Main]}\n"
+                         "      slow: {cycle: 20 ms, priority: 3, programs: [hmi]}\n")),
+              IsEmpty());
+  EXPECT_THAT(
+      built(with("    program: two.st\n")),
+      ElementsAre(HasSubstr("two.st:2:9: a second PROGRAM, 'Hmi', without a task; CONFIGURATION ... TASK")));
+  EXPECT_THAT(
+      built(with("    program: two.st\n    tasks:\n      fast: {cycle: 3 ms, programs: [Main]}\n"
+                 "      slow: {cycle: 20 ms, programs: [main, Hmi]}\n      none: {}\n")),
+      ElementsAre(
+          HasSubstr(
+              ":6:14: controller.plcopen.tasks.fast.cycle 3 ms is not a whole multiple of the cycle 2 ms"),
+          HasSubstr(":7:39: main runs in fast already; a program has one task"),
+          HasSubstr("controller.plcopen.tasks.none.programs")));
+  EXPECT_THAT(built(with("    program: two.st\n    tasks: {fast: {programs: [Mian, Hmi]}}\n")),
+              ElementsAre(HasSubstr(":5:31: there is no PROGRAM 'Mian'; did you mean Main?")));
+  write("three.st",
+        "PROGRAM Main END_PROGRAM\nCONFIGURATION c\nTASK t(INTERVAL := T#3ms);\nPROGRAM m WITH t : "
+        "Main;\nEND_CONFIGURATION");
+  EXPECT_THAT(
+      built(with("    program: three.st\n    tasks: {fast: {programs: [Main]}}\n")),
+      ElementsAre(
+          HasSubstr("three.st:3:6: the task t runs every 3 ms, not a whole multiple of the cycle 2 ms"),
+          HasSubstr(":5:13: the program's CONFIGURATION has the tasks")));
 }
 
 TEST_F(PlcopenScenario, TablesAreReadAndHaveNamesAndIdsOfTheirOwn) {

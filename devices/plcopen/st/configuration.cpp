@@ -145,7 +145,10 @@ void Compiler::declare_task() {
 }
 
 void Compiler::declare_instance() {
-  if (!accept_word("RETAIN")) accept_word("NON_RETAIN");
+  if (peek().word("RETAIN"))
+    give_up(peek().place, "RETAIN of a whole program",
+            "VAR RETAIN ... END_VAR in the PROGRAM names what is kept");
+  accept_word("NON_RETAIN");
   const Token name = expect_name("the name of the program");
   int task = -1;
   if (accept_word("WITH")) {

@@ -121,7 +121,8 @@ Expression Compiler::literal_as(Expression literal, const Type& to) {
     if (literal.value < range.low || literal.value > range.high)
       complain(literal.place,
                fmt::format("the constant {} is out of the range of {}", literal.value, to.name),
-               fmt::format("{} to {}", range.low, range.high));
+               is_wide(basic) && !to.subrange ? "0 to 18446744073709551615"
+                                              : fmt::format("{} to {}", range.low, range.high));
   } else if (real && is_integer(basic)) {
     complain(literal.place, fmt::format("{} is not a whole number for {}", real_of(literal.value), to.name),
              fmt::format("LREAL_TO_{} rounds, TRUNC cuts off", to.name));
