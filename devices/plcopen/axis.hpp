@@ -104,7 +104,7 @@ class Axis {
   /// How far the command with this ticket is; of those that have ended only the last few are known.
   [[nodiscard]] CommandState state_of(std::uint64_t ticket) const;
   /// Where the movement under way leads to; where the axis is commanded to be if it leads nowhere.
-  [[nodiscard]] Position target() const { return target_.value_or(set_.position); }
+  [[nodiscard]] Position target() const;
   /// The speed of the command in force was cut to dynamik.vb_max, or the slave cannot follow its law.
   [[nodiscard]] bool warning() const { return speed_cut_ || (coupling_ && coupling_->clamped()); }
   /// The slave is where its law wants it.

@@ -96,6 +96,11 @@ Order Axis::move(const MoveRequest& request, std::uint64_t ticket) {
   return order;
 }
 
+Position Axis::target() const {
+  if (!target_) return set_.position;
+  return advanced(*target_, overlay_ ? overlay_->profile.end.position : 0, modulo());
+}
+
 CommandState Axis::state_of(std::uint64_t ticket) const {
   if (ticket == ticket_) {
     if (state_ == AxisState::errorstop && error_ != ErrorId::none) return {Progress::failed, error_};

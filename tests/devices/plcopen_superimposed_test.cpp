@@ -52,6 +52,7 @@ TEST(PlcopenSuperImposed, PositionsSpeedsAndAccelerationsAddExactly) {
     ASSERT_NEAR(b.s().set().velocity - b.m().set().velocity, expected.velocity, 1e-5);
     ASSERT_NEAR(b.s().set().acceleration - b.m().set().acceleration, expected.acceleration, 1e-3);
     ASSERT_TRUE(b.slaves.Active) << "what is under way goes on";
+    ASSERT_EQ(b.s().target().part, 3'120'000);
   }
   EXPECT_NEAR(time, alone.duration, cycle_s);
   EXPECT_FALSE(b.more.Busy);
