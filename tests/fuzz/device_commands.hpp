@@ -92,6 +92,11 @@ class DevicePlayer {
          {"slowpos", 60},  {"slowdly", 4},   {"tbrake", 3},    {"toldly", 5},  {"tinvt", 2},
          {"prspos", 30},   {"enstol", 1}});
   }
+  /// Parameters at the ends of what 32 bits hold, and in between.
+  void set_up_anyhow(Bytes& bytes) {
+    for (const devices::Variable& variable : type.variables)
+      if (variable.rows == 1) set({{variable.name, extreme(bytes)}});
+  }
   /// A cam of any sectors.
   void set_up_cam(Bytes& bytes) {
     for (const char row : {'1', '2', '3', '4', '5', '6'}) {
@@ -107,7 +112,10 @@ class DevicePlayer {
 
   /// Plays all `bytes`; the first law that the device broke, or "".
   std::string play(Bytes& bytes) {
-    if (bytes.byte() % 4 != 0) set_up();
+    if (bytes.byte() % 4 != 0)
+      set_up();
+    else
+      set_up_anyhow(bytes);
     set_up_cam(bytes);
     std::string broken;
     while (bytes.left() && broken.empty()) broken = happen(bytes);
@@ -217,13 +225,17 @@ class DevicePlayer {
     device->write({devices::Symbol::Kind::variable, index, row}, value_of(variable, bytes));
   }
 
-  static std::int32_t value_of(const devices::Variable& variable, Bytes& bytes) {
+  static std::int32_t extreme(Bytes& bytes) {
     using Limits = std::numeric_limits<std::int32_t>;
-    constexpr std::array extremes{Limits::min(),     Limits::min() + 1, -1, 0, 1,
-                                  Limits::max() - 1, Limits::max()};
+    constexpr std::array ends{Limits::min(), Limits::min() + 1, -1,     0, 1, 2, 3,
+                              Limits::max(), Limits::max() - 1, 999'999};
+    return ends.at(static_cast<std::size_t>(bytes.below(ends.size())));
+  }
+
+  static std::int32_t value_of(const devices::Variable& variable, Bytes& bytes) {
     switch (bytes.byte() % 8) {
       case 0:
-        return extremes.at(static_cast<std::size_t>(bytes.below(extremes.size())));
+        return extreme(bytes);
       case 1:
         return bytes.number();
       case 2:
