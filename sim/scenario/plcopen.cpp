@@ -301,7 +301,7 @@ void read_tasks(const YamlNode& node, PlcopenSection& plcopen, Findings& finding
   constexpr int last_priority = 65535;
   refuse_duplicates(node, tasks_name, findings);
   for (const auto& entry : node.entries) {
-    if (is_repeated(node, entry)) continue;
+    if (entry.is_repeated()) continue;
     const auto name = fmt::format("{}.{}", tasks_name, entry.key.text);
     if (entry.value.kind != YamlNode::Kind::map) {
       refuse_kind(entry.value, name, YamlNode::Kind::map, findings);
