@@ -121,7 +121,7 @@ TEST(Callouts, TheKnifesForceIsThatOfItsCutUpwardsAndThereOnlyDuringIt) {
 }
 
 TEST(Callouts, TheSawsClampsPressDownOnBothSidesOfTheBladeWhileTheyAreClosed) {
-  SawLine line(frictionless(), tube(0));
+  SawLine line(frictionless_saw(), tube(0));
   line.run(0.1);
   EXPECT_THAT(named(*line.saw, "clamp"), IsEmpty());
   plug<CommandPort>(*line.saw, "clamp").level = true;
@@ -141,7 +141,7 @@ TEST(Callouts, TheSawsClampsPressDownOnBothSidesOfTheBladeWhileTheyAreClosed) {
 }
 
 TEST(Callouts, TheSawsCutIsPointedOutAtTheBladeWhileItCuts) {
-  SawLine line(frictionless(), tube(0));
+  SawLine line(frictionless_saw(), tube(0));
   plug<CommandPort>(*line.saw, "clamp").level = true;
   line.run(0.3);
   EXPECT_THAT(named(*line.saw, "cut"), IsEmpty());

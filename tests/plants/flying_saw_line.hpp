@@ -11,7 +11,7 @@ namespace drycut::plants {
 constexpr double h = 1e-4;
 
 /// The default saw without friction.
-inline FlyingSawDefinition frictionless() {
+inline FlyingSawDefinition frictionless_saw() {
   FlyingSawDefinition definition;
   definition.data.motor_friction = {};
   definition.data.carriage_friction = {};

@@ -12,12 +12,12 @@ namespace drycut::plants {
 namespace {
 
 TEST(FlyingSaw, TheTrainOfPulsesOrTheVoltageDrivesTheSameCarriage) {
-  SawLine volts(frictionless());
+  SawLine volts(frictionless_saw());
   volts.run(0.1);
   plug<ReferencePort>(*volts.saw, "servo.reference").volts = 3;
   volts.run(0.5);
   EXPECT_NEAR(channel(*volts.saw, "speed"), 0.3 * 3000 * 0.2 / 4, 0.05);
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   definition.data.drive.kind = "pulses";
   SawLine pulses(definition);
   plug<CommandPort>(*pulses.saw, "servo.direction").level = true;
@@ -31,7 +31,7 @@ TEST(FlyingSaw, TheTrainOfPulsesOrTheVoltageDrivesTheSameCarriage) {
 
 TEST(FlyingSaw, CrashTakesMassTimesSpeedAndItsRebound) {
   for (const double side : {-1.0, 1.0}) {
-    auto definition = frictionless();
+    auto definition = frictionless_saw();
     definition.data.gear.stiffness = 1e-12;  // the motor holds nothing
     definition.data.gear.damping = 0;
     definition.data.stop = {2e6, 4e3};
@@ -57,7 +57,7 @@ TEST(FlyingSaw, CrashTakesMassTimesSpeedAndItsRebound) {
 }
 
 TEST(FlyingSaw, ACarriageThatLeansOnItsStopIsReportedOnce) {
-  SawLine line(frictionless());
+  SawLine line(frictionless_saw());
   plug<ReferencePort>(*line.saw, "servo.reference").volts = -1;
   line.run(2);
   ASSERT_GE(line.events.size(), 1U);
@@ -70,7 +70,7 @@ TEST(FlyingSaw, ACarriageThatLeansOnItsStopIsReportedOnce) {
 TEST(FlyingSaw, ClampsHoldUpToTheirFriction) {
   // 2 mu N = 2400 N; the material is held by its own mass and a weak line drive.
   for (const double pull : {2000.0, 3000.0}) {
-    auto definition = frictionless();
+    auto definition = frictionless_saw();
     definition.data.clamp = {.force = 6000, .friction = 0.2, .close_time = 0, .open_time = 0};
     definition.data.gear.stiffness = 1e-12;
     definition.data.gear.damping = 0;
@@ -88,7 +88,7 @@ TEST(FlyingSaw, ClampsHoldUpToTheirFriction) {
 }
 
 TEST(FlyingSaw, ClampsTakeTheirTimeAndAFaultTakesTheirForce) {
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   SawLine line(definition, free_web(0));
   auto& closed = plug<SignalPort>(*line.saw, "clamp.closed");
   plug<CommandPort>(*line.saw, "clamp").level = true;
@@ -108,7 +108,7 @@ TEST(FlyingSaw, ClampsTakeTheirTimeAndAFaultTakesTheirForce) {
 }
 
 TEST(FlyingSaw, SawHeadMovesAtTheSpeedOfItsThrottles) {
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   auto& head = definition.data.head;
   head.stroke = 1;
   head.clearance = 0.9;
@@ -135,7 +135,7 @@ TEST(FlyingSaw, SawHeadMovesAtTheSpeedOfItsThrottles) {
 }
 
 TEST(FlyingSaw, CutsTheTubeInTheTimeOfItsLaw) {
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   definition.data.head.mass = 0.1;  // no inertia: the balance of forces at every moment
   definition.data.blade.resistance = 4e5;
   SawLine line(definition, tube(0.0));
@@ -158,7 +158,7 @@ TEST(FlyingSaw, CutsTheTubeInTheTimeOfItsLaw) {
 TEST(FlyingSaw, TheCutTakesTheEnergyOfItsForce) {
   // A strip has the same width all through: resistance * width * speed over its thickness, with the
   // cylinder's force balanced the plunge is as fast as (F + m g)/(b + c w).
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   definition.data.blade.resistance = 1e4;
   definition.data.head.fill_time = 0;
   definition.data.head.mass = 0.5;
@@ -180,7 +180,7 @@ TEST(FlyingSaw, TheCutTakesTheEnergyOfItsForce) {
 
 TEST(FlyingSaw, PinchIsStiffnessTimesDisplacement) {
   // Carriage and material too heavy to be disturbed, the carriage 5 mm/s faster.
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   definition.data.mass = 1e5;
   definition.data.gear.stiffness = 1e-12;
   definition.data.gear.damping = 0;
@@ -220,7 +220,7 @@ TEST(FlyingSaw, PinchIsStiffnessTimesDisplacement) {
 }
 
 TEST(FlyingSaw, LengthIsTheDistanceOfTheCutsOnTheMaterial) {
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   definition.data.blade.stiffness = definition.data.blade.damping = 0;
   definition.data.carriage_friction = {};
   definition.data.gear.stiffness = 1e-12;
@@ -255,7 +255,7 @@ TEST(FlyingSaw, LengthIsTheDistanceOfTheCutsOnTheMaterial) {
 }
 
 TEST(FlyingSaw, ABladeDrawnBackBeforeItIsThroughHasCutNothing) {
-  SawLine line(frictionless(), tube(0));
+  SawLine line(frictionless_saw(), tube(0));
   plug<CommandPort>(*line.saw, "head.plunge").level = true;
   while (line.depth() < 0.03) line.step();
   plug<CommandPort>(*line.saw, "head.plunge").level = false;
@@ -268,7 +268,7 @@ TEST(FlyingSaw, ABladeDrawnBackBeforeItIsThroughHasCutNothing) {
 }
 
 TEST(FlyingSaw, MaterialThatRunsUpAgainstTheBladePushesItAfterTheCut) {
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   definition.data.gear.stiffness = 1e-12;
   definition.data.gear.damping = 0;
   SawLine line(definition, tube(0));
@@ -286,7 +286,7 @@ TEST(FlyingSaw, MaterialThatRunsUpAgainstTheBladePushesItAfterTheCut) {
 
 TEST(FlyingSaw, ConservesMomentumOfCarriageMotorAndMaterial) {
   // Clamped, with the blade in; only inner forces act.
-  auto definition = frictionless();
+  auto definition = frictionless_saw();
   const auto& data = definition.data;
   SawLine line(definition, free_web(0));
   plug<CommandPort>(*line.saw, "servo.enable").level = false;

@@ -42,7 +42,7 @@ TEST(VerticalPress, GoesUpAndDownAtThePresetSpeeds) {
 }
 
 TEST(VerticalPress, TheMotorFeelsTheLoadThroughTheEfficiencyOfTheScrew) {
-  auto definition = frictionless();
+  auto definition = frictionless_press();
   for (const double back : {0.8, 0.3, -0.5}) {
     definition.data.back_efficiency = back;
     const double torque = (600 * g - 2000) * 0.01 / turn;  // at the screw without losses
@@ -58,7 +58,7 @@ TEST(VerticalPress, TheMotorFeelsTheLoadThroughTheEfficiencyOfTheScrew) {
 }
 
 TEST(VerticalPress, WhatTheMotorGivesIsInTheRam) {
-  auto definition = frictionless();
+  auto definition = frictionless_press();
   definition.data.efficiency = definition.data.back_efficiency = 1;
   definition.data.drive.brake.torque = 0;
   const double inertia = definition.data.drive.motor.rotor_inertia + definition.data.screw_inertia;
@@ -79,7 +79,7 @@ TEST(VerticalPress, WhatTheMotorGivesIsInTheRam) {
 }
 
 TEST(VerticalPress, ASelfLockingScrewHoldsWithoutABrake) {
-  auto definition = frictionless();
+  auto definition = frictionless_press();
   definition.data.drive.brake.torque = 0;
   definition.data.efficiency = 0.4;
   definition.data.back_efficiency = -0.5;
@@ -130,7 +130,7 @@ TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
 }
 
 TEST(VerticalPress, AWornBrakeSlipsAboveItsTorque) {
-  auto definition = frictionless();
+  auto definition = frictionless_press();
   definition.data.efficiency = definition.data.back_efficiency = 1;
   const double needed = (600 * g - 2000) * 0.01 / turn;
   for (const double share : {1.001, 0.999}) {
@@ -167,7 +167,7 @@ TEST(VerticalPress, PressesWithTheTorqueLimitOfTheInverter) {
 }
 
 TEST(VerticalPress, TheWorkpieceStopsAFreeRamWithItsMomentum) {
-  auto definition = frictionless();
+  auto definition = frictionless_press();
   auto& d = definition.data;
   d.counterbalance = 600 * g;
   d.gear.stiffness = 1e-9;  // the motor holds nothing
@@ -183,7 +183,7 @@ TEST(VerticalPress, TheWorkpieceStopsAFreeRamWithItsMomentum) {
 }
 
 TEST(VerticalPress, TheLoadChangesMassAndWeight) {
-  auto definition = frictionless();
+  auto definition = frictionless_press();
   auto& d = definition.data;
   d.gear.stiffness = 1e-9;  // the motor holds nothing, the counterbalance all
   d.gear.damping = 0;

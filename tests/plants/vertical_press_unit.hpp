@@ -48,7 +48,7 @@ struct Press {
   }
 };
 
-inline VerticalPressDefinition frictionless() {
+inline VerticalPressDefinition frictionless_press() {
   VerticalPressDefinition definition;
   definition.data.motor_friction = {};
   definition.data.ram_friction = {};

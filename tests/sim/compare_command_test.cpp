@@ -130,7 +130,7 @@ TEST_F(CompareCommand, BrokenTracesAreToldWithTheirPlace) {
   refuses(texts, "trace.csv",
           "1:1: the header does not begin with time [s]; the first line is time [s],channel [unit],...");
   texts.trace = "";
-  refuses(texts, "trace.csv", "1:1: the file is empty" + again);
+  refuses(texts, "trace.csv", "1:1: the file cannot be read, or is empty" + again);
 }
 
 TEST_F(CompareCommand, BrokenEventsAreToldWithTheirPlace) {
