@@ -34,7 +34,7 @@ std::string grade_text(const CamFinding& finding) {
 std::string to_string(const CamFinding& finding) {
   auto text = finding.where.empty() ? "" : finding.where + ": ";
   text += grade_text(finding) + ": " + finding.text;
-  if (!finding.remedy.empty()) text += "; " + finding.remedy;
+  if (!finding.remedy.text.empty()) text += "; " + finding.remedy.text;
   return text;
 }
 
@@ -59,17 +59,27 @@ std::string number_text(double number, int digits) {
 }
 
 namespace {
+
 constexpr int digits_told = 6;
-}
+// Finer than `within`: limits grow with up to the third power of a speed.
+constexpr double same = 1 + 1e-12;
+
+double told(double value) { return std::strtod(number(value).c_str(), nullptr); }
+/// One in the last digit told.
+double last_digit(double value) { return std::pow(10.0, std::floor(std::log10(value)) + 1 - digits_told); }
+
+}  // namespace
 
 std::string number(double value) { return number_text(value, digits_told); }
 
 std::string number_below(double value) {
-  // Finer than `within`: limits grow with up to the third power of a speed.
-  constexpr double same = 1 + 1e-12;
-  const double rounded = std::strtod(number(value).c_str(), nullptr);
-  if (rounded <= value * same) return number(value);
-  return number(rounded - std::pow(10.0, std::floor(std::log10(value)) + 1 - digits_told));
+  return number(told(value) <= value * same ? value : told(value) - last_digit(value));
 }
+
+std::string number_above(double value) {
+  return number(told(value) * same >= value ? value : told(value) + last_digit(value));
+}
+
+std::string whole(double value) { return fmt::format("{:.0f}", value); }
 
 }  // namespace drycut::sim

@@ -1,8 +1,24 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drycut::sim {
+
+/// A number that cures a finding when it is put in.
+struct CamCure {
+  int row = 0;            ///< sector or row of the table, 0 = of the whole cam
+  std::string parameter;  ///< a column, a parameter; "master speed" of the duty; "begin": the slave's way on
+  double value = 0;
+};
+/// What would be right, in words, and the numbers that it names, each of which cures alone.
+struct CamRemedy {
+  CamRemedy(std::string words = "", std::vector<CamCure> numbers = {})
+      : text(std::move(words)), cures(std::move(numbers)) {}
+  CamRemedy(const char* words) : text(words) {}
+  std::string text;
+  std::vector<CamCure> cures;
+};
 
 /// One thing found in a cam.
 struct CamFinding {
@@ -17,7 +33,7 @@ struct CamFinding {
   int number = 0;     ///< of the device's error or warning, 0 = it has none
   std::string where;  ///< "sector 4 (135 DZC)", "row 12"; "" = of the whole cam
   std::string text;
-  std::string remedy;  ///< may be empty
+  CamRemedy remedy;  ///< may be empty
 };
 
 /// "sector 4 (135 DZC): warning 7: ...; ...".
@@ -38,5 +54,9 @@ inline constexpr double within = 1 + 1e-9;
 std::string number(double value);
 /// A positive number that a remedy names as the most: rounded down, so that it is sound itself.
 std::string number_below(double value);
+/// The same of one that it names as the least: rounded up.
+std::string number_above(double value);
+/// A whole number with all of its digits.
+std::string whole(double value);
 
 }  // namespace drycut::sim

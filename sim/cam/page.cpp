@@ -68,8 +68,8 @@ renders::ReportTable feasibility(const CamStudy& study, const std::string& maste
   for (const auto& finding : study.findings) {
     const bool bad = is_unsound({finding}, false);
     const auto grade = grade_of(finding);
-    table.rows.push_back({{finding.where.empty() ? "the cam" : finding.where, finding.text, finding.remedy,
-                           bad ? "FAIL " + grade : grade}});
+    table.rows.push_back({{finding.where.empty() ? "the cam" : finding.where, finding.text,
+                           finding.remedy.text, bad ? "FAIL " + grade : grade}});
   }
   const bool unsound = is_unsound(study.findings, false);
   table.rows.push_back(

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "sim/cam/findings.hpp"
-
 namespace drycut::sim {
 
 namespace {
@@ -22,8 +20,7 @@ std::string moved_begin(double shift, const TravelWords& words) {
                      shift < 0 ? "back" : "on");
 }
 
-std::string remedy_of(const CamTravel& travel, double low, double high, bool above,
-                      const TravelWords& words) {
+CamRemedy remedy_of(const CamTravel& travel, double low, double high, bool above, const TravelWords& words) {
   const double stroke = high - low;
   const bool both = travel.least && travel.most;
   if (both && stroke > *travel.most - *travel.least + same) {
@@ -36,7 +33,8 @@ std::string remedy_of(const CamTravel& travel, double low, double high, bool abo
                        std::abs(shift) <= same ? "" : " and " + moved_begin(shift, words),
                        place_text(stroke));
   }
-  return "shorten the stroke, or " + moved_begin(above ? *travel.most - high : *travel.least - low, words);
+  const double shift = above ? *travel.most - high : *travel.least - low;
+  return {"shorten the stroke, or " + moved_begin(shift, words), {{0, "begin", shift}}};
 }
 
 }  // namespace

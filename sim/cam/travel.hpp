@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/cam/findings.hpp"
+
 namespace drycut::sim {
 
 /// From where to where the slave's machine lets it go, in its unit, from the place where the cam counts 0.
@@ -27,7 +29,7 @@ struct TravelWords {
 struct TravelFault {
   bool above = false;  ///< beyond `most`, else below `least`
   std::string text;
-  std::string remedy;
+  CamRemedy remedy;
 };
 
 /// What is wrong with a stroke that reaches from `low` to `high`: nothing, one side or both.

@@ -31,10 +31,9 @@ TEST(CamInFindings, LimitsAreJudgedByTheLawsPeaksAndTheRemedyIsTheLimit) {
     return camin::findings(camin::knife("# endless: positive\n" + settings), {.master_speed = speed});
   };
   EXPECT_THAT(limits("# maxvel: 360\n", 600), IsEmpty());
-  EXPECT_THAT(
-      limits("# maxvel: 359\n", 600),
-      ElementsAre("row 1 (line 7): limit: velocity 360 deg/s above 359; so at 2 rows; give the piece more "
-                  "of the master, or run it at 598.333 mm/s at most"));
+  EXPECT_THAT(limits("# maxvel: 359\n", 600),
+              ElementsAre("row 1 (line 7): limit: velocity 360 deg/s above 359; so at 2 rows; run the "
+                          "master at 598.333 mm/s at most"));
   const double d = 0.6 * 680 - 288;  // deg
   const double peak = d / 680 / 680 * 10 / std::sqrt(3.0) * 600 * 600;
   EXPECT_THAT(limits(fmt::format("# maxacc: {}\n", peak * 1.00001), 600), IsEmpty());
@@ -50,7 +49,7 @@ TEST(CamInFindings, LimitsAreJudgedByTheLawsPeaksAndTheRemedyIsTheLimit) {
 
 /// The least of the speeds that the findings' remedies name.
 double speed_told(const std::vector<std::string>& told) {
-  const std::string words = "run it at ";
+  const std::string words = "run the master at ";
   double least = INFINITY;
   for (const auto& one : told)
     if (const auto at = one.find(words); at != std::string::npos)
@@ -179,8 +178,7 @@ TEST(CamInFindings, OvershootIsTold) {
       "1800000,500000\n2700000,500000\n");
   EXPECT_THAT(told,
               ElementsAre("row 1 (line 3): caution: overshoots its two rows by 156250 0.0001 deg; so at 2 "
-                          "rows; give it more of the master, or lines before and after it that are less "
-                          "steep"));
+                          "rows; make the lines before and after it less steep"));
   EXPECT_FALSE(camin::findings(text).empty());
   EXPECT_THAT(
       camin::findings("# interpolation: POLYNOM_3\nslave\n0\n0\n160000\n"),

@@ -70,7 +70,7 @@ void expect_told(const EcamTable& table, const std::string& text) {
   for (const auto& finding : judge_ecam(table, duty, run)) {
     ASSERT_FALSE(finding.text.empty()) << text;
     if (finding.grade != CamFinding::Grade::remark) {
-      ASSERT_FALSE(finding.remedy.empty()) << to_string(finding);
+      ASSERT_FALSE(finding.remedy.text.empty()) << to_string(finding);
     }
   }
   ASSERT_FALSE(ecam_text(table, run).totals.empty());

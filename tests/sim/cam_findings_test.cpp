@@ -92,15 +92,14 @@ TEST(CamFindings, Error4MasterSpaceTooSmall) {
   EXPECT_THAT(
       findings(rows("1,133,0,10\n2,136\n")),
       Contains(
-          "sector 1 (133 RSC): error 4: codeQm is 0: a movement needs master space; give codeQm above 0"));
-  EXPECT_THAT(
-      findings(rows("1,153,10,10,0,5\n2,136\n")),
-      Contains(
-          "sector 1 (153 NVSR): error 4: codeQma is 0: the ramp needs master space; give codeQma above 0"));
+          "sector 1 (133 RSC): error 4: codeQm is 0: a movement needs master space; give codeQm at least 1"));
+  EXPECT_THAT(findings(rows("1,153,10,10,0,5\n2,136\n")),
+              Contains("sector 1 (153 NVSR): error 4: codeQma is 0: the ramp needs master space; give "
+                       "codeQma at least 1"));
   EXPECT_THAT(
       findings(cams::table("# measurem: 10\n" + cams::header + "1,133,105,0\n2,133,4,0\n3,136\n")),
-      Contains("sector 2 (133 RSC): error 4: it is over within one count of the master (10 Um); give it more "
-               "than 20 Um of master space"));
+      Contains("sector 2 (133 RSC): error 4: it is over within one count of the master (10 Um); give it at "
+               "least 10 Um of master space"));
 }
 
 TEST(CamFindings, Error4ASectorShorterThanASampling) {
@@ -163,13 +162,14 @@ TEST(CamFindings, Warnings1And2NeedTheMastersSpeed) {
   EXPECT_THAT(findings(table, {.master_speed = 300.0}), IsEmpty());
   EXPECT_THAT(
       findings(table, {.master_speed = 400.0}),
-      ElementsAre("sector 2 (135 DZC): warning 2: deceleration above tdecmax: 1600 Um/s2 at its peak, 1000 "
-                  "allowed; give it more master space, or run the master at 316.227 Um/s at most"));
+      ElementsAre(
+          "sector 2 (135 DZC): warning 2: deceleration above tdecmax: 1600 Um/s2 at its peak, 1000 "
+          "allowed; give it more master and slave space alike, or run the master at 316.227 Um/s at most"));
   EXPECT_THAT(
       findings(table, {.master_speed = 500.0}),
       Contains(
           "sector 1 (132 AZM): warning 1: acceleration above taccmax: 2500 Um/s2 at its peak, 2000 allowed; "
-          "give it more master space, or run the master at 447.213 Um/s at most"));
+          "give it more master and slave space alike, or run the master at 447.213 Um/s at most"));
 }
 
 TEST(CamFindings, Warning5TurningBack) {
@@ -195,7 +195,7 @@ TEST(CamFindings, Warning7TellsTheLeastSpace) {
       findings(rows("1,131,100,50\n2,135,100,20\n3,136\n")),
       ElementsAre(
           "sector 2 (135 DZC): warning 7: medium speed of the opposite sign to the initial one: ratio "
-          "-0.1 between 1 and 0; give codeQs at least 25, or the master less space"));
+          "-0.1 between 1 and 0; give codeQs at least 25"));
   EXPECT_THAT(findings(rows("1,131,100,50\n2,135,100,25\n3,136\n")), IsEmpty());
   EXPECT_THAT(findings(rows("1,131,100,-50\n2,234,100,-40\n3,235,100,-50\n4,136\n")),
               ElementsAre(HasSubstr(
@@ -232,7 +232,7 @@ TEST(CamFindings, Warning10SofteningIsNotDone) {
       findings(rows("1,154,100,50,1\n2,130\n3,154,100,100\n4,135,100,50\n5,136\n")),
       ElementsAre(
           "sector 3 (154 NVS): warning 10: softening between sectors 154 not executed; put the two 154 "
-          "or 254 rows next to each other, or give codeQma 0"));
+          "or 254 rows next to each other, or give codeQma 0 in sector 1"));
   EXPECT_THAT(findings(rows("1,154,100,50,1\n2,154,100,100\n3,135,100,50\n4,136\n")), IsEmpty());
 }
 
@@ -245,7 +245,8 @@ TEST(CamFindings, LimitsNameTheSectorAndItsPeak) {
       ElementsAre(
           "sector 1 (231 AZLE): limit: velocity 120 Um/s above 110; lower its ratio 1.2 to 1.1, or run "
           "the master at 91.6666 Um/s at most",
-          "sector 1 (231 AZLE): limit: acceleration 240 Um/s2 above 200; give it more master space, or "
+          "sector 1 (231 AZLE): limit: acceleration 240 Um/s2 above 200; give it more master and slave space "
+          "alike, or "
           "run the master at 91.287 Um/s at most",
           HasSubstr("sector 2 (133 RSC): limit: velocity 120 Um/s above 110"),
           HasSubstr("sector 3 (135 DZC): limit: velocity 120 Um/s above 110")));

@@ -78,7 +78,7 @@ TEST(CamFuzz, RandomTablesEndAndHangTogether) {
     for (const auto& finding : findings) {
       ASSERT_FALSE(finding.text.empty()) << text;
       if (finding.grade != CamFinding::Grade::remark) {
-        ASSERT_FALSE(finding.remedy.empty()) << to_string(finding);
+        ASSERT_FALSE(finding.remedy.text.empty()) << to_string(finding);
       }
       warned += finding.grade == CamFinding::Grade::warning ? 1 : 0;
     }

@@ -47,7 +47,7 @@ class Judge {
 
   /// `order`: number of sectors begun before or with it.
   void add(std::size_t order, Grade grade, int code, int row, int pass, std::string text,
-           std::string remedy = "") {
+           CamRemedy remedy = {}) {
     if (!told_.emplace(grade, code, row, grade == Grade::error || grade == Grade::warning ? "" : text).second)
       return;
     found_.push_back({order, {grade, code, where(row, pass), std::move(text), std::move(remedy)}});
@@ -69,7 +69,8 @@ class Judge {
       if (event.visits > 0 && event.visits <= run_.visits.size() &&
           run_.visits[event.visits - 1].row == event.row)
         visit = &run_.visits[event.visits - 1];
-      auto advice = advice_on(event, visit, table_, duty_);
+      const int row_before = event.visits > 1 ? run_.visits[event.visits - 2].row : 0;
+      auto advice = advice_on(event, visit, row_before, table_, duty_);
       add(event.visits, event.error ? Grade::error : Grade::warning, event.number, event.row, event.pass,
           std::move(advice.text), std::move(advice.remedy));
     }
@@ -100,7 +101,7 @@ class Judge {
 
   void judge_visit(const CamVisit& visit, std::size_t order) {
     if (visit.waiting) return;
-    const auto tell = [&](Grade grade, int code, std::string text, std::string remedy) {
+    const auto tell = [&](Grade grade, int code, std::string text, CamRemedy remedy) {
       add(order, grade, code, visit.row, visit.pass, std::move(text), std::move(remedy));
     };
     const double peak = peak_speed(visit);
@@ -154,6 +155,16 @@ class Judge {
     }
   }
 
+  [[nodiscard]] CamRemedy sampling_remedy(const camming4::Sector& sector, double length) const {
+    const auto column = master_column(sector.row);
+    const double least = least_master_space(table_, duty_, sector.kind == camming4::Sector::Kind::gearing);
+    const bool is_arc = column.name == nullptr;
+    auto remedy = master_speed_remedy(is_arc ? "" : fmt::format("give it at least {} Um, or ", whole(least)),
+                                      length * 1000 / table_.TCamp / um_per_second(table_), table_);
+    if (!is_arc) remedy.cures.push_back({sector.number, column.name, least - column.other});
+    return remedy;
+  }
+
   template <typename Tell>
   void judge_sampling(const CamVisit& visit, const Tell& tell) {
     const double advance = master_ * table_.TCamp / 1000;
@@ -165,8 +176,7 @@ class Judge {
     tell(Grade::error, 4,
          fmt::format("master space too small: {} Um are over in {} ms, less than a sampling time of {} ms",
                      number(length), number(length / master_ * 1000), table_.TCamp),
-         fmt::format("give it at least {} Um, or run the master at {} {} at most", number(advance),
-                     number_below(length * 1000 / table_.TCamp / um_per_second(table_)), speed_unit(table_)));
+         sampling_remedy(visit.sector, length));
   }
 
   template <typename Tell>
@@ -176,14 +186,14 @@ class Judge {
     if (duty_.max_velocity && speed > *duty_.max_velocity * within)
       tell(Grade::limit, 0,
            fmt::format("velocity {} {} above {}", number(speed), unit, number(*duty_.max_velocity)),
-           fmt::format("lower its ratio {} to {}, or run the master at {} {} at most", number(peak),
-                       number_below(*duty_.max_velocity / *duty_.master_speed),
-                       number_below(*duty_.max_velocity / peak), unit));
+           master_speed_remedy(fmt::format("lower its ratio {} to {}, or ", number(peak),
+                                           number_below(*duty_.max_velocity / *duty_.master_speed)),
+                               *duty_.max_velocity / peak, table_));
     if (table_.maxvel > 0 && speed > table_.maxvel * within)
       tell(Grade::limit, 0,
            fmt::format("velocity {} {} above maxvel {}: the output saturates (warning 3 or 4)", number(speed),
                        unit, table_.maxvel),
-           fmt::format("run the master at {} {} at most", number_below(table_.maxvel / peak), unit));
+           master_speed_remedy("", table_.maxvel / peak, table_));
   }
 
   template <typename Tell>
@@ -193,9 +203,7 @@ class Judge {
     if (!duty_.max_acceleration || acceleration <= *duty_.max_acceleration * within) return;
     tell(Grade::limit, 0,
          fmt::format("acceleration {} Um/s2 above {}", number(acceleration), number(*duty_.max_acceleration)),
-         fmt::format("give it more master space, or run the master at {} {} at most",
-                     number_below(std::sqrt(*duty_.max_acceleration / gradient) / um_per_second(table_)),
-                     speed_unit(table_)));
+         gradient_remedy(visit, table_, gradient, *duty_.max_acceleration));
   }
 
   template <typename Tell>
@@ -254,7 +262,7 @@ class Judge {
     if (code->what == CodeClass::movement && !is_empty_movement(*code, row))
       error = make_sector(*code, row, number, table_.settings, {}).error;
     if (error == 0) return;
-    auto advice = advice_on({true, error, number, 1, 0, 0}, nullptr, table_, duty_);
+    auto advice = advice_on({true, error, number, 1, 0, 0}, nullptr, 0, table_, duty_);
     add(last - 1, Grade::caution, 0, number, 1,
         fmt::format("not reached; it would raise error {}: {}", error, advice.text),
         std::move(advice.remedy));

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "devices/camming4/messages.hpp"
 #include "sim/cam/findings.hpp"
@@ -19,40 +21,81 @@ struct TwoPhase {
   const char* column = "codeQs";
   double master = 0;  ///< [Um]
   double v0 = 0, v1 = 0;
+  double sense = 0;       ///< of the speed whose sign the middle should keep
   double slave_unit = 1;  ///< of `column` in one Um
 };
+
+/// Only a sector that starts from rest has the sign of its end.
+TwoPhase with_sense(TwoPhase law) {
+  law.sense = camming4::is_standstill(law.v0) ? law.v1 : law.v0;
+  return law;
+}
 
 TwoPhase two_phase_of(const Row& row, const CamVisit& visit, const CamTable& table) {
   TwoPhase law{"codeQs", static_cast<double>(row.codeQm), visit.entry_speed(), visit.exit_speed()};
   const auto* code = camming4::find_code(row.codeG);
-  if (code == nullptr || code->qma != camming4::Use::master_space) return law;
+  if (code == nullptr || code->qma != camming4::Use::master_space) return with_sense(law);
   law.column = "codeQsa";
   law.master = row.codeQma;
   const auto& slave = table.settings.slave;
   law.slave_unit = static_cast<double>(slave.pulse) / static_cast<double>(slave.measure);
   if (row.codeG == 151)  // the stop after the first ramp
     law.v0 = visit.sector.law.ramps[1].v0;
-  return law;
+  return with_sense(law);
 }
 
-/// "at least 22.5" or, with a negative bound, "at most -22.5".
-std::string bound(double value) {
-  return fmt::format("{} {}", value < 0 ? "at most" : "at least", number(value));
+/// "codeQs at least 23" or, where the speed is below 0, "codeQs at most -23": the first whole number from
+/// `bound` on with which the engine does not give the warning.
+CamRemedy slave_space(const CamVisit& visit, const CamTable& table, int warning, const TwoPhase& law,
+                      double bound) {
+  constexpr int tries = 16;
+  constexpr double widest = 999'999;  // that the columns take (000 1.9.4)
+  const auto* code = camming4::find_code(visit.sector.row.codeG);
+  const auto gives = [&](double space) {
+    Row row = visit.sector.row;
+    (law.column == std::string_view("codeQs") ? row.codeQs : row.codeQsa) = static_cast<std::int32_t>(space);
+    const auto made = make_sector(*code, row, visit.row, table.settings, {visit.entry_speed(), {}, nullptr});
+    return std::find(made.warnings.begin(), made.warnings.begin() + made.warning_count, warning) !=
+           made.warnings.begin() + made.warning_count;
+  };
+  const double step = law.sense < 0 ? -1 : 1;
+  double space = step * std::ceil(step * bound - 1e-9);
+  for (int i = 0; i < tries && std::abs(space) <= widest && gives(space); ++i) space += step;
+  if (std::abs(space) > widest || gives(space)) return {};
+  return {fmt::format("{} {} {}", law.column, law.sense < 0 ? "at most" : "at least", whole(space)),
+          {{visit.row, law.column, space}}};
 }
 
-CamAdvice too_small(const Row& row, const CamTable& table) {
+CamAdvice too_small(const Row& row, int number_of_row, const CamTable& table, const CamDuty& duty) {
   const auto* code = camming4::find_code(row.codeG);
+  const bool gearing = (row.codeG == 154 || row.codeG == 254) && row.codeQsa == 2;
+  const double least = least_master_space(table, duty, gearing);
+  const auto at_least = [&](const char* column) {
+    return CamRemedy(fmt::format("give {} at least {}", column, whole(least)),
+                     {{number_of_row, column, least}});
+  };
   if (row.codeQm <= 0)
-    return {fmt::format("codeQm is {}: a movement needs master space", row.codeQm), "give codeQm above 0"};
+    return {fmt::format("codeQm is {}: a movement needs master space", row.codeQm), at_least("codeQm")};
   if (code != nullptr && code->qma == camming4::Use::master_space && row.codeQma <= 0)
-    return {"codeQma is 0: the ramp needs master space", "give codeQma above 0"};
+    return {fmt::format("codeQma is {}: the ramp needs master space", row.codeQma), at_least("codeQma")};
   const auto& master = table.settings.master;
   const double count = static_cast<double>(master.measure) / static_cast<double>(master.pulse);
-  return {fmt::format("it is over within one count of the master ({} Um)", number(count)),
-          fmt::format("give it more than {} Um of master space", number(2 * count))};
+  const auto column = master_column(row);
+  CamAdvice advice{fmt::format("it is over within one count of the master ({} Um)", number(count)),
+                   fmt::format("give it at least {} Um of master space", whole(least))};
+  if (column.name != nullptr) advice.remedy.cures = {{number_of_row, column.name, least - column.other}};
+  return advice;
 }
 
-CamAdvice on_error(const CamEngineEvent& event, const CamTable& table) {
+/// Both radii that just join the two points.
+CamRemedy radius_remedy(const Row& row, int number_of_row) {
+  const double radius = std::ceil(std::hypot(row.codeQs, row.codeQsa) / 2);
+  return {
+      fmt::format("give codeQm at least {}, or at most -{} for the long way", whole(radius), whole(radius)),
+      {{number_of_row, "codeQm", radius}, {number_of_row, "codeQm", -radius}}};
+}
+
+CamAdvice on_error(const CamEngineEvent& event, const CamTable& table, const CamDuty& duty) {
   const Row& row = table.sector(event.row).row;
   const std::string plain(camming4::error_text(event.number));
   switch (event.number) {
@@ -65,7 +108,7 @@ CamAdvice on_error(const CamEngineEvent& event, const CamTable& table) {
       return {"the table has no such sector",
               fmt::format("give sector {}, or end the cam before it with 136 END or 138 LOOP", event.row)};
     case 4:
-      return too_small(row, table);
+      return too_small(row, event.row, table, duty);
     case 6:
       if (row.codeG == 137 || row.codeG == 190)
         return {fmt::format("jump to row {}", row.codeQm), "give a row from 1 to 128 in codeQm"};
@@ -75,9 +118,7 @@ CamAdvice on_error(const CamEngineEvent& event, const CamTable& table) {
     case 50:
       return {fmt::format("{}: {} for a chord of {}", plain, row.codeQm,
                           number(std::hypot(row.codeQs, row.codeQsa))),
-              fmt::format("give codeQm at least {:.0f}, or at most -{:.0f} for the long way",
-                          std::ceil(std::hypot(row.codeQs, row.codeQsa) / 2),
-                          std::ceil(std::hypot(row.codeQs, row.codeQsa) / 2))};
+              radius_remedy(row, event.row)};
     case 51:
       return {plain, "give a displacement in codeQs or codeQsa, or 0 in codeQm for no movement"};
     default:
@@ -94,39 +135,44 @@ CamAdvice too_steep(bool acceleration, const CamVisit& visit, const CamTable& ta
   return {fmt::format("{} above {}: {} Um/s2 at its peak, {} allowed",
                       acceleration ? "acceleration" : "deceleration", acceleration ? "taccmax" : "tdecmax",
                       number(peak), number(most)),
-          fmt::format("give it more master space, or run the master at {} {} at most",
-                      number_below(std::sqrt(most / gradient) / um_per_second(table)), speed_unit(table))};
+          gradient_remedy(visit, table, gradient, most)};
 }
 
-CamAdvice turned_back(const CamVisit& visit) {
+CamAdvice turned_back(const CamVisit& visit, const CamTable& table) {
   const Row& row = visit.sector.row;
   const double v0 = visit.entry_speed();
   CamAdvice advice{fmt::format("{}: enters at ratio {}, leaves at {}", camming4::warning_text(5), number(v0),
                                number(visit.exit_speed())),
                    "give the slave's space the sign of the speed it enters with, or stop it before (135)"};
-  if (row.codeG == 133 || row.codeG == 233)
-    advice.remedy = fmt::format("give codeQs {}, or stop the slave before (135)", bound(v0 * row.codeQm / 2));
+  if (row.codeG != 133 && row.codeG != 233 && row.codeG != 151) return advice;
+  // Its one ramp ends at rest.
+  auto space = slave_space(visit, table, 5, {.v0 = v0, .sense = v0}, v0 * row.codeQm / 2);
+  if (!space.text.empty())
+    advice.remedy = {"give " + space.text + ", or stop the slave before (135)", space.cures};
   return advice;
 }
 
 CamAdvice reverses_inside(const CamVisit& visit, const CamTable& table) {
   const auto law = two_phase_of(visit.sector.row, visit, table);
   const double least = law.master * (law.v0 + law.v1) / 4 * law.slave_unit;
-  return {fmt::format("{}: ratio {} between {} and {}", camming4::warning_text(7),
-                      number(visit.sector.law.mid_speed), number(law.v0), number(law.v1)),
-          fmt::format("give {} {}{}, or the master less space", law.column, bound(least),
-                      law.slave_unit == 1 ? "" : " bits")};
+  auto space = slave_space(visit, table, 7, law, least);
+  CamAdvice advice{fmt::format("{}: ratio {} between {} and {}", camming4::warning_text(7),
+                               number(visit.sector.law.mid_speed), number(law.v0), number(law.v1)),
+                   "let the slave come to it slower"};
+  if (!space.text.empty())
+    advice.remedy = {fmt::format("give {}{}", space.text, law.slave_unit == 1 ? "" : " bits"), space.cures};
+  return advice;
 }
 
-CamAdvice on_warning(const CamEngineEvent& event, const CamVisit& visit, const CamTable& table,
-                     const CamDuty& duty) {
+CamAdvice on_warning(const CamEngineEvent& event, const CamVisit& visit, int row_before,
+                     const CamTable& table, const CamDuty& duty) {
   const std::string plain(camming4::warning_text(event.number));
   switch (event.number) {
     case 1:
     case 2:
       return too_steep(event.number == 1, visit, table, duty);
     case 5:
-      return turned_back(visit);
+      return turned_back(visit, table);
     case 6:
       return {fmt::format("{} (ratio {})", plain, number(event.speed)),
               "end the sector before it at standstill (135), or use 133, which takes the speed over"};
@@ -136,7 +182,10 @@ CamAdvice on_warning(const CamEngineEvent& event, const CamVisit& visit, const C
       return {fmt::format("{}: it waits until the master has come back below it", plain),
               "give codeQm above the master's count at the start"};
     case 10:
-      return {plain, "put the two 154 or 254 rows next to each other, or give codeQma 0"};
+      return {plain,
+              {fmt::format("put the two 154 or 254 rows next to each other, or give codeQma 0 in sector {}",
+                           row_before),
+               {{row_before, "codeQma", 0}}}};
     default:
       return {plain, ""};
   }
@@ -144,11 +193,42 @@ CamAdvice on_warning(const CamEngineEvent& event, const CamVisit& visit, const C
 
 }  // namespace
 
-CamAdvice advice_on(const CamEngineEvent& event, const CamVisit* visit, const CamTable& table,
+MasterColumn master_column(const Row& row) {
+  const auto* code = camming4::find_code(row.codeG);
+  if (code == nullptr) return {};
+  const bool ramp = code->qma == camming4::Use::master_space;
+  if (code->qm == camming4::Use::master_space) return {"codeQm", ramp ? row.codeQma : 0};
+  return {ramp ? "codeQma" : nullptr, 0};
+}
+
+double least_master_space(const CamTable& table, const CamDuty& duty, bool gearing) {
+  const auto& master = table.settings.master;
+  const double count = static_cast<double>(master.measure) / static_cast<double>(master.pulse);
+  const double advance = duty.master_speed.value_or(0) * um_per_second(table) * table.TCamp / 1000;
+  // A lap of just a count is over at each.
+  return std::max(gearing ? std::floor(count) + 1 : std::ceil(count), std::ceil(advance / within));
+}
+
+CamRemedy master_speed_remedy(const std::string& words, double most, const CamTable& table) {
+  const auto speed = number_below(most);
+  return {fmt::format("{}run the master at {} {} at most", words, speed, speed_unit(table)),
+          {{0, "master speed", std::stod(speed)}}};
+}
+
+CamRemedy gradient_remedy(const CamVisit& visit, const CamTable& table, double peak, double most) {
+  const auto& row = visit.sector.row;
+  // With all of its spaces grown alike a ramp joins the same speeds; master space alone changes them. What is
+  // softened hangs on the neighbour's space too.
+  const bool grows = master_column(row).name != nullptr && row.codeG != 154 && row.codeG != 254;
+  return master_speed_remedy(grows ? "give it more master and slave space alike, or " : "",
+                             std::sqrt(most / peak) / um_per_second(table), table);
+}
+
+CamAdvice advice_on(const CamEngineEvent& event, const CamVisit* visit, int row_before, const CamTable& table,
                     const CamDuty& duty) {
-  if (event.error) return on_error(event, table);
+  if (event.error) return on_error(event, table, duty);
   if (visit == nullptr) return {std::string(camming4::warning_text(event.number)), "see the error below"};
-  return on_warning(event, *visit, table, duty);
+  return on_warning(event, *visit, row_before, table, duty);
 }
 
 }  // namespace drycut::sim

@@ -48,7 +48,7 @@ class Judge {
   }
 
  private:
-  void add(Grade grade, std::string where, std::string text, std::string remedy = "", int code = 0) {
+  void add(Grade grade, std::string where, std::string text, CamRemedy remedy = {}, int code = 0) {
     found_.push_back({grade, code, std::move(where), std::move(text), std::move(remedy)});
   }
 
@@ -103,9 +103,13 @@ class Judge {
     if (count == 0) return judge_ratio_of_law();
     add(Grade::limit, where(worst),
         fmt::format("ratio {} above {}{}", number(ratio(worst)), number(*table_.max_ratio), others(count)),
-        table_.is_made() ? ratio_remedy()
-                         : fmt::format("give the piece before it {} master pulses at least",
-                                       number(std::ceil(std::abs(rise(worst)) / *table_.max_ratio))));
+        table_.is_made() ? ratio_remedy() : longer_piece(worst));
+  }
+
+  [[nodiscard]] CamRemedy longer_piece(std::size_t row) const {
+    const double least = std::ceil(std::abs(rise(row)) / *table_.max_ratio);
+    return {fmt::format("give the piece before it {} master pulses at least", whole(least)),
+            {{static_cast<int>(row), "length", least}}};
   }
 
   /// Rounding to pulses may hide in short pieces what the law does.
@@ -118,10 +122,10 @@ class Judge {
         fmt::format("ratio {} above {}", number(most.ratio), number(*table_.max_ratio)), ratio_remedy());
   }
 
-  [[nodiscard]] std::string ratio_remedy() const {
+  [[nodiscard]] CamRemedy ratio_remedy() const {
     if (table_.is_s_curve())
       return top_speed_remedy(table_, *run_.master_speed, *table_.max_ratio * *run_.master_speed);
-    return fmt::format("give P5 {} at most, which ECAMTBX keeps to", number_below(*table_.max_ratio));
+    return ratio_limit_remedy(table_, *table_.max_ratio);
   }
 
   static std::string others(int count) {
@@ -149,15 +153,20 @@ class Judge {
     return played.ratio > law.ratio * within ? played : law;
   }
 
+  static CamRemedy master_speed_remedy(double most) {
+    const auto speed = number_below(most);
+    return {fmt::format("run the master at {} pulses/s at most", speed),
+            {{0, "master speed", std::stod(speed)}}};
+  }
+
   void judge_speed() {
     if (!run_.master_speed) return;
     const auto most = peak();
     const double frequency = most.ratio * *run_.master_speed;
-    const auto remedy = [&](double limit) {
-      if (table_.time_axis == 0)
-        return fmt::format("run the master at {} pulses/s at most", number_below(limit / most.ratio));
-      return table_.is_s_curve() ? top_speed_remedy(table_, *run_.master_speed, limit)
-                                 : std::string("give the same way more time");
+    const auto remedy = [&](double limit) -> CamRemedy {
+      if (table_.time_axis == 0) return master_speed_remedy(limit / most.ratio);
+      if (table_.is_s_curve()) return top_speed_remedy(table_, *run_.master_speed, limit);
+      return "give the same way more time";
     };
     if (frequency > table_.max_frequency * within)
       add(Grade::limit, most.where,
@@ -196,8 +205,7 @@ class Judge {
         fmt::format("acceleration {} pulses/s2 above {}", number(acceleration),
                     number(*duty_.max_acceleration)),
         table_.time_axis > 0 ? "give its ramps more time"
-                             : fmt::format("give it more master, or run the master at {} pulses/s at most",
-                                           number_below(std::sqrt(*duty_.max_acceleration / most))));
+                             : master_speed_remedy(std::sqrt(*duty_.max_acceleration / most)));
   }
 
   /// The slave is farthest at a row, for the device plays straight pieces.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/cam/findings.hpp"
 #include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
@@ -54,7 +55,7 @@ class Judge {
   }
 
  private:
-  void add(Grade grade, std::string where, std::string text, std::string remedy = "", int id = 0) {
+  void add(Grade grade, std::string where, std::string text, CamRemedy remedy = {}, int id = 0) {
     found_.push_back({grade, id, std::move(where), std::move(text), std::move(remedy)});
   }
   [[nodiscard]] std::string where(int row) const {
@@ -82,12 +83,14 @@ class Judge {
       if (peak > *limit * within) worst.take(peak, run_.row_of(i));
     }
     const double speed = *run_.master_speed / increments_per_unit;
-    if (worst.count > 0)
+    if (worst.count > 0) {
+      const auto most = number_below(speed * std::pow(*limit / worst.value, 1.0 / power));
       add(Grade::limit, where(worst.row),
           fmt::format("{} {} {} above {}{}", name, number(worst.value), per(power), number(*limit),
                       worst.others()),
-          fmt::format("give the piece more of the master, or run it at {} {}/s at most",
-                      number_below(speed * std::pow(*limit / worst.value, 1.0 / power)), cam_.master_unit));
+          {fmt::format("run the master at {} {}/s at most", most, cam_.master_unit),
+           {{0, "master speed", std::stod(most)}}});
+    }
     judge_steps(power, name);
   }
 
@@ -201,6 +204,52 @@ class Judge {
           "if the slave is to turn on instead, write # endless: positive or negative");
   }
 
+  /// How far a piece leaves the range between its two ends, negative below it.
+  static double overshoot_of(const CamSegment& segment) {
+    const Extremes reached = extremes_of(segment, CamOrder::position);
+    const double end = at(segment, 1).position;
+    const double above = reached.high - std::max(segment.c[0], end);
+    const double below = std::min(segment.c[0], end) - reached.low;
+    return above > below ? above : -below;
+  }
+
+  /// A quintic leaves its range because the lines beside it want more way than it has: the shorter it is, the
+  /// less. Looked for is the first whole master from which on the row's piece does not; a tenth of its length
+  /// is left to it.
+  [[nodiscard]] std::optional<double> later_begin(int row) const {
+    auto table = cam_.table;
+    const auto index = static_cast<std::size_t>(row) - 1;
+    const bool is_last = index + 1 == table.lines();
+    const double begin = table.value(index, 0);
+    const double end = is_last ? cam_.master_modulo : table.value(index + 1, 0);
+    const auto stays_inside = [&](double master) {
+      table.values[2 * index] = master;
+      if (check(table, cam_.interpolation, cam_.master_modulo) != devices::plcopen::ErrorId::none)
+        return false;
+      const auto curve =
+          curve_of(table, cam_.interpolation, cam_.master_modulo, cam_.slave_modulo, cam_.endless);
+      return std::abs(overshoot_of(curve.segments[curve.segments.size() - table.lines() + index])) <= 1;
+    };
+    double outside = std::floor(begin);
+    double inside = std::floor(begin + 0.9 * (end - begin));
+    if (!stays_inside(inside)) return {};
+    while (inside - outside > 1) {
+      const double middle = std::floor((inside + outside) / 2);
+      (stays_inside(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+  [[nodiscard]] CamRemedy overshoot_remedy(int row) const {
+    if (cam_.table.columns() == 1)
+      return "let the rows before and after it rise and fall less, or take LINEAR, which has no overshoot";
+    const std::string lines = "make the lines before and after it less steep";
+    const auto begin = later_begin(row);
+    if (!begin) return lines;
+    return {fmt::format("let it begin at master {} or later, or {}", whole(*begin), lines),
+            {{row, "master", *begin}}};
+  }
+
   /// Pieces that leave the range between their two ends.
   void judge_overshoot() {
     if (cam_.table.columns() == 4) return;
@@ -208,17 +257,14 @@ class Judge {
     for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
       const CamSegment& segment = run_.curve.segments[i];
       if (segment.start < 0) continue;
-      const Extremes reached = extremes_of(segment, CamOrder::position);
-      const double end = at(segment, 1).position;
-      const double above = reached.high - std::max(segment.c[0], end);
-      const double below = std::min(segment.c[0], end) - reached.low;
-      if (std::max(above, below) > 1) worst.take(above > below ? above : -below, run_.row_of(i));
+      const double overshoot = overshoot_of(segment);
+      if (std::abs(overshoot) > 1) worst.take(overshoot, run_.row_of(i));
     }
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
           fmt::format("overshoots its two rows by {} {}{}", number(std::abs(worst.value)),
                       increments_of(unit_), worst.others()),
-          "give it more of the master, or lines before and after it that are less steep");
+          overshoot_remedy(worst.row));
   }
 
   /// An endless cam that runs against its direction.
