@@ -65,6 +65,12 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
   const std::string* failed = nullptr;  // body that left the range of the integrator
   double failed_speed = 0;
 
+  // Guided parts cannot meet: no broad phase, where thousands of boxes in one place would end in a chain.
+  void addCollisionObject(btCollisionObject* object, int /*group*/, int /*mask*/) override {
+    object->setWorldArrayIndex(m_collisionObjects.size());
+    m_collisionObjects.push_back(object);
+  }
+
   void internalSingleStepSimulation(btScalar h) override {
     for (ShaftBody& s : shafts) turn(s, h);
     for (SlideBody& s : slides) move(s, h);
