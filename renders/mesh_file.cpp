@@ -8,10 +8,15 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstring>
 #include <optional>
+#include <type_traits>
+#include <vector>
 
 #include "renders/geometry.hpp"
 #include "renders/mesh.hpp"
+#include "renders/process.hpp"
+#include "renders/text.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -62,28 +67,54 @@ std::string in_a_line(std::string text) {
   return text;
 }
 
+MeshProblem unreadable(const std::string& why) {
+  return {fmt::format("the mesh cannot be read: {}", why), "export the part again, as STL or OBJ"};
+}
+
 MeshProblem broken(const Assimp::Importer& importer) {
-  return {fmt::format("the mesh cannot be read: {}", in_a_line(importer.GetErrorString())),
-          "export the part again, as STL or OBJ"};
+  return unreadable(one_line(in_a_line(importer.GetErrorString())));
+}
+
+MeshProblem nowhere(std::size_t corner) {
+  return {fmt::format("corner {} is not at a finite place", corner + 1), "export the part again"};
+}
+
+std::uint64_t triangles_in(const aiMesh& mesh) {
+  std::uint64_t triangles = 0;
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+    triangles += mesh.mFaces[f].mNumIndices < 3 ? 0 : mesh.mFaces[f].mNumIndices - 2;
+  return triangles;
+}
+
+/// Triangles that the nodes show: one mesh may be shown by many.
+std::uint64_t triangles_shown(const aiScene& scene) {
+  std::vector<std::uint64_t> of_mesh;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) of_mesh.push_back(triangles_in(*scene.mMeshes[m]));
+  std::uint64_t triangles = 0;
+  std::vector<const aiNode*> open = {scene.mRootNode};
+  while (!open.empty()) {
+    const aiNode& node = *open.back();
+    open.pop_back();
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) triangles += of_mesh.at(node.mMeshes[m]);
+    open.insert(open.end(), node.mChildren, node.mChildren + node.mNumChildren);
+  }
+  return triangles;
 }
 
 std::optional<MeshProblem> refused_scene(const aiScene& scene) {
   const MeshProblem empty = {"the mesh has no triangles", "export a surface, not points, curves or a sketch"};
   if ((scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 || scene.mNumMeshes == 0) return empty;
-  std::uint64_t faces = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-      faces += mesh.mFaces[f].mNumIndices < 3 ? 0 : mesh.mFaces[f].mNumIndices - 2;
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       const aiVector3D& p = mesh.mVertices[v];
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-      return MeshProblem{fmt::format("corner {} is not at a finite place", v + 1), "export the part again"};
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return nowhere(v);
     }
   }
-  if (faces == 0) return empty;
-  if (faces > mesh_triangles_max)
-    return MeshProblem{fmt::format("the mesh has {} triangles, more than {}", faces, mesh_triangles_max),
+  const std::uint64_t triangles = triangles_shown(scene);
+  if (triangles == 0) return empty;
+  if (triangles > mesh_triangles_max)
+    return MeshProblem{fmt::format("the mesh has {} triangles, more than {}", triangles, mesh_triangles_max),
                        "export it with a coarser tolerance"};
   return std::nullopt;
 }
@@ -129,8 +160,10 @@ void choose_settings(Assimp::Importer& importer) {
   importer.SetPropertyBool(AI_CONFIG_PP_FD_CHECKAREA, false);
 }
 
-std::variant<Mesh, MeshProblem> mesh_of(Assimp::Importer& importer, const aiScene* scene, double unit,
-                                        const MeshPlacing& placing) {
+using Loaded = std::variant<Mesh, MeshProblem>;
+
+/// What assimp makes of a file: the corners.
+Loaded corners_of(Assimp::Importer& importer, const aiScene* scene, double unit, const MeshPlacing& placing) {
   if (scene == nullptr) return broken(importer);
   if (auto problem = refused_scene(*scene)) return *problem;
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_FindDegenerates |
@@ -140,6 +173,17 @@ std::variant<Mesh, MeshProblem> mesh_of(Assimp::Importer& importer, const aiScen
   Mesh mesh = placed(*scene, unit, placing);
   if (mesh.corners.empty())
     return MeshProblem{"all triangles of the mesh are without area", "export the part again"};
+  return mesh;
+}
+
+/// `loaded` with its hull, or what is wrong with its size.
+Loaded judged(Loaded loaded, double unit) {
+  if (std::holds_alternative<MeshProblem>(loaded)) return loaded;
+  auto& mesh = std::get<Mesh>(loaded);
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+    const auto& p = mesh.corners[i].position;
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return nowhere(i);
+  }
   find_hull(mesh);
   const Vec3 size = extent_of(mesh).high - extent_of(mesh).low;
   const double longest = *std::max_element(size.begin(), size.end());
@@ -148,6 +192,36 @@ std::variant<Mesh, MeshProblem> mesh_of(Assimp::Importer& importer, const aiScen
         fmt::format("its longest side is {:.4g} mm; parts have {} to {} mm", longest / millimetre,
                     mesh_smallest / millimetre, mesh_largest / millimetre),
         unit == 1 ? "the file is taken in metres; set scale" : "the file is taken in millimetres; set scale"};
+  return loaded;
+}
+
+// A file's mesh on its way from the process that reads it: 'm' and the corners, or 'p' and the problem's two
+// texts with a 0 between.
+
+constexpr std::size_t triangle_bytes = 3 * sizeof(Mesh::Corner);
+static_assert(std::is_trivially_copyable_v<Mesh::Corner>);
+
+/// Files of the largest size that is taken need a quarter of this.
+constexpr WorkLimits reading_limits = {std::chrono::seconds(20), std::chrono::minutes(2), 2ULL << 30U,
+                                       1 + mesh_triangles_max* triangle_bytes};
+
+std::string packed(const Loaded& loaded) {
+  if (const auto* problem = std::get_if<MeshProblem>(&loaded))
+    return 'p' + problem->what + '\0' + problem->remedy;
+  const auto& corners = std::get<Mesh>(loaded).corners;
+  std::string bytes = "m";
+  return bytes.append(reinterpret_cast<const char*>(corners.data()), corners.size() * sizeof(Mesh::Corner));
+}
+
+Loaded unpacked(std::string_view bytes) {
+  const auto rest = bytes.substr(std::min<std::size_t>(1, bytes.size()));
+  if (const auto end = rest.find('\0'); bytes.starts_with('p') && end != std::string_view::npos)
+    return MeshProblem{std::string(rest.substr(0, end)), std::string(rest.substr(end + 1))};
+  if (!bytes.starts_with('m') || rest.empty() || rest.size() % triangle_bytes != 0)
+    throw WorkFailed("answered nonsense");
+  Mesh mesh;
+  mesh.corners.resize(rest.size() / sizeof(Mesh::Corner));
+  std::memcpy(mesh.corners.data(), rest.data(), rest.size());
   return mesh;
 }
 
@@ -155,16 +229,25 @@ std::variant<Mesh, MeshProblem> mesh_of(Assimp::Importer& importer, const aiScen
 
 std::variant<Mesh, MeshProblem> load_mesh(const std::filesystem::path& file, const MeshPlacing& placing) {
   if (auto problem = refused_file(file)) return *problem;
-  Assimp::Importer importer;
-  choose_settings(importer);
-  return mesh_of(importer, importer.ReadFile(file.string(), aiProcess_ValidateDataStructure),
-                 kind_of(file)->unit, placing);
+  const double unit = kind_of(file)->unit;
+  const auto read = [&] {
+    Assimp::Importer importer;
+    choose_settings(importer);
+    return packed(corners_of(importer, importer.ReadFile(file.string(), aiProcess_ValidateDataStructure),
+                             unit, placing));
+  };
+  try {
+    return judged(unpacked(run_apart(read, reading_limits)), unit);
+  } catch (const WorkFailed& failed) {
+    return unreadable(fmt::format("the attempt {}", failed.what()));
+  }
 }
 
 std::variant<Mesh, MeshProblem> read_stl(std::string_view bytes) {
   Assimp::Importer importer;
   choose_settings(importer);
-  return mesh_of(importer, importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "stl"), millimetre, {});
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "stl");
+  return judged(corners_of(importer, scene, millimetre, {}), millimetre);
 }
 
 }  // namespace drycut::renders

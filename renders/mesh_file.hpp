@@ -33,7 +33,9 @@ constexpr double mesh_largest = 100;    ///< [m]
 /// Reads a mesh file: STL, OBJ, PLY, OFF (in millimetres), glTF, GLB, DAE (in metres, as those formats say).
 /// Normals are made anew: an edge sharper than 30 degrees stays sharp. Refused are files that cannot be read,
 /// are of another kind, broken, empty or too large (the limits above), corners that are no finite numbers,
-/// and meshes whose longest side is not within the limits.
+/// and meshes whose longest side is not within the limits. A process of its own reads the file, for at most
+/// 20 s of computing and with 2 GB of memory: a file that makes the reader crash or run on is refused like
+/// any other. Throws std::runtime_error if the machine has no process to give.
 std::variant<Mesh, MeshProblem> load_mesh(const std::filesystem::path& file, const MeshPlacing& placing);
 
 /// The same from the bytes of a binary STL in millimetres.

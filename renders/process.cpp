@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <fstream>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -109,6 +113,74 @@ std::string in_short(const std::string& words) {
   return one_line(kept);
 }
 
+/// Waits until `child` has ended. Returns its status as waitpid gives it.
+int ended(pid_t child, const std::string& name) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) fail(name + " got lost", errno);
+  }
+  return status;
+}
+
+constexpr int without_answer = 1;
+constexpr int without_memory = 3;
+
+void limit(__rlimit_resource resource, rlim_t most) {
+  rlimit both{};
+  getrlimit(resource, &both);
+  both.rlim_cur = std::min(both.rlim_cur, most);
+  setrlimit(resource, &both);
+}
+
+/// Addresses that this process uses [bytes].
+std::size_t memory_in_use() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// What the copy of this process does. It ends without what a process does at its end: files that are half
+/// written and folders that are locked are still the original's.
+[[noreturn]] void answer_and_end(const std::function<std::string()>& work, const Descriptor& to) noexcept {
+  std::set_new_handler([] { _exit(without_memory); });
+  // The original is to hear of a crash by its signal, whoever else listens for it.
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
+  try {
+    const std::string answer = work();
+    for (std::size_t sent = 0; sent < answer.size();) {
+      const ssize_t size = send(to.get(), answer.data() + sent, answer.size() - sent, MSG_NOSIGNAL);
+      if (size < 0 && errno != EINTR) _exit(without_answer);
+      if (size > 0) sent += static_cast<std::size_t>(size);
+    }
+  } catch (...) {
+    _exit(without_answer);
+  }
+  _exit(0);
+}
+
+/// Reads all that comes. Returns whether the sender ended in time and did not say too much.
+bool receive_all(Descriptor& from, std::string& answer, const WorkLimits& limits) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + limits.until;
+  while (from.get() >= 0 && answer.size() <= limits.answer_bytes) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd waiting = {from.get(), POLLIN, 0};
+    if (poll(&waiting, 1, static_cast<int>(left)) > 0) receive(from, answer);
+  }
+  return from.get() < 0;
+}
+
+/// Why there is no answer.
+std::string fate(int status, const WorkLimits& limits) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    return fmt::format("took more than {} s", limits.computing.count());
+  if (WIFSIGNALED(status)) return fmt::format("crashed ({})", strsignal(WTERMSIG(status)));
+  if (WEXITSTATUS(status) == without_memory)
+    return fmt::format("took more than {} MB of memory", limits.memory_bytes >> 20U);
+  return "ended without an answer";
+}
+
 }  // namespace
 
 Finished run_process(const Command& command, const std::string& input) {
@@ -134,13 +206,39 @@ Finished run_process(const Command& command, const std::string& input) {
   }
   to_child.close();
 
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) fail(command.program + " got lost", errno);
-  }
+  const int status = ended(child, command.program);
   finished.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   finished.words = in_short(words);
   return finished;
+}
+
+std::string run_apart(const std::function<std::string()>& work, const WorkLimits& limits) {
+  auto [from_child, to_parent] = connection();
+  const std::size_t memory = memory_in_use() + limits.memory_bytes;
+  const pid_t child = fork();
+  if (child < 0) fail("no process to work in", errno);
+  if (child == 0) {
+    from_child.close();
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, static_cast<rlim_t>(limits.computing.count()));
+    if constexpr (memory_is_limited) {
+      limit(RLIMIT_AS, memory);
+      // Last words of a library that aborts are not the user's; the sanitizers' are ours.
+      if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+    }
+    answer_and_end(work, to_parent);
+  }
+  to_parent.close();
+  std::string answer;
+  const bool whole = receive_all(from_child, answer, limits);
+  if (!whole) kill(child, SIGKILL);
+  const int status = ended(child, "work in a process");
+  if (!whole && answer.size() > limits.answer_bytes) throw WorkFailed("answered too much");
+  if (!whole)
+    throw WorkFailed(
+        fmt::format("took more than {:g} s", std::chrono::duration<double>(limits.until).count()));
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw WorkFailed(fate(status, limits));
+  return answer;
 }
 
 }  // namespace drycut::renders

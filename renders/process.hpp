@@ -1,5 +1,7 @@
 #pragma once
+#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,5 +30,33 @@ struct Finished {
 /// Runs a program to its end with `input` as its standard input. Throws HelperFailed if it cannot be
 /// started.
 Finished run_process(const Command& command, const std::string& input);
+
+/// AddressSanitizer reserves terabytes of addresses: with it no limit of memory is set.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool memory_is_limited = false;
+#elif defined(__has_feature)
+constexpr bool memory_is_limited = !__has_feature(address_sanitizer);
+#else
+constexpr bool memory_is_limited = true;
+#endif
+
+/// What work in a process of its own may take.
+struct WorkLimits {
+  std::chrono::seconds computing;   ///< of a processor, however busy the machine is
+  std::chrono::milliseconds until;  ///< from its start to its end, waiting included
+  std::size_t memory_bytes;         ///< beyond what this process has
+  std::size_t answer_bytes;
+};
+
+/// Work in a process of its own came to nothing. Says what became of it: "crashed (Segmentation fault)".
+struct WorkFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What `work` returns when a copy of this process does it. Whatever it does there, nothing else of it is
+/// seen here: a crash, an exception, too much time, memory or answer become a WorkFailed. Throws
+/// std::runtime_error if there is no process to be had. `work` must not wait for other threads: the copy has
+/// none.
+std::string run_apart(const std::function<std::string()>& work, const WorkLimits& limits);
 
 }  // namespace drycut::renders

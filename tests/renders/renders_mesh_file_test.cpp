@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "renders/mesh.hpp"
+#include "renders/process.hpp"
 #include "tests/renders/renders_scratch.hpp"
 
 namespace drycut::renders {
@@ -181,6 +182,115 @@ TEST_F(RendersMeshFile, ASizeThatNoPartHasIsRefusedWithTheUnit) {
       "scale");
   EXPECT_THAT(refusal("a.obj", box_obj(200, 100, 50), {1e-4}), HasSubstr("its longest side is 0.02 mm"));
   good("a.obj", box_obj(200, 100, 50), {499});
+}
+
+/// A triangle of 200 by 100 mm as a glTF with these nodes, the first of which is shown.
+std::string gltf(const std::string& nodes) {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" + nodes +
+         R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "buffers": [{"byteLength": 42, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAzcxMPgAAAAAAAAAAAAAAAM3MzD0AAAAAAAABAAIA"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}]})";
+}
+
+/// `text` so many times.
+std::string repeated(int times, const std::string& text) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+/// The same as a DAE whose scene holds `nodes`; the triangle may be there many times.
+std::string dae(const std::string& nodes, int triangles = 1) {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 0.2 0 0 0 0.1 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count=")" +
+         std::to_string(triangles) + R"("><input semantic="VERTEX" source="#v" offset="0"/><p>)" +
+         repeated(triangles, "0 1 2 ") +
+         R"(</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">)" +
+         nodes +
+         R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(RendersMeshFile, AGltfAndADaeAreInMetresAndComeOverToTheBit) {
+  const std::string node = R"(<node><instance_geometry url="#g"/></node>)";
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"a.gltf", gltf(R"({"mesh": 0})")}, {"a.dae", dae(node)}}) {
+    const Mesh mesh = good(name, text);
+    ASSERT_EQ(mesh.corners.size(), 3U) << name;
+    const std::vector<std::array<float, 3>> corners = {{0, 0, 0}, {0.2F, 0, 0}, {0, 0.1F, 0}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(mesh.corners[i].position, corners[i]) << name;
+      EXPECT_EQ(mesh.corners[i].normal, (std::array<float, 3>{0, 0, 1})) << name;
+    }
+    EXPECT_FALSE(mesh.hull.empty()) << name;
+  }
+}
+
+TEST_F(RendersMeshFile, AnotherProcessReadsTheSameBits) {
+  const auto file = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/meshes/anvil_roll.stl";
+  const auto here = std::get<Mesh>(read_stl(content(file)));
+  const auto there = std::get<Mesh>(load_mesh(file, {}));
+  ASSERT_EQ(there.corners.size(), here.corners.size());
+  for (std::size_t i = 0; i < here.corners.size(); ++i) {
+    EXPECT_EQ(there.corners[i].position, here.corners[i].position) << i;
+    EXPECT_EQ(there.corners[i].normal, here.corners[i].normal) << i;
+  }
+  EXPECT_EQ(there.hull, here.hull);
+}
+
+const std::string again = "; export the part again, as STL or OBJ";
+
+TEST_F(RendersMeshFile, ANestTooDeepForTheReaderIsRefused) {
+  const std::string crashed = "the mesh cannot be read: the attempt crashed (Segmentation fault)" + again;
+  const int deep = 200'000;
+  std::string chain;
+  for (int i = 1; i <= deep; ++i) chain += R"({"children": [)" + std::to_string(i) + "]}, ";
+  EXPECT_EQ(refusal("a.gltf", gltf(chain + R"({"mesh": 0})")), crashed);
+  EXPECT_EQ(refusal("a.dae", dae(repeated(deep, "<node>") + R"(<instance_geometry url="#g"/>)" +
+                                 repeated(deep, "</node>"))),
+            crashed);
+}
+
+TEST_F(RendersMeshFile, ANodeWithinItselfIsRefused) {
+  EXPECT_THAT(refusal("a.gltf", gltf(R"({"children": [1]}, {"mesh": 0, "children": [0]})")),
+              HasSubstr("recursive reference to itself" + again));
+  EXPECT_EQ(
+      refusal("a.dae", dae(R"(<node id="n"><instance_geometry url="#g"/><instance_node url="#n"/></node>)")),
+      "the mesh cannot be read: the attempt crashed (Segmentation fault)" + again);
+}
+
+TEST_F(RendersMeshFile, AMeshShownTooOftenIsRefused) {
+  const std::string node = R"(<node><instance_geometry url="#g"/></node>)";
+  EXPECT_EQ(refusal("a.dae", dae(repeated(201, node), 1000)),
+            "the mesh has 201000 triangles, more than 200000; export it with a coarser tolerance");
+}
+
+TEST_F(RendersMeshFile, ATruncatedGlbIsRefused) {
+  const std::string glb("glTF\2\0\0\0\xe8\3\0\0\x1c\0\0\0JSON", 20);
+  EXPECT_THAT(refusal("a.glb", glb + R"({"asset":{"version":"2.0"}})"),
+              HasSubstr("the mesh cannot be read: "));
+}
+
+TEST_F(RendersMeshFile, AFileThatAnnouncesMoreThanThereIsMemoryForIsRefused) {
+  if (!memory_is_limited) GTEST_SKIP() << "no limit of memory with AddressSanitizer";
+  const std::string long_glb("glTF\2\0\0\0\xf0\xff\xff\xff\xf0\xff\xff\xffJSON", 20);
+  EXPECT_THAT(refusal("a.glb", long_glb + gltf(R"({"mesh": 0})")), HasSubstr("the mesh cannot be read: "));
+  for (const char* format : {"ascii", "binary_little_endian"})
+    EXPECT_EQ(
+        refusal("a.ply", std::string("ply\nformat ") + format +
+                             " 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                             "end_header\n0 0 0\n100 0 0\n0 100 0\n3 0 1 2\n"),
+        "the mesh cannot be read: the attempt took more than 2048 MB of memory" + again);
 }
 
 TEST(RendersMesh, AStretchedMeshFillsItsBoxAboutTheMiddle) {
