@@ -224,10 +224,12 @@ void print_parts(const Specimens& specimens) {
   const auto parts = specimens.parts();
   for (std::size_t i = 0; i < parts.size();) {
     const auto& first = parts[i].item;
-    const auto [stem, number] = stem_of(first.name);
+    const auto named = stem_of(first.name);
+    const int number = named.second;
     std::size_t next = i + 1;
     const auto follows = [&](const plants::Part& part) {
-      return number > 0 && stem_of(part.name) == std::pair(stem, number + static_cast<int>(next - i)) &&
+      return number > 0 &&
+             stem_of(part.name) == std::pair(named.first, number + static_cast<int>(next - i)) &&
              part.size == first.size;
     };
     while (next < parts.size() && follows(parts[next].item)) ++next;

@@ -116,7 +116,7 @@ OverlayRequest read_overlay(const YamlNode& node, const std::string& name, Findi
     return std::find(own.begin(), own.end(), entry.key.text) != own.end();
   };
   OverlayRequest request;
-  YamlNode window{YamlNode::Kind::map, node.text, {}, {}};
+  YamlNode window(YamlNode::Kind::map, node.text);
   auto plot = node;
   for (const auto& entry : node.entries)
     if (is_own(entry)) window.entries.push_back(entry);

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "devices/problem.hpp"
@@ -13,10 +14,13 @@ namespace drycut::sim {
 struct YamlNode {
   enum class Kind { null, scalar, sequence, map };
   struct Entry;
+  YamlNode();
+  explicit YamlNode(Kind kind, Text text);
+
   Kind kind = Kind::null;
-  Text text;                         ///< of a scalar; of all kinds the place
-  std::vector<YamlNode> items = {};  ///< of a sequence
-  std::vector<Entry> entries = {};   ///< of a map, in the order of the file; duplicate keys are kept
+  Text text;                    ///< of a scalar; of all kinds the place
+  std::vector<YamlNode> items;  ///< of a sequence
+  std::vector<Entry> entries;   ///< of a map, in the order of the file; duplicate keys are kept
 };
 struct YamlNode::Entry {
   Text key;
@@ -25,6 +29,8 @@ struct YamlNode::Entry {
   /// refuse_duplicates has told it; it is not to be read.
   [[nodiscard]] bool is_repeated() const { return first_line > 0; }
 };
+inline YamlNode::YamlNode() = default;
+inline YamlNode::YamlNode(Kind of, Text given) : kind(of), text(std::move(given)) {}
 
 /// The problems of a scenario while it is being read: every text that takes part has a name, and the problems
 /// come out in the order of the texts.

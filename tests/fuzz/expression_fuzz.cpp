@@ -6,13 +6,15 @@ namespace drycut {
 
 DRYCUT_FUZZ(text) {
   static const double value = 1.5;
-  const auto resolve = [](const std::string& name) -> const double* { return name == "x" ? nullptr : &value; };
+  const auto resolve = [](const std::string& name) -> const double* {
+    return name == "x" ? nullptr : &value;
+  };
   std::vector<sim::ExpressionFault> faults;
   const auto formula = sim::Expression::compile(text, resolve, {"AxisX.posit", "knife.angle"}, faults);
   if (!formula && faults.empty()) fuzz::broken("a formula that does not compile has a fault");
   for (const auto& fault : faults)
     if (fault.offset > text.size() || fault.what.empty()) fuzz::broken("a fault stands in the text");
-  if (formula) formula->evaluate();
+  if (formula && formula->evaluate().term < 0) fuzz::broken("a value is of one of the terms");
 }
 
 }  // namespace drycut

@@ -1,6 +1,6 @@
 #pragma once
-// What the fuzz targets share. A target is one file `NAME_fuzz.cpp`: it reads bytes as one kind of input, runs
-// what is sound for a moment, and stops the process where a rule is broken that must hold for any bytes.
+// What the fuzz targets share. A target is one file `NAME_fuzz.cpp`: it reads bytes as one kind of input,
+// runs what is sound for a moment, and stops the process where a rule is broken that must hold for any bytes.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -21,9 +21,11 @@ namespace drycut::fuzz {
 
 /// Every problem has a place in the text, says what is wrong and what would be right.
 inline void expect_placed(const devices::Problems& problems, std::string_view text) {
-  const auto lines = 1 + std::count(text.begin(), text.end(), '\n') + std::count(text.begin(), text.end(), '\r');
+  const auto lines =
+      1 + std::count(text.begin(), text.end(), '\n') + std::count(text.begin(), text.end(), '\r');
   for (const auto& problem : problems) {
-    if (problem.line < 1 || problem.line > lines || problem.column < 1) broken("a problem stands in the text");
+    if (problem.line < 1 || problem.line > lines || problem.column < 1)
+      broken("a problem stands in the text");
     if (problem.what.empty()) broken("a problem says what is wrong");
     if (problem.remedy.empty()) broken("a problem says what would be right");
   }
@@ -45,10 +47,10 @@ inline void run(devices::Controller& controller, int periods) {
 }  // namespace drycut::fuzz
 
 /// The body of a target: `text` is the input.
-#define DRYCUT_FUZZ(text)                                                              \
-  static void fuzz_one(std::string_view text);                                         \
-  extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {  \
-    fuzz_one({reinterpret_cast<const char*>(data), size});                             \
-    return 0;                                                                          \
-  }                                                                                    \
+#define DRYCUT_FUZZ(text)                                                             \
+  static void fuzz_one(std::string_view text);                                        \
+  extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { \
+    fuzz_one({reinterpret_cast<const char*>(data), size});                            \
+    return 0;                                                                         \
+  }                                                                                   \
   static void fuzz_one(std::string_view text)

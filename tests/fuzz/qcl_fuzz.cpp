@@ -14,7 +14,8 @@ const qmove::Configuration& configuration() {
   static const auto made = [] {
     devices::Problems problems;
     auto read = qmove::parse_configuration(
-        "CONST\ncTen 10\nSYSTEM\nslA L\nsfA F\nsbA B\nswA W\nssA S\nGLOBAL\nglA L\nARRSYS\nasA L 3\nARRGBL\nagA W 5\n"
+        "CONST\ncTen 10\nSYSTEM\nslA L\nsfA F\nsbA B\nswA W\nssA S\nGLOBAL\nglA L\nARRSYS\nasA L "
+        "3\nARRGBL\nagA W 5\n"
         "TIMER\ntmA\nDATAGROUP\ndgA\nDATAPROGRAM 2\nddlA L\nSTEP 3\nddbA B\n"
         "BUS\n1 1CPUB 02\n2 1MIXA 00\n3 1MIXA 00\n"
         "INPUT\nifA F 2.INP05\nOUTPUT\nofA F 2.OUT05\n"

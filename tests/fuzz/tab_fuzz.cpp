@@ -10,8 +10,8 @@ DRYCUT_FUZZ(text) {
   devices::plcopen::parse_tab(text, "f.tab", problems);
   fuzz::expect_placed(problems, text);
   problems.clear();
-  const auto study =
-      sim::cam_kind("mc_camin", text).study(text, "f.csv", sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
+  const auto study = sim::cam_kind("mc_camin", text)
+                         .study(text, "f.csv", sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
   fuzz::expect_placed(problems, text);
   if (problems.empty()) sim::cam_report(study);
 }
