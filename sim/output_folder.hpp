@@ -32,8 +32,6 @@ class OutputFolder {
   /// The same for many at once; returns the folder that they lie in.
   std::filesystem::path add(const std::string& subfolder, const std::vector<std::string>& names);
 
-  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
-
  private:
   [[nodiscard]] bool is_ours(const std::filesystem::path& file) const;
   [[nodiscard]] std::vector<std::string> strangers(const std::vector<std::string>& names) const;

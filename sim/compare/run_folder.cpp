@@ -50,9 +50,11 @@ void refuse_file(const fs::path& file, devices::Problems& problems) {
   problems.push_back({file.string(), 1, 1, "the file cannot be read, or is empty", run_again});
 }
 
-/// A whole file of a run.
+constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 40U;  // [bytes]
+
+/// A whole file of a run; the events of a long one are many.
 std::optional<std::string> whole_file(const fs::path& file, devices::Problems& problems) {
-  auto text = read_file(file, problems);
+  auto text = read_file(file, problems, largest_record);
   if (!text || !text->empty()) return text;
   refuse_file(file, problems);
   return {};

@@ -109,6 +109,14 @@ TEST_F(CompareCommand, AWrongTimeIsRefused) {
   EXPECT_THAT(err, HasSubstr("--from:1:"));
 }
 
+TEST_F(CompareCommand, TheEventsOfALongRunMayBeLargerThanAProgram) {
+  RunTexts texts;
+  constexpr std::size_t larger_than_any_program = 17U << 20U;
+  const std::string line = "0.200000000,timeline,set,panel.start = 1" + std::string(4000, ' ') + '\n';
+  while (texts.events.size() < larger_than_any_program) texts.events += line;
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), all_passed) << err;
+}
+
 TEST_F(CompareCommand, BrokenTracesAreToldWithTheirPlace) {
   const auto again = std::string("; run the scenario again: drycut run writes the file");
   RunTexts texts;
