@@ -76,7 +76,7 @@ class CamReader {
         reader_.row(cam_.table, split(line, separator), number, separator == ';');
       }
     }
-    if (!header) reader_.fault(number + 1, 1, "there is no header", columns);
+    if (!header) reader_.fault(std::max(number, 1), 1, "there is no header", columns);
   }
 
   /// The table's type by its header; 0 if it is none.

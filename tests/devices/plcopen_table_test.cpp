@@ -71,7 +71,10 @@ TEST(PlcopenTable, ATabFilesFaultsAreAllToldAtTheirPlace) {
                           "c.tab:2:1: tabletype is missing above; write it",
                           "c.tab:2:1: table-id is missing above; write it",
                           "c.tab:2:1: lines is missing above; write it",
-                          "c.tab:3:1: EndTable is missing; write it below the rows"));
+                          "c.tab:2:1: EndTable is missing; write it below the rows"));
+  // What is missing at the end is told in the last line there is.
+  EXPECT_THAT(tab_faults("Tablename = x"),
+              ElementsAre("c.tab:1:1: Begintable is missing; write it above the rows"));
 }
 
 TEST(PlcopenTable, ACsvGivesTheTableItsLawsAndItsAxes) {
@@ -147,7 +150,7 @@ TEST(PlcopenTable, ACsvsFaultsAreAllToldAtTheirPlace) {
       csv_faults("position\n"),
       ElementsAre("c.csv:1:1: unknown header 'position'; write slave, or master,slave, or a0,a1,a2,a3"));
   EXPECT_THAT(csv_faults("\n"),
-              ElementsAre("c.csv:2:1: there is no header; write slave, or master,slave, or a0,a1,a2,a3"));
+              ElementsAre("c.csv:1:1: there is no header; write slave, or master,slave, or a0,a1,a2,a3"));
   EXPECT_THAT(csv_faults("master,slave\n0,0\n500,0\n"),
               ElementsAre("c.csv:3:1: error 60260: masters must ascend by 0.1 deg (1000) at least, over the "
                           "wrap too; let the masters ascend "
