@@ -1,6 +1,7 @@
 // `drycut devices` for the PLCopen controller.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "devices/plcopen/axis_values.hpp"
@@ -8,6 +9,7 @@
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/numbered_parameters.hpp"
 #include "devices/plcopen/pins.hpp"
+#include "devices/plcopen/readings.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/commands/controller_table.hpp"
 #include "sim/commands/text_table.hpp"
@@ -68,6 +70,26 @@ std::string_view direction_text(plcopen::PinDirection direction) {
   return "";
 }
 
+template <class Wanted>
+void print_readings(Wanted wanted) {
+  TextTable table({"of", "reading", "left open by"});
+  for (const auto& r : plcopen::readings)
+    if (wanted(r)) table.add({std::string(r.of), std::string(r.text), std::string(r.manual)});
+  table.print("Readings of ours, where the documents leave it open");
+}
+
+template <class Wanted>
+void add_readings(ordered_json& json, Wanted wanted) {
+  for (const auto& r : plcopen::readings)
+    if (wanted(r)) json["readings"].push_back({{"of", r.of}, {"reading", r.text}, {"manual", r.manual}});
+}
+
+bool of_axis(const devices::Reading& reading) {
+  return std::ranges::any_of(plcopen::axis_parameter_table(),
+                             [&](const auto& row) { return row.name == reading.of; });
+}
+bool any(const devices::Reading&) { return true; }
+
 void print_axis() {
   fmt::print(
       "AXIS: {}\n\nA bare number is in the kernel's unit; with a unit (1.2 m/s, 360 deg, 50 ms) it is "
@@ -89,6 +111,7 @@ void print_axis() {
     terminals.add(
         {std::string(row.name), std::string(name_of(row.kind)), offered_by(row), std::string(row.meaning)});
   terminals.print("Terminals, for wiring");
+  print_readings(of_axis);
 }
 
 ordered_json axis_json() {
@@ -113,6 +136,7 @@ ordered_json axis_json() {
                                  {"kind", name_of(row.kind)},
                                  {"axes", offered_by(row)},
                                  {"meaning", row.meaning}});
+  add_readings(json, of_axis);
   return json;
 }
 
@@ -135,6 +159,7 @@ void print_plcopen() {
   for (const auto& row : plcopen::error_table)
     errors.add({fmt::format("{}", static_cast<std::uint32_t>(row.id)), std::string(row.meaning)});
   errors.print("Errors");
+  print_readings(any);
 }
 
 ordered_json plcopen_json() {
@@ -151,6 +176,7 @@ ordered_json plcopen_json() {
                                   {"meaning", row.meaning}});
   for (const auto& row : plcopen::error_table)
     json["errors"].push_back({{"id", static_cast<std::uint32_t>(row.id)}, {"meaning", row.meaning}});
+  add_readings(json, any);
   return json;
 }
 
@@ -161,6 +187,7 @@ void print_block(const plcopen::BlockType& type) {
     pins.add({std::string(pin.name), std::string(pin.type), std::string(direction_text(pin.direction)),
               std::string(pin.meaning)});
   pins.print("Pins");
+  print_readings([&](const devices::Reading& reading) { return reading.of == type.name; });
 }
 
 ordered_json block_json(const plcopen::BlockType& type) {
@@ -170,6 +197,7 @@ ordered_json block_json(const plcopen::BlockType& type) {
                             {"type", pin.type},
                             {"direction", direction_text(pin.direction)},
                             {"meaning", pin.meaning}});
+  add_readings(json, [&](const devices::Reading& reading) { return reading.of == type.name; });
   return json;
 }
 

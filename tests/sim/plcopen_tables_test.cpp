@@ -1,9 +1,12 @@
 // `drycut devices` for the PLCopen controller: the device room's own tables, nothing left out.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "devices/plcopen/axis_values.hpp"
 #include "devices/plcopen/errors.hpp"
 #include "devices/plcopen/pins.hpp"
+#include "devices/plcopen/readings.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/controller_table.hpp"
@@ -57,6 +60,24 @@ TEST(PlcopenTables, EveryBlockListsItsPins) {
   const auto text = printed("PLCOPEN", false);
   EXPECT_THAT(text, HasSubstr("60251   the slave of a cam must be homed"));
   EXPECT_THAT(text, HasSubstr("HLI_CI_F_PERIODIC"));
+}
+
+TEST(PlcopenTables, ReadingsStandWithWhatTheyAreAbout) {
+  for (const auto& reading : plcopen::readings) {
+    const bool of_block = std::ranges::any_of(plcopen::block_types(),
+                                              [&](const auto& type) { return type.name == reading.of; });
+    const bool of_axis = std::ranges::any_of(plcopen::axis_parameter_table(),
+                                             [&](const auto& row) { return row.name == reading.of; });
+    EXPECT_TRUE(of_block || of_axis || reading.of == "cam table" || reading.of == "ST") << reading.of;
+    EXPECT_FALSE(reading.manual.empty()) << reading.text;
+    EXPECT_THAT(printed("PLCOPEN", false), HasSubstr(std::string(reading.text)));
+    if (of_block || of_axis)
+      EXPECT_THAT(printed(of_block ? std::string(reading.of) : "AXIS", false),
+                  HasSubstr(std::string(reading.text)));
+  }
+  EXPECT_EQ(nlohmann::json::parse(printed("PLCOPEN", true)).at("readings").size(), plcopen::readings.size());
+  EXPECT_EQ(nlohmann::json::parse(printed("MC_CamOut", true)).at("readings").size(), 1u);
+  EXPECT_THAT(printed("MC_Power", false), Not(HasSubstr("Readings")));
 }
 
 }  // namespace
