@@ -15,7 +15,7 @@ TEST_PACKAGES  := libgtest-dev libgmock-dev
 BENCH_PACKAGES := libmujoco-dev
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
-SOURCES := $(wildcard devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp)
+SOURCES := $(wildcard base/*.?pp devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp tests/*/*/*.?pp)
 
 CONFIGURE := cmake -G Ninja -DCMAKE_BUILD_TYPE=Release
 
@@ -64,7 +64,7 @@ clang: setup
 	CC=clang CXX=clang++ $(CONFIGURE) -S . -B $(CLANG) -DBUILD_TESTING=ON -DDRYCUT_SANITIZE=ON -DDRYCUT_FUZZ=ON
 
 # ROOMS="devices sim": the tests of those rooms only.
-ROOMS ?= devices plants renders sim scenes
+ROOMS ?= base devices plants renders sim scenes
 sanitize: clang
 	cmake --build $(CLANG) -j $(JOBS) --target $(ROOMS:%=%_tests)
 	cd $(CLANG) && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp \
@@ -85,14 +85,14 @@ same-bytes: all clang
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
 	clang-format --dry-run -Werror $(SOURCES)
-	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DDRYCUT_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 	printf '%s\n' $(filter %.cpp,$(SOURCES)) | xargs -P $(JOBS) -n 4 clang-tidy -quiet -p $(BUILD)-lint
 
 # clang-tidy over what the last day changed, at most TIDY_MOST files, the latest first.
 TIDY_MOST ?= 40
 tidy: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
-	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DDRYCUT_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 	git log --since=1.day --name-only --format= --diff-filter=AM -- '*.cpp' | awk 'NF && !seen[$$0]++' | \
 	  while read -r f; do [ -f "$$f" ] && echo "$$f"; done | head -n $(TIDY_MOST) | \
 	  xargs -r -P $(JOBS) -n 4 clang-tidy -quiet -p $(BUILD)-lint

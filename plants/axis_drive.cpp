@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 
 namespace drycut::plants {
 
 namespace {
-
-constexpr double rpm = 30 / std::numbers::pi;  // rad/s -> rpm
 
 std::variant<ServoDrive, Inverter, ContactorDrive> chosen(const AxisDriveData& data, Random noise) {
   if (data.kind == "inverter") return Inverter(data.inverter, data.motor);
@@ -37,7 +36,7 @@ double state_number(ContactorDrive::State state) {
 void offer(const ServoDrive& servo, std::vector<Channel>& channels) {
   channels.push_back({"servo.reference", "V", [&servo] { return servo.volts(); },
                       "speed reference as the amplifier reads it"});
-  channels.push_back({"servo.set_speed", "rpm", [&servo] { return servo.speed_reference() * rpm; },
+  channels.push_back({"servo.set_speed", "rpm", [&servo] { return servo.speed_reference() * units::rpm; },
                       "speed reference after offset, drift and filter"});
   channels.push_back({"servo.saturated", "", [&servo] { return servo.saturated() ? 1.0 : 0.0; },
                       "1 while the torque limit acts"});
@@ -50,9 +49,10 @@ void offer(const Drive& drive, std::vector<Channel>& channels) {
                       "0 off, 1 runs, 2 stops or holds, 3 has tripped"});
   channels.push_back({"drive.frequency", "Hz", [&drive] { return drive.frequency(); },
                       "frequency at the motor, negative backwards"});
-  channels.push_back({"drive.field_speed", "rpm", [&drive] { return drive.field_speed() * rpm; },
+  channels.push_back({"drive.field_speed", "rpm", [&drive] { return drive.field_speed() * units::rpm; },
                       "speed of the motor's field"});
-  channels.push_back({"drive.slip", "rpm", [&drive] { return drive.slip() * rpm; }, "field less rotor"});
+  channels.push_back(
+      {"drive.slip", "rpm", [&drive] { return drive.slip() * units::rpm; }, "field less rotor"});
   channels.push_back({"drive.forward", "", [&drive] { return drive.forward_on() ? 1.0 : 0.0; },
                       "contactor forward, or the input after its filter"});
   channels.push_back({"drive.backward", "", [&drive] { return drive.backward_on() ? 1.0 : 0.0; },

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
+
+#include "base/units.hpp"
 
 namespace drycut::plants {
 
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 // Rows of the linear axis that the flanks replace, and the carrier: this axis stands on the floor.
 bool replaced(std::string_view name) {
@@ -59,7 +58,7 @@ BacklashAxisDefinition::BacklashAxisDefinition() {
 
 void BacklashAxisDefinition::apply_flanks() {
   TransmissionData& gear = axis.data.gear;
-  const double metre = axis.data.lead / turn;  // of travel for a radian of the screw
+  const double metre = axis.data.lead / units::turn;  // of travel for a radian of the screw
   const double screw = axis.data.drive.rotor_inertia() * gear.ratio * gear.ratio + axis.data.screw_inertia;
   const double motor_mass = screw / (metre * metre);
   const double reduced = axis.data.mass * motor_mass / (axis.data.mass + motor_mass);

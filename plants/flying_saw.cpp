@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace drycut::plants {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double rpm = 60 / turn;  // rad/s -> rpm
-constexpr double millimetres = 1000;
-constexpr double milliseconds = 1000;
-constexpr double metres_a_minute = 60;    // m/s -> m/min
-constexpr double longest_contact = 0.1;   // a carriage that leans on its stop is reported after this [s]
-constexpr double blade_speed = 2 * turn;  // pictures: slow enough to be seen to turn [rad/s]
+constexpr double metres_a_minute = 60;   // m/s -> m/min
+constexpr double longest_contact = 0.1;  // a carriage that leans on its stop is reported after this [s]
+constexpr double blade_speed = 2 * units::turn;  // pictures: slow enough to be seen to turn [rad/s]
 
 }  // namespace
 
@@ -25,7 +23,7 @@ LeastStroke least_stroke(const FlyingSawData& saw, const Section& section, doubl
   LeastStroke least;
   least.cycle = saw.clamp.close_time + saw.clamp.open_time + 2 * head.valve_delay + head.clearance / down +
                 cutting_time(saw.blade, section, push, head.down_throttle) + section_height(section) / up;
-  const double per_metre = turn / saw.lead;
+  const double per_metre = units::turn / saw.lead;
   const double ratio = saw.gear.ratio;
   const double turning = (saw.drive.servo.rotor_inertia + saw.pinion_inertia / (ratio * ratio)) * ratio *
                          ratio * per_metre * per_metre;
@@ -37,7 +35,7 @@ LeastStroke least_stroke(const FlyingSawData& saw, const Section& section, doubl
 FlyingSaw::FlyingSaw(const FlyingSawData& data, World& world, Web& web)
     : data_(data),
       web_(web),
-      pinion_per_metre_(turn / data.lead),
+      pinion_per_metre_(units::turn / data.lead),
       rotor_(world.add_shaft({.name = "saw motor",
                               .inertia = data.drive.servo.rotor_inertia +
                                          data.pinion_inertia / (data.gear.ratio * data.gear.ratio),
@@ -90,7 +88,7 @@ void FlyingSaw::watch(Buffer& buffer) {
     happened({"crash",
               over ? std::clamp(before / (before - depth), 0.0, 1.0) : 1,
               {{"side", buffer.side, ""},
-               {"speed", buffer.stop.hit_speed() * millimetres, "mm/s"},
+               {"speed", buffer.stop.hit_speed() * units::millimetres, "mm/s"},
                {"impulse", buffer.impulse, "N s"},
                {"force", buffer.stop.peak(), "N"}}});
   }
@@ -110,7 +108,7 @@ void FlyingSaw::sense(double h) {
   report(cut_.sense(head_.body(), carriage_, web_.material(), h));
   watch(lower_);
   watch(upper_);
-  blade_turn_ = std::fmod(blade_turn_ + blade_speed * h, turn);
+  blade_turn_ = std::fmod(blade_turn_ + blade_speed * h, units::turn);
 }
 
 void FlyingSaw::report(const SawCut::Outcome& outcome) {
@@ -118,7 +116,7 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
     happened({"pinch",
               1,
               {{"force", std::abs(cut_.sideways()), "N"},
-               {"displacement", cut_.displacement() * millimetres, "mm"}}});
+               {"displacement", cut_.displacement() * units::millimetres, "mm"}}});
   if (!outcome.separated) return;
   last_length_ = web_.separate(outcome.fraction, outcome.mark);
   last_slant_ = outcome.slant;
@@ -126,12 +124,12 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
   ++cuts_;
   happened({"cut",
             outcome.fraction,
-            {{"length", last_length_ * millimetres, "mm"},
-             {"slant", outcome.slant * millimetres, "mm"},
-             {"mismatch", outcome.mismatch * millimetres, "mm/s"},
+            {{"length", last_length_ * units::millimetres, "mm"},
+             {"slant", outcome.slant * units::millimetres, "mm"},
+             {"mismatch", outcome.mismatch * units::millimetres, "mm/s"},
              {"pinch", outcome.pinch, "N"},
              {"force", outcome.force, "N"},
-             {"time", outcome.time * milliseconds, "ms"},
+             {"time", outcome.time * units::milliseconds, "ms"},
              {"number", static_cast<double>(cuts_), ""}}});
 }
 
@@ -168,31 +166,31 @@ std::vector<Port> FlyingSaw::ports() {
 
 std::vector<Channel> FlyingSaw::channels() {
   std::vector<Channel> channels = {
-      {"position", "mm", [this] { return carriage_.position * millimetres; },
+      {"position", "mm", [this] { return carriage_.position * units::millimetres; },
        "place of the blade on the line"},
       {"speed", "m/min", [this] { return carriage_.speed * metres_a_minute; }, "speed of the carriage"},
-      {"mismatch", "mm/s", [this] { return (carriage_.speed - web_.material().speed) * millimetres; },
+      {"mismatch", "mm/s", [this] { return (carriage_.speed - web_.material().speed) * units::millimetres; },
        "speed of the carriage less speed of the material"},
       {"clamp.closed", "", [this] { return clamp_.closed.level ? 1.0 : 0.0; }, "1 while the clamps grip"},
       {"clamp.command", "", [this] { return clamp_.command.level ? 1.0 : 0.0; },
        "1 while the clamps are told to close"},
       {"clamp.force", "N", [this] { return clamp_.friction(); }, "friction of the clamps on the carriage"},
-      {"clamp.slip", "mm", [this] { return clamp_.slip() * millimetres; },
+      {"clamp.slip", "mm", [this] { return clamp_.slip() * units::millimetres; },
        "carriage ahead of the material since the clamps closed"},
       {"blade.engaged", "", [this] { return cut_.engaged() ? 1.0 : 0.0; },
        "1 while the blade is in the material"},
       {"blade.pinch", "N", [this] { return cut_.sideways(); }, "sideways force of the blade on the carriage"},
-      {"blade.displacement", "mm", [this] { return cut_.displacement() * millimetres; },
+      {"blade.displacement", "mm", [this] { return cut_.displacement() * units::millimetres; },
        "way of the blade on the material since it touched, else 0"},
-      {"cut.length", "mm", [this] { return last_length_ * millimetres; }, "length of the last piece"},
-      {"cut.slant", "mm", [this] { return last_slant_ * millimetres; },
+      {"cut.length", "mm", [this] { return last_length_ * units::millimetres; }, "length of the last piece"},
+      {"cut.slant", "mm", [this] { return last_slant_ * units::millimetres; },
        "how far the last cut is out of square"},
       {"cut.pinch", "N", [this] { return last_pinch_; }, "largest sideways force of the last cut"},
       {"cut.force", "N", [this] { return cut_.force(); }, "cutting force on the blade"},
       {"cut.number", "", [this] { return static_cast<double>(cuts_); }, "cuts since the start"},
-      {"motor.speed", "rpm", [this] { return rotor_.speed * rpm; }, "speed of the motor"},
+      {"motor.speed", "rpm", [this] { return rotor_.speed * units::rpm; }, "speed of the motor"},
       {"gear.force", "N", [this] { return drive_force_; }, "force of rack or screw on the carriage"},
-      {"gear.ahead", "mm", [this] { return twist_ / pinion_per_metre_ * millimetres; },
+      {"gear.ahead", "mm", [this] { return twist_ / pinion_per_metre_ * units::millimetres; },
        "motor ahead of the carriage: play and twist taken up"},
       {"stop.force", "N", [this] { return lower_.stop.force() + upper_.stop.force(); },
        "force of the end stops on the carriage"},

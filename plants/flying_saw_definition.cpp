@@ -2,14 +2,13 @@
 
 #include <stdexcept>
 
+#include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/flying_saw.hpp"
 
 namespace drycut::plants {
 
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
               double max, std::string_view source) {
@@ -62,7 +61,7 @@ double motor_inertia(const FlyingSawData& data) {
 }
 
 double reflected_inertia(const FlyingSawData& data) {
-  const double metre_per_radian = data.lead / turn;
+  const double metre_per_radian = data.lead / units::turn;
   return data.mass * metre_per_radian * metre_per_radian;
 }
 

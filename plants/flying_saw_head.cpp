@@ -3,23 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace drycut::plants {
 
 namespace {
 
-constexpr double gravity = 9.80665;  // [m/s2]
-constexpr double beyond = 10;        // a switch's target reaches past the end of the stroke [m]
+constexpr double beyond = 10;  // a switch's target reaches past the end of the stroke [m]
 constexpr EndStopData cushion = {1e6, 4e3};
-constexpr double millimetres = 1000;
 
 }  // namespace
 
 double plunge_speed(const SawHeadData& data) {
-  return (data.down_force + data.mass * gravity) / data.down_throttle;
+  return (data.down_force + data.mass * units::gravity) / data.down_throttle;
 }
 
 double return_speed(const SawHeadData& data) {
-  return (data.up_force - data.mass * gravity) / data.up_throttle;
+  return (data.up_force - data.mass * units::gravity) / data.up_throttle;
 }
 
 StiffPair head_cushion(const SawHeadData& data) { return {cushion.stiffness, cushion.damping, data.mass}; }
@@ -54,7 +54,7 @@ void SawHead::drive(double h, double resistance) {
   upper_.drive(body_, h);
   lower_.drive(body_, h);
   // Throttle and material resist with the speed at the end of the step: no resistance is too hard for it.
-  const double weight = data_.mass * gravity;  // the world adds it
+  const double weight = data_.mass * units::gravity;  // the world adds it
   const double momentum = body_.mass * body_.speed + (body_.force + weight) * h;
   const double resist = momentum > 0 ? data_.down_throttle + resistance : data_.up_throttle;
   body_.add_force(-resist * momentum / (body_.mass + resist * h));
@@ -72,9 +72,9 @@ void SawHead::offer_ports(std::vector<Port>& ports) {
 }
 
 void SawHead::offer_channels(std::vector<Channel>& channels) const {
-  channels.push_back({"head.depth", "mm", [this] { return body_.position * millimetres; },
+  channels.push_back({"head.depth", "mm", [this] { return body_.position * units::millimetres; },
                       "way of the saw head from its upper end down"});
-  channels.push_back({"head.speed", "mm/s", [this] { return body_.speed * millimetres; },
+  channels.push_back({"head.speed", "mm/s", [this] { return body_.speed * units::millimetres; },
                       "speed of the saw head, positive downwards"});
   channels.push_back({"head.force", "N", [this] { return force_; }, "force of its cylinder, downwards"});
   channels.push_back(

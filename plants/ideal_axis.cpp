@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "base/units.hpp"
+
 namespace drycut::plants {
 
-namespace {
-constexpr double millimetres = 1000;
-}
+namespace {}
 
 IdealAxis::IdealAxis(const IdealAxisData& data, World& world)
     : data_(data),
@@ -44,9 +44,10 @@ std::vector<Port> IdealAxis::ports() {
 
 std::vector<Channel> IdealAxis::channels() {
   return {
-      {"position", "mm", [this] { return (data_.start + travel_.value() * data_.resolution) * millimetres; },
+      {"position", "mm",
+       [this] { return (data_.start + travel_.value() * data_.resolution) * units::millimetres; },
        "position of the axis"},
-      {"speed", "mm/s", [this] { return speed_ * millimetres; }, "speed of the axis"},
+      {"speed", "mm/s", [this] { return speed_ * units::millimetres; }, "speed of the axis"},
       {"reference", "V", [this] { return reference_.volts; }, "speed reference"},
       {"encoder.count", "", [this] { return static_cast<double>(pulses_.port.count); },
        "count (x4), after faults"},
@@ -97,8 +98,8 @@ std::vector<PlantDefinition::Objection> IdealAxisDefinition::objections(double h
   if (pulses <= most) return {};
   return {{"index_pitch",
            fmt::format("at {:g} mm/s the axis passes {:.0f} index pulses in a step of {:g} us",
-                       data.speed_at_10v * millimetres, pulses, h * 1e6),
-           fmt::format("at least {:.3g} mm", data.speed_at_10v * h / most * millimetres)}};
+                       data.speed_at_10v * units::millimetres, pulses, h * 1e6),
+           fmt::format("at least {:.3g} mm", data.speed_at_10v * h / most * units::millimetres)}};
 }
 
 std::unique_ptr<Plant> IdealAxisDefinition::build(World& world,

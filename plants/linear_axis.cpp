@@ -2,14 +2,12 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace drycut::plants {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double rpm = 60 / turn;  // rad/s -> rpm
-constexpr double degrees = 360 / turn;
-constexpr double millimetres = 1000;
 constexpr double standard_gravity = 9.80665;  // [m/s2]
 
 }  // namespace
@@ -17,7 +15,7 @@ constexpr double standard_gravity = 9.80665;  // [m/s2]
 LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier)
     : data_(data),
       carrier_(carrier),
-      screw_per_metre_(turn / data.lead),
+      screw_per_metre_(units::turn / data.lead),
       rotor_(world.add_shaft(
           {.name = "linear axis motor",
            .inertia = data.drive.rotor_inertia() + data.screw_inertia / (data.gear.ratio * data.gear.ratio),
@@ -59,7 +57,7 @@ void LinearAxis::sense(double h) {
   sensors_.sense(rotor_, carriage_, h);
   if (stop_min_.stopped(carriage_)) report(stop_min_, -1);
   if (stop_max_.stopped(carriage_)) report(stop_max_, 1);
-  if (drive_.just_tripped()) happened({"trip", 0, {{"speed", rotor_.speed_before * rpm, "rpm"}}});
+  if (drive_.just_tripped()) happened({"trip", 0, {{"speed", rotor_.speed_before * units::rpm, "rpm"}}});
   if (tool_.level && data_.tool == "pen") draw_ink();
 }
 
@@ -67,7 +65,7 @@ void LinearAxis::report(const EndStop& stop, double side) {
   happened({"end_stop",
             stop.fraction(),
             {{"side", side, ""},
-             {"speed", stop.hit_speed() * millimetres, "mm/s"},
+             {"speed", stop.hit_speed() * units::millimetres, "mm/s"},
              {"impulse", stop.impulse(), "N s"},
              {"force", stop.peak(), "N"}}});
 }
@@ -82,20 +80,21 @@ std::vector<Port> LinearAxis::ports() {
 
 std::vector<Channel> LinearAxis::channels() {
   std::vector<Channel> channels = {
-      {"position", "mm", [this] { return carriage_.position * millimetres; }, "position of the carriage"},
-      {"speed", "mm/s", [this] { return carriage_.speed * millimetres; }, "speed of the carriage"},
+      {"position", "mm", [this] { return carriage_.position * units::millimetres; },
+       "position of the carriage"},
+      {"speed", "mm/s", [this] { return carriage_.speed * units::millimetres; }, "speed of the carriage"},
       {"motor.position", "mm",
-       [this] { return (carriage_.position + twist_ / screw_per_metre_) * millimetres; },
+       [this] { return (carriage_.position + twist_ / screw_per_metre_) * units::millimetres; },
        "where the motor would have the carriage without play and twist"},
-      {"motor.speed", "rpm", [this] { return rotor_.speed * rpm; }, "speed of the motor"},
+      {"motor.speed", "rpm", [this] { return rotor_.speed * units::rpm; }, "speed of the motor"},
   };
   drive_.offer_channels(channels);
   channels.insert(
       channels.end(),
       {{"gear.force", "N", [this] { return drive_force_; }, "force of screw or belt on the carriage"},
-       {"gear.ahead", "mm", [this] { return twist_ / screw_per_metre_ * millimetres; },
+       {"gear.ahead", "mm", [this] { return twist_ / screw_per_metre_ * units::millimetres; },
         "motor.position less position: play and twist taken up"},
-       {"gear.twist", "deg", [this] { return twist_ * degrees; },
+       {"gear.twist", "deg", [this] { return twist_ * units::degrees; },
         "turn of the screw or pulley ahead of the carriage"},
        {"stop.force", "N", [this] { return stop_min_.force() + stop_max_.force(); },
         "force of the end stops on the carriage"}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plants/colours.hpp"
 #include "plants/linear_axis.hpp"
 #include "plants/pose_math.hpp"
 
@@ -22,13 +23,6 @@ constexpr double ink_step = 1.2e-3;  // [m]
 constexpr std::size_t ink_dots = 600;
 constexpr double right_angle = std::numbers::pi / 2;
 
-constexpr std::array<float, 3> beam_colour = {0.16F, 0.30F, 0.42F};
-constexpr std::array<float, 3> steel = {0.74F, 0.76F, 0.78F};
-constexpr std::array<float, 3> carriage_colour = {0.93F, 0.55F, 0.13F};
-constexpr std::array<float, 3> dark = {0.12F, 0.12F, 0.13F};
-constexpr std::array<float, 3> red = {0.86F, 0.12F, 0.10F};
-constexpr std::array<float, 3> brass = {0.80F, 0.66F, 0.30F};
-constexpr std::array<float, 3> white = {0.95F, 0.95F, 0.95F};
 constexpr std::array<float, 3> ink_colour = {0.05F, 0.25F, 0.75F};
 
 double carriage_length(const LinearAxisData& data) {
@@ -108,36 +102,36 @@ void LinearAxis::add_beam(std::vector<Item>& all) const {
   const double beam = beam_length(data_);
   const double c = carriage_length(data_);
   all = {
-      {{"beam", Shape::box, {beam, 0.07 * k, 0.14 * k}, beam_colour, "paint", "beam"}, mid, 0.035 * k, 0},
-      {{"rail 1", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel", "rail"},
+      {{"beam", Shape::box, {beam, 0.07 * k, 0.14 * k}, colours::bed, "paint", "beam"}, mid, 0.035 * k, 0},
+      {{"rail 1", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, colours::steel, "steel", "rail"},
        mid,
        0.085 * k,
        0.05 * k},
-      {{"rail 2", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, steel, "steel", "rail"},
+      {{"rail 2", Shape::box, {beam - 0.06 * k, 0.03 * k, 0.02 * k}, colours::steel, "steel", "rail"},
        mid,
        0.085 * k,
        -0.05 * k},
-      {{"end block 1", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, beam_colour, "paint", "end_block"},
+      {{"end block 1", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, colours::bed, "paint", "end_block"},
        mid - beam / 2,
        0.07 * k,
        0},
-      {{"end block 2", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, beam_colour, "paint", "end_block"},
+      {{"end block 2", Shape::box, {0.03 * k, 0.14 * k, 0.15 * k}, colours::bed, "paint", "end_block"},
        mid + beam / 2,
        0.07 * k,
        0},
-      {{"stop 1", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
+      {{"stop 1", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, colours::red, "rubber", "bumper"},
        data_.travel_min - c / 2 - 0.015 * k,
        0.116 * k,
        0,
        false,
        lying},
-      {{"stop 2", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, red, "rubber", "bumper"},
+      {{"stop 2", Shape::cylinder, {0.04 * k, 0.04 * k, 0.03 * k}, colours::red, "rubber", "bumper"},
        data_.travel_max + c / 2 + 0.015 * k,
        0.116 * k,
        0,
        false,
        about_y(-right_angle)},
-      {{"home switch", Shape::box, {0.035 * k, 0.025 * k, 0.025 * k}, white, "paint"},
+      {{"home switch", Shape::box, {0.035 * k, 0.025 * k, 0.025 * k}, colours::white, "paint"},
        data_.sensors.home.centre,
        0.045 * k,
        0.086 * k},
@@ -146,7 +140,7 @@ void LinearAxis::add_beam(std::vector<Item>& all) const {
     const double height = data_.place_y - floor_y;
     for (const double at : {-0.38, 0.38})
       all.push_back(
-          {{at < 0 ? "leg 1" : "leg 2", Shape::box, {0.09, height, 0.1}, beam_colour, "paint", "frame_post"},
+          {{at < 0 ? "leg 1" : "leg 2", Shape::box, {0.09, height, 0.1}, colours::bed, "paint", "frame_post"},
            mid + at * beam,
            -height / 2,
            0});
@@ -165,31 +159,36 @@ void LinearAxis::add_drive(std::vector<Item>& all) const {
   const double angle = 2 * std::numbers::pi * rotor_.part;
   const double mark = 0.026 * k;
   const std::vector<Item> driven = {
-      {{"coupling", Shape::cylinder, {0.05 * k, 0.05 * k, 0.05 * k}, steel, "steel", "coupling"},
+      {{"coupling", Shape::cylinder, {0.05 * k, 0.05 * k, 0.05 * k}, colours::steel, "steel", "coupling"},
        beside(0.04),
        0.085 * k,
        0,
        false,
        product(about_x(angle), lying)},
-      {{"coupling mark", Shape::box, {0.03 * k, 0.006 * k, 0.014 * k}, red, "paint"},
+      {{"coupling mark", Shape::box, {0.03 * k, 0.006 * k, 0.014 * k}, colours::red, "paint"},
        beside(0.04),
        0.085 * k + mark * std::cos(angle),
        mark * std::sin(angle),
        false,
        about_x(angle)},
-      {{"motor", Shape::box, {0.11 * k, 0.11 * k, 0.16 * k}, dark, "paint", "servo_motor"},
+      {{"motor", Shape::box, {0.11 * k, 0.11 * k, 0.16 * k}, colours::dark, "paint", "servo_motor"},
        beside(0.145),
        0.085 * k,
        0,
        false,
        facing},
-      {{"encoder disc", Shape::cylinder, {0.1 * k, 0.1 * k, 0.008 * k}, brass, "steel", "encoder_disc"},
+      {{"encoder disc",
+        Shape::cylinder,
+        {0.1 * k, 0.1 * k, 0.008 * k},
+        colours::brass,
+        "steel",
+        "encoder_disc"},
        beside(0.236),
        0.085 * k,
        0,
        false,
        product(about_x(angle), lying)},
-      {{"encoder", Shape::cylinder, {0.085 * k, 0.085 * k, 0.04 * k}, steel, "steel", "encoder"},
+      {{"encoder", Shape::cylinder, {0.085 * k, 0.085 * k, 0.04 * k}, colours::steel, "steel", "encoder"},
        beside(0.264),
        0.085 * k,
        0,
@@ -199,27 +198,33 @@ void LinearAxis::add_drive(std::vector<Item>& all) const {
   all.insert(all.end(), driven.begin(), driven.end());
   const double screw_angle = 2 * std::numbers::pi * std::fmod(rotor_.revolutions() / data_.gear.ratio, 1.0);
   if (data_.lead >= belt_lead)
-    all.push_back(
-        {{"belt", Shape::box, {beam - 0.05 * k, 0.008 * k, 0.05 * k}, dark, "rubber"}, mid, 0.085 * k, 0});
+    all.push_back({{"belt", Shape::box, {beam - 0.05 * k, 0.008 * k, 0.05 * k}, colours::dark, "rubber"},
+                   mid,
+                   0.085 * k,
+                   0});
   else
-    all.push_back(
-        {{"screw", Shape::cylinder, {0.025 * k, 0.025 * k, beam - 0.02 * k}, steel, "steel", "screw"},
-         mid,
-         0.085 * k,
-         0,
-         false,
-         product(about_x(screw_angle), lying)});
+    all.push_back({{"screw",
+                    Shape::cylinder,
+                    {0.025 * k, 0.025 * k, beam - 0.02 * k},
+                    colours::steel,
+                    "steel",
+                    "screw"},
+                   mid,
+                   0.085 * k,
+                   0,
+                   false,
+                   product(about_x(screw_angle), lying)});
 }
 
 void LinearAxis::add_carriage(std::vector<Item>& all) const {
   const double k = size_factor(data_);
   const double c = carriage_length(data_);
-  all.push_back({{"home flag", Shape::box, {0.02 * k, 0.06 * k, 0.006 * k}, white, "paint"},
+  all.push_back({{"home flag", Shape::box, {0.02 * k, 0.06 * k, 0.006 * k}, colours::white, "paint"},
                  0,
                  0.09 * k,
                  0.083 * k,
                  true});
-  all.push_back({{"carriage", Shape::box, {c, 0.03 * k, 0.16 * k}, carriage_colour, "paint", "carriage"},
+  all.push_back({{"carriage", Shape::box, {c, 0.03 * k, 0.16 * k}, colours::moving, "paint", "carriage"},
                  0,
                  0.117 * k,
                  0,
@@ -233,45 +238,54 @@ void LinearAxis::add_blade(std::vector<Item>& all) const {
   const double reach = -data_.place_z;
   const double blade = web + 0.05 + 0.07 * stroke;
   all.push_back(
-      {{"column", Shape::box, {0.1, 0.24, 0.06}, carriage_colour, "paint"}, 0, 0.13 * k + 0.12, 0, true});
-  all.push_back({{"arm", Shape::box, {0.08, 0.06, reach + 0.24}, carriage_colour, "paint"},
+      {{"column", Shape::box, {0.1, 0.24, 0.06}, colours::moving, "paint"}, 0, 0.13 * k + 0.12, 0, true});
+  all.push_back({{"arm", Shape::box, {0.08, 0.06, reach + 0.24}, colours::moving, "paint"},
                  0,
                  0.13 * k + 0.22,
                  (reach + 0.18) / 2,
                  true});
-  all.push_back({{"ram", Shape::box, {0.05, 0.3, 0.05}, steel, "steel"}, 0, blade + 0.18, reach, true});
-  all.push_back({{"blade", Shape::wedge, {0.03, 0.1, 0.34}, red, "blade", "", std::array{0.0, -0.05, 0.17}},
-                 0,
-                 blade,
-                 reach,
-                 true});
+  all.push_back(
+      {{"ram", Shape::box, {0.05, 0.3, 0.05}, colours::steel, "steel"}, 0, blade + 0.18, reach, true});
+  all.push_back(
+      {{"blade", Shape::wedge, {0.03, 0.1, 0.34}, colours::red, "blade", "", std::array{0.0, -0.05, 0.17}},
+       0,
+       blade,
+       reach,
+       true});
 }
 
 void LinearAxis::add_guide(std::vector<Item>& all) const {
   const double k = size_factor(data_);
-  all.push_back({{"post", Shape::box, {0.04 * k, 0.2 * k, 0.04 * k}, steel, "steel"}, 0, 0.23 * k, 0, true});
   all.push_back(
-      {{"arm", Shape::box, {0.03 * k, 0.025 * k, 0.2 * k}, steel, "steel"}, 0, 0.32 * k, 0.1 * k, true});
+      {{"post", Shape::box, {0.04 * k, 0.2 * k, 0.04 * k}, colours::steel, "steel"}, 0, 0.23 * k, 0, true});
+  all.push_back({{"arm", Shape::box, {0.03 * k, 0.025 * k, 0.2 * k}, colours::steel, "steel"},
+                 0,
+                 0.32 * k,
+                 0.1 * k,
+                 true});
   for (const double at : {-1.0, 1.0})
-    all.push_back(
-        {{at < 0 ? "roller 1" : "roller 2", Shape::cylinder, {0.03 * k, 0.03 * k, 0.08 * k}, dark, "steel"},
-         at * 0.02 * k,
-         0.32 * k,
-         0.23 * k,
-         true,
-         about_x(right_angle)});
+    all.push_back({{at < 0 ? "roller 1" : "roller 2",
+                    Shape::cylinder,
+                    {0.03 * k, 0.03 * k, 0.08 * k},
+                    colours::dark,
+                    "steel"},
+                   at * 0.02 * k,
+                   0.32 * k,
+                   0.23 * k,
+                   true,
+                   about_x(right_angle)});
 }
 
 void LinearAxis::add_pen(std::vector<Item>& all) const {
   const double k = size_factor(data_);
   const double stroke = tool_.level ? 0 : 1;
   const double lift = 0.02 * k * stroke;
-  all.push_back({{"pen holder", Shape::box, {0.06 * k, 0.06 * k, 0.1 * k}, carriage_colour, "paint"},
+  all.push_back({{"pen holder", Shape::box, {0.06 * k, 0.06 * k, 0.1 * k}, colours::moving, "paint"},
                  0,
                  0.13 * k,
                  -0.08 * k,
                  true});
-  all.push_back({{"pen", Shape::cylinder, {0.022 * k, 0.022 * k, 0.22 * k}, red, "paint"},
+  all.push_back({{"pen", Shape::cylinder, {0.022 * k, 0.022 * k, 0.22 * k}, colours::red, "paint"},
                  0,
                  0.13 * k,
                  -0.13 * k + lift,
@@ -284,7 +298,7 @@ std::vector<Part> LinearAxis::parts() {
   if (data_.tool == "pen") {
     const double wide = carrier_ != nullptr ? carrier_->data_.travel_max - carrier_->data_.travel_min : 0.05;
     const double deep = data_.travel_max - data_.travel_min;
-    list.push_back({"sheet", Shape::box, {deep, wide, 0.004}, white, "paint"});
+    list.push_back({"sheet", Shape::box, {deep, wide, 0.004}, colours::white, "paint"});
     for (std::size_t i = 0; i < ink_dots; ++i)
       list.push_back(
           {fmt::format("ink {}", i + 1), Shape::box, {1.4e-3, 1.4e-3, 1.4e-3}, ink_colour, "paint"});

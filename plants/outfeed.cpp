@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "base/units.hpp"
+
 namespace drycut::plants {
 
-namespace {
-constexpr double gravity = 9.80665;  // [m/s2]
-}
+namespace {}
 
 Outfeed::Outfeed(const OutfeedData& data, double mass_per_metre, World& world) : data_(data), world_(world) {
   int number = 1;
@@ -50,7 +50,7 @@ void Outfeed::drive(double line_speed, double h) {
     // The belt carries what lies on it: the share of the piece beyond the start of the belt.
     const double lead = body.position + piece.length / 2;
     const double share = std::clamp((lead - data_.start) / piece.length, 0.0, 1.0);
-    const double limit = data_.friction * body.mass * gravity * share;
+    const double limit = data_.friction * body.mass * units::gravity * share;
     body.add_force(std::clamp((belt_speed - body.speed) * body.mass / slow_h, -limit, limit));
   }
 }

@@ -1,14 +1,12 @@
 #include "plants/rotary_knife.hpp"
 
+#include "base/units.hpp"
+
 namespace drycut::plants {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double degrees = 360 / turn;  // rad -> deg
-constexpr double rpm = 60 / turn;       // rad/s -> rpm
 constexpr double metres_a_minute = 60;  // m/s -> m/min
-constexpr double millimetres = 1000;
 
 CutterData cutter_data(const RotaryKnifeData& knife, const WebData& web, double radius) {
   return {.radius = radius,
@@ -21,7 +19,8 @@ CutterData cutter_data(const RotaryKnifeData& knife, const WebData& web, double 
 }
 
 PositionSwitchData in_turns(const PositionSwitchData& radians) {
-  return {radians.centre / turn, radians.width / turn, radians.hysteresis / turn, radians.delay};
+  return {radians.centre / units::turn, radians.width / units::turn, radians.hysteresis / units::turn,
+          radians.delay};
 }
 
 }  // namespace
@@ -29,12 +28,13 @@ PositionSwitchData in_turns(const PositionSwitchData& radians) {
 RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
     : data_(data),
       web_(web),
-      radius_(data.circumference / turn),
+      radius_(data.circumference / units::turn),
       rotor_(world.add_shaft({.name = "knife motor",
                               .inertia = data.drive.servo.rotor_inertia,
-                              .revolutions = data.initial_angle / turn * data.gear.ratio})),
-      drum_(world.add_shaft(
-          {.name = "knife drum", .inertia = data.drum_inertia, .revolutions = data.initial_angle / turn})),
+                              .revolutions = data.initial_angle / units::turn * data.gear.ratio})),
+      drum_(world.add_shaft({.name = "knife drum",
+                             .inertia = data.drum_inertia,
+                             .revolutions = data.initial_angle / units::turn})),
       servo_(data.drive, rotor_, world.random("servo")),
       gear_(data.gear),
       encoder_(data.encoder, data.encoder_on_drum ? drum_.revolutions() : rotor_.revolutions(),
@@ -71,15 +71,17 @@ void RotaryKnife::report(const Cutter::Outcome& outcome) {
     ++cuts_;
     Event cut = {"cut",
                  outcome.fraction,
-                 {{"length", last_length_ * millimetres, "mm"},
-                  {"mismatch", last_mismatch_ * millimetres, "mm/s"},
+                 {{"length", last_length_ * units::millimetres, "mm"},
+                  {"mismatch", last_mismatch_ * units::millimetres, "mm/s"},
                   {"force", outcome.force, "N"},
                   {"number", static_cast<double>(cuts_), ""}}};
-    if (web_.marks().printed()) cut.values.push_back({"register", web_.register_error() * millimetres, "mm"});
+    if (web_.marks().printed())
+      cut.values.push_back({"register", web_.register_error() * units::millimetres, "mm"});
     happened(std::move(cut));
   }
   if (outcome.tore || outcome.buckled)
-    happened({outcome.tore ? "tear" : "buckle", 1, {{"mismatch", outcome.excess * millimetres, "mm/s"}}});
+    happened(
+        {outcome.tore ? "tear" : "buckle", 1, {{"mismatch", outcome.excess * units::millimetres, "mm/s"}}});
 }
 
 std::vector<Port> RotaryKnife::ports() {
@@ -96,7 +98,7 @@ std::vector<Channel> RotaryKnife::channels() {
       {"angle", "deg", [this] { return drum_.part * 360; },
        "drum angle within a turn, 0 = blade 1 at the cut"},
       {"angle.total", "deg", [this] { return drum_.revolutions() * 360; }, "drum angle over all turns"},
-      {"speed", "rpm", [this] { return drum_.speed * rpm; }, "speed of the drum"},
+      {"speed", "rpm", [this] { return drum_.speed * units::rpm; }, "speed of the drum"},
       {"blade.speed", "m/min", [blade_speed] { return blade_speed() * metres_a_minute; },
        "speed of the blade tips"},
       {"blade.ratio", "",
@@ -105,16 +107,16 @@ std::vector<Channel> RotaryKnife::channels() {
          return web != 0 ? blade_speed() / web : 0;
        },
        "blade tip speed over web speed"},
-      {"mismatch", "mm/s", [this] { return cutter_.mismatch() * millimetres; },
+      {"mismatch", "mm/s", [this] { return cutter_.mismatch() * units::millimetres; },
        "blade speed along the web minus web speed while the blade is in the web, else 0"},
-      {"cut.length", "mm", [this] { return last_length_ * millimetres; }, "length of the last piece"},
-      {"cut.mismatch", "mm/s", [this] { return last_mismatch_ * millimetres; },
+      {"cut.length", "mm", [this] { return last_length_ * units::millimetres; }, "length of the last piece"},
+      {"cut.mismatch", "mm/s", [this] { return last_mismatch_ * units::millimetres; },
        "largest speed mismatch of the last cut"},
       {"cut.force", "N", [this] { return cutter_.force(); }, "vertical force on the blade"},
       {"cut.number", "", [this] { return static_cast<double>(cuts_); }, "cuts since the start"},
-      {"motor.speed", "rpm", [this] { return rotor_.speed * rpm; }, "speed of the motor"},
+      {"motor.speed", "rpm", [this] { return rotor_.speed * units::rpm; }, "speed of the motor"},
       {"gear.torque", "N m", [this] { return gear_.torque(); }, "torque of the gear on the drum"},
-      {"gear.twist", "deg", [this] { return gear_.twist() * degrees; },
+      {"gear.twist", "deg", [this] { return gear_.twist() * units::degrees; },
        "twist between motor and drum, at the drum"},
       {"encoder.count", "", [this] { return static_cast<double>(encoder_.pulses.port.count); },
        "count of the encoder (x4), after faults"},

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "plants/colours.hpp"
 #include "plants/pose_math.hpp"
 #include "plants/rotary_knife.hpp"
 
@@ -20,13 +21,8 @@ constexpr double frame_depth = 0.05;
 constexpr double gap = 0.025;  // between the drum's end and a frame
 
 constexpr std::array<float, 3> drum_colour = {0.55F, 0.58F, 0.62F};
-constexpr std::array<float, 3> blade_colour = {0.86F, 0.12F, 0.10F};
-constexpr std::array<float, 3> frame_colour = {0.16F, 0.30F, 0.42F};
 constexpr std::array<float, 3> bearing_colour = {0.28F, 0.43F, 0.52F};
-constexpr std::array<float, 3> motor_colour = {0.12F, 0.12F, 0.13F};
-constexpr std::array<float, 3> steel = {0.70F, 0.72F, 0.74F};
-constexpr std::array<float, 3> brass = {0.80F, 0.66F, 0.30F};
-constexpr std::array<float, 3> mark_colour = {0.95F, 0.95F, 0.95F};
+constexpr std::array<float, 3> shaft_colour = {0.70F, 0.72F, 0.74F};
 
 using Shape = Part::Shape;
 
@@ -49,7 +45,7 @@ void RotaryKnife::add_frame(std::vector<Item>& all, int side) const {
   const int number = side > 0 ? 1 : 2;
   const auto add = [&](std::string name, double width, double height, const char* model, double x, double y,
                        double turn = 0) {
-    const auto& colour = turn == 0 ? frame_colour : bearing_colour;
+    const auto& colour = turn == 0 ? colours::bed : bearing_colour;
     all.push_back({{std::move(name), Shape::box, {width, height, frame_depth}, colour, "paint", model},
                    turned(x, y, z, turn)});
   };
@@ -77,13 +73,13 @@ void RotaryKnife::add_drive(std::vector<Item>& all) const {
     all.push_back({std::move(part), turned(0, y, behind - z, angle)});
   };
   const double plate = radius_ + 0.07 - base_top;
-  add({"back plate", Shape::box, {0.26, plate, 0.03}, frame_colour, "paint", "back_plate"},
+  add({"back plate", Shape::box, {0.26, plate, 0.03}, colours::bed, "paint", "back_plate"},
       base_top + plate / 2, 0.095);
-  add({"gearbox", Shape::cylinder, {0.13, 0.13, 0.12}, steel, "steel", "gearbox"}, radius_, 0.17);
-  add({"motor", Shape::box, {0.14, 0.14, 0.20}, motor_colour, "paint", "servo_motor"}, radius_, 0.33);
-  add({"encoder disc", Shape::cylinder, {0.11, 0.11, 0.008}, brass, "steel", "encoder_disc"}, radius_, 0.44,
-      turn);
-  add({"encoder", Shape::cylinder, {0.09, 0.09, 0.05}, motor_colour, "paint", "encoder"}, radius_, 0.475);
+  add({"gearbox", Shape::cylinder, {0.13, 0.13, 0.12}, shaft_colour, "steel", "gearbox"}, radius_, 0.17);
+  add({"motor", Shape::box, {0.14, 0.14, 0.20}, colours::dark, "paint", "servo_motor"}, radius_, 0.33);
+  add({"encoder disc", Shape::cylinder, {0.11, 0.11, 0.008}, colours::brass, "steel", "encoder_disc"},
+      radius_, 0.44, turn);
+  add({"encoder", Shape::cylinder, {0.09, 0.09, 0.05}, colours::dark, "paint", "encoder"}, radius_, 0.475);
 }
 
 std::vector<RotaryKnife::Item> RotaryKnife::items() const {
@@ -96,20 +92,20 @@ std::vector<RotaryKnife::Item> RotaryKnife::items() const {
   const Pose on_axis = turned(0, axis, 0, angle);
   std::vector<Item> all = {
       {{"drum", Shape::cylinder, {body, body, w}, drum_colour, "steel", "drum"}, on_axis},
-      {{"drum shaft", Shape::cylinder, {0.05, 0.05, w + 0.2}, steel, "steel", "drum_shaft"}, on_axis},
-      {{"drum mark", Shape::box, {0.012, radius_ * 0.32, 0.004}, mark_colour, "paint"},
+      {{"drum shaft", Shape::cylinder, {0.05, 0.05, w + 0.2}, shaft_colour, "steel", "drum_shaft"}, on_axis},
+      {{"drum mark", Shape::box, {0.012, radius_ * 0.32, 0.004}, colours::white, "paint"},
        turned(mark * std::sin(angle), axis - mark * std::cos(angle), end - 0.001, angle)},
       {{"anvil roll",
         Shape::cylinder,
         {anvil_diameter, anvil_diameter, w + 0.08},
-        steel,
+        shaft_colour,
         "steel",
         "anvil_roll"},
        turned(0, -anvil_diameter / 2, 0, -angle)},
       {{"base",
         Shape::box,
         {2 * radius_ + 0.26, base_height, w + 2 * (gap + frame_depth)},
-        frame_colour,
+        colours::bed,
         "paint",
         "machine_base"},
        turned(0, base_top - base_height / 2, 0, 0)},
@@ -119,9 +115,9 @@ std::vector<RotaryKnife::Item> RotaryKnife::items() const {
   add_drive(all);
   const double switch_x = -0.06 - radius_ * 0.8;
   const double switch_y = axis + radius_ * 0.7;
-  all.push_back({{"home switch", Shape::box, {0.05, 0.018, 0.018}, mark_colour, "paint"},
+  all.push_back({{"home switch", Shape::box, {0.05, 0.018, 0.018}, colours::white, "paint"},
                  turned(switch_x, switch_y, end - 0.02, 0)});
-  all.push_back({{"home switch arm", Shape::box, {0.016, 0.016, 0.1}, steel, "steel"},
+  all.push_back({{"home switch arm", Shape::box, {0.016, 0.016, 0.1}, shaft_colour, "steel"},
                  turned(switch_x - 0.02, switch_y + 0.016, end + 0.02, 0)});
   for (int i = 0; i < data_.blade_count; ++i) {
     const double theta = angle - 2 * std::numbers::pi * i / data_.blade_count;
@@ -129,7 +125,7 @@ std::vector<RotaryKnife::Item> RotaryKnife::items() const {
     all.push_back({{fmt::format("blade {}", i + 1),
                     Shape::wedge,
                     {0.022, blade_height, w},
-                    blade_colour,
+                    colours::red,
                     "blade",
                     "knife_blade",
                     std::array{0.0, -blade_height / 2, end}},

@@ -1,16 +1,11 @@
 #include "plants/servo_axis.hpp"
 
-#include <numbers>
-
+#include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 
 namespace drycut::plants {
 
-namespace {
-
-constexpr double rpm = 30 / std::numbers::pi;  // rad/s -> rpm
-
-}  // namespace
+namespace {}  // namespace
 
 ServoAxis::ServoAxis(const ServoAxisData& data, const Shaft& rotor, Random noise)
     : amplifier_(data.servo, noise) {
@@ -30,8 +25,9 @@ void ServoAxis::sense(const Shaft& rotor) {
 
 std::optional<Event> ServoAxis::trip(const Shaft& rotor) const {
   if (!pulses_ || !pulses_->just_tripped()) return {};
-  return Event{
-      "following_error", 1, {{"turns", pulses_->trip_turns(), ""}, {"speed", rotor.speed * rpm, "rpm"}}};
+  return Event{"following_error",
+               1,
+               {{"turns", pulses_->trip_turns(), ""}, {"speed", rotor.speed * units::rpm, "rpm"}}};
 }
 
 EventType ServoAxis::trip_event() {
@@ -73,7 +69,7 @@ void ServoAxis::offer_channels(std::vector<Channel>& channels) const {
                         "speed reference as the amplifier reads it"});
   }
   channels.push_back(
-      {"servo.set_speed", "rpm", [this] { return amplifier_.speed_reference() * rpm; },
+      {"servo.set_speed", "rpm", [this] { return amplifier_.speed_reference() * units::rpm; },
        pulses_ ? "speed that the position loop asks for" : "speed reference after offset, drift and filter"});
   channels.push_back({"servo.saturated", "", [this] { return amplifier_.saturated() ? 1.0 : 0.0; },
                       "1 while the torque limit acts"});

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace drycut::plants {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double rpm = 60 / turn;  // rad/s -> rpm
-constexpr double millimetres = 1000;
 constexpr double standard_gravity = 9.80665;  // [m/s2]
 constexpr double sag_after = 0.5;             // [s]: by then every sound brake has stopped the ram
 constexpr double sag_speed = 1e-3;            // [m/s]
@@ -16,7 +15,7 @@ constexpr double sag_speed = 1e-3;            // [m/s]
 // The twist with which the screw carries the ram at rest, so that a run begins without a fall.
 double carrying_twist(const VerticalPressData& data) {
   const double force = (data.mass + data.load) * standard_gravity - data.counterbalance;
-  const double twist = force * data.lead / turn / data.gear.stiffness;
+  const double twist = force * data.lead / units::turn / data.gear.stiffness;
   return twist + std::copysign(data.gear.backlash / 2, twist);
 }
 
@@ -35,7 +34,7 @@ VerticalPressData::VerticalPressData() {
 VerticalPress::VerticalPress(const VerticalPressData& data, World& world)
     : data_(data),
       world_(world),
-      screw_per_metre_(turn / data.lead),
+      screw_per_metre_(units::turn / data.lead),
       rotor_(world.add_shaft(
           {.name = "press motor",
            .inertia = data.drive.rotor_inertia() + data.screw_inertia / (data.gear.ratio * data.gear.ratio),
@@ -87,7 +86,7 @@ void VerticalPress::sense(double h) {
   sensors_.sense(rotor_, ram_, h);
   report_contacts();
   watch_for_sag(h);
-  if (drive_.just_tripped()) happened({"trip", 0, {{"speed", rotor_.speed_before * rpm, "rpm"}}});
+  if (drive_.just_tripped()) happened({"trip", 0, {{"speed", rotor_.speed_before * units::rpm, "rpm"}}});
 }
 
 void VerticalPress::report_contacts() {
@@ -95,7 +94,7 @@ void VerticalPress::report_contacts() {
     if (!stop.stopped(ram_)) return;
     std::vector<Event::Value> values;
     if (side != 0) values.push_back({"side", side, ""});
-    values.push_back({"speed", stop.hit_speed() * millimetres, "mm/s"});
+    values.push_back({"speed", stop.hit_speed() * units::millimetres, "mm/s"});
     values.push_back({"impulse", stop.impulse(), "N s"});
     values.push_back({"force", stop.peak(), "N"});
     happened({name, stop.fraction(), std::move(values)});
@@ -116,7 +115,8 @@ void VerticalPress::watch_for_sag(double h) {
   sagged_ = true;
   happened({"sag",
             1,
-            {{"speed", ram_.speed * millimetres, "mm/s"}, {"position", ram_.position * millimetres, "mm"}}});
+            {{"speed", ram_.speed * units::millimetres, "mm/s"},
+             {"position", ram_.position * units::millimetres, "mm"}}});
 }
 
 std::vector<Port> VerticalPress::ports() {
@@ -128,11 +128,14 @@ std::vector<Port> VerticalPress::ports() {
 
 std::vector<Channel> VerticalPress::channels() {
   std::vector<Channel> channels = {
-      {"position", "mm", [this] { return ram_.position * millimetres; }, "height of the tool over the table"},
-      {"speed", "mm/s", [this] { return ram_.speed * millimetres; }, "speed of the ram, positive upwards"},
-      {"motor.position", "mm", [this] { return (ram_.position + twist_ / screw_per_metre_) * millimetres; },
+      {"position", "mm", [this] { return ram_.position * units::millimetres; },
+       "height of the tool over the table"},
+      {"speed", "mm/s", [this] { return ram_.speed * units::millimetres; },
+       "speed of the ram, positive upwards"},
+      {"motor.position", "mm",
+       [this] { return (ram_.position + twist_ / screw_per_metre_) * units::millimetres; },
        "where the motor would have the ram without play and twist"},
-      {"motor.speed", "rpm", [this] { return rotor_.speed * rpm; }, "speed of the motor"},
+      {"motor.speed", "rpm", [this] { return rotor_.speed * units::rpm; }, "speed of the motor"},
   };
   drive_.offer_channels(channels);
   channels.insert(channels.end(),

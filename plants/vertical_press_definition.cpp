@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
+#include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/vertical_press.hpp"
 
 namespace drycut::plants {
 
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
               double max, std::string_view source) {
@@ -97,7 +96,7 @@ Parameters VerticalPressDefinition::parameters() {
 }
 
 std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections(double h) {
-  const double metre = data.lead / turn;
+  const double metre = data.lead / units::turn;
   AxisObjections found("ram", h);
   found.gear(data.gear, motor_inertia(data), data.mass * metre * metre);
   found.contact("stop", data.stop, data.mass, "end stop");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plants/colours.hpp"
 #include "plants/pose_math.hpp"
 #include "plants/vertical_press.hpp"
 
@@ -27,16 +28,6 @@ constexpr double column_x = 0.33;
 constexpr double motor_x = 0.30;
 constexpr double nut_radius = 0.09;
 constexpr double weight_plate = 1e-3;  // height of a stack of plates per kilogram [m/kg]
-
-constexpr Colour frame_colour = {0.16F, 0.30F, 0.42F};
-constexpr Colour steel = {0.74F, 0.76F, 0.78F};
-constexpr Colour ram_colour = {0.93F, 0.55F, 0.13F};
-constexpr Colour dark = {0.12F, 0.12F, 0.13F};
-constexpr Colour grey = {0.42F, 0.44F, 0.46F};
-constexpr Colour red = {0.86F, 0.12F, 0.10F};
-constexpr Colour green = {0.20F, 0.75F, 0.25F};
-constexpr Colour white = {0.95F, 0.95F, 0.95F};
-constexpr Colour brass = {0.80F, 0.66F, 0.30F};
 
 // A cylinder stands along z; this stands it up.
 const Quaternion upright = about_x(-std::numbers::pi / 2);
@@ -83,26 +74,26 @@ std::vector<VerticalPress::Item> VerticalPress::items() const {
 void VerticalPress::add_frame(std::vector<Item>& all) const {
   const double crown = crown_of(data_);
   all = {
-      {box("bed", 1.04, bed_height, 0.56, frame_colour, "paint", "press_bed"), 0, -0.05 - bed_height / 2, 0},
-      {box("foot 1", 0.22, foot_height, 0.56, frame_colour, "paint", "leg"), -0.41, floor_y + foot_height / 2,
+      {box("bed", 1.04, bed_height, 0.56, colours::bed, "paint", "press_bed"), 0, -0.05 - bed_height / 2, 0},
+      {box("foot 1", 0.22, foot_height, 0.56, colours::bed, "paint", "leg"), -0.41, floor_y + foot_height / 2,
        0},
-      {box("foot 2", 0.22, foot_height, 0.56, frame_colour, "paint", "leg"), 0.41, floor_y + foot_height / 2,
+      {box("foot 2", 0.22, foot_height, 0.56, colours::bed, "paint", "leg"), 0.41, floor_y + foot_height / 2,
        0},
-      {box("table", 0.84, 0.05, 0.52, steel, "steel", "press_table"), 0, -0.025, 0},
-      {box("upright 1", 0.1, crown, 0.3, frame_colour, "paint", "press_upright"), -upright_x, crown / 2,
+      {box("table", 0.84, 0.05, 0.52, colours::steel, "steel", "press_table"), 0, -0.025, 0},
+      {box("upright 1", 0.1, crown, 0.3, colours::bed, "paint", "press_upright"), -upright_x, crown / 2,
        -0.1},
-      {box("upright 2", 0.1, crown, 0.3, frame_colour, "paint", "press_upright"), upright_x, crown / 2, -0.1},
-      {box("crown", 1.04, crown_height, 0.44, frame_colour, "paint", "press_crown"), 0,
+      {box("upright 2", 0.1, crown, 0.3, colours::bed, "paint", "press_upright"), upright_x, crown / 2, -0.1},
+      {box("crown", 1.04, crown_height, 0.44, colours::bed, "paint", "press_crown"), 0,
        crown + crown_height / 2, -0.03},
-      {rod("column 1", 0.06, crown, steel, "steel"), -column_x, crown / 2, 0.04, false, upright},
-      {rod("column 2", 0.06, crown, steel, "steel"), column_x, crown / 2, 0.04, false, upright},
-      {box("ram", 0.8, ram_height, 0.3, ram_colour, "paint", "press_ram"), 0, tool_height + ram_height / 2,
-       0.02, true},
-      {rod("bush 1", 0.11, ram_height + 0.06, brass, "steel", "bush"), -column_x,
+      {rod("column 1", 0.06, crown, colours::steel, "steel"), -column_x, crown / 2, 0.04, false, upright},
+      {rod("column 2", 0.06, crown, colours::steel, "steel"), column_x, crown / 2, 0.04, false, upright},
+      {box("ram", 0.8, ram_height, 0.3, colours::moving, "paint", "press_ram"), 0,
+       tool_height + ram_height / 2, 0.02, true},
+      {rod("bush 1", 0.11, ram_height + 0.06, colours::brass, "steel", "bush"), -column_x,
        tool_height + ram_height / 2, 0.04, true, upright},
-      {rod("bush 2", 0.11, ram_height + 0.06, brass, "steel", "bush"), column_x, tool_height + ram_height / 2,
-       0.04, true, upright},
-      {box("tool", 0.22, tool_height, 0.22, dark, "steel", "tool"), 0, tool_height / 2, 0.04, true},
+      {rod("bush 2", 0.11, ram_height + 0.06, colours::brass, "steel", "bush"), column_x,
+       tool_height + ram_height / 2, 0.04, true, upright},
+      {box("tool", 0.22, tool_height, 0.22, colours::dark, "steel", "tool"), 0, tool_height / 2, 0.04, true},
   };
 }
 
@@ -113,20 +104,24 @@ void VerticalPress::add_drive(std::vector<Item>& all) const {
   const double angle = 2 * std::numbers::pi * rotor_.part;
   const double nut_angle = 2 * std::numbers::pi * std::fmod(rotor_.revolutions() / data_.gear.ratio, 1.0);
   const std::vector<Item> driven = {
-      {rod("screw", 0.05, screw, steel, "steel", "screw"), 0, ram_top + screw / 2, 0.02, true, upright},
-      {rod("nut", 2 * nut_radius, 0.07, brass, "steel", "pulley"), 0, top + 0.035, 0.02, false,
+      {rod("screw", 0.05, screw, colours::steel, "steel", "screw"), 0, ram_top + screw / 2, 0.02, true,
+       upright},
+      {rod("nut", 2 * nut_radius, 0.07, colours::brass, "steel", "pulley"), 0, top + 0.035, 0.02, false,
        product(about_y(nut_angle), upright)},
-      {box("nut mark", 0.06, 0.074, 0.012, red), 0.06 * std::cos(nut_angle), top + 0.037,
+      {box("nut mark", 0.06, 0.074, 0.012, colours::red), 0.06 * std::cos(nut_angle), top + 0.037,
        0.02 - 0.06 * std::sin(nut_angle), false, about_y(nut_angle)},
-      {box("belt", motor_x + nut_radius + 0.065, 0.03, 2 * nut_radius + 0.01, dark, "rubber", "drive_belt"),
+      {box("belt", motor_x + nut_radius + 0.065, 0.03, 2 * nut_radius + 0.01, colours::dark, "rubber",
+           "drive_belt"),
        (motor_x + 0.055 - nut_radius) / 2, top + 0.035, 0.02},
-      {rod("pulley", 0.11, 0.05, steel, "steel", "pulley"), motor_x, top + 0.035, 0.02, false,
+      {rod("pulley", 0.11, 0.05, colours::steel, "steel", "pulley"), motor_x, top + 0.035, 0.02, false,
        product(about_y(angle), upright)},
-      {rod("motor", 0.18, 0.26, dark, "paint", "induction_motor"), motor_x, top + 0.2, 0.02, false, downward},
-      {rod("fan", 0.19, 0.05, grey, "paint"), motor_x, top + 0.355, 0.02, false, upright},
-      {rod("brake", 0.15, 0.06, red, "paint"), motor_x, top + 0.41, 0.02, false, upright},
-      {rod("encoder", 0.08, 0.05, steel, "steel", "encoder"), motor_x, top + 0.465, 0.02, false, downward},
-      {box("encoder mark", 0.03, 0.006, 0.008, red), motor_x + 0.018 * std::cos(angle), top + 0.493,
+      {rod("motor", 0.18, 0.26, colours::dark, "paint", "induction_motor"), motor_x, top + 0.2, 0.02, false,
+       downward},
+      {rod("fan", 0.19, 0.05, colours::grey, "paint"), motor_x, top + 0.355, 0.02, false, upright},
+      {rod("brake", 0.15, 0.06, colours::red, "paint"), motor_x, top + 0.41, 0.02, false, upright},
+      {rod("encoder", 0.08, 0.05, colours::steel, "steel", "encoder"), motor_x, top + 0.465, 0.02, false,
+       downward},
+      {box("encoder mark", 0.03, 0.006, 0.008, colours::red), motor_x + 0.018 * std::cos(angle), top + 0.493,
        0.02 - 0.018 * std::sin(angle), false, about_y(angle)},
   };
   all.insert(all.end(), driven.begin(), driven.end());
@@ -134,8 +129,9 @@ void VerticalPress::add_drive(std::vector<Item>& all) const {
   // A lamp on the crown: red while the brake holds, else green.
   const bool released = drive_.brake().released();
   for (const bool lamp : {false, true})
-    all.push_back({box(lamp ? "lamp released" : "lamp brake", 0.06, 0.06, 0.02, lamp ? green : red), -0.42,
-                   top - crown_height / 2, 0.2, false, level, 1, lamp == released});
+    all.push_back(
+        {box(lamp ? "lamp released" : "lamp brake", 0.06, 0.06, 0.02, lamp ? colours::green : colours::red),
+         -0.42, top - crown_height / 2, 0.2, false, level, 1, lamp == released});
 }
 
 /// Its rods push the ram from below; their cylinders hang in the bed.
@@ -143,13 +139,13 @@ void VerticalPress::add_counterbalance(std::vector<Item>& all) const {
   if (data_.counterbalance <= 0) return;
   const double reach = std::min(data_.travel_max + tool_height + 0.06, -floor_y + tool_height);
   for (const double side : {-1.0, 1.0}) {
-    all.push_back({rod(side < 0 ? "rod 1" : "rod 2", 0.04, reach, steel, "steel"), side * 0.22,
+    all.push_back({rod(side < 0 ? "rod 1" : "rod 2", 0.04, reach, colours::steel, "steel"), side * 0.22,
                    tool_height - reach / 2, -0.09, true, upright});
     const double body = reach - tool_height + 0.04;
-    all.push_back({rod(side < 0 ? "cylinder 1" : "cylinder 2", 0.1, body, grey, "steel"), side * 0.22,
-                   -0.05 - body / 2, -0.09, false, upright});
-    all.push_back({rod(side < 0 ? "gland 1" : "gland 2", 0.09, 0.05, grey, "steel"), side * 0.22, 0.025,
-                   -0.09, false, upright});
+    all.push_back({rod(side < 0 ? "cylinder 1" : "cylinder 2", 0.1, body, colours::grey, "steel"),
+                   side * 0.22, -0.05 - body / 2, -0.09, false, upright});
+    all.push_back({rod(side < 0 ? "gland 1" : "gland 2", 0.09, 0.05, colours::grey, "steel"), side * 0.22,
+                   0.025, -0.09, false, upright});
   }
 }
 
@@ -157,33 +153,34 @@ void VerticalPress::add_stops_and_switches(std::vector<Item>& all) const {
   const double crown = crown_of(data_);
   for (const double side : {-1.0, 1.0}) {
     const double low = data_.travel_min + tool_height;
-    all.push_back({rod(side < 0 ? "stop 1" : "stop 2", 0.06, low, red, "rubber", "bumper"), side * 0.2,
-                   low / 2, 0.13, false, upright});
-    all.push_back({rod(side < 0 ? "stop 3" : "stop 4", 0.06, clearance, red, "rubber", "bumper"), side * 0.2,
-                   crown - clearance / 2, 0.13, false, downward});
+    all.push_back({rod(side < 0 ? "stop 1" : "stop 2", 0.06, low, colours::red, "rubber", "bumper"),
+                   side * 0.2, low / 2, 0.13, false, upright});
+    all.push_back({rod(side < 0 ? "stop 3" : "stop 4", 0.06, clearance, colours::red, "rubber", "bumper"),
+                   side * 0.2, crown - clearance / 2, 0.13, false, downward});
   }
   const double switch_x = upright_x - 0.07;
   const double flag_y = tool_height + ram_height / 2;
   const auto sensor = [&](const char* name, double height) {
-    all.push_back({box(name, 0.045, 0.03, 0.03, white), switch_x, flag_y + height, 0.075});
+    all.push_back({box(name, 0.045, 0.03, 0.03, colours::white), switch_x, flag_y + height, 0.075});
   };
   sensor("home switch", data_.sensors.home.centre);
   sensor("limit switch 1", data_.sensors.limit_min);
   sensor("limit switch 2", data_.sensors.limit_max);
-  all.push_back({box("flag", 0.012, data_.sensors.home.width, 0.05, white), 0.4, flag_y, 0.12, true});
-  all.push_back({box("scale", 0.02, crown - 0.1, 0.02, white), -upright_x + 0.06, crown / 2, 0.06});
+  all.push_back(
+      {box("flag", 0.012, data_.sensors.home.width, 0.05, colours::white), 0.4, flag_y, 0.12, true});
+  all.push_back({box("scale", 0.02, crown - 0.1, 0.02, colours::white), -upright_x + 0.06, crown / 2, 0.06});
 }
 
 void VerticalPress::add_load(std::vector<Item>& all) const {
   const double load = ram_.mass - data_.mass;
   const double stack = std::max(load, 1e-6) * weight_plate;
   for (const double side : {-1.0, 1.0})
-    all.push_back({box(side < 0 ? "load 1" : "load 2", 0.2, 1, 0.2, grey, "steel", "weight"), side * 0.19,
-                   ram_top + stack / 4, 0.06, true, level, stack / 2, load > 0});
+    all.push_back({box(side < 0 ? "load 1" : "load 2", 0.2, 1, 0.2, colours::grey, "steel", "weight"),
+                   side * 0.19, ram_top + stack / 4, 0.06, true, level, stack / 2, load > 0});
   if (data_.workpiece.stiffness > 0) {
     const double height = std::min(data_.workpiece_height, ram_.position);
-    all.push_back({box("workpiece", 0.3, 1, 0.26, brass, "steel", "workpiece"), 0, height / 2, 0.04, false,
-                   level, std::max(height, 1e-3)});
+    all.push_back({box("workpiece", 0.3, 1, 0.26, colours::brass, "steel", "workpiece"), 0, height / 2, 0.04,
+                   false, level, std::max(height, 1e-3)});
   }
 }
 

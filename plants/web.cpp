@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 
 namespace drycut::plants {
@@ -9,8 +10,7 @@ namespace drycut::plants {
 namespace {
 
 constexpr double metres_a_minute = 60;  // m/s -> m/min
-constexpr double millimetres = 1000;
-constexpr double fastest = 1000;  // [m/min]
+constexpr double fastest = 1000;        // [m/min]
 
 }  // namespace
 
@@ -59,14 +59,14 @@ std::vector<Port> Web::ports() {
 std::vector<Channel> Web::channels() {
   return {
       {"speed", "m/min", [this] { return material_.speed * metres_a_minute; }, "speed of the web"},
-      {"position", "mm", [this] { return material_.position * millimetres; },
+      {"position", "mm", [this] { return material_.position * units::millimetres; },
        "travel of the web since the start"},
       {"set_speed", "m/min", [this] { return drive_.roll_speed() * metres_a_minute; },
        "set speed of the line drive after its acceleration limit"},
       {"drive.force", "N", [this] { return drive_.force(); }, "force of the line drive on the web"},
       {"wheel.count", "", [this] { return static_cast<double>(wheel_.pulses.port.count); },
        "count of the measuring wheel (x4), after faults"},
-      {"lead", "mm", [this] { return (material_.position - lead_end_) * millimetres; },
+      {"lead", "mm", [this] { return (material_.position - lead_end_) * units::millimetres; },
        "web beyond the cut: the length of a piece cut now"},
       {"pieces", "", [this] { return static_cast<double>(pieces_); }, "pieces cut since the start"},
       {"photocell", "", [this] { return marks_.photocell().port.level ? 1.0 : 0.0; },

@@ -24,7 +24,7 @@ constexpr int tube_rollers = 4;
 constexpr double tube_roller = 0.09;  // outer diameter [m]
 constexpr int cleats = 8;             // marks on the belt that show its motion
 
-constexpr std::array<float, 3> steel = {0.62F, 0.64F, 0.67F};
+constexpr std::array<float, 3> roll_colour = {0.62F, 0.64F, 0.67F};
 constexpr std::array<float, 3> paint = {0.16F, 0.30F, 0.42F};
 constexpr std::array<float, 3> rubber = {0.14F, 0.15F, 0.16F};
 constexpr std::array<float, 3> web_colour = {0.96F, 0.62F, 0.12F};
@@ -80,14 +80,18 @@ std::vector<Part> Web::parts() {
       {"lower pull roll",
        Shape::cylinder,
        {roll_diameter, roll_diameter, w * 1.15},
-       steel,
+       roll_colour,
        "steel",
        "roller"},
       {"pull roll mark", Shape::box, {0.012, 0.05, 0.006}, mark_colour, "paint"},
       {"measuring wheel", Shape::cylinder, {wheel, wheel, 0.03}, rubber, "rubber", "measuring_wheel"},
       {"measuring wheel mark", Shape::box, {0.012, wheel * 0.38, 0.006}, mark_colour, "paint"},
-      {"wheel arm", Shape::box, {0.26, 0.025, 0.02}, steel, "steel", "wheel_arm"},
-      {"wheel axle", Shape::cylinder, {0.018, 0.018, wheel_arm_z(data_) - wheel_z_of(data_)}, steel, "steel"},
+      {"wheel arm", Shape::box, {0.26, 0.025, 0.02}, roll_colour, "steel", "wheel_arm"},
+      {"wheel axle",
+       Shape::cylinder,
+       {0.018, 0.018, wheel_arm_z(data_) - wheel_z_of(data_)},
+       roll_colour,
+       "steel"},
       {"wheel post",
        Shape::box,
        {0.05, wheel_y_of(data_) + 0.035 - stand_low, 0.024},
@@ -100,20 +104,20 @@ std::vector<Part> Web::parts() {
       {"infeed leg 1", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint", "leg"},
       {"infeed leg 2", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint", "leg"},
       {"outfeed belt", Shape::box, {belt, belt_height, w * 1.15}, rubber, "rubber", "conveyor_belt"},
-      {"outfeed roll 1", Shape::cylinder, {0.1, 0.1, w * 1.16}, steel, "steel", "roller"},
-      {"outfeed roll 2", Shape::cylinder, {0.1, 0.1, w * 1.16}, steel, "steel", "roller"},
+      {"outfeed roll 1", Shape::cylinder, {0.1, 0.1, w * 1.16}, roll_colour, "steel", "roller"},
+      {"outfeed roll 2", Shape::cylinder, {0.1, 0.1, w * 1.16}, roll_colour, "steel", "roller"},
       {"outfeed frame", Shape::box, {belt - 0.15, 0.1, w * 1.15 + 0.04}, paint, "paint", "hollow_frame"},
       {"outfeed leg 1", Shape::box, {0.09, outfeed_leg, w}, paint, "paint", "leg"},
       {"outfeed leg 2", Shape::box, {0.09, outfeed_leg, w}, paint, "paint", "leg"},
   };
   if (!tube)
-    parts.push_back({"table", Shape::box, {upstream - 0.25, 0.02, w * 1.1}, steel, "steel", "table"});
+    parts.push_back({"table", Shape::box, {upstream - 0.25, 0.02, w * 1.1}, roll_colour, "steel", "table"});
   if (tube)
     for (int i = 0; i < tube_rollers; ++i)
       parts.push_back({fmt::format("tube roller {}", i + 1),
                        Shape::cylinder,
                        {tube_roller, tube_roller, w},
-                       steel,
+                       roll_colour,
                        "steel",
                        "tube_roller"});
   for (int i = 0; i < cleats; ++i)

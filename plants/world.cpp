@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/units.hpp"
 #include "plants/exact_sum.hpp"
 
 namespace drycut::plants {
@@ -18,7 +19,6 @@ namespace {
 // faster would silently be slowed down.
 constexpr double max_rotation = std::numbers::pi / 4;
 constexpr double max_slide_speed = 1e4;  // [m/s]: nothing on a line is this fast unless it diverged
-constexpr double gravity = -9.80665;     // [m/s2], along y
 
 /// Bullet's exponential map for a shaft that keeps its axis: turns the basis by `angle`, |angle| < pi/4,
 /// about z. The general form of Bullet (basis to quaternion and back) takes four times as long for the same
@@ -207,7 +207,7 @@ Slide& World::add_slide(const SlideDefinition& definition) {
   SlideBody& s = list.emplace_back();
   s.name = definition.name;
   s.axis = btVector3(definition.axis[0], definition.axis[1], definition.axis[2]);
-  s.weight = definition.gravity ? definition.mass * gravity * definition.axis[1] : 0;
+  s.weight = definition.gravity ? definition.mass * -units::gravity * definition.axis[1] : 0;
   s.body = bodies_->make_body(definition.mass, btVector3(0, 0, 0));
   s.body->setAngularFactor(btVector3(0, 0, 0));
   s.state.mass = definition.mass;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "base/text.hpp"
 #include "renders/text.hpp"
 
 namespace drycut::renders {
@@ -9,29 +10,7 @@ namespace drycut::renders {
 std::string html_text(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size() + text.size() / 16);
-  const auto append = [&](std::string_view piece) {
-    for (const char c : one_line(piece)) {
-      switch (c) {
-        case '&':
-          escaped += "&amp;";
-          break;
-        case '<':
-          escaped += "&lt;";
-          break;
-        case '>':
-          escaped += "&gt;";
-          break;
-        case '"':
-          escaped += "&quot;";
-          break;
-        case '\'':
-          escaped += "&#39;";
-          break;
-        default:
-          escaped += c;
-      }
-    }
-  };
+  const auto append = [&](std::string_view piece) { escaped += xml_text(one_line(piece)); };
   std::size_t begin = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '\n' && text[i] != '\t') continue;

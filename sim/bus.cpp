@@ -63,7 +63,7 @@ void Panel::set(const std::string& name, bool on) {
 class Connector {
  public:
   Connector(Bus& bus, const Scenario& scenario, devices::Controller& controller,
-            const std::vector<NamedPlant>& plants, devices::Problems& problems)
+            const std::vector<NamedPlant>& plants, Problems& problems)
       : bus_(bus), scenario_(scenario), controller_(controller), problems_(problems) {
     for (const auto& [name, plant] : plants) {
       for (auto& port : plant->ports()) ports_.emplace(name + "." + port.name, port);
@@ -123,7 +123,7 @@ class Connector {
       if (known_plant ? !port->first.starts_with(plant + ".") : problems_.size() > most_suggestions) break;
       candidates.push_back(port->first);
     }
-    const auto near = devices::nearest(text.text, candidates);
+    const auto near = nearest(text.text, candidates);
     if (!known_plant) {
       problem(text.place, fmt::format("there is no plant '{}'", plant),
               near.empty() ? fmt::format("plants: {}", list(plant_names_, "none"))
@@ -259,7 +259,7 @@ class Connector {
   Bus& bus_;
   const Scenario& scenario_;
   devices::Controller& controller_;
-  devices::Problems& problems_;
+  Problems& problems_;
   std::map<std::string, plants::Port> ports_;
   std::vector<std::string> plant_names_;
   std::set<std::string> known_plants_;
@@ -268,7 +268,7 @@ class Connector {
 };
 
 void Bus::connect(const Scenario& scenario, devices::Controller& controller,
-                  const std::vector<NamedPlant>& plants, devices::Problems& problems) {
+                  const std::vector<NamedPlant>& plants, Problems& problems) {
   controller_ = &controller;
   Connector connector(*this, scenario, controller, plants, problems);
   for (const auto& wire : scenario.wiring) connector.connect(wire);

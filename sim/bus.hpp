@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "devices/problem.hpp"
 #include "plants/plant.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -36,7 +36,7 @@ class Bus {
  public:
   /// Makes the scenario's wires; what cannot be connected is reported with its place and left out.
   void connect(const Scenario& scenario, devices::Controller& controller,
-               const std::vector<NamedPlant>& plants, devices::Problems& problems);
+               const std::vector<NamedPlant>& plants, Problems& problems);
 
   /// Terminals that the controller uses and nothing is wired to.
   [[nodiscard]] std::vector<std::string> unwired() const;

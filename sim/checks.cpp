@@ -45,7 +45,7 @@ bool in_window(const Check& check, double at) {
 }  // namespace
 
 Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
-               const std::vector<KnownEvent>& events, devices::Problems& problems) {
+               const std::vector<KnownEvent>& events, Problems& problems) {
   auto known = names.reading_names();
   for (const auto& check : scenario.checks) {
     states_.emplace_back().check = check;
@@ -56,7 +56,7 @@ Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
 
 /// Finds the event of a check and makes the slots of its values or statistics.
 const KnownEvent* Checks::bind_event(State& state, const Scenario& scenario,
-                                     const std::vector<KnownEvent>& events, devices::Problems& problems) {
+                                     const std::vector<KnownEvent>& events, Problems& problems) {
   const auto& check = state.check;
   const auto* found = find_event(events, check.event, scenario, problems);
   if (found == nullptr) return nullptr;
@@ -75,7 +75,7 @@ const KnownEvent* Checks::bind_event(State& state, const Scenario& scenario,
 }
 
 void Checks::bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
-                  const std::vector<KnownEvent>& events, devices::Problems& problems) {
+                  const std::vector<KnownEvent>& events, Problems& problems) {
   const auto& check = state.check;
   if (!check.event.text.empty() && bind_event(state, scenario, events, problems) == nullptr) return;
   if (check.kind == Check::Kind::never) return;

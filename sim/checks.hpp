@@ -29,7 +29,7 @@ struct CheckResult {
 class Checks {
  public:
   Checks(const Scenario& scenario, Watch& watch, const Names& names, const std::vector<KnownEvent>& events,
-         devices::Problems& problems);
+         Problems& problems);
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -76,9 +76,9 @@ class Checks {
 
   /// `known`: the names that may be suggested; left as it was.
   void bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
-            const std::vector<KnownEvent>& events, devices::Problems& problems);
+            const std::vector<KnownEvent>& events, Problems& problems);
   static const KnownEvent* bind_event(State& state, const Scenario& scenario,
-                                      const std::vector<KnownEvent>& events, devices::Problems& problems);
+                                      const std::vector<KnownEvent>& events, Problems& problems);
   static bool concerns(const State& state, const RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
   static void note_operands(State& state);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "devices/catalogue.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
 #include "devices/plcopen/controller.hpp"
@@ -11,7 +12,6 @@
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"
-#include "devices/text.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
@@ -29,8 +29,7 @@ namespace plcopen = devices::plcopen;
 
 /// Values that the scenario sets before power-up.
 void set_values(const std::vector<std::pair<Text, double>>& values, const Scenario& scenario,
-                devices::Controller& controller, std::string_view what_there_is,
-                devices::Problems& problems) {
+                devices::Controller& controller, std::string_view what_there_is, Problems& problems) {
   for (const auto& [name, number] : values) {
     const auto value = controller.find(name.text);
     if (value && value->write) {
@@ -40,7 +39,7 @@ void set_values(const std::vector<std::pair<Text, double>>& values, const Scenar
       if (!fault) value->write(number);
       continue;
     }
-    const auto near = devices::nearest(name.text, controller.names());
+    const auto near = nearest(name.text, controller.names());
     problems.push_back(problem_at(
         scenario, name.place,
         value ? fmt::format("'{}' can only be read", name.text)
@@ -51,8 +50,7 @@ void set_values(const std::vector<std::pair<Text, double>>& values, const Scenar
 
 /// Puts the values of the retentive file back, if there is one. It must be possible to write it at the end.
 template <typename Controller>
-void restore(const Text& retentive, const Scenario& scenario, Controller& controller,
-             devices::Problems& problems) {
+void restore(const Text& retentive, const Scenario& scenario, Controller& controller, Problems& problems) {
   const auto file = retentive_file(scenario);
   if (!file) return;
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
@@ -75,7 +73,7 @@ void restore(const Text& retentive, const Scenario& scenario, Controller& contro
 }
 
 std::unique_ptr<devices::Controller> load_qmove(const QmoveSection& section, const Scenario& scenario,
-                                                devices::Problems& problems) {
+                                                Problems& problems) {
   const auto before = problems.size();
   const auto folder = scenario.file.parent_path();
   const auto read = [&](const Text& path) {
@@ -104,7 +102,7 @@ std::unique_ptr<devices::Controller> load_qmove(const QmoveSection& section, con
 }
 
 std::unique_ptr<devices::Controller> load_lx3vp(const Lx3vpSection& section, const Scenario& scenario,
-                                                devices::Problems& problems) {
+                                                Problems& problems) {
   const auto before = problems.size();
   const auto folder = scenario.file.parent_path();
   const auto path_of = [&](const Text& path) { return (folder / path.text).string(); };
@@ -131,7 +129,7 @@ std::unique_ptr<devices::Controller> load_lx3vp(const Lx3vpSection& section, con
 /// The cam tables, each under its file's name and its own id.
 std::vector<plcopen::CamTable> read_tables(const PlcopenSection& section,
                                            const std::vector<plcopen::AxisConfiguration>& axes,
-                                           const Scenario& scenario, devices::Problems& problems) {
+                                           const Scenario& scenario, Problems& problems) {
   std::vector<plcopen::CamTable> tables;
   std::vector<plcopen::MasterTurn> masters;
   for (const auto& [name, parameters, measure] : axes)
@@ -173,16 +171,16 @@ std::vector<plcopen::CamTable> read_tables(const PlcopenSection& section,
 
 /// What the program names must be there: axes and tables.
 void check_names(const plcopen::st::Program& program, const std::string& file,
-                 const plcopen::Configuration& configuration, devices::Problems& problems) {
+                 const plcopen::Configuration& configuration, Problems& problems) {
   const auto check = [&](const std::vector<plcopen::st::Program::Name>& wanted,
                          const std::vector<std::string>& there, bool any_case, std::string_view what,
                          std::string_view section) {
     for (const auto& name : wanted) {
       const auto same = [&](const std::string& other) {
-        return any_case ? devices::same_word(other, name.name) : other == name.name;
+        return any_case ? same_word(other, name.name) : other == name.name;
       };
       if (std::any_of(there.begin(), there.end(), same)) continue;
-      const auto near = devices::nearest(name.name, there);
+      const auto near = nearest(name.name, there);
       problems.push_back(
           {file, name.line, name.column, fmt::format("the scenario has no {} '{}'", what, name.name),
            near.empty()
@@ -201,7 +199,7 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
 /// The scenario's tasks name programs that are there; several programs need tasks, the CONFIGURATION's own
 /// fit the axes' cycle.
 void check_tasks(const plcopen::st::Program& program, const std::string& file, const PlcopenSection& section,
-                 const Scenario& scenario, devices::Problems& problems) {
+                 const Scenario& scenario, Problems& problems) {
   for (const auto& task : program.tasks())
     if (task.interval_ns % section.cycle != 0)
       problems.push_back({file, task.line, task.column,
@@ -229,7 +227,7 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
   for (const auto& task : section.tasks)
     for (const auto& wanted : task.programs)
       if (std::none_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return devices::same_word(name, wanted.text); }))
+                       [&](const std::string& name) { return same_word(name, wanted.text); }))
         problems.push_back(problem_at(scenario, wanted.place,
                                       fmt::format("there is no PROGRAM '{}'", wanted.text),
                                       did_you_mean(wanted.text, names)));
@@ -239,7 +237,7 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
 bool sets(const Scenario& scenario, const PlcopenSection& section, const std::string& value) {
   const auto names_it = [&](const auto& list) {
     return std::any_of(list.begin(), list.end(),
-                       [&](const auto& entry) { return devices::same_word(entry.first.text, value); });
+                       [&](const auto& entry) { return same_word(entry.first.text, value); });
   };
   return names_it(section.set) ||
          std::any_of(scenario.timeline.begin(), scenario.timeline.end(), [&](const Stimulus& stimulus) {
@@ -268,8 +266,7 @@ void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection
 }
 
 std::unique_ptr<devices::Controller> load_plcopen(const PlcopenSection& section, const Scenario& scenario,
-                                                  devices::Problems& problems,
-                                                  std::vector<std::string>* notes) {
+                                                  Problems& problems, std::vector<std::string>* notes) {
   const auto before = problems.size();
   const auto file = (scenario.file.parent_path() / section.program.text).string();
   plcopen::Configuration configuration;
@@ -335,7 +332,7 @@ std::optional<std::filesystem::path> retentive_file(const Scenario& scenario) {
   return scenario.file.parent_path() / path->text;
 }
 
-std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems,
+std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, Problems& problems,
                                                      std::vector<std::string>* notes) {
   if (const auto* section = std::get_if<QmoveSection>(&scenario.controller))
     return load_qmove(*section, scenario, problems);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "devices/problem.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
@@ -15,7 +15,7 @@ namespace drycut::sim {
 /// there is none or it has problems, which are told in `problems` by the program's own file, line and column.
 /// Retentive values come from the scenario's retentive file where it names one that exists; what the scenario
 /// sets itself comes after. `notes` takes what a reader should know that is no fault.
-std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, devices::Problems& problems,
+std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, Problems& problems,
                                                      std::vector<std::string>* notes = nullptr);
 
 /// The files that the controller is made of, as the scenario names them.

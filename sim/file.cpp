@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/plain_text.hpp"
+#include "base/plain_text.hpp"
 
 namespace drycut::sim {
 
@@ -38,7 +38,7 @@ std::optional<std::string> from_utf16(std::string text) {
 }
 
 /// A text as an editor saved it, as the readers want it: without its mark. A problem if it is no plain text.
-std::optional<std::string> plain(std::string text, const fs::path& file, devices::Problems& problems) {
+std::optional<std::string> plain(std::string text, const fs::path& file, Problems& problems) {
   const auto refuse = [&](int line, int column, const std::string& what) {
     problems.push_back({file.string(), line, column, what, "save it as plain text in UTF-8"});
     return std::nullopt;
@@ -58,13 +58,12 @@ std::string last_error() { return std::strerror(errno); }
 
 }  // namespace
 
-std::optional<std::string> read_file(const fs::path& file, devices::Problems& problems,
-                                     std::uintmax_t largest) {
+std::optional<std::string> read_file(const fs::path& file, Problems& problems, std::uintmax_t largest) {
   return read_file(file, problems, {file.string(), 1, 1, "", ""}, largest);
 }
 
-std::optional<std::string> read_file(const fs::path& file, devices::Problems& problems,
-                                     const devices::Problem& where, std::uintmax_t largest) {
+std::optional<std::string> read_file(const fs::path& file, Problems& problems, const Problem& where,
+                                     std::uintmax_t largest) {
   const auto problem = [&](const std::string& what, const std::string& remedy) {
     problems.push_back({where.file, where.line, where.column, what, remedy});
     return std::nullopt;

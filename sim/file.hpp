@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 
 namespace drycut::sim {
 
@@ -16,10 +16,10 @@ inline constexpr std::uintmax_t largest_input = 16U << 20U;
 /// The text of a file, without a byte-order mark. Everything that is read as text is read by this function.
 /// If it cannot be read, that is a problem at the place that names it: `where` gives file, line and column.
 /// What is no UTF-8, or a control character, is a problem at its own place in the file.
-std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems,
-                                     const devices::Problem& where, std::uintmax_t largest = largest_input);
+std::optional<std::string> read_file(const std::filesystem::path& file, Problems& problems,
+                                     const Problem& where, std::uintmax_t largest = largest_input);
 /// The same for a file that the command line names: the place is the file's own beginning.
-std::optional<std::string> read_file(const std::filesystem::path& file, devices::Problems& problems,
+std::optional<std::string> read_file(const std::filesystem::path& file, Problems& problems,
                                      std::uintmax_t largest = largest_input);
 
 /// Why a file cannot be written, "" if nothing is known against it: it is read-only, or a directory, or a

@@ -13,7 +13,7 @@ std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulat
   auto played = simulation.cams()->played();
   const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller);
   if (played.empty() && plcopen != nullptr) {
-    devices::Problems problems;
+    Problems problems;
     for (const auto& table : plcopen->tables)
       if (auto text = read_file(scenario.file.parent_path() / table.file.text, problems))
         played.push_back({table.file.text, "mc_camin", std::move(*text), {}});

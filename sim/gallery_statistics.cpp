@@ -19,13 +19,13 @@ namespace {
 
 // ---- histogram ----
 
-struct Series {
+struct Numbers {
   std::vector<double> numbers;
   std::string unit;
 };
 
-Series series_of(const Recording& recording, const PlotRequest& request, const PlotRequest::Panel& panel) {
-  Series series;
+Numbers series_of(const Recording& recording, const PlotRequest& request, const PlotRequest::Panel& panel) {
+  Numbers series;
   for (const auto& event : recording.events()) {
     if (!names_event(panel.event.text, event.source, event.event)) continue;
     const double at = event.at_seconds();
@@ -69,7 +69,7 @@ renders::Curve bars_of(const std::vector<double>& numbers, double low, double hi
 
 std::string capability_text(double value) { return value > 100 ? "above 100" : fmt::format("{:.2f}", value); }
 
-std::string statistics_text(const Series& series, const std::optional<std::pair<double, double>>& limits) {
+std::string statistics_text(const Numbers& series, const std::optional<std::pair<double, double>>& limits) {
   const auto [mean, least, greatest, sd, slope, slope_error] = statistics(series.numbers);
   const auto unit = series.unit.empty() ? "" : " " + series.unit;
   auto text = fmt::format("{} values, mean {:.7g}{}, from {:.7g} to {:.7g}, standard deviation {:.3g}{}",

@@ -22,7 +22,7 @@ std::string cell(const CheckResult& check) {
 
 }  // namespace
 
-std::optional<Override> halved_step(const Scenario& scenario, devices::Problems& problems) {
+std::optional<Override> halved_step(const Scenario& scenario, Problems& problems) {
   const auto& scene = scenario.scene;
   if (scene.step % 2 == 0) return Override{"scene.step", format_time(scene.step / 2)};
   problems.push_back(
@@ -36,7 +36,7 @@ std::optional<Override> halved_step(const Scenario& scenario, devices::Problems&
 HalfStep run_half_step(Scenario scenario, const std::function<void(Time)>& progress) {
   scenario.pictures = {};
   scenario.record.channels.clear();
-  devices::Problems problems;
+  Problems problems;
   Simulation simulation(scenario, problems);
   if (!problems.empty()) throw std::runtime_error("at half the step: " + to_string(problems.front()));
   simulation.keep_nothing();

@@ -12,7 +12,7 @@ namespace drycut::sim {
 
 /// What makes the scenario run at half its step; nullopt and a problem where that is no whole number of
 /// nanoseconds. Every period is a multiple of the step, and so of its half.
-std::optional<Override> halved_step(const Scenario& scenario, devices::Problems& problems);
+std::optional<Override> halved_step(const Scenario& scenario, Problems& problems);
 
 /// Runs a scenario that was read with that override; nothing is recorded or drawn. Throws std::runtime_error
 /// if it cannot be put together.

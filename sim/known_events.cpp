@@ -22,7 +22,7 @@ bool names_event(const std::string& wanted, const std::string& source, const std
 }
 
 const KnownEvent* find_event(const std::vector<KnownEvent>& events, const Text& wanted,
-                             const Scenario& scenario, devices::Problems& problems) {
+                             const Scenario& scenario, Problems& problems) {
   for (const auto& event : events)
     if (names_event(wanted.text, event.source, event.name)) return &event;
   std::vector<std::string> known;
@@ -31,7 +31,7 @@ const KnownEvent* find_event(const std::vector<KnownEvent>& events, const Text& 
     known.push_back(event.name);
     known.push_back(event.source + "." + event.name);
   }
-  const auto near = devices::nearest(wanted.text, known);
+  const auto near = nearest(wanted.text, known);
   problems.push_back(problem_at(
       scenario, wanted.place, fmt::format("nothing here reports an event '{}'", wanted.text),
       near.empty() ? "events of plants are listed by drycut plants" : fmt::format("did you mean {}?", near)));

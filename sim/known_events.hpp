@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
@@ -23,6 +23,6 @@ bool names_event(const std::string& wanted, const std::string& source, const std
 
 /// The first of `events` that `wanted` names; nullptr after a problem that tells the nearest one.
 const KnownEvent* find_event(const std::vector<KnownEvent>& events, const Text& wanted,
-                             const Scenario& scenario, devices::Problems& problems);
+                             const Scenario& scenario, Problems& problems);
 
 }  // namespace drycut::sim

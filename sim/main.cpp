@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "base/plain_text.hpp"
 #include "sim/cam/study.hpp"
 #include "sim/commands/commands.hpp"
-#include "sim/plain_text.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace {

@@ -14,7 +14,7 @@ constexpr std::string_view panel_prefix = "panel.";
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates,
                          std::string_view else_say) {
-  const auto near = devices::nearest(name, candidates);
+  const auto near = nearest(name, candidates);
   return near.empty() ? std::string(else_say) : fmt::format("did you mean {}?", near);
 }
 
@@ -23,8 +23,7 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 devices::ValueRange range_of(const plants::Range& range) { return {range.min, range.max, range.whole}; }
 
 // As it is written: controllers find their names in any case, but `knife.angle` beside `Knife.posit` are two.
-void refuse_shared_names(const Scenario& scenario, devices::Controller& controller,
-                         devices::Problems& problems) {
+void refuse_shared_names(const Scenario& scenario, devices::Controller& controller, Problems& problems) {
   std::set<std::string> taken;
   for (const auto& name : controller.names()) taken.insert(name.substr(0, name.find_first_of(".:[")));
   for (const auto& plant : scenario.plants) {

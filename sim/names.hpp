@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "devices/problem.hpp"
 #include "sim/bus.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -34,8 +34,7 @@ struct Target {
 devices::ValueRange range_of(const plants::Range& range);
 
 /// Says which plants are called like something of the controller: their names would mean two things.
-void refuse_shared_names(const Scenario& scenario, devices::Controller& controller,
-                         devices::Problems& problems);
+void refuse_shared_names(const Scenario& scenario, devices::Controller& controller, Problems& problems);
 
 /// The nearest name is looked for so often at most, for it takes a look at all names: of ten thousand slips
 /// the first ones tell enough.

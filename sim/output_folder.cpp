@@ -61,7 +61,7 @@ std::error_code last_error() { return {errno, std::generic_category()}; }
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, const std::string& kind, const std::vector<std::string>& names,
-                           devices::Problems& problems)
+                           Problems& problems)
     : folder_(std::move(folder)), manifest_(folder_ / (".drycut-" + kind)), kind_(kind) {
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
     problems.push_back({"--out", 1, 1, what, remedy});

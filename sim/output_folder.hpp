@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 
 namespace drycut::sim {
 
@@ -19,7 +19,7 @@ class OutputFolder {
   /// the folder cannot be made, if another process has it, or if under these names lies what no manifest of
   /// this kind lists; then nothing was touched.
   OutputFolder(std::filesystem::path folder, const std::string& kind, const std::vector<std::string>& names,
-               devices::Problems& problems);
+               Problems& problems);
 
   /// Before anything else is written: removes what an earlier command of this kind wrote, but `kept`. Throws
   /// std::runtime_error if that cannot be done.

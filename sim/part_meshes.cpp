@@ -23,8 +23,7 @@ std::string remedy_for(const std::string& part, const std::vector<NamedPlant>& p
   }
   for (const auto& name : all)
     if (name.starts_with(part + " ")) return fmt::format("did you mean {}?", name);  // one of several
-  if (const auto near = devices::nearest(part, all); !near.empty())
-    return fmt::format("did you mean {}?", near);
+  if (const auto near = nearest(part, all); !near.empty()) return fmt::format("did you mean {}?", near);
   if (own.empty()) return "write PLANT.PART; `drycut plants TYPE` lists the parts";
   const bool cut = own.size() > listed;
   if (cut) own.resize(listed);
@@ -42,7 +41,7 @@ bool is_known(const Text& part, const std::vector<NamedPlant>& plants) {
 }  // namespace
 
 PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPlant>& plants,
-                            devices::Problems& problems) {
+                            Problems& problems) {
   PartMeshes meshes;
   const auto must_exist = [&](const Text& part) {
     if (is_known(part, plants)) return true;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "renders/scene3d.hpp"
 #include "sim/bus.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -17,6 +17,6 @@ using PartMeshes = std::map<std::string, std::shared_ptr<const renders::Mesh>>;
 /// Loads what `pictures.meshes` names. Parts that no plant has (also those that the camera follows or looks
 /// at) and files that are refused are reported in `problems`.
 PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPlant>& plants,
-                            devices::Problems& problems);
+                            Problems& problems);
 
 }  // namespace drycut::sim

@@ -6,36 +6,17 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/plain_text.hpp"
+#include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/half_step.hpp"
-#include "sim/plain_text.hpp"
 
 namespace drycut::sim {
 
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : printable(text)) {  // XML has no way to say a control character
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
+/// XML has no way to say a control character.
+std::string escaped(const std::string& text) { return xml_text(printable(text)); }
 
 nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
   if (!number || !std::isfinite(*number)) return nullptr;

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/known_events.hpp"
 
 namespace drycut::sim {
 
-namespace {
-
-constexpr Time never = std::numeric_limits<Time>::max();
-
-}  // namespace
+namespace {}  // namespace
 
 Shutter::Shutter(const PicturesSection& pictures)
     : period_(pictures.every / pictures.slow),

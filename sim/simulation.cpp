@@ -18,7 +18,7 @@ bool Outcome::passed() const {
          std::all_of(checks.begin(), checks.end(), [](const CheckResult& c) { return c.passed; });
 }
 
-Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
+Simulation::Simulation(const Scenario& scenario, Problems& problems)
     : scenario_(scenario),
       step_(scenario.scene.step),
       h_(seconds(scenario.scene.step)),
@@ -52,7 +52,7 @@ Simulation::Simulation(const Scenario& scenario, devices::Problems& problems)
 
 Simulation::~Simulation() = default;
 
-void Simulation::load_controller(devices::Problems& problems) {
+void Simulation::load_controller(Problems& problems) {
   controller_ = sim::load_controller(scenario_, problems, &notes_of_setup_);
 }
 
@@ -69,7 +69,7 @@ void Simulation::build_plants() {
   }
 }
 
-void Simulation::check_periods(devices::Problems& problems) const {
+void Simulation::check_periods(Problems& problems) const {
   const auto place = scenario_.scene.step_place;
   for (const auto& period : controller_->periods()) {
     if (period.ns % step_ == 0) continue;
@@ -80,17 +80,17 @@ void Simulation::check_periods(devices::Problems& problems) const {
   }
 }
 
-void Simulation::add_channel(const Text& name, devices::Problems& problems) {
+void Simulation::add_channel(const Text& name, Problems& problems) {
   if (recording_.add(*watch_, name.text)) return;
   problems.push_back(problem_at(scenario_, name.place, fmt::format("there is no channel '{}'", name.text),
                                 names_->suggest_reading(name.text)));
 }
 
-void Simulation::bind_recording(devices::Problems& problems) {
+void Simulation::bind_recording(Problems& problems) {
   for (const auto& name : scenario_.record.channels) add_channel(name, problems);
 }
 
-void Simulation::check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const {
+void Simulation::check_plot_event(const PlotRequest::Panel& panel, Problems& problems) const {
   if (panel.event.text.empty()) return;
   const auto* known = find_event(known_events_, panel.event, scenario_, problems);
   if (known == nullptr) return;
@@ -105,7 +105,7 @@ void Simulation::check_plot_event(const PlotRequest::Panel& panel, devices::Prob
 }
 
 /// A lane shows a state: a quantity with a unit is none.
-void Simulation::add_lane(const Text& name, devices::Problems& problems) {
+void Simulation::add_lane(const Text& name, Problems& problems) {
   add_channel(name, problems);
   const auto* column = recording_.column(name.text);
   if (column == nullptr || column->unit.empty()) return;
@@ -114,7 +114,7 @@ void Simulation::add_lane(const Text& name, devices::Problems& problems) {
                                 "show it in a panel of channels"));
 }
 
-void Simulation::add_motor(const Text& plant, devices::Problems& problems) {
+void Simulation::add_motor(const Text& plant, Problems& problems) {
   bool known = has_motor_limits(scenario_, plant.text);
   for (const auto& name : motor_channels(plant.text)) known = known && recording_.add(*watch_, name);
   if (known) return;
@@ -123,7 +123,7 @@ void Simulation::add_motor(const Text& plant, devices::Problems& problems) {
                                 "name a plant with parameters servo.rated_torque, servo.peak_torque, ..."));
 }
 
-void Simulation::bind_plot(const PlotRequest& plot, devices::Problems& problems) {
+void Simulation::bind_plot(const PlotRequest& plot, Problems& problems) {
   for (const auto& panel : plot.panels) {
     check_plot_event(panel, problems);
     for (const auto& name : panel.lanes) add_lane(name, problems);
@@ -136,7 +136,7 @@ void Simulation::bind_plot(const PlotRequest& plot, devices::Problems& problems)
   for (const auto& mark : *plot.marks) find_event(all_events_, mark, scenario_, problems);
 }
 
-void Simulation::bind_frames(devices::Problems& problems) const {
+void Simulation::bind_frames(Problems& problems) const {
   const auto& pictures = scenario_.pictures;
   if (!pictures.frames) return;
   if (pictures.around) find_event(all_events_, pictures.around->event, scenario_, problems);
@@ -148,7 +148,7 @@ void Simulation::bind_frames(devices::Problems& problems) const {
       "choose every = slow x a multiple of the step"));
 }
 
-void Simulation::bind_pictures(devices::Problems& problems) {
+void Simulation::bind_pictures(Problems& problems) {
   const auto& camera = scenario_.pictures.camera;
   std::vector<std::string> cameras = {"operator"};
   for (const auto& plant : named_) cameras.push_back(plant.name);
@@ -166,7 +166,7 @@ void Simulation::bind_pictures(devices::Problems& problems) {
   bind_caption(scenario_.pictures.lamps, problems);
 }
 
-void Simulation::bind_caption(const std::vector<Text>& names, devices::Problems& problems) {
+void Simulation::bind_caption(const std::vector<Text>& names, Problems& problems) {
   for (const auto& name : names) {
     const auto* slot = watch_->slot(name.text);
     if (slot == nullptr) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "devices/problem.hpp"
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 #include "sim/bus.hpp"
@@ -44,7 +44,7 @@ class Simulation {
  public:
   /// Puts `scenario` together. Everything that does not fit is reported in `problems`; run() may be called
   /// only if there are none. `scenario` must outlive the simulation.
-  Simulation(const Scenario& scenario, devices::Problems& problems);
+  Simulation(const Scenario& scenario, Problems& problems);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -101,18 +101,18 @@ class Simulation {
   [[nodiscard]] const std::vector<KnownEvent>& known_events() const { return known_events_; }
 
  private:
-  void load_controller(devices::Problems& problems);
+  void load_controller(Problems& problems);
   void build_plants();
-  void check_periods(devices::Problems& problems) const;
-  void bind_recording(devices::Problems& problems);
-  void bind_pictures(devices::Problems& problems);
-  void bind_caption(const std::vector<Text>& names, devices::Problems& problems);
-  void bind_plot(const PlotRequest& plot, devices::Problems& problems);
-  void bind_frames(devices::Problems& problems) const;
-  void check_plot_event(const PlotRequest::Panel& panel, devices::Problems& problems) const;
-  void add_motor(const Text& plant, devices::Problems& problems);
-  void add_lane(const Text& name, devices::Problems& problems);
-  void add_channel(const Text& name, devices::Problems& problems);
+  void check_periods(Problems& problems) const;
+  void bind_recording(Problems& problems);
+  void bind_pictures(Problems& problems);
+  void bind_caption(const std::vector<Text>& names, Problems& problems);
+  void bind_plot(const PlotRequest& plot, Problems& problems);
+  void bind_frames(Problems& problems) const;
+  void check_plot_event(const PlotRequest::Panel& panel, Problems& problems) const;
+  void add_motor(const Text& plant, Problems& problems);
+  void add_lane(const Text& name, Problems& problems);
+  void add_channel(const Text& name, Problems& problems);
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();

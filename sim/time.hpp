@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 
 namespace drycut::sim {
 
@@ -9,6 +10,7 @@ using Time = std::int64_t;
 inline constexpr Time microsecond = 1'000;
 inline constexpr Time millisecond = 1'000'000;
 inline constexpr Time second = 1'000'000'000;
+inline constexpr Time never = std::numeric_limits<Time>::max();
 
 inline constexpr double seconds(Time time) { return static_cast<double>(time) / 1e9; }
 

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim {
 
 namespace {
-
-constexpr Time never = std::numeric_limits<Time>::max();
 
 std::string text_of(const std::string& name, const Quantity& quantity, std::string_view sign) {
   return fmt::format("{} {} {}{}{}", name, sign, quantity.number, quantity.unit.empty() ? "" : " ",
@@ -22,7 +19,7 @@ std::string text_of(const std::string& name, const Quantity& quantity, std::stri
 /// Converts stimuli of one file and says what does not fit.
 class Binder {
  public:
-  Binder(Names& names, const Scenario& scenario, devices::Problems& problems)
+  Binder(Names& names, const Scenario& scenario, Problems& problems)
       : names_(names), scenario_(scenario), problems_(problems) {}
 
   void problem(const Place& place, std::string what, std::string remedy) {
@@ -93,13 +90,13 @@ class Binder {
  private:
   Names& names_;
   const Scenario& scenario_;
-  devices::Problems& problems_;
+  Problems& problems_;
 };
 
 }  // namespace
 
 Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* controller,
-                   devices::Problems& problems)
+                   Problems& problems)
     : watch_(names),
       controller_(controller),
       look_every_((millisecond + scenario.scene.step - 1) / scenario.scene.step * scenario.scene.step) {

@@ -16,8 +16,7 @@ namespace drycut::sim {
 class Timeline {
  public:
   /// Binds names and converts quantities; what does not fit is reported with its place in the scenario.
-  Timeline(const Scenario& scenario, Names& names, devices::Controller* controller,
-           devices::Problems& problems);
+  Timeline(const Scenario& scenario, Names& names, devices::Controller* controller, Problems& problems);
 
   /// Acts on everything due at `now`; what was done is told to `record`.
   void run(Time now, Recording& recording) {

@@ -10,21 +10,13 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "base/text.hpp"
+
 namespace drycut::sim {
 
 namespace {
 
 constexpr std::size_t enough = 1U << 16U;  // [bytes] held back at most
-
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-  std::string text = "\"";
-  for (const char c : cell) {
-    if (c == '"') text += '"';
-    text += c;
-  }
-  return text + '"';
-}
 
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
   throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), std::strerror(error)));
@@ -76,7 +68,7 @@ TraceFiles::TraceFiles(const Recording& recording, const std::filesystem::path& 
     : recording_(recording), trace_(trace), events_(events) {
   row_ = "time [s]";
   for (const auto& column : recording.columns())
-    row_ += ',' + quoted(fmt::format("{} [{}]", column.name, column.unit.empty() ? "-" : column.unit));
+    row_ += ',' + csv_cell(fmt::format("{} [{}]", column.name, column.unit.empty() ? "-" : column.unit));
   trace_.write(row_ += '\n');
   events_.write("time [s],source,event,values\n");
 }
@@ -90,8 +82,8 @@ void TraceFiles::sample(Time time) {
 }
 
 void TraceFiles::happened(const RecordedEvent& event) {
-  events_.write(fmt::format("{:.9f},{},{},{}\n", event.at_seconds(), quoted(event.source),
-                            quoted(event.event), quoted(values_text(event))));
+  events_.write(fmt::format("{:.9f},{},{},{}\n", event.at_seconds(), csv_cell(event.source),
+                            csv_cell(event.event), csv_cell(values_text(event))));
   flush_at(event.time);
 }
 

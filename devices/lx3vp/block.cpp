@@ -80,7 +80,7 @@ constexpr BlockFlag flags[] = {
     {4, 1, "stop after cycle", "write", "the cam stops exactly at the end of the present cycle"},
 };
 
-constexpr Reading readings[] = {
+constexpr Reading readings_of_blocks[] = {
     {"initial values",
      "the manual gives words 6, 23, 24, 29, 30 and 39 initial values and does not say who writes them: words "
      "that no program, file or scenario has written have them when the cam starts; a 0 that was written "
@@ -174,7 +174,7 @@ static_assert(in_table(word::version, "version") && in_table(word::status, "stat
 std::span<const BlockWord> block_words() { return words; }
 std::span<const BlockFlag> block_flags() { return flags; }
 std::span<const SpecialRegister> special_registers() { return specials; }
-std::span<const Reading> block_readings() { return readings; }
+std::span<const Reading> block_readings() { return readings_of_blocks; }
 
 std::string take_initial_values(Registers& registers, int block) {
   std::string given;

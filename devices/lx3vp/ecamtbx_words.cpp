@@ -34,7 +34,7 @@ constexpr EcamtbxWord s_curve[] = {
     {s_curve_word::result, 1, "P13", "i16", "", "", "ECAMTBX writes it: the result, as in D1"},
 };
 
-constexpr Reading readings[] = {
+constexpr Reading word_readings[] = {
     {"results", "the manual says only that they are below 0 on an error: the numbers are ours"},
     {"laws", "the manual names them and shows results: the profiles are derived from its demos"},
     {"P6 high 3",
@@ -54,7 +54,7 @@ constexpr Reading readings[] = {
 
 }  // namespace
 
-std::span<const Reading> ecamtbx_readings() { return readings; }
+std::span<const Reading> ecamtbx_readings() { return word_readings; }
 std::span<const EcamtbxWord> saw_words() { return saw; }
 std::span<const EcamtbxWord> s_curve_words() { return s_curve; }
 

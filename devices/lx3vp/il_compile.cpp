@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/text.hpp"
 #include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
@@ -15,13 +16,6 @@ namespace drycut::devices::lx3vp::il {
 namespace {
 
 constexpr std::size_t most_problems = 1000;
-
-std::string quoted(std::string_view text) {
-  constexpr std::size_t most = 24;
-  std::string shown = "'";
-  for (const char c : text.substr(0, most)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + (text.size() > most ? "...'" : "'");
-}
 
 bool needs_memory(const Step& step) {
   const Op op = step.op();
@@ -104,7 +98,7 @@ class Compiler {
       return;
     }
     if (words.size() > 1)
-      problem(words[1].column, fmt::format("{} stands behind a label", quoted(words[1].text)),
+      problem(words[1].column, fmt::format("{} stands behind a label", in_quotes(words[1].text)),
               "give a label a line of its own");
     const auto [first, fresh] = labels_.emplace(operand->number, Label{line_, program_.steps.size()});
     if (!fresh) {
@@ -130,7 +124,7 @@ class Compiler {
     std::vector<std::string> names;
     for (const auto& spelling : spellings()) names.push_back(spelling.text);
     const auto near = nearest(word.text.substr(0, 24), names);
-    problem(word.column, fmt::format("there is no instruction {}", quoted(word.text)),
+    problem(word.column, fmt::format("there is no instruction {}", in_quotes(word.text)),
             near.empty() ? "one instruction a line: LD X0" : fmt::format("did you mean {}?", near));
   }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
@@ -159,8 +159,6 @@ std::vector<Statement> statements_of(std::string_view text, const TellLine& tell
   return statements;
 }
 
-bool is_table(std::string_view text) {
-  return columns_of(lines_of(text)).has_value();
-}
+bool is_table(std::string_view text) { return columns_of(lines_of(text)).has_value(); }
 
 }  // namespace drycut::devices::lx3vp::il

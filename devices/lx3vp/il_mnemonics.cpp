@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::lx3vp::il {
 

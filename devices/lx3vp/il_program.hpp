@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
-#include "devices/problem.hpp"
 
 namespace drycut::devices::lx3vp::il {
 

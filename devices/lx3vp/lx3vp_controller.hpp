@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "devices/lx3vp/ecamtbx.hpp"
 #include "devices/lx3vp/high_speed_counters.hpp"
@@ -17,7 +18,6 @@
 #include "devices/lx3vp/pulse_unit.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/lx3vp/registers.hpp"
-#include "devices/problem.hpp"
 
 namespace drycut::devices::lx3vp {
 

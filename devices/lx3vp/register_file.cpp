@@ -9,18 +9,13 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
 
 using Kind = RegisterName::Kind;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return text.substr(0, 0);
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 // As much of a text as a message shows, without what a terminal would take for a command.
 std::string shown(std::string_view text) {
@@ -62,11 +57,6 @@ std::string_view next_line(std::string_view& text) {
   const auto line = text.substr(0, text.find('\n'));
   text.remove_prefix(std::min(line.size() + 1, text.size()));
   return line;
-}
-
-// Spreadsheets begin a file with a mark of its encoding.
-std::string_view without_mark(std::string_view text) {
-  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
 }
 
 bool holds_32_bit(const RegisterName& name) { return name.kind == Kind::wide || name.kind == Kind::real; }
@@ -158,12 +148,12 @@ std::vector<RegisterValue> read_register_values(std::string_view text, const std
                                                 char separator, Problems& problems) {
   RowReader reader(file, separator, problems);
   int number = 0;
-  for (text = without_mark(text); !text.empty();) reader.read(next_line(text), ++number);
+  for (text = without_byte_order_mark(text); !text.empty();) reader.read(next_line(text), ++number);
   return reader.take_values();
 }
 
 bool is_register_file(std::string_view text, char separator) {
-  for (text = without_mark(text); !text.empty();) {
+  for (text = without_byte_order_mark(text); !text.empty();) {
     const auto content = content_of(next_line(text));
     const auto at = content.find(separator);
     if (at == std::string_view::npos) continue;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::lx3vp {
 

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "base/units.hpp"
 #include "devices/axis/dac.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
 
 __extension__ using Wide = __int128;
-
-constexpr double pin_max = 2147483647;
-constexpr double microseconds = 1e-6;
 
 bool in_range(double value, double min) { return value >= min && value <= pin_max; }
 /// 0 takes the axis' own; the vendor's ranges begin at 1.
@@ -50,7 +48,8 @@ ErrorId Axis::limits_of(const Dynamics& dynamics, JerkLimits& limits) const {
       std::min(own(dynamics.acceleration, half), parameters_.a_max) * increments_per_acceleration;
   limits.deceleration =
       std::min(own(dynamics.deceleration, half), parameters_.a_max) * increments_per_acceleration;
-  limits.jerk = own(dynamics.jerk, half / (parameters_.tr_min * microseconds)) * increments_per_acceleration;
+  limits.jerk =
+      own(dynamics.jerk, half / (parameters_.tr_min * units::microsecond)) * increments_per_acceleration;
   return ErrorId::none;
 }
 

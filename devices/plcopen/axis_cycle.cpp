@@ -4,15 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "base/units.hpp"
+
 #include "devices/plcopen/axis.hpp"
 
 // What an axis does in each cycle.
 namespace drycut::devices::plcopen {
-namespace {
-
-constexpr double microseconds = 1e-6;
-
-}  // namespace
+namespace {}  // namespace
 
 void Axis::latch(double dt) {
   acceleration_before_ = set_.acceleration;
@@ -160,14 +158,14 @@ void Axis::brake(double dt) {
 CouplingLimits Axis::coupling_limits() const {
   const AxisParameters& p = parameters_;
   const double half = p.a_max / 2;
-  const double steepest = half / (p.tr_min * microseconds);
+  const double steepest = half / (p.tr_min * units::microsecond);
   CouplingLimits limits;
   limits.window = p.v_diff_percent / 1000;
   limits.window_floor = p.vb_max / 1000 * increments_per_speed;
-  limits.time_in_window = p.time_in_window * microseconds;
-  limits.timeout = p.time_out_in_window * microseconds;
+  limits.time_in_window = p.time_in_window * units::microsecond;
+  limits.timeout = p.time_out_in_window * units::microsecond;
   limits.timeout_from_start = p.timeout_from_execute != 0;
-  double jerk = p.j_vel_sync > 0 ? std::min(p.j_vel_sync, steepest) : half / (p.tr_max * microseconds);
+  double jerk = p.j_vel_sync > 0 ? std::min(p.j_vel_sync, steepest) : half / (p.tr_max * units::microsecond);
   limits.up = p.a_max * increments_per_acceleration;
   limits.down = limits.up;
   if (coupling_->cam() == nullptr) {

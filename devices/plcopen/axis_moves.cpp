@@ -9,7 +9,6 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-constexpr double pin_max = 2147483647;
 /// Commands that have ended and whose blocks may not have been called since.
 constexpr std::size_t most_ended = 16;
 

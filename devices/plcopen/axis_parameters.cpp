@@ -10,7 +10,7 @@ using P = AxisParameters;
 constexpr double most = 2147483647;
 constexpr double unsigned_most = 4294967295;
 
-constexpr std::array table{
+constexpr std::array parameter_rows{
     AxisParameter{"kind", "", "", 0, 2, true, &P::kind,
                   "0 servo with +-10 V reference, 1 virtual, 2 encoder only"},
     AxisParameter{"modulo", "", "0.1 um, 0.0001 deg", 0, most, true, &P::modulo,
@@ -83,10 +83,10 @@ constexpr std::array table{
 
 }  // namespace
 
-std::span<const AxisParameter> axis_parameter_table() { return table; }
+std::span<const AxisParameter> axis_parameter_table() { return parameter_rows; }
 
 const AxisParameter* find_axis_parameter(std::string_view name) {
-  for (const AxisParameter& parameter : table)
+  for (const AxisParameter& parameter : parameter_rows)
     if (parameter.name == name) return &parameter;
   return nullptr;
 }

@@ -14,7 +14,7 @@ double coupling_phase(const Axis& axis) {
   return axis.coupling() == nullptr ? 0 : 1 + static_cast<double>(axis.coupling()->phase());
 }
 
-constexpr std::array table{
+constexpr std::array value_rows{
     AxisValue{"set_position", AxisQuantity::position,
               [](const Axis& axis) { return axis.set().position.part / increments; }, nullptr, 0, 0,
               "commanded position, of a modulo axis in its turn"},
@@ -100,6 +100,6 @@ std::string_view unit_of(AxisQuantity quantity, Measure measure) {
   return "";
 }
 
-std::span<const AxisValue> axis_value_table() { return table; }
+std::span<const AxisValue> axis_value_table() { return value_rows; }
 
 }  // namespace drycut::devices::plcopen

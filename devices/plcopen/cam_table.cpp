@@ -1,6 +1,6 @@
 #include "devices/plcopen/cam_table.hpp"
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -25,10 +25,7 @@ std::string error_text(ErrorId id) {
 }
 
 std::string joined(const std::vector<std::string>& names, std::string_view none) {
-  if (names.empty()) return std::string(none);
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  return names.empty() ? std::string(none) : listed(names);
 }
 
 std::string_view kind_text(AxisKind kind) {

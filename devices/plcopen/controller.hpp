@@ -7,13 +7,13 @@
 #include <variant>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "devices/plcopen/axis_values.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/program.hpp"
 #include "devices/plcopen/st/runtime.hpp"
 #include "devices/plcopen/terminals.hpp"
-#include "devices/problem.hpp"
 
 namespace drycut::devices::plcopen {
 

@@ -7,18 +7,12 @@
 #include <cmath>
 #include <set>
 
+#include "base/text.hpp"
 #include "devices/plcopen/controller.hpp"
 #include "devices/plcopen/table_text.hpp"
-#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0) text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.remove_suffix(1);
-  return text;
-}
 
 // An element of a cam table, lines and columns from 1.
 struct TableElement {
@@ -193,16 +187,16 @@ bool PlcopenController::restore(const std::string& text, Problems& problems, con
 void PlcopenController::read_kept(std::string_view line, int number, const std::string& file,
                                   std::vector<std::pair<std::size_t, double>>& kept,
                                   Problems& problems) const {
-  const std::string_view content = without_blanks(line.substr(0, line.find(';')));
+  const std::string_view content = drycut::trimmed(line.substr(0, line.find(';')));
   if (content.empty()) return;
   const auto complain = [&](std::string_view at, std::string what, std::string remedy) {
     problems.push_back(
         {file, number, static_cast<int>(at.data() - line.data()) + 1, std::move(what), std::move(remedy)});
   };
   const std::size_t equals = content.find('=');
-  const std::string_view name = without_blanks(content.substr(0, equals));
+  const std::string_view name = drycut::trimmed(content.substr(0, equals));
   const std::string_view value_text =
-      equals == std::string_view::npos ? std::string_view() : without_blanks(content.substr(equals + 1));
+      equals == std::string_view::npos ? std::string_view() : drycut::trimmed(content.substr(equals + 1));
   if (name.empty() || value_text.empty())
     return complain(content, fmt::format("'{}' is no value", content), "write: name = value");
   const auto found = symbols_.find(lower(name));

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
 
-constexpr double pin_max = 2147483648.0;
+constexpr double offset_max = 2147483648.0;
 /// A slave this near to the new law needs no ramp-in [inc].
 constexpr double in_place = 1;
 
@@ -22,12 +22,12 @@ ErrorId check_pins(const CamInRequest& request) {
   constexpr std::uint32_t known = 0x7F;
   constexpr std::uint32_t both = hli_ci_endless_positive | hli_ci_endless_negative;
   if ((request.start_mode & ~known) != 0 || (request.start_mode & both) == both) return ErrorId::start_mode;
-  if (!(std::abs(request.master_offset) <= pin_max) || !(std::abs(request.slave_offset) <= pin_max))
+  if (!(std::abs(request.master_offset) <= offset_max) || !(std::abs(request.slave_offset) <= offset_max))
     return ErrorId::offset_range;
   const double scaling = request.master_scaling;
-  if (!(std::abs(scaling) <= pin_max) || scaling == 0 || scaling != std::round(scaling))
+  if (!(std::abs(scaling) <= offset_max) || scaling == 0 || scaling != std::round(scaling))
     return ErrorId::master_scaling;
-  return std::abs(request.slave_scaling) <= pin_max ? ErrorId::none : ErrorId::slave_scaling;
+  return std::abs(request.slave_scaling) <= offset_max ? ErrorId::none : ErrorId::slave_scaling;
 }
 
 ErrorId check_pins(const GearInRequest& request) {
@@ -267,7 +267,7 @@ Order MotionKernel::phase(AxisRef master, AxisRef slave_ref, double shift, const
     return {verdict.error};
   if (slave->link().master != master) return {ErrorId::phasing_not_synchronous};
   if (!slave->coupling()->engaged()) return {ErrorId::phasing_slave_not_reached};
-  if (!(std::abs(shift) <= pin_max)) return {ErrorId::offset_range};
+  if (!(std::abs(shift) <= offset_max)) return {ErrorId::offset_range};
   if (!(dynamics.velocity >= 1)) return {ErrorId::velocity_range};
   JerkLimits limits;
   if (const ErrorId error = ahead->limits_of(dynamics, limits); error != ErrorId::none) return {error};

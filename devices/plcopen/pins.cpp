@@ -5,8 +5,8 @@
 #include <cctype>
 #include <tuple>
 
+#include "base/text.hpp"
 #include "devices/plcopen/function_blocks.hpp"
-#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

@@ -12,6 +12,9 @@
 // What function blocks ask of axes, as plain values: a command that waits for its turn is kept as one.
 namespace drycut::devices::plcopen {
 
+/// Positions, ways and limits of a command go to here, either way.
+inline constexpr double pin_max = 2147483647;
+
 /// AXIS_REF: the number of an axis in its kernel; -1 = not connected.
 struct AxisRef {
   int number = -1;

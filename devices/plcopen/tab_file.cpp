@@ -90,8 +90,10 @@ std::optional<CamTable> parse_tab(std::string_view text, const std::string& file
       header_line(reader, table, seen, count, line, number);
     }
   }
-  if (part == Part::header) reader.fault(std::max(number, 1), 1, "Begintable is missing", "write it above the rows");
-  if (part == Part::rows) reader.fault(std::max(number, 1), 1, "EndTable is missing", "write it below the rows");
+  if (part == Part::header)
+    reader.fault(std::max(number, 1), 1, "Begintable is missing", "write it above the rows");
+  if (part == Part::rows)
+    reader.fault(std::max(number, 1), 1, "EndTable is missing", "write it below the rows");
   if (part != Part::header && count >= 0 && rows != count)
     reader.fault(seen.at("lines"), 1, fmt::format("Lines = {}, but there are {}", count, rows),
                  fmt::format("write {}", rows));

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/plcopen/cam_laws.hpp"
 #include "devices/plcopen/cam_table.hpp"
-#include "devices/problem.hpp"
 
 namespace drycut::devices::plcopen {
 

@@ -4,17 +4,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/problem.hpp"
+#include "base/text.hpp"
 #include "devices/plcopen/cam_table.hpp"
-#include "devices/problem.hpp"
-#include "devices/text.hpp"
 
 // What the readers of cam files share: lines, words with their places, numbers, rows.
 namespace drycut::devices::plcopen {
-
-/// Windows' editors begin a UTF-8 text with a byte order mark.
-inline std::string_view without_byte_order_mark(std::string_view text) {
-  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-}
 
 /// A word of a line with its place.
 struct Word {

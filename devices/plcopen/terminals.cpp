@@ -6,7 +6,7 @@
 #include <cctype>
 #include <charconv>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {

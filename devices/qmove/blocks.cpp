@@ -154,7 +154,7 @@ void Compiler::sub_block() {
   if (is_new)
     sub_names_.emplace_back(name->text);
   else
-    complain(name->place, fmt::format("the subroutine {} stands twice", quoted(name->text)),
+    complain(name->place, fmt::format("the subroutine {} stands twice", in_quotes(name->text)),
              fmt::format("the first is in line {}; rename one", target->second.place.line));
 }
 
@@ -205,7 +205,7 @@ void Compiler::resolve() {
     const auto found = labels_.find(lower(reference.name));
     if (found == labels_.end())
       complain(
-          reference.place, "unknown label " + quoted(reference.name),
+          reference.place, "unknown label " + in_quotes(reference.name),
           suggestion(reference.name, label_names_, fmt::format("write {}: where it leads", reference.name)));
     else
       program_.code[static_cast<std::size_t>(reference.code)].a = found->second.code;
@@ -213,7 +213,7 @@ void Compiler::resolve() {
   for (const Reference& reference : calls_) {
     const auto found = subs_.find(lower(reference.name));
     if (found == subs_.end())
-      complain(reference.place, "unknown subroutine " + quoted(reference.name),
+      complain(reference.place, "unknown subroutine " + in_quotes(reference.name),
                suggestion(reference.name, sub_names_, fmt::format("write SUB {} .. ENDSUB", reference.name)));
     else
       program_.code[static_cast<std::size_t>(reference.code)].a = found->second.code;

@@ -44,7 +44,7 @@ TerminalKind terminal_kind(Field::Kind kind) {
 void CnfParser::device(const Words& words) {
   const bool named = declare(words[0]);
   if (words.size() < 2) {
-    complain(words[0].place, quoted(words[0].text) + " has no device type", "write: <name> <type> <fields>");
+    complain(words[0].place, in_quotes(words[0].text) + " has no device type", "write: <name> <type> <fields>");
     return;
   }
   const std::optional<std::size_t> type_index = device_type(words[1]);
@@ -63,7 +63,7 @@ void CnfParser::device(const Words& words) {
     const Word& at = missing ? words.back() : fields[type.fields.size()];
     complain(at.place,
              fmt::format("{} {} has {} fields after its name and type, found {}", type.name,
-                         quoted(words[0].text), type.fields.size(), fields.size()),
+                         in_quotes(words[0].text), type.fields.size(), fields.size()),
              "write: " + form_of(type));
   }
   DeviceRecord record{std::string(words[0].text), *type_index, {}, words[0].place};
@@ -84,7 +84,7 @@ std::optional<std::size_t> CnfParser::device_type(const Word& word) {
     if (same_word(catalogue_[i].type->name, word.text)) return i;
     names.emplace_back(catalogue_[i].type->name);
   }
-  complain(word.place, "unknown device type " + quoted(word.text),
+  complain(word.place, "unknown device type " + in_quotes(word.text),
            suggestion(word.text, names, "known types are " + listed(names)));
   return std::nullopt;
 }
@@ -97,7 +97,7 @@ std::optional<Resource> CnfParser::resource(const Field& field, const Word& word
   const std::optional<Address> address = parse_address(word.text);
   if (!address || address->kind != wanted.kind) {
     complain(word.place,
-             fmt::format("{} of {}: {} is {}", field.name, type.name, quoted(word.text),
+             fmt::format("{} of {}: {} is {}", field.name, type.name, in_quotes(word.text),
                          address ? article(name_of(address->kind)) : "no address"),
              fmt::format("write the address of {} such as {}, or X.X if unused",
                          article(name_of(wanted.kind)), wanted.example));
@@ -115,7 +115,7 @@ std::optional<Resource> CnfParser::number_resource(const Field& field, const Wor
   const char* const end = word.text.data() + word.text.size();
   const auto [stop, error] = std::from_chars(word.text.data(), end, value);
   if (error != std::errc{} || stop != end || value < field.min || value > field.max) {
-    complain(word.place, fmt::format("{} of {} cannot be {}", field.name, type.name, quoted(word.text)),
+    complain(word.place, fmt::format("{} of {} cannot be {}", field.name, type.name, in_quotes(word.text)),
              line ? fmt::format("write an interrupt line from {} to {}, or X if unused", field.min, field.max)
                   : fmt::format("write the sampling time in ms, from {} to {}", field.min, field.max));
     return std::nullopt;
@@ -130,10 +130,10 @@ void CnfParser::check_bus() {
     const auto found = std::find_if(configuration_.slots.begin(), configuration_.slots.end(),
                                     [&](const Slot& slot) { return slot.number == use.slot; });
     if (found == configuration_.slots.end())
-      complain(use.word.place, fmt::format("{}: BUS has no slot {}", quoted(use.word.text), use.slot),
+      complain(use.word.place, fmt::format("{}: BUS has no slot {}", in_quotes(use.word.text), use.slot),
                "use a slot that BUS gives a card, or add it to BUS");
     else if (found->card.empty())
-      complain(use.word.place, fmt::format("{}: slot {} is empty", quoted(use.word.text), use.slot),
+      complain(use.word.place, fmt::format("{}: slot {} is empty", in_quotes(use.word.text), use.slot),
                fmt::format("use a slot with a card, or put a card into line {}", found->place.line));
   }
 }

@@ -37,7 +37,7 @@ void CnfParser::group_line(const Words& words) {
     return;
   }
   if (group_part_ == GroupPart::recipes) {
-    complain(words[0].place, fmt::format("{} instead of DATAPROGRAM", quoted(words[0].text)),
+    complain(words[0].place, fmt::format("{} instead of DATAPROGRAM", in_quotes(words[0].text)),
              "write DATAPROGRAM <recipes> after the datagroup's name");
     group_part_ = GroupPart::statics;
   }
@@ -73,7 +73,7 @@ void CnfParser::group_count(const Words& words, std::size_t first, GroupPart nex
 
 void CnfParser::group_variable(const Words& words) {
   if (words.size() < 2) {
-    complain(words[0].place, quoted(words[0].text) + " has no type",
+    complain(words[0].place, in_quotes(words[0].text) + " has no type",
              "write: <name> <type>, the type is F, B, W, L or S");
     return;
   }
@@ -95,11 +95,11 @@ void CnfParser::close_groups() {
   DataGroup& group = configuration_.groups.back();
   if (group_part_ == GroupPart::recipes)
     complain(group.place,
-             fmt::format("the datagroup {} has no DATAPROGRAM{}", quoted(group.name),
+             fmt::format("the datagroup {} has no DATAPROGRAM{}", in_quotes(group.name),
                          group.recipes == -1 ? " count" : ""),
              "write DATAPROGRAM <recipes> below its name");
   if (group_part_ == GroupPart::steps)
-    complain(group.place, fmt::format("the datagroup {} has no STEP count", quoted(group.name)),
+    complain(group.place, fmt::format("the datagroup {} has no STEP count", in_quotes(group.name)),
              "write STEP <steps>");
   group.recipes = std::max(group.recipes, 0);
   group.steps = std::max(group.steps, 0);

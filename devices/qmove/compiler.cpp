@@ -140,7 +140,7 @@ void Compiler::syntax_error(const Token& at, std::string what, std::string remed
 }
 
 std::string Compiler::found(const Token& token) {
-  return token.kind == Token::Kind::end_of_line ? "the end of the line" : quoted(token.text);
+  return token.kind == Token::Kind::end_of_line ? "the end of the line" : in_quotes(token.text);
 }
 
 int Compiler::emit(Op op, int a, int b) {

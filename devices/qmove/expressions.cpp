@@ -124,7 +124,7 @@ Compiler::Type Compiler::primary() {
   switch (here.kind) {
     case Token::Kind::integer:
       if (here.integer > std::numeric_limits<std::int32_t>::max())
-        complain(here.place, quoted(here.text) + " is out of range",
+        complain(here.place, in_quotes(here.text) + " is out of range",
                  "a long goes from -2147483648 to 2147483647");
       emit(Op::push, static_cast<std::int32_t>(here.integer));
       advance();
@@ -207,12 +207,12 @@ Compiler::Type Compiler::name_value() {
       emit(Op::load_at);
       break;
     case NamedThing::Kind::device:
-      complain(name.place, fmt::format("{} is a device, not a value", quoted(name.text)),
+      complain(name.place, fmt::format("{} is a device, not a value", in_quotes(name.text)),
                fmt::format("write {}:parameter", name.text));
       emit(Op::push);
       return Type::integer;
     case NamedThing::Kind::group:
-      complain(name.place, fmt::format("{} is a datagroup, not a value", quoted(name.text)),
+      complain(name.place, fmt::format("{} is a datagroup, not a value", in_quotes(name.text)),
                "name one of its variables");
       emit(Op::push);
       return Type::integer;
@@ -227,7 +227,7 @@ void Compiler::indexes(const NamedThing& thing, const Token& name) {
                            : thing.kind == NamedThing::Kind::group_static ? "[recipe]"
                                                                           : "[index]";
   if (!is_sign('[')) {
-    syntax_error(name, fmt::format("{} is {} and needs an index", quoted(name.text), name_of(thing.kind)),
+    syntax_error(name, fmt::format("{} is {} and needs an index", in_quotes(name.text), name_of(thing.kind)),
                  fmt::format("write {}{}", name.text, form));
     return;
   }
@@ -245,7 +245,7 @@ void Compiler::indexes(const NamedThing& thing, const Token& name) {
   expect(']', "close the index");
   if (count != wanted && !thing.name.empty() && !line_failed_)
     complain(open.place,
-             fmt::format("{} takes {} index{}, found {}", quoted(name.text), wanted, wanted == 1 ? "" : "es",
+             fmt::format("{} takes {} index{}, found {}", in_quotes(name.text), wanted, wanted == 1 ? "" : "es",
                          count),
              fmt::format("write {}{}", name.text, form));
   if (thing.kind == NamedThing::Kind::group_step) {
@@ -267,7 +267,7 @@ void Compiler::check_index(const NamedThing& thing, std::size_t number, int begi
   const std::int32_t index = program_.code.back().a;
   if (index >= 1 && index <= last) return;
   const std::string_view what = step ? "step" : thing.kind == NamedThing::Kind::array ? "index" : "recipe";
-  complain(place, fmt::format("{} {} is outside 1..{} of {}", what, index, last, quoted(thing.name)),
+  complain(place, fmt::format("{} {} is outside 1..{} of {}", what, index, last, in_quotes(thing.name)),
            fmt::format("take one of 1..{}, or declare more of it in {}", last, configuration_.file));
 }
 
@@ -280,7 +280,7 @@ void Compiler::condition() {
 const NamedThing* Compiler::find_name(const Token& name) {
   const NamedThing* thing = names_.find(name.text);
   if (!thing)
-    complain(name.place, "unknown name " + quoted(name.text),
+    complain(name.place, "unknown name " + in_quotes(name.text),
              suggestion(name.text, names_.names(), "declare it in " + configuration_.file));
   return thing;
 }
@@ -294,8 +294,8 @@ std::optional<int> Compiler::find_device(const Token& name) {
   const NamedThing* thing = names_.find(name.text);
   if (thing && thing->kind == NamedThing::Kind::device) return thing->index;
   complain(name.place,
-           thing ? fmt::format("{} is {}, not a device", quoted(name.text), name_of(thing->kind))
-                 : "unknown device " + quoted(name.text),
+           thing ? fmt::format("{} is {}, not a device", in_quotes(name.text), name_of(thing->kind))
+                 : "unknown device " + in_quotes(name.text),
            suggestion(name.text, device_names(),
                       device_names().empty() ? "declare it under INTDEVICE in " + configuration_.file
                                              : "devices are " + listed(device_names())));
@@ -310,16 +310,16 @@ std::optional<Symbol> Compiler::find_parameter(int device, const Token& name) {
   // Print loses underscores: `Axis:st init`.
   const std::string joined = fmt::format("{}_{}", name.text, token().text);
   if (token().kind == Token::Kind::word && find_symbol(type, joined)) {
-    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, quoted(name.text)),
-             "did you mean " + quoted(joined) + "?");
+    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
+             "did you mean " + in_quotes(joined) + "?");
     advance();
     return std::nullopt;
   }
   if (const std::optional<int> command = find_command(type, name.text))
-    complain(name.place, fmt::format("{} is a command of {}, not a parameter", quoted(name.text), type.name),
+    complain(name.place, fmt::format("{} is a command of {}, not a parameter", in_quotes(name.text), type.name),
              fmt::format("write {} {}", type.commands[static_cast<std::size_t>(*command)].name, device_name));
   else
-    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, quoted(name.text)),
+    complain(name.place, fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
              suggestion(name.text, symbol_names(type), fmt::format("see: drycut devices {}", type.name)));
   return std::nullopt;
 }

@@ -67,7 +67,7 @@ class LineLexer {
       ++size;
     Token& token = add(real ? Token::Kind::real : Token::Kind::integer, size);
     if (malformed)
-      complain(token, quoted(token.text) + " is neither a number nor a name",
+      complain(token, in_quotes(token.text) + " is neither a number nor a name",
                "names begin with a letter, numbers are decimal");
     else if (real)
       read_real(token);
@@ -79,7 +79,7 @@ class LineLexer {
     const auto [end, error] =
         std::from_chars(token.text.data(), token.text.data() + token.text.size(), token.real);
     if (error != std::errc{})
-      complain(token, quoted(token.text) + " is out of range", "a single goes to 3.4e38");
+      complain(token, in_quotes(token.text) + " is out of range", "a single goes to 3.4e38");
   }
 
   void read_integer(Token& token) {
@@ -87,7 +87,7 @@ class LineLexer {
     for (const char c : token.text) {
       token.integer = token.integer * 10 + (c - '0');
       if (token.integer > largest) {
-        complain(token, quoted(token.text) + " is out of range",
+        complain(token, in_quotes(token.text) + " is out of range",
                  "a long goes from -2147483648 to 2147483647");
         return;
       }
@@ -101,7 +101,7 @@ class LineLexer {
     const std::size_t size = ascii ? 1 : length([](char x) { return static_cast<unsigned char>(x) >= 128; });
     const bool compares = c == '<' || c == '>' || c == '!';
     Token& token = add(Token::Kind::bad, size);
-    complain(token, "unexpected character " + quoted(token.text),
+    complain(token, "unexpected character " + in_quotes(token.text),
              compares ? "compare with EQ, NEQ, LT, LE, GT or GE" : "a comment begins with ';'");
   }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "devices/qmove/text.hpp"
 
 namespace drycut::devices::qmove {

@@ -9,9 +9,9 @@
 #include <tuple>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/catalogue.hpp"
 #include "devices/controller.hpp"
-#include "devices/problem.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/machine.hpp"
 #include "devices/qmove/program.hpp"
@@ -19,6 +19,9 @@
 #include "devices/slot_terminals.hpp"
 
 namespace drycut::devices::qmove {
+
+/// What a variable of this size takes.
+ValueRange range_of(Size size);
 
 /// What the controller's CPU is doing, as QMOS reports it in osmode (spec 4.5).
 enum class OsMode : std::uint8_t { initial = 0, run = 3, error = 5 };

@@ -2,10 +2,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // What the controller remembers without power, as a text that a user can read and edit.
@@ -13,38 +13,11 @@ namespace drycut::devices::qmove {
 
 namespace {
 
-struct Range {
-  double min;
-  double max;
-};
-
-Range range_of(Size size) {
-  switch (size) {
-    case Size::F:
-      return {0, 1};
-    case Size::B:
-      return {-128, 127};
-    case Size::W:
-      return {-32768, 32767};
-    case Size::L:
-      break;
-    case Size::S:
-      return {-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
-  }
-  return {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
-}
-
 // Cell `i` of an array or datagroup variable as a program would name it.
 std::string element(const NamedThing& thing, int i) {
   if (thing.kind == NamedThing::Kind::scalar) return thing.name;
   if (thing.kind != NamedThing::Kind::group_step) return fmt::format("{}[{}]", thing.name, i + 1);
   return fmt::format("{}[{},{}]", thing.name, i / thing.steps + 1, i % thing.steps + 1);
-}
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
 }  // namespace
@@ -105,7 +78,7 @@ void QmoveController::read_kept(std::string_view line, int number, const std::st
                                 std::set<std::string>& seen, std::vector<Kept>& kept,
                                 Problems& problems) const {
   const std::string_view statement = line.substr(0, line.find(';'));
-  const std::string_view content = without_blanks(statement);
+  const std::string_view content = trimmed(statement);
   if (content.empty()) return;
   const auto complain = [&](std::string_view at, std::string what, std::string remedy) {
     problems.push_back(
@@ -113,36 +86,36 @@ void QmoveController::read_kept(std::string_view line, int number, const std::st
   };
   const std::size_t equals = content.find('=');
   if (equals == std::string_view::npos)
-    return complain(content, "no '=' in " + quoted(content), "write: name = value");
-  const std::string_view name = without_blanks(content.substr(0, equals));
-  const std::string_view value_text = without_blanks(content.substr(equals + 1));
+    return complain(content, "no '=' in " + in_quotes(content), "write: name = value");
+  const std::string_view name = trimmed(content.substr(0, equals));
+  const std::string_view value_text = trimmed(content.substr(equals + 1));
   if (name.empty() || value_text.empty())
     return complain(content, "a name or value is missing", "write: name = value");
 
   std::optional<Location> location = locate(name);
   if (!location)
-    return complain(name, "unknown name " + quoted(name), suggestion(name, names(), "remove the line"));
+    return complain(name, "unknown name " + in_quotes(name), suggestion(name, names(), "remove the line"));
   if (!is_retentive(*location))
-    return complain(name, quoted(name) + " is not retentive", "remove the line, it is set at each start");
+    return complain(name, in_quotes(name) + " is not retentive", "remove the line, it is set at each start");
   if (!seen.insert(location->name).second)
-    return complain(name, quoted(name) + " is given twice", "remove one of the lines");
+    return complain(name, in_quotes(name) + " is given twice", "remove one of the lines");
   if (location->kind == Location::Kind::device &&
       machine_.devices[static_cast<std::size_t>(location->index)]->read({Symbol::Kind::state, 0, 0}) != 0)
-    return complain(name, "the device of " + quoted(name) + " is initialised already",
+    return complain(name, "the device of " + in_quotes(name) + " is initialised already",
                     "restore before the first run");
 
   double value = 0;
   const char* const end = value_text.data() + value_text.size();
   const auto [stop, error] = std::from_chars(value_text.data(), end, value);
-  const Range range = range_of(location->size);
+  const ValueRange range = range_of(location->size);
   // A single may have become infinite or not-a-number, and stays so.
   const bool odd = location->size == Size::S && !std::isfinite(value);
-  const bool fits = odd || (value >= range.min && value <= range.max &&
-                            (location->size == Size::S || std::trunc(value) == value));
+  const bool fits =
+      odd || (value >= range.low && value <= range.high && (!range.whole || std::trunc(value) == value));
   if (error != std::errc{} || stop != end || !fits)
-    return complain(value_text, fmt::format("{} cannot be {}", quoted(name), quoted(value_text)),
-                    fmt::format("write a{} number from {:.10g} to {:.10g}",
-                                location->size == Size::S ? "" : " whole", range.min, range.max));
+    return complain(value_text, fmt::format("{} cannot be {}", in_quotes(name), in_quotes(value_text)),
+                    fmt::format("write a{} number from {:.10g} to {:.10g}", range.whole ? " whole" : "",
+                                range.low, range.high));
   kept.push_back({*std::move(location), value});
 }
 

@@ -88,7 +88,7 @@ const NamedThing* Compiler::assignment() {
   if (thing) check_assignable(*thing, name);
   if (indexed || (is_sign('[') && !thing)) indexes(indexed ? *thing : NamedThing{}, name);
   if (thing && !indexed && is_sign('['))
-    syntax_error(token(), fmt::format("{} is {} and takes no index", quoted(name.text), name_of(thing->kind)),
+    syntax_error(token(), fmt::format("{} is {} and takes no index", in_quotes(name.text), name_of(thing->kind)),
                  remedy);
   if (line_failed_ || !expect('=', remedy)) return thing;
   store(thing ? *thing : NamedThing{}, expression());
@@ -125,7 +125,7 @@ void Compiler::check_assignable(const NamedThing& thing, const Token& name) {
   if (thing.kind == Kind::constant || thing.kind == Kind::input || thing.kind == Kind::group ||
       thing.kind == Kind::device)
     complain(name.place,
-             fmt::format("{} is {} and cannot be assigned", quoted(name.text), name_of(thing.kind)),
+             fmt::format("{} is {} and cannot be assigned", in_quotes(name.text), name_of(thing.kind)),
              thing.kind == Kind::device  ? fmt::format("write {}:parameter = value", name.text)
              : thing.kind == Kind::group ? "assign one of its variables"
                                          : "assign a variable, a timer, an output or Device:parameter");
@@ -136,10 +136,10 @@ void Compiler::check_writable(int device, Symbol symbol, const Token& parameter)
   if (symbol.kind == Symbol::Kind::state)
     complain(
         parameter.place,
-        fmt::format("{} is a state of {}, only the device changes it", quoted(parameter.text), type.name),
+        fmt::format("{} is a state of {}, only the device changes it", in_quotes(parameter.text), type.name),
         "give the command that changes it");
   else if (type.variables[static_cast<std::size_t>(symbol.index)].access == Access::read)
-    complain(parameter.place, fmt::format("{} of {} is read-only", quoted(parameter.text), type.name),
+    complain(parameter.place, fmt::format("{} of {} is read-only", in_quotes(parameter.text), type.name),
              "assign a parameter that programs may write");
 }
 
@@ -148,7 +148,7 @@ void Compiler::label() {
   advance();
   advance();
   if (is_reserved(name.text) || is_device(name.text)) {
-    complain(name.place, fmt::format("{} cannot be a label", quoted(name.text)),
+    complain(name.place, fmt::format("{} cannot be a label", in_quotes(name.text)),
              is_reserved(name.text) ? "it is a word of the language"
                                     : fmt::format("it is a device; write {}:parameter = value", name.text));
     return;
@@ -157,7 +157,7 @@ void Compiler::label() {
   if (is_new)
     label_names_.emplace_back(name.text);
   else
-    complain(name.place, fmt::format("the label {} stands twice", quoted(name.text)),
+    complain(name.place, fmt::format("the label {} stands twice", in_quotes(name.text)),
              fmt::format("the first is in line {}; rename one", target->second.place.line));
 }
 
@@ -204,7 +204,7 @@ void Compiler::set_output(bool on) {
   const NamedThing* thing = find_name(*name);
   if (!thing) return;
   if (thing->kind != NamedThing::Kind::output) {
-    complain(name->place, fmt::format("{} is {}, not an output", quoted(name->text), name_of(thing->kind)),
+    complain(name->place, fmt::format("{} is {}, not an output", in_quotes(name->text), name_of(thing->kind)),
              "name an output that is declared under OUTPUT");
     return;
   }
@@ -233,7 +233,7 @@ void Compiler::device_command() {
   }
   std::vector<std::string> own;
   for (const Command& candidate : type.commands) own.emplace_back(candidate.name);
-  complain(word.place, fmt::format("{} has no command {}", type.name, quoted(word.text)),
+  complain(word.place, fmt::format("{} has no command {}", type.name, in_quotes(word.text)),
            suggestion(word.text, own, fmt::format("see: drycut devices {}", type.name)));
 }
 
@@ -245,18 +245,18 @@ void Compiler::unknown_statement() {
   const std::string usual = "write an assignment, a command such as INIT Device, or IF, WAIT, JUMP, ...";
   const NamedThing* thing = names_.find(token().text);
   if (is_reserved(token().text))
-    syntax_error(token(), quoted(token().text) + " does not begin a statement", usual);
+    syntax_error(token(), in_quotes(token().text) + " does not begin a statement", usual);
   else if (thing)
     syntax_error(
-        after(1), fmt::format("expected '=' after {}, found {}", quoted(token().text), found(after(1))),
+        after(1), fmt::format("expected '=' after {}, found {}", in_quotes(token().text), found(after(1))),
         thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter = value", token().text)
                                                 : "write: name = value");
   else if (std::any_of(commands.begin(), commands.end(),
                        [&](const std::string& command) { return same_word(command, token().text); }))
-    syntax_error(token(), fmt::format("{} needs a device", quoted(token().text)),
+    syntax_error(token(), fmt::format("{} needs a device", in_quotes(token().text)),
                  fmt::format("write {} Device", token().text));
   else
-    syntax_error(token(), "unknown statement " + quoted(token().text),
+    syntax_error(token(), "unknown statement " + in_quotes(token().text),
                  suggestion(token().text, words, usual));
 }
 

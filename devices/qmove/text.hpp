@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 // What the readers of .CNF and .MOD texts have in common: words of a line, reserved words.
 namespace drycut::devices::qmove {

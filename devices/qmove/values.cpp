@@ -7,18 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 
 // The controller's values by name, for scenarios, the recorder and the retentive state.
 namespace drycut::devices::qmove {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
 
 // The numbers of "2, 1", or nothing if they are none.
 std::vector<int> index_numbers(std::string_view text) {
@@ -41,6 +36,8 @@ std::int64_t whole(double value) {
   return std::isnan(value) ? 0 : static_cast<std::int64_t>(std::clamp(value, -most, most));
 }
 
+}  // namespace
+
 ValueRange range_of(Size size) {
   switch (size) {
     case Size::F:
@@ -56,8 +53,6 @@ ValueRange range_of(Size size) {
   }
   return {-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
 }
-
-}  // namespace
 
 std::optional<QmoveController::Location> QmoveController::locate(std::string_view text) const {
   using LocationKind = Location::Kind;

@@ -41,8 +41,7 @@ void find_least(LimitCycle& cycle) {
 double factor_of(const AtFrequency& margin) { return std::pow(10, margin.value / 20); }
 
 std::optional<LimitCycle> find_limit_cycle(const Scenario& scenario, const LoopRequest& request,
-                                           devices::Problems& problems,
-                                           const std::function<void(double)>& progress) {
+                                           Problems& problems, const std::function<void(double)>& progress) {
   constexpr double all = octaves + 1 + 2 * refinements;
   LimitCycle cycle;
   const auto measure_at = [&](double amplitude) {

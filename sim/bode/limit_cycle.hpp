@@ -29,7 +29,7 @@ struct LimitCycle {
 /// Measures `scenario` with amplitudes from 0.05 V to 6.4 V in octaves, then twice between the neighbours of
 /// the least. nullopt and problems if the request does not fit; its amplitude is not looked at.
 std::optional<LimitCycle> find_limit_cycle(const Scenario& scenario, const LoopRequest& request,
-                                           devices::Problems& problems,
+                                           Problems& problems,
                                            const std::function<void(double)>& progress = {});
 
 /// How many times the gain in force.

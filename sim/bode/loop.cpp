@@ -14,7 +14,7 @@ namespace drycut::sim {
 namespace {
 
 void check_number(const char* option, const std::optional<double>& value, double least, double most,
-                  const char* unit, devices::Problems& problems) {
+                  const char* unit, Problems& problems) {
   if (!value || (*value >= least && *value <= most)) return;  // not NaN either
   problems.push_back({option, 1, 1, fmt::format("{} is out of range", *value),
                       fmt::format("give {} to {} {}", least, most, unit)});
@@ -33,7 +33,7 @@ std::optional<Time> time_of(const LoopRequest& request) {
 
 /// The wire to measure at; nullopt and a problem if it is not clear which.
 std::optional<std::size_t> choose_wire(const LoopRequest& request, const Scenario& scenario,
-                                       Simulation& simulation, devices::Problems& problems) {
+                                       Simulation& simulation, Problems& problems) {
   const auto& wires = simulation.bus().analogue_wires();
   std::vector<std::string> plugs;
   std::string all;
@@ -61,7 +61,7 @@ std::optional<std::size_t> choose_wire(const LoopRequest& request, const Scenari
 
 /// The channel of the motor's speed: the one asked for, or what the plant at the wire calls so.
 std::string choose_speed(const LoopRequest& request, const std::string& plug, Simulation& simulation,
-                         devices::Problems& problems) {
+                         Problems& problems) {
   auto& names = simulation.names();
   if (!request.speed.empty()) {
     if (names.reading(request.speed)) return request.speed;
@@ -77,7 +77,7 @@ std::string choose_speed(const LoopRequest& request, const std::string& plug, Si
 
 /// Where and how to measure; nullopt and problems if the options do not fit the scenario.
 std::optional<SweepPlan> plan_of(const LoopRequest& request, const Scenario& scenario, Simulation& simulation,
-                                 devices::Problems& problems) {
+                                 Problems& problems) {
   const auto before = problems.size();
   const auto wire = choose_wire(request, scenario, simulation, problems);
   if (!wire) return {};
@@ -109,25 +109,25 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const Scenario& sce
 }
 
 /// The two runs and the plan for them.
-struct Twins {
+struct Preparation {
   std::unique_ptr<Simulation> excited;
   std::unique_ptr<Simulation> still;
   std::optional<SweepPlan> plan;
 };
-Twins prepare(const Scenario& scenario, const LoopRequest& request, devices::Problems& problems) {
+Preparation prepare(const Scenario& scenario, const LoopRequest& request, Problems& problems) {
   const auto before = problems.size();
-  Twins twins;
-  twins.excited = std::make_unique<Simulation>(scenario, problems);
-  if (problems.size() == before) twins.plan = plan_of(request, scenario, *twins.excited, problems);
-  if (problems.size() == before) twins.still = std::make_unique<Simulation>(scenario, problems);
-  return twins;
+  Preparation prepared;
+  prepared.excited = std::make_unique<Simulation>(scenario, problems);
+  if (problems.size() == before) prepared.plan = plan_of(request, scenario, *prepared.excited, problems);
+  if (problems.size() == before) prepared.still = std::make_unique<Simulation>(scenario, problems);
+  return prepared;
 }
 
 }  // namespace
 
 std::string hertz_text(double frequency) { return fmt::format("{:.4g} Hz", frequency); }
 
-void check_request(const LoopRequest& request, devices::Problems& problems) {
+void check_request(const LoopRequest& request, Problems& problems) {
   if (request.at && !time_of(request))
     problems.push_back(
         {"--at", 1, 1, fmt::format("'{}' is no time from 0 to 1e6 s", *request.at), "such as 6 s"});
@@ -140,25 +140,24 @@ void check_request(const LoopRequest& request, devices::Problems& problems) {
         {"--points", 1, 1, fmt::format("{} is out of range", request.points), "give 2 to 1000"});
 }
 
-void check_loop(const Scenario& scenario, const LoopRequest& request, devices::Problems& problems) {
+void check_loop(const Scenario& scenario, const LoopRequest& request, Problems& problems) {
   (void)prepare(scenario, request, problems);
 }
 
 std::optional<LoopResult> measure_loop(const Scenario& scenario, const LoopRequest& request,
-                                       devices::Problems& problems,
-                                       const std::function<void(double)>& progress) {
-  const auto twins = prepare(scenario, request, problems);
-  if (!twins.still) return {};
+                                       Problems& problems, const std::function<void(double)>& progress) {
+  const auto prepared = prepare(scenario, request, problems);
+  if (!prepared.still) return {};
   LoopResult result;
   result.scenario = scenario.file.stem().string();
   result.file = scenario.file.filename().string();
-  result.plan = *twins.plan;
-  const auto& wire = twins.excited->bus().analogue_wires()[result.plan.wire];
+  result.plan = *prepared.plan;
+  const auto& wire = prepared.excited->bus().analogue_wires()[result.plan.wire];
   result.wire = wire.plug;
   result.terminal = wire.terminal_name;
   result.speed = result.plan.speed;
-  if (!result.speed.empty()) result.speed_unit = twins.excited->names().reading(result.speed)->unit;
-  result.sweep = measure(*twins.excited, *twins.still, result.plan, progress);
+  if (!result.speed.empty()) result.speed_unit = prepared.excited->names().reading(result.speed)->unit;
+  result.sweep = measure(*prepared.excited, *prepared.still, result.plan, progress);
   result.margins = margins_of(result.sweep.points);
   return result;
 }

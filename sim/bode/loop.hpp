@@ -37,13 +37,12 @@ struct LoopResult {
 inline constexpr double bode_error_limit = 0.05;
 
 /// Numbers of the request that no scenario allows, by the names of the options.
-void check_request(const LoopRequest& request, devices::Problems& problems);
+void check_request(const LoopRequest& request, Problems& problems);
 /// What of the request does not fit the scenario.
-void check_loop(const Scenario& scenario, const LoopRequest& request, devices::Problems& problems);
+void check_loop(const Scenario& scenario, const LoopRequest& request, Problems& problems);
 /// Runs `scenario` twice and measures; nullopt and problems if the request does not fit it.
 std::optional<LoopResult> measure_loop(const Scenario& scenario, const LoopRequest& request,
-                                       devices::Problems& problems,
-                                       const std::function<void(double)>& progress = {});
+                                       Problems& problems, const std::function<void(double)>& progress = {});
 /// "12.34 Hz".
 std::string hertz_text(double frequency);
 /// What keeps the measurement from being trusted, a line each; empty if nothing does.

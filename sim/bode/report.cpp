@@ -14,15 +14,15 @@ namespace drycut::sim {
 namespace {
 
 /// A response over all points: gain [dB] and phase [deg].
-struct Columns {
+struct BodeColumns {
   std::vector<double> gain;
   std::vector<double> phase;
 };
 
-Columns columns_of(const std::vector<BodePoint>& points,
-                   const std::function<std::complex<double>(const BodePoint&)>& response) {
+BodeColumns columns_of(const std::vector<BodePoint>& points,
+                       const std::function<std::complex<double>(const BodePoint&)>& response) {
   std::vector<std::complex<double>> values;
-  Columns columns;
+  BodeColumns columns;
   for (const auto& point : points) {
     values.push_back(response(point));
     columns.gain.push_back(decibels(values.back()));
@@ -32,10 +32,10 @@ Columns columns_of(const std::vector<BodePoint>& points,
 }
 
 struct Table {
-  Columns open;
-  Columns closed;
-  Columns sensitivity;
-  Columns speed;  ///< empty if not measured
+  BodeColumns open;
+  BodeColumns closed;
+  BodeColumns sensitivity;
+  BodeColumns speed;  ///< empty if not measured
 };
 
 /// The points where the loop answered.
@@ -90,7 +90,7 @@ std::string table_text(const LoopResult& result) {
                                  "frequency", "open loop", "closed loop", speed ? result.speed : "", "error",
                                  "Hz", "dB    deg", "dB    deg", speed ? "dB    deg" : "", "%");
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto pair = [&](const Columns& columns) {
+    const auto pair = [&](const BodeColumns& columns) {
       // Of the speed only the change counts: it begins at 0 dB.
       const double zero = &columns == &table.speed ? columns.gain.front() : 0;
       return fmt::format("{:>12.2f}{:>8.1f}", columns.gain[i] - zero, columns.phase[i]);
@@ -104,7 +104,7 @@ std::string table_text(const LoopResult& result) {
 renders::ReportTable response_table(const LoopResult& result) {
   const auto table = table_of(result);
   renders::ReportTable made{"Response", {"frequency [Hz]"}, {}, true};
-  std::vector<const Columns*> all = {&table.open, &table.closed, &table.sensitivity};
+  std::vector<const BodeColumns*> all = {&table.open, &table.closed, &table.sensitivity};
   std::vector<std::string> names = {"open loop", "position loop", "sensitivity"};
   if (!result.speed.empty()) {
     all.push_back(&table.speed);
@@ -273,7 +273,7 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   phase.title = "phase";
   phase.y_label = "[deg]";
   phase.bands = {{"-180 deg", -180, -180}};
-  const auto draw = [&](const std::string& label, const Columns& columns, double zero) {
+  const auto draw = [&](const std::string& label, const BodeColumns& columns, double zero) {
     auto gains = columns.gain;
     for (double& value : gains) value -= zero;
     gain.curves.push_back({label, x, gains});

@@ -1,8 +1,17 @@
 #pragma once
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "sim/cam/findings.hpp"
+
 namespace drycut::sim {
+
+/// Of a report's pieces and knots.
+inline constexpr std::size_t most_lines = 60;
+
+/// A number of a report: what is 0 but for rounding is 0.
+inline std::string plain(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
 
 /// Columns of text, as wide as their widest cells; numbers to the right, words to the left.
 class Columns {

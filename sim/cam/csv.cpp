@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text.hpp"
+
 namespace drycut::sim {
 
 namespace {
@@ -15,9 +17,7 @@ constexpr std::size_t most_problems = 1000;
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : std::string(between)) + word;
-  return text;
+  return fmt::format("{}", fmt::join(words, between));
 }
 
 /// True for "the guide in 0.1 mm" and for nothing: a value is a number or one word.
@@ -56,13 +56,6 @@ std::vector<Cell> split_cells(std::string_view line) {
   }
 }
 
-std::string quoted(std::string_view text) {
-  constexpr std::size_t most = 40;
-  std::string shown = "'";
-  for (const char c : text.substr(0, most)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + (text.size() > most ? "...'" : "'");
-}
-
 void TableProblems::add(int line, int column, std::string what, std::string remedy) {
   if (full_) return;
   problems_.push_back({file_, line, column, std::move(what), std::move(remedy)});
@@ -83,11 +76,11 @@ std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string
   if (cell.text.empty()) {
     problems.add(line, cell.column, fmt::format("{} has no value", name), remedy);
   } else if (!whole || error == std::errc::invalid_argument) {
-    problems.add(line, cell.column, fmt::format("{} {} is not a whole number", name, quoted(cell.text)),
+    problems.add(line, cell.column, fmt::format("{} {} is not a whole number", name, in_quotes(cell.text)),
                  remedy);
   } else if (error != std::errc{} || static_cast<double>(number) < range.low ||
              static_cast<double>(number) > range.high) {
-    problems.add(line, cell.column, fmt::format("{} {} is out of range", name, quoted(cell.text)), remedy);
+    problems.add(line, cell.column, fmt::format("{} {} is out of range", name, in_quotes(cell.text)), remedy);
   } else {
     return number;
   }
@@ -108,9 +101,9 @@ std::optional<double> real_number(const Cell& cell, int line, std::string_view n
   if (cell.text.empty()) {
     problems.add(line, cell.column, fmt::format("{} has no value", name), remedy);
   } else if (!read || divisor == 0) {
-    problems.add(line, cell.column, fmt::format("{} {} is not a number", name, quoted(cell.text)), remedy);
+    problems.add(line, cell.column, fmt::format("{} {} is not a number", name, in_quotes(cell.text)), remedy);
   } else if (number /= divisor; !(number >= range.low && number <= range.high)) {
-    problems.add(line, cell.column, fmt::format("{} {} is out of range", name, quoted(cell.text)), remedy);
+    problems.add(line, cell.column, fmt::format("{} {} is out of range", name, in_quotes(cell.text)), remedy);
   } else {
     return number;
   }
@@ -177,8 +170,8 @@ void Settings::refuse(const Cell& key, int line) {
   std::vector<std::string> names;
   names.reserve(settings_.size());
   for (const auto& [name, take] : settings_) names.push_back(name);
-  const auto near = devices::nearest(std::string(key.text.substr(0, 40)), names);
-  problems_.add(line, key.column, fmt::format("there is no setting {}", quoted(key.text)),
+  const auto near = nearest(std::string(key.text.substr(0, 40)), names);
+  problems_.add(line, key.column, fmt::format("there is no setting {}", in_quotes(key.text)),
                 (near.empty() ? "there are " + joined(names, ", ") : fmt::format("did you mean {}?", near)) +
                     "; a remark begins with ##");
 }
@@ -215,9 +208,9 @@ bool Header::read(const std::vector<Cell>& cells, int line, TableProblems& probl
 void Header::read_name(const Cell& cell, int place, int line, TableProblems& problems) {
   const auto found = std::find(columns_.begin(), columns_.end(), cell.text);
   if (found == columns_.end()) {
-    const auto near = devices::nearest(std::string(cell.text.substr(0, 40)), columns_);
+    const auto near = nearest(std::string(cell.text.substr(0, 40)), columns_);
     const bool semicolons = cell.text.find(';') != std::string_view::npos;
-    problems.add(line, cell.column, fmt::format("there is no column {}", quoted(cell.text)),
+    problems.add(line, cell.column, fmt::format("there is no column {}", in_quotes(cell.text)),
                  semicolons     ? "separate the columns with commas"
                  : near.empty() ? "the columns are " + text()
                                 : fmt::format("did you mean {}?", near));
@@ -241,7 +234,7 @@ void Header::check_width(const std::vector<Cell>& cells, int line, TableProblems
   for (std::size_t i = width_; i < cells.size(); ++i) {
     if (cells[i].text.empty()) continue;
     problems.add(line, cells[i].column,
-                 fmt::format("{} is in no column of the header", quoted(cells[i].text)),
+                 fmt::format("{} is in no column of the header", in_quotes(cells[i].text)),
                  fmt::format("the header has {} columns", width_));
     return;
   }

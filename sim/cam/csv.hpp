@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 
 namespace drycut::sim {
 
@@ -23,13 +23,11 @@ struct Cell {
 Cell trimmed(Cell cell);
 /// The cells between the commas of a line.
 std::vector<Cell> split_cells(std::string_view line);
-/// What a message may quote: short, printable ASCII.
-std::string quoted(std::string_view text);
 
 /// The problems of one table; after 1000 of them the rest is not told.
 class TableProblems {
  public:
-  TableProblems(std::string file, devices::Problems& problems)
+  TableProblems(std::string file, Problems& problems)
       : file_(std::move(file)), problems_(problems), before_(problems.size()) {}
   void add(int line, int column, std::string what, std::string remedy);
   [[nodiscard]] bool full() const { return full_; }
@@ -37,7 +35,7 @@ class TableProblems {
 
  private:
   std::string file_;
-  devices::Problems& problems_;
+  Problems& problems_;
   std::size_t before_;
   bool full_ = false;
 };

@@ -138,7 +138,7 @@ class PageMaker {
  private:
   void draw_cam() {
     const auto file = page_.name + ".csv";
-    devices::Problems problems;
+    Problems problems;
     CamRequest request;
     request.plot_name = "cam_" + page_.name;
     const bool has_speed = kind_.check(played_.table, file, problems);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 
+#include "base/text.hpp"
 #include "sim/cam/camming4/study.hpp"
 #include "sim/cam/csv.hpp"
 #include "sim/cam/lx3vp/study.hpp"
@@ -24,17 +25,17 @@ auto near_columns(const CamKind& kind, std::string_view header) {
     names.emplace_back(column.text);
   const auto cells = split_cells(header);
   return std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
-    return !devices::nearest(std::string(cell.text.substr(0, 40)), names).empty();
+    return !nearest(std::string(cell.text.substr(0, 40)), names).empty();
   });
 }
 
-bool check_no_kind(std::string_view text, const std::string& file, devices::Problems& problems) {
+bool check_no_kind(std::string_view text, const std::string& file, Problems& problems) {
   const auto header = header_line(text);
   const auto before = text.substr(0, static_cast<std::size_t>(header.data() - text.data()));
   const auto line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
   const auto column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
   problems.push_back(
-      {file, line, column, fmt::format("{} is the header of no cam table", quoted(trimmed({header}).text)),
+      {file, line, column, fmt::format("{} is the header of no cam table", in_quotes(trimmed({header}).text)),
        fmt::format(
            "CAMMING4's is {}; LX3VP's is master,slave, or parameter,value below a line "
            "# ecamtbx: K100 (K101, K0, K1); MC_CamIn's is slave, or a0,a1,a2,a3, or master,slave below a "
@@ -44,7 +45,7 @@ bool check_no_kind(std::string_view text, const std::string& file, devices::Prob
 }
 
 CamStudy study_no_kind(std::string_view text, const std::string& file, const CamRequest& /*request*/,
-                       devices::Problems& problems) {
+                       Problems& problems) {
   check_no_kind(text, file, problems);
   return {};
 }
@@ -85,7 +86,7 @@ std::string cam_report(const CamStudy& study) {
 }
 
 void check_positions(const std::vector<double>& at, MasterRange range, std::string_view unit,
-                     devices::Problems& problems) {
+                     Problems& problems) {
   for (const double position : at) {
     if (position >= range.first && position <= range.last) continue;
     problems.push_back({"--at", 1, 1, fmt::format("the cam has no master position {}", position),

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "renders/plots.hpp"
 #include "sim/cam/columns.hpp"
 #include "sim/cam/duty.hpp"
@@ -52,10 +52,10 @@ struct CamKind {
   bool (*owns)(std::string_view text);
   /// Reads a table; every fault becomes a problem with line and column. True if the table itself gives the
   /// speed of the master.
-  bool (*check)(std::string_view text, const std::string& file, devices::Problems& problems);
+  bool (*check)(std::string_view text, const std::string& file, Problems& problems);
   /// Reads and runs it; the study means nothing if problems were told.
   CamStudy (*study)(std::string_view text, const std::string& file, const CamRequest& request,
-                    devices::Problems& problems);
+                    Problems& problems);
   /// The cam that a table's text means; it does not run if there is a fault in it, which `study` tells.
   IdealCam (*ideal)(std::string_view text, MasterRange range);
 };
@@ -74,7 +74,7 @@ std::string cam_report(const CamStudy& study);
 
 /// Positions of --at that the cam does not have become problems.
 void check_positions(const std::vector<double>& at, MasterRange range, std::string_view unit,
-                     devices::Problems& problems);
+                     Problems& problems);
 /// The first words of the header line: what is neither empty nor a comment, "" if there is nothing.
 std::string_view header_line(std::string_view text);
 

@@ -8,11 +8,11 @@ namespace drycut::sim {
 
 namespace {
 
-constexpr double same = 1e-6;  // what rounding may add to a limit that is just met [units]
+constexpr double just_met = 1e-6;  // what rounding may add to a limit that is just met [units]
 
 std::string place_text(double value) { return number_text(value, 9); }
 
-/// A way that a remedy names: within `same`, so that a limit that it brings about is met.
+/// A way that a remedy names: within `just_met`, so that a limit that it brings about is met.
 std::string way_text(double value) { return number_text(std::round(value * 1e6) / 1e6, 15); }
 
 std::string moved_begin(double shift, const TravelWords& words) {
@@ -23,14 +23,14 @@ std::string moved_begin(double shift, const TravelWords& words) {
 CamRemedy remedy_of(const CamTravel& travel, double low, double high, bool above, const TravelWords& words) {
   const double stroke = high - low;
   const bool both = travel.least && travel.most;
-  if (both && stroke > *travel.most - *travel.least + same) {
+  if (both && stroke > *travel.most - *travel.least + just_met) {
     // The nearer end stays where the cam has it; a stroke that just fits has no other place than its travel.
     const double shift = std::abs(low) <= std::abs(high) ? *travel.least - low : *travel.most - high;
     return fmt::format("{} {} {} at most{}; it is {}",
                        words.stroke.empty() ? std::string("shorten the stroke to")
                                             : fmt::format("shorten the stroke ({}) to", words.stroke),
                        way_text(*travel.most - *travel.least), words.unit,
-                       std::abs(shift) <= same ? "" : " and " + moved_begin(shift, words),
+                       std::abs(shift) <= just_met ? "" : " and " + moved_begin(shift, words),
                        place_text(stroke));
   }
   const double shift = above ? *travel.most - high : *travel.least - low;
@@ -49,8 +49,8 @@ std::vector<TravelFault> travel_faults(const CamTravel& travel, double low, doub
                      words.unit, above ? words.most : words.least, place_text(limit)),
          remedy_of(travel, low, high, above, words)});
   };
-  if (travel.most && high > *travel.most + same) tell(true, high, *travel.most);
-  if (travel.least && low < *travel.least - same) tell(false, low, *travel.least);
+  if (travel.most && high > *travel.most + just_met) tell(true, high, *travel.most);
+  if (travel.least && low < *travel.least - just_met) tell(false, low, *travel.least);
   return faults;
 }
 

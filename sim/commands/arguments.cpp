@@ -8,7 +8,7 @@ namespace drycut::sim {
 
 namespace fs = std::filesystem;
 
-std::vector<Override> overrides_of(const std::vector<std::string>& set, devices::Problems& problems) {
+std::vector<Override> overrides_of(const std::vector<std::string>& set, Problems& problems) {
   std::vector<Override> overrides;
   for (const auto& text : set) {
     const auto equals = text.find('=');
@@ -22,8 +22,7 @@ std::vector<Override> overrides_of(const std::vector<std::string>& set, devices:
   return overrides;
 }
 
-void check_output(const char* option, const std::string& file, const InputFile& input,
-                  devices::Problems& problems) {
+void check_output(const char* option, const std::string& file, const InputFile& input, Problems& problems) {
   std::error_code ignored;
   if (fs::equivalent(file, input.file, ignored))
     problems.push_back(
@@ -40,7 +39,7 @@ void check_output(const char* option, const std::string& file, const InputFile& 
 }
 
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
-                   devices::Problems& problems) {
+                   Problems& problems) {
   if (!csv.empty() && csv != "-") check_output("--csv", csv, input, problems);
   if (png.empty()) return;
   check_output("--png", png, input, problems);

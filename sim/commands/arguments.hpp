@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
@@ -11,7 +11,7 @@ namespace drycut::sim {
 // Arguments that several commands take. What is wrong goes to `problems`, by the name of the option.
 
 /// The texts of `--set` as overrides; one that is no assignment path=value is a problem.
-std::vector<Override> overrides_of(const std::vector<std::string>& set, devices::Problems& problems);
+std::vector<Override> overrides_of(const std::vector<std::string>& set, Problems& problems);
 
 /// A file that a command reads, which its results must not overwrite.
 struct InputFile {
@@ -19,12 +19,11 @@ struct InputFile {
   std::string kind;  ///< "scenario", "table"
 };
 /// The file of an option can be written and is not the input.
-void check_output(const char* option, const std::string& file, const InputFile& input,
-                  devices::Problems& problems);
+void check_output(const char* option, const std::string& file, const InputFile& input, Problems& problems);
 /// The files of `--csv` ("" = none, "-" = standard output) and `--png` ("" = none): they can be written, are
 /// not the input and not each other, and the picture's name ends in .png.
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
-                   devices::Problems& problems);
+                   Problems& problems);
 
 /// Says on standard error what a missing helper program left out and what to install; nothing if `what` is
 /// "".

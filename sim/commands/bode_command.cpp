@@ -12,13 +12,13 @@ namespace drycut::sim {
 namespace {
 
 void check_limit(const char* option, const std::optional<double>& value, double most, const char* unit,
-                 devices::Problems& problems) {
+                 Problems& problems) {
   if (!value || (*value >= 0 && *value <= most)) return;  // not NaN either
   problems.push_back(
       {option, 1, 1, fmt::format("{} is out of range", *value), fmt::format("give 0 to {} {}", most, unit)});
 }
 
-void check_options(const BodeOptions& options, devices::Problems& problems) {
+void check_options(const BodeOptions& options, Problems& problems) {
   check_request(options.loop, problems);
   check_limit("--min-phase-margin", options.min_phase_margin, 180, "deg", problems);
   check_limit("--min-gain-margin", options.min_gain_margin, 200, "dB", problems);
@@ -66,7 +66,7 @@ void write(const BodeOptions& options, const Scenario& scenario, const LoopResul
 }  // namespace
 
 int measure_bode(const BodeOptions& options) {
-  devices::Problems problems;
+  Problems problems;
   check_options(options, problems);
   const auto overrides = overrides_of(options.set, problems);
   auto scenario = read_scenario(options.scenario, overrides, problems);

@@ -10,14 +10,14 @@ namespace drycut::sim {
 
 namespace {
 
-void check_number(const char* option, const std::optional<double>& value, devices::Problems& problems) {
+void check_number(const char* option, const std::optional<double>& value, Problems& problems) {
   constexpr double most = 1e9;
   if (!value || (*value > 0 && *value <= most)) return;  // not NaN either
   problems.push_back(
       {option, 1, 1, fmt::format("{} is out of range", *value), "give a number above 0, at most 1000000000"});
 }
 
-void check_options(const CamOptions& options, bool speed_known, devices::Problems& problems) {
+void check_options(const CamOptions& options, bool speed_known, Problems& problems) {
   check_number("--master-speed", options.duty.master_speed, problems);
   check_number("--max-velocity", options.duty.max_velocity, problems);
   check_number("--max-acceleration", options.duty.max_acceleration, problems);
@@ -57,7 +57,7 @@ void write(const CamOptions& options, const CamStudy& study) {
 }  // namespace
 
 int validate_cam(const CamOptions& options) {
-  devices::Problems problems;
+  Problems problems;
   const auto text = read_file(options.table, problems);
   const auto& kind = cam_kind(options.device, text.value_or(""));
   const bool speed_known = text && kind.check(*text, options.table.string(), problems);

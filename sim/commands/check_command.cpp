@@ -57,7 +57,7 @@ class Checker {
     }
   }
 
-  [[nodiscard]] const devices::Problems& problems() const { return problems_; }
+  [[nodiscard]] const Problems& problems() const { return problems_; }
   /// What is no fault and worth knowing.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
@@ -70,7 +70,7 @@ class Checker {
   void check_comparing(const ComparisonScene& scene) {
     std::vector<MemberNames> names;
     for (const auto& member : scene.members) {
-      devices::Problems own;
+      Problems own;
       const auto scenario = read_member(scene, member, overrides_, own);
       if (scenario.buildable) {
         const Simulation simulation(scenario, own);
@@ -135,7 +135,7 @@ class Checker {
 
   bool expand_;
   std::vector<std::string> notes_;
-  devices::Problems problems_;
+  Problems problems_;
   std::vector<Override> overrides_;
   std::optional<qmove::Configuration> configuration_;
   bool configuration_given_ = false;

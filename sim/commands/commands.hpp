@@ -106,6 +106,6 @@ int list_devices(const std::string& name, bool json);
 int list_plants(const std::string& name, bool json);
 
 /// Prints problems in order on standard error; says how many.
-void print_problems(const devices::Problems& problems);
+void print_problems(const Problems& problems);
 
 }  // namespace drycut::sim

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<double> from_of(const CompareOptions& options, devices::Problems& problems) {
+std::optional<double> from_of(const CompareOptions& options, Problems& problems) {
   if (options.from.empty()) return {};
   Findings findings({"--from"});
   const auto time = read_time({options.from, {1, 1}}, "--from", Sign::not_negative, findings);
@@ -20,7 +20,7 @@ std::optional<double> from_of(const CompareOptions& options, devices::Problems& 
   return seconds(*time);
 }
 
-std::vector<RunFolder> read_runs(const CompareOptions& options, devices::Problems& problems) {
+std::vector<RunFolder> read_runs(const CompareOptions& options, Problems& problems) {
   if (options.runs.size() < 2) {
     problems.push_back({options.runs.empty() ? "compare" : options.runs[0].string(), 1, 1,
                         "one run alone is nothing to compare", "name two folders of runs or more"});
@@ -41,7 +41,7 @@ std::vector<RunFolder> read_runs(const CompareOptions& options, devices::Problem
 }  // namespace
 
 int compare_runs(const CompareOptions& options) {
-  devices::Problems problems;
+  Problems problems;
   auto runs = read_runs(options, problems);
   const auto from = from_of(options, problems);
   std::optional<OutputFolder> folder;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/text.hpp"
 #include "devices/catalogue.hpp"
 #include "devices/device.hpp"
-#include "devices/text.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/controller_table.hpp"
 #include "sim/commands/table_names.hpp"
@@ -147,7 +147,7 @@ int list_devices(const std::string& name, bool json) {
     names.emplace_back(type.name);
     if (name.empty() && json) all.push_back(device_json(type));
     if (name.empty() && !json) fmt::print("{:<14} {}\n", type.name, type.summary);
-    if (!name.empty() && devices::same_word(type.name, name)) {
+    if (!name.empty() && same_word(type.name, name)) {
       if (json) {
         fmt::print("{}\n", device_json(type).dump(2));
       } else {
@@ -163,7 +163,7 @@ int list_devices(const std::string& name, bool json) {
     names.emplace_back(table.name);
     if (name.empty() && json) all.push_back(table.json());
     if (name.empty() && !json && table.listed) fmt::print("{:<14} {}\n", table.name, table.summary);
-    if (!name.empty() && devices::same_word(table.name, name)) {
+    if (!name.empty() && same_word(table.name, name)) {
       if (json)
         fmt::print("{}\n", table.json().dump(2));
       else

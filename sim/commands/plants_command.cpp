@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
@@ -287,7 +287,7 @@ int list_plants(const std::string& name, bool json) {
     names.emplace_back(type.name);
     if (name.empty() && json) all.push_back(plant_json(type));
     if (name.empty() && !json) fmt::print("{:<14} {}\n", type.name, type.summary);
-    if (!name.empty() && devices::same_word(type.name, name)) {
+    if (!name.empty() && same_word(type.name, name)) {
       if (json) {
         fmt::print("{}\n", plant_json(type).dump(2));
       } else {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/plain_text.hpp"
 #include "renders/gltf.hpp"
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
@@ -18,7 +19,6 @@
 #include "sim/gallery.hpp"
 #include "sim/half_step.hpp"
 #include "sim/output_folder.hpp"
-#include "sim/plain_text.hpp"
 #include "sim/results.hpp"
 #include "sim/simulation.hpp"
 
@@ -62,7 +62,7 @@ struct Work {
 /// Claims what the results of `file` are called; a problem if another file has claimed it.
 class Claims {
  public:
-  void results(const std::string& name, const std::filesystem::path& file, devices::Problems& problems) {
+  void results(const std::string& name, const std::filesystem::path& file, Problems& problems) {
     if (name.empty() || name == "." || name == ".." || name == junit_file) {
       problems.push_back({file.string(), 1, 1, fmt::format("its results cannot be called '{}'", name),
                           "give the scenario another file name"});
@@ -70,8 +70,7 @@ class Claims {
     claim(name, file, "its results would overwrite those of {}",
           "give the scenarios different file names or run them apart", problems);
   }
-  void retentive(const std::filesystem::path& kept, const std::filesystem::path& file,
-                 devices::Problems& problems) {
+  void retentive(const std::filesystem::path& kept, const std::filesystem::path& file, Problems& problems) {
     claim("retentive " + kept.lexically_normal().string(), file,
           "it keeps its retentive values in the file of {}",
           "give each scenario a retentive file of its own or run them apart", problems);
@@ -79,7 +78,7 @@ class Claims {
 
  private:
   void claim(const std::string& name, const std::filesystem::path& file, const char* what, const char* remedy,
-             devices::Problems& problems) {
+             Problems& problems) {
     const auto [other, fresh] = names_.emplace(name, file);
     if (fresh) return;
     problems.push_back(
@@ -90,7 +89,7 @@ class Claims {
 
 /// Takes a scenario that was read; false if it has problems.
 bool put_together(Job& job, const std::string& name, const RunOptions& options, Claims& claims,
-                  devices::Problems& problems) {
+                  Problems& problems) {
   if (options.seed) job.scenario.scene.seed = *options.seed;
   if (const auto kept = retentive_file(job.scenario)) claims.retentive(*kept, job.scenario.file, problems);
   if (options.gltf) job.scenario.pictures.frames = true;
@@ -108,8 +107,7 @@ bool put_together(Job& job, const std::string& name, const RunOptions& options, 
 
 /// Reads a sound scenario once more, at half its step.
 void read_half(Job& job, std::vector<Override> overrides, const RunOptions& options,
-               const std::function<Scenario(const std::vector<Override>&)>& read,
-               devices::Problems& problems) {
+               const std::function<Scenario(const std::vector<Override>&)>& read, Problems& problems) {
   if (!options.verify_step || !problems.empty()) return;
   const auto half = halved_step(job.scenario, problems);
   if (!half) return;
@@ -120,13 +118,13 @@ void read_half(Job& job, std::vector<Override> overrides, const RunOptions& opti
 
 /// The members of a comparing scene as jobs, in a folder of its own each inside the scene's.
 void prepare_members(ComparisonScene scene, const std::vector<Override>& overrides, const RunOptions& options,
-                     Claims& claims, Work& work, devices::Problems& problems) {
+                     Claims& claims, Work& work, Problems& problems) {
   auto& group = work.groups.emplace_back();
   const auto stem = scene.file.stem().string();
   bool sound = true;
   for (const auto& member : scene.members) {
     auto job = std::make_unique<Job>();
-    devices::Problems own;
+    Problems own;
     job->scenario = read_member(scene, member, overrides, own);
     sound = put_together(*job, stem + "/" + member.name.text, options, claims, own) && sound;
     read_half(
@@ -145,13 +143,13 @@ void prepare_members(ComparisonScene scene, const std::vector<Override>& overrid
 }
 
 /// Reads and puts together all scenarios; problems of all of them are told before anything runs.
-Work prepare(const RunOptions& options, devices::Problems& problems) {
+Work prepare(const RunOptions& options, Problems& problems) {
   const auto overrides = overrides_of(options.set, problems);
   Work work;
   Claims claims;
   for (const auto& file : options.scenarios) {
     claims.results(file.stem().string(), file, problems);
-    devices::Problems own;
+    Problems own;
     if (auto scene = read_comparison(file, own)) {
       if (own.empty()) prepare_members(std::move(*scene), overrides, options, claims, work, own);
     } else {
@@ -170,7 +168,7 @@ Work prepare(const RunOptions& options, devices::Problems& problems) {
 std::string scene_file_of(const Job& job) { return job.result.directory.filename().string() + ".glb"; }
 
 /// Takes the folders of all results; what lies in them and is not ours is told before anything runs.
-void open_folders(Work& work, const RunOptions& options, devices::Problems& problems) {
+void open_folders(Work& work, const RunOptions& options, Problems& problems) {
   work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file}, problems);
   for (auto& group : work.groups)
     group.folder.emplace(group.result.directory, "compare", comparison_files, problems);
@@ -251,7 +249,7 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
 
 /// Compares the members of a scene from the files that they left.
 void run_group(Group& group, bool pictures) {
-  devices::Problems problems;
+  Problems problems;
   std::vector<RunFolder> runs;
   for (std::size_t i = 0; i < group.members.size(); ++i) {
     runs.push_back(read_run(group.members[i]->result.directory, problems));
@@ -337,12 +335,12 @@ int status_of(const Work& work) {
 
 }  // namespace
 
-void print_problems(const devices::Problems& problems) {
+void print_problems(const Problems& problems) {
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", printable(to_string(problem)));
 }
 
 int run_scenarios(const RunOptions& options) {
-  devices::Problems problems;
+  Problems problems;
   auto work = prepare(options, problems);
   if (!problems.empty()) {
     print_problems(problems);

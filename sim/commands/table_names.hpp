@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "sim/commands/commands.hpp"
 
 namespace drycut::sim {
 
 /// Says that there is no `kind` of that name, "device" or "plant", and which there are.
 inline int unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& names) {
-  const auto near = devices::nearest(name, names);
+  const auto near = nearest(name, names);
   std::string all;
   for (const auto& known : names) all += (all.empty() ? "" : ", ") + known;
   fmt::print(stderr, "drycut {}s: there is no {} type '{}'; {}\n", kind, kind, name,

@@ -31,12 +31,12 @@ struct Plan {
   std::vector<std::optional<double>> present;
 };
 
-void read_cases(const TuneOptions& options, Study& study, devices::Problems& problems) {
+void read_cases(const TuneOptions& options, Study& study, Problems& problems) {
   for (const auto& file : options.scenarios)
     if (auto text = read_file(file, problems)) study.cases.push_back({file, std::move(*text), {}});
 }
 
-void read_settings(const TuneOptions& options, Study& study, devices::Problems& problems) {
+void read_settings(const TuneOptions& options, Study& study, Problems& problems) {
   study.set = overrides_of(options.set, problems);
   const auto from = parse_quantity(options.from);
   if (!from || !(from->number >= 0) || !is_unit(from->unit) || !same_dimension(from->unit, "s") ||
@@ -48,7 +48,7 @@ void read_settings(const TuneOptions& options, Study& study, devices::Problems& 
 }
 
 void read_parameters(const std::vector<std::string>& texts, const std::string& option, bool relative,
-                     TunedParameters& parameters, devices::Problems& problems) {
+                     TunedParameters& parameters, Problems& problems) {
   for (const auto& text : texts) {
     auto parameter = parse_parameter(text, option, relative, problems);
     if (!parameter) continue;
@@ -63,7 +63,7 @@ void read_parameters(const std::vector<std::string>& texts, const std::string& o
 }
 
 /// --spread PATH=±30% around what the scenario says.
-bool place_relative(TunedParameter& parameter, std::optional<double> present, devices::Problems& problems) {
+bool place_relative(TunedParameter& parameter, std::optional<double> present, Problems& problems) {
   if (!parameter.relative) return true;
   if (!present || *present == 0) {
     problems.push_back({parameter.option, 1, parameter.low_column,
@@ -83,11 +83,11 @@ bool place_relative(TunedParameter& parameter, std::optional<double> present, de
 
 /// Both ends of the range must be values that the scenario takes.
 void try_bounds(const TunedParameter& parameter, const Study& study, const Study::Case& entry,
-                devices::Problems& problems) {
+                Problems& problems) {
   for (const bool upper : {false, true}) {
     auto overrides = study.set;
     overrides.push_back({parameter.path, value_text(parameter, upper ? parameter.high : parameter.low)});
-    devices::Problems own;
+    Problems own;
     const auto scenario = read_scenario_text(entry.text, entry.file, overrides, own);
     if (own.empty()) const Simulation probe(scenario, own);
     for (auto& problem : own) {
@@ -95,7 +95,7 @@ void try_bounds(const TunedParameter& parameter, const Study& study, const Study
       problem.line = 1;
       problem.column = upper ? parameter.high_column : parameter.low_column;
       problem.what = parameter.path + ": " + problem.what;
-      const bool told = std::any_of(problems.begin(), problems.end(), [&](const devices::Problem& other) {
+      const bool told = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
         return other.what == problem.what && other.file == problem.file;
       });
       if (!told) problems.push_back(std::move(problem));
@@ -104,11 +104,11 @@ void try_bounds(const TunedParameter& parameter, const Study& study, const Study
 }
 
 void check_parameter(TunedParameter& parameter, const Study& study, std::optional<double>& present,
-                     devices::Problems& problems) {
+                     Problems& problems) {
   const auto told = problems.size();
   for (const auto& entry : study.cases) {
     const auto before = problems.size();
-    devices::Problems ignored;
+    Problems ignored;
     const auto scenario = read_scenario_text(entry.text, entry.file, study.set, ignored);
     if (!ignored.empty()) return;
     const auto value = present_value(parameter, scenario);
@@ -123,7 +123,7 @@ void check_parameter(TunedParameter& parameter, const Study& study, std::optiona
                         "end the range at whole numbers"});
 }
 
-Plan make_plan(const TuneOptions& options, devices::Problems& problems) {
+Plan make_plan(const TuneOptions& options, Problems& problems) {
   Plan plan;
   read_cases(options, plan.study, problems);
   read_settings(options, plan.study, problems);
@@ -212,7 +212,7 @@ int tune(const TuneOptions& options, const Plan& plan, OutputFolder& folder) {
 }  // namespace
 
 int tune_scenarios(const TuneOptions& options) {
-  devices::Problems problems;
+  Problems problems;
   const auto plan = make_plan(options, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty())

@@ -13,8 +13,6 @@ namespace drycut::sim {
 
 namespace {
 
-constexpr auto* run_again = "run the scenario again: drycut run writes the file";
-
 /// A cell as it is meant, without the quotes around it, and where it stands.
 struct QuotedCell {
   std::string text;
@@ -92,7 +90,7 @@ std::optional<double> number_of(std::string_view text) {
 std::optional<double> number_of(const QuotedCell& cell, int line, TableProblems& problems) {
   const auto number = number_of(cell.text);
   if (!number)
-    problems.add(line, cell.column, fmt::format("{} is not a number", sim::quoted(cell.text)), run_again);
+    problems.add(line, cell.column, fmt::format("{} is not a number", in_quotes(cell.text)), run_again);
   return number;
 }
 
@@ -101,7 +99,7 @@ std::optional<Time> time_of(const QuotedCell& cell, int line, TableProblems& pro
   const auto number = number_of(cell, line, problems);
   if (!number) return {};
   if (*number >= 0 && *number < 1e9) return std::llround(*number * static_cast<double>(second));
-  problems.add(line, cell.column, fmt::format("{} is no time of a run", sim::quoted(cell.text)), run_again);
+  problems.add(line, cell.column, fmt::format("{} is no time of a run", in_quotes(cell.text)), run_again);
   return {};
 }
 
@@ -118,7 +116,7 @@ bool has_width(const Row& row, std::size_t width, TableProblems& problems) {
 void add_column(const QuotedCell& cell, Recording& recording, TableProblems& problems) {
   const auto open = cell.text.rfind(" [");
   if (open == std::string::npos || open == 0 || !cell.text.ends_with(']')) {
-    problems.add(1, cell.column, fmt::format("{} is no channel with its unit", sim::quoted(cell.text)),
+    problems.add(1, cell.column, fmt::format("{} is no channel with its unit", in_quotes(cell.text)),
                  "the header has channel [unit], as drycut run writes it");
     recording.add(cell.text, "");
     return;
@@ -127,7 +125,7 @@ void add_column(const QuotedCell& cell, Recording& recording, TableProblems& pro
   if (unit == "-") unit.clear();
   const auto name = cell.text.substr(0, open);
   if (recording.column(name) != nullptr)
-    problems.add(1, cell.column, fmt::format("channel {} stands twice", sim::quoted(name)), run_again);
+    problems.add(1, cell.column, fmt::format("channel {} stands twice", in_quotes(name)), run_again);
   recording.add(name, std::move(unit));
 }
 
@@ -173,7 +171,7 @@ bool read_header(CsvRows& rows, Row& row, std::string_view wanted, TableProblems
 
 }  // namespace
 
-Recording read_trace(std::string_view text, const std::string& file, devices::Problems& problems) {
+Recording read_trace(std::string_view text, const std::string& file, Problems& problems) {
   TableProblems found(file, problems);
   CsvRows rows(text, found);
   Row row;
@@ -195,8 +193,7 @@ Recording read_trace(std::string_view text, const std::string& file, devices::Pr
   return recording;
 }
 
-void read_events(std::string_view text, const std::string& file, Recording& recording,
-                 devices::Problems& problems) {
+void read_events(std::string_view text, const std::string& file, Recording& recording, Problems& problems) {
   TableProblems found(file, problems);
   CsvRows rows(text, found);
   Row row;

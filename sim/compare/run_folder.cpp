@@ -22,8 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto* run_again = "run the scenario again: drycut run writes the file";
-
 /// A file that is read where it lies: a trace may be larger than the memory.
 class MappedFile {
  public:
@@ -46,14 +44,14 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
-void refuse_file(const fs::path& file, devices::Problems& problems) {
+void refuse_file(const fs::path& file, Problems& problems) {
   problems.push_back({file.string(), 1, 1, "the file cannot be read, or is empty", run_again});
 }
 
 constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 40U;  // [bytes]
 
 /// A whole file of a run; the events of a long one are many.
-std::optional<std::string> whole_file(const fs::path& file, devices::Problems& problems) {
+std::optional<std::string> whole_file(const fs::path& file, Problems& problems) {
   auto text = read_file(file, problems, largest_record);
   if (!text || !text->empty()) return text;
   refuse_file(file, problems);
@@ -71,7 +69,7 @@ std::string nearest_run(const fs::path& folder) {
   return fmt::format("the runs in it are {}", fmt::join(runs, ", "));
 }
 
-bool is_run(const fs::path& folder, devices::Problems& problems) {
+bool is_run(const fs::path& folder, Problems& problems) {
   std::error_code ignored;
   const auto refuse = [&](std::string what, std::string remedy) {
     problems.push_back({folder.string(), 1, 1, std::move(what), std::move(remedy)});
@@ -108,8 +106,7 @@ CheckResult check_of(const nlohmann::json& json) {
   return check;
 }
 
-void read_checks_json(const std::string& text, const std::string& file, RunFolder& run,
-                      devices::Problems& problems) {
+void read_checks_json(const std::string& text, const std::string& file, RunFolder& run, Problems& problems) {
   try {
     const auto json = nlohmann::json::parse(text);
     run.version = json.at("drycut").get<std::string>();
@@ -175,7 +172,7 @@ std::vector<Tolerance> tolerances_of(const PicturesSection& pictures) {
 }
 
 void read_scenario_yaml(const std::string& text, const std::string& file, RunFolder& run,
-                        devices::Problems& problems) {
+                        Problems& problems) {
   Findings findings({file});
   auto root = parse_yaml(text, 0, findings);
   if (const auto* pictures = child(root, "pictures"))
@@ -203,7 +200,7 @@ const std::string* RunFolder::parameter(const std::string& path) const {
   return found == parameters.end() ? nullptr : &found->second;
 }
 
-RunFolder read_run(const fs::path& folder, devices::Problems& problems) {
+RunFolder read_run(const fs::path& folder, Problems& problems) {
   RunFolder run;
   run.folder = folder;
   run.label = folder.string();
@@ -223,7 +220,7 @@ RunFolder read_run(const fs::path& folder, devices::Problems& problems) {
   return run;
 }
 
-std::vector<std::string> labels_of(const std::vector<fs::path>& folders, devices::Problems& problems) {
+std::vector<std::string> labels_of(const std::vector<fs::path>& folders, Problems& problems) {
   std::vector<std::vector<std::string>> parts;
   std::set<fs::path> seen;
   for (const auto& folder : folders) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "sim/checks.hpp"
 #include "sim/recorder.hpp"
 
@@ -44,11 +44,10 @@ struct RunFolder {
 
 /// Reads the folder that `drycut run` made of one scenario. Whatever is missing or broken in it is told in
 /// `problems` with file, line and column; then the result is not to be used.
-RunFolder read_run(const std::filesystem::path& folder, devices::Problems& problems);
+RunFolder read_run(const std::filesystem::path& folder, Problems& problems);
 
 /// What the runs are called: their paths without what all of these begin and end with, "a" and "b" for
 /// a/rotary_knife and b/rotary_knife. A folder that is given twice is a problem.
-std::vector<std::string> labels_of(const std::vector<std::filesystem::path>& folders,
-                                   devices::Problems& problems);
+std::vector<std::string> labels_of(const std::vector<std::filesystem::path>& folders, Problems& problems);
 
 }  // namespace drycut::sim

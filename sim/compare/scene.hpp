@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "sim/compare/overlays.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -43,24 +43,22 @@ struct ComparisonScene {
   };
   std::vector<Check> checks;
 
-  [[nodiscard]] devices::Problem problem(const Place& place, std::string what, std::string remedy) const {
+  [[nodiscard]] Problem problem(const Place& place, std::string what, std::string remedy) const {
     return {file.string(), place.line, place.column, std::move(what), std::move(remedy)};
   }
 };
 
 /// Reads the scene; nothing, and no problem, if the file is none that compares. Problems are told as
 /// read_scenario tells them.
-std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file,
-                                               devices::Problems& problems);
+std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file, Problems& problems);
 
 /// The scene as YAML with every default in force.
 std::string expand(const ComparisonScene& scene);
 
 /// The scenario of a member with what the scene sets, then what the command line sets.
 Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                     const std::vector<Override>& overrides, devices::Problems& problems);
+                     const std::vector<Override>& overrides, Problems& problems);
 /// Gives problems of a member's settings their place in the scene.
-void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                    devices::Problems& problems);
+void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member& member, Problems& problems);
 
 }  // namespace drycut::sim

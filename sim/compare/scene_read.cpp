@@ -187,10 +187,9 @@ std::vector<ComparisonScene::Check> read_own_checks(const YamlNode& list, Findin
 
 }  // namespace
 
-std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file,
-                                               devices::Problems& problems) {
+std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file, Problems& problems) {
   // What cannot be read or parsed is told by whoever reads it as a scenario.
-  devices::Problems ignored;
+  Problems ignored;
   const auto text = read_file(file, ignored);
   if (!text) return {};
   Findings findings({file.string()});
@@ -212,7 +211,7 @@ std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file
 }
 
 Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                     const std::vector<Override>& overrides, devices::Problems& problems) {
+                     const std::vector<Override>& overrides, Problems& problems) {
   std::vector<Override> all;
   for (const auto& [override, place] : member.set) all.push_back(override);
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -225,8 +224,7 @@ Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member
   return read_scenario(path, all, problems);
 }
 
-void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                    devices::Problems& problems) {
+void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member& member, Problems& problems) {
   for (auto& problem : problems) {
     for (const auto& [override, place] : member.set) {
       if (problem.file != "--set " + override.path) continue;

@@ -29,11 +29,11 @@ std::vector<std::string> names_only(const Names& channels) {
 }
 
 void tell(const ComparisonScene& scene, const Text& text, const std::vector<ExpressionFault>& faults,
-          const std::string& prefix, devices::Problems& problems) {
+          const std::string& prefix, Problems& problems) {
   for (const auto& fault : faults) {
     auto problem = scene.problem(text.at(fault.offset), prefix + fault.what, fault.remedy);
-    const bool said = std::any_of(problems.begin(), problems.end(), [&](const devices::Problem& other) {
-      return devices::to_string(other) == devices::to_string(problem);
+    const bool said = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
+      return to_string(other) == to_string(problem);
     });
     if (!said) problems.push_back(std::move(problem));
   }
@@ -87,7 +87,7 @@ Names channels_of(const ComparisonScene::Member& member, const MemberNames& name
 }
 
 void check_channels(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                    const MemberNames& names, devices::Problems& problems) {
+                    const MemberNames& names, Problems& problems) {
   for (const auto& channel : member.channels) {
     if (unit_of(names.channels, channel.name.text) != nullptr) {
       problems.push_back(
@@ -103,7 +103,7 @@ void check_channels(const ComparisonScene& scene, const ComparisonScene::Member&
 }
 
 void check_figures(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                   const MemberNames& names, devices::Problems& problems) {
+                   const MemberNames& names, Problems& problems) {
   const auto channels = channels_of(member, names);
   for (const auto& figure : scene.figures) {
     if (figure.of.text.empty()) continue;
@@ -128,7 +128,7 @@ bool has_value(const MemberNames& names, const std::string& event, const std::st
 }
 
 void check_panel(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                 const MemberNames& names, const PlotRequest::Panel& panel, devices::Problems& problems) {
+                 const MemberNames& names, const PlotRequest::Panel& panel, Problems& problems) {
   const auto channels = channels_of(member, names);
   for (const auto* list : {&panel.channels, &panel.lanes}) {
     for (const auto& name : *list) {
@@ -148,7 +148,7 @@ void check_panel(const ComparisonScene& scene, const ComparisonScene::Member& me
 }
 
 void check_plots(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                 const MemberNames& names, devices::Problems& problems) {
+                 const MemberNames& names, Problems& problems) {
   for (const auto& request : scene.plots) {
     for (const auto& panel : request.plot.panels) check_panel(scene, member, names, panel, problems);
     if (request.around && !has_value(names, request.around->event.text, ""))
@@ -259,7 +259,7 @@ MemberNames names_of(const Simulation& simulation) {
 }
 
 void check_comparison(const ComparisonScene& scene, const std::vector<MemberNames>& names,
-                      devices::Problems& problems) {
+                      Problems& problems) {
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     check_channels(scene, scene.members[i], names[i], problems);
     check_figures(scene, scene.members[i], names[i], problems);

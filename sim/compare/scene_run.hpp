@@ -20,7 +20,7 @@ MemberNames names_of(const Simulation& simulation);
 /// Tells in `problems` what of the scene's channels, figures, plots and checks its members cannot give;
 /// `names` in the order of the members.
 void check_comparison(const ComparisonScene& scene, const std::vector<MemberNames>& names,
-                      devices::Problems& problems);
+                      Problems& problems);
 
 /// The comparison of the members' runs and the page about it. The scene must have passed check_comparison;
 /// the runs are in the order of the members and have their names. The scene passes if every run passed and

@@ -100,7 +100,7 @@ class Compiler {
   }
 
   static std::string suggest(const std::string& word, const std::vector<std::string>& candidates) {
-    const auto near = devices::nearest(word, candidates);
+    const auto near = nearest(word, candidates);
     if (!near.empty()) return fmt::format("did you mean {}?", near);
     constexpr std::size_t few = 30;
     if (candidates.empty() || candidates.size() > few) return "";
@@ -225,7 +225,7 @@ std::optional<Expression> Expression::compile(std::string_view text, const Resol
 
 std::optional<Expression> Expression::compile(const Text& text, const Scenario& scenario,
                                               const Resolver& resolve, const std::vector<std::string>& known,
-                                              devices::Problems& problems) {
+                                              Problems& problems) {
   // The reader has said already that it is missing.
   if (text.text.empty() && text.place.line == 0) return {};
   std::vector<ExpressionFault> faults;
@@ -233,7 +233,7 @@ std::optional<Expression> Expression::compile(const Text& text, const Scenario& 
   for (auto& fault : faults) {
     const auto problem =
         problem_at(scenario, text.at(fault.offset), std::move(fault.what), std::move(fault.remedy));
-    const bool said = std::any_of(problems.begin(), problems.end(), [&](const devices::Problem& other) {
+    const bool said = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
       return other.line == problem.line && other.column == problem.column && other.what == problem.what &&
              other.remedy == problem.remedy && other.file == problem.file;
     });

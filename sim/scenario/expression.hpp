@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 
 namespace drycut::sim {
 
@@ -51,7 +51,7 @@ class Expression {
   /// once, whoever finds them first. A text that the file does not have compiles to nothing.
   static std::optional<Expression> compile(const Text& text, const Scenario& scenario,
                                            const Resolver& resolve, const std::vector<std::string>& known,
-                                           devices::Problems& problems);
+                                           Problems& problems);
 
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;

@@ -97,7 +97,7 @@ class ParameterReader {
       if (dot != std::string_view::npos) here.emplace_back(rest.substr(0, dot));
       here.emplace_back(rest);
     }
-    if (const auto near = devices::nearest(key, here); !near.empty()) {
+    if (const auto near = nearest(key, here); !near.empty()) {
       return fmt::format("did you mean {}?", near);
     }
     for (const auto& parameter : parameters_) {

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
@@ -85,7 +85,7 @@ class AxisReader {
       if (dot != std::string_view::npos && parameter.name.substr(dot + 1) == name)
         return fmt::format("did you mean {}?", parameter.name);
     }
-    const auto near = devices::nearest(name, names);
+    const auto near = nearest(name, names);
     return near.empty() ? "'drycut devices AXIS' lists the parameters"
                         : fmt::format("did you mean {}?", near);
   }
@@ -241,13 +241,13 @@ void read_axes(const YamlNode& node, std::vector<PlcopenSection::Axis>& axes, Fi
   for (const auto& entry : node.entries) {
     if (entry.is_repeated()) continue;
     const auto& name = entry.key;
-    if (!devices::is_identifier(name.text) || name.text == "panel") {
+    if (!is_identifier(name.text) || name.text == "panel") {
       findings.add(name.place, fmt::format("'{}' is no name of an axis", name.text),
                    "letters, digits and underscores, as the program's VAR_EXTERNAL spells it");
       continue;
     }
     const auto same = std::find_if(axes.begin(), axes.end(), [&](const PlcopenSection::Axis& other) {
-      return devices::same_word(other.name.text, name.text);
+      return same_word(other.name.text, name.text);
     });
     if (same != axes.end()) {
       findings.add(
@@ -320,7 +320,7 @@ void read_tasks(const YamlNode& node, PlcopenSection& plcopen, Findings& finding
     for (const auto& other : plcopen.tasks)
       for (const auto& program : other.programs)
         for (const auto& again : task.programs)
-          if (devices::same_word(program.text, again.text))
+          if (same_word(program.text, again.text))
             findings.add(again.place, fmt::format("{} runs in {} already", again.text, other.name.text),
                          "a program has one task");
     plcopen.tasks.push_back(std::move(task));

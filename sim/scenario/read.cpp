@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <unordered_set>
 
+#include "base/plain_text.hpp"
 #include "sim/file.hpp"
-#include "sim/plain_text.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/sections.hpp"
@@ -246,8 +246,7 @@ Place Text::at(std::size_t offset) const {
   return base;
 }
 
-devices::Problem problem_at(const Scenario& scenario, const Place& place, std::string what,
-                            std::string remedy) {
+Problem problem_at(const Scenario& scenario, const Place& place, std::string what, std::string remedy) {
   const auto source = static_cast<std::size_t>(place.source);
   const auto name = source < scenario.sources.size() ? scenario.sources[source] : scenario.file.string();
   return {name, place.line, place.column, std::move(what), std::move(remedy)};
@@ -275,7 +274,7 @@ const std::vector<std::string>& section_names() {
 }
 
 Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,
-                            const std::vector<Override>& overrides, devices::Problems& problems,
+                            const std::vector<Override>& overrides, Problems& problems,
                             std::span<const plants::PlantType> types) {
   Scenario scenario;
   scenario.file = file;
@@ -302,7 +301,7 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
 }
 
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                       devices::Problems& problems, std::span<const plants::PlantType> types) {
+                       Problems& problems, std::span<const plants::PlantType> types) {
   const auto text = read_file(file, problems);
   if (!text) {
     Scenario scenario;

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/plcopen/axis_parameters.hpp"
-#include "devices/problem.hpp"
 #include "plants/plant.hpp"
 #include "sim/time.hpp"
 
@@ -273,18 +273,16 @@ struct Scenario {
 };
 
 /// A problem at a place of the scenario, with the right file name.
-devices::Problem problem_at(const Scenario& scenario, const Place& place, std::string what,
-                            std::string remedy);
+Problem problem_at(const Scenario& scenario, const Place& place, std::string what, std::string remedy);
 
 /// Reads a scenario. Syntax, unknown and duplicate keys, kinds, units, dimensions and ranges are checked and
 /// reported with their place in `problems`, all of the file in one run. The scenario is usable only if no
 /// problem was added. Problems of an override have the file name "--set PATH".
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                       devices::Problems& problems,
-                       std::span<const plants::PlantType> types = plants::plant_types());
+                       Problems& problems, std::span<const plants::PlantType> types = plants::plant_types());
 /// The same from a text that is already in memory; `file` names it in messages and places relative paths.
 Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,
-                            const std::vector<Override>& overrides, devices::Problems& problems,
+                            const std::vector<Override>& overrides, Problems& problems,
                             std::span<const plants::PlantType> types = plants::plant_types());
 
 /// The scenario as YAML with every default in force; reading it back gives the same scenario.

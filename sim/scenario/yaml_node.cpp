@@ -9,7 +9,7 @@
 #include <sstream>
 #include <unordered_map>
 
-#include "sim/plain_text.hpp"
+#include "base/plain_text.hpp"
 
 namespace drycut::sim {
 
@@ -322,13 +322,13 @@ void Findings::add(const Place& place, std::string what, std::string remedy) {
   found_.push_back({place, std::move(what), std::move(remedy)});
 }
 
-devices::Problems Findings::sorted() const {
+Problems Findings::sorted() const {
   auto found = found_;
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
     return std::tie(a.place.source, a.place.line, a.place.column) <
            std::tie(b.place.source, b.place.line, b.place.column);
   });
-  devices::Problems problems;
+  Problems problems;
   for (auto& [place, what, remedy] : found) {
     problems.push_back({sources_.at(static_cast<std::size_t>(place.source)), place.line, place.column,
                         std::move(what), std::move(remedy)});

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {
@@ -42,7 +42,7 @@ class Findings {
   [[nodiscard]] std::size_t count() const { return found_.size(); }
   [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
   /// All problems so far, in order of place.
-  [[nodiscard]] devices::Problems sorted() const;
+  [[nodiscard]] Problems sorted() const;
 
  private:
   struct Found {

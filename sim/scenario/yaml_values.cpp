@@ -22,7 +22,7 @@ const std::vector<std::string> common_units = {
     "kW",    "count", "count/s", "N m s/rad", "kg/m^2", "rad/s^2"};
 
 std::string unit_remedy(const std::string& unit) {
-  const auto near = devices::nearest(unit, common_units);
+  const auto near = nearest(unit, common_units);
   return near.empty() ? "units are written like mm, m/min, N m, kg m^2, rpm, deg, %"
                       : fmt::format("did you mean {}?", near);
 }
@@ -37,7 +37,7 @@ bool needs_unit(std::string_view unit) {
 }  // namespace
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
-  if (const auto near = devices::nearest(word, candidates); !near.empty()) {
+  if (const auto near = nearest(word, candidates); !near.empty()) {
     return fmt::format("did you mean {}?", near);
   }
   return candidates.empty() ? "nothing can stand here"

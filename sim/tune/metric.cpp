@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "sim/scenario/expression_scan.hpp"
 #include "sim/statistics.hpp"
 

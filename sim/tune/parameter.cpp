@@ -7,6 +7,7 @@
 #include <numeric>
 #include <variant>
 
+#include "base/text.hpp"
 #include "plants/plant.hpp"
 #include "sim/controller_loader.hpp"
 #include "sim/scenario/units.hpp"
@@ -17,15 +18,9 @@ namespace {
 
 constexpr std::string_view integer_suffix = ":integer";
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
 class Reader {
  public:
-  Reader(const std::string& text, const std::string& option, devices::Problems& problems)
+  Reader(const std::string& text, const std::string& option, Problems& problems)
       : text_(text), option_(option), problems_(problems) {}
 
   std::optional<TunedParameter> run(bool relative) {
@@ -104,7 +99,7 @@ class Reader {
 
   const std::string& text_;
   const std::string& option_;
-  devices::Problems& problems_;
+  Problems& problems_;
 };
 
 /// What the scenario sets before power-up; nullptr without a controller.
@@ -121,7 +116,7 @@ struct StartValue {
   std::optional<devices::ControllerValue> value;
 };
 StartValue value_at_start(const Scenario& scenario, const std::string& name) {
-  devices::Problems ignored;  // the scenario's own problems have been told
+  Problems ignored;  // the scenario's own problems have been told
   StartValue start{load_controller(scenario, ignored), {}};
   if (start.controller) start.value = start.controller->find(name);
   return start;
@@ -150,7 +145,7 @@ std::optional<PlantValue> plant_value(const std::string& path, const Scenario& s
 }  // namespace
 
 std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
-                                              bool relative, devices::Problems& problems) {
+                                              bool relative, Problems& problems) {
   return Reader(text, option, problems).run(relative);
 }
 
@@ -197,8 +192,7 @@ std::optional<double> present_value(TunedParameter& parameter, const Scenario& s
   return start.value ? std::optional(start.value->read()) : std::nullopt;
 }
 
-void check_against_controller(TunedParameter& parameter, const Scenario& scenario,
-                              devices::Problems& problems) {
+void check_against_controller(TunedParameter& parameter, const Scenario& scenario, Problems& problems) {
   const auto preset = preset_name(parameter.path);
   if (!preset) return;
   const auto [controller, value] = value_at_start(scenario, preset->value);

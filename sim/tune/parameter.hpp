@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/problem.hpp"
+#include "base/problem.hpp"
 #include "plants/random.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -29,7 +29,7 @@ using Point = std::vector<double>;
 /// Reads PATH=LO..HI with an optional unit and `:integer`; with `relative`, also PATH=±30%. What is wrong
 /// goes to `problems` by option and column.
 std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
-                                              bool relative, devices::Problems& problems);
+                                              bool relative, Problems& problems);
 
 /// "87", "250 rad/s": as `--set` and the scenario take it.
 std::string value_text(const TunedParameter& parameter, double value);
@@ -49,8 +49,7 @@ std::string short_name(const TunedParameter& parameter);
 /// integer of a parameter that is one.
 std::optional<double> present_value(TunedParameter& parameter, const Scenario& scenario);
 /// Tells bounds that the controller's variable does not take: its range, its size, read-only.
-void check_against_controller(TunedParameter& parameter, const Scenario& scenario,
-                              devices::Problems& problems);
+void check_against_controller(TunedParameter& parameter, const Scenario& scenario, Problems& problems);
 
 /// Point of the unit cube to values, integers rounded.
 Point from_unit(const TunedParameters& parameters, const std::vector<double>& unit);

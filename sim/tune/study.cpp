@@ -18,7 +18,7 @@ struct Gauge {
 };
 
 /// Metric first, then the constraints.
-std::vector<Gauge> gauges(const Study& study, const Study::Case& scenario, devices::Problems& problems) {
+std::vector<Gauge> gauges(const Study& study, const Study::Case& scenario, Problems& problems) {
   std::vector<Gauge> made;
   const auto add = [&](const std::string& option, const std::string& text, Metric::Kind kind) {
     std::vector<ExpressionFault> faults;
@@ -47,7 +47,7 @@ void record_names(Scenario& scenario, const std::vector<Gauge>& all) {
 
 /// A scenario of the study, ready to run: only what is measured is recorded, nothing is drawn.
 Scenario read_case(const Study& study, const Study::Case& scenario, const std::vector<Override>& overrides,
-                   devices::Problems& problems) {
+                   Problems& problems) {
   auto all = study.set;
   all.insert(all.end(), overrides.begin(), overrides.end());
   auto read = read_scenario_text(scenario.text, scenario.file, all, problems);
@@ -89,7 +89,7 @@ void judge_limit(const Gauge& gauge, double room, double& worst, Verdict& verdic
 /// Measures the loop and judges the constraints on it.
 void judge_loop(const Study& study, const Scenario& scenario, std::vector<Gauge>& all,
                 const Recording& recording, Verdict& verdict) {
-  devices::Problems problems;
+  Problems problems;
   const auto loop = measure_loop(scenario, study.loop, problems);
   if (!loop) return stop(verdict, to_string(problems.front()));
   verdict.runs += 2;
@@ -125,7 +125,7 @@ void judge_loop(const Study& study, const Scenario& scenario, std::vector<Gauge>
 
 void measure_case(const Study& study, const Study::Case& entry, const std::vector<Override>& overrides,
                   double to_beat, Verdict& verdict) {
-  devices::Problems problems;
+  Problems problems;
   auto scenario = read_case(study, entry, overrides, problems);
   auto all = gauges(study, entry, problems);
   record_names(scenario, all);
@@ -174,7 +174,7 @@ Verdict measure(const Study& study, const std::vector<Override>& overrides, doub
 }
 
 KeptRun keep_run(const Study& study, const Study::Case& entry, const std::vector<Override>& overrides) {
-  devices::Problems problems;
+  Problems problems;
   auto scenario = read_case(study, entry, overrides, problems);
   record_names(scenario, gauges(study, entry, problems));
   if (!problems.empty() || !scenario.buildable)
@@ -189,7 +189,7 @@ KeptRun keep_run(const Study& study, const Study::Case& entry, const std::vector
 }
 
 std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario) {
-  devices::Problems ignored;
+  Problems ignored;
   std::vector<MetricName> names;
   for (const auto& gauge : gauges(study, scenario, ignored))
     for (const auto& name : gauge.metric.names())
@@ -198,7 +198,7 @@ std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario
   return names;
 }
 
-void prepare(Study& study, devices::Problems& problems) {
+void prepare(Study& study, Problems& problems) {
   for (auto& entry : study.cases) {
     // As it stands first: everything that is wrong with the scenario itself.
     const auto before = problems.size();
@@ -213,7 +213,7 @@ void prepare(Study& study, devices::Problems& problems) {
            fmt::format("{} s is not before the end of {}", seconds(study.from), entry.file.string()),
            fmt::format("the scenario lasts {} s", seconds(scenario.scene.duration))});
     auto measured = read_case(study, entry, {}, problems);
-    devices::Problems of_gauges;
+    Problems of_gauges;
     const auto all = gauges(study, entry, of_gauges);
     record_names(measured, all);
     const Simulation probe(measured, of_gauges);

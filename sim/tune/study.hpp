@@ -69,6 +69,6 @@ std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario
 
 /// Reads the scenarios' events into `study` and tells everything wrong with scenarios, --set, metric and
 /// constraints.
-void prepare(Study& study, devices::Problems& problems);
+void prepare(Study& study, Problems& problems);
 
 }  // namespace drycut::sim

@@ -108,7 +108,7 @@ std::string Trials::fingerprint() const {
     hash.add(fmt::format("{} {} {}", study_.loop.wire, study_.loop.at.value_or(""), study_.loop.amplitude));
   for (const auto& override : fixed_) hash.add(override.path + "=" + override.value);
   for (const auto& entry : study_.cases) {
-    devices::Problems problems;
+    Problems problems;
     const auto scenario = read_scenario_text(entry.text, entry.file, study_.set, problems);
     hash.add(expand(scenario));
     for (const auto& name : controller_files(scenario)) {

@@ -34,7 +34,7 @@ double seconds_of(const std::function<void()>& run) {
 
 /// The default line, its closed loop with devices, program, checks and recording, without pictures.
 void run_line() {
-  devices::Problems problems;
+  Problems problems;
   const std::vector<sim::Override> overrides = {{"scene.duration", fmt::format("{} s", simulated)},
                                                 {"pictures", "{}"}};
   const auto scenario =

@@ -6,7 +6,7 @@ namespace drycut {
 
 DRYCUT_FUZZ(text) {
   for (const char* device : {"camming4", "lx3vp"}) {
-    devices::Problems problems;
+    Problems problems;
     const auto study =
         sim::cam_kind(device, text).study(text, "f.csv", sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
     fuzz::expect_placed(problems, text);

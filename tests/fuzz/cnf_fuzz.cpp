@@ -8,7 +8,7 @@ namespace drycut {
 
 DRYCUT_FUZZ(text) {
   namespace qmove = devices::qmove;
-  devices::Problems problems;
+  Problems problems;
   const auto configuration = qmove::parse_configuration(text, "f.cnf", devices::catalogue(), problems);
   fuzz::expect_placed(problems, text);
   if (!problems.empty()) return;

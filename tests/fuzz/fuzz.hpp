@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "devices/problem.hpp"
 
 namespace drycut::fuzz {
 
@@ -20,7 +20,7 @@ namespace drycut::fuzz {
 }
 
 /// Every problem has a place in the text, says what is wrong and what would be right.
-inline void expect_placed(const devices::Problems& problems, std::string_view text) {
+inline void expect_placed(const Problems& problems, std::string_view text) {
   const auto lines =
       1 + std::count(text.begin(), text.end(), '\n') + std::count(text.begin(), text.end(), '\r');
   for (const auto& problem : problems) {

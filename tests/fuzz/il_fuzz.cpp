@@ -6,7 +6,7 @@ namespace drycut {
 
 DRYCUT_FUZZ(text) {
   namespace lx3vp = devices::lx3vp;
-  devices::Problems problems;
+  Problems problems;
   auto program = lx3vp::il::compile(text, "f.il", problems);
   fuzz::expect_placed(problems, text);
   if (!problems.empty()) return;

@@ -12,7 +12,7 @@ namespace qmove = devices::qmove;
 
 const qmove::Configuration& configuration() {
   static const auto made = [] {
-    devices::Problems problems;
+    Problems problems;
     auto read = qmove::parse_configuration(
         "CONST\ncTen 10\nSYSTEM\nslA L\nsfA F\nsbA B\nswA W\nssA S\nGLOBAL\nglA L\nARRSYS\nasA L "
         "3\nARRGBL\nagA W 5\n"
@@ -35,7 +35,7 @@ const qmove::Configuration& configuration() {
 }  // namespace
 
 DRYCUT_FUZZ(text) {
-  devices::Problems problems;
+  Problems problems;
   auto program = qmove::compile_module(text, "f.mod", configuration(), devices::catalogue(), problems);
   fuzz::expect_placed(problems, text);
   if (!problems.empty()) return;

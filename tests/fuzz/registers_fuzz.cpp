@@ -8,12 +8,12 @@ namespace drycut {
 DRYCUT_FUZZ(text) {
   namespace lx3vp = devices::lx3vp;
   for (const char separator : {',', '='}) {
-    devices::Problems problems;
+    Problems problems;
     lx3vp::is_register_file(text, separator);
     lx3vp::read_register_values(text, "f.csv", separator, problems);
     fuzz::expect_placed(problems, text);
   }
-  devices::Problems problems;
+  Problems problems;
   lx3vp::Lx3vpController controller(lx3vp::il::compile("END\n", "f.il", problems), 1'000'000);
   if (controller.restore(std::string(text), problems)) fuzz::run(controller, 1);
 }

@@ -8,7 +8,7 @@ namespace drycut {
 
 DRYCUT_FUZZ(text) {
   namespace plcopen = devices::plcopen;
-  devices::Problems problems;
+  Problems problems;
   const auto program = plcopen::st::compile(text, "f.st", problems);
   fuzz::expect_placed(problems, text);
   if (!problems.empty()) return;

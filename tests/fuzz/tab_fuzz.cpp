@@ -6,7 +6,7 @@
 namespace drycut {
 
 DRYCUT_FUZZ(text) {
-  devices::Problems problems;
+  Problems problems;
   devices::plcopen::parse_tab(text, "f.tab", problems);
   fuzz::expect_placed(problems, text);
   problems.clear();

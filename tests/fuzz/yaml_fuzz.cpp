@@ -7,7 +7,7 @@
 namespace drycut {
 
 DRYCUT_FUZZ(text) {
-  devices::Problems problems;
+  Problems problems;
   const auto scenario = sim::read_scenario_text(text, DRYCUT_SOURCE_DIR "/scenes/fuzz.yaml", {}, problems);
   if (!scenario.buildable) {
     if (problems.empty()) fuzz::broken("a scenario that cannot be built has a problem");
@@ -16,7 +16,7 @@ DRYCUT_FUZZ(text) {
   sim::Simulation simulation(scenario, problems);
   if (!problems.empty()) return;
   const auto again = sim::expand(scenario);
-  devices::Problems of_again;
+  Problems of_again;
   sim::read_scenario_text(again, DRYCUT_SOURCE_DIR "/scenes/fuzz.yaml", {}, of_again);
   if (!of_again.empty()) fuzz::broken("what is printed reads back: " + to_string(of_again.front()));
   constexpr int steps = 50;

@@ -10,8 +10,6 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-
 TEST(HoldingBrake, FollowsItsCommandsAfterItsDelays) {
   HoldingBrakeData data;
   data.torque = 25;

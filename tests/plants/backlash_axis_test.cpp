@@ -11,18 +11,8 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double g = 9.80665;
-
-struct Unit {
-  World world;
-  std::unique_ptr<Plant> plant;
-  std::vector<Event> events;
-  int steps = 0;
-  explicit Unit(const BacklashAxisDefinition& definition, bool enabled = false) {
-    BacklashAxisDefinition mine = definition;
-    plant = mine.build(world, nullptr);
+struct Coupled : Machine {
+  explicit Coupled(BacklashAxisDefinition definition, bool enabled = false) : Machine(definition) {
     plug<CommandPort>(*plant, "servo.enable").level = enabled;
   }
   LinearAxis& axis() { return static_cast<LinearAxis&>(*plant); }
@@ -32,21 +22,9 @@ struct Unit {
   double lead_off() { return axis().twist() * 0.02 / turn; }
   /// Speed of the load relative to the motor [m/s].
   double apart() { return load().speed - motor().speed * 0.02 / turn; }
-  void step(double dt = h) {
-    plant->drive(dt);
-    world.step(dt);
-    plant->sense(dt);
-    for (Event& event : plant->take_events()) events.push_back(std::move(event));
-    ++steps;
-  }
-  void run(double seconds) {
-    const auto count = std::lround(seconds / h);
-    for (long i = 0; i < count; ++i) step();
-    ASSERT_EQ(world.failure(), "");
-  }
 };
 
-BacklashAxisDefinition frictionless() {
+BacklashAxisDefinition frictionless_coupling() {
   BacklashAxisDefinition definition;
   definition.axis.data.motor_friction = {};
   definition.axis.data.carriage_friction = {};
@@ -65,9 +43,9 @@ TEST(BacklashAxis, DampingRatioAndRestitutionAreInverse) {
 }
 
 TEST(BacklashAxis, TheLoadIsFreeWithinTheGap) {
-  const auto definition = frictionless();
+  const auto definition = frictionless_coupling();
   for (const double speed : {-0.05, 0.05}) {
-    Unit unit(definition);
+    Coupled unit(definition);
     unit.load().speed = speed;
     // It starts in the middle: half a millimetre at 50 mm/s.
     const int free = 100;
@@ -85,10 +63,10 @@ TEST(BacklashAxis, TheLoadIsFreeWithinTheGap) {
 TEST(BacklashAxis, TheImpactHasItsRestitutionAndKeepsTheMomentum) {
   for (const double restitution : {0.3, 0.5, 0.8, 1.0})
     for (const double speed : {0.01, 0.2}) {
-      auto definition = frictionless();
+      auto definition = frictionless_coupling();
       definition.flanks.restitution = restitution;
       definition.flanks.stiffness = 1e6;  // a light contact, many steps long
-      Unit unit(definition);
+      Coupled unit(definition);
       unit.load().speed = speed;
       const double motor_mass = unit.motor().inertia * std::pow(turn / 0.02, 2);
       double before = 0;
@@ -105,7 +83,7 @@ TEST(BacklashAxis, TheImpactHasItsRestitutionAndKeepsTheMomentum) {
 }
 
 TEST(BacklashAxis, TheDefaultContactKeepsItsRestitutionInStepsOf100us) {
-  Unit unit(frictionless());
+  Coupled unit(frictionless_coupling());
   unit.load().speed = 0.05;
   while (unit.apart() >= 0 && unit.steps < 1000) unit.step();
   while (unit.lead_off() < -0.5e-3 && unit.steps < 1000) unit.step();
@@ -115,7 +93,7 @@ TEST(BacklashAxis, TheDefaultContactKeepsItsRestitutionInStepsOf100us) {
 TEST(BacklashAxis, StictionHoldsUpToTheBreakawayForceAndMotionNeedsLess) {
   BacklashAxisDefinition definition;  // 150 N in motion, 50 N more from rest
   definition.flanks.gap = 0.1;        // the motor is far away
-  Unit unit(definition);
+  Coupled unit(definition);
   set(*unit.plant, "force", 199.9);
   unit.run(0.2);
   EXPECT_EQ(unit.load().position, 0.1);
@@ -134,27 +112,27 @@ TEST(BacklashAxis, StictionHoldsUpToTheBreakawayForceAndMotionNeedsLess) {
 }
 
 TEST(BacklashAxis, TheLoadCreepsThroughTheGapOnASlope) {
-  auto definition = frictionless();
+  auto definition = frictionless_coupling();
   definition.axis.data.inclination = std::numbers::pi / 6;
   definition.flanks.gap = 0.02;
   definition.axis.data.motor_friction.coulomb = 20;  // holds the motor
-  Unit unit(definition);
+  Coupled unit(definition);
   const double seconds = 0.05;
   unit.run(seconds);
-  const double a = -g / 2;
+  const double a = -gravity / 2;
   EXPECT_NEAR(unit.load().speed, a * seconds, 1e-9);
   EXPECT_NEAR(unit.load().position - 0.1, a * seconds * (seconds + h) / 2, 1e-9);
   unit.run(2);  // then it lies on the lower flank, pressed by its weight
-  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 100 * g / 2, 1);
+  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 100 * gravity / 2, 1);
   EXPECT_NEAR(channel(*unit.plant, "motor.position") - channel(*unit.plant, "position"), 10, 0.01);
 }
 
 TEST(BacklashAxis, TheEndStopStopsTheLoadAndNotTheMotorAtOnce) {
-  auto definition = frictionless();
+  auto definition = frictionless_coupling();
   definition.axis.data.start = 1.049;
   definition.flanks.gap = 0.2;
   definition.axis.data.stop.damping = 0;
-  Unit unit(definition);
+  Coupled unit(definition);
   unit.load().speed = 0.5;
   unit.motor().speed = 0.5 * turn / 0.02;
   while (unit.events.empty() && unit.steps < 2000) unit.step();
@@ -177,7 +155,7 @@ TEST(BacklashAxis, TheEncoderOnTheMotorSeesTheGapTheScaleDoesNot) {
   for (const double gap : {0.2e-3, 1e-3, 3e-3}) {
     BacklashAxisDefinition definition;
     definition.flanks.gap = gap;
-    Unit unit(definition, true);
+    Coupled unit(definition, true);
     auto& volts = plug<ReferencePort>(*unit.plant, "servo.reference").volts;
     // Epicycloidal ramps of 60 mm/s in 0.3 s: at most 0.4 m/s2, less than the friction's 1.5, so that the
     // load stays on its flank; a corner in the reference would let the motor swing back.
@@ -198,13 +176,13 @@ TEST(BacklashAxis, TheEncoderOnTheMotorSeesTheGapTheScaleDoesNot) {
 }
 
 TEST(BacklashAxis, SwitchesSeeTheLoadAfterTheirDelay) {
-  auto definition = frictionless();
+  auto definition = frictionless_coupling();
   definition.flanks.gap = 0.1;  // the motor does not follow
   definition.axis.data.sensors.home.delay = 20e-3;
   definition.axis.data.sensors.limit_delay = 10e-3;
   for (const bool upward : {false, true}) {
     definition.axis.data.start = upward ? 1.0 : 0.04;
-    Unit unit(definition);
+    Coupled unit(definition);
     unit.load().speed = upward ? 0.1 : -0.1;
     const auto& signal = plug<SignalPort>(*unit.plant, upward ? "limit_max" : "home");
     while (!signal.level && unit.steps < 10000) unit.step();

@@ -10,8 +10,6 @@
 
 namespace drycut::plants {
 
-constexpr double h = 1e-4;
-constexpr double rpm = 30 / std::numbers::pi;
 constexpr double sync = 1500 / rpm;  // of the default motor [rad/s]
 
 /// Kloss and its inverse by hand: pull-out slip of the default winding [rad/s].

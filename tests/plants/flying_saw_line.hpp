@@ -8,8 +8,6 @@
 
 namespace drycut::plants {
 
-constexpr double h = 1e-4;
-
 /// The default saw without friction.
 inline FlyingSawDefinition frictionless_saw() {
   FlyingSawDefinition definition;

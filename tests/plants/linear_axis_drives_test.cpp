@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "plants/backlash_axis.hpp"
 #include "tests/plants/plants_lookup.hpp"
@@ -10,37 +9,13 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-constexpr double turn = 2 * std::numbers::pi;
-
-struct Unit {
-  World world;
-  std::unique_ptr<Plant> plant;
-  std::vector<Event> events;
-  explicit Unit(PlantDefinition& definition) : plant(definition.build(world, nullptr)) {}
-  void command(int direction, bool slow) {
-    plug<CommandPort>(*plant, "drive.forward").level = direction > 0;
-    plug<CommandPort>(*plant, "drive.backward").level = direction < 0;
-    plug<CommandPort>(*plant, "drive.slow").level = slow;
-  }
-  void run(double seconds) {
-    for (long i = std::lround(seconds / h); i > 0; --i) {
-      plant->drive(h);
-      world.step(h);
-      plant->sense(h);
-      for (Event& event : plant->take_events()) events.push_back(std::move(event));
-    }
-    ASSERT_EQ(world.failure(), "");
-  }
-};
-
 TEST(LinearAxisDrives, InverterAndContactorsMoveTheCarriageAtTheirSpeeds) {
   for (const char* kind : {"inverter", "contactors"})
     for (const int direction : {1, -1}) {
       LinearAxisDefinition definition;
       definition.data.drive.kind = kind;
       definition.data.start = 0.5;
-      Unit unit(definition);
+      Machine unit(definition);
       unit.command(direction, true);
       unit.run(1);
       const double field = channel(*unit.plant, "drive.field_speed");
@@ -60,7 +35,7 @@ TEST(LinearAxisDrives, WithoutABrakeItCoastsUntilFrictionHasTakenItsEnergy) {
   auto& d = definition.data;
   d.drive.kind = "contactors";
   d.motor_friction.viscous = d.carriage_friction.viscous = 0;
-  Unit unit(definition);
+  Machine unit(definition);
   unit.command(1, true);
   unit.run(1);
   unit.command(0, true);
@@ -82,7 +57,7 @@ TEST(LinearAxisDrives, ABrakeOnTheMotorShortensThat) {
   d.drive.brake.torque = 20;
   d.drive.brake.engage_delay = 0;
   d.motor_friction = d.carriage_friction = {};
-  Unit unit(definition);
+  Machine unit(definition);
   unit.command(1, true);
   unit.run(1);
   unit.command(0, true);
@@ -104,7 +79,7 @@ TEST(LinearAxisDrives, TheBacklashAxisKeepsItsGapUnderContactors) {
   definition.axis.data.drive.kind = "contactors";
   definition.axis.data.start = 0.5;
   ASSERT_TRUE(definition.objections(1e-4).empty());
-  Unit unit(definition);
+  Machine unit(definition);
   const auto ahead_after = [&](int direction) {
     unit.command(direction, true);
     unit.run(1);
@@ -120,7 +95,7 @@ TEST(LinearAxisDrives, TheBacklashAxisKeepsItsGapUnderContactors) {
 TEST(LinearAxisDrives, ATripIsAnEvent) {
   LinearAxisDefinition definition;
   definition.data.drive.kind = "inverter";
-  Unit unit(definition);
+  Machine unit(definition);
   unit.command(1, false);
   unit.run(0.3);
   fault(unit.plant->faults(), "drive", "phase_lost", 1);

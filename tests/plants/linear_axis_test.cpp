@@ -11,40 +11,14 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double g = 9.80665;
-
 /// The default unit without friction, a servo that may be off.
-struct Unit {
-  World world;
-  std::unique_ptr<Plant> plant;
-  std::vector<Event> events;
-  std::vector<double> times;
-  int steps = 0;
-  explicit Unit(const LinearAxisDefinition& definition, bool enabled = false) {
-    LinearAxisDefinition mine = definition;
-    plant = mine.build(world, nullptr);
+struct Unit : Machine {
+  explicit Unit(LinearAxisDefinition definition, bool enabled = false) : Machine(definition) {
     plug<CommandPort>(*plant, "servo.enable").level = enabled;
   }
   LinearAxis& axis() { return static_cast<LinearAxis&>(*plant); }
   Slide& carriage() { return axis().carriage(); }
   Shaft& rotor() { return axis().rotor(); }
-  void step(double dt = h) {
-    plant->drive(dt);
-    world.step(dt);
-    plant->sense(dt);
-    for (Event& event : plant->take_events()) {
-      times.push_back((steps + event.fraction) * dt);
-      events.push_back(std::move(event));
-    }
-    ++steps;
-  }
-  void run(double seconds) {
-    const auto count = std::lround(seconds / h);
-    for (long i = 0; i < count; ++i) step();
-    ASSERT_EQ(world.failure(), "");
-  }
   /// Carriage and motor together at `speed` [m/s].
   void launch(double speed, const LinearAxisData& data) {
     carriage().speed = speed;
@@ -192,7 +166,7 @@ TEST(LinearAxis, WeightActsAlongAnInclinedAxis) {
   definition.data.start = 0.9;
   Unit unit(definition);
   unit.run(0.3);
-  const double a = definition.data.mass * g * 0.5 / inertia_at_carriage(definition.data);
+  const double a = definition.data.mass * gravity * 0.5 / inertia_at_carriage(definition.data);
   EXPECT_NEAR(channel(*unit.plant, "speed") / (-1000 * a * 0.3), 1, 1e-2);
 }
 
@@ -211,7 +185,7 @@ TEST(LinearAxis, TheServoCarriesTheWeight) {
   Unit unit(definition, true);
   unit.run(1);
   EXPECT_NEAR(channel(*unit.plant, "speed"), 0, 1e-3);
-  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 20 * g, 31);  // friction may take 30 N of it
+  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 20 * gravity, 31);  // friction may take 30 N of it
   EXPECT_GT(channel(*unit.plant, "position"), 99);
 }
 

@@ -12,8 +12,6 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-
 TEST(ExactSum, KeepsWhatRoundingTakesAway) {
   ExactSum sum;
   double plain = 0;

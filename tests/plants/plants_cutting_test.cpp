@@ -1,17 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "plants/cutting.hpp"
+#include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double radius = 0.6 / (2 * pi);
 constexpr double thickness = 1e-3;
-constexpr double h = 1e-4;
 
 /// A cutter on a drum and a web with imposed speeds.
 struct Cutting {

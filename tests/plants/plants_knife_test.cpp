@@ -10,8 +10,6 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-
 /// The default line: web and knife, built from their definitions.
 struct KnifeLine {
   World world;

@@ -1,15 +1,24 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "base/units.hpp"
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {
+
+inline constexpr double h = 1e-4;  ///< the step of the tests [s]
+inline constexpr double pi = std::numbers::pi;
+using units::gravity;
+using units::rpm;
+using units::turn;
 
 // What a plant offers, by name; a name that is not offered fails the test.
 
@@ -47,5 +56,36 @@ inline double value(const Event& event, const std::string& name) {
   ADD_FAILURE() << "no value " << name;
   return 0;
 }
+
+/// A machine alone in its world, without a controller, stepped by hand.
+struct Machine {
+  World world;
+  std::unique_ptr<Plant> plant;
+  std::vector<Event> events;
+  std::vector<double> times;  ///< of the events [s]
+  int steps = 0;
+  explicit Machine(PlantDefinition&& definition) : plant(definition.build(world, nullptr)) {}
+  explicit Machine(PlantDefinition& definition) : plant(definition.build(world, nullptr)) {}
+  /// An inverter's or a contactor drive's commands: direction 1 up, -1 down, 0 neither.
+  void command(int direction, bool slow) {
+    plug<CommandPort>(*plant, "drive.forward").level = direction > 0;
+    plug<CommandPort>(*plant, "drive.backward").level = direction < 0;
+    plug<CommandPort>(*plant, "drive.slow").level = slow;
+  }
+  void step(double dt = h) {
+    plant->drive(dt);
+    world.step(dt);
+    plant->sense(dt);
+    for (Event& event : plant->take_events()) {
+      times.push_back((steps + event.fraction) * dt);
+      events.push_back(std::move(event));
+    }
+    ++steps;
+  }
+  void run(double seconds, double dt = h) {
+    for (long i = std::lround(seconds / dt); i > 0; --i) step(dt);
+    ASSERT_EQ(world.failure(), "");
+  }
+};
 
 }  // namespace drycut::plants

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "plants/cutting.hpp"
@@ -9,11 +8,10 @@
 #include "plants/servo_drive.hpp"
 #include "plants/transmission.hpp"
 #include "plants/world.hpp"
+#include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Motor, transmission and load without anything else.
 struct TwoMasses {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "plants/servo_drive.hpp"
+#include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
 constexpr double half_lsb = 10.0 / 16384;  // of the default converter [V]
 
 /// A servo on a load that is rigidly its rotor.

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "plants/encoder.hpp"
 #include "plants/measuring_wheel.hpp"
@@ -10,9 +9,6 @@
 
 namespace drycut::plants {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-constexpr double h = 1e-4;
 
 /// A shaft with imposed speed and an encoder on it.
 struct Turning {

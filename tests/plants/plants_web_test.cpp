@@ -8,8 +8,6 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-
 struct Line {
   World world;
   Web web;

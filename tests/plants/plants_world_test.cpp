@@ -2,14 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "plants/world.hpp"
+#include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Angle of a pose turned about z [rad], -pi..pi.
 double angle_about_z(const Pose& pose) { return 2 * std::atan2(pose.rotation[2], pose.rotation[3]); }

@@ -10,8 +10,6 @@
 namespace drycut::plants {
 namespace {
 
-constexpr double h = 1e-4;
-
 /// A web of 1 m/s with marks of 5 mm each 300 mm, the photocell 900 mm before the cut, without delay.
 struct PrintedLine {
   static WebData printed() {

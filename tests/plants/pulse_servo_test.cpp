@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "plants/rotary_knife.hpp"
@@ -12,9 +11,6 @@
 
 namespace drycut::plants {
 namespace {
-
-constexpr double h = 1e-4;
-constexpr double turn = 2 * std::numbers::pi;
 
 /// A pulse servo on a load that is rigidly its rotor.
 struct PulseAxis {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "plants/backlash_axis.hpp"
 #include "plants/flying_saw.hpp"
@@ -12,11 +11,10 @@
 #include "plants/rotary_knife.hpp"
 #include "plants/stiff_pair.hpp"
 #include "plants/vertical_press.hpp"
+#include "tests/plants/plants_lookup.hpp"
 
 namespace drycut::plants {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Turn a unit of time of a motion that crosses 0 upwards, and the largest of it in the last tenth of `time`.
 struct Oscillation {

@@ -18,7 +18,7 @@ struct Model {
 
   explicit Model(const VerticalPressData& d)
       : mass(d.mass + d.load),
-        net((d.mass + d.load) * g - d.counterbalance),
+        net((d.mass + d.load) * gravity - d.counterbalance),
         inertia(d.drive.motor.rotor_inertia + d.screw_inertia / (d.gear.ratio * d.gear.ratio)),
         r(d.lead / turn / d.gear.ratio),
         up(d.efficiency),
@@ -146,14 +146,15 @@ TEST(VerticalPressCoasting, UpAndDownDifferByWhatGravitySays) {
   for (const int direction : {1, -1}) {
     d.start = direction > 0 ? 0.05 : 0.55;
     const Coasting press = measure(definition, direction, false, 1);
-    const double weight = d.mass * g - d.counterbalance;
+    const double weight = d.mass * gravity - d.counterbalance;
     const double a = (25 / r + direction * weight) / mass;
     EXPECT_NEAR(std::abs(press.distance) / (press.speed * press.speed / (2 * a)), 1, 0.01);
     deceleration[direction > 0 ? 0 : 1] = press.speed * press.speed / (2 * std::abs(press.distance));
   }
-  EXPECT_NEAR((deceleration[0] - deceleration[1]) / (2 * (d.mass * g - d.counterbalance) / mass), 1, 0.01);
+  EXPECT_NEAR((deceleration[0] - deceleration[1]) / (2 * (d.mass * gravity - d.counterbalance) / mass), 1,
+              0.01);
   // And with the weight balanced there is no difference.
-  d.counterbalance = d.mass * g;
+  d.counterbalance = d.mass * gravity;
   d.start = 0.3;
   EXPECT_NEAR(measure(definition, 1, true, 0.5).distance / -measure(definition, -1, true, 0.5).distance, 1,
               1e-6);

@@ -17,7 +17,7 @@ TEST(VerticalPress, StandsOnItsBrakeFromTheFirstStep) {
   EXPECT_EQ(channel(*press.plant, "position"), 300);
   EXPECT_EQ(channel(*press.plant, "speed"), 0);
   EXPECT_EQ(channel(*press.plant, "brake.engaged"), 1);
-  EXPECT_NEAR(channel(*press.plant, "screw.force"), 600 * g - 2000, 0.01);
+  EXPECT_NEAR(channel(*press.plant, "screw.force"), 600 * gravity - 2000, 0.01);
   EXPECT_TRUE(press.events.empty());
 }
 
@@ -45,7 +45,7 @@ TEST(VerticalPress, TheMotorFeelsTheLoadThroughTheEfficiencyOfTheScrew) {
   auto definition = frictionless_press();
   for (const double back : {0.8, 0.3, -0.5}) {
     definition.data.back_efficiency = back;
-    const double torque = (600 * g - 2000) * 0.01 / turn;  // at the screw without losses
+    const double torque = (600 * gravity - 2000) * 0.01 / turn;  // at the screw without losses
     Press up(definition);
     up.command(1, true);
     up.run(1);
@@ -73,7 +73,7 @@ TEST(VerticalPress, WhatTheMotorGivesIsInTheRam) {
     }
     const double energy = 600 * std::pow(press.ram().speed, 2) / 2 +
                           inertia * std::pow(press.rotor().speed, 2) / 2 +
-                          (600 * g - 2000) * (press.ram().position - 0.3);
+                          (600 * gravity - 2000) * (press.ram().position - 0.3);
     EXPECT_NEAR(energy / work, 1, 5e-3) << direction;
   }
 }
@@ -88,7 +88,7 @@ TEST(VerticalPress, ASelfLockingScrewHoldsWithoutABrake) {
   set(*locking.plant, "load", 2000);
   locking.run(4);
   // Only the screw gives way: 2000 kg more on its 250 N m/rad.
-  const double give = 2000 * g * std::pow(0.01 / turn, 2) / 250 * 1000;
+  const double give = 2000 * gravity * std::pow(0.01 / turn, 2) / 250 * 1000;
   EXPECT_NEAR(channel(*locking.plant, "position"), 300 - give, 1e-3);
   EXPECT_EQ(locking.rotor().speed, 0);
   definition.data.back_efficiency = 0.05;
@@ -112,7 +112,7 @@ TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
     // `back` of the screw's force; dry friction there.
     const double r = 0.01 / turn;
     const double j = d.drive.motor.rotor_inertia + d.screw_inertia;
-    const double net = 600 * g - 2000 - 150;
+    const double net = 600 * gravity - 2000 - 150;
     const double a = (back * net * r - 0.2) / (j / r + back * 600 * r);
     EXPECT_NEAR(channel(*press.plant, "speed") / (-1000 * a * seconds), 1, 0.01);
     EXPECT_NEAR((channel(*press.plant, "position") - 300) / (-500 * a * seconds * seconds), 1, 0.01);
@@ -132,7 +132,7 @@ TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
 TEST(VerticalPress, AWornBrakeSlipsAboveItsTorque) {
   auto definition = frictionless_press();
   definition.data.efficiency = definition.data.back_efficiency = 1;
-  const double needed = (600 * g - 2000) * 0.01 / turn;
+  const double needed = (600 * gravity - 2000) * 0.01 / turn;
   for (const double share : {1.001, 0.999}) {
     Press press(definition);
     fault(press.plant->faults(), "brake", "worn", 1 - share * needed / 25);
@@ -154,7 +154,7 @@ TEST(VerticalPress, PressesWithTheTorqueLimitOfTheInverter) {
   press.run(4);
   // At standstill friction may help or hinder.
   const double r = 0.01 / turn;
-  const double ram = 600 * g - 2000;
+  const double ram = 600 * gravity - 2000;
   EXPECT_LE(channel(*press.plant, "press.force"), ram + 22 / r / 0.9 + 300);
   EXPECT_GE(channel(*press.plant, "press.force"), ram + (22 - 0.2) * 0.9 / r - 300);
   EXPECT_NEAR(channel(*press.plant, "motor.torque"), -22, 1e-6);
@@ -169,7 +169,7 @@ TEST(VerticalPress, PressesWithTheTorqueLimitOfTheInverter) {
 TEST(VerticalPress, TheWorkpieceStopsAFreeRamWithItsMomentum) {
   auto definition = frictionless_press();
   auto& d = definition.data;
-  d.counterbalance = 600 * g;
+  d.counterbalance = 600 * gravity;
   d.gear.stiffness = 1e-9;  // the motor holds nothing
   d.gear.damping = 0;
   d.workpiece = {5e6, 0};
@@ -187,20 +187,20 @@ TEST(VerticalPress, TheLoadChangesMassAndWeight) {
   auto& d = definition.data;
   d.gear.stiffness = 1e-9;  // the motor holds nothing, the counterbalance all
   d.gear.damping = 0;
-  d.counterbalance = 600 * g;
+  d.counterbalance = 600 * gravity;
   Press press(definition);
   set(*press.plant, "load", 400);
   EXPECT_EQ(channel(*press.plant, "mass"), 1000);
   press.run(0.05);
   const double speed = press.ram().speed;
-  EXPECT_NEAR(speed, -400 * g / 1000 * 0.05, 1e-6);
-  set(*press.plant, "force", 400 * g);
+  EXPECT_NEAR(speed, -400 * gravity / 1000 * 0.05, 1e-6);
+  set(*press.plant, "force", 400 * gravity);
   press.run(0.05);
   EXPECT_NEAR(press.ram().speed, speed, 1e-6);
   set(*press.plant, "load", 0);
   EXPECT_EQ(channel(*press.plant, "mass"), 600);
   press.run(0.05);
-  EXPECT_NEAR(press.ram().speed - speed, 400 * g / 600 * 0.05, 1e-6);
+  EXPECT_NEAR(press.ram().speed - speed, 400 * gravity / 600 * 0.05, 1e-6);
 }
 
 TEST(VerticalPress, EncoderScaleAndSwitchesFollowTheRam) {

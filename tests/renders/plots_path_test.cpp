@@ -80,14 +80,14 @@ TEST(PathPlot, GapsStayGaps) {
 }
 
 TEST(PathPlot, IsDrawnAndRefusesPointsNowhere) {
-  const testing::Scratch scratch;
+  const Scratch scratch;
   auto plot = path({circle(0, 0, 10, 100)});
   plot.panels[0].points = {{"A", 0, 10}};
   const auto files = draw_plots({plot}, scratch.path);
   ASSERT_EQ(files.size(), 1U);
   EXPECT_GT(std::filesystem::file_size(files[0]), 5000U);
   plot.panels[0].points = {{"A", std::numeric_limits<double>::infinity(), 10}};
-  EXPECT_EQ(testing::message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path); }),
+  EXPECT_EQ(message_of<std::invalid_argument>([&] { draw_plots({plot}, scratch.path); }),
             "plot 'path': point 'A' is not at a finite place");
 }
 

@@ -277,7 +277,10 @@ TEST_P(Caption, AnotherValueChangesNothingButItself) {
 
 TEST_P(Caption, WhatCannotBeReadIsNoticed) {
   const auto image = bar.whole();
-  for (const auto& [text, box, bold] : bar.texts()) {
+  for (const auto& [what, where, strong] : bar.texts()) {
+    const auto& text = what;  // clang 14 takes no binding into a lambda
+    const auto& box = where;
+    const bool bold = strong;
     const auto spoilt = [&](const auto& change) {
       Image made = image;
       for (int y = box.top; y <= box.bottom; ++y)

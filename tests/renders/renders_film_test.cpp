@@ -15,8 +15,6 @@ namespace drycut::renders {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::Scratch;
 
 /// A red cube of 0.4 m and a blue cylinder beside it, seen from the front; the cube moves right.
 Film two_parts() {

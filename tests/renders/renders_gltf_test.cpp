@@ -19,9 +19,6 @@
 namespace drycut::renders {
 namespace {
 
-using testing::message_of;
-using testing::Scratch;
-
 Placement turned(double x, double angle) {
   Placement placement;
   placement.position = {x, 1, -2};

@@ -14,8 +14,6 @@ namespace drycut::renders {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::Scratch;
 
 std::vector<std::array<double, 3>> listed(const std::vector<LaneState>& states) {
   std::vector<std::array<double, 3>> list;

@@ -18,7 +18,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::Scratch;
 
 std::string as_base64(const void* numbers, std::size_t bytes) {
   return base64({static_cast<const char*>(numbers), bytes});

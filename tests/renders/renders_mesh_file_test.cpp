@@ -17,7 +17,6 @@ namespace drycut::renders {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::Scratch;
 
 /// A box from (0, 0, 0) to `size` as an OBJ.
 std::string box_obj(double x, double y, double z) {

@@ -19,8 +19,6 @@ namespace drycut::renders {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::Scratch;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -92,11 +90,6 @@ Plot plot_of(std::vector<Curve> curves) {
   plot.width = 800;
   plot.panels.push_back({"position_of_axis", "posit_now [counts]", std::move(curves), {}, {}});
   return plot;
-}
-
-Image drawn(const Plot& plot) {
-  const Scratch scratch;
-  return read_png(draw_plots({plot}, scratch.path).at(0));
 }
 
 /// Pixels of nearly that colour.

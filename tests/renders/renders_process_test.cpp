@@ -17,7 +17,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using testing::message_of;
 
 constexpr WorkLimits roomy = {seconds(20), milliseconds(120'000), 512ULL << 20U, 1ULL << 20U};
 
@@ -33,7 +32,7 @@ TEST(RendersApart, AnswersWithWhatTheWorkReturns) {
 }
 
 TEST(RendersApart, NothingElseOfTheWorkIsSeen) {
-  const testing::Scratch scratch;
+  const Scratch scratch;
   std::ofstream half(scratch / "half");
   half << "once";  // not yet in the file
   int touched = 0;

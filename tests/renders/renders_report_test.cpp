@@ -14,9 +14,7 @@ namespace drycut::renders {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::message_of;
 using ::testing::Not;
-using testing::Scratch;
 
 constexpr const char* kNasty = "a < b && \"c\" 'd' </td><script>alert(1)</script>";
 

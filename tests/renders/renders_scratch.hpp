@@ -3,11 +3,19 @@
 
 #include <string>
 
+#include "renders/plots.hpp"
+#include "renders/png_image.hpp"
 #include "tests/test_folder.hpp"
 
-namespace drycut::renders::testing {
+namespace drycut::renders {
 
 using Scratch = TestFolder;
+
+/// The plot as it is drawn.
+inline Image drawn(const Plot& plot) {
+  const Scratch scratch;
+  return read_png(draw_plots({plot}, scratch.path).at(0));
+}
 
 /// What `action` says when it throws an `Error`; fails the test if it does not.
 template <typename Error, typename Action>
@@ -21,4 +29,4 @@ std::string message_of(const Action& action) {
   return "";
 }
 
-}  // namespace drycut::renders::testing
+}  // namespace drycut::renders

@@ -14,8 +14,6 @@ namespace drycut::renders {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::message_of;
-using testing::Scratch;
 
 /// Frames of one colour each, from dark to bright, with a black caption of 20 pixels.
 std::vector<std::filesystem::path> frames_in(const std::filesystem::path& folder, int count, int width = 161,

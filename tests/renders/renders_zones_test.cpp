@@ -18,7 +18,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::Scratch;
 
 /// A line from (0, 0) to (100, 1).
 Plot cam() {
@@ -40,11 +39,6 @@ std::string colour_at(const Image& image, const Plot& plot, double x) {
   const auto at = 3 * (static_cast<std::size_t>(down) * static_cast<std::size_t>(image.width) +
                        static_cast<std::size_t>(left));
   return fmt::format("{:02x}{:02x}{:02x}", image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]);
-}
-
-Image drawn(const Plot& plot) {
-  const Scratch scratch;
-  return read_png(draw_plots({plot}, scratch.path).at(0));
 }
 
 TEST(RendersZones, EverySecondIsShadedAndAStrongOneHasItsOwnColour) {

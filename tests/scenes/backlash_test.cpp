@@ -12,7 +12,7 @@ namespace {
 class BacklashGap : public testing::TestWithParam<const char*> {};
 
 TEST_P(BacklashGap, IsTheDifferenceOfTheTwoDirectionsWithinAPercent) {
-  devices::Problems problems;
+  Problems problems;
   auto scenario =
       read_scenario(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/backlash_motor_encoder.yaml",
                     {{"plants.axis.gap", std::string(GetParam()) + " mm"}}, problems);

@@ -25,7 +25,7 @@ const std::filesystem::path root = DRYCUT_SOURCE_DIR;
 
 /// A scene to its end, with what its cams did.
 struct Played {
-  devices::Problems problems;
+  Problems problems;
   Scenario scenario;
   std::unique_ptr<Simulation> simulation;
   Outcome outcome;
@@ -41,7 +41,7 @@ struct Played {
     outcome = simulation->run();
   }
   static Scenario read(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                       const std::string& more, devices::Problems& problems) {
+                       const std::string& more, Problems& problems) {
     auto text = read_file(file, problems).value_or("");
     const std::string timeline = "\ntimeline:\n";
     if (const auto place = text.find(timeline); place != std::string::npos)
@@ -135,7 +135,7 @@ TEST_P(Reports, HaveAPageForTheCamItsPlotsAndItsTable) {
   Played run(scene, {{"scene.duration", "5 s"}});
   const TestFolder folder;
   const std::filesystem::path out = folder / "out";
-  devices::Problems problems;
+  Problems problems;
   OutputFolder results(out, "run", picture_files, problems);
   results.begin();
   write_pictures(run.scenario, *run.simulation, {}, run.outcome, results, 1, [](const char*, double) {});

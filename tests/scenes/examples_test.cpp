@@ -32,7 +32,7 @@ void run(const std::string& name) {
   for (auto at = text.find(placeholder); at != std::string::npos; at = text.find(placeholder, at)) {
     text.replace(at, placeholder.size(), examples().string());
   }
-  devices::Problems problems;
+  Problems problems;
   const auto scenario = read_scenario_text(text, file, {}, problems);
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   Simulation simulation(scenario, problems);

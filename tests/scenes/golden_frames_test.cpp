@@ -30,7 +30,7 @@ constexpr Golden kGolden[] = {
 };
 
 renders::Film film_for(const Golden& golden) {
-  devices::Problems problems;
+  Problems problems;
   const auto scenario = read_scenario(
       std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes" / (std::string(golden.scene) + ".yaml"),
       {{"pictures.frames.from", golden.from},

@@ -22,7 +22,7 @@ const fs::path root = DRYCUT_SOURCE_DIR;
 /// The scenarios of a folder, or the scenes there that compare some.
 std::vector<std::string> scenarios(const fs::path& folder, bool comparing = false) {
   std::vector<std::string> names;
-  devices::Problems ignored;
+  Problems ignored;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".yaml" &&
         read_comparison(entry.path(), ignored).has_value() == comparing)
@@ -31,7 +31,7 @@ std::vector<std::string> scenarios(const fs::path& folder, bool comparing = fals
   return names;
 }
 
-std::string listed(const devices::Problems& problems) {
+std::string listed(const Problems& problems) {
   std::string text;
   for (const auto& problem : problems) text += to_string(problem) + "\n";
   return text;
@@ -39,7 +39,7 @@ std::string listed(const devices::Problems& problems) {
 
 /// A run to the end; the pictures are left out.
 struct Played {
-  devices::Problems problems;
+  Problems problems;
   Scenario scenario;
   std::unique_ptr<Simulation> simulation;
   Outcome outcome;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 const fs::path root = DRYCUT_SOURCE_DIR;
 
-std::string listed(const devices::Problems& problems) {
+std::string listed(const Problems& problems) {
   std::string text;
   for (const auto& problem : problems) text += to_string(problem) + "\n";
   return text;
@@ -25,7 +25,7 @@ std::string listed(const devices::Problems& problems) {
 /// Runs `scenario` to its end; a line for each check: its name and verdict.
 std::vector<std::string> verdicts(Scenario& scenario) {
   scenario.pictures.frames = false;
-  devices::Problems problems;
+  Problems problems;
   Simulation simulation(scenario, problems);
   EXPECT_EQ(listed(problems), "");
   if (!problems.empty()) return {};
@@ -48,7 +48,7 @@ std::vector<std::vector<std::size_t>> orders(std::size_t count) {
 std::vector<std::string> scenes_of_several_tasks() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(root / "scenes")) {
-    devices::Problems problems;
+    Problems problems;
     if (entry.path().extension() != ".yaml" || read_comparison(entry.path(), problems)) continue;
     const Scenario scenario = read_scenario(entry.path(), {}, problems);
     const auto* qmove = std::get_if<QmoveSection>(&scenario.controller);
@@ -61,7 +61,7 @@ std::vector<std::string> scenes_of_several_tasks() {
 class TaskOrder : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(TaskOrder, OfAShippedSceneChangesNoVerdict) {
-  devices::Problems problems;
+  Problems problems;
   Scenario scenario = read_scenario(root / "scenes" / (GetParam() + ".yaml"), {}, problems);
   ASSERT_EQ(listed(problems), "");
   auto& tasks = std::get<QmoveSection>(scenario.controller).tasks;
@@ -118,7 +118,7 @@ Scenario saw(const TestFolder& folder, const std::vector<std::string>& tasks) {
                   "  - {name: the HMI has 490 turns a second, eventually: glHmi >= 3920, within: 8 s}\n"
                   "  - {name: the lamp has 490 turns a second, eventually: glLamp >= 3920, within: 8 s}\n"
                   "  - {name: the HMI is fresh, always: abs(glShown - AxisX.posit) <= 40, from: 100 ms}\n");
-  devices::Problems problems;
+  Problems problems;
   Scenario scenario = read_scenario(folder.file("saw.yaml", text), {}, problems);
   EXPECT_EQ(listed(problems), "");
   return scenario;

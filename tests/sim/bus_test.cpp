@@ -44,7 +44,7 @@ struct BusTest : testing::Test {
   fakes::FakeController controller;
   fakes::FakePlant plant;
   Bus bus;
-  devices::Problems problems;
+  Problems problems;
 };
 
 TEST_F(BusTest, CarriesEveryKindOfSignal) {

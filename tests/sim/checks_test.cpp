@@ -47,7 +47,7 @@ struct ChecksTest : testing::Test {
   Watch watch{names};
   std::vector<KnownEvent> events = {{"knife", "cut", {{"length", "mm"}, {"force", "N"}}},
                                     {"knife", "tear", {}}};
-  devices::Problems problems;
+  Problems problems;
   std::unique_ptr<Checks> checks;
 };
 

@@ -1,12 +1,17 @@
 #pragma once
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
+#include "sim/commands/commands.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {
+
+/// The cams that come with the program.
+inline const std::filesystem::path shipped_cams = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/cams";
 
 /// A test of a command: what the command last printed.
 struct CommandTest : testing::Test {
@@ -22,5 +27,12 @@ struct CommandTest : testing::Test {
   std::string out;
   std::string err;
 };
+
+/// What `drycut devices NAME` prints.
+inline std::string printed(const std::string& name, bool json) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(list_devices(name, json), all_passed);
+  return testing::internal::GetCapturedStdout();
+}
 
 }  // namespace drycut::sim

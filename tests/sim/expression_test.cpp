@@ -234,14 +234,14 @@ TEST(Expression, FaultsOfAScenarioStandAtTheirPlaceInTheFile) {
   scenario.sources = {"line.yaml", "--set checks.0.expect"};
   const Text text{"length < y", {7, 20, 0}};
   const Text overridden{"length < y", {1, 1, 1}};
-  devices::Problems problems;
+  Problems problems;
   const double length = 1;
   const auto resolve = [&](const std::string& name) { return name == "length" ? &length : nullptr; };
   EXPECT_FALSE(Expression::compile(text, scenario, resolve, {"length"}, problems));
   EXPECT_FALSE(Expression::compile(overridden, scenario, resolve, {"length"}, problems));
   ASSERT_EQ(problems.size(), 2U);
-  EXPECT_EQ(devices::to_string(problems[0]), "line.yaml:7:29: unknown name 'y'; known: length");
-  EXPECT_EQ(devices::to_string(problems[1]), "--set checks.0.expect:1:10: unknown name 'y'; known: length");
+  EXPECT_EQ(to_string(problems[0]), "line.yaml:7:29: unknown name 'y'; known: length");
+  EXPECT_EQ(to_string(problems[1]), "--set checks.0.expect:1:10: unknown name 'y'; known: length");
 }
 
 TEST(Expression, NoTextCrashesIt) {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "tests/sim/tune_bench.hpp"
+#include "tests/sim/tune/bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -124,7 +124,8 @@ TEST_F(Files, WhatIsNoTextIsRefusedInAnyKindOfFileWithItsPlace) {
     EXPECT_THAT(err, HasSubstr(file.string() + ":2:4: byte 0xe8 is no text; ")) << name;
     folder.file(name, std::string("\xFF\xFEx\0\0\xD8", 6));  // ends in half a character
     EXPECT_EQ(check({file}), bad_input) << name;
-    EXPECT_THAT(err, HasSubstr(file.string() + ":1:1: this is broken UTF-16; save it as plain text in UTF-8\n"));
+    EXPECT_THAT(err,
+                HasSubstr(file.string() + ":1:1: this is broken UTF-16; save it as plain text in UTF-8\n"));
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "sim/gallery.hpp"
 #include "tests/sim/fakes.hpp"
-#include "tests/sim/scenario_fake_plants.hpp"
+#include "tests/sim/scenario/fake_plants.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -183,7 +183,7 @@ TEST_F(Histogram, ABeyondTheLimitIsANegativeCpk) {
 }
 
 TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
-  devices::Problems problems;
+  Problems problems;
   const auto scenario = read_scenario_text(
       "scene: {duration: 500 ms}\nplants: {w: {type: web}, k: {type: rotary_knife, web: w, servo: "
       "{rated_speed: 1500 "
@@ -191,7 +191,7 @@ TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
       "pictures: {plots: [{name: m, panels: [{title: drum, motor: k}]}]}\n",
       "line.yaml", {}, problems);
   Simulation simulation(scenario, problems);
-  ASSERT_TRUE(problems.empty()) << devices::to_string(problems.front());
+  ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   simulation.run();
   const auto plots = plots_of(scenario, simulation.recording());
   ASSERT_EQ(plots.size(), 1U);
@@ -215,12 +215,12 @@ TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
 }
 
 std::vector<std::string> binding_problems(const std::string& pictures) {
-  devices::Problems problems;
+  Problems problems;
   const auto scenario = read_scenario_text("scene: {duration: 1 s}\nplants: {w: {type: web}}\n" + pictures,
                                            "line.yaml", {}, problems);
   const Simulation simulation(scenario, problems);
   std::vector<std::string> list;
-  for (const auto& problem : problems) list.push_back(devices::to_string(problem));
+  for (const auto& problem : problems) list.push_back(to_string(problem));
   return list;
 }
 
@@ -252,13 +252,13 @@ TEST(PicturesBinding, WhatTheMachineDoesNotHave) {
 }
 
 TEST(PicturesBinding, FramesAboutAnEventThatNeverComesAreNoted) {
-  devices::Problems problems;
+  Problems problems;
   const auto scenario = read_scenario_text(
       "scene: {duration: 100 ms}\nplants: {w: {type: web}}\ntimeline: [{at: 10 ms, fault: {w.wheel: "
       "{lose_counts: 3}}}]\npictures: {frames: {around: \"fault[2]\"}}\n",
       "line.yaml", {}, problems);
   Simulation simulation(scenario, problems);
-  ASSERT_TRUE(problems.empty()) << devices::to_string(problems.front());
+  ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   simulation.run();
   EXPECT_TRUE(simulation.snapshots().empty());
   EXPECT_THAT(simulation.notes(), ElementsAre("no frames: fault[2] did not happen; 1 did"));

@@ -29,7 +29,7 @@ struct Lx3vpBus : testing::Test {
     scenario.sources = {"line.yaml"};
   }
   static devices::lx3vp::il::Program program() {
-    devices::Problems problems;
+    Problems problems;
     auto compiled = devices::lx3vp::il::compile(
         "LD X10\nOUT C251 K0\nOUT Y7\nDPLSV K1000 Y1 Y5\nDECAM C251 D2000 X2 Y0 Y4\nEND\n", "saw.il",
         problems);
@@ -54,7 +54,7 @@ struct Lx3vpBus : testing::Test {
   devices::lx3vp::Lx3vpController controller{program(), 1'000'000};
   PulsePlant plant;
   Bus bus;
-  devices::Problems problems;
+  Problems problems;
 };
 
 TEST_F(Lx3vpBus, CarriesEveryKindOfSignal) {

@@ -7,7 +7,7 @@
 #include "sim/controller_loader.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/simulation.hpp"
-#include "tests/sim/scenario_folder.hpp"
+#include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -162,8 +162,9 @@ TEST_F(Lx3vpScenario, NoPlantIsCalledAsARegisterIs) {
   const auto scenario = read(
       "scene: {duration: 0.1 s}\nplants: {D300: {type: bench}}\ncontroller: {lx3vp: {program: saw.il}}\n");
   const Simulation simulation(scenario, problems);
-  EXPECT_THAT(told(), ElementsAre("line.yaml:2:10: plants.D300: the controller has D300 too; give the plant a name "
-                                  "of its own, or another spelling: knife and Knife"));
+  EXPECT_THAT(told(),
+              ElementsAre("line.yaml:2:10: plants.D300: the controller has D300 too; give the plant a name "
+                          "of its own, or another spelling: knife and Knife"));
 }
 
 TEST_F(Lx3vpScenario, TheRetentiveFileMustBeWritableAtTheEnd) {

@@ -4,17 +4,12 @@
 #include "devices/lx3vp/il_mnemonics.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/controller_table.hpp"
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
 
 using testing::HasSubstr;
-
-std::string printed(const std::string& name, bool json) {
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(list_devices(name, json), all_passed);
-  return testing::internal::GetCapturedStdout();
-}
 
 TEST(Lx3vpTables, AreListedWithTheDevices) {
   const auto list = printed("", false);

@@ -10,7 +10,7 @@
 
 #include "sim/figures.hpp"
 #include "sim/gallery.hpp"
-#include "tests/sim/tune_bench.hpp"
+#include "tests/sim/tune/bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -48,7 +48,7 @@ struct OutputFolders : testing::Test {
   }
 
   TestFolder folder;
-  devices::Problems problems;
+  Problems problems;
 };
 
 TEST_F(OutputFolders, TheNextCommandRemovesWhatTheEarlierOneWroteAndNothingElse) {
@@ -235,7 +235,7 @@ TEST_F(RunsIntoFolders, NamesThatCannotNameAFolderOfResultsAreRefused) {
 }
 
 TEST_F(RunsIntoFolders, PlotsOfOneNameHaveAFileEach) {
-  devices::Problems problems;
+  Problems problems;
   OutputFolder results(folder / "out", "run", picture_files, problems);
   results.begin();
   renders::Plot plot;
@@ -252,7 +252,7 @@ TEST_F(RunsIntoFolders, PlotsOfOneNameHaveAFileEach) {
 }
 
 TEST_F(RunsIntoFolders, TheSecondOfTwoProcessesIsRefused) {
-  devices::Problems problems;
+  Problems problems;
   const OutputFolder other(folder / "out", "runs", {"junit.xml"}, problems);
   EXPECT_EQ(run({scenario("line.yaml")}), bad_input);
   EXPECT_THAT(err, HasSubstr("another drycut is writing into "));

@@ -16,7 +16,7 @@ const char* const scenario =
 
 Scenario read(const std::string& text, const std::vector<Override>& overrides,
               std::vector<std::string>& problems) {
-  devices::Problems found;
+  Problems found;
   auto made = read_scenario_text(text, "x.yaml", overrides, found);
   for (const auto& problem : found) problems.push_back(to_string(problem));
   return made;

@@ -11,7 +11,7 @@
 #include "plants/world.hpp"
 #include "renders/part_models.hpp"
 #include "sim/gallery.hpp"
-#include "tests/sim/scenario_fake_plants.hpp"
+#include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {
@@ -76,7 +76,7 @@ TEST(MeshRequests, WhatIsWrong) {
 class PartMeshesTest : public ::testing::Test {
  protected:
   PartMeshes load(const std::string& meshes) {
-    devices::Problems problems;
+    Problems problems;
     scenario_ = read_scenario_text(
         "scene: {duration: 100 ms}\n"
         "plants: {web: {type: web}, knife: {type: rotary_knife, web: web}}\n"
@@ -87,7 +87,7 @@ class PartMeshesTest : public ::testing::Test {
     auto loaded = load_part_meshes(scenario_, simulation_->plants(), problems);
     problems_.clear();
     for (const auto& problem : problems) {
-      auto text = devices::to_string(problem);
+      auto text = to_string(problem);
       const auto file = (folder_ / "line.yaml").string() + ":";
       if (text.starts_with(file)) text.erase(0, file.size());
       problems_.push_back(text);

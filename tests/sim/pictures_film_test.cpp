@@ -12,7 +12,7 @@
 #include "sim/gallery.hpp"
 #include "sim/part_meshes.hpp"
 #include "sim/simulation.hpp"
-#include "tests/sim/scenario_fake_plants.hpp"
+#include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {
@@ -61,7 +61,7 @@ struct KnifeLine {
     return std::nan("");
   }
 
-  devices::Problems problems;
+  Problems problems;
   Scenario scenario;
   std::optional<Simulation> simulation;
   std::ptrdiff_t first_line = 0;

@@ -8,7 +8,7 @@
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/simulation.hpp"
-#include "tests/sim/scenario_folder.hpp"
+#include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -10,6 +10,7 @@
 #include "devices/plcopen/terminals.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/controller_table.hpp"
+#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -17,12 +18,6 @@ namespace {
 namespace plcopen = devices::plcopen;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string printed(const std::string& name, bool json) {
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(list_devices(name, json), all_passed);
-  return testing::internal::GetCapturedStdout();
-}
 
 TEST(PlcopenTables, TheShortListNamesTheAxisAndTheBlocksTogether) {
   const auto list = printed("", false);
@@ -71,9 +66,10 @@ TEST(PlcopenTables, ReadingsStandWithWhatTheyAreAbout) {
     EXPECT_TRUE(of_block || of_axis || reading.of == "cam table" || reading.of == "ST") << reading.of;
     EXPECT_FALSE(reading.manual.empty()) << reading.text;
     EXPECT_THAT(printed("PLCOPEN", false), HasSubstr(std::string(reading.text)));
-    if (of_block || of_axis)
+    if (of_block || of_axis) {
       EXPECT_THAT(printed(of_block ? std::string(reading.of) : "AXIS", false),
                   HasSubstr(std::string(reading.text)));
+    }
   }
   EXPECT_EQ(nlohmann::json::parse(printed("PLCOPEN", true)).at("readings").size(), plcopen::readings.size());
   EXPECT_EQ(nlohmann::json::parse(printed("MC_CamOut", true)).at("readings").size(), 1u);

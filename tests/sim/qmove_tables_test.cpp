@@ -4,6 +4,7 @@
 #include "devices/qmove/language.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/controller_table.hpp"
+#include "tests/sim/command_bench.hpp"
 
 // `drycut devices` marks readings of ours, with the place that leaves them open, in text and JSON.
 namespace drycut::sim {
@@ -12,12 +13,6 @@ namespace {
 using nlohmann::json;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
-
-std::string printed(const std::string& name, bool as_json) {
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(list_devices(name, as_json), all_passed);
-  return testing::internal::GetCapturedStdout();
-}
 
 const json* row_of(const json& rows, const std::string& name) {
   for (const auto& row : rows)

@@ -90,7 +90,8 @@ TEST_F(RecorderTest, FilesGrowByWholeLinesASecondAtATime) {
   }
   EXPECT_EQ(lines, 10002U);
   const auto events = contents(folder / "events.csv");
-  EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 21) << "the last came after its second was written";
+  EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 21)
+      << "the last came after its second was written";
 }
 
 TEST_F(RecorderTest, AFullDiskIsTold) {
@@ -159,7 +160,7 @@ TEST_F(RecorderTest, AFileThatIsNotFinishedIsNeverThere) {
 }
 
 TEST_F(RecorderTest, ReadFileSaysWhatIsWrong) {
-  devices::Problems problems;
+  Problems problems;
   EXPECT_FALSE(read_file(folder / "none.cnf", problems, {"line.yaml", 4, 7, "", ""}));
   EXPECT_FALSE(read_file(folder, problems));
   ASSERT_EQ(problems.size(), 2U);

@@ -33,7 +33,7 @@ struct TimelineTest : testing::Test {
   fakes::FakePlant plant;
   Panel panel;
   Names names{{{"web", &plant}}, &controller, panel};
-  devices::Problems problems;
+  Problems problems;
   Recording recording;
 };
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/simulation.hpp"
-#include "tests/sim/scenario_folder.hpp"
+#include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim {
 namespace {

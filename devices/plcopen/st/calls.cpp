@@ -26,7 +26,7 @@ Compiler::Enable Compiler::take_enable(std::vector<Argument>& given, const Type*
     if (!condition && !is(argument, "ENO", true)) return false;
     const Tree*& taken = condition ? enable.condition : enable.result;
     if (taken != nullptr)
-      give_up(argument.name->place, fmt::format("{} is given twice", quoted(argument.name->text)),
+      give_up(argument.name->place, fmt::format("{} is given twice", in_quotes(argument.name->text)),
               "once a call");
     taken = argument.tree;
     return true;
@@ -79,7 +79,7 @@ Expression Compiler::call(const Tree& tree, const Type* wanted) {
     if (named.unknown()) return named;
     const bool block = named.type->basic == Basic::block;
     give_up(name.place,
-            fmt::format("{} is {} and cannot be called here", quoted(named.name), named.type->name),
+            fmt::format("{} is {} and cannot be called here", in_quotes(named.name), named.type->name),
             block ? "call it in a statement of its own and read its outputs"
                   : "a variable hides a function of its name: choose another one");
   }
@@ -106,7 +106,7 @@ const Variable* Compiler::pin_of(const Type& type, const Token& name, bool outpu
   if (is_output && output) return pin;
   if (is_input || is_output) {
     complain(name.place,
-             fmt::format("{} is an {} of {}", quoted(pin->name), is_output ? "output" : "input", type.name),
+             fmt::format("{} is an {} of {}", in_quotes(pin->name), is_output ? "output" : "input", type.name),
              is_output ? fmt::format("{} => variable reads it", pin->name)
                        : fmt::format("{} := value gives it", pin->name));
     return nullptr;
@@ -116,7 +116,7 @@ const Variable* Compiler::pin_of(const Type& type, const Token& name, bool outpu
   const std::string all = names.empty() ? fmt::format("it has no {}", output ? "outputs" : "inputs")
                                         : fmt::format("it has {}", listed(names));
   complain(name.place,
-           fmt::format("{} has no {} {}", type.name, output ? "output" : "input", quoted(name.text)),
+           fmt::format("{} has no {} {}", type.name, output ? "output" : "input", in_quotes(name.text)),
            suggestion(name.text, names, all));
   return nullptr;
 }
@@ -128,14 +128,14 @@ int Compiler::in_out_store(const Type& type, const Variable& pin, const Expressi
   if (!value.address || value.bits || !same_type(*value.type, *pin.type)) {
     complain(value.place,
              value.address && !value.bits
-                 ? fmt::format("{} is {}, not {}", quoted(value.name), value.type->name, pin.type->name)
-                 : fmt::format("{} takes a variable", quoted(pin.name)),
+                 ? fmt::format("{} is {}, not {}", in_quotes(value.name), value.type->name, pin.type->name)
+                 : fmt::format("{} takes a variable", in_quotes(pin.name)),
              fmt::format("connect a variable of type {}", pin.type->name));
     return -1;
   }
   if (!value.locked.empty()) {
-    complain(value.place, fmt::format("{} {}", quoted(value.name), value.locked),
-             fmt::format("{} may write it: connect a variable", quoted(pin.name)));
+    complain(value.place, fmt::format("{} {}", in_quotes(value.name), value.locked),
+             fmt::format("{} may write it: connect a variable", in_quotes(pin.name)));
     return -1;
   }
   return add_node(Op::store_at, pin.type->basic, value.place, place,
@@ -146,7 +146,7 @@ int Compiler::output_store(const Type& owner, const Variable& pin, const Argumen
   const Expression target = typed(*argument.tree);
   if (target.unknown()) return -1;
   if (!target.address) {
-    complain(target.place, fmt::format("the output {} goes into a variable", quoted(pin.name)),
+    complain(target.place, fmt::format("the output {} goes into a variable", in_quotes(pin.name)),
              fmt::format("{} => variable", pin.name));
     return -1;
   }
@@ -162,7 +162,7 @@ void Compiler::input_of(const Expression& instance, const Argument& argument, Bl
   if (argument.name == nullptr) {
     const std::vector<std::string> inputs = pins_of(type, false);
     complain(argument.tree->token->place,
-             fmt::format("an argument of {} without a name", quoted(instance.name)),
+             fmt::format("an argument of {} without a name", in_quotes(instance.name)),
              inputs.empty() ? fmt::format("{} has no inputs", type.name)
                             : fmt::format("name its input: {} := value", inputs.front()));
     call.given.insert("?");
@@ -176,7 +176,7 @@ void Compiler::input_of(const Expression& instance, const Argument& argument, Bl
     return;
   }
   if (!call.given.insert(pin->name).second) {
-    complain(argument.name->place, fmt::format("{} is given twice", quoted(pin->name)), "once a call");
+    complain(argument.name->place, fmt::format("{} is given twice", in_quotes(pin->name)), "once a call");
     return;
   }
   const int place = address_plus(instance.node, pin->offset);
@@ -206,7 +206,7 @@ Compiler::BlockCall Compiler::block_arguments(const Expression& instance,
   if (!missing.empty() && !call.given.contains("?"))
     complain(instance.place,
              fmt::format("{} {} not connected in the call of {}", listed(missing),
-                         missing.size() == 1 ? "is" : "are", quoted(instance.name)),
+                         missing.size() == 1 ? "is" : "are", in_quotes(instance.name)),
              fmt::format("each call connects them: {} := variable", missing.front()));
   return call;
 }
@@ -286,7 +286,7 @@ Expression Compiler::user_call(Unit& unit, const Token& name, const std::vector<
     const Variable* pin = named ? pin_of(*unit.type, *argument.name, argument.output) : inputs[number++];
     if (pin == nullptr) return unknown;
     if (!connected.insert(pin).second) {
-      complain(place, fmt::format("{} is given twice", quoted(pin->name)), "once a call");
+      complain(place, fmt::format("{} is given twice", in_quotes(pin->name)), "once a call");
       return unknown;
     }
     if (argument.output) {
@@ -331,7 +331,7 @@ bool Compiler::all_connected(const Unit& unit, const Token& name, const std::vec
   // All inputs, as IEC 61131-3 lets them be left out only where names are given.
   if (given.empty() || given.front().name != nullptr || number == inputs.size()) return true;
   complain(name.place, fmt::format("{} has {} inputs, not {}", unit.name.text, inputs.size(), number),
-           fmt::format("{} is missing; by name inputs may be left out", quoted(inputs[number]->name)));
+           fmt::format("{} is missing; by name inputs may be left out", in_quotes(inputs[number]->name)));
   return false;
 }
 

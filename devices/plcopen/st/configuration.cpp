@@ -96,7 +96,7 @@ void Compiler::configuration_part(bool tasks, int& resources) {
     else
       declare_instance();
   } else if (tasks) {
-    give_up(opening.place, fmt::format("{} stands in the CONFIGURATION", quoted(opening.text)),
+    give_up(opening.place, fmt::format("{} stands in the CONFIGURATION", in_quotes(opening.text)),
             "VAR_GLOBAL, RESOURCE, TASK and PROGRAM do");
   } else {
     take();
@@ -127,18 +127,18 @@ void Compiler::declare_task() {
       if (plain) single = static_cast<int>(code_->nodes[static_cast<std::size_t>(signal.node)].imm);
       runs = true;
     } else {
-      give_up(property.place, fmt::format("a task has no {}", quoted(property.text)),
+      give_up(property.place, fmt::format("a task has no {}", in_quotes(property.text)),
               "INTERVAL, PRIORITY or SINGLE");
     }
   } while (accept(","));
   expect(")", "ends the properties of a task");
   expect(";", "ends a TASK");
   if (!runs)
-    complain(name.place, fmt::format("the task {} never runs", quoted(name.text)),
+    complain(name.place, fmt::format("the task {} never runs", in_quotes(name.text)),
              "INTERVAL := T#10ms, or SINGLE := a BOOL of VAR_GLOBAL");
   for (const Program::Task& other : code_->tasks)
     if (name.word(other.name))
-      complain(name.place, quoted(name.text) + " is declared twice",
+      complain(name.place, in_quotes(name.text) + " is declared twice",
                fmt::format("the first one is in line {}", other.line));
   code_->tasks.push_back(std::move(task));
   code_->singles.push_back(single);
@@ -158,7 +158,7 @@ void Compiler::declare_instance() {
     if (task < 0) {
       std::vector<std::string> names;
       for (const Program::Task& known : code_->tasks) names.push_back(known.name);
-      complain(with.place, fmt::format("there is no task {}", quoted(with.text)),
+      complain(with.place, fmt::format("there is no task {}", in_quotes(with.text)),
                suggestion(with.text, names, "TASK " + std::string(with.text) + "(INTERVAL := T#10ms);"));
     }
   }
@@ -172,7 +172,7 @@ void Compiler::declare_instance() {
         if (other->kind == Unit::Kind::program) names.emplace_back(other->name.text);
       return names;
     };
-    give_up(type.place, fmt::format("there is no PROGRAM {}", quoted(type.text)),
+    give_up(type.place, fmt::format("there is no PROGRAM {}", in_quotes(type.text)),
             suggested(type.text, known, "PROGRAM " + std::string(type.text) + " ... END_PROGRAM"));
   }
   const std::size_t connections = peek().is("(") ? at_ : 0;
@@ -195,7 +195,7 @@ void Compiler::check_instances() {
   for (const Connections& instance : connections_) {
     const Token& name = instance.name;
     if (!names.insert(lower(name.text)).second || find_member(*globals_, name.text) != nullptr)
-      complain(name.place, quoted(name.text) + " is declared twice",
+      complain(name.place, in_quotes(name.text) + " is declared twice",
                "each program of a CONFIGURATION has a name of its own");
   }
   for (std::size_t i = 0; i < code_->located.size(); ++i) {
@@ -205,7 +205,7 @@ void Compiler::check_instances() {
     const Program::Located& located = code_->located[i];
     if (pou >= 0 && count > 1)
       complain({located.line, located.column},
-               fmt::format("{} is in {} programs at one terminal", quoted(located.name), count),
+               fmt::format("{} is in {} programs at one terminal", in_quotes(located.name), count),
                "declare it in VAR_GLOBAL");
   }
 }

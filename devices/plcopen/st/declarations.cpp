@@ -193,7 +193,7 @@ void Compiler::declare_named(Unit& unit, Type& owner, const VarSection& section,
       give_up(value.place, "a VAR_IN_OUT has no initial value", "it is the caller's variable");
     initial = initial_value(*type);
   } else if (section.constant) {
-    complain(names.front().place, quoted(names.front().text) + " is a constant without a value",
+    complain(names.front().place, in_quotes(names.front().text) + " is a constant without a value",
              ":= value behind its type");
   }
   expect(";", "ends a declaration");
@@ -210,24 +210,24 @@ bool Compiler::check_section(const Unit& unit, const VarSection& section, const 
   };
   const std::string_view in = section.global ? "VAR_GLOBAL" : name_of(section.section);
   if (type.holds_axis && (section.section != Section::in_out || type.basic != Basic::axis))
-    return refuse(fmt::format("the AXIS_REF {} in {} has no axis", quoted(name.text), in),
+    return refuse(fmt::format("the AXIS_REF {} in {} has no axis", in_quotes(name.text), in),
                   "an axis of the configuration is named in VAR_EXTERNAL, a caller's in VAR_IN_OUT");
   const bool keeps = section.section == Section::in_out ||
                      (section.section == Section::local && unit.kind != Unit::Kind::function);
   if (type.holds_block && (!keeps || section.constant))
-    return refuse(fmt::format("the function block {} cannot be in {} here", quoted(name.text), in),
+    return refuse(fmt::format("the function block {} cannot be in {} here", in_quotes(name.text), in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
   if (!located) return true;
   if (type.basic != Basic::boolean)
-    return refuse(fmt::format("{} at a terminal is a BOOL, not {}", quoted(name.text), type.name),
+    return refuse(fmt::format("{} at a terminal is a BOOL, not {}", in_quotes(name.text), type.name),
                   "start AT %IX0.0 : BOOL;");
   if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
       section.section != Section::local)
-    return refuse(fmt::format("{} cannot have a terminal here", quoted(name.text)),
+    return refuse(fmt::format("{} cannot have a terminal here", in_quotes(name.text)),
                   "AT stands in VAR of a PROGRAM or in VAR_GLOBAL");
   const auto [other, fresh] = terminals_.emplace(*located, name.text);
   if (!fresh)
-    return refuse(fmt::format("{} and {} are at one terminal", quoted(name.text), quoted(other->second)),
+    return refuse(fmt::format("{} and {} are at one terminal", in_quotes(name.text), in_quotes(other->second)),
                   "each terminal has one variable");
   return true;
 }
@@ -269,7 +269,7 @@ bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& na
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr) return true;
   const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
-  complain(name.place, quoted(name.text) + (result ? " is the function's result" : " is declared twice"),
+  complain(name.place, in_quotes(name.text) + (result ? " is the function's result" : " is declared twice"),
            result ? "choose another name" : fmt::format("the first one is in line {}", other->place.line));
   return false;
 }
@@ -279,7 +279,7 @@ void Compiler::external(const Token& name, const Type* type) {
   if (type->basic == Basic::axis) {
     if (global != nullptr && global->type->basic == Basic::axis) return;
     if (global != nullptr) {
-      complain(name.place, fmt::format("{} is a {} in VAR_GLOBAL", quoted(name.text), global->type->name),
+      complain(name.place, fmt::format("{} is a {} in VAR_GLOBAL", in_quotes(name.text), global->type->name),
                "choose another name");
       return;
     }
@@ -296,11 +296,11 @@ void Compiler::external(const Token& name, const Type* type) {
   if (global != nullptr) {
     complain(
         name.place,
-        fmt::format("{} is {} here and {} in VAR_GLOBAL", quoted(name.text), type->name, global->type->name),
+        fmt::format("{} is {} here and {} in VAR_GLOBAL", in_quotes(name.text), type->name, global->type->name),
         "declare both alike");
     return;
   }
-  complain(name.place, fmt::format("there is no VAR_GLOBAL {}", quoted(name.text)),
+  complain(name.place, fmt::format("there is no VAR_GLOBAL {}", in_quotes(name.text)),
            "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
 }
 
@@ -309,7 +309,7 @@ std::optional<Address> Compiler::location() {
   const auto address =
       token.kind == Token::Kind::address ? located_address(token.text) : std::optional<Address>{};
   if (!address)
-    give_up(token.place, quoted(token.text) + " is no terminal that is known",
+    give_up(token.place, in_quotes(token.text) + " is no terminal that is known",
             "%IX0.0 is an input, %QX0.0 an output: byte 0 to 65535 and bit 0 to 7");
   return *address;
 }

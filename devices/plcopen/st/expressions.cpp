@@ -90,7 +90,7 @@ Expression Compiler::signed_value(const Tree& tree, const Type* wanted) {
     if (sign.is("+")) return operand;
     return apply_op(is_real(basic) ? Op::negate_real : Op::negate, operand.type, sign.place, operand);
   }
-  complain(sign.place, fmt::format("{} does not go with {}", quoted(sign.text), operand.type->name),
+  complain(sign.place, fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name),
            "it takes numbers");
   return {type_of(Basic::unknown), sign.place};
 }
@@ -101,7 +101,7 @@ Expression Compiler::complement(const Token& sign, Expression operand, const Typ
   const Basic basic = operand.type->basic;
   if (basic == Basic::boolean || is_integer(basic))
     return apply_op(Op::bit_not, operand.type, sign.place, operand);
-  complain(sign.place, fmt::format("{} does not go with {}", quoted(sign.text), operand.type->name),
+  complain(sign.place, fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name),
            "it takes BOOL and whole numbers");
   return {type_of(Basic::unknown), sign.place};
 }
@@ -122,7 +122,7 @@ Expression Compiler::mismatch(const Token& sign, const Expression& a, const Expr
     if (!e.untyped) return e.type->name;
     return std::string(is_real(e.type->basic) ? "a real number" : "a whole number");
   };
-  complain(sign.place, fmt::format("{} does not go with {} and {}", quoted(sign.text), name(a), name(b)),
+  complain(sign.place, fmt::format("{} does not go with {} and {}", in_quotes(sign.text), name(a), name(b)),
            remedy);
   return {type_of(Basic::unknown), sign.place};
 }

@@ -194,7 +194,7 @@ Expression Compiler::function_call(const Token& name, const std::vector<Argument
     return names;
   };
   if (told_.insert(lower(name.text)).second)
-    complain(name.place, fmt::format("there is no function {}", quoted(name.text)),
+    complain(name.place, fmt::format("there is no function {}", in_quotes(name.text)),
              block ? "it is a kind of function block: declare an instance of it in VAR and call that"
                    : suggested(name.text, known, "declare FUNCTION " + std::string(name.text) + " : type"));
   return {type_of(Basic::unknown), name.place};
@@ -212,10 +212,10 @@ std::vector<const Tree*> Compiler::in_order(const Token& name, const std::vector
     if (argument.output || (argument.name != nullptr && number == function.most))
       give_up(argument.name->place,
               fmt::format("{} has no {} {}", upper(name.text), argument.output ? "output" : "input",
-                          quoted(argument.name->text)),
+                          in_quotes(argument.name->text)),
               "give the values in their order, without names");
     if (number < values.size() && values[number] != nullptr)
-      give_up(argument.name->place, fmt::format("{} is given twice", quoted(argument.name->text)),
+      give_up(argument.name->place, fmt::format("{} is given twice", in_quotes(argument.name->text)),
               "once a call");
     if (number >= values.size()) values.resize(number + 1, nullptr);
     values[number] = argument.tree;

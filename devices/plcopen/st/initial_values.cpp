@@ -35,7 +35,7 @@ void Compiler::initial_into(const Type& type, std::span<Cell> cells) {
   }
   const Token text = take();
   if (text.kind != Token::Kind::string)
-    give_up(text.place, "a STRING begins with a text, not " + quoted(text.text), "'text'");
+    give_up(text.place, "a STRING begins with a text, not " + in_quotes(text.text), "'text'");
   if (text.string.size() > type.length)
     give_up(text.place, fmt::format("{} characters do not fit in {}", text.string.size(), type.name),
             fmt::format("{} at most", type.length));
@@ -84,11 +84,11 @@ void Compiler::initial_members(const Type& type, std::span<Cell> cells) {
     if (member == nullptr) {
       std::vector<std::string> names;
       for (const Variable& known : type.members) names.push_back(known.name);
-      give_up(name.place, fmt::format("{} has no member {}", type.name, quoted(name.text)),
+      give_up(name.place, fmt::format("{} has no member {}", type.name, in_quotes(name.text)),
               suggestion(name.text, names, "it has " + listed(names)));
     }
     if (member->section == Section::in_out)
-      give_up(name.place, quoted(name.text) + " has no initial value", "it is connected in a call");
+      give_up(name.place, in_quotes(name.text) + " has no initial value", "it is connected in a call");
     expect(":=", "stands between a member and its value");
     if (&type == cam_ref_ && member == type.members.data()) cam_file(peek());
     initial_into(*member->type, cells.subspan(static_cast<std::size_t>(member->offset),

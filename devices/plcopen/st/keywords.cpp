@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "devices/text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "devices/plcopen/st/pragmas.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -35,7 +36,7 @@ class Lexer {
       : text_(text), file_(file), problems_(problems), pragmas_(file, problems) {}
 
   std::vector<Token> run() {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark
+    at_ = text_.size() - without_byte_order_mark(text_).size();
     line_start_ = at_;
     while (skip_blank(), at_ < text_.size()) next();
     pragmas_.finish();
@@ -161,7 +162,7 @@ class Lexer {
     const bool quote = peek() == '"';
     const std::size_t size = ascii ? 1 : length([](char x) { return static_cast<unsigned char>(x) >= 128; });
     Token& token = add(Token::Kind::bad, size);
-    complain(token, "unexpected character " + quoted(token.text),
+    complain(token, "unexpected character " + in_quotes(token.text),
              quote ? "a string stands between single quotes" : "comments are (* ... *) or // ...");
   }
 
@@ -204,7 +205,7 @@ class Lexer {
     const std::size_t whole = length(belongs_to_name, size);
     Token& token = add(real ? Token::Kind::real : Token::Kind::integer, whole);
     if (whole != size) {
-      complain(token, quoted(token.text) + " is neither a number nor a name",
+      complain(token, in_quotes(token.text) + " is neither a number nor a name",
                milliseconds(without_underscores(token.text))
                    ? fmt::format("a TIME is written T#{}", token.text)
                    : "names begin with a letter; 16#FF is hexadecimal");
@@ -214,7 +215,7 @@ class Lexer {
     if (real) {
       const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), token.real);
       if (error != std::errc{})
-        complain(token, quoted(token.text) + " is out of range", "an LREAL goes to 1.8e308");
+        complain(token, in_quotes(token.text) + " is out of range", "an LREAL goes to 1.8e308");
     } else {
       read_integer(token, digits, 10);
     }
@@ -224,7 +225,7 @@ class Lexer {
     const std::string base = without_underscores(text_.substr(at_, base_size));
     Token& token = add(Token::Kind::integer, length(belongs_to_name, base_size + 1));
     if (base != "2" && base != "8" && base != "16") {
-      complain(token, quoted(token.text) + " has no base that is known", "2#1010, 8#17 or 16#FF");
+      complain(token, in_quotes(token.text) + " has no base that is known", "2#1010, 8#17 or 16#FF");
       return;
     }
     read_integer(token, without_underscores(token.text.substr(base_size + 1)), std::stoi(base));
@@ -234,18 +235,18 @@ class Lexer {
     constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t number = 0;
     if (digits.empty()) {
-      complain(token, quoted(token.text) + " has no digits", "16#FF");
+      complain(token, in_quotes(token.text) + " has no digits", "16#FF");
       return;
     }
     for (const char c : digits) {
       const int digit = digit_of(c);
       if (digit >= base) {
-        complain(token, fmt::format("{} has a digit that base {} does not have", quoted(token.text), base),
+        complain(token, fmt::format("{} has a digit that base {} does not have", in_quotes(token.text), base),
                  "2#1010, 8#17 or 16#FF");
         return;
       }
       if (number > (largest - static_cast<std::uint64_t>(digit)) / static_cast<std::uint64_t>(base)) {
-        complain(token, quoted(token.text) + " is out of range", "a ULINT goes to 18446744073709551615");
+        complain(token, in_quotes(token.text) + " is out of range", "a ULINT goes to 18446744073709551615");
         return;
       }
       number = number * static_cast<std::uint64_t>(base) + static_cast<std::uint64_t>(digit);
@@ -260,12 +261,12 @@ class Lexer {
     Token& token = add(Token::Kind::time, size);
     const std::optional<double> ms = milliseconds(without_underscores(token.text.substr(prefix)));
     if (!ms)
-      complain(token, quoted(token.text) + " is no time",
+      complain(token, in_quotes(token.text) + " is no time",
                "parts with d, h, m, s or ms, the largest first: T#1s500ms");
     else if (*ms > std::numeric_limits<std::uint32_t>::max())
-      complain(token, quoted(token.text) + " is out of range", "a TIME goes to T#49d17h2m47s295ms");
+      complain(token, in_quotes(token.text) + " is out of range", "a TIME goes to T#49d17h2m47s295ms");
     else if (std::abs(*ms - std::round(*ms)) > 1e-6)
-      complain(token, quoted(token.text) + " is finer than a TIME", "a TIME counts whole milliseconds");
+      complain(token, in_quotes(token.text) + " is finer than a TIME", "a TIME counts whole milliseconds");
     else
       token.number = std::llround(*ms);
   }
@@ -280,7 +281,7 @@ class Lexer {
     if (number)
       token.number = *number;
     else
-      complain(token, quoted(token.text) + " is no " + std::string(name_of(kind)), example_of(kind));
+      complain(token, in_quotes(token.text) + " is no " + std::string(name_of(kind)), example_of(kind));
   }
 
   static std::string_view name_of(Token::Kind kind) {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/problem.hpp"
-#include "devices/text.hpp"
+#include "base/problem.hpp"
+#include "base/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 

@@ -19,7 +19,7 @@ int Compiler::for_statement() {
     counter.place = name.place;
     if (!counter.unknown() && !is_integer(counter.type->basic)) {
       complain(name.place,
-               fmt::format("FOR counts {}, which is {}", quoted(counter.name), counter.type->name),
+               fmt::format("FOR counts {}, which is {}", in_quotes(counter.name), counter.type->name),
                "a variable of whole numbers");
       counter = Expression{type_of(Basic::unknown), name.place};
     }

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/operations.hpp"
 #include "devices/plcopen/st/texts.hpp"
-#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 

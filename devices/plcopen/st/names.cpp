@@ -67,7 +67,7 @@ std::optional<Expression> Compiler::variable(const Token& name) {
   Expression result = variable_of(*found, node, found->name, name.place);
   // A FUNCTION's inputs are its own; a block's are kept for the next call.
   if (own && found->section == Section::input && !function)
-    result.locked = fmt::format("is an input of {}", quoted(unit_->name.text));
+    result.locked = fmt::format("is an input of {}", in_quotes(unit_->name.text));
   return result;
 }
 
@@ -81,7 +81,7 @@ Expression Compiler::name_expression(const Token& name, const Type* wanted) {
   if (told_.insert(lower(name.text)).second) {
     const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
                       find_block_type(name.text) != nullptr;
-    complain(name.place, fmt::format("{} is {}", quoted(name.text), type ? "no variable" : "not declared"),
+    complain(name.place, fmt::format("{} is {}", in_quotes(name.text), type ? "no variable" : "not declared"),
              suggested(
                  name.text, [&] { return known_names(); },
                  type ? "declare an instance of it in VAR" : "declare it in VAR ... END_VAR"));
@@ -103,7 +103,7 @@ Expression Compiler::qualified_enum(const Type& type, const Token& name) {
     if (name.word(value.name)) return constant(&type, value.value, name.place);
   std::vector<std::string> names;
   for (const EnumValue& value : type.values) names.push_back(value.name);
-  complain(name.place, fmt::format("{} has no value {}", type.name, quoted(name.text)),
+  complain(name.place, fmt::format("{} has no value {}", type.name, in_quotes(name.text)),
            suggestion(name.text, names, "it has " + listed(names)));
   return {type_of(Basic::unknown), name.place};
 }
@@ -116,7 +116,7 @@ std::optional<Expression> Compiler::enum_value(const Token& name, const Type* wa
       return constant(value->second.first, value->second.second, name.place);
   const Type& one = *first->second.first;
   give_up(name.place,
-          fmt::format("{} is a value of {} and of {}", quoted(name.text), one.name,
+          fmt::format("{} is a value of {} and of {}", in_quotes(name.text), one.name,
                       std::next(first)->second.first->name),
           fmt::format("write {}#{}", std::next(first)->second.first->name, name.text));
 }
@@ -127,7 +127,7 @@ Expression Compiler::typed_literal(const Tree& tree) {
   if (const Type* type = enumeration(name.text)) return qualified_enum(*type, value);
   const Type* type = elementary_type(name.text);
   if (type == nullptr || !is_elementary(type->basic) || is_clock(type->basic))
-    give_up(name.place, fmt::format("{} is no type of a literal", quoted(name.text)),
+    give_up(name.place, fmt::format("{} is no type of a literal", in_quotes(name.text)),
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
   if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
     return constant(type, value.word("TRUE") ? 1 : 0, name.place);
@@ -159,18 +159,18 @@ Expression Compiler::bits_of_number(const Tree& tree, const Expression& owner) {
     });
     const auto* const end = text.data() + text.size();
     if (kind == parts.end() || std::from_chars(text.data() + 2, end, number).ptr != end)
-      give_up(token.place, quoted(token.text) + " is no part of a number", "%X3 is a bit, %B1 a byte");
+      give_up(token.place, in_quotes(token.text) + " is no part of a number", "%X3 is a bit, %B1 a byte");
     part = kind->second;
   }
   const int width = part.second;
   if (!is_integer(basic) || width > bits_of(basic))
     give_up(
         token.place,
-        fmt::format("{} is {} and has no part {}", quoted(owner.name), owner.type->name, quoted(token.text)),
+        fmt::format("{} is {} and has no part {}", in_quotes(owner.name), owner.type->name, in_quotes(token.text)),
         "whole numbers have bits, from 0");
   const int count = bits_of(basic) / width;
   if (number < 0 || number >= count)
-    give_up(token.place, fmt::format("{} has no part {}", owner.type->name, quoted(token.text)),
+    give_up(token.place, fmt::format("{} has no part {}", owner.type->name, in_quotes(token.text)),
             fmt::format("0 to {}", count - 1));
   Expression result = owner;
   result.bits = Bits{owner.type, static_cast<int>(number) * width, width};
@@ -200,7 +200,7 @@ Expression Compiler::member_of(const Tree& tree) {
       member != nullptr && type.basic == Basic::block && member->section == Section::in_out;
   if (connected || inside) {
     complain(name.place,
-             fmt::format("{} of {} is {}", quoted(member->name), type.name,
+             fmt::format("{} of {} is {}", in_quotes(member->name), type.name,
                          inside ? "a variable of its own" : "connected in a call"),
              inside ? "only its pins are seen from outside" : "use the variable that is connected to it");
     return {type_of(Basic::unknown), name.place};
@@ -228,12 +228,12 @@ Expression Compiler::no_member(const Expression& owner, const Token& name) {
     if (type.basic == Basic::structure || known.section == Section::input || known.section == Section::output)
       names.push_back(known.name);
   if (names.empty())
-    complain(name.place, fmt::format("{} is {} and has no members", quoted(owner.name), type.name),
+    complain(name.place, fmt::format("{} is {} and has no members", in_quotes(owner.name), type.name),
              "use it without '.'");
   else
     complain(name.place,
              fmt::format("{} has no {} {}", type.name, type.basic == Basic::block ? "pin" : "member",
-                         quoted(name.text)),
+                         in_quotes(name.text)),
              suggestion(name.text, names, "it has " + listed(names)));
   return unknown;
 }
@@ -254,7 +254,7 @@ Expression Compiler::element_at(Expression owner, const Expression& index) {
   const Type& type = *owner.type;
   const Place place = index.place;
   if (type.basic != Basic::array)
-    give_up(place, fmt::format("{} is {} and has no elements", quoted(owner.name), type.name),
+    give_up(place, fmt::format("{} is {} and has no elements", in_quotes(owner.name), type.name),
             "only an ARRAY has an index");
   if (!owner.address)
     give_up(place, fmt::format("an element of an {} that is no variable", type.name),
@@ -263,7 +263,7 @@ Expression Compiler::element_at(Expression owner, const Expression& index) {
   if (!is_integer(index.type->basic))
     complain(place, fmt::format("the index is {}", index.type->name), "an index is a whole number");
   else if (outside)
-    complain(place, fmt::format("the index {} is out of the bounds of {}", index.value, quoted(owner.name)),
+    complain(place, fmt::format("the index {} is out of the bounds of {}", index.value, in_quotes(owner.name)),
              fmt::format("{} to {}", type.low, type.high));
   if (!is_integer(index.type->basic) || outside) {
     owner.type = type_of(Basic::unknown);

@@ -63,7 +63,7 @@ void Compiler::give_up(Place place, std::string what, std::string remedy) {
 namespace {
 
 std::string found(const Token& token) {
-  return token.kind == Token::Kind::end ? "the end of the file" : quoted(token.text);
+  return token.kind == Token::Kind::end ? "the end of the file" : in_quotes(token.text);
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ bool Pragmas::condition(const std::vector<std::string>& words, std::string_view 
   Condition reader{words, defined_};
   const bool holds = reader.either();
   if (reader.sound && reader.at == words.size()) return holds;
-  complain(place, fmt::format("the condition {} is not known here", quoted("{" + std::string(text) + "}")),
+  complain(place, fmt::format("the condition {} is not known here", in_quotes("{" + std::string(text) + "}")),
            "defined(NAME) and hasvalue(NAME, 'text') of {define NAME 'text'}, NOT, AND, OR, parentheses");
   return false;
 }
@@ -144,7 +144,7 @@ void Pragmas::read(std::string_view text, Place place) {
   } else if (active() && (word == "define" || word == "undefine")) {
     define(words, place);
   } else if (active() && word == "error") {
-    complain(place, "the program says: " + quoted(words.size() > 1 ? words[1].substr(1) : ""),
+    complain(place, "the program says: " + in_quotes(words.size() > 1 ? words[1].substr(1) : ""),
              "compile it under the {define} that it asks for");
   }
 }

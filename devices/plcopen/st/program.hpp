@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/cards.hpp"
-#include "devices/problem.hpp"
 
 // Structured Text (IEC 61131-3) as a cam application on a PLCopen controller uses it.
 namespace drycut::devices::plcopen::st {

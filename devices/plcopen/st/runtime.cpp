@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "base/text.hpp"
 #include "devices/plcopen/st/machine.hpp"
 #include "devices/plcopen/st/operations.hpp"
-#include "devices/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 

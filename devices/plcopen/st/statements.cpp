@@ -19,7 +19,7 @@ void Compiler::compile_body(Unit& unit) {
     if (at_ >= stop_) break;
     const Token stray = take();
     if (stray.kind == Token::Kind::bad) continue;
-    complain(stray.place, fmt::format("{} closes nothing", quoted(stray.text)),
+    complain(stray.place, fmt::format("{} closes nothing", in_quotes(stray.text)),
              "what it belongs to does not stand before it, or has been closed");
     skip_statement();
   }
@@ -79,7 +79,7 @@ int Compiler::assignment_or_call() {
   const Token first = peek();
   if (first.kind != Token::Kind::name || is_keyword(first.text)) {
     const bool declares = first.kind == Token::Kind::name && upper(first.text).starts_with("VAR");
-    give_up(first.place, fmt::format("{} begins no statement", quoted(first.text)),
+    give_up(first.place, fmt::format("{} begins no statement", in_quotes(first.text)),
             declares ? "variables are declared before the statements"
                      : "a statement is an assignment, a call, IF, CASE, FOR, WHILE or REPEAT");
   }
@@ -123,7 +123,7 @@ int Compiler::call_statement(const Tree& call) {
   }
   if (instance.type->basic != Basic::block)
     give_up(name.place,
-            fmt::format("{} is {} and cannot be called", quoted(instance.name), instance.type->name),
+            fmt::format("{} is {} and cannot be called", in_quotes(instance.name), instance.type->name),
             "a function block is called by its instance");
   const int node = block_call(instance, call);
   expect(";", "ends a call");
@@ -135,7 +135,7 @@ int Compiler::assign(const Expression& target, const Expression& value) {
   if (!target.locked.empty() || !target.address) {
     complain(target.place,
              target.locked.empty() ? "this is no variable"
-                                   : fmt::format("{} {}", quoted(target.name), target.locked),
+                                   : fmt::format("{} {}", in_quotes(target.name), target.locked),
              target.locked.empty() ? "a variable stands before ':='"
                                    : "only variables and input pins are assigned");
     return -1;
@@ -144,7 +144,7 @@ int Compiler::assign(const Expression& target, const Expression& value) {
   if ((type.basic == Basic::axis && target.place.line > 0 &&
        find_member(*globals_, target.name) != nullptr) ||
       type.holds_block) {
-    complain(target.place, fmt::format("{} is {} and is not assigned", quoted(target.name), type.name),
+    complain(target.place, fmt::format("{} is {} and is not assigned", in_quotes(target.name), type.name),
              type.basic == Basic::axis    ? "connect it in a call"
              : type.basic == Basic::block ? "assign its inputs"
                                           : "it holds function blocks: assign its other members");
@@ -208,7 +208,7 @@ void Compiler::close(const Token& opened, std::string_view closing) {
   }
   complain(peek().place,
            fmt::format("{} is missing before {}", closing,
-                       peek().kind == Token::Kind::end ? "the end of the file" : quoted(peek().text)),
+                       peek().kind == Token::Kind::end ? "the end of the file" : in_quotes(peek().text)),
            fmt::format("it closes the {} of line {}", upper(opened.text), opened.place.line));
 }
 

@@ -38,7 +38,7 @@ class Depth {
  private:
   int& count_;
 };
-constexpr int deepest = 60;
+constexpr int deepest_tree = 60;
 
 Tree leaf(Tree::Kind kind, const Token& token) {
   Tree tree;
@@ -63,7 +63,7 @@ bool is_operator_function(const Token& token) {
 
 Tree Compiler::tree() {
   const Depth depth(nesting_);
-  if (nesting_ > deepest)
+  if (nesting_ > deepest_tree)
     give_up(peek().place, "the expression is nested too deeply", "split it up by a variable");
   return tree(0);
 }
@@ -87,7 +87,7 @@ Tree Compiler::unary_tree() {
   const bool call = sign.word("NOT") && peek(1).is("(") && peek(3).is(":=");
   if (call || (!sign.is("-") && !sign.is("+") && !sign.word("NOT"))) return power_tree();
   const Depth depth(nesting_);
-  if (nesting_ > deepest)
+  if (nesting_ > deepest_tree)
     give_up(sign.place, "the expression is nested too deeply", "split it up by a variable");
   take();
   return over(Tree::Kind::sign, sign, unary_tree());
@@ -120,13 +120,13 @@ Tree Compiler::primary_tree() {
     case Token::Kind::name:
       return name_tree();
     case Token::Kind::address:
-      give_up(token.place, quoted(token.text) + " stands in an expression",
+      give_up(token.place, in_quotes(token.text) + " stands in an expression",
               "declare a variable at it: start AT %IX0.0 : BOOL;");
     default:
       break;
   }
   if (!accept("("))
-    give_up(token.place, fmt::format("an expression is missing before {}", quoted(token.text)),
+    give_up(token.place, fmt::format("an expression is missing before {}", in_quotes(token.text)),
             "a value stands here");
   Tree inner = over(Tree::Kind::parenthesised, token, tree());
   expect(")", fmt::format("closes the parenthesis of line {}", token.place.line));
@@ -139,7 +139,7 @@ Tree Compiler::name_tree() {
   const bool function =
       peek(1).is("(") && (is_operator_function(name) || (name.word("NOT") && peek(3).is(":=")));
   if (is_keyword(name.text) && !value && !function)
-    give_up(name.place, fmt::format("an expression is missing before {}", quoted(name.text)),
+    give_up(name.place, fmt::format("an expression is missing before {}", in_quotes(name.text)),
             "a value stands here");
   take();
   if (accept("#")) {

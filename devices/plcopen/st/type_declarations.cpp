@@ -72,7 +72,7 @@ void Compiler::declare_type(Unit& unit) {
     }
     if (at_ < stop_) {
       const bool initial = peek().is(":=");
-      give_up(peek().place, quoted(peek().text) + " is not expected behind a type",
+      give_up(peek().place, in_quotes(peek().text) + " is not expected behind a type",
               initial ? "give the initial value where a variable is declared" : "a type ends with ';'");
     }
   } catch (const GiveUp&) {
@@ -101,10 +101,10 @@ void Compiler::declare_enumeration(Type& type) {
   do {
     const Token name = expect_name("the name of a value");
     if (!names.insert(lower(name.text)).second)
-      complain(name.place, quoted(name.text) + " is in the enumeration twice", "name each value once");
+      complain(name.place, in_quotes(name.text) + " is in the enumeration twice", "name each value once");
     if (accept(":=")) next = constant_expression(*type_of(Basic::int_)).value;
     if (next > range_of(Basic::int_).high)
-      give_up(name.place, quoted(name.text) + " is above 32767", "an enumeration is kept as an INT");
+      give_up(name.place, in_quotes(name.text) + " is above 32767", "an enumeration is kept as an INT");
     enum_values_.emplace(lower(name.text), std::pair{&type, next});
     type.values.push_back({std::string(name.text), next++});
   } while (accept(","));
@@ -207,15 +207,15 @@ const Type* Compiler::named_type() {
   if (Unit* unit = find_unit(name.text)) {
     const bool type = unit->kind == Unit::Kind::type || unit->kind == Unit::Kind::function_block;
     if (!type)
-      give_up(name.place, quoted(name.text) + " is no type",
+      give_up(name.place, in_quotes(name.text) + " is no type",
               "a PROGRAM or FUNCTION has no variables of its kind");
     if (unit->state == Unit::State::open)
-      give_up(name.place, quoted(name.text) + " contains itself",
+      give_up(name.place, in_quotes(name.text) + " contains itself",
               "a type is made of types that do not need it");
     constexpr int deepest = 100;
     if (open_units_ > deepest)
       give_up(name.place, "the types are nested too deeply",
-              fmt::format("declare {} before what is made of it", quoted(name.text)));
+              fmt::format("declare {} before what is made of it", in_quotes(name.text)));
     declare(*unit);
     return unit->type;
   }
@@ -232,7 +232,7 @@ const Type* Compiler::named_type() {
     names.emplace_back("MC_CAM_REF");
     return names;
   };
-  give_up(name.place, fmt::format("there is no type {}", quoted(name.text)),
+  give_up(name.place, fmt::format("there is no type {}", in_quotes(name.text)),
           suggested(name.text, known, "BOOL, INT, LREAL, TIME, MC_CamIn, TON ..."));
 }
 

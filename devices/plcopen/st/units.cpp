@@ -85,7 +85,7 @@ void Compiler::find_units(bool standard) {
       add_unit(std::move(unit));
     } else {
       if (opening.kind != Token::Kind::bad && !opening.is(";"))
-        complain(opening.place, quoted(opening.text) + " stands outside of all units",
+        complain(opening.place, in_quotes(opening.text) + " stands outside of all units",
                  "statements stand in PROGRAM ... END_PROGRAM, variables of all in VAR_GLOBAL ... END_VAR");
       while (at_ < stop_ && !peek().is(";") && !(peek().kind == Token::Kind::name && opens_unit(peek().text)))
         ++at_;
@@ -157,13 +157,13 @@ void Compiler::add_unit(Unit unit) {
     if (const Unit* other = find_unit(unit.name.text)) {
       // A user's own TON stands instead of the standard one.
       if (!unit.standard)
-        complain(unit.name.place, quoted(unit.name.text) + " is declared twice",
+        complain(unit.name.place, in_quotes(unit.name.text) + " is declared twice",
                  fmt::format("the first one is in line {}", other->name.place.line));
       return;
     }
     if (!unit.standard && (elementary_type(unit.name.text) != nullptr || find_block_type(unit.name.text) ||
                            same_word(unit.name.text, "MC_CAM_REF"))) {
-      complain(unit.name.place, quoted(unit.name.text) + " is a type of the controller",
+      complain(unit.name.place, in_quotes(unit.name.text) + " is a type of the controller",
                "choose another name");
       return;
     }
@@ -245,10 +245,10 @@ void Compiler::check_calls() {
 }
 
 void Compiler::tell_recursion(const Unit& called, const Unit& caller) {
-  complain(called.name.place, quoted(called.name.text) + " calls itself",
+  complain(called.name.place, in_quotes(called.name.text) + " calls itself",
            &called == &caller ? "IEC 61131-3 has no recursion: use a loop"
                               : fmt::format("IEC 61131-3 has no recursion, here by {}: use a loop",
-                                            quoted(caller.name.text)));
+                                            in_quotes(caller.name.text)));
 }
 
 /// The machine calls itself for each call, statement and operation within another.
@@ -259,7 +259,7 @@ void Compiler::check_depth() {
     if (unit->levels <= most_levels || unit->levels_below > most_levels) continue;
     complain(unit->name.place,
              fmt::format("the calls, statements and operations of {} go {} levels deep",
-                         quoted(unit->name.text), unit->levels),
+                         in_quotes(unit->name.text), unit->levels),
              fmt::format("{} at most: let it call less that calls more", most_levels));
   }
 }

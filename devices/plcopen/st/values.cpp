@@ -171,7 +171,7 @@ Expression Compiler::converted(Expression expression, const Type& to) {
       !casts || from.basic == Basic::enumeration ? "INT" : type_of(from.basic)->name;
   const std::string what = expression.name.empty()
                                ? fmt::format("a value of type {} does not", from.name)
-                               : fmt::format("{} is {}, which does not", quoted(expression.name), from.name);
+                               : fmt::format("{} is {}, which does not", in_quotes(expression.name), from.name);
   complain(expression.place, fmt::format("{} go into {} by itself", what, to.name),
            casts ? fmt::format("{}_TO_{}(...) converts", from_name, type_of(to.basic)->name)
                  : fmt::format("a value of type {} is wanted", to.name));

@@ -47,7 +47,7 @@ Known known_of(const CamRun& run) {
 }  // namespace
 
 IdealCam ideal_camming4(std::string_view text, MasterRange range) {
-  devices::Problems problems;
+  Problems problems;
   const auto table = read_cam_table(text, "", problems);
   if (!problems.empty()) return {};
   const auto run = std::make_shared<const CamRun>(run_to(table, range.last));

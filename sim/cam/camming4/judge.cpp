@@ -19,9 +19,9 @@ using camming4::CodeClass;
 using camming4::Row;
 using Grade = CamFinding::Grade;
 
-class Judge {
+class CammingJudge {
  public:
-  Judge(const CamTable& table, const CamDuty& duty, const CamRun& run)
+  CammingJudge(const CamTable& table, const CamDuty& duty, const CamRun& run)
       : table_(table), duty_(duty), run_(run) {
     if (duty.master_speed) master_ = *duty.master_speed * um_per_second(table);
   }
@@ -311,7 +311,7 @@ std::string code_text(int code) {
 }
 
 std::vector<CamFinding> judge(const CamTable& table, const CamDuty& duty, const CamRun& run) {
-  return Judge(table, duty, run).findings();
+  return CammingJudge(table, duty, run).findings();
 }
 
 }  // namespace drycut::sim

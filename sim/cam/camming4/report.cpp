@@ -15,10 +15,10 @@ namespace {
 
 namespace camming4 = devices::camming4;
 
-constexpr std::size_t most_lines = 400;  // of sectors that run differently each time round
+constexpr std::size_t most_sectors = 400;  // of sectors that run differently each time round
 
 /// Without what rounding leaves of a zero.
-std::string plain(double value) { return number_text(std::abs(value) < 1e-14 ? 0 : value, 6); }
+std::string rounded(double value) { return number_text(std::abs(value) < 1e-14 ? 0 : value, 6); }
 
 /// What a row does, in words; a cycloidal code's words are its straight one's.
 std::string meaning(const camming4::Row& row) {
@@ -49,17 +49,17 @@ class Report {
   [[nodiscard]] std::string heading() const {
     const auto& axes = table_.settings;
     const auto bit = [](const camming4::Resolution& axis) {
-      return plain(static_cast<double>(axis.measure) / static_cast<double>(axis.pulse));
+      return rounded(static_cast<double>(axis.measure) / static_cast<double>(axis.pulse));
     };
     auto text = fmt::format("{}: CAMMING4, {} sector{}; 1 bit x4 = {} Um of the master, {} Um of the slave\n",
                             table_.file, table_.count(), table_.count() == 1 ? "" : "s", bit(axes.master),
                             bit(axes.slave));
     if (master_ > 0)
-      text += fmt::format("master at {} {} = {} Um/s, sampled every {} ms\n", plain(*duty_.master_speed),
-                          speed_unit(table_), plain(master_), table_.TCamp);
+      text += fmt::format("master at {} {} = {} Um/s, sampled every {} ms\n", rounded(*duty_.master_speed),
+                          speed_unit(table_), rounded(master_), table_.TCamp);
     if (table_.settings.decpt > 0)
       text +=
-          fmt::format("speeds in units of {} Um (decpt {})\n", plain(std::pow(10, axes.decpt)), axes.decpt);
+          fmt::format("speeds in units of {} Um (decpt {})\n", rounded(std::pow(10, axes.decpt)), axes.decpt);
     return text;
   }
 
@@ -105,7 +105,7 @@ class Report {
     std::string text = fmt::format("master total {} Um, slave total {} Um", number_text(run_.master_total),
                                    number_text(run_.slave_total));
     if (run_.passes > 1) text += fmt::format(" in {} passes", run_.passes);
-    if (master_ > 0) text += fmt::format(", {} s", plain(run_.master_total / master_));
+    if (master_ > 0) text += fmt::format(", {} s", rounded(run_.master_total / master_));
     return text + '\n';
   }
 
@@ -124,16 +124,16 @@ class Report {
     const double gradient = peak_gradient(visit);
     std::vector<std::string> cells = {std::to_string(visit.row),
                                       code_text(row.codeG),
-                                      plain(visit.master_length),
-                                      plain(visit.slave_length),
-                                      plain(visit.entry_speed()),
-                                      plain(visit.exit_speed()),
-                                      plain(peak),
-                                      plain(gradient)};
+                                      rounded(visit.master_length),
+                                      rounded(visit.slave_length),
+                                      rounded(visit.entry_speed()),
+                                      rounded(visit.exit_speed()),
+                                      rounded(peak),
+                                      rounded(gradient)};
     if (master_ > 0) {
-      cells.push_back(plain(visit.master_length / master_));
-      cells.push_back(plain(peak * *duty_.master_speed));
-      cells.push_back(plain(gradient * master_ * master_));
+      cells.push_back(rounded(visit.master_length / master_));
+      cells.push_back(rounded(peak * *duty_.master_speed));
+      cells.push_back(rounded(gradient * master_ * master_));
     }
     cells.push_back(meaning(row));
     count(std::move(cells));
@@ -145,7 +145,7 @@ class Report {
       if (place->second < lines_.size()) ++lines_[place->second].times;
       return;
     }
-    if (lines_.size() < most_lines)
+    if (lines_.size() < most_sectors)
       lines_.push_back({std::move(cells)});
     else
       ++untold_;

@@ -9,13 +9,13 @@ namespace drycut::sim {
 
 bool owns_camming4(std::string_view text) { return header_line(text).starts_with("sector"); }
 
-bool check_camming4(std::string_view text, const std::string& file, devices::Problems& problems) {
+bool check_camming4(std::string_view text, const std::string& file, Problems& problems) {
   read_cam_table(text, file, problems);
   return false;
 }
 
 CamStudy study_camming4(std::string_view text, const std::string& file, const CamRequest& request,
-                        devices::Problems& problems) {
+                        Problems& problems) {
   const auto table = read_cam_table(text, file, problems);
   if (!problems.empty()) return {};
   const auto run = run_cam(table, request.duty, request.loops);

@@ -4,9 +4,9 @@
 namespace drycut::sim {
 
 bool owns_camming4(std::string_view text);
-bool check_camming4(std::string_view text, const std::string& file, devices::Problems& problems);
+bool check_camming4(std::string_view text, const std::string& file, Problems& problems);
 CamStudy study_camming4(std::string_view text, const std::string& file, const CamRequest& request,
-                        devices::Problems& problems);
+                        Problems& problems);
 IdealCam ideal_camming4(std::string_view text, MasterRange range);
 
 /// Sectors of CAMMING4 (000), run by the device's own cam engine.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/text.hpp"
 #include "devices/camming4/table.hpp"
 #include "sim/cam/csv.hpp"
 
@@ -54,7 +55,7 @@ Range range_of(std::string_view column, Use use, int code) {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& file, devices::Problems& problems)
+  Reader(std::string_view text, const std::string& file, Problems& problems)
       : text_(text), told_(file, problems), settings_(told_) {
     table_.file = file;
     const auto take = [&](const char* name, std::int32_t& target) {
@@ -151,7 +152,7 @@ class Reader {
   const Code* read_code(const Cell& cell) {
     for (const auto& code : camming4::codes) {
       if (cell.text != code.mnemonic) continue;
-      problem(cell, fmt::format("codeG {} is a name, not a number", quoted(cell.text)),
+      problem(cell, fmt::format("codeG {} is a name, not a number", in_quotes(cell.text)),
               fmt::format("write {}: {} {}", code.code, code.mnemonic, code.meaning));
       return &code;
     }
@@ -215,7 +216,7 @@ int CamTable::count() const {
       std::count_if(sectors.begin(), sectors.end(), [](const Sector& s) { return s.line > 0; }));
 }
 
-CamTable read_cam_table(std::string_view text, const std::string& file, devices::Problems& problems) {
+CamTable read_cam_table(std::string_view text, const std::string& file, Problems& problems) {
   return Reader(text, file, problems).read();
 }
 

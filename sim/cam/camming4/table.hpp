@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/problem.hpp"
 #include "devices/camming4/cam.hpp"
-#include "devices/problem.hpp"
 #include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
@@ -40,6 +40,6 @@ struct CamTable {
 
 /// Reads the text of a cam table. Every fault becomes a problem with line and column; after 1000 of them the
 /// rest is not told.
-CamTable read_cam_table(std::string_view text, const std::string& file, devices::Problems& problems);
+CamTable read_cam_table(std::string_view text, const std::string& file, Problems& problems);
 
 }  // namespace drycut::sim

@@ -10,7 +10,7 @@
 namespace drycut::sim {
 
 IdealCam ideal_lx3vp(std::string_view text, MasterRange range) {
-  devices::Problems problems;
+  Problems problems;
   const auto table = read_ecam_table(text, "", problems);
   if (!problems.empty()) return {};
   const auto run = std::make_shared<const EcamRun>(run_ecam(table, {}, 1));

@@ -18,9 +18,9 @@ using Grade = CamFinding::Grade;
 constexpr int table_error = 6782;  // of DECAM: the table is out of range
 constexpr std::size_t most_rows = 512;
 
-class Judge {
+class EcamJudge {
  public:
-  Judge(const EcamTable& table, const CamDuty& duty, const EcamRun& run)
+  EcamJudge(const EcamTable& table, const CamDuty& duty, const EcamRun& run)
       : table_(table), duty_(duty), run_(run) {}
 
   std::vector<CamFinding> findings() {
@@ -344,7 +344,7 @@ class Judge {
 }  // namespace
 
 std::vector<CamFinding> judge_ecam(const EcamTable& table, const CamDuty& duty, const EcamRun& run) {
-  return Judge(table, duty, run).findings();
+  return EcamJudge(table, duty, run).findings();
 }
 
 }  // namespace drycut::sim

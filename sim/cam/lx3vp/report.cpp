@@ -17,10 +17,6 @@ using devices::lx3vp::EcamType;
 using devices::lx3vp::RatioPiece;
 using devices::lx3vp::Transition;
 
-constexpr std::size_t most_lines = 60;  // of pieces between given rows
-
-std::string plain(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
-
 std::string type_text(const EcamTable& table) {
   constexpr const char* laws[] = {"uniform", "uniform acceleration", "B type"};
   constexpr const char* curves[] = {"leftCAM", "midCAMall", "midCAMbegin", "midCAMend", "", "rightCAM"};

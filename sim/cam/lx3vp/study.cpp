@@ -12,12 +12,12 @@ bool owns_lx3vp(std::string_view text) {
   return header.starts_with("master") || header.starts_with("parameter");
 }
 
-bool check_lx3vp(std::string_view text, const std::string& file, devices::Problems& problems) {
+bool check_lx3vp(std::string_view text, const std::string& file, Problems& problems) {
   return read_ecam_table(text, file, problems).time_axis > 0;
 }
 
 CamStudy study_lx3vp(std::string_view text, const std::string& file, const CamRequest& request,
-                     devices::Problems& problems) {
+                     Problems& problems) {
   const auto table = read_ecam_table(text, file, problems);
   if (!problems.empty()) return {};
   if (table.time_axis > 0 && request.duty.master_speed)

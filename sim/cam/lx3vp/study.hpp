@@ -4,9 +4,9 @@
 namespace drycut::sim {
 
 bool owns_lx3vp(std::string_view text);
-bool check_lx3vp(std::string_view text, const std::string& file, devices::Problems& problems);
+bool check_lx3vp(std::string_view text, const std::string& file, Problems& problems);
 CamStudy study_lx3vp(std::string_view text, const std::string& file, const CamRequest& request,
-                     devices::Problems& problems);
+                     Problems& problems);
 IdealCam ideal_lx3vp(std::string_view text, MasterRange range);
 
 /// Tables of the LX3VP's electronic cam (003), given or made by its own ECAMTBX.

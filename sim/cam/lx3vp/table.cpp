@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "base/text.hpp"
 #include "sim/cam/csv.hpp"
 
 namespace drycut::sim {
@@ -17,7 +18,7 @@ using devices::lx3vp::EcamType;
 constexpr Range whole_32 = {-2147483648.0, 2147483647.0};
 constexpr Range whole_16 = {0, 65535};
 constexpr Range ratios = {-1e30, 1e30};  // what a float holds; ECAMTBX itself judges them
-constexpr std::size_t most_rows = 100000;
+constexpr std::size_t most_rows_read = 100000;
 
 /// A parameter of ECAMTBX: its name and what it may be.
 struct Parameter {
@@ -40,7 +41,7 @@ constexpr Parameter s_curve_parameters[] = {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& file, devices::Problems& problems)
+  Reader(std::string_view text, const std::string& file, Problems& problems)
       : text_(text), told_(file, problems), settings_(told_) {
     table_.file = file;
     add_settings();
@@ -98,7 +99,7 @@ class Reader {
         table_.type = type;
     }
     if (!table_.type)
-      told_.add(line, value.column, fmt::format("there is no ecamtbx {}", quoted(value.text)),
+      told_.add(line, value.column, fmt::format("there is no ecamtbx {}", in_quotes(value.text)),
                 "write K0 or K1 S-curve, K100 rotary saw, K101 fly saw");
   }
 
@@ -130,8 +131,8 @@ class Reader {
     const auto master = whole_number(rows_.cell_of(cells, 0), line_, "master", whole_32, told_);
     const auto slave = whole_number(rows_.cell_of(cells, 1), line_, "slave", whole_32, told_);
     if (!master || !slave) return;
-    if (table_.rows.size() == most_rows) {
-      told_.add(line_, 1, fmt::format("more than {} rows", most_rows), "a block takes 512");
+    if (table_.rows.size() == most_rows_read) {
+      told_.add(line_, 1, fmt::format("more than {} rows", most_rows_read), "a block takes 512");
       lost_ = true;
       return;
     }
@@ -169,7 +170,7 @@ class Reader {
   void refuse_parameter(const Cell& name, const std::vector<Parameter>& all) {
     std::string names;
     for (const auto& parameter : all) names += (names.empty() ? "" : ", ") + std::string(parameter.name);
-    told_.add(line_, name.column, fmt::format("there is no parameter {}", quoted(name.text)),
+    told_.add(line_, name.column, fmt::format("there is no parameter {}", in_quotes(name.text)),
               "there are " + names);
   }
 
@@ -296,7 +297,7 @@ class Reader {
 
 }  // namespace
 
-EcamTable read_ecam_table(std::string_view text, const std::string& file, devices::Problems& problems) {
+EcamTable read_ecam_table(std::string_view text, const std::string& file, Problems& problems) {
   return Reader(text, file, problems).read();
 }
 

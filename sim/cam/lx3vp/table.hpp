@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/lx3vp/ecamtbx.hpp"
-#include "devices/problem.hpp"
 #include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
@@ -38,7 +38,7 @@ struct EcamTable {
 
 /// Reads the text of a cam table. Every fault becomes a problem with line and column; after 1000 of them the
 /// rest is not told. What the device itself would refuse is no problem of the text: see judge_ecam.
-EcamTable read_ecam_table(std::string_view text, const std::string& file, devices::Problems& problems);
+EcamTable read_ecam_table(std::string_view text, const std::string& file, Problems& problems);
 
 /// The rows as a table that reads back, with the settings of `table`.
 std::string ecam_rows_csv(const EcamTable& table);

@@ -10,7 +10,7 @@
 namespace drycut::sim {
 
 IdealCam ideal_mc_camin(std::string_view text, MasterRange range) {
-  devices::Problems problems;
+  Problems problems;
   const auto cam = devices::plcopen::read_cam(text, "", problems);
   if (!cam) return {};
   const auto run = std::make_shared<const CamInRun>(run_cam_in(*cam, {}, 1));

@@ -32,9 +32,9 @@ struct Worst {
   [[nodiscard]] std::string others() const { return count < 2 ? "" : fmt::format("; so at {} rows", count); }
 };
 
-class Judge {
+class CamInJudge {
  public:
-  Judge(const CamInRun& run, const CamDuty& duty)
+  CamInJudge(const CamInRun& run, const CamDuty& duty)
       : run_(run), cam_(run.cam), limits_(limits_of(run, duty)), unit_(run.cam.slave_unit) {}
 
   std::vector<CamFinding> findings() {
@@ -326,7 +326,7 @@ devices::plcopen::CamLimits limits_of(const CamInRun& run, const CamDuty& duty) 
 }
 
 std::vector<CamFinding> judge_cam_in(const CamInRun& run, const CamDuty& duty) {
-  return Judge(run, duty).findings();
+  return CamInJudge(run, duty).findings();
 }
 
 }  // namespace drycut::sim

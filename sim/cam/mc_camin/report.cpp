@@ -18,10 +18,6 @@ using devices::plcopen::CamSegment;
 using devices::plcopen::Endless;
 using devices::plcopen::Interpolation;
 
-constexpr std::size_t most_lines = 60;  // of pieces, and of knots
-
-std::string plain(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
-
 /// What turns derivatives in increments into deg or mm: of time if the master's speed is known, else of the
 /// master.
 struct Scale {

@@ -14,13 +14,13 @@ bool owns_mc_camin(std::string_view text) {
   return header.starts_with("master") && above.find("# interpolation") != std::string_view::npos;
 }
 
-bool check_mc_camin(std::string_view text, const std::string& file, devices::Problems& problems) {
+bool check_mc_camin(std::string_view text, const std::string& file, Problems& problems) {
   devices::plcopen::read_cam(text, file, problems);
   return false;
 }
 
 CamStudy study_mc_camin(std::string_view text, const std::string& file, const CamRequest& request,
-                        devices::Problems& problems) {
+                        Problems& problems) {
   const auto cam = devices::plcopen::read_cam(text, file, problems);
   if (!cam) return {};
   const CamInRun run = run_cam_in(*cam, request.duty, request.loops);

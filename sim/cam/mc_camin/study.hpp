@@ -4,9 +4,9 @@
 namespace drycut::sim {
 
 bool owns_mc_camin(std::string_view text);
-bool check_mc_camin(std::string_view text, const std::string& file, devices::Problems& problems);
+bool check_mc_camin(std::string_view text, const std::string& file, Problems& problems);
 CamStudy study_mc_camin(std::string_view text, const std::string& file, const CamRequest& request,
-                        devices::Problems& problems);
+                        Problems& problems);
 IdealCam ideal_mc_camin(std::string_view text, MasterRange range);
 
 /// Cam tables of the ISG kernel's MC_CamIn (004): its .tab files, or CSV.

@@ -1,0 +1,49 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/problem.hpp"
+
+// What the readers of texts have in common, whatever the controller: names in any case, lines, complaints.
+namespace drycut {
+
+/// Where something stands in a text, both 1-based; a tab is one column.
+struct Place {
+  int line = 0;
+  int column = 0;
+};
+
+/// The text in small letters, ASCII only: names and keywords of every controller are the same in any case.
+std::string lower(std::string_view text);
+std::string upper(std::string_view text);
+bool same_word(std::string_view a, std::string_view b);
+bool is_letter(char c);  ///< a..z, A..Z or _
+bool is_digit(char c);
+/// A letter or _ followed by letters, digits and _.
+bool is_identifier(std::string_view text);
+
+/// The lines of a text, LF or CRLF, without their ends.
+std::vector<std::string_view> split_lines(std::string_view text);
+
+/// `text` between quotes for a message: cut if long, unprintable bytes as \xNN.
+std::string in_quotes(std::string_view text);
+/// "did you mean 'posit'?" for the nearest candidate, or `otherwise` if none is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates,
+                       const std::string& otherwise);
+/// "A, B, C".
+std::string listed(const std::vector<std::string>& items);
+/// Without the blanks around it: spaces, tabs, CR.
+std::string_view trimmed(std::string_view text);
+/// Windows' editors begin a UTF-8 text with a byte order mark.
+std::string_view without_byte_order_mark(std::string_view text);
+
+/// A cell of a CSV file: between quotes where it has to be.
+std::string csv_cell(std::string_view text);
+/// Text of XML or HTML, outside of tags or between double quotes.
+std::string xml_text(std::string_view text);
+
+/// Sorts the problems from index `first` on by line and column, keeping the order of equals.
+void sort_from(Problems& problems, std::size_t first);
+
+}  // namespace drycut

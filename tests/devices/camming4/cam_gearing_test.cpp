@@ -1,0 +1,212 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/devices/camming4/cam_bench.hpp"
+
+namespace drycut::devices::camming4 {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(CamSoftening, RampRunsOverTheStatedPartOfTheSmallerSector) {
+  for (const int code : {154, 254})
+    for (int softening = 1; softening <= 4; ++softening) {
+      SCOPED_TRACE(code * 10 + softening);
+      const double w = 60.0 / (softening + 1);
+      CamBench bench({{code, 100, 50, softening}, {code, 60, 120}, end_row}, hundredths);
+      bench.start();
+      const auto to = [&](double m) { bench.run(std::llround(m * 100)); };
+      to(100 - w);
+      EXPECT_NEAR(bench.cam.step().ratio, 0.5, tolerance);
+      EXPECT_NEAR(bench.slave_um(), (100 - w) / 2, tolerance);
+      to(100 - w / 2);
+      const double quarter = code == 154 ? 0.25 : 0.25 - 1 / (2 * std::acos(-1.0));
+      EXPECT_NEAR(bench.cam.step().ratio, 0.5 + 1.5 * quarter, tolerance);
+      to(100);
+      EXPECT_NEAR(bench.cam.step().ratio, 1.25, tolerance);
+      to(100 + w);
+      EXPECT_NEAR(bench.cam.step().ratio, 2, tolerance);
+      EXPECT_NEAR(bench.slave_um(), 50 + 2 * w, tolerance);
+      to(159);
+      EXPECT_NEAR(bench.slave_um(), 50 + 118, tolerance);
+      to(160);
+      EXPECT_EQ(bench.cam.step().slave_bits, 17000);
+      EXPECT_THAT(bench.warnings, IsEmpty());
+    }
+}
+
+TEST(CamSoftening, SpeedIsContinuousThroughAChainOfSoftenedSectors) {
+  CamBench bench({{154, 100, 50, 1}, {154, 40, 80, 1}, {254, 70, 10, 2}, {154, 50, 50}, end_row}, hundredths);
+  bench.start();
+  bench.to(0);
+  double ratio = bench.cam.step().ratio;
+  double slave = 0;
+  for (int count = 1; count < 26000; ++count) {
+    bench.to(count);
+    EXPECT_NEAR(bench.cam.step().ratio, ratio, 2e-3) << count;
+    EXPECT_NEAR(bench.slave_um(), slave + ratio * 0.01, 2e-5) << count;
+    ratio = bench.cam.step().ratio;
+    slave = bench.slave_um();
+  }
+  bench.to(26000);
+  EXPECT_EQ(bench.cam.step().slave_bits, 19000);
+}
+
+TEST(CamSoftening, RunsBackwardsOnTheSamePath) {
+  CamBench bench({{154, 100, 50, 1}, {154, 60, 120}, end_row}, hundredths);
+  bench.start();
+  bench.run(9500, 5);
+  const double before = bench.slave_um();
+  bench.run(10500, 5);
+  const double after = bench.slave_um();
+  bench.run(9500, 5);
+  EXPECT_NEAR(bench.slave_um(), before, tolerance);
+  bench.run(10500, 5);
+  EXPECT_NEAR(bench.slave_um(), after, tolerance);
+}
+
+TEST(CamSoftening, NoneAtTheStartAndBeforeAStop) {
+  CamBench bench({{154, 100, 50, 1, 1}, {133, 100, 0}, end_row}, hundredths);
+  bench.start();
+  EXPECT_NEAR(bench.to(1).ratio, 0.5, tolerance);
+  EXPECT_NEAR(bench.run(9999, 7).ratio, 0.5, tolerance);
+  bench.to(10001);
+  EXPECT_NEAR(bench.cam.step().ratio, 0, tolerance);
+  EXPECT_EQ(bench.cam.step().slave_bits, 5000);
+}
+
+TEST(CamGearing, RatioHoldsForEverAndCountsStayBelowTheLap) {
+  const CamSettings settings{.master = {7, 10}, .slave = {3, 11}, .decpt = 0};
+  CamBench bench({{154, 30, -20, 0, 2}, end_row}, settings);
+  bench.start();
+  for (std::int64_t count = 0; count <= 700'000; count += 25) {
+    bench.to(count);
+    ASSERT_LT(bench.positm(), 30);
+    ASSERT_GT(bench.posit(), -20);
+    ASSERT_LE(bench.posit(), 0);
+  }
+  // 490 000 Um of master: 490000 * -2/3 Um of slave * 11/3 bits.
+  EXPECT_EQ(bench.cam.step().slave_bits, static_cast<std::int64_t>(std::floor(-490000.0 * 22 / 9)));
+  EXPECT_EQ(bench.master_grains, 490'000 % 30 * 10);
+  EXPECT_TRUE(bench.cam.running());
+}
+
+TEST(CamGearing, CountsWrapAtTheirOwnValues) {
+  CamBench bench({{154, 100, 100, 0, 2}, end_row});
+  bench.master_grains = 60;
+  bench.slave_grains = 20;
+  bench.start();
+  bench.run(39);
+  EXPECT_EQ(bench.positm(), 99);
+  EXPECT_EQ(bench.posit(), 59);
+  bench.run(41);
+  EXPECT_EQ(bench.positm(), 1);
+  EXPECT_EQ(bench.posit(), 61);
+  bench.run(80);
+  EXPECT_EQ(bench.posit(), 0);
+}
+
+TEST(CamGearing, NewRatioActsWithTheNextSamplingWithoutAStepOfPosition) {
+  CamBench bench({{154, 100, 50, 0, 2}, end_row}, hundredths);
+  bench.start();
+  bench.run(2100, 7);
+  EXPECT_NEAR(bench.slave_um(), 10.5, tolerance);
+  EXPECT_FALSE(bench.cam.refuses(1, Column::codeQs));
+  bench.cam.write(1, Column::codeQs, -300);
+  bench.to(2107);
+  EXPECT_NEAR(bench.cam.step().ratio, -3, tolerance);
+  EXPECT_NEAR(bench.slave_um(), 10.5 - 0.21, tolerance);
+  bench.cam.write(1, Column::codeQs, 0);
+  bench.to(2114);
+  EXPECT_NEAR(bench.slave_um(), 10.5 - 0.21, tolerance);
+  bench.cam.write(1, Column::codeQs, 100);
+  bench.run(22114, 500);
+  EXPECT_NEAR(bench.slave_um(), 10.5 - 0.21 + 200, tolerance);
+  EXPECT_THAT(bench.errors, IsEmpty());
+}
+
+TEST(CamGearing, OnlyRatioAndTypeMayBeWritten) {
+  CamBench bench({{154, 100, 50, 0, 2}, end_row});
+  bench.start();
+  bench.to(1);
+  EXPECT_FALSE(bench.cam.refuses(1, Column::codeQs));
+  EXPECT_FALSE(bench.cam.refuses(1, Column::codeQsa));
+  for (const Column column : {Column::codeG, Column::codeQm, Column::codeQma, Column::codeM})
+    EXPECT_TRUE(bench.cam.refuses(1, column));
+}
+
+TEST(CamGearing, ReleaseGoesOnWithTheNextRowAtOnce) {
+  for (const int type : {0, 1}) {
+    SCOPED_TRACE(type);
+    CamBench bench({{154, 100, 50, 0, 2}, {133, 100, 50}, end_row}, hundredths);
+    bench.start();
+    bench.run(4000, 7);
+    bench.cam.write(1, Column::codeQsa, type);
+    bench.to(4010);
+    EXPECT_EQ(bench.cam.step().row, 2);
+    EXPECT_NEAR(bench.cam.sector().entry_speed, type == 0 ? 0.5 : 0, tolerance);
+    bench.run(13999, 7);
+    bench.to(14000);
+    EXPECT_TRUE(bench.cam.step().ended);
+    EXPECT_EQ(bench.cam.step().slave_bits, 7000);
+  }
+}
+
+TEST(CamGearing, MasterFasterThanALapASamplingIsError4) {
+  CamBench bench({{154, 100, 50, 0, 2}, end_row});
+  bench.start();
+  bench.to(50);
+  bench.to(149);
+  EXPECT_THAT(bench.errors, IsEmpty());
+  bench.to(249);
+  EXPECT_THAT(bench.errors, ElementsAre(CamEvent{4, 1}));
+}
+
+TEST(CamGearing, FollowsBackwardsToItsStartAndIntoTheSectorBefore) {
+  CamBench bench({{154, 100, 100}, {154, 10, 20, 0, 2}, end_row});
+  bench.start();
+  bench.run(155, 5);
+  EXPECT_NEAR(bench.slave_um(), 210, tolerance);
+  bench.run(102, 3);
+  EXPECT_NEAR(bench.slave_um(), 104, tolerance);
+  bench.run(40, 3);
+  EXPECT_EQ(bench.cam.step().row, 1);
+  EXPECT_NEAR(bench.slave_um(), 40, tolerance);
+  bench.run(130, 3);
+  EXPECT_NEAR(bench.slave_um(), 160, tolerance);
+}
+
+TEST(CamGearing, WaitsAtItsStartWithoutASectorBefore) {
+  CamBench bench({{154, 10, 20, 0, 2}, end_row});
+  bench.start();
+  bench.run(25, 5);
+  bench.run(-15, 5);
+  EXPECT_NEAR(bench.slave_um(), 0, tolerance);
+  bench.run(5, 5);
+  EXPECT_NEAR(bench.slave_um(), 10, tolerance);
+}
+
+TEST(CamGearing, WithANewRatioItFollowsBackwardsForEver) {
+  CamBench bench({{154, 10, 20, 0, 2}, end_row});
+  bench.start();
+  bench.run(25, 5);
+  bench.cam.write(1, Column::codeQs, 10);
+  bench.run(-75, 5);
+  EXPECT_NEAR(bench.slave_um(), 50 - 100, tolerance);
+}
+
+TEST(CamGearing, SoftenedChangeIntoAGearingIsAStepWithWarning10) {
+  CamBench bench({{154, 100, 100, 1}, {154, 10, 20, 0, 2}, end_row});
+  bench.start();
+  bench.run(99);
+  EXPECT_NEAR(bench.cam.step().ratio, 1, tolerance);
+  bench.run(101);
+  EXPECT_THAT(bench.warnings, ElementsAre(CamEvent{10, 2}));
+  EXPECT_NEAR(bench.cam.step().ratio, 2, tolerance);
+}
+
+}  // namespace
+}  // namespace drycut::devices::camming4

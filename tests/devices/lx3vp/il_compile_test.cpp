@@ -1,0 +1,317 @@
+// Faults of instruction lists, each by its message.
+#include <random>
+#include <set>
+
+#include "devices/lx3vp/il_operands.hpp"
+#include "tests/devices/lx3vp/il_bench.hpp"
+
+namespace drycut::devices::lx3vp::il {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(IlCompile, AProgramWithRemarksAndBlankLines) {
+  EXPECT_THAT(faults("; the master's pulses\n\nLD M8000 // always\n  dplsv k1000, y1 Y5\r\nEND\n"),
+              IsEmpty());
+}
+
+TEST(IlCompile, NamesTheNearestInstruction) {
+  EXPECT_THAT(faults("LD X0\nOTU Y0\nOUT Y0\nEND"),
+              ElementsAre("2:1: there is no instruction 'OTU'; did you mean OUT?"));
+  EXPECT_THAT(faults("LD X0\n  DMVO K1 D0\nOUT Y0\nEND"),
+              ElementsAre("2:3: there is no instruction 'DMVO'; did you mean DMOV?"));
+  EXPECT_THAT(faults("LD X0\nOUT Y0\n@%$#&\nEND"),
+              ElementsAre("3:1: there is no instruction '@%$#&'; one instruction a line: LD X0"));
+}
+
+// The real unit has them: no wrong suggestion.
+TEST(IlCompile, SaysWhatIsNotSimulated) {
+  for (const std::string name : {"PLSR", "dplsr", "WSFLP", "DFROMP", "WDTP", "DHSCS", "EI"})
+    EXPECT_THAT(faults("LD X0\n" + name + " K1 Y0\nOUT Y0\nEND"),
+                ElementsAre("2:1: " + name + " is not simulated; `drycut devices LX3VP` lists what is"));
+  for (const auto& spelling : spellings()) EXPECT_FALSE(is_not_simulated(spelling.text)) << spelling.text;
+  for (const char* typo : {"DMVO", "OTU", "P", "D", ""}) EXPECT_FALSE(is_not_simulated(typo)) << typo;
+}
+
+TEST(IlCompile, AllFaultsInOneRun) {
+  EXPECT_THAT(faults("LD X8\nMOV K40000 D0\nOUT X1\nEND"),
+              ElementsAre("1:4: 'X8' is not octal; X count X0 to X7, X10 to X17 and on",
+                          "2:5: K40000 is wider than 16 bits; use the 32-bit instruction",
+                          "3:5: OUT does not take X1 here; it takes Y, M, S, T, C or a bit of D (D10.F)"));
+}
+
+std::vector<std::string> operand_faults(const std::string& line) {
+  return faults("LD X0\n" + line + "\nEND");
+}
+
+TEST(IlCompile, DevicesOutOfRange) {
+  EXPECT_THAT(operand_faults("OUT Y400"), ElementsAre("2:5: 'Y400' does not exist; there are Y0 to Y377"));
+  EXPECT_THAT(operand_faults("OUT M3072"),
+              ElementsAre("2:5: 'M3072' does not exist; there are M0 to M3071 and M8000 to M8255"));
+  EXPECT_THAT(operand_faults("SET S1000"), ElementsAre("2:5: 'S1000' does not exist; there are S0 to S999"));
+  EXPECT_THAT(operand_faults("MOV K1 D8256"),
+              ElementsAre("2:8: 'D8256' does not exist; there are D0 to D8255"));
+  EXPECT_THAT(operand_faults("DMOV K1 D8255"),
+              ElementsAre("2:9: DMOV takes 2 devices from D8255 on; there are D0 to D8255"));
+  EXPECT_THAT(
+      operand_faults("CMP K1 D0 M3070"),
+      ElementsAre("2:11: CMP takes 3 devices from M3070 on; there are M0 to M3071 and M8000 to M8255"));
+  EXPECT_THAT(
+      operand_faults("MOV K4M3069 D0"),
+      ElementsAre("2:5: 'K4M3069' goes beyond the devices; there are M0 to M3071 and M8000 to M8255"));
+  EXPECT_THAT(operand_faults("OUT D10.G"),
+              ElementsAre("2:5: 'D10.G' has no such bit; a word has the bits 0 to F: D10.F"));
+}
+
+TEST(IlCompile, Numbers) {
+  EXPECT_THAT(operand_faults("DMOV K2147483648 D0"),
+              ElementsAre("2:6: 'K2147483648' is no 32-bit number; write K-2147483648 to K2147483647"));
+  EXPECT_THAT(operand_faults("DMOV HFFFFFFFFF D0"),
+              ElementsAre("2:6: 'HFFFFFFFFF' is no 32-bit number; write H0 to HFFFFFFFF"));
+  EXPECT_THAT(operand_faults("MOV H10000 D0"),
+              ElementsAre("2:5: H10000 is wider than 16 bits; use the 32-bit instruction"));
+  EXPECT_THAT(operand_faults("DEMOV E1.5.2 D0"),
+              ElementsAre("2:7: 'E1.5.2' is no 32-bit floating-point number; write E1.5 or E-3.2E4"));
+  EXPECT_THAT(operand_faults("MOV 5 D0"),
+              ElementsAre("2:5: '5' is no operand; write a device (X0, D100), K10, H1F or E1.5"));
+  EXPECT_THAT(operand_faults("MOV K9M0 D0"),
+              ElementsAre("2:5: 'K9M0' has no such groups of bits; group K1 (4 bits) to K8 (32 bits)"));
+  EXPECT_THAT(operand_faults("MOV K2D0 D0"),
+              ElementsAre("2:5: 'K2D0' groups no bits; bits are grouped of X, Y, M or S: K4M0"));
+  EXPECT_THAT(operand_faults("MOV K5M0 D0"),
+              ElementsAre("2:5: K5M0 is wider than 16 bits; group K1 to K4, or use the 32-bit instruction"));
+  EXPECT_THAT(operand_faults("MOV K-32768 D0\nMOV HFFFF D0\nDMOV K8M0 D0\nDMOV HFFFFFFFF D0"), IsEmpty());
+}
+
+TEST(IlCompile, NumberOfOperands) {
+  EXPECT_THAT(
+      operand_faults("MOV K1"),
+      ElementsAre("2:5: MOV has 2 operands, not 1; give K, H, D, T, C, V, Z or bits (K4M0) of X, Y, M or S "
+                  "and then D, T, C, V, Z or bits (K4M0) of Y, M or S"));
+  EXPECT_THAT(operand_faults("SET Y0 K5"),
+              ElementsAre("2:8: SET has 1 operand, not 2; give Y, M, S or a bit of D (D10.F)"));
+  EXPECT_THAT(operand_faults("OUT T0"),
+              ElementsAre("2:5: OUT has 2 operands, not 1; give Y, M, S, T, C or a bit of "
+                          "D (D10.F) and then K or D"));
+}
+
+TEST(IlCompile, SetValues) {
+  EXPECT_THAT(operand_faults("OUT T0 K0"),
+              ElementsAre("2:8: set value K0 is out of range; give a set value K1 to K32767 or a D"));
+  EXPECT_THAT(operand_faults("OUT C0 M5"),
+              ElementsAre("2:8: M5 is no set value; give a set value K1 to K32767 or a D"));
+  EXPECT_THAT(operand_faults("OUT C200 D8255"),
+              ElementsAre("2:10: D8255 is no pair of words; give a set value K or the first D of a pair"));
+  EXPECT_THAT(operand_faults("OUT C235 K100000\nOUT T0 D5"), IsEmpty());
+}
+
+TEST(IlCompile, WideCountersNeedWideInstructions) {
+  EXPECT_THAT(operand_faults("MOV C200 D0"),
+              ElementsAre("2:5: C200 is 32 bits wide; use the 32-bit instruction"));
+  EXPECT_THAT(operand_faults("DMOV C199 D0"),
+              ElementsAre("2:6: DMOV takes 2 words from C199 on; the 16-bit counters end at C199"));
+  EXPECT_THAT(operand_faults("DMOV C251 D0\nMOV C199 D0"), IsEmpty());
+}
+
+TEST(IlCompile, CamAndPulseInstructions) {
+  EXPECT_THAT(operand_faults("DECAM C251 D2000 X2 Y0 Y4"), IsEmpty());
+  EXPECT_THAT(operand_faults("DECAM K0 D2000 X2 Y0 Y4"),
+              ElementsAre("2:7: K0 is no time axis; K1 counts every 100 us, K10 every ms"));
+  EXPECT_THAT(operand_faults("DECAM K1 D7961 X2 Y0 Y4"),
+              ElementsAre("2:10: DECAM takes 40 words from D7961 on; the block has to end at D7999"));
+  EXPECT_THAT(operand_faults("DECAM K1 D2000 Y2 Y0 Y4"),
+              ElementsAre("2:16: DECAM does not take Y2 here; it takes X or M"));
+  EXPECT_THAT(operand_faults("DECAM K1 D2000 X2 Y4 Y5"),
+              ElementsAre("2:19: DECAM does not take Y4 here; it takes Y0 to Y3"));
+  EXPECT_THAT(operand_faults("DPLSV K1000 Y1 Y1"),
+              ElementsAre("2:16: Y1 is the pulse output itself; name another Y for the direction"));
+  EXPECT_THAT(operand_faults("ECAMTBX D100 K100 D2000 D120"), IsEmpty());
+  EXPECT_THAT(operand_faults("ECAMTBX D7990 M1 D2000 D120"),
+              ElementsAre("2:9: ECAMTBX takes 20 words from D7990 on; the block has to end at D7999"));
+}
+
+TEST(IlCompile, Rungs) {
+  EXPECT_THAT(faults("OUT Y0\nEND"),
+              ElementsAre("1:1: OUT has no contact before it; begin with LD; LD M8000 is always ON"));
+  EXPECT_THAT(faults("LD X0\nLD X1\nOUT Y0\nEND"),
+              ElementsAre("3:1: 2 blocks are not joined at OUT; join them with ANB or ORB"));
+  EXPECT_THAT(faults("LD X0\nANB\nOUT Y0\nEND"),
+              ElementsAre("2:1: ANB has no two blocks to join; begin each block with LD"));
+  EXPECT_THAT(
+      faults("LD X0\nEND"),
+      ElementsAre("2:1: the contacts before it lead to no coil; end them with OUT or another instruction"));
+  EXPECT_THAT(faults("LD X0\nMPP\nOUT Y0\nEND"),
+              ElementsAre("2:1: MPP has no branch to take up; keep the result with MPS before"));
+  EXPECT_THAT(faults("LD X0\nMPS\nAND X1\nOUT Y0\nEND"),
+              ElementsAre("5:1: a branch is not ended; take it up for the last time with MPP"));
+  EXPECT_THAT(faults("LD X0\nMPS\nAND X1\nOUT Y0\nLD X2\nANB\nMPP\nOUT Y1\nEND"),
+              ElementsAre("5:1: a branch goes on behind a coil with LD; take it up with MRD or MPP before"));
+  std::string deep = "LD X0\n";
+  for (int i = 0; i < 8; ++i) deep += "LD X1\n";
+  for (int i = 0; i < 8; ++i) deep += "ANB\n";
+  EXPECT_THAT(faults(deep + "OUT Y0\nEND"),
+              ElementsAre("9:1: more than 8 blocks wait for ANB or ORB; join blocks as you go"));
+  std::string branches = "LD X0\n";
+  for (int i = 0; i < 12; ++i) branches += "MPS\n";
+  for (int i = 0; i < 12; ++i) branches += "MPP\n";
+  EXPECT_THAT(faults(branches + "OUT Y0\nEND"),
+              ElementsAre("13:1: more than 11 branches wait for MPP; end branches with MPP"));
+}
+
+TEST(IlCompile, LabelsAndTheEnd) {
+  EXPECT_THAT(faults("LD X0\nCJ P1\nP0\nP0\nEND"),
+              ElementsAre("4:1: label P0 is there twice; it was first given in line 3",
+                          "2:4: there is no label P1; give it a line of its own"));
+  EXPECT_THAT(faults("LD X0\nCJ P1\nP1 LD X1\nOUT Y0\nEND"),
+              testing::Contains("3:4: 'LD' stands behind a label; give a label a line of its own"));
+  EXPECT_THAT(faults("P128\nEND"), ElementsAre("1:1: 'P128' does not exist; there are P0 to P127"));
+  EXPECT_THAT(faults("LD X0\nOUT Y0\n"), ElementsAre("2:1: END is missing; end the program with END"));
+  EXPECT_THAT(faults(""), ElementsAre("1:1: there is no program; end the program with END"));
+  EXPECT_THAT(faults("END\nLD X0\nLD X0"),
+              ElementsAre("2:1: stands behind END; END is the last instruction"));
+  EXPECT_THAT(faults("LD X0\nZRST M10 M5\nZRST M0 D5\nEND"),
+              ElementsAre("2:10: ZRST from M10 to M5; name the lower one first",
+                          "3:9: ZRST from M0 to D5; name two devices of the same letter"));
+}
+
+TEST(IlCompile, ManyProblemsAreCutShort) {
+  std::string text;
+  for (int i = 0; i < 3000; ++i) text += "FOO\n";
+  const auto told = faults(text);
+  ASSERT_EQ(told.size(), 1001U);
+  EXPECT_EQ(told.back(), "1000:1: too many problems: the rest is not told; is this an instruction list?");
+}
+
+// The table of mnemonics.
+
+/// An operand that every kind takes.
+std::string example(char kind) {
+  switch (kind) {
+    case 'b':
+    case 'x':
+      return "X0";
+    case 'o':
+    case 's':
+    case 'r':
+    case 'e':
+    case 'l':
+    case 'B':
+    case 'g':
+    case 'h':
+      return "M100";
+    case 'S':
+      return "S20";
+    case 'N':
+      return "N0";
+    case 'n':
+    case 'k':
+    case 't':
+    case 'j':
+    case 'm':
+      return "K1";
+    case 'f':
+      return "E1.5";
+    case 'p':
+      return "Y1";
+    case 'y':
+      return "Y5";
+    case 'P':
+      return "P1";
+    default:
+      return "D100";
+  }
+}
+
+TEST(IlMnemonics, EverySpellingCompilesWithTheOperandsThatTheTableNames) {
+  std::set<std::string> seen;
+  for (const auto& spelling : spellings()) {
+    EXPECT_TRUE(seen.insert(spelling.text).second) << spelling.text << " is there twice";
+    const auto& m = *spelling.mnemonic;
+    std::string line = spelling.text;
+    for (const char kind : m.operands) {
+      line += " " + example(kind);
+      EXPECT_FALSE(operand_text(kind).empty()) << m.name;
+    }
+    // Something before it and behind it that makes a sound rung of any instruction.
+    std::string before = m.op <= Op::or_ge && (static_cast<int>(m.op) % 3) == 0 ? "" : "LD X0\n";
+    if (m.op == Op::anb || m.op == Op::orb) before += "LD X1\n";
+    if (m.op == Op::mrd || m.op == Op::mpp) before += "MPS\n";
+    if (m.op == Op::nop || m.op == Op::fend || m.op == Op::end || m.op == Op::stl) before.clear();
+    if (m.op == Op::for_) before.clear();
+    if (m.op == Op::next) before = "FOR K2\n";
+    if (m.op == Op::mcr) before += "MC N0 M100\n";
+    if (m.op == Op::ret) before = "STL S20\n";
+    if (m.op == Op::sret) before = "FEND\nP1\n";
+    std::string after = m.op <= Op::inv ? "OUT Y0\n" : "";
+    if (m.op == Op::mps || m.op == Op::mrd) after += "MPP\nOUT Y1\n";
+    if (m.op == Op::cj) after += "P1\n";
+    if (m.op == Op::call) after += "FEND\nP1\nSRET\n";
+    if (m.op == Op::for_) after += "NEXT\n";
+    if (m.op == Op::mc) after += "MCR N0\n";
+    if (m.op == Op::stl) after += "RET\n";
+    EXPECT_THAT(faults(before + line + "\n" + after + (m.op == Op::end ? "" : "END\n")), IsEmpty()) << line;
+    EXPECT_GT(m.steps, 0) << m.name;
+    EXPECT_FALSE(m.meaning.empty()) << m.name;
+    // And without its last operand, or with one too many, it is refused.
+    EXPECT_FALSE(faults(before + line + " K1\n" + after + "END\n").empty()) << line;
+  }
+}
+
+TEST(IlMnemonics, WideAndPulseForms) {
+  for (const auto* name :
+       {"MOV", "MOVP", "DMOV", "DMOVP", "LDD=", "ANDD>", "ORD<=", "DAND", "WANDP", "DEMOV", "DEADDP", "dinc"})
+    EXPECT_NE(find_spelling(name), nullptr) << name;
+  for (const auto* name : {"EMOV", "EADD", "DOUT", "LDP=", "DBMOV", "", "DECAMP"})
+    EXPECT_EQ(find_spelling(name), nullptr) << name;
+  EXPECT_TRUE(find_spelling("DMOVP")->wide);
+  EXPECT_TRUE(find_spelling("DMOVP")->pulse);
+  EXPECT_EQ(find_spelling("DEC")->mnemonic->op, Op::dec);
+  EXPECT_EQ(find_spelling("DECMP")->mnemonic->op, Op::ecmp);
+}
+
+TEST(IlCompile, StepsAreCountedAsInProgramMemory) {
+  Problems problems;
+  const auto program =
+      compile("LD X0\nOUT T0 K10\nLDP M0\nDMOV K1 D0\nDECAM K1 D100 X0 Y0 Y4\nEND", "p.il", problems);
+  std::vector<int> numbers;
+  for (const auto& step : program.steps) numbers.push_back(step.number);
+  EXPECT_THAT(numbers, ElementsAre(0, 1, 4, 6, 15, 36));
+  EXPECT_EQ(program.size, 37);
+}
+
+TEST(IlCompile, RandomTextNeverCrashes) {
+  std::mt19937 random(7);
+  std::vector<std::string> words = {"K1",    "D0", "X8",   "Y1", "M8255", "K4X0", "E1", "P1", "P2",   "HFF",
+                                    "D7999", "T1", "C235", ";",  "D1.9",  "K",    "E",  "//", "\x80", ",",
+                                    "S20",   "N0", "D9Z7", "V1", "K3V0",  "[",    "]",  "12", "M9Z0", "Z"};
+  for (const auto& spelling : spellings()) words.push_back(spelling.text);
+  int sound = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string text;
+    const auto lines = random() % 12;
+    for (unsigned n = 0; n < lines; ++n) {
+      const auto count = random() % 5;
+      for (unsigned w = 0; w < count; ++w) text += words[random() % words.size()] + " ";
+      text += '\n';
+    }
+    if (random() % 2 == 0) text += "END";
+    Problems problems;
+    const auto program = compile(text, "p.il", problems);
+    for (const auto& problem : problems) {
+      ASSERT_GE(problem.line, 1);
+      ASSERT_GE(problem.column, 1);
+      ASSERT_FALSE(problem.remedy.empty());
+    }
+    if (!problems.empty()) continue;
+    ++sound;
+    Registers registers;
+    Notes notes;
+    Scanner scanner(program);
+    scanner.scan(registers, notes);
+  }
+  EXPECT_GT(sound, 10);
+}
+
+}  // namespace
+}  // namespace drycut::devices::lx3vp::il

@@ -1,0 +1,125 @@
+#include "tests/devices/oopos2/fixture.hpp"
+
+namespace drycut::devices::oopos2 {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// Several axes on one group of outputs, one of them active (001 1.4.1, 1.4.9.3).
+class Oopos2Sharing : public testing::Test {
+ protected:
+  Oopos2Sharing() {
+    for (int axis = 0; axis < 2; ++axis) {
+      devices.push_back(make_oopos2({{10, {}},
+                                     {0, Address{Kind::counter, 2, 1 + axis}},
+                                     {0, {}},
+                                     {0, {}},
+                                     {0, parse_address("2.OUT01")},
+                                     {0, parse_address("2.OUT02")},
+                                     {0, {}},
+                                     {0, {}},
+                                     {0, parse_address("2.OUT03")},
+                                     {0, Address{Kind::output, 2, 4 + axis}}},
+                                    cards));
+      for (const auto& [name, value] : {std::pair{"cntratio", 400000}, {"maxpos", 9999}, {"minpos", -9999}})
+        devices[axis]->write(find_symbol(oopos2_type, name).value(), value);
+    }
+  }
+  void command(int axis, const char* name) {
+    devices[axis]->command(find_command(oopos2_type, name).value());
+    sample();
+  }
+  void sample(int number = 1) {
+    for (int i = 0; i < number; ++i)
+      for (const auto& device : devices) device->sample();
+  }
+  bool output(int number) { return cards.outputs.at({Kind::output, 2, number}).level; }
+  std::vector<std::string> said() {
+    std::vector<std::string> all;
+    for (const auto& device : devices)
+      for (std::string& text : said_by(*device)) all.push_back(std::move(text));
+    return all;
+  }
+
+  Cards cards;
+  std::vector<std::unique_ptr<Device>> devices;
+};
+
+TEST_F(Oopos2Sharing, TheyTakeTurns) {
+  for (int axis = 0; axis < 2; ++axis) {
+    command(axis, "INIT");
+    command(axis, "REGOFF");
+  }
+  for (const int axis : {0, 1, 0}) {
+    command(axis, "REGON");
+    command(axis, "MANSFW");
+    EXPECT_TRUE(output(1));
+    EXPECT_TRUE(output(3));
+    EXPECT_FALSE(output(4 + axis));
+    EXPECT_TRUE(output(5 - axis));  // the other's brake
+    command(axis, "STOP");
+    sample(3);
+    command(axis, "REGOFF");
+    EXPECT_FALSE(output(1));
+    sample(3);
+  }
+  EXPECT_THAT(said(), IsEmpty());
+}
+
+TEST_F(Oopos2Sharing, ATurnMayChangeHandsInOneSample) {
+  command(0, "INIT");
+  command(1, "INIT");
+  command(1, "REGOFF");
+  said();
+  devices[0]->command(find_command(oopos2_type, "REGOFF").value());
+  devices[1]->command(find_command(oopos2_type, "REGON").value());
+  sample(5);
+  EXPECT_THAT(said(), IsEmpty());
+}
+
+TEST_F(Oopos2Sharing, TwoThatDriveAtOnceAreReportedOnce) {
+  command(0, "INIT");
+  command(1, "INIT");
+  sample(20);
+  const std::string text =
+      ": another device drives the same output; of devices that share one, all but one need REGOFF";
+  EXPECT_THAT(said(), ElementsAre("OutAva" + text, "OutInd" + text, "OutRal" + text));
+  command(1, "REGOFF");
+  said();
+  command(1, "REGON");
+  sample(3);
+  EXPECT_EQ(said().size(), 3u);  // and again when it begins again
+}
+
+TEST_F(Oopos2Sharing, RegulationOffEndsAMovementAndOnlyTheBrakeGoesOn) {
+  for (int axis = 0; axis < 2; ++axis) command(axis, "INIT");
+  command(1, "REGOFF");
+  const int toldly = 30;
+  devices[0]->write(find_symbol(oopos2_type, "toldly").value(), toldly);
+  command(0, "MANFFW");
+  ASSERT_TRUE(output(1));
+  command(0, "REGOFF");
+  EXPECT_FALSE(output(1));
+  EXPECT_FALSE(output(4));
+  cards.outputs.at(*parse_address("2.OUT01")).level = true;  // someone else's from now on
+  sample(toldly - 1);
+  EXPECT_FALSE(output(4));
+  sample(1);
+  EXPECT_TRUE(output(4));
+  EXPECT_TRUE(output(1));
+}
+
+TEST_F(Oopos2Sharing, PowerLossLeavesTheOutputs) {
+  command(0, "INIT");
+  command(0, "MANFFW");
+  ASSERT_TRUE(output(1));
+  devices[0]->power_up();
+  EXPECT_FALSE(output(1));
+  command(1, "INIT");
+  sample(5);
+  EXPECT_THAT(said(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace drycut::devices::oopos2

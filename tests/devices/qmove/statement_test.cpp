@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/devices/qmove/support.hpp"
+
+// What each statement of QCL does when it runs.
+namespace drycut::devices::qmove {
+namespace {
+
+using testing::Bench;
+using testing::text_of;
+
+Bench started(const std::string& module, int milliseconds = 1) {
+  Bench bench({module});
+  EXPECT_TRUE(bench.controller) << module << text_of(bench.problems);
+  bench.run(milliseconds);
+  EXPECT_EQ(bench["QMOS.oserr"], 0) << module;
+  return bench;
+}
+
+TEST(QmoveStatement, IfElseNest) {
+  const std::string module =
+      "IF slA GT 0\n  IF (slA GT 10)\n    slR = 2\n  ELSE\n    slR = 1\n  ENDIF\nELSE\n  slR = "
+      "-1\nENDIF\nslB = 1\nEND\n";
+  for (const auto& [a, result] : {std::pair{20, 2}, {5, 1}, {0, -1}}) {
+    Bench bench({module});
+    bench.set("slA", a);
+    bench.step();
+    EXPECT_EQ(bench["slR"], result) << a;
+    EXPECT_EQ(bench["slB"], 1) << a;
+  }
+}
+
+TEST(QmoveStatement, While) {
+  EXPECT_EQ(started("WHILE (glI LT 5)\nslR = slR + glI\nglI = glI + 1\nENDWHILE\nEND\n")["slR"], 10);
+  EXPECT_EQ(started("WHILE 0\nslR = 1\nENDWHILE\nEND\n")["slR"], 0);
+}
+
+TEST(QmoveStatement, ForWithStepOrAssignment) {
+  EXPECT_EQ(started("FOR (glI = 1, glI LE 4, 1)\nslR = slR * 10 + glI\nNEXT\nEND\n")["slR"], 1234);
+  EXPECT_EQ(started("FOR (glI = 8, glI GT 0, glI = glI / 2)\nslR = slR * 10 + glI\nNEXT\nEND\n")["slR"],
+            8421);
+  EXPECT_EQ(started("FOR (glI = 3, glI GE 1, -1)\nslR = slR * 10 + glI\nNEXT\nEND\n")["slR"], 321);
+  EXPECT_EQ(started("FOR (gsReal = 0, gsReal LT 1, 0.25)\nslR = slR + 1\nNEXT\nEND\n")["slR"], 4);
+  EXPECT_EQ(
+      started("FOR (agTemp[2] = 1, agTemp[2] LE 3, agTemp[2] = agTemp[2] + 1)\nslR = slR + 1\nNEXT\nEND\n")
+          ["slR"],
+      3);
+  // The condition is looked at before the first turn, the variable ends beyond the limit.
+  const Bench bench = started("FOR (glI = 5, glI LT 5, 1)\nslR = 1\nNEXT\nslB = glI\nEND\n");
+  EXPECT_EQ(bench["slR"], 0);
+  EXPECT_EQ(bench["slB"], 5);
+}
+
+TEST(QmoveStatement, LoopsNest) {
+  EXPECT_EQ(started("FOR (glI = 1, glI LE 3, 1)\nglJ = 0\nWHILE glJ LT glI\nglJ = glJ + 1\nIF glJ EQ 2\nslR "
+                    "= slR + 100\n"
+                    "ENDIF\nslR = slR + 1\nENDWHILE\nNEXT\nEND\n")["slR"],
+            206);
+}
+
+TEST(QmoveStatement, JumpForwardAndBack) {
+  EXPECT_EQ(started("JUMP b\na:\nslR = slR + 10\nJUMP c\nB:\nslR = 1\njump A\nC:\nEND\n")["slR"], 11);
+}
+
+TEST(QmoveStatement, LabelsBelongToTheirTask) {
+  Bench bench(
+      {"MAIN:\nslA = slA + 1\nWAIT 1\nJUMP MAIN\nEND\n", "MAIN:\nslB = slB + 1\nWAIT 1\nJUMP MAIN\nEND\n"});
+  ASSERT_TRUE(bench.controller) << text_of(bench.problems);
+  bench.run(5);
+  EXPECT_EQ(bench["slA"], 5);
+  EXPECT_EQ(bench["slB"], 5);
+}
+
+TEST(QmoveStatement, SubroutinesAreCalledAndPassedBy) {
+  EXPECT_EQ(started("slR = 1\nSUB twice\nslR = slR * 2\nENDSUB\nCALL twice\nCALL TWICE\nCALL last\nEND\n"
+                    "SUB last\nslR = slR + 3\nCALL twice\nENDSUB\n")["slR"],
+            14);
+}
+
+TEST(QmoveStatement, SubroutinesMayWait) {
+  Bench bench({"CALL pause\nslR = 2\nEND\nSUB pause\nslR = 1\nWAIT slA\nENDSUB\n"});
+  bench.run(3);
+  EXPECT_EQ(bench["slR"], 1);
+  bench.set("slA", 1);
+  bench.run(1);
+  EXPECT_EQ(bench["slR"], 2);
+}
+
+TEST(QmoveStatement, EndEndsTheTask) {
+  EXPECT_EQ(started("slR = 1\nIF 1\nEND\nENDIF\nslR = 2\nEND\n", 3)["slR"], 1);
+}
+
+TEST(QmoveStatement, OutputsAreSetResetAndAssigned) {
+  Bench bench({"SETOUT ofLamp\nofHorn = 7\nWAIT ifStart\nRESOUT oflamp\nofHorn = 0.0\nEND\n"});
+  ASSERT_TRUE(bench.controller) << text_of(bench.problems);
+  bench.run(2);
+  EXPECT_EQ(bench["2.OUT01"], 1);
+  EXPECT_EQ(bench["ofHorn"], 1);
+  bench.controller->cards().inputs.at({Kind::input, 2, 1}).level = true;
+  bench.run(1);
+  EXPECT_EQ(bench["2.OUT01"], 0);
+  EXPECT_EQ(bench["ofHorn"], 0);
+}
+
+TEST(QmoveStatement, TimersReadOneWhenElapsed) {
+  Bench bench({"slA = tmWait\ntmWait = 5\nslB = tmWait\nWAIT tmWait\nslR = 1\nEND\n"});
+  bench.run(1);
+  EXPECT_EQ(bench["slA"], 1);  // never started
+  EXPECT_EQ(bench["slB"], 0);
+  bench.run(4);  // rounds at 1, 2, 3, 4 ms
+  EXPECT_EQ(bench["slR"], 0);
+  EXPECT_EQ(bench["tmWait"], 0);
+  bench.run(1);  // the round at 5 ms
+  EXPECT_EQ(bench["slR"], 1);
+  EXPECT_EQ(bench["tmWait"], 1);
+}
+
+TEST(QmoveStatement, TimersTakeNoTimeBelowZero) {
+  EXPECT_EQ(started("tmWait = -5\nslR = tmWait\nEND\n")["slR"], 1);
+}
+
+TEST(QmoveStatement, DevicesAreAssignedAndCommanded) {
+  Bench bench(
+      {"Axis:gain = 2.9\nAxis.code2 = 17\naxis:QUOTA = 40\nINIT Axis\nWAIT Axis:st_init\ngo Axis\n"
+       "WAIT NOT Axis:st_still\nslR = Axis:gain * 100 + Axis:code2\nEND\n"});
+  ASSERT_TRUE(bench.controller) << text_of(bench.problems);
+  bench.run(20);
+  EXPECT_EQ(bench["slR"], 217);
+  EXPECT_EQ(bench["Axis.st_still"], 0);
+}
+
+// WAIT NOT a AND b reads (NOT a) AND b.
+TEST(QmoveStatement, WaitNotAnd) {
+  Bench bench({"WAIT NOT ifStop AND ifStart\nslR = 1\nEND\n"});
+  bench.run(3);
+  EXPECT_EQ(bench["slR"], 0);
+  bench.controller->cards().inputs.at({Kind::input, 2, 1}).level = true;
+  bench.run(1);
+  EXPECT_EQ(bench["slR"], 1);
+}
+
+TEST(QmoveStatement, CommentsAndBlankLinesAreNothing) {
+  EXPECT_EQ(
+      started(
+          "; title\n\n   \t \r\nslR=1;set\n;END\nslA = slR ; again = ( [\nEND ; that's it\n; more\n")["slA"],
+      1);
+}
+
+TEST(QmoveStatement, MinusMayStandApart) { EXPECT_EQ(started("slR = - 100\nEND\n")["slR"], -100); }
+
+// --- indexes that are plain numbers are judged without a run ---
+
+struct IndexFault {
+  std::string statement;
+  int column;
+  std::string what;
+};
+
+TEST(QmoveStatement, PlainIndexesOutOfRangeAreProblems) {
+  const std::vector<IndexFault> cases = {
+      {"slR = agTemp[0]", 14, "index 0 is outside 1..5 of 'agTemp'"},
+      {"agTemp[6] = 1", 8, "index 6 is outside 1..5 of 'agTemp'"},
+      {"slR = agTemp[-1]", 14, "index -1 is outside 1..5 of 'agTemp'"},
+      {"slR = agTemp[cTen]", 14, "index 10 is outside 1..5 of 'agTemp'"},
+      {"slR = ddlHead[3]", 15, "recipe 3 is outside 1..2 of 'ddlHead'"},
+      {"ddbCode[3, 1] = 1", 9, "recipe 3 is outside 1..2 of 'ddbCode'"},
+      {"slR = ddbCode[1, 4]", 18, "step 4 is outside 1..3 of 'ddbCode'"},
+  };
+  for (const IndexFault& c : cases) {
+    const Bench bench({c.statement + "\nEND\n"});
+    ASSERT_EQ(bench.problems.size(), 1U) << c.statement << text_of(bench.problems);
+    EXPECT_EQ(bench.problems[0].column, c.column) << c.statement;
+    EXPECT_EQ(bench.problems[0].what, c.what) << c.statement;
+    EXPECT_NE(bench.problems[0].remedy.find("test.cnf"), std::string::npos) << bench.problems[0].remedy;
+  }
+  for (const char* good : {"slR = agTemp[1]", "agTemp[5] = 1", "slR = ddbCode[2, 3]", "slR = agTemp[glI]"})
+    EXPECT_EQ(text_of(Bench({std::string(good) + "\nEND\n"}).problems), "") << good;
+}
+
+}  // namespace
+}  // namespace drycut::devices::qmove

@@ -1,0 +1,50 @@
+#pragma once
+// Cam tables of MC_CamIn for tests, written as CSV text.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "sim/cam/mc_camin/judge.hpp"
+#include "sim/cam/mc_camin/run.hpp"
+
+namespace drycut::sim::camin {
+
+/// Reads a table that has no fault.
+inline devices::plcopen::CamFile table(const std::string& text) {
+  Problems problems;
+  const auto read = devices::plcopen::read_cam(text, "cam.csv", problems);
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  return read.value_or(devices::plcopen::CamFile{});
+}
+
+/// The faults of a text, as they are printed, without the file's name.
+inline std::vector<std::string> faults(const std::string& text) {
+  Problems problems;
+  const bool read = devices::plcopen::read_cam(text, "cam.csv", problems).has_value();
+  EXPECT_EQ(read, problems.empty());
+  std::vector<std::string> told;
+  for (const auto& problem : problems)
+    told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));
+  return told;
+}
+
+/// The findings on a table, as they are printed; without the remarks unless they are asked for.
+inline std::vector<std::string> findings(const std::string& text, const CamDuty& duty = {},
+                                         bool remarks = false) {
+  std::vector<std::string> told;
+  for (const auto& finding : judge_cam_in(run_cam_in(table(text), duty, 1), duty))
+    if (remarks || finding.grade != CamFinding::Grade::remark) told.push_back(to_string(finding));
+  return told;
+}
+
+/// The knots of a table.
+inline std::vector<CamKnot> knots(const std::string& text) { return run_cam_in(table(text), {}, 1).knots; }
+
+/// Two rows of a rotary knife: a line of ratio 0.6 over 120 mm of web, a quintic for the rest of 800 mm.
+inline std::string knife(const std::string& settings = "# endless: positive\n") {
+  return "# interpolation: POLY5_LINE\n# master_modulo: 8000000\n# master_unit: mm\n" + settings +
+         "master,slave\n0,0\n1200000,720000\n";
+}
+
+}  // namespace drycut::sim::camin

@@ -1,0 +1,51 @@
+#pragma once
+// Cam tables of LX3VP for tests, written as CSV text.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "sim/cam/lx3vp/judge.hpp"
+#include "sim/cam/lx3vp/run.hpp"
+#include "sim/cam/lx3vp/table.hpp"
+
+namespace drycut::sim::ecams {
+
+/// Reads a table that has no fault.
+inline EcamTable table(const std::string& text) {
+  Problems problems;
+  auto read = read_ecam_table(text, "cam.csv", problems);
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  return read;
+}
+
+/// The faults of a text, as they are printed, without the file's name.
+inline std::vector<std::string> faults(const std::string& text) {
+  Problems problems;
+  read_ecam_table(text, "cam.csv", problems);
+  std::vector<std::string> told;
+  for (const auto& problem : problems)
+    told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));
+  return told;
+}
+
+/// The findings on a table, as they are printed; without the remarks unless they are asked for.
+inline std::vector<std::string> findings(const EcamTable& read, const CamDuty& duty = {},
+                                         bool remarks = false) {
+  std::vector<std::string> told;
+  for (const auto& finding : judge_ecam(read, duty, run_ecam(read, duty, 1)))
+    if (remarks || finding.grade != CamFinding::Grade::remark) told.push_back(to_string(finding));
+  return told;
+}
+
+/// The manual's rotary saw; what is given again behind replaces nothing.
+inline std::string rotary(const std::string& P5 = "50/3", const std::string& P6 = "1",
+                          const std::string& P3 = "333") {
+  return "# ecamtbx: K100\nparameter,value\nP1,3183\nP2,1000\nP3," + P3 + "\nP4,5/3\nP5," + P5 + "\nP6," +
+         P6 + "\n";
+}
+inline std::string s_curve(const std::string& P1 = "10000") {
+  return "# ecamtbx: K0\nparameter,value\nP1," + P1 + "\nP2,50000\nP4,100\nP5,100\nP6,200\n";
+}
+
+}  // namespace drycut::sim::ecams
