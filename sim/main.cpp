@@ -18,6 +18,7 @@
 
 namespace {
 
+using namespace drycut;
 using namespace drycut::sim;
 
 /// An empty path names no folder.
