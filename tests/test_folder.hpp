@@ -7,7 +7,19 @@
 #include <sstream>
 #include <string>
 
+#include "base/problem.hpp"
+
 namespace drycut {
+
+/// The repository.
+inline const std::filesystem::path source_root = DRYCUT_SOURCE_DIR;
+
+/// All problems, a line each.
+inline std::string lines_of(const Problems& problems) {
+  std::string text;
+  for (const auto& problem : problems) text += to_string(problem) + "\n";
+  return text;
+}
 
 /// A folder of the running test's own, gone after it.
 class TestFolder {

@@ -11,13 +11,12 @@
 #include "sim/compare/scene.hpp"
 #include "sim/recorder.hpp"
 #include "sim/simulation.hpp"
+#include "tests/test_folder.hpp"
 
 namespace drycut::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path root = DRYCUT_SOURCE_DIR;
 
 /// The scenarios of a folder, or the scenes there that compare some.
 std::vector<std::string> scenarios(const fs::path& folder, bool comparing = false) {
@@ -29,12 +28,6 @@ std::vector<std::string> scenarios(const fs::path& folder, bool comparing = fals
       names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
-}
-
-std::string listed(const Problems& problems) {
-  std::string text;
-  for (const auto& problem : problems) text += to_string(problem) + "\n";
-  return text;
 }
 
 /// A run to the end; the pictures are left out.
@@ -57,8 +50,8 @@ struct Played {
 class Scenes : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Scenes, PassTheirChecks) {
-  const Played run(root / "scenes" / (GetParam() + ".yaml"));
-  ASSERT_EQ(listed(run.problems), "");
+  const Played run(source_root / "scenes" / (GetParam() + ".yaml"));
+  ASSERT_EQ(lines_of(run.problems), "");
   EXPECT_EQ(run.outcome.failure, "");
   EXPECT_EQ(run.outcome.end, run.scenario.scene.duration);
   EXPECT_FALSE(run.outcome.checks.empty());
@@ -71,7 +64,7 @@ class ComparingScenes : public ::testing::TestWithParam<std::string> {};
 TEST_P(ComparingScenes, PassTheirChecks) {
   const fs::path out = fs::path(::testing::TempDir()) / ("drycut_comparing_" + GetParam());
   RunOptions options;
-  options.scenarios = {root / "scenes" / (GetParam() + ".yaml")};
+  options.scenarios = {source_root / "scenes" / (GetParam() + ".yaml")};
   options.out = out;
   options.pictures = false;
   EXPECT_EQ(run_scenarios(options), all_passed);
@@ -82,17 +75,17 @@ TEST_P(ComparingScenes, PassTheirChecks) {
 class FailingScenes : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(FailingScenes, FailACheckAndNothingElse) {
-  const Played run(root / "tests/scenes/failing" / (GetParam() + ".yaml"));
-  ASSERT_EQ(listed(run.problems), "");
+  const Played run(source_root / "tests/scenes/failing" / (GetParam() + ".yaml"));
+  ASSERT_EQ(lines_of(run.problems), "");
   EXPECT_EQ(run.outcome.failure, "");
   EXPECT_FALSE(run.outcome.passed());
 }
 
 const auto own_name = [](const auto& info) { return info.param; };
-INSTANTIATE_TEST_SUITE_P(All, Scenes, ::testing::ValuesIn(scenarios(root / "scenes")), own_name);
-INSTANTIATE_TEST_SUITE_P(All, ComparingScenes, ::testing::ValuesIn(scenarios(root / "scenes", true)),
+INSTANTIATE_TEST_SUITE_P(All, Scenes, ::testing::ValuesIn(scenarios(source_root / "scenes")), own_name);
+INSTANTIATE_TEST_SUITE_P(All, ComparingScenes, ::testing::ValuesIn(scenarios(source_root / "scenes", true)),
                          own_name);
-INSTANTIATE_TEST_SUITE_P(All, FailingScenes, ::testing::ValuesIn(scenarios(root / "tests/scenes/failing")),
+INSTANTIATE_TEST_SUITE_P(All, FailingScenes, ::testing::ValuesIn(scenarios(source_root / "tests/scenes/failing")),
                          own_name);
 
 std::string bytes_of(const fs::path& file) {
@@ -108,8 +101,8 @@ TEST(Determinism, TwoRunsLeaveTheSameBytes) {
   std::vector<std::string> traces;
   std::vector<std::string> events;
   for (int i = 0; i < 2; ++i) {
-    const Played run(root / "scenes/rotary_knife_short.yaml", folder);
-    ASSERT_EQ(listed(run.problems), "");
+    const Played run(source_root / "scenes/rotary_knife_short.yaml", folder);
+    ASSERT_EQ(lines_of(run.problems), "");
     traces.push_back(bytes_of(folder / "trace.csv"));
     events.push_back(bytes_of(folder / "events.csv"));
   }

@@ -14,20 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = DRYCUT_SOURCE_DIR;
-
-std::string listed(const Problems& problems) {
-  std::string text;
-  for (const auto& problem : problems) text += to_string(problem) + "\n";
-  return text;
-}
-
 /// Runs `scenario` to its end; a line for each check: its name and verdict.
 std::vector<std::string> verdicts(Scenario& scenario) {
   scenario.pictures.frames = false;
   Problems problems;
   Simulation simulation(scenario, problems);
-  EXPECT_EQ(listed(problems), "");
+  EXPECT_EQ(lines_of(problems), "");
   if (!problems.empty()) return {};
   std::vector<std::string> lines;
   for (const auto& check : simulation.run().checks)
@@ -47,7 +39,7 @@ std::vector<std::vector<std::size_t>> orders(std::size_t count) {
 
 std::vector<std::string> scenes_of_several_tasks() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(root / "scenes")) {
+  for (const auto& entry : fs::directory_iterator(source_root / "scenes")) {
     Problems problems;
     if (entry.path().extension() != ".yaml" || read_comparison(entry.path(), problems)) continue;
     const Scenario scenario = read_scenario(entry.path(), {}, problems);
@@ -62,8 +54,8 @@ class TaskOrder : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(TaskOrder, OfAShippedSceneChangesNoVerdict) {
   Problems problems;
-  Scenario scenario = read_scenario(root / "scenes" / (GetParam() + ".yaml"), {}, problems);
-  ASSERT_EQ(listed(problems), "");
+  Scenario scenario = read_scenario(source_root / "scenes" / (GetParam() + ".yaml"), {}, problems);
+  ASSERT_EQ(lines_of(problems), "");
   auto& tasks = std::get<QmoveSection>(scenario.controller).tasks;
   const auto as_shipped = tasks;
   std::vector<std::string> expected;
@@ -99,13 +91,13 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 /// scenes/flying_saw.yaml for 8 s, with `tasks` in a folder of the test's own beside its configuration.
 Scenario saw(const TestFolder& folder, const std::vector<std::string>& tasks) {
-  const fs::path programs = root / "scenes/programs";
+  const fs::path programs = source_root / "scenes/programs";
   folder.file("saw.cnf", replaced(content(programs / "flying_saw.cnf"), "GLOBAL\n",
                                   "GLOBAL\nglShown L\nglHmi L\nglLamp L\n"));
   folder.file("control.mod", content(programs / "flying_saw.mod"));
   folder.file("lamp.mod", lamp);
   folder.file("hmi.mod", hmi);
-  std::string text = content(root / "scenes/flying_saw.yaml");
+  std::string text = content(source_root / "scenes/flying_saw.yaml");
   text = replaced(text, "duration: 16 s", "duration: 8 s");
   text = replaced(text, "programs/flying_saw.cnf", "saw.cnf");
   std::string list;
@@ -120,7 +112,7 @@ Scenario saw(const TestFolder& folder, const std::vector<std::string>& tasks) {
                   "  - {name: the HMI is fresh, always: abs(glShown - AxisX.posit) <= 40, from: 100 ms}\n");
   Problems problems;
   Scenario scenario = read_scenario(folder.file("saw.yaml", text), {}, problems);
-  EXPECT_EQ(listed(problems), "");
+  EXPECT_EQ(lines_of(problems), "");
   return scenario;
 }
 
