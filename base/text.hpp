@@ -33,7 +33,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
                        const std::string& otherwise);
 /// "A, B, C".
 std::string listed(const std::vector<std::string>& items);
-/// Without the blanks around it: spaces, tabs, CR.
+/// Without the blanks around it (spaces, tabs, CR); what is left is a piece of `text`, even of no length.
 std::string_view trimmed(std::string_view text);
 /// Windows' editors begin a UTF-8 text with a byte order mark.
 std::string_view without_byte_order_mark(std::string_view text);

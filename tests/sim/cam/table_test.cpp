@@ -171,7 +171,7 @@ TEST(CamTable, FaultsOfNumbers) {
   EXPECT_THAT(
       faults(header + std::string("1,136,nan\n1\0,136\n", 16)),
       ElementsAre("2:7: codeQm 'nan' is not a whole number; write a whole number from -159154 to 999999",
-                  "3:1: sector '1?' is not a whole number; write a whole number from 1 to 128"));
+                  "3:1: sector '1\\x00' is not a whole number; write a whole number from 1 to 128"));
 }
 
 TEST(CamTable, AllFaultsInOneRun) {

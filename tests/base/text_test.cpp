@@ -1,0 +1,44 @@
+#include "base/text.hpp"
+
+#include <gmock/gmock.h>
+
+namespace drycut {
+namespace {
+
+TEST(Text, TrimmedIsAPieceOfTheText) {
+  const std::string_view text = " \t posit = 5\r";
+  EXPECT_EQ(trimmed(text), "posit = 5");
+  EXPECT_EQ(trimmed("posit"), "posit");
+  // Places are told by where the piece lies in its line, even if nothing is left.
+  const std::string_view blank = "  \t";
+  EXPECT_EQ(trimmed(blank), "");
+  EXPECT_EQ(trimmed(blank).data(), blank.data());
+}
+
+TEST(Text, AByteOrderMarkIsTakenOffOnce) {
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF"
+                                    "a"),
+            "a");
+  EXPECT_EQ(without_byte_order_mark("a"), "a");
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF\xEF\xBB\xBF"), "\xEF\xBB\xBF");
+}
+
+TEST(Text, CellsAreQuotedWhereTheyHaveTo) {
+  EXPECT_EQ(csv_cell("knife.angle [deg]"), "knife.angle [deg]");
+  EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_cell("5\" pipe"), "\"5\"\" pipe\"");
+  EXPECT_EQ(csv_cell("two\nlines"), "\"two\nlines\"");
+}
+
+TEST(Text, XmlSaysItsSigns) {
+  EXPECT_EQ(xml_text("a < b & \"c\" > 'd'"), "a &lt; b &amp; &quot;c&quot; &gt; &#39;d&#39;");
+}
+
+TEST(Text, QuotesShowBytesAndCutWhatIsLong) {
+  EXPECT_EQ(in_quotes("posit"), "'posit'");
+  EXPECT_EQ(in_quotes(std::string_view("1\0", 2)), "'1\\x00'");
+  EXPECT_EQ(in_quotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+}
+
+}  // namespace
+}  // namespace drycut
