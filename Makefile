@@ -2,6 +2,7 @@
 #
 #   make demo    the rotary knife line: builds, runs it, says where the report is
 #   make test    builds and runs all tests
+#   make quick   the tests that take seconds
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
 #   make sanitize, make fuzz, make same-bytes, make lint, make tidy, make format, make meshes: for those who change the code
@@ -30,7 +31,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test bench clang sanitize fuzz same-bytes lint tidy format meshes clean
+.PHONY: all setup demo test quick bench clang sanitize fuzz same-bytes lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -51,6 +52,14 @@ test: setup
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
+# The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.
+SLOW := *Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*
+quick: setup
+	$(call install,$(TEST_PACKAGES))
+	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
+	cmake --build $(BUILD) -j $(JOBS) --target base_tests devices_tests plants_tests sim_tests
+	GTEST_FILTER='-$(SLOW)' tests/in_shards $(BUILD) base devices plants sim
+
 bench: setup
 	$(call install,$(BENCH_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD) -DDRYCUT_BENCH=ON
@@ -67,8 +76,7 @@ clang: setup
 ROOMS ?= base devices plants renders sim scenes
 sanitize: clang
 	cmake --build $(CLANG) -j $(JOBS) --target $(ROOMS:%=%_tests)
-	cd $(CLANG) && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp \
-	  ctest --output-on-failure -j $(JOBS) -R '^($(subst $(eval ) ,|,$(strip $(ROOMS))))\.'
+	LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp tests/in_shards $(CLANG) $(ROOMS)
 
 # Every kind of input, 10 minutes each; FUZZ="-runs=2000 -seed=1" is the same work on every machine.
 FUZZ ?= -max_total_time=600
