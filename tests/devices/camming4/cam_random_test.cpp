@@ -248,7 +248,7 @@ TEST(CamRandom, ExtremeCountsSaturate) {
     cam.advance({count, far, far, -far - 1, 0});
     expect_sane(cam.step());
     cam.start({.master_count = count, .slave_bits = far});
-    cam.advance({-count - 1, -far - 1, -far - 1, far, 1e300});
+    cam.advance({~count, -far - 1, -far - 1, far, 1e300});
     expect_sane(cam.step());
   }
 }

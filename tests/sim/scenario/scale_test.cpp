@@ -18,7 +18,7 @@ double seconds_of(Work work) {
 }
 
 /// Far more than it takes under sanitizers; what grows with the square took minutes and hours.
-constexpr double patience = 20;  // [s]
+constexpr double patience = 60;  // [s]
 
 struct LargeScenario : testing::Test {
   void read(const std::string& text) {
