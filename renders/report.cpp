@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/sheet.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
 #include "renders/report_data.hpp"
@@ -244,6 +245,12 @@ void replace_file(const std::filesystem::path& file, const std::string& bytes) {
 }
 
 }  // namespace
+
+std::string rows_text(const ReportTable& table, std::size_t width) {
+  std::vector<std::vector<std::string>> rows = {table.headings};
+  for (const ReportRow& row : table.rows) rows.push_back(row.cells);
+  return in_columns(rows, width);
+}
 
 void write_report(const Report& report, const std::filesystem::path& file) {
   std::string page;

@@ -27,6 +27,9 @@ struct ReportTable {
   bool verdicts = false;
 };
 
+/// Headings and rows for a terminal, wrapped to `width` characters; 0 = no limit.
+std::string rows_text(const ReportTable& table, std::size_t width);
+
 struct ReportFigure {
   std::filesystem::path png;  ///< "" = none was drawn: its data, if the report has them, stand alone
   std::string caption;

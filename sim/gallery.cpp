@@ -341,12 +341,7 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   for (const auto& check : outcome.checks) {
     report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
   }
-  if (outcome.half_step) {
-    auto margins = margin_table(outcome, scenario.scene.step);
-    renders::ReportTable table{"Margins at half the step", std::move(margins.headings), {}, false, true};
-    for (auto& row : margins.rows) table.rows.push_back({std::move(row)});
-    report.summary.push_back(std::move(table));
-  }
+  if (outcome.half_step) report.summary.push_back(margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
     for (const auto index : chosen_frames(simulation, report_frames))
       report.frames.push_back({drawn.frames.at(index), frame_label(simulation, index)});

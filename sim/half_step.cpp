@@ -49,21 +49,24 @@ std::optional<double> moved(const CheckResult& check, const CheckResult& at_half
   return *at_half.margin - *check.margin;
 }
 
-MarginTable margin_table(const Outcome& outcome, Time step) {
+renders::ReportTable margin_table(const Outcome& outcome, Time step) {
   const auto& half = outcome.half_step.value();
-  MarginTable table;
-  table.headings = {"check", "margin at " + format_time(step), "margin at " + format_time(half.step),
-                    "moved by"};
+  renders::ReportTable table{
+      "Margins at half the step",
+      {"check", "margin at " + format_time(step), "margin at " + format_time(half.step), "moved by"},
+      {},
+      false,
+      true};
   for (std::size_t i = 0; i < outcome.checks.size() && i < half.checks.size(); ++i) {
     const auto& check = outcome.checks[i];
     const auto& other = half.checks[i];
     const auto by = moved(check, other);
     table.rows.push_back(
-        {check.name, cell(check), cell(other),
-         fmt::format("{}{}", by ? number(*by, check.unit) : "",
-                     check.passed == other.passed ? "" : " : the verdict hangs on the step")});
+        {{check.name, cell(check), cell(other),
+          fmt::format("{}{}", by ? number(*by, check.unit) : "",
+                      check.passed == other.passed ? "" : " : the verdict hangs on the step")}});
   }
-  if (!half.failure.empty()) table.rows.push_back({"the simulation", "PASS", "FAIL", half.failure});
+  if (!half.failure.empty()) table.rows.push_back({{"the simulation", "PASS", "FAIL", half.failure}});
   return table;
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 #include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
+#include "renders/report.hpp"
 #include "sim/simulation.hpp"
 
 namespace drycut::sim {
@@ -18,13 +17,8 @@ std::optional<Override> halved_step(const Scenario& scenario, Problems& problems
 /// if it cannot be put together.
 HalfStep run_half_step(Scenario scenario, const std::function<void(Time)>& progress);
 
-/// Check by check the margins at both steps and how far they moved: headings and rows of a table, cells begin
-/// with PASS or FAIL. `step` is the scenario's own.
-struct MarginTable {
-  std::vector<std::string> headings;
-  std::vector<std::vector<std::string>> rows;
-};
-MarginTable margin_table(const Outcome& outcome, Time step);
+/// Check by check the margins at both steps and how far they moved. `step` is the scenario's own.
+renders::ReportTable margin_table(const Outcome& outcome, Time step);
 /// Margin at half the step less margin at the step; nullopt where one has none.
 std::optional<double> moved(const CheckResult& check, const CheckResult& at_half);
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/sheet.hpp"
 #include "sim/cam/findings.hpp"
 
 namespace drycut::sim {
@@ -17,13 +18,13 @@ inline std::string plain(double value) { return number_text(std::abs(value) < 1e
 class Columns {
  public:
   /// One flag a column: true for words.
-  explicit Columns(std::vector<bool> words) : words_(std::move(words)) {}
+  explicit Columns(std::vector<bool> words) : numbers_(std::move(words)) { numbers_.flip(); }
   void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string text() const { return in_columns(lines_, 0, numbers_); }
   [[nodiscard]] const std::vector<std::vector<std::string>>& lines() const { return lines_; }
 
  private:
-  std::vector<bool> words_;
+  std::vector<bool> numbers_;
   std::vector<std::vector<std::string>> lines_;
 };
 

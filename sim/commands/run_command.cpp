@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "base/plain_text.hpp"
+#include "base/sheet.hpp"
 #include "renders/gltf.hpp"
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/progress.hpp"
-#include "sim/commands/text_table.hpp"
 #include "sim/compare/scene_run.hpp"
 #include "sim/controller_loader.hpp"
 #include "sim/file.hpp"
@@ -308,10 +308,9 @@ void print_result(const Job& job) {
              seconds_text(result.outcome.end));
   print_checks(result.outcome.checks);
   if (result.outcome.half_step) {
-    auto margins = margin_table(result.outcome, job.scenario.scene.step);
-    TextTable table(std::move(margins.headings));
-    for (auto& row : margins.rows) table.add(std::move(row));
-    table.print("  margins at half the step");
+    const auto margins = margin_table(result.outcome, job.scenario.scene.step);
+    if (!margins.rows.empty())
+      fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
   }
   for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
   for (const auto& why : job.left_out) tell_left_out(why);

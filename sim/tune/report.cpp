@@ -163,25 +163,7 @@ ReportTable trials_table(const Tuning& tuning) {
   return table;
 }
 
-std::string as_text(const ReportTable& table) {
-  std::vector<std::size_t> widths;
-  const auto measure_row = [&](const std::vector<std::string>& cells) {
-    widths.resize(std::max(widths.size(), cells.size()));
-    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
-  };
-  measure_row(table.headings);
-  for (const auto& row : table.rows) measure_row(row.cells);
-  std::string text = table.title + "\n";
-  const auto line = [&](const std::vector<std::string>& cells) {
-    std::string made = " ";
-    for (std::size_t i = 0; i < cells.size(); ++i) made += fmt::format(" {:<{}} ", cells[i], widths[i]);
-    made.erase(made.find_last_not_of(' ') + 1);
-    text += made + "\n";
-  };
-  line(table.headings);
-  for (const auto& row : table.rows) line(row.cells);
-  return text;
-}
+std::string as_text(const ReportTable& table) { return table.title + "\n" + renders::rows_text(table, 0); }
 
 /// The least room of a constraint over the spread; NaN if it was never measured.
 double least_room(const Trials& spread, std::size_t constraint) {
