@@ -1,9 +1,10 @@
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
 #include "sim/commands/commands.hpp"
-#include "sim/commands/controller_table.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "devices/plcopen/axis_values.hpp"
 #include "devices/plcopen/errors.hpp"
@@ -9,7 +10,6 @@
 #include "devices/plcopen/readings.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/commands/commands.hpp"
-#include "sim/commands/controller_table.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {

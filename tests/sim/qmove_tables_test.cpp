@@ -1,9 +1,10 @@
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "devices/catalogue.hpp"
 #include "devices/qmove/language.hpp"
 #include "sim/commands/commands.hpp"
-#include "sim/commands/controller_table.hpp"
 #include "tests/sim/command_bench.hpp"
 
 // `drycut devices` marks readings of ours, with the place that leaves them open, in text and JSON.
