@@ -5,7 +5,7 @@
 
 #include "devices/device.hpp"
 
-// What every device's tables are written with; all of it is done while compiling.
+// What every device's tables are written with and found in by name; all of it is done while compiling.
 namespace drycut::devices {
 
 // constexpr where a consteval function hands its own parameters on: Clang 14 takes no consteval call there.
@@ -17,10 +17,6 @@ constexpr int find_row(const Rows& rows, std::string_view name) {
     if (rows[i].name == name) return static_cast<int>(i);
   throw "no such row";
 }
-template <typename Rows>
-consteval int row_of(const Rows& rows, std::string_view name) {
-  return find_row(rows, name);
-}
 
 /// The rows of `first`, then those of `then`.
 template <typename Row, std::size_t N, std::size_t M>
@@ -31,25 +27,76 @@ consteval std::array<Row, N + M> joined(const std::array<Row, N>& first, const s
   return rows;
 }
 
-/// The condition that these rows of `states` are 1, or 0 where the name begins with '!'.
-template <typename States>
-constexpr Condition condition_of(const States& states, std::initializer_list<std::string_view> names,
-                                 std::string_view also = {}) {
-  Condition condition{0, 0, also};
-  for (std::string_view name : names) {
-    const bool off = name.starts_with('!');
-    const std::uint64_t bit = std::uint64_t{1} << find_row(states, off ? name.substr(1) : name);
-    condition.mask |= bit;
-    if (!off) condition.value |= bit;
+/// needs({"st_init", "!st_emrg"}): the condition that these rows of `states` are 1, or 0 where the name
+/// begins with '!'.
+template <const auto& states>
+struct Needs {
+  consteval Condition operator()(std::initializer_list<std::string_view> names,
+                                 std::string_view also = {}) const {
+    Condition condition{0, 0, also};
+    for (std::string_view name : names) {
+      const bool off = name.starts_with('!');
+      const std::uint64_t bit = std::uint64_t{1} << find_row(states, off ? name.substr(1) : name);
+      condition.mask |= bit;
+      if (!off) condition.value |= bit;
+    }
+    return condition;
   }
-  return condition;
-}
+};
 
-/// The effect that this row of `states` becomes 1, or 0 where the name begins with '!'. `quiet`: see Effect.
-template <typename States>
-constexpr Effect effect_of(const States& states, std::string_view name, bool quiet) {
-  const bool off = name.starts_with('!');
-  return {find_row(states, off ? name.substr(1) : name), !off, quiet};
-}
+/// turns("st_emrg"): the effect that this row of `states` becomes 1, or 0 where the name begins with '!'.
+/// `quiet`: see Effect.
+template <const auto& states, bool quiet>
+struct Turns {
+  consteval Effect operator()(std::string_view name) const {
+    const bool off = name.starts_with('!');
+    return {find_row(states, off ? name.substr(1) : name), !off, quiet};
+  }
+};
+
+// The ends of a variable of size L.
+inline constexpr double lowest = -2147483648.0;
+inline constexpr double highest = 2147483647.0;
+
+/// Number of a row of `type`, which its name stands for; a name that is not in the table does not compile.
+template <const DeviceType& type, auto rows>
+class NamedRow {
+ public:
+  consteval NamedRow(const char* name) : number_(find_row(type.*rows, name)) {}
+  constexpr explicit NamedRow(int number) : number_(number) {}
+  constexpr operator int() const { return number_; }
+  friend constexpr bool operator==(NamedRow a, NamedRow b) = default;
+
+ private:
+  int number_;
+};
+
+/// A device whose rows go by their names in `table`: value("pgain"), state("st_still").
+template <const DeviceType& table>
+class TableDevice : public Device {
+ protected:
+  using VariableRow = NamedRow<table, &DeviceType::variables>;
+  using StateRow = NamedRow<table, &DeviceType::states>;
+  using CommandRow = NamedRow<table, &DeviceType::commands>;
+  using FieldRow = NamedRow<table, &DeviceType::fields>;
+
+  /// `type` has at least the rows of `table`, in the same places.
+  explicit TableDevice(const DeviceType& type = table) : Device(type) {}
+
+  [[nodiscard]] bool state(StateRow row) const { return Device::state(row); }
+  void set_state(StateRow row, bool on) { Device::set_state(row, on); }
+  [[nodiscard]] std::int32_t& value(VariableRow variable, int row = 0) {
+    return Device::value(variable, row);
+  }
+  [[nodiscard]] std::int32_t value(VariableRow variable, int row = 0) const {
+    return Device::value(variable, row);
+  }
+  [[nodiscard]] std::string_view name_of(VariableRow variable) const {
+    return table.variables[variable].name;
+  }
+  void report_outside(VariableRow variable, std::int32_t low, VariableRow high) {
+    Device::report_outside(variable, low, high);
+  }
+};
 
 }  // namespace drycut::devices

@@ -5,22 +5,9 @@
 #include <utility>
 
 #include "devices/axis/speed.hpp"
-#include "devices/camming4/readings.hpp"
-#include "devices/camming4/rows.hpp"
 #include "devices/terminals.hpp"
 
 namespace drycut::devices::camming4 {
-
-const DeviceType camming4_type = {
-    "CAMMING4",
-    "analogue slave axis: positioner and cam generator of 128 sectors",
-    table::variables,
-    table::states,
-    table::commands,
-    table::fields,
-    {},
-    table::readings,
-};
 
 std::unique_ptr<Device> make_camming4(const Resources& resources, Cards& cards) {
   return std::make_unique<Camming4>(resources, cards);
@@ -37,19 +24,19 @@ void resume_quota(axis::Quota& quota, axis::Resolution resolution, std::int32_t 
 
 }  // namespace
 
-Camming4::Camming4(const Resources& resources, Cards& cards) : Device(camming4_type) {
-  period_ms_ = std::max(resources[f_TCamp].number, 1);
-  terminals_.slave = connect(cards.counters, resources[f_CountS]);
-  terminals_.master = {connect(cards.counters, resources[f_CountMA]),
-                       connect(cards.counters, resources[f_CountMB])};
-  terminals_.enable = connect(cards.inputs, resources[f_IAZero]);
-  terminals_.enable_master = connect(cards.inputs, resources[f_IAZeroM]);
-  terminals_.input = connect(cards.inputs, resources[f_InG]);
-  terminals_.dac = connect(cards.analogue_outputs, resources[f_IoutA]);
-  terminals_.output = connect(cards.outputs, resources[f_Out]);
-  terminals_.zero_line = resources[f_IntL].number;
-  terminals_.zero_line_master = resources[f_IntLM].number;
-  terminals_.function_line = resources[f_InGInt].number;
+Camming4::Camming4(const Resources& resources, Cards& cards) {
+  period_ms_ = std::max(resources[FieldRow("TCamp")].number, 1);
+  terminals_.slave = connect(cards.counters, resources[FieldRow("CountS")]);
+  terminals_.master = {connect(cards.counters, resources[FieldRow("CountMA")]),
+                       connect(cards.counters, resources[FieldRow("CountMB")])};
+  terminals_.enable = connect(cards.inputs, resources[FieldRow("IAZero")]);
+  terminals_.enable_master = connect(cards.inputs, resources[FieldRow("IAZeroM")]);
+  terminals_.input = connect(cards.inputs, resources[FieldRow("InG")]);
+  terminals_.dac = connect(cards.analogue_outputs, resources[FieldRow("IoutA")]);
+  terminals_.output = connect(cards.outputs, resources[FieldRow("Out")]);
+  terminals_.zero_line = resources[FieldRow("IntL")].number;
+  terminals_.zero_line_master = resources[FieldRow("IntLM")].number;
+  terminals_.function_line = resources[FieldRow("InGInt")].number;
   if (terminals_.function_line != 0)
     terminals_.interrupt_level = &cards.interrupt_lines[terminals_.function_line];
   rescale();
@@ -75,11 +62,11 @@ void Camming4::initialise() {
   recompute();
   load_table();
   // Kept positions go on with their remainder, unless memory was restored from elsewhere.
-  resume_quota(axis_.quota, axis_.settings.resolution, value(v_posit), value(v_encoder));
-  resume_quota(master_quota_, master_resolution_, value(v_positm), value(v_encoderm));
-  if (terminals_.slave) check_resolution(v_measure, v_pulse, axis_.settings.resolution);
+  resume_quota(axis_.quota, axis_.settings.resolution, value("posit"), value("encoder"));
+  resume_quota(master_quota_, master_resolution_, value("positm"), value("encoderm"));
+  if (terminals_.slave) check_resolution("measure", "pulse", axis_.settings.resolution);
   if (terminals_.master[0] || terminals_.master[1])
-    check_resolution(v_measurem, v_pulsem, master_resolution_);
+    check_resolution("measurem", "pulsem", master_resolution_);
 
   axis_.rebase(count_of(terminals_.slave));
   master_.rebase(master_raw());
@@ -103,16 +90,16 @@ void Camming4::initialise() {
   inhibit_stop_ms_ = 0;
 }
 
-std::int64_t Camming4::master_raw() const { return count_of(terminals_.master[value(v_mtype) == 1 ? 1 : 0]); }
+std::int64_t Camming4::master_raw() const { return count_of(terminals_.master[value("mtype") == 1 ? 1 : 0]); }
 
 void Camming4::latch() {
-  if (!state(st_init)) return;
-  axis_.follow(count_of(terminals_.slave), state(st_cntlock), state(st_cntrev));
-  const std::int64_t moved = master_.follow(master_raw(), state(st_cntlockm), state(st_cntrevm));
+  if (!state("st_init")) return;
+  axis_.follow(count_of(terminals_.slave), state("st_cntlock"), state("st_cntrev"));
+  const std::int64_t moved = master_.follow(master_raw(), state("st_cntlockm"), state("st_cntrevm"));
   master_moved_ = moved;
   master_quota_.count(moved, master_resolution_);
   if (master_frequency_.sample(moved, period_ms_, master_window_ms_))
-    value(v_frqm) = axis::to_long(master_frequency_.bits_per_second() / 4);
+    value("frqm") = axis::to_long(master_frequency_.bits_per_second() / 4);
 
   std::int64_t& oldest = master_history_[master_history_next_];
   master_way_ = axis::difference(master_.total(), oldest);
@@ -123,7 +110,7 @@ void Camming4::latch() {
 void Camming4::step() {
   sample_inputs();
   sample_presets();
-  if (state(st_camex))
+  if (state("st_camex"))
     step_cam();
   else
     step_positioner();
@@ -189,7 +176,7 @@ void Camming4::step_cam() {
   axis_.quota.shift(-cam.slave_shift);
   for (int i = 0; i < cam.read_out_count; ++i) {
     const CamStep::ReadOut& read = cam.read_outs[static_cast<std::size_t>(i)];
-    value(v_codeQma, read.row - 1) = read.codeQma;
+    value("codeQma", read.row - 1) = read.codeQma;
   }
   for (int i = 0; i < cam.warning_count; ++i) {
     const CamEvent& warning = cam.warnings[static_cast<std::size_t>(i)];
@@ -199,8 +186,8 @@ void Camming4::step_cam() {
     fail(cam.error.code, cam.error.row);
     return;
   }
-  value(v_rowex) = cam.row;
-  value(v_codeMex) = cam.codeM;
+  value("rowex") = cam.row;
+  value("codeMex") = cam.codeM;
 
   recovery_due_ += cam.recovery;
   step_recovery();
@@ -227,7 +214,7 @@ void Camming4::step_recovery() {
     recovery_due_ = 0;
     recovery_way_ = 0;
     recovery_.move(static_cast<double>(recovery_running_) * axis::bits_per_um(axis_.settings.resolution),
-                   axis_.demand(value(v_setvel)));
+                   axis_.demand(value("setvel")));
   }
   recovery_way_ += recovery_.step(period_ms_ / 1000.0);
   if (recovery_.moving()) return;
@@ -239,28 +226,28 @@ void Camming4::step_recovery() {
 void Camming4::step_positioner() {
   axis_.step_profile();
   if (search_.finished(axis_)) {
-    set_state(st_prson, false);
-    set_state(st_prsok, true);
+    set_state("st_prson", false);
+    set_state("st_prsok", true);
   }
-  if (!axis_.profile().moving() && !search_.searching()) set_state(st_still, true);
+  if (!axis_.profile().moving() && !search_.searching()) set_state("st_still", true);
 }
 
 void Camming4::regulate() {
   using axis::Drive;
-  const Drive drive = state(st_emrg)     ? Drive::emergency
-                      : state(st_regoff) ? Drive::frozen
-                      : state(st_cal)    ? Drive::calibration
-                      : state(st_loopon) ? Drive::reaction
-                                         : Drive::open_loop;
-  axis_.regulate(drive, value(v_vout));
+  const Drive drive = state("st_emrg")     ? Drive::emergency
+                      : state("st_regoff") ? Drive::frozen
+                      : state("st_cal")    ? Drive::calibration
+                      : state("st_loopon") ? Drive::reaction
+                                           : Drive::open_loop;
+  axis_.regulate(drive, value("vout"));
   const axis::DacOutput output = axis_.output();
   if (terminals_.dac) put_out(drive, output.word);
   if (drive != Drive::calibration) {
-    if (output.saturated > 0) warn(3, value(v_rowex));
-    if (output.saturated < 0) warn(4, value(v_rowex));
+    if (output.saturated > 0) warn(3, value("rowex"));
+    if (output.saturated < 0) warn(4, value("rowex"));
     // A calibration that regulation off has frozen goes on with its voltage.
-    if (drive != Drive::frozen || !state(st_cal))
-      value(v_vout) = axis::to_long(output.word / axis::dac_bits_of_tenths(1));
+    if (drive != Drive::frozen || !state("st_cal"))
+      value("vout") = axis::to_long(output.word / axis::dac_bits_of_tenths(1));
   }
 }
 
@@ -273,59 +260,60 @@ void Camming4::put_out(axis::Drive drive, std::int16_t word) {
 
 void Camming4::publish_positions() {
   const axis::Resolution resolution = axis_.settings.resolution;
-  value(v_posit) = axis_.posit();
-  value(v_encoder) = static_cast<std::int32_t>(axis_.quota.bits(resolution));
-  value(v_positm) = static_cast<std::int32_t>(master_quota_.um(master_resolution_));
-  value(v_encoderm) = static_cast<std::int32_t>(master_quota_.bits(master_resolution_));
+  value("posit") = axis_.posit();
+  value("encoder") = static_cast<std::int32_t>(axis_.quota.bits(resolution));
+  value("positm") = static_cast<std::int32_t>(master_quota_.um(master_resolution_));
+  value("encoderm") = static_cast<std::int32_t>(master_quota_.bits(master_resolution_));
   if (axis_.frequency_new()) {
     const double rate = axis_.frequency().bits_per_second();
-    value(v_frq) = axis::to_long(rate / 4);
-    value(v_vel) =
+    value("frq") = axis::to_long(rate / 4);
+    value("vel") =
         axis_.settings.bits_per_speed > 0 ? axis::to_long(rate / axis_.settings.bits_per_speed) : 0;
   }
 }
 
 void Camming4::publish_regulation() {
   const axis::Actions& actions = axis_.actions();
-  value(v_follerr) = axis::to_long(std::abs(axis_.error()));
-  value(v_ffwdreg) = axis::to_long(actions.feed_forward);
-  value(v_propreg) = axis::to_long(actions.proportional);
-  value(v_intreg) = axis::to_long(actions.integral);
-  value(v_derreg) = axis::to_long(actions.derivative);
-  set_state(st_foller, axis_.following_error());
+  value("follerr") = axis::to_long(std::abs(axis_.error()));
+  value("ffwdreg") = axis::to_long(actions.feed_forward);
+  value("propreg") = axis::to_long(actions.proportional);
+  value("intreg") = axis::to_long(actions.integral);
+  value("derreg") = axis::to_long(actions.derivative);
+  set_state("st_foller", axis_.following_error());
 
   const axis::Resolution resolution = axis_.settings.resolution;
-  const double band = static_cast<double>(value(v_syncrange)) * static_cast<double>(resolution.pulse);
+  const double band = static_cast<double>(value("syncrange")) * static_cast<double>(resolution.pulse);
   const bool in_band = std::abs(axis_.error()) * static_cast<double>(resolution.measure) <= band;
-  const bool was_sync = state(st_sync);
-  set_state(st_sync, state(st_camex) && in_band);
-  if (was_sync && state(st_camex) && !in_band) warn(12, value(v_rowex));
+  const bool was_sync = state("st_sync");
+  set_state("st_sync", state("st_camex") && in_band);
+  if (was_sync && state("st_camex") && !in_band) warn(12, value("rowex"));
 }
 
 bool Camming4::within(std::int32_t quota) const {
-  const std::int64_t miss = std::int64_t{value(v_posit)} - quota;
-  return std::abs(miss) <= value(v_toll);
+  const std::int64_t miss = std::int64_t{value("posit")} - quota;
+  return std::abs(miss) <= value("toll");
 }
 
 void Camming4::publish_states() {
   const axis::Profile& profile = axis_.profile();
   const axis::Phase phase = profile.phase();
-  set_state(st_acc, phase == axis::Phase::accelerating);
-  set_state(st_dec, phase == axis::Phase::decelerating);
-  set_state(st_vconst, phase == axis::Phase::constant);
-  set_state(st_chvel, profile.moving() && !profile.stopping() && !profile.in_last_ramp() && !state(st_prson));
-  if (profile.moving()) set_state(st_movdir, profile.backward());
-  set_state(st_tpos, within(value(v_setpos)));
+  set_state("st_acc", phase == axis::Phase::accelerating);
+  set_state("st_dec", phase == axis::Phase::decelerating);
+  set_state("st_vconst", phase == axis::Phase::constant);
+  set_state("st_chvel",
+            profile.moving() && !profile.stopping() && !profile.in_last_ramp() && !state("st_prson"));
+  if (profile.moving()) set_state("st_movdir", profile.backward());
+  set_state("st_tpos", within(value("setpos")));
   const auto placed = axis_.placed();
-  set_state(st_toll, placed && within(*placed));
-  set_state(st_int, terminals_.interrupt_level && terminals_.interrupt_level->level);
+  set_state("st_toll", placed && within(*placed));
+  set_state("st_int", terminals_.interrupt_level && terminals_.interrupt_level->level);
 }
 
 void Camming4::drive_output() {
   if (!terminals_.output) return;
-  const std::int32_t code = value(v_codeMex);
+  const std::int32_t code = value("codeMex");
   bool& level = terminals_.output->level;
-  switch (value(v_funOut)) {
+  switch (value("funOut")) {
     case 1:
       level = false;
       break;
@@ -333,19 +321,19 @@ void Camming4::drive_output() {
       level = true;
       break;
     case 3:
-      level = state(st_toll);
+      level = state("st_toll");
       break;
     case 4:
-      level = state(st_tpos);
+      level = state("st_tpos");
       break;
     case 5:
-      level = state(st_sync);
+      level = state("st_sync");
       break;
     case 6:
       level = code == 1000;
       break;
     case 7:
-      level = code == 1000 && state(st_sync);
+      level = code == 1000 && state("st_sync");
       break;
     case 8:
       level = code == 1001;

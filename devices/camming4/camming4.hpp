@@ -9,14 +9,12 @@
 #include "devices/axis/preset.hpp"
 #include "devices/camming4/cam.hpp"
 #include "devices/camming4/recalculation.hpp"
-#include "devices/device.hpp"
+#include "devices/camming4/table.hpp"
 
 namespace drycut::devices::camming4 {
 
-extern const DeviceType camming4_type;
-
 /// The CAMMING4 device: a positioner and a cam generator on one slave axis (000 1; spec qem.md 8).
-class Camming4 final : public Device {
+class Camming4 final : public TableDevice<camming4_type> {
  public:
   /// `resources` as the .CNF record gives them, in the order of DeviceType::fields; terminals that the cards
   /// lack are added.
@@ -66,11 +64,11 @@ class Camming4 final : public Device {
   void rescale();
   void load_table();
   void write_row(Symbol symbol, std::int32_t value);
-  void write_position(int variable, std::int32_t value);
-  void write_motion(int variable);
-  void check_dependent_range(int variable);
-  void check_resolution(int measure, int pulse, axis::Resolution resolution);
-  void tell_acts(int variable);
+  void write_position(VariableRow variable, std::int32_t value);
+  void write_motion(VariableRow variable);
+  void check_dependent_range(VariableRow variable);
+  void check_resolution(VariableRow measure, VariableRow pulse, axis::Resolution resolution);
+  void tell_acts(VariableRow variable);
   void requota(std::string_view cause);
 
   // Commands (camming4_commands.cpp).

@@ -5,7 +5,6 @@
 
 #include "devices/axis/speed.hpp"
 #include "devices/camming4/camming4.hpp"
-#include "devices/camming4/rows.hpp"
 
 namespace drycut::devices::camming4 {
 
@@ -20,7 +19,7 @@ std::optional<CamAxis> Camming4::cam_axis() {
 
 /// In Um from where master and slave were at the start.
 CamMoment Camming4::cam_moment() const {
-  if (!state(st_camex)) return {};
+  if (!state("st_camex")) return {};
   const double slave_bits = axis::bits_per_um(axis_.settings.resolution);
   const auto begin = static_cast<double>(master_.total() - cam_start_.master_count);
   CamMoment moment;
@@ -42,11 +41,11 @@ std::string Camming4::cam_table() const {
   if (rows.empty()) return "";
   auto text = fmt::format(
       "# measure: {}\n# pulse: {}\n# measurem: {}\n# pulsem: {}\n# decpt: {}\n# unitvel: {}\n# TCamp: {}\n",
-      value(v_measure), value(v_pulse), value(v_measurem), value(v_pulsem), value(v_decpt), value(v_unitvel),
+      value("measure"), value("pulse"), value("measurem"), value("pulsem"), value("decpt"), value("unitvel"),
       period_ms_);
-  if (value(v_maxvel) > 0)
-    text += fmt::format("# maxvel: {}\n# taccmax: {}\n# tdecmax: {}\n", value(v_maxvel), value(v_taccmax),
-                        value(v_tdecmax));
+  if (value("maxvel") > 0)
+    text += fmt::format("# maxvel: {}\n# taccmax: {}\n# tdecmax: {}\n", value("maxvel"), value("taccmax"),
+                        value("tdecmax"));
   return text + "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM\n" + rows;
 }
 

@@ -5,66 +5,65 @@
 #include "devices/axis/limits.hpp"
 #include "devices/camming4/camming4.hpp"
 #include "devices/camming4/messages.hpp"
-#include "devices/camming4/rows.hpp"
 
 namespace drycut::devices::camming4 {
 
 bool Camming4::may_execute(int command) {
   switch (command) {
-    case c_PRESET:
-      return state(st_still) || state(st_prson);
-    case c_STOPCAM:
+    case CommandRow("PRESET"):
+      return state("st_still") || state("st_prson");
+    case CommandRow("STOPCAM"):
       return inhibit_stop_ms_ <= 0;
-    case c_INTDSBL:
-      return value(v_intcapt) > 0;
+    case CommandRow("INTDSBL"):
+      return value("intcapt") > 0;
     default:
       return true;
   }
 }
 
-void Camming4::refused(int) { warn(11, value(v_rowex)); }
+void Camming4::refused(int) { warn(11, value("rowex")); }
 
 void Camming4::execute(int command) {
   switch (command) {
-    case c_EMRG:
+    case CommandRow("EMRG"):
       emergency();
       break;
-    case c_RESUME:
-    case c_CALOFF:
-    case c_REGON:
+    case CommandRow("RESUME"):
+    case CommandRow("CALOFF"):
+    case CommandRow("REGON"):
       axis_.settle();
       break;
-    case c_PRESETM:
-      if (value(v_prsmodem) == 2) break;  // no search: the enable loads
-      set_state(st_prsonm, true);
-      set_state(st_prsokm, false);
+    case CommandRow("PRESETM"):
+      if (value("prsmodem") == 2) break;  // no search: the enable loads
+      set_state("st_prsonm", true);
+      set_state("st_prsokm", false);
       master_released_ = false;
       break;
-    case c_RSPRSM:
-      set_state(state(st_prsonm) ? st_prsonm : st_prsokm, false);
+    case CommandRow("RSPRSM"):
+      set_state(state("st_prsonm") ? StateRow("st_prsonm") : StateRow("st_prsokm"), false);
       break;
-    case c_RSERR:
-      value(v_errcode) = value(v_errvalue) = 0;
+    case CommandRow("RSERR"):
+      value("errcode") = value("errvalue") = 0;
       break;
-    case c_RSWRN:
-      value(v_wrncode) = value(v_wrnvalue) = 0;
+    case CommandRow("RSWRN"):
+      value("wrncode") = value("wrnvalue") = 0;
       break;
-    case c_DELCNT:
-      axis_.quota.add_um(value(v_delta1), axis_.settings.resolution);
+    case CommandRow("DELCNT"):
+      axis_.quota.add_um(value("delta1"), axis_.settings.resolution);
       break;
-    case c_DELCNTM:
-      master_quota_.add_um(value(v_delta2), master_resolution_);
+    case CommandRow("DELCNTM"):
+      master_quota_.add_um(value("delta2"), master_resolution_);
       break;
-    case c_LOOPON:
+    case CommandRow("LOOPON"):
       // In a cam the table goes on from where the axis is; else the axis would jump after it.
-      slip_due_ = state(st_camex);
+      slip_due_ = state("st_camex");
       if (!slip_due_) axis_.settle();
       break;
-    case c_CALON:
+    case CommandRow("CALON"):
       rest();
-      value(v_vout) = 0;  // it showed the running output: calibration begins at 0 V
+      value("vout") = 0;  // it showed the running output: calibration begins at 0 V
       break;
-    case c_INTDSBL:
+    case CommandRow("INTDSBL"):
       capture_.reset();
       break;
     default:
@@ -75,27 +74,27 @@ void Camming4::execute(int command) {
 
 void Camming4::execute_motion(int command) {
   switch (command) {
-    case c_STOP:
+    case CommandRow("STOP"):
       search_.abort();
-      set_state(st_prson, false);
+      set_state("st_prson", false);
       axis_.stop();
       break;
-    case c_START:
+    case CommandRow("START"):
       start_placement();
       break;
-    case c_PRESET:
+    case CommandRow("PRESET"):
       preset();
       break;
-    case c_MANFW:
+    case CommandRow("MANFW"):
       start_manual(false);
       break;
-    case c_MANBW:
+    case CommandRow("MANBW"):
       start_manual(true);
       break;
-    case c_STARTCAM:
+    case CommandRow("STARTCAM"):
       start_cam(master_.total());
       break;
-    case c_STOPCAM:
+    case CommandRow("STOPCAM"):
       stop_cam();
       break;
     default:
@@ -104,31 +103,31 @@ void Camming4::execute_motion(int command) {
 }
 
 std::int32_t Camming4::clamped(std::int32_t quota) const {
-  return axis::held(quota, value(v_minpos), value(v_maxpos));
+  return axis::held(quota, value("minpos"), value("maxpos"));
 }
 
 void Camming4::tell_maxvel() {
-  if (value(v_maxvel) <= 0) report(axis::without_maxvel(value(v_maxvel)));
+  if (value("maxvel") <= 0) report(axis::without_maxvel(value("maxvel")));
 }
 
 void Camming4::start_placement() {
-  const std::int32_t wanted = value(v_setpos);
+  const std::int32_t wanted = value("setpos");
   const std::int32_t target = clamped(wanted);
   if (target != wanted) report(axis::outside_limits(wanted, target));
   tell_maxvel();
-  set_state(st_still, false);
-  axis_.place(target, value(v_setvel));
+  set_state("st_still", false);
+  axis_.place(target, value("setvel"));
 }
 
 void Camming4::start_manual(bool backward) {
-  const std::int32_t limit = value(backward ? v_minpos : v_maxpos);
-  if (axis::at_limit(backward, value(v_posit), limit)) {
-    report(axis::no_way_left(backward, value(v_posit), limit));
+  const std::int32_t limit = backward ? value("minpos") : value("maxpos");
+  if (axis::at_limit(backward, value("posit"), limit)) {
+    report(axis::no_way_left(backward, value("posit"), limit));
     return;
   }
   tell_maxvel();
-  set_state(st_still, false);
-  axis_.run(backward, limit, value(v_setvel));
+  set_state("st_still", false);
+  axis_.run(backward, limit, value("setvel"));
 }
 
 void Camming4::start_cam(std::int64_t master) {
@@ -136,7 +135,7 @@ void Camming4::start_cam(std::int64_t master) {
   axis_.settle_if_open();
   tell_maxvel();
   cam_.set(
-      CamSettings{{value(v_measurem), value(v_pulsem)}, {value(v_measure), value(v_pulse)}, value(v_decpt)});
+      CamSettings{{value("measurem"), value("pulsem")}, {value("measure"), value("pulse")}, value("decpt")});
   axis::Theoretical slave = axis_.theoretical();
   if (slave.part < 0) {
     --slave.whole;
@@ -145,14 +144,14 @@ void Camming4::start_cam(std::int64_t master) {
   cam_start_ = {master, slave.whole, slave.part};
   ++cam_starts_;
   cam_.start(cam_start_);
-  for (int row = 0; row < cam_rows; ++row) value(v_codeQma, row) = cam_.row(row + 1).codeQma;
-  set_state(st_camex, true);
+  for (int row = 0; row < cam_rows; ++row) value("codeQma", row) = cam_.row(row + 1).codeQma;
+  set_state("st_camex", true);
 }
 
 void Camming4::stop_cam() {
   const double speed = cam_speed();
   leave_cam();
-  set_state(st_still, false);
+  set_state("st_still", false);
   axis_.brake(speed);
 }
 
@@ -161,8 +160,8 @@ void Camming4::leave_cam() {
   reset_recovery();
   slip_ = 0;
   slip_due_ = false;
-  set_state(st_camex, false);
-  value(v_rowex) = value(v_codeMex) = 0;
+  set_state("st_camex", false);
+  value("rowex") = value("codeMex") = 0;
 }
 
 void Camming4::reset_recovery() {
@@ -172,36 +171,36 @@ void Camming4::reset_recovery() {
 }
 
 void Camming4::rest() {
-  if (state(st_camex)) leave_cam();
+  if (state("st_camex")) leave_cam();
   search_.abort();
   axis_.abort();
-  set_state(st_prson, false);
-  set_state(st_still, true);
+  set_state("st_prson", false);
+  set_state("st_still", true);
 }
 
 void Camming4::emergency() {
   rest();
-  set_state(st_emrg, true);
-  value(v_vout) = 0;  // a calibration does not come back with its voltage
+  set_state("st_emrg", true);
+  value("vout") = 0;  // a calibration does not come back with its voltage
 }
 
 void Camming4::fail(int code, int row) {
-  set_state(st_error, true);
-  value(v_errcode) = code;
-  value(v_errvalue) = row;
+  set_state("st_error", true);
+  value("errcode") = code;
+  value("errvalue") = row;
   report({Diagnostic::Kind::note, "st_error",
           fmt::format("error {} in row {}: {}", code, row, error_text(code))});
   emergency();
 }
 
 void Camming4::warn(int code, int row) {
-  if (state(st_warning)) {
-    if (code == value(v_wrncode) && row == value(v_wrnvalue)) return;
-    if (warning_priority(code) > warning_priority(value(v_wrncode))) return;
+  if (state("st_warning")) {
+    if (code == value("wrncode") && row == value("wrnvalue")) return;
+    if (warning_priority(code) > warning_priority(value("wrncode"))) return;
   }
-  set_state(st_warning, true);
-  value(v_wrncode) = code;
-  value(v_wrnvalue) = row;
+  set_state("st_warning", true);
+  value("wrncode") = code;
+  value("wrnvalue") = row;
   report({Diagnostic::Kind::note, "st_warning",
           fmt::format("warning {} in row {}: {}", code, row, warning_text(code))});
 }

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "devices/camming4/camming4.hpp"
-#include "devices/camming4/rows.hpp"
 #include "devices/terminals.hpp"
 
 namespace drycut::devices::camming4 {
@@ -18,33 +17,33 @@ std::int32_t incremented(std::int32_t value) { return wrap(Size::L, std::int64_t
 }  // namespace
 
 void Camming4::interrupt(int line, bool rising) {
-  if (!state(st_init)) return;
+  if (!state("st_init")) return;
   const auto slave_total = [&] {
-    return terminals_.slave
-               ? axis_.transducer().total_at(terminals_.slave->latched, state(st_cntlock), state(st_cntrev))
-               : axis_.transducer().total();
+    return terminals_.slave ? axis_.transducer().total_at(terminals_.slave->latched, state("st_cntlock"),
+                                                          state("st_cntrev"))
+                            : axis_.transducer().total();
   };
   const auto master_total = [&] {
-    const Counter* master = terminals_.master[value(v_mtype) == 1 ? 1 : 0];
-    return master ? master_.total_at(master->latched, state(st_cntlockm), state(st_cntrevm))
+    const Counter* master = terminals_.master[value("mtype") == 1 ? 1 : 0];
+    return master ? master_.total_at(master->latched, state("st_cntlockm"), state("st_cntrevm"))
                   : master_.total();
   };
   if (rising && line == terminals_.zero_line && !zero_) zero_ = slave_total();
   if (rising && line == terminals_.zero_line_master && !zero_master_) zero_master_ = master_total();
-  if (line == terminals_.function_line && state(st_intenbl) && !capture_ &&
-      value(v_intcapt) == (rising ? rising_edge : falling))
+  if (line == terminals_.function_line && state("st_intenbl") && !capture_ &&
+      value("intcapt") == (rising ? rising_edge : falling))
     capture_ = Capture{slave_total(), master_total(), master_total()};
 }
 
 void Camming4::sample_inputs() {
   const Capture now{axis_.transducer().total(), master_.total(), master_.total()};
   const bool level = is_on(terminals_.input);
-  const bool edge = level != input_was_ && value(v_inpcapt) == (level ? rising_edge : falling);
+  const bool edge = level != input_was_ && value("inpcapt") == (level ? rising_edge : falling);
   input_was_ = level;
-  if (edge && state(st_enbl) && value(v_funInp) != 0) {
-    set_state(st_enbl, false);
-    set_state(st_capt, true);
-    run_function(value(v_funInp), now, "funInp");
+  if (edge && state("st_enbl") && value("funInp") != 0) {
+    set_state("st_enbl", false);
+    set_state("st_capt", true);
+    run_function(value("funInp"), now, "funInp");
   }
 
   if (!capture_) return;
@@ -52,17 +51,17 @@ void Camming4::sample_inputs() {
   if (!capture_->delay) capture_->delay = recalculation_.left();
   if (*capture_->delay > 0) {
     --*capture_->delay;
-    if (!std::exchange(capture_->late, true)) warn(8, value(v_rowex));
+    if (!std::exchange(capture_->late, true)) warn(8, value("rowex"));
     return;
   }
   Capture capture = *capture_;
   capture_.reset();
   // The counts were latched at the edge; a cam cannot begin before the calculations are done (000 1.4).
   if (capture.late) capture.start = now.start;
-  if (!state(st_intenbl) || value(v_funInt) == 0) return;
-  set_state(st_intenbl, false);
-  set_state(st_intcapt, true);
-  run_function(value(v_funInt), capture, "funInt");
+  if (!state("st_intenbl") || value("funInt") == 0) return;
+  set_state("st_intenbl", false);
+  set_state("st_intcapt", true);
+  run_function(value("funInt"), capture, "funInt");
 }
 
 std::int64_t Camming4::slave_bits_at(std::int64_t total) const {
@@ -78,10 +77,10 @@ std::int64_t Camming4::master_bits_at(std::int64_t total) const {
 }
 
 void Camming4::run_function(int function, const Capture& capture, std::string_view subject) {
-  const bool counts_writable = holds(type().variables[v_encoder].write);
+  const bool counts_writable = holds(type().variables[VariableRow("encoder")].write);
   switch (function) {
     case 1:
-      if (holds(type().commands[c_STOPCAM].condition) && may_execute(c_STOPCAM))
+      if (constexpr CommandRow stop("STOPCAM"); holds(type().commands[stop].condition) && may_execute(stop))
         stop_cam();
       else
         report_refusal("STOPCAM", subject);
@@ -92,27 +91,27 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
     case 3:
     case 9:
     case 11:
-      value(v_delta1) = wrap(Size::L, slave_bits_at(capture.slave));
+      value("delta1") = wrap(Size::L, slave_bits_at(capture.slave));
       if (function != 3) function_start(capture, subject);
       break;
     case 4:
     case 10:
     case 12:
-      value(v_delta2) = wrap(Size::L, master_bits_at(capture.master));
+      value("delta2") = wrap(Size::L, master_bits_at(capture.master));
       if (function != 4) function_start(capture, subject);
       break;
     case 5:
-      value(v_delta1) = incremented(value(v_delta1));
+      value("delta1") = incremented(value("delta1"));
       break;
     case 6:
-      value(v_delta2) = incremented(value(v_delta2));
+      value("delta2") = incremented(value("delta2"));
       break;
     case 7:
       if (!counts_writable) {
         report_refusal("encoder", subject);
         break;
       }
-      axis_.quota.set_bits(value(v_delta1), axis_.settings.resolution);
+      axis_.quota.set_bits(value("delta1"), axis_.settings.resolution);
       axis_.quota.count(axis_.transducer().total() - capture.slave, axis_.settings.resolution);
       requota(subject);
       break;
@@ -121,18 +120,18 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
         report_refusal("encoderm", subject);
         break;
       }
-      master_quota_.set_bits(value(v_delta2), master_resolution_);
+      master_quota_.set_bits(value("delta2"), master_resolution_);
       master_quota_.count(master_.total() - capture.master, master_resolution_);
       break;
     default:
       report(
           {Diagnostic::Kind::note, std::string(subject), fmt::format("function {} does nothing", function)});
   }
-  if (state(st_camex) && (function == 11 || function == 12)) inhibit_stop_ms_ = stop_inhibited_ms;
+  if (state("st_camex") && (function == 11 || function == 12)) inhibit_stop_ms_ = stop_inhibited_ms;
 }
 
 void Camming4::function_start(const Capture& capture, std::string_view subject) {
-  if (holds(type().commands[c_STARTCAM].condition)) {
+  if (holds(type().commands[CommandRow("STARTCAM")].condition)) {
     start_cam(capture.start);
   } else {
     report_refusal("STARTCAM", subject);
@@ -145,17 +144,17 @@ void Camming4::report_refusal(std::string_view what, std::string_view subject) {
 }
 
 void Camming4::preset() {
-  if (value(v_prsmode) == 2) return;  // no search: the enable loads
-  const axis::PresetSettings settings{value(v_prsmode), value(v_prsdir) == 1, value(v_prspos),
-                                      value(v_prsvel), value(v_sprsvel)};
+  if (value("prsmode") == 2) return;  // no search: the enable loads
+  const axis::PresetSettings settings{value("prsmode"), value("prsdir") == 1, value("prspos"),
+                                      value("prsvel"), value("sprsvel")};
   if (search_.searching()) {
     search_.reverse(axis_);
     return;
   }
   tell_maxvel();
-  set_state(st_prson, true);
-  set_state(st_prsok, false);
-  set_state(st_still, false);
+  set_state("st_prson", true);
+  set_state("st_prsok", false);
+  set_state("st_still", false);
   search_.start(settings, is_on(terminals_.enable), axis_);
 }
 
@@ -163,15 +162,15 @@ void Camming4::sample_presets() {
   const bool enable = is_on(terminals_.enable);
   const auto zero = std::exchange(zero_, std::nullopt);
   if (search_.searching()) {
-    const axis::PresetSettings settings{value(v_prsmode), value(v_prsdir) == 1, value(v_prspos),
-                                        value(v_prsvel), value(v_sprsvel)};
+    const axis::PresetSettings settings{value("prsmode"), value("prsdir") == 1, value("prspos"),
+                                        value("prsvel"), value("sprsvel")};
     search_.sample(settings, enable, zero, axis_);
-    value(v_setvel) = search_.speed(settings);
-    value(v_setpos) = settings.quota;
-  } else if (value(v_prsmode) == 2 && enable && !enable_was_) {
-    axis_.quota.set_um(value(v_prspos), axis_.settings.resolution);
+    value("setvel") = search_.speed(settings);
+    value("setpos") = settings.quota;
+  } else if (value("prsmode") == 2 && enable && !enable_was_) {
+    axis_.quota.set_um(value("prspos"), axis_.settings.resolution);
     requota("IAZero");
-    set_state(st_prsok, true);
+    set_state("st_prsok", true);
   }
   enable_was_ = enable;
   sample_master_preset();
@@ -185,19 +184,19 @@ void Camming4::sample_master_preset() {
   const auto zero = std::exchange(zero_master_, std::nullopt);
 
   std::optional<std::int64_t> loaded;  // master's total that gets the quota
-  const std::int32_t mode = value(v_prsmodem);
+  const std::int32_t mode = value("prsmodem");
   if (mode == 2) {
     if (met) loaded = master_.total();
-  } else if (state(st_prsonm)) {
+  } else if (state("st_prsonm")) {
     if (mode == 0 && released) loaded = master_.total();
     if (mode == 1 && master_released_ && zero) loaded = *zero;
     if (released) master_released_ = true;
   }
   if (!loaded) return;
-  master_quota_.set_um(value(v_prsposm), master_resolution_);
+  master_quota_.set_um(value("prsposm"), master_resolution_);
   master_quota_.count(master_.total() - *loaded, master_resolution_);
-  set_state(st_prsonm, false);
-  set_state(st_prsokm, true);
+  set_state("st_prsonm", false);
+  set_state("st_prsokm", true);
 }
 
 }  // namespace drycut::devices::camming4

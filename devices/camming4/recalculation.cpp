@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "devices/camming4/rows.hpp"
-
 namespace drycut::devices::camming4 {
 namespace {
 
@@ -14,42 +12,42 @@ struct Calculation {
 
 Calculation calculation_of(int variable) {
   switch (variable) {
-    case v_codeG:
-    case v_codeQm:
-    case v_codeQs:
-    case v_codeQma:
-    case v_codeQsa:
-      return {1, v_codeG};
-    case v_maxpos:
-    case v_minpos:
-    case v_prspos:
-    case v_prsposm:
-    case v_toll:
-    case v_tacc:
-    case v_tdec:
-    case v_taccmax:
-    case v_tdecmax:
-    case v_syncrange:
-    case v_pgain:
-    case v_feedfw:
-    case v_integt:
-    case v_derivt:
+    case VariableRow("codeG"):
+    case VariableRow("codeQm"):
+    case VariableRow("codeQs"):
+    case VariableRow("codeQma"):
+    case VariableRow("codeQsa"):
+      return {1, VariableRow("codeG")};
+    case VariableRow("maxpos"):
+    case VariableRow("minpos"):
+    case VariableRow("prspos"):
+    case VariableRow("prsposm"):
+    case VariableRow("toll"):
+    case VariableRow("tacc"):
+    case VariableRow("tdec"):
+    case VariableRow("taccmax"):
+    case VariableRow("tdecmax"):
+    case VariableRow("syncrange"):
+    case VariableRow("pgain"):
+    case VariableRow("feedfw"):
+    case VariableRow("integt"):
+    case VariableRow("derivt"):
       return {1, variable};
-    case v_tbfm:
+    case VariableRow("tbfm"):
       return {2, variable};
-    case v_tbf:
+    case VariableRow("tbf"):
       return {3, variable};
-    case v_maxvel:
+    case VariableRow("maxvel"):
       return {5, variable};
-    case v_decpt:
-    case v_unitvel:
-      return {6, v_decpt};
-    case v_pulsem:
-    case v_measurem:
-      return {130, v_measurem};
-    case v_pulse:
-    case v_measure:
-      return {139, v_measure};
+    case VariableRow("decpt"):
+    case VariableRow("unitvel"):
+      return {6, VariableRow("decpt")};
+    case VariableRow("pulsem"):
+    case VariableRow("measurem"):
+      return {130, VariableRow("measurem")};
+    case VariableRow("pulse"):
+    case VariableRow("measure"):
+      return {139, VariableRow("measure")};
     default:
       return {0, variable};
   }
@@ -60,7 +58,7 @@ Calculation calculation_of(int variable) {
 void Recalculation::written(int variable, int row) {
   const Calculation calculation = calculation_of(variable);
   if (calculation.samples == 0) return;
-  const bool of_row = calculation.shared == v_codeG;
+  const bool of_row = calculation.shared == VariableRow("codeG");
   const std::size_t number = of_row ? table::variables.size() + static_cast<std::size_t>(row)
                                     : static_cast<std::size_t>(calculation.shared);
   left_ += calculation.samples - of_each_[number];

@@ -1,12 +1,9 @@
 #pragma once
 #include <memory>
 
-#include "devices/device.hpp"
+#include "devices/epicpos/table.hpp"
 
 namespace drycut::devices::epicpos {
-
-/// EPICPOS: analogue positioner with epicycloidal ramps (002; spec qem.md 6).
-extern const DeviceType epicpos_type;
 
 std::unique_ptr<Device> make_epicpos(const Resources& resources, Cards& cards);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "devices/axis/speed.hpp"
-#include "devices/epicpos/rows.hpp"
+#include "devices/epicpos/epicpos.hpp"
 #include "devices/terminals.hpp"
 
 namespace drycut::devices::epicpos {
@@ -15,18 +15,22 @@ constexpr int cpu_slot = 1;  // its counters have no wires: a device moves them
 
 }  // namespace
 
-Positioner::Positioner(const DeviceType& type, Model model, const Resources& resources, Cards& cards)
-    : Device(type), model_(model), period_ms_(std::max(resources[f_TCamp].number, 1)) {
-  Counter* counter = connect(cards.counters, resources[f_ICont]);
+std::unique_ptr<Device> make_epicpos(const Resources& resources, Cards& cards) {
+  return std::make_unique<Positioner>(epicpos_type, resources, cards);
+}
+
+Positioner::Positioner(const DeviceType& type, const Resources& resources, Cards& cards)
+    : TableDevice(type), period_ms_(std::max(resources[FieldRow("TCamp")].number, 1)) {
+  Counter* counter = connect(cards.counters, resources[FieldRow("ICont")]);
   terminals_.counter = counter;
-  if (counter && resources[f_ICont].address->slot == cpu_slot) {
+  if (counter && resources[FieldRow("ICont")].address->slot == cpu_slot) {
     terminals_.simulated = counter;
     ++counter->movers;
     axis_.settings.simulated = true;
   }
-  terminals_.enable = connect(cards.inputs, resources[f_IAZero]);
-  terminals_.dac = connect(cards.analogue_outputs, resources[f_IOutA]);
-  terminals_.zero_line = resources[f_IntL].number;
+  terminals_.enable = connect(cards.inputs, resources[FieldRow("IAZero")]);
+  terminals_.dac = connect(cards.analogue_outputs, resources[FieldRow("IOutA")]);
+  terminals_.zero_line = resources[FieldRow("IntL")].number;
   rescale();
   recompute();
 }
@@ -48,7 +52,7 @@ void Positioner::initialise() {
   rescale();
   recompute();
   // A kept position goes on with its remainder, unless memory was restored from elsewhere.
-  if (axis_.posit() != value(v_posit)) axis_.quota.set_um(value(v_posit), axis_.settings.resolution);
+  if (axis_.posit() != value("posit")) axis_.quota.set_um(value("posit"), axis_.settings.resolution);
   axis_.rebase(count_of(terminals_.counter));
   axis_.abort();
   axis_.settle();
@@ -63,14 +67,14 @@ void Positioner::initialise() {
 }
 
 void Positioner::latch() {
-  if (state(st_init)) axis_.follow(count_of(terminals_.counter), state(st_cntlock), state(st_cntrev));
+  if (state("st_init")) axis_.follow(count_of(terminals_.counter), state("st_cntlock"), state("st_cntrev"));
 }
 
 void Positioner::interrupt(int line, bool rising) {
-  if (!state(st_init) || !rising || line != terminals_.zero_line || zero_) return;
-  zero_ = terminals_.counter
-              ? axis_.transducer().total_at(terminals_.counter->latched, state(st_cntlock), state(st_cntrev))
-              : axis_.transducer().total();
+  if (!state("st_init") || !rising || line != terminals_.zero_line || zero_) return;
+  zero_ = terminals_.counter ? axis_.transducer().total_at(terminals_.counter->latched, state("st_cntlock"),
+                                                           state("st_cntrev"))
+                             : axis_.transducer().total();
 }
 
 void Positioner::step() {
@@ -86,14 +90,14 @@ void Positioner::sample_preset() {
   const auto zero = std::exchange(zero_, std::nullopt);
   if (!enable) enable_released_ = true;
   if (search_.searching()) {
-    search_settings_.locked = state(st_cntlock);
+    search_settings_.locked = state("st_cntlock");
     search_.sample(search_settings_, enable, zero, axis_);
-    value(v_setvel) = search_.speed(search_settings_);
-    value(v_setpos) = search_settings_.quota;
-  } else if (value(v_prsmode) == 2 && enable && enable_released_ && !state(st_cntlock)) {
-    axis_.quota.set_um(value(v_prspos), axis_.settings.resolution);
+    value("setvel") = search_.speed(search_settings_);
+    value("setpos") = search_settings_.quota;
+  } else if (value("prsmode") == 2 && enable && enable_released_ && !state("st_cntlock")) {
+    axis_.quota.set_um(value("prspos"), axis_.settings.resolution);
     axis_.requota();
-    set_state(st_prsok, true);
+    set_state("st_prsok", true);
   }
 }
 
@@ -102,10 +106,10 @@ void Positioner::step_motion() {
   axis_.step_profile();
   if (terminals_.simulated) move_counter(axis_.theoretical().minus(before));
   if (search_.finished(axis_)) {
-    set_state(st_prson, false);
-    set_state(st_prsok, true);
+    set_state("st_prson", false);
+    set_state("st_prsok", true);
   }
-  if (!axis_.profile().moving() && !search_.searching()) set_state(st_still, true);
+  if (!axis_.profile().moving() && !search_.searching()) set_state("st_still", true);
 }
 
 void Positioner::move_counter(double bits) {
@@ -120,12 +124,12 @@ void Positioner::move_counter(double bits) {
 
 void Positioner::regulate() {
   using axis::Drive;
-  const Drive drive = state(st_emrg)     ? Drive::emergency
-                      : state(st_regoff) ? Drive::frozen
-                      : state(st_cal)    ? Drive::calibration
-                      : state(st_loopon) ? Drive::reaction
-                                         : Drive::open_loop;
-  axis_.regulate(drive, value(v_vout));
+  const Drive drive = state("st_emrg")     ? Drive::emergency
+                      : state("st_regoff") ? Drive::frozen
+                      : state("st_cal")    ? Drive::calibration
+                      : state("st_loopon") ? Drive::reaction
+                                           : Drive::open_loop;
+  axis_.regulate(drive, value("vout"));
   if (!terminals_.dac) return;
   if (drive == Drive::frozen)
     dac_turn_.release(*terminals_.dac);
@@ -134,28 +138,28 @@ void Positioner::regulate() {
 }
 
 void Positioner::publish_values() {
-  value(v_posit) = axis_.posit();
-  value(v_follerr) = axis::to_long(axis_.error());
+  value("posit") = axis_.posit();
+  value("follerr") = axis::to_long(axis_.error());
   const axis::Actions& actions = axis_.actions();
-  value(v_ffwdreg) = axis::to_long(actions.feed_forward);
-  value(v_propreg) = axis::to_long(actions.proportional);
-  value(v_integ) = axis::to_long(actions.integral);
-  value(v_derreg) = axis::to_long(actions.derivative);
+  value("ffwdreg") = axis::to_long(actions.feed_forward);
+  value("propreg") = axis::to_long(actions.proportional);
+  value("integ") = axis::to_long(actions.integral);
+  value("derreg") = axis::to_long(actions.derivative);
   if (!axis_.frequency_new()) return;
   const double rate = axis_.frequency().bits_per_second();
-  value(v_frq) = axis::to_long(rate / 4);
-  value(v_vel) = axis_.settings.bits_per_speed > 0 ? axis::to_long(rate / axis_.settings.bits_per_speed) : 0;
+  value("frq") = axis::to_long(rate / 4);
+  value("vel") = axis_.settings.bits_per_speed > 0 ? axis::to_long(rate / axis_.settings.bits_per_speed) : 0;
 }
 
 void Positioner::publish_states() {
   const axis::Profile& profile = axis_.profile();
-  if (profile.moving()) set_state(st_movdir, profile.backward());
-  set_state(st_foller, axis_.following_error());
+  if (profile.moving()) set_state("st_movdir", profile.backward());
+  set_state("st_foller", axis_.following_error());
 
   const auto placed = axis_.placed();
   const bool in_tolerance =
-      placed && std::abs(std::int64_t{value(v_posit)} - *placed) <= std::int64_t{value(v_toll)};
-  set_state(st_toll, in_tolerance && in_tolerance_ms_ >= std::int64_t{value(v_toldly)} * 10);
+      placed && std::abs(std::int64_t{value("posit")} - *placed) <= std::int64_t{value("toll")};
+  set_state("st_toll", in_tolerance && in_tolerance_ms_ >= std::int64_t{value("toldly")} * 10);
   in_tolerance_ms_ = in_tolerance ? in_tolerance_ms_ + period_ms_ : 0;
 }
 

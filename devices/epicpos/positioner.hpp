@@ -4,7 +4,7 @@
 
 #include "devices/axis/analogue_axis.hpp"
 #include "devices/axis/preset.hpp"
-#include "devices/device.hpp"
+#include "devices/epicpos/table.hpp"
 
 namespace drycut::devices::epicpos {
 
@@ -13,15 +13,11 @@ namespace drycut::devices::epicpos {
 ///
 /// With its counter on slot 1 the device is a simulated axis: it moves that counter itself, by its
 /// theoretical profile, and what is below one bit is kept for the next sample (000 1.5).
-class Positioner final : public Device {
+class Positioner final : public TableDevice<epicpos_type> {
  public:
-  enum class Model : std::uint8_t {
-    epicpos,  ///< epicycloidal ramps; rtype and stopt
-    eanpos,   ///< ramps by ramptype; short moves keep gradients, STOP decelerates at once
-  };
-  /// `type` is the table of `model`; `resources` as the .CNF record gives them, in the order of
+  /// `type` is epicpos_type or eanpos_type; `resources` as the .CNF record gives them, in the order of
   /// DeviceType::fields; terminals that the cards lack are added.
-  Positioner(const DeviceType& type, Model model, const Resources& resources, Cards& cards);
+  Positioner(const DeviceType& type, const Resources& resources, Cards& cards);
 
   [[nodiscard]] int period_ms() const override { return period_ms_; }
   void interrupt(int line, bool rising) override;
@@ -50,8 +46,8 @@ class Positioner final : public Device {
   void rescale();
   void check_ratio();
   void recompute();
-  void write_motion(int variable, bool ramps_changed);
-  void check_dependent_range(int variable);
+  void write_motion(VariableRow variable, bool ramps_changed);
+  void check_dependent_range(VariableRow variable);
 
   // Commands (positioner_commands.cpp).
   void depart();
@@ -70,7 +66,6 @@ class Positioner final : public Device {
   void publish_states();
 
   Terminals terminals_;
-  Model model_;
   int period_ms_;
 
   axis::AnalogueAxis axis_;

@@ -1,7 +1,7 @@
 #include "devices/axis/limits.hpp"
 #include "devices/axis/speed.hpp"
+#include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/positioner.hpp"
-#include "devices/epicpos/rows.hpp"
 
 namespace drycut::devices::epicpos {
 namespace {
@@ -16,11 +16,12 @@ bool same_ramps(const axis::Demand& a, const axis::Demand& b) {
 }  // namespace
 
 bool Positioner::may_write(Symbol symbol, std::int32_t new_value) {
-  if (symbol.index == v_setpos && axis_.placing() && !search_.searching()) {
+  const VariableRow variable{symbol.index};
+  if (variable == "setpos" && axis_.placing() && !search_.searching()) {
     axis::AnalogueAxis trial = axis_;
     return trial.retarget(clamped(new_value));
   }
-  if (symbol.index == v_posit && axis_.profile().moving()) {
+  if (variable == "posit" && axis_.profile().moving()) {
     axis::AnalogueAxis trial = axis_;
     trial.quota.set_um(new_value, trial.settings.resolution);
     return trial.requota();
@@ -29,11 +30,11 @@ bool Positioner::may_write(Symbol symbol, std::int32_t new_value) {
 }
 
 void Positioner::written(Symbol symbol, std::int32_t new_value) {
-  const int variable = symbol.index;
+  const VariableRow variable{symbol.index};
   const bool changed = value(variable) != new_value;
   value(variable) = new_value;
   check_dependent_range(variable);
-  if (variable == v_posit) {
+  if (variable == "posit") {
     axis_.quota.set_um(new_value, axis_.settings.resolution);
     axis_.requota();
     return;
@@ -42,19 +43,19 @@ void Positioner::written(Symbol symbol, std::int32_t new_value) {
   const axis::Demand ramps = axis_.settings.ramps;
   rescale();
   recompute();
-  if (variable == v_cntratio) check_ratio();
+  if (variable == "cntratio") check_ratio();
   write_motion(variable, !same_ramps(ramps, axis_.settings.ramps));
 }
 
-void Positioner::write_motion(int variable, bool ramps_changed) {
+void Positioner::write_motion(VariableRow variable, bool ramps_changed) {
   if (!axis_.profile().moving() || search_.searching()) return;
-  if (variable == v_setpos && axis_.placing()) axis_.retarget(clamped(value(v_setpos)));
-  if ((variable == v_setvel || ramps_changed) && !axis_.change(value(v_setvel)))
-    report(axis::kept_for_the_next(type().variables[variable].name));
+  if (variable == "setpos" && axis_.placing()) axis_.retarget(clamped(value("setpos")));
+  if ((variable == "setvel" || ramps_changed) && !axis_.change(value("setvel")))
+    report(axis::kept_for_the_next(name_of(variable)));
 }
 
 void Positioner::rescale() {
-  const axis::Resolution resolution = axis::usable(value(v_cntratio), ratio_bits);
+  const axis::Resolution resolution = axis::usable(value("cntratio"), ratio_bits);
   if (resolution == axis_.settings.resolution) return;
   axis_.quota.rescale(axis_.settings.resolution, resolution);
   axis_.settings.resolution = resolution;
@@ -63,44 +64,46 @@ void Positioner::rescale() {
 /// What the ratio acts as, if not as itself.
 void Positioner::check_ratio() {
   const std::int64_t acts = axis_.settings.resolution.measure;
-  if (terminals_.counter && acts != value(v_cntratio))
-    report(axis::acts_as("cntratio", value(v_cntratio), acts));
+  if (terminals_.counter && acts != value("cntratio"))
+    report(axis::acts_as("cntratio", value("cntratio"), acts));
 }
 
 void Positioner::recompute() {
   axis::AxisSettings& settings = axis_.settings;
   settings.bits_per_speed =
-      axis::um_per_second(value(v_decpt), value(v_unitvel)) * axis::bits_per_um(settings.resolution);
-  settings.max_speed = value(v_maxvel) * settings.bits_per_speed;
+      axis::um_per_second(value("decpt"), value("unitvel")) * axis::bits_per_um(settings.resolution);
+  settings.max_speed = value("maxvel") * settings.bits_per_speed;
 
-  const bool two_times = value(v_rampmode) == 1;
+  const bool two_times = value("rampmode") == 1;
   axis::Demand& ramps = settings.ramps;
   ramps.seconds_per_speed_up =
-      axis::seconds_per_speed(value(two_times ? v_tacc : v_taccdec), settings.max_speed);
+      axis::seconds_per_speed(two_times ? value("tacc") : value("taccdec"), settings.max_speed);
   ramps.seconds_per_speed_down =
-      axis::seconds_per_speed(value(two_times ? v_tdec : v_taccdec), settings.max_speed);
-  if (model_ == Model::epicpos) {
+      axis::seconds_per_speed(two_times ? value("tdec") : value("taccdec"), settings.max_speed);
+  if (&type() == &epicpos_type) {
     ramps.shape = axis::RampShape::epicycloidal;
-    ramps.keep_gradient = value(v_rtype) == 1;
-    settings.finish_ramp = value(v_stopt) == 0;
+    ramps.keep_gradient = value("rtype") == 1;
+    settings.finish_ramp = value("stopt") == 0;
   } else {
-    ramps.shape = value(v_ramptype) == 1 ? axis::RampShape::epicycloidal : axis::RampShape::trapezoidal;
+    using EanposRow = NamedRow<eanpos::eanpos_type, &DeviceType::variables>;
+    const bool epicycloidal = value(VariableRow{EanposRow("ramptype")}) == 1;
+    ramps.shape = epicycloidal ? axis::RampShape::epicycloidal : axis::RampShape::trapezoidal;
     ramps.keep_gradient = true;
     settings.finish_ramp = false;
   }
 
-  settings.gains = {value(v_pgain), value(v_feedfw), value(v_integt), value(v_derivt)};
-  settings.term_limit = type().variables[v_integ].max;
-  settings.offset = value(v_offset);
+  settings.gains = {value("pgain"), value("feedfw"), value("integt"), value("derivt")};
+  settings.term_limit = type().variables[VariableRow("integ")].max;
+  settings.offset = value("offset");
   settings.period_ms = period_ms_;
-  settings.reversal_pause_ms = value(v_tinvt) * 10;
-  settings.max_following_error = value(v_maxfollerr);
+  settings.reversal_pause_ms = value("tinvt") * 10;
+  settings.max_following_error = value("maxfollerr");
 }
 
-void Positioner::check_dependent_range(int variable) {
-  if (variable == v_setvel || variable == v_prsvel) report_outside(variable, 0, v_maxvel);
-  if (variable == v_sprsvel) report_outside(variable, 0, v_prsvel);
-  if (variable == v_setpos || variable == v_prspos) report_outside(variable, value(v_minpos), v_maxpos);
+void Positioner::check_dependent_range(VariableRow variable) {
+  if (variable == "setvel" || variable == "prsvel") report_outside(variable, 0, "maxvel");
+  if (variable == "sprsvel") report_outside(variable, 0, "prsvel");
+  if (variable == "setpos" || variable == "prspos") report_outside(variable, value("minpos"), "maxpos");
 }
 
 }  // namespace drycut::devices::epicpos

@@ -14,7 +14,6 @@ namespace drycut::devices::epicpos::table {
 using R = Retention;
 using enum Access;
 using devices::joined;
-using devices::row_of;
 
 inline constexpr std::array states = {
     State{"st_init", R::zero, "the device is initialised and runs", "002 1.4.4"},
@@ -34,14 +33,9 @@ inline constexpr std::array states = {
     State{"st_cntrev", R::retentive, "the count is reversed", "002 1.4.4"},
 };
 
-/// The condition that these states are 1, or 0 where the name begins with '!'.
-consteval Condition needs(std::initializer_list<std::string_view> names, std::string_view also = {}) {
-  return condition_of(states, names, also);
-}
-/// The effect that this state becomes 1, or 0 where the name begins with '!'.
-consteval Effect turns(std::string_view name) { return effect_of(states, name, false); }
-/// The same; where it holds already the command is a silent no-op.
-consteval Effect turns_quietly(std::string_view name) { return effect_of(states, name, true); }
+inline constexpr Needs<states> needs;
+inline constexpr Turns<states, false> turns;
+inline constexpr Turns<states, true> turns_quietly;  ///< where it holds already: a silent no-op
 
 inline constexpr Condition any = {};
 inline constexpr Condition still = needs({"st_still"});
@@ -84,9 +78,6 @@ inline constexpr std::array commands = {
             "002 1.4.2", turns_quietly("!st_regoff")},
     Command{"DELCNT", needs({"st_init", "st_still"}), "adds delta to posit, remainder kept", "002 1.4.2"},
 };
-
-inline constexpr double lowest = -2147483648.0;
-inline constexpr double highest = 2147483647.0;
 
 /// A ramp parameter written in mid-move is stored; the running movement takes it if it can.
 inline constexpr Condition ramp_write = needs({}, "the quota to stay in reach, to act in motion");
@@ -203,4 +194,54 @@ inline constexpr std::array aliases = {
     Alias{"tolldly", "toldly"},
 };
 
+/// Where the manual of EPICPOS leaves something open, and what EPICPOS and EANPOS do there (spec qem.md 10).
+inline constexpr std::array readings = {
+    Reading{"", "commands wait for the next sample, which takes them as a set in the order of the table",
+            "002 1.4.2 gives priorities and 1.3.4.2 an overlap of two DELCNT, no mechanism"},
+    Reading{"cntratio", "from 374, which is 0.00374 Um a pulse", "002 1.4.3 prints 347, 1.2.1 means 0.00374"},
+    Reading{"toll", "from 0", "002 1.4.3 prints a range from -999999 for a distance"},
+    Reading{"offset", "-32768..32767", "002 1.4.3: the range is cut off in print"},
+    Reading{"integt", "the integral action grows by the proportional action of pgain 1000 in each integt",
+            "002 1.2.4.3 gives the direction of the effect, no scale"},
+    Reading{"derivt",
+            "the derivative action is the error's change in derivt, scaled as pgain 1000 scales the error",
+            "002 1.2.4.4 gives the direction of the effect, no scale"},
+    Reading{"integ", "the integral action is limited to +-1024 bits",
+            "002 1.4.3 prints the range 0..1024 only"},
+    Reading{"derreg", "the derivative action is limited to +-1024 bits",
+            "002 1.4.3 prints the range 0..1024 only"},
+    Reading{"setvel", "a value that comes in a ramp waits for its end",
+            "002 1.5 allows a change at constant speed only, 1.3.3 before the final deceleration"},
+    Reading{"setpos", "a START beyond minpos..maxpos goes to the limit, and says so",
+            "002 1.4.3 gives the range, no answer to a quota outside"},
+    Reading{"START", "needs st_cal = 0 where the print repeats st_emrg = 0",
+            "002 1.4.2 prints st_emrg twice"},
+    Reading{"PRESET", "with the enable already on, the search begins with its slow leg, reversed",
+            "002 1.2.5.2 begins with the enable off"},
+    Reading{"MANFW", "needs st_emrg = 0 and st_cal = 0 too", "002 1.4.2 does not name them"},
+    Reading{"MANBW", "needs st_emrg = 0 and st_cal = 0 too", "002 1.4.2 does not name them"},
+    Reading{"REGOFF", "turns regulation off",
+            "002 1.4.2: the titles of REGOFF and REGON are exchanged in print"},
+    Reading{"REGON", "turns regulation on",
+            "002 1.4.2: the titles of REGOFF and REGON are exchanged in print"},
+};
+
+inline constexpr auto all_variables = joined(variables, epicpos_variables);
+
 }  // namespace drycut::devices::epicpos::table
+
+namespace drycut::devices::epicpos {
+
+/// EPICPOS: analogue positioner with epicycloidal ramps (002; spec qem.md 6).
+inline constexpr DeviceType epicpos_type = {
+    "EPICPOS",
+    "analogue positioner with epicycloidal ramps",
+    table::all_variables,
+    table::states,
+    table::commands,
+    table::fields,
+    table::aliases,
+    table::readings,
+};
+
+}  // namespace drycut::devices::epicpos

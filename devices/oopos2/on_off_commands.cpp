@@ -3,18 +3,17 @@
 #include <algorithm>
 
 #include "devices/oopos2/on_off_positioner.hpp"
-#include "devices/oopos2/rows.hpp"
 
 namespace drycut::devices::oopos2 {
 
 bool OnOffPositioner::may_execute(int command) {
   switch (command) {
-    case c_MANSFW:
-    case c_MANFFW:
-      return value(v_posit) < value(v_maxpos);
-    case c_MANSBW:
-    case c_MANFBW:
-      return value(v_posit) > value(v_minpos);
+    case CommandRow("MANSFW"):
+    case CommandRow("MANFFW"):
+      return value("posit") < value("maxpos");
+    case CommandRow("MANSBW"):
+    case CommandRow("MANFBW"):
+      return value("posit") > value("minpos");
     default:
       return true;
   }
@@ -22,27 +21,27 @@ bool OnOffPositioner::may_execute(int command) {
 
 void OnOffPositioner::execute(int command) {
   switch (command) {
-    case c_STOP:
-    case c_REGOFF:
+    case CommandRow("STOP"):
+    case CommandRow("REGOFF"):
       end_search();
       movement_.stop();
       break;
-    case c_START:
+    case CommandRow("START"):
       start();
       break;
-    case c_PRESET:
+    case CommandRow("PRESET"):
       preset();
       break;
-    case c_MANSFW:
-    case c_MANFFW:
-      run(false, command == c_MANSFW);
+    case CommandRow("MANSFW"):
+    case CommandRow("MANFFW"):
+      run(false, command == CommandRow("MANSFW"));
       break;
-    case c_MANSBW:
-    case c_MANFBW:
-      run(true, command == c_MANSBW);
+    case CommandRow("MANSBW"):
+    case CommandRow("MANFBW"):
+      run(true, command == CommandRow("MANSBW"));
       break;
-    case c_DELCNT:
-      quota_.add_um(value(v_delta), resolution_);
+    case CommandRow("DELCNT"):
+      quota_.add_um(value("delta"), resolution_);
       break;
     default:
       break;
@@ -52,7 +51,7 @@ void OnOffPositioner::execute(int command) {
 /// A target [Um/10] held between minpos and maxpos; `quota` is the parameter that it comes from.
 std::int64_t OnOffPositioner::clamped(std::int64_t tenths, std::string_view subject, std::int32_t quota) {
   const std::int64_t held =
-      std::max(std::int64_t{value(v_minpos)} * 10, std::min(tenths, std::int64_t{value(v_maxpos)} * 10));
+      std::max(std::int64_t{value("minpos")} * 10, std::min(tenths, std::int64_t{value("maxpos")} * 10));
   if (held != tenths)
     report({Diagnostic::Kind::note, std::string(subject),
             fmt::format("setpos {} plus tool is outside minpos..maxpos, the axis goes to {}", quota,
@@ -62,19 +61,19 @@ std::int64_t OnOffPositioner::clamped(std::int64_t tenths, std::string_view subj
 
 /// What a movement command forgets of the placement before it.
 void OnOffPositioner::leave_quota() {
-  set_state(st_toll, false);
-  set_state(st_sttoll, false);
+  set_state("st_toll", false);
+  set_state("st_sttoll", false);
 }
 
 void OnOffPositioner::start() {
   leave_quota();
-  tool_ = value(v_tool);
-  wanted_ = value(v_setpos);
+  tool_ = value("tool");
+  wanted_ = value("setpos");
   const std::int64_t tenths = clamped(std::int64_t{wanted_} * 10 + tool_, "START", wanted_);
-  if (value(v_enstol) != 1 && within_tolerance(tenths)) {
+  if (value("enstol") != 1 && within_tolerance(tenths)) {
     target_ = tenths;
-    set_state(st_sttoll, true);
-    set_state(st_toll, true);
+    set_state("st_sttoll", true);
+    set_state("st_toll", true);
     return;
   }
   place(tenths);
@@ -84,17 +83,17 @@ void OnOffPositioner::start() {
 void OnOffPositioner::place(std::int64_t tenths) {
   target_ = tenths;
   const Parts way = tenths * parts_per_tenth - position();
-  if (value(v_maxvel) <= 0 && slows_by_speed())
+  if (value("maxvel") <= 0 && slows_by_speed())
     report({Diagnostic::Kind::out_of_range, "maxvel",
-            fmt::format("{} is no speed to compare with: the slow range is maxslow", value(v_maxvel))});
-  const std::int32_t mode = value(v_bklashmode);
-  const bool recovers = mode >= 1 && mode <= 4 && value(v_overpos) > 0;
+            fmt::format("{} is no speed to compare with: the slow range is maxslow", value("maxvel"))});
+  const std::int32_t mode = value("bklashmode");
+  const bool recovers = mode >= 1 && mode <= 4 && value("overpos") > 0;
   const bool ends_backward = mode == 2 || mode == 4;
   const bool overshoots = recovers && (way == 0 || (way < 0) != ends_backward);
   const bool backward = overshoots ? !ends_backward : way < 0;
   const Legs legs = legs_to(tenths, backward, overshoots);
-  value(v_actiner) = inertia_band(tenths, value(v_minpos), value(v_maxpos), value(v_ninert));
-  set_state(st_still, false);
+  value("actiner") = inertia_band(tenths, value("minpos"), value("maxpos"), value("ninert"));
+  set_state("st_still", false);
   movement_.place(legs.overshoot, legs.last);
 }
 
@@ -102,8 +101,8 @@ void OnOffPositioner::place(std::int64_t tenths) {
 void OnOffPositioner::run(bool backward, bool slow) {
   leave_quota();
   end_search();
-  set_state(st_still, false);
-  const std::int32_t limit = value(backward ? v_minpos : v_maxpos);
+  set_state("st_still", false);
+  const std::int32_t limit = backward ? value("minpos") : value("maxpos");
   movement_.run({backward, slow, false, limit * parts_per_um, 0});
 }
 

@@ -4,7 +4,6 @@
 
 #include "devices/axis/limits.hpp"
 #include "devices/oopos2/on_off_positioner.hpp"
-#include "devices/oopos2/rows.hpp"
 
 namespace drycut::devices::oopos2 {
 namespace {
@@ -17,25 +16,26 @@ int milliseconds(std::int32_t hundredths) { return std::max(hundredths, 0) * 10;
 }  // namespace
 
 bool OnOffPositioner::may_write(Symbol symbol, std::int32_t new_value) {
-  if (symbol.index != v_posit || !movement_.placing() || state(st_still)) return true;
+  if (VariableRow{symbol.index} != "posit" || !movement_.placing() || state("st_still")) return true;
   return movement_.goes_on_from(new_value * parts_per_um);
 }
 
 void OnOffPositioner::written(Symbol symbol, std::int32_t new_value) {
-  value(symbol.index) = new_value;
-  check_dependent_range(symbol.index);
-  if (symbol.index == v_posit) {
+  const VariableRow variable{symbol.index};
+  value(variable) = new_value;
+  check_dependent_range(variable);
+  if (variable == "posit") {
     quota_.set_um(new_value, resolution_);
     return;
   }
   rescale();
   recompute();
-  if (symbol.index == v_cntratio) check_ratio();
-  if (symbol.index == v_setpos) retarget();
+  if (variable == "cntratio") check_ratio();
+  if (variable == "setpos") retarget();
 }
 
 void OnOffPositioner::rescale() {
-  const axis::Resolution resolution = axis::usable(value(v_cntratio), ratio_bits);
+  const axis::Resolution resolution = axis::usable(value("cntratio"), ratio_bits);
   if (resolution == resolution_) return;
   quota_.rescale(resolution_, resolution);
   resolution_ = resolution;
@@ -43,32 +43,32 @@ void OnOffPositioner::rescale() {
 
 /// What the ratio acts as, if not as itself.
 void OnOffPositioner::check_ratio() {
-  if (counter_ && resolution_.measure != value(v_cntratio))
-    report(axis::acts_as("cntratio", value(v_cntratio), resolution_.measure));
+  if (counter_ && resolution_.measure != value("cntratio"))
+    report(axis::acts_as("cntratio", value("cntratio"), resolution_.measure));
 }
 
 void OnOffPositioner::recompute() {
-  movement_.times = {milliseconds(value(v_tbrake)), milliseconds(value(v_tinvt)),
-                     milliseconds(value(v_slowdly)), milliseconds(value(v_toldly))};
+  movement_.times = {milliseconds(value("tbrake")), milliseconds(value("tinvt")),
+                     milliseconds(value("slowdly")), milliseconds(value("toldly"))};
 }
 
-void OnOffPositioner::check_dependent_range(int variable) {
-  if (variable == v_setpos || variable == v_prspos) report_outside(variable, value(v_minpos), v_maxpos);
+void OnOffPositioner::check_dependent_range(VariableRow variable) {
+  if (variable == "setpos" || variable == "prspos") report_outside(variable, value("minpos"), "maxpos");
 }
 
 void OnOffPositioner::retarget() {
-  const bool placing = movement_.placing() && !state(st_still) && search_ == Search::none;
-  if (!placing || value(v_setpos) == wanted_) return;
-  const std::int64_t tenths = clamped(std::int64_t{value(v_setpos)} * 10 + tool_, "setpos", value(v_setpos));
+  const bool placing = movement_.placing() && !state("st_still") && search_ == Search::none;
+  if (!placing || value("setpos") == wanted_) return;
+  const std::int64_t tenths = clamped(std::int64_t{value("setpos")} * 10 + tool_, "setpos", value("setpos"));
   const Legs legs = legs_to(tenths, movement_.leg().backward, movement_.overshooting());
   if (!movement_.retarget(position(), legs.overshoot, legs.last)) {
     report({Diagnostic::Kind::note, "setpos",
             "kept for the next START: the running placement is in its slow range or would have to turn"});
     return;
   }
-  wanted_ = value(v_setpos);
+  wanted_ = value("setpos");
   target_ = tenths;
-  value(v_actiner) = inertia_band(tenths, value(v_minpos), value(v_maxpos), value(v_ninert));
+  value("actiner") = inertia_band(tenths, value("minpos"), value("maxpos"), value("ninert"));
 }
 
 // A counter of absurd size is held where no way from it to a quota overflows.
@@ -77,27 +77,27 @@ Parts OnOffPositioner::position() const {
   return std::clamp(quota_.numerator(), -most, most) * 10;
 }
 
-bool OnOffPositioner::slows_by_speed() const { return value(v_slowtype) == 1 || value(v_slowtype) == 2; }
+bool OnOffPositioner::slows_by_speed() const { return value("slowtype") == 1 || value("slowtype") == 2; }
 
 Parts OnOffPositioner::slow_way() const {
-  return value(slows_by_speed() ? v_exeslow : v_slowpos) * parts_per_um;
+  return (slows_by_speed() ? value("exeslow") : value("slowpos")) * parts_per_um;
 }
 
-int OnOffPositioner::inertia_variable(int band, bool backward) const {
-  return v_iner01 + inertia_row(band, value(v_dobiner) == 1, backward);
+OnOffPositioner::VariableRow OnOffPositioner::inertia_variable(int band, bool backward) const {
+  return VariableRow{VariableRow("iner01") + inertia_row(band, value("dobiner") == 1, backward)};
 }
 
 OnOffPositioner::Legs OnOffPositioner::legs_to(std::int64_t tenths, bool backward, bool overshoots) const {
-  const int band = inertia_band(tenths, value(v_minpos), value(v_maxpos), value(v_ninert));
+  const int band = inertia_band(tenths, value("minpos"), value("maxpos"), value("ninert"));
   const auto inertia = [&](bool back) { return value(inertia_variable(band, back)) * parts_per_tenth; };
   Legs legs;
   legs.last = {backward, false, true, tenths * parts_per_tenth, inertia(backward)};
   if (!overshoots) return legs;
-  const std::int64_t over = std::int64_t{value(v_overpos)} * 10;
+  const std::int64_t over = std::int64_t{value("overpos")} * 10;
   const std::int64_t beyond =
-      std::max(std::int64_t{value(v_minpos)} * 10,
-               std::min(tenths + (backward ? -over : over), std::int64_t{value(v_maxpos)} * 10));
-  const bool slows = value(v_bklashmode) <= 2;
+      std::max(std::int64_t{value("minpos")} * 10,
+               std::min(tenths + (backward ? -over : over), std::int64_t{value("maxpos")} * 10));
+  const bool slows = value("bklashmode") <= 2;
   legs.overshoot = Leg{backward, false, slows, beyond * parts_per_tenth, inertia(backward)};
   legs.last.backward = !backward;
   legs.last.inertia = inertia(!backward);
@@ -105,7 +105,7 @@ OnOffPositioner::Legs OnOffPositioner::legs_to(std::int64_t tenths, bool backwar
 }
 
 bool OnOffPositioner::within_tolerance(std::int64_t tenths) const {
-  return in_tolerance(position() - tenths * parts_per_tenth, value(v_tollp), value(v_tolln));
+  return in_tolerance(position() - tenths * parts_per_tenth, value("tollp"), value("tolln"));
 }
 
 }  // namespace drycut::devices::oopos2

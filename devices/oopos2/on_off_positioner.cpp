@@ -7,17 +7,21 @@
 
 #include "devices/axis/speed.hpp"
 #include "devices/oopos2/oopos2.hpp"
-#include "devices/oopos2/rows.hpp"
 #include "devices/terminals.hpp"
 
 namespace drycut::devices::oopos2 {
 
+std::unique_ptr<Device> make_oopos2(const Resources& resources, Cards& cards) {
+  return std::make_unique<OnOffPositioner>(resources, cards);
+}
+
 OnOffPositioner::OnOffPositioner(const Resources& resources, Cards& cards)
-    : Device(oopos2_type), period_ms_(std::max(resources[f_TCamp].number, 1)) {
-  counter_ = connect(cards.counters, resources[f_IQCTL]);
-  enable_ = connect(cards.inputs, resources[f_IAZero]);
-  zero_line_ = resources[f_ILine].number;
-  for (int i = 0; i < outputs; ++i) outputs_[i].terminal = connect(cards.outputs, resources[f_OutAva + i]);
+    : period_ms_(std::max(resources[FieldRow("TCamp")].number, 1)) {
+  counter_ = connect(cards.counters, resources[FieldRow("IQCTL")]);
+  enable_ = connect(cards.inputs, resources[FieldRow("IAZero")]);
+  zero_line_ = resources[FieldRow("ILine")].number;
+  for (int i = 0; i < outputs; ++i)
+    outputs_[i].terminal = connect(cards.outputs, resources[FieldRow("OutAva") + i]);
 }
 
 void OnOffPositioner::power_up() {
@@ -40,7 +44,7 @@ void OnOffPositioner::initialise() {
   recompute();
   check_ratio();
   // A kept position goes on with its remainder, unless memory was restored from elsewhere.
-  if (quota_.um(resolution_) != value(v_posit)) quota_.set_um(value(v_posit), resolution_);
+  if (quota_.um(resolution_) != value("posit")) quota_.set_um(value("posit"), resolution_);
   transducer_.rebase(count_of(counter_));
   enable_was_ = is_on(enable_);
   enable_released_ = false;
@@ -48,23 +52,24 @@ void OnOffPositioner::initialise() {
 }
 
 void OnOffPositioner::latch() {
-  if (!state(st_init)) return;
-  const std::int64_t counted = transducer_.follow(count_of(counter_), state(st_cntlock), state(st_cntrev));
+  if (!state("st_init")) return;
+  const std::int64_t counted =
+      transducer_.follow(count_of(counter_), state("st_cntlock"), state("st_cntrev"));
   quota_.count(counted, resolution_);
-  value(v_posit) = static_cast<std::int32_t>(quota_.um(resolution_));
+  value("posit") = static_cast<std::int32_t>(quota_.um(resolution_));
   if (frequency_.sample(counted, period_ms_, axis::frequency_window_ms(0))) {
     const double rate = frequency_.bits_per_second();
     const double bits_per_speed =
-        axis::um_per_second(value(v_decpt), value(v_unitvel)) * axis::bits_per_um(resolution_);
-    value(v_frq) = axis::to_long(rate / 4);
-    value(v_vel) = axis::to_long(rate / bits_per_speed);
+        axis::um_per_second(value("decpt"), value("unitvel")) * axis::bits_per_um(resolution_);
+    value("frq") = axis::to_long(rate / 4);
+    value("vel") = axis::to_long(rate / bits_per_speed);
   }
   movement_.tick(period_ms_);
 }
 
 void OnOffPositioner::interrupt(int line, bool rising) {
-  if (!state(st_init) || !rising || line != zero_line_ || zero_) return;
-  zero_ = counter_ ? transducer_.total_at(counter_->latched, state(st_cntlock), state(st_cntrev))
+  if (!state("st_init") || !rising || line != zero_line_ || zero_) return;
+  zero_ = counter_ ? transducer_.total_at(counter_->latched, state("st_cntlock"), state("st_cntrev"))
                    : transducer_.total();
 }
 
@@ -74,7 +79,7 @@ void OnOffPositioner::step() {
   // What follows a movement without a pause begins in the same sample.
   while (movement_.step(position(), slow_way())) movement_ended();
   put_out();
-  value(v_posit) = static_cast<std::int32_t>(quota_.um(resolution_));
+  value("posit") = static_cast<std::int32_t>(quota_.um(resolution_));
 }
 
 // The slow range is held once the axis is in it.
@@ -82,78 +87,78 @@ void OnOffPositioner::measure() {
   const Phase phase = movement_.phase();
   if (movement_.placing() && (phase == Phase::slowdown || phase == Phase::slow || phase == Phase::tolerance))
     return;
-  const Slowdown slowdown{value(v_slowtype), value(v_maxslow), value(v_minslow), value(v_maxvel)};
-  value(v_exeslow) = slows_by_speed() ? slow_range(slowdown, value(v_vel)) : 0;
+  const Slowdown slowdown{value("slowtype"), value("maxslow"), value("minslow"), value("maxvel")};
+  value("exeslow") = slows_by_speed() ? slow_range(slowdown, value("vel")) : 0;
 }
 
 void OnOffPositioner::movement_ended() {
   if (movement_.placing()) {
     const bool hit = within_tolerance(target_);
     recalculate_inertia(hit);
-    set_state(st_toll, hit);
+    set_state("st_toll", hit);
     if (!movement_.driven() && !hit)
       report({Diagnostic::Kind::note, search_ == Search::none ? "setpos" : "prspos",
               fmt::format("no output was switched on, the quota {} is within the inertia range",
                           static_cast<double>(target_) / 10)});
   }
-  const std::int64_t preset = std::int64_t{value(v_prspos)} * 10;
-  if (search_ == Search::halt && (value(v_enstol) == 1 || !within_tolerance(preset))) {
+  const std::int64_t preset = std::int64_t{value("prspos")} * 10;
+  if (search_ == Search::halt && (value("enstol") == 1 || !within_tolerance(preset))) {
     search_ = Search::place;
     place(preset);
     return;
   }
   if (search_ == Search::halt || search_ == Search::place) {
-    set_state(st_prsok, true);
+    set_state("st_prsok", true);
     end_search();
   }
-  set_state(st_still, true);
+  set_state("st_still", true);
 }
 
 // A placement whose last leg needed no output has not coasted: there is nothing to learn from it.
 void OnOffPositioner::recalculate_inertia(bool in_tolerance) {
-  const std::int32_t mode = value(v_inertmode);
+  const std::int32_t mode = value("inertmode");
   if (!movement_.driven() || !(mode == 2 || (mode == 1 && !in_tolerance))) return;
   const Leg& leg = movement_.leg();
   const Parts off = position() - target_ * parts_per_tenth;
   const auto old = static_cast<std::int32_t>(leg.inertia / parts_per_tenth);
   const Parts beyond = leg.backward ? -off : off;
   const std::int32_t fresh = recalculated_inertia(old, beyond);
-  const int variable = inertia_variable(value(v_actiner), leg.backward);
+  const VariableRow variable = inertia_variable(value("actiner"), leg.backward);
   value(variable) = fresh;
   note_held_inertia(variable, coasted_way(old, beyond));
-  const std::int32_t most = value(v_maxiner);
-  set_state(st_erin, most != 0 && std::abs(fresh - old) > most);
+  const std::int32_t most = value("maxiner");
+  set_state("st_erin", most != 0 && std::abs(fresh - old) > most);
 }
 
 // An axis that coasts farther than the word says would miss every placement without a word about it.
-void OnOffPositioner::note_held_inertia(int variable, std::int64_t coasted) {
-  bool& noted = inertia_noted_.at(static_cast<std::size_t>(variable - v_iner01));
+void OnOffPositioner::note_held_inertia(VariableRow variable, std::int64_t coasted) {
+  bool& noted = inertia_noted_.at(static_cast<std::size_t>(variable - VariableRow("iner01")));
   if (coasted <= largest_inertia || noted) return;
   noted = true;
-  report({Diagnostic::Kind::note, std::string(type().variables[static_cast<std::size_t>(variable)].name),
+  report({Diagnostic::Kind::note, std::string(name_of(variable)),
           fmt::format("the way coasted would be {} Um/10, held at {}", coasted, largest_inertia)});
 }
 
 void OnOffPositioner::put_out() {
   const Outputs now = movement_.outputs();
-  set_state(st_movfwd, now.forward);
-  set_state(st_movbwd, now.backward);
-  set_state(st_movslow, now.slow);
-  set_state(st_movdir, movement_.last_backward());
-  set_state(st_brake, now.braked == (value(v_breaktype) != 1));
+  set_state("st_movfwd", now.forward);
+  set_state("st_movbwd", now.backward);
+  set_state("st_movslow", now.slow);
+  set_state("st_movdir", movement_.last_backward());
+  set_state("st_brake", now.braked == (value("breaktype") != 1));
 
-  put(f_OutAva, now.forward);
-  put(f_OutInd, now.backward);
-  put(f_OutDir, state(st_movdir));
-  put(f_OutMov, now.forward || now.backward);
-  put(f_OutRal, now.slow);
-  put(f_OutFre, state(st_brake));
+  put("OutAva", now.forward);
+  put("OutInd", now.backward);
+  put("OutDir", state("st_movdir"));
+  put("OutMov", now.forward || now.backward);
+  put("OutRal", now.slow);
+  put("OutFre", state("st_brake"));
 }
 
-void OnOffPositioner::put(int field, bool level) {
-  Output& output = outputs_[field - f_OutAva];
+void OnOffPositioner::put(FieldRow field, bool level) {
+  Output& output = outputs_[field - FieldRow("OutAva")];
   if (!output.terminal) return;
-  if (state(st_regoff) && field != f_OutFre) {
+  if (state("st_regoff") && field != "OutFre") {
     // What was on goes off with it; what was off may be another device's by now.
     if (output.level) output.terminal->level = false;
     output.level = false;
@@ -162,7 +167,7 @@ void OnOffPositioner::put(int field, bool level) {
   }
   output.level = output.terminal->level = level;
   if (output.turn.take(output.terminal->driver))
-    report({Diagnostic::Kind::note, std::string(table::fields[static_cast<std::size_t>(field)].name),
+    report({Diagnostic::Kind::note, std::string(table::fields[field].name),
             "another device drives the same output; of devices that share one, all but one need REGOFF"});
 }
 

@@ -5,15 +5,15 @@
 
 #include "devices/axis/frequency_meter.hpp"
 #include "devices/axis/position.hpp"
-#include "devices/device.hpp"
 #include "devices/oopos2/movement.hpp"
+#include "devices/oopos2/table.hpp"
 #include "devices/turn.hpp"
 
 namespace drycut::devices::oopos2 {
 
 /// The device OOPOS2 (001; spec qem.md 9): its parameters, commands, states and terminals around a Movement.
 /// What happens in which sample stands in movement.hpp.
-class OnOffPositioner final : public Device {
+class OnOffPositioner final : public TableDevice<oopos2_type> {
  public:
   /// `resources` as the .CNF record gives them, in the order of DeviceType::fields; terminals that the cards
   /// lack are added.
@@ -51,12 +51,12 @@ class OnOffPositioner final : public Device {
   void rescale();
   void recompute();
   void check_ratio();
-  void check_dependent_range(int variable);
+  void check_dependent_range(VariableRow variable);
   void retarget();
   [[nodiscard]] Parts position() const;
   [[nodiscard]] bool slows_by_speed() const;
   [[nodiscard]] Parts slow_way() const;
-  [[nodiscard]] int inertia_variable(int band, bool backward) const;
+  [[nodiscard]] VariableRow inertia_variable(int band, bool backward) const;
   [[nodiscard]] Legs legs_to(std::int64_t tenths, bool backward, bool overshoots) const;
   [[nodiscard]] bool within_tolerance(std::int64_t tenths) const;
 
@@ -79,9 +79,9 @@ class OnOffPositioner final : public Device {
   void measure();
   void movement_ended();
   void recalculate_inertia(bool in_tolerance);
-  void note_held_inertia(int variable, std::int64_t coasted);
+  void note_held_inertia(VariableRow variable, std::int64_t coasted);
   void put_out();
-  void put(int output, bool level);
+  void put(FieldRow field, bool level);
 
   const Counter* counter_ = nullptr;
   const DigitalInput* enable_ = nullptr;

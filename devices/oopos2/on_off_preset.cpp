@@ -1,7 +1,6 @@
 #include <utility>
 
 #include "devices/oopos2/on_off_positioner.hpp"
-#include "devices/oopos2/rows.hpp"
 #include "devices/terminals.hpp"
 
 // The preset search (001 1.4.8; spec qem.md 5.11 and 9.7).
@@ -13,21 +12,21 @@ void OnOffPositioner::preset() {
     search_leg(search_, !search_backward_);
     return;
   }
-  if (value(v_prsmode) == 2) return;  // no search: the enable loads
+  if (value("prsmode") == 2) return;  // no search: the enable loads
   leave_quota();
-  set_state(st_prson, true);
-  set_state(st_prsok, false);
-  set_state(st_still, false);
-  search_slow_ = value(v_prsdir) == 2 || value(v_prsdir) == 3;
-  search_zero_ = value(v_prsmode) == 1;
-  const bool backward = value(v_prsdir) == 1 || value(v_prsdir) == 3;
+  set_state("st_prson", true);
+  set_state("st_prsok", false);
+  set_state("st_still", false);
+  search_slow_ = value("prsdir") == 2 || value("prsdir") == 3;
+  search_zero_ = value("prsmode") == 1;
+  const bool backward = value("prsdir") == 1 || value("prsdir") == 3;
   const bool enable = is_on(enable_);
   search_leg(enable ? Search::leave : Search::approach, enable ? !backward : backward);
 }
 
 void OnOffPositioner::end_search() {
   search_ = Search::none;
-  set_state(st_prson, false);
+  set_state("st_prson", false);
 }
 
 void OnOffPositioner::search_leg(Search search, bool backward) {
@@ -43,9 +42,9 @@ void OnOffPositioner::sample_preset() {
   if (!enable) enable_released_ = true;
   if (search_ != Search::none) {
     sample_search(enable, released, zero);
-  } else if (value(v_prsmode) == 2 && enable && enable_released_ && !state(st_cntlock)) {
-    quota_.set_um(value(v_prspos), resolution_);
-    set_state(st_prsok, true);
+  } else if (value("prsmode") == 2 && enable && enable_released_ && !state("st_cntlock")) {
+    quota_.set_um(value("prspos"), resolution_);
+    set_state("st_prsok", true);
   }
 }
 
@@ -61,11 +60,11 @@ void OnOffPositioner::sample_search(bool enable, bool released, std::optional<st
       if (!released || !movement_.running()) return;
       if (search_zero_)
         search_ = Search::zero_pulse;
-      else if (!state(st_cntlock))
+      else if (!state("st_cntlock"))
         load(transducer_.total());
       return;
     case Search::zero_pulse:
-      if (zero && !state(st_cntlock)) load(*zero);
+      if (zero && !state("st_cntlock")) load(*zero);
       return;
     default:
       return;
@@ -74,7 +73,7 @@ void OnOffPositioner::sample_search(bool enable, bool released, std::optional<st
 
 /// The quota belongs to where the count was at `total`; the axis stops and goes there.
 void OnOffPositioner::load(std::int64_t total) {
-  quota_.set_um(value(v_prspos), resolution_);
+  quota_.set_um(value("prspos"), resolution_);
   quota_.count(transducer_.total() - total, resolution_);
   search_ = Search::halt;
   movement_.stop();

@@ -9,7 +9,6 @@ namespace drycut::devices::oopos2::table {
 
 using R = Retention;
 using enum Access;
-using devices::row_of;
 
 inline constexpr std::array states = {
     State{"st_init", R::zero, "the device is initialised and runs", "001 1.6.4"},
@@ -32,12 +31,8 @@ inline constexpr std::array states = {
           "001 1.6.4"},
 };
 
-/// The condition that these states are 1, or 0 where the name begins with '!'.
-consteval Condition needs(std::initializer_list<std::string_view> names, std::string_view also = {}) {
-  return condition_of(states, names, also);
-}
-/// The effect that this state becomes 1, or 0 where the name begins with '!'.
-consteval Effect turns(std::string_view name) { return effect_of(states, name, false); }
+inline constexpr Needs<states> needs;
+inline constexpr Turns<states, false> turns;
 
 inline constexpr Condition any = {};
 inline constexpr Condition initialised = needs({"st_init"});
@@ -66,9 +61,6 @@ inline constexpr std::array commands = {
             "001 1.6.2", turns("st_regoff")},
     Command{"DELCNT", needs({"st_init", "st_still"}), "adds delta to posit, remainder kept", "001 1.6.2"},
 };
-
-inline constexpr double lowest = -2147483648.0;
-inline constexpr double highest = 2147483647.0;
 
 /// iner01 to iner16: a row each, as the manual names them.
 consteval Variable inertia(std::string_view name, std::string_view meaning) {
@@ -192,4 +184,43 @@ inline constexpr std::array aliases = {
     Alias{"st_sttol", "st_sttoll"}, Alias{"movbwd", "st_movbwd"},
 };
 
+/// Where the manual of OOPOS2 leaves something open, and what the device does there (spec qem.md 10).
+inline constexpr std::array readings = {
+    Reading{"", "commands wait for the next sample, which takes them as a set in the order of the table",
+            "001 1.6.2 gives priorities and 1.4.9 an overlap of two DELCNT, no mechanism"},
+    Reading{"cntratio", "from 374, which is 0.00374 Um a pulse", "001 1.6.3 prints 347"},
+    Reading{"toldly", "in 1/100 s", "001 1.4.4 says s/1000, 1.6.3 1/100 s"},
+    Reading{"posit", "in motion taken where the goal stays ahead and the slow range is not entered",
+            "001 1.4.2 allows what the table of 1.6.3 does not"},
+    Reading{"setpos",
+            "in motion taken where it stays ahead and the slow range is not entered, else the goal stays",
+            "001 1.4.2 allows what the table of 1.6.3 does not"},
+    Reading{"slowdly", "0 = no gap; a start inside the slow range switches slow and direction on together",
+            "001 1.2.2 describes the phases of a long way only"},
+    Reading{"slowtype", "2 takes the square of vel/maxvel; the range is computed anew until it is entered",
+            "001 1.4.5 prints the formula without the square below the line"},
+    Reading{"maxiner", "watches the change of the inertia; the new value is kept anyway",
+            "001 1.6.4 compares the value, 1.6.3 the change"},
+    Reading{"overpos", "an overshoot stays within minpos..maxpos", "001 1.2.3 does not speak of the limits"},
+    Reading{
+        "STOP",
+        "ends at once what runs, waits toldly, brakes; no recalculation, st_toll stays 0. It comes before "
+        "START",
+        "001 1.6.2 lists START first and says that STOP comes first; no phases of a STOP are given"},
+    Reading{"DELCNT", "needs st_still = 1", "001 1.6.2 prints st_still = 0, its text says stopped"},
+    Reading{"CNTDIR", "is a command", "001 1.6.2 does not list it, the program of 1.8.2 gives it"},
+};
+
 }  // namespace drycut::devices::oopos2::table
+
+namespace drycut::devices::oopos2 {
+
+/// OOPOS2: on/off positioner, outputs forward, backward and slowdown by the position (001; spec qem.md 9).
+inline constexpr DeviceType oopos2_type = {
+    "OOPOS2",         "on/off positioner: forward, backward, slowdown and brake outputs by the position",
+    table::variables, table::states,
+    table::commands,  table::fields,
+    table::aliases,   table::readings,
+};
+
+}  // namespace drycut::devices::oopos2
