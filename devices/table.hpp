@@ -92,7 +92,7 @@ class TableDevice : public Device {
     return Device::value(variable, row);
   }
   [[nodiscard]] std::string_view name_of(VariableRow variable) const {
-    return table.variables[variable].name;
+    return type().variables[variable].name;
   }
   void report_outside(VariableRow variable, std::int32_t low, VariableRow high) {
     Device::report_outside(variable, low, high);

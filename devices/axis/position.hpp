@@ -65,8 +65,11 @@ class Quota {
   /// Exactly `um`.000: the remainder is dropped.
   void set_um(std::int64_t um, Resolution r) { numerator_ = multiply_add(0, um, r.pulse); }
   void set_bits(std::int64_t bits, Resolution r) { numerator_ = multiply_add(0, bits, r.measure); }
-  /// A new resolution keeps the quota [Um] and drops the remainder.
-  void rescale(Resolution from, Resolution to) { set_um(um(from), to); }
+  /// A resolution other than `now`, which it becomes, keeps the quota [Um] and drops the remainder.
+  void rescale(Resolution& now, Resolution to) {
+    if (to != now) set_um(um(now), to);
+    now = to;
+  }
 
   /// [Um], truncated toward zero.
   [[nodiscard]] std::int64_t um(Resolution r) const { return numerator_ / r.pulse; }

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "devices/axis/speed.hpp"
-#include "devices/terminals.hpp"
-
 namespace drycut::devices::camming4 {
 
 std::unique_ptr<Device> make_camming4(const Resources& resources, Cards& cards) {
@@ -24,65 +21,46 @@ void resume_quota(axis::Quota& quota, axis::Resolution resolution, std::int32_t 
 
 }  // namespace
 
-Camming4::Camming4(const Resources& resources, Cards& cards) {
-  period_ms_ = std::max(resources[FieldRow("TCamp")].number, 1);
-  terminals_.slave = connect(cards.counters, resources[FieldRow("CountS")]);
+Camming4::Camming4(const Resources& resources, Cards& cards)
+    : AnaloguePositioner(camming4_type, resources, cards, "CountS", "IoutA") {
   terminals_.master = {connect(cards.counters, resources[FieldRow("CountMA")]),
                        connect(cards.counters, resources[FieldRow("CountMB")])};
-  terminals_.enable = connect(cards.inputs, resources[FieldRow("IAZero")]);
   terminals_.enable_master = connect(cards.inputs, resources[FieldRow("IAZeroM")]);
   terminals_.input = connect(cards.inputs, resources[FieldRow("InG")]);
-  terminals_.dac = connect(cards.analogue_outputs, resources[FieldRow("IoutA")]);
   terminals_.output = connect(cards.outputs, resources[FieldRow("Out")]);
-  terminals_.zero_line = resources[FieldRow("IntL")].number;
   terminals_.zero_line_master = resources[FieldRow("IntLM")].number;
   terminals_.function_line = resources[FieldRow("InGInt")].number;
   if (terminals_.function_line != 0)
     terminals_.interrupt_level = &cards.interrupt_lines[terminals_.function_line];
-  rescale();
   recompute();
 }
 
 void Camming4::power_up() {
-  Device::power_up();
+  AnaloguePositioner::power_up();
   cam_.stop();
-  const axis::AxisSettings settings = axis_.settings;
-  const axis::Quota quota = axis_.quota;
-  axis_ = {};
-  axis_.settings = settings;
-  axis_.quota = quota;
-  if (terminals_.dac) {
-    terminals_.dac->word = 0;
-    dac_turn_.release(*terminals_.dac);
-  }
 }
 
 void Camming4::initialise() {
-  rescale();
   recompute();
   load_table();
   // Kept positions go on with their remainder, unless memory was restored from elsewhere.
   resume_quota(axis_.quota, axis_.settings.resolution, value("posit"), value("encoder"));
   resume_quota(master_quota_, master_resolution_, value("positm"), value("encoderm"));
-  if (terminals_.slave) check_resolution("measure", "pulse", axis_.settings.resolution);
+  if (counter_) check_resolution("measure", "pulse", axis_.settings.resolution);
   if (terminals_.master[0] || terminals_.master[1])
     check_resolution("measurem", "pulsem", master_resolution_);
 
-  axis_.rebase(count_of(terminals_.slave));
+  begin();
   master_.rebase(master_raw());
-  axis_.abort();
-  axis_.settle();
   master_frequency_ = {};
   master_history_.fill(master_.total());
   master_way_ = master_moved_ = 0;
-  search_.abort();
   reset_recovery();
   slip_ = 0;
   slip_due_ = false;
   master_rate_ = 0;
   enable_was_ = enable_master_was_ = true;
   master_released_ = false;
-  zero_.reset();
   zero_master_.reset();
   input_was_ = terminals_.input && terminals_.input->level;
   capture_.reset();
@@ -94,7 +72,7 @@ std::int64_t Camming4::master_raw() const { return count_of(terminals_.master[va
 
 void Camming4::latch() {
   if (!state("st_init")) return;
-  axis_.follow(count_of(terminals_.slave), state("st_cntlock"), state("st_cntrev"));
+  AnaloguePositioner::latch();
   const std::int64_t moved = master_.follow(master_raw(), state("st_cntlockm"), state("st_cntrevm"));
   master_moved_ = moved;
   master_quota_.count(moved, master_resolution_);
@@ -113,11 +91,9 @@ void Camming4::step() {
   if (state("st_camex"))
     step_cam();
   else
-    step_positioner();
+    step_motion();
   regulate();
-  publish_positions();
-  publish_regulation();
-  publish_states();
+  publish();
   drive_output();
 
   recalculation_.sample();
@@ -223,78 +199,32 @@ void Camming4::step_recovery() {
   recovery_way_ = 0;
 }
 
-void Camming4::step_positioner() {
-  axis_.step_profile();
-  if (search_.finished(axis_)) {
-    set_state("st_prson", false);
-    set_state("st_prsok", true);
-  }
-  if (!axis_.profile().moving() && !search_.searching()) set_state("st_still", true);
-}
-
 void Camming4::regulate() {
-  using axis::Drive;
-  const Drive drive = state("st_emrg")     ? Drive::emergency
-                      : state("st_regoff") ? Drive::frozen
-                      : state("st_cal")    ? Drive::calibration
-                      : state("st_loopon") ? Drive::reaction
-                                           : Drive::open_loop;
-  axis_.regulate(drive, value("vout"));
+  const axis::Drive drive = AnaloguePositioner::regulate();
+  if (drive == axis::Drive::calibration) return;
   const axis::DacOutput output = axis_.output();
-  if (terminals_.dac) put_out(drive, output.word);
-  if (drive != Drive::calibration) {
-    if (output.saturated > 0) warn(3, value("rowex"));
-    if (output.saturated < 0) warn(4, value("rowex"));
-    // A calibration that regulation off has frozen goes on with its voltage.
-    if (drive != Drive::frozen || !state("st_cal"))
-      value("vout") = axis::to_long(output.word / axis::dac_bits_of_tenths(1));
-  }
+  if (output.saturated > 0) warn(3, value("rowex"));
+  if (output.saturated < 0) warn(4, value("rowex"));
+  // A calibration that regulation off has frozen goes on with its voltage.
+  if (drive != axis::Drive::frozen || !state("st_cal"))
+    value("vout") = axis::to_long(output.word / axis::dac_bits_of_tenths(1));
 }
 
-void Camming4::put_out(axis::Drive drive, std::int16_t word) {
-  if (drive == axis::Drive::frozen)
-    dac_turn_.release(*terminals_.dac);
-  else if (dac_turn_.put(*terminals_.dac, word))
-    report({Diagnostic::Kind::note, "IoutA", std::string(axis::shared_dac_text)});
-}
-
-void Camming4::publish_positions() {
+void Camming4::publish() {
+  AnaloguePositioner::publish();
   const axis::Resolution resolution = axis_.settings.resolution;
-  value("posit") = axis_.posit();
   value("encoder") = static_cast<std::int32_t>(axis_.quota.bits(resolution));
   value("positm") = static_cast<std::int32_t>(master_quota_.um(master_resolution_));
   value("encoderm") = static_cast<std::int32_t>(master_quota_.bits(master_resolution_));
-  if (axis_.frequency_new()) {
-    const double rate = axis_.frequency().bits_per_second();
-    value("frq") = axis::to_long(rate / 4);
-    value("vel") =
-        axis_.settings.bits_per_speed > 0 ? axis::to_long(rate / axis_.settings.bits_per_speed) : 0;
-  }
-}
-
-void Camming4::publish_regulation() {
-  const axis::Actions& actions = axis_.actions();
   value("follerr") = axis::to_long(std::abs(axis_.error()));
-  value("ffwdreg") = axis::to_long(actions.feed_forward);
-  value("propreg") = axis::to_long(actions.proportional);
-  value("intreg") = axis::to_long(actions.integral);
-  value("derreg") = axis::to_long(actions.derivative);
-  set_state("st_foller", axis_.following_error());
+  value("intreg") = axis::to_long(axis_.actions().integral);
 
-  const axis::Resolution resolution = axis_.settings.resolution;
   const double band = static_cast<double>(value("syncrange")) * static_cast<double>(resolution.pulse);
   const bool in_band = std::abs(axis_.error()) * static_cast<double>(resolution.measure) <= band;
   const bool was_sync = state("st_sync");
   set_state("st_sync", state("st_camex") && in_band);
   if (was_sync && state("st_camex") && !in_band) warn(12, value("rowex"));
-}
 
-bool Camming4::within(std::int32_t quota) const {
-  const std::int64_t miss = std::int64_t{value("posit")} - quota;
-  return std::abs(miss) <= value("toll");
-}
-
-void Camming4::publish_states() {
   const axis::Profile& profile = axis_.profile();
   const axis::Phase phase = profile.phase();
   set_state("st_acc", phase == axis::Phase::accelerating);
@@ -302,10 +232,8 @@ void Camming4::publish_states() {
   set_state("st_vconst", phase == axis::Phase::constant);
   set_state("st_chvel",
             profile.moving() && !profile.stopping() && !profile.in_last_ramp() && !state("st_prson"));
-  if (profile.moving()) set_state("st_movdir", profile.backward());
   set_state("st_tpos", within(value("setpos")));
-  const auto placed = axis_.placed();
-  set_state("st_toll", placed && within(*placed));
+  set_state("st_toll", in_place());
   set_state("st_int", terminals_.interrupt_level && terminals_.interrupt_level->level);
 }
 

@@ -5,8 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "devices/axis/analogue_axis.hpp"
-#include "devices/axis/preset.hpp"
+#include "devices/axis/analogue_positioner.hpp"
 #include "devices/camming4/cam.hpp"
 #include "devices/camming4/recalculation.hpp"
 #include "devices/camming4/table.hpp"
@@ -14,13 +13,12 @@
 namespace drycut::devices::camming4 {
 
 /// The CAMMING4 device: a positioner and a cam generator on one slave axis (000 1; spec qem.md 8).
-class Camming4 final : public TableDevice<camming4_type> {
+class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
  public:
   /// `resources` as the .CNF record gives them, in the order of DeviceType::fields; terminals that the cards
   /// lack are added.
   Camming4(const Resources& resources, Cards& cards);
 
-  [[nodiscard]] int period_ms() const override { return period_ms_; }
   void interrupt(int line, bool rising) override;
   void power_up() override;
   [[nodiscard]] std::optional<CamAxis> cam_axis() override;
@@ -46,37 +44,25 @@ class Camming4 final : public TableDevice<camming4_type> {
   };
   /// The terminals of the record; nullptr or line 0 where the .CNF says X.X or X.
   struct Terminals {
-    const Counter* slave = nullptr;
     std::array<const Counter*, 2> master = {};  ///< A and B
-    const DigitalInput* enable = nullptr;
     const DigitalInput* enable_master = nullptr;
     const DigitalInput* input = nullptr;
     const DigitalInput* interrupt_level = nullptr;
-    AnalogueOutput* dac = nullptr;
     DigitalOutput* output = nullptr;
-    int zero_line = 0;
     int zero_line_master = 0;
     int function_line = 0;
   };
 
   // Parameters (camming4_parameters.cpp).
   void recompute();
-  void rescale();
   void load_table();
   void write_row(Symbol symbol, std::int32_t value);
   void write_position(VariableRow variable, std::int32_t value);
   void write_motion(VariableRow variable);
-  void check_dependent_range(VariableRow variable);
   void check_resolution(VariableRow measure, VariableRow pulse, axis::Resolution resolution);
-  void tell_acts(VariableRow variable);
   void requota(std::string_view cause);
 
   // Commands (camming4_commands.cpp).
-  void execute_motion(int command);
-  void tell_maxvel();
-  void start_placement();
-  void start_manual(bool backward);
-  void preset();
   void start_cam(std::int64_t master);
   void stop_cam();
   void leave_cam();
@@ -84,7 +70,6 @@ class Camming4 final : public TableDevice<camming4_type> {
   void rest();
   void fail(int code, int row);
   void warn(int code, int row);
-  [[nodiscard]] std::int32_t clamped(std::int32_t quota) const;
 
   // The cam as others see it (camming4_cam_axis.cpp).
   [[nodiscard]] CamMoment cam_moment() const;
@@ -104,25 +89,17 @@ class Camming4 final : public TableDevice<camming4_type> {
   void step_cam();
   void step_recovery();
   void reset_recovery();
-  void step_positioner();
   void regulate();
-  void put_out(axis::Drive drive, std::int16_t word);
-  void publish_positions();
-  void publish_regulation();
-  void publish_states();
+  void publish();
   void drive_output();
   [[nodiscard]] double master_speed(std::int64_t bits) const;
   [[nodiscard]] double proven_way() const;
   [[nodiscard]] double master_rate() const;
   [[nodiscard]] double cam_speed() const;
   [[nodiscard]] std::int64_t master_raw() const;
-  [[nodiscard]] bool within(std::int32_t quota) const;
 
   Terminals terminals_;
-  int period_ms_ = 1;
 
-  axis::AnalogueAxis axis_;
-  axis::DacTurn dac_turn_;
   axis::Transducer master_;
   axis::Quota master_quota_;
   axis::Resolution master_resolution_;
@@ -147,12 +124,10 @@ class Camming4 final : public TableDevice<camming4_type> {
   std::int64_t recovery_done_ = 0;     ///< [Um] since the cam began
   double recovery_way_ = 0;            ///< of the running correction [bits x4]
 
-  axis::PresetSearch search_;
   bool enable_was_ = true;  ///< a preset without search needs a release first
   bool enable_master_was_ = true;
-  bool master_released_ = false;      ///< prsmodem 1: the enable was released, a zero pulse loads
-  std::optional<std::int64_t> zero_;  ///< totals at zero pulses since the last sample
-  std::optional<std::int64_t> zero_master_;
+  bool master_released_ = false;             ///< prsmodem 1: the enable was released, a zero pulse loads
+  std::optional<std::int64_t> zero_master_;  ///< total at a zero pulse since the last sample
 
   bool input_was_ = false;
   std::optional<Capture> capture_;  ///< of the interrupt input, to be run at the next sample

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "devices/axis/limits.hpp"
 #include "devices/camming4/camming4.hpp"
 #include "devices/camming4/messages.hpp"
 
@@ -10,14 +9,12 @@ namespace drycut::devices::camming4 {
 
 bool Camming4::may_execute(int command) {
   switch (command) {
-    case CommandRow("PRESET"):
-      return state("st_still") || state("st_prson");
     case CommandRow("STOPCAM"):
       return inhibit_stop_ms_ <= 0;
     case CommandRow("INTDSBL"):
       return value("intcapt") > 0;
     default:
-      return true;
+      return AnaloguePositioner::may_execute(command);
   }
 }
 
@@ -27,11 +24,6 @@ void Camming4::execute(int command) {
   switch (command) {
     case CommandRow("EMRG"):
       emergency();
-      break;
-    case CommandRow("RESUME"):
-    case CommandRow("CALOFF"):
-    case CommandRow("REGON"):
-      axis_.settle();
       break;
     case CommandRow("PRESETM"):
       if (value("prsmodem") == 2) break;  // no search: the enable loads
@@ -66,31 +58,6 @@ void Camming4::execute(int command) {
     case CommandRow("INTDSBL"):
       capture_.reset();
       break;
-    default:
-      execute_motion(command);
-      break;
-  }
-}
-
-void Camming4::execute_motion(int command) {
-  switch (command) {
-    case CommandRow("STOP"):
-      search_.abort();
-      set_state("st_prson", false);
-      axis_.stop();
-      break;
-    case CommandRow("START"):
-      start_placement();
-      break;
-    case CommandRow("PRESET"):
-      preset();
-      break;
-    case CommandRow("MANFW"):
-      start_manual(false);
-      break;
-    case CommandRow("MANBW"):
-      start_manual(true);
-      break;
     case CommandRow("STARTCAM"):
       start_cam(master_.total());
       break;
@@ -98,36 +65,9 @@ void Camming4::execute_motion(int command) {
       stop_cam();
       break;
     default:
+      AnaloguePositioner::execute(command);
       break;
   }
-}
-
-std::int32_t Camming4::clamped(std::int32_t quota) const {
-  return axis::held(quota, value("minpos"), value("maxpos"));
-}
-
-void Camming4::tell_maxvel() {
-  if (value("maxvel") <= 0) report(axis::without_maxvel(value("maxvel")));
-}
-
-void Camming4::start_placement() {
-  const std::int32_t wanted = value("setpos");
-  const std::int32_t target = clamped(wanted);
-  if (target != wanted) report(axis::outside_limits(wanted, target));
-  tell_maxvel();
-  set_state("st_still", false);
-  axis_.place(target, value("setvel"));
-}
-
-void Camming4::start_manual(bool backward) {
-  const std::int32_t limit = backward ? value("minpos") : value("maxpos");
-  if (axis::at_limit(backward, value("posit"), limit)) {
-    report(axis::no_way_left(backward, value("posit"), limit));
-    return;
-  }
-  tell_maxvel();
-  set_state("st_still", false);
-  axis_.run(backward, limit, value("setvel"));
 }
 
 void Camming4::start_cam(std::int64_t master) {
@@ -172,10 +112,7 @@ void Camming4::reset_recovery() {
 
 void Camming4::rest() {
   if (state("st_camex")) leave_cam();
-  search_.abort();
-  axis_.abort();
-  set_state("st_prson", false);
-  set_state("st_still", true);
+  AnaloguePositioner::rest();
 }
 
 void Camming4::emergency() {

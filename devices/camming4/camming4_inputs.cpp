@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "devices/camming4/camming4.hpp"
-#include "devices/terminals.hpp"
 
 namespace drycut::devices::camming4 {
 namespace {
@@ -17,22 +16,17 @@ std::int32_t incremented(std::int32_t value) { return wrap(Size::L, std::int64_t
 }  // namespace
 
 void Camming4::interrupt(int line, bool rising) {
+  AnaloguePositioner::interrupt(line, rising);
   if (!state("st_init")) return;
-  const auto slave_total = [&] {
-    return terminals_.slave ? axis_.transducer().total_at(terminals_.slave->latched, state("st_cntlock"),
-                                                          state("st_cntrev"))
-                            : axis_.transducer().total();
-  };
   const auto master_total = [&] {
     const Counter* master = terminals_.master[value("mtype") == 1 ? 1 : 0];
     return master ? master_.total_at(master->latched, state("st_cntlockm"), state("st_cntrevm"))
                   : master_.total();
   };
-  if (rising && line == terminals_.zero_line && !zero_) zero_ = slave_total();
   if (rising && line == terminals_.zero_line_master && !zero_master_) zero_master_ = master_total();
   if (line == terminals_.function_line && state("st_intenbl") && !capture_ &&
       value("intcapt") == (rising ? rising_edge : falling))
-    capture_ = Capture{slave_total(), master_total(), master_total()};
+    capture_ = Capture{latched_total(), master_total(), master_total()};
 }
 
 void Camming4::sample_inputs() {
@@ -143,36 +137,13 @@ void Camming4::report_refusal(std::string_view what, std::string_view subject) {
           fmt::format("by {}: its conditions do not hold", subject)});
 }
 
-void Camming4::preset() {
-  if (value("prsmode") == 2) return;  // no search: the enable loads
-  const axis::PresetSettings settings{value("prsmode"), value("prsdir") == 1, value("prspos"),
-                                      value("prsvel"), value("sprsvel")};
-  if (search_.searching()) {
-    search_.reverse(axis_);
-    return;
-  }
-  tell_maxvel();
-  set_state("st_prson", true);
-  set_state("st_prsok", false);
-  set_state("st_still", false);
-  search_.start(settings, is_on(terminals_.enable), axis_);
-}
-
 void Camming4::sample_presets() {
-  const bool enable = is_on(terminals_.enable);
-  const auto zero = std::exchange(zero_, std::nullopt);
-  if (search_.searching()) {
-    const axis::PresetSettings settings{value("prsmode"), value("prsdir") == 1, value("prspos"),
-                                        value("prsvel"), value("sprsvel")};
-    search_.sample(settings, enable, zero, axis_);
-    value("setvel") = search_.speed(settings);
-    value("setpos") = settings.quota;
-  } else if (value("prsmode") == 2 && enable && !enable_was_) {
-    axis_.quota.set_um(value("prspos"), axis_.settings.resolution);
+  const bool enable = is_on(enable_);
+  const bool met = !std::exchange(enable_was_, enable) && enable;
+  if (!sample_search(enable, false) && value("prsmode") == 2 && met) {
+    load_preset();
     requota("IAZero");
-    set_state("st_prsok", true);
   }
-  enable_was_ = enable;
   sample_master_preset();
 }
 

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include "devices/axis/limits.hpp"
-#include "devices/axis/speed.hpp"
 #include "devices/camming4/camming4.hpp"
 
 namespace drycut::devices::camming4 {
@@ -49,12 +47,13 @@ void Camming4::written(Symbol symbol, std::int32_t new_value) {
   }
   value(variable) = new_value;
   check_dependent_range(variable);
+  if (variable == "measure" || variable == "pulse" || variable == "measurem" || variable == "pulsem")
+    tell_acts(variable);
   if (variable == "posit" || variable == "encoder" || variable == "positm" || variable == "encoderm") {
     write_position(variable, new_value);
     return;
   }
   if (!changed) return;
-  rescale();
   recompute();
   if (state("st_init")) {
     write_motion(variable);
@@ -103,56 +102,23 @@ void Camming4::write_motion(VariableRow variable) {
   if (!taken) report(axis::kept_for_the_next(name_of(variable)));
 }
 
-void Camming4::rescale() {
-  const axis::Resolution slave = axis::usable(value("measure"), value("pulse"));
-  if (slave != axis_.settings.resolution) {
-    axis_.quota.rescale(axis_.settings.resolution, slave);
-    axis_.settings.resolution = slave;
-  }
-  const axis::Resolution master = axis::usable(value("measurem"), value("pulsem"));
-  if (master != master_resolution_) {
-    master_quota_.rescale(master_resolution_, master);
-    master_resolution_ = master;
-  }
-}
-
 void Camming4::recompute() {
   axis::AxisSettings& settings = axis_.settings;
-  const double um_per_speed = axis::um_per_second(value("decpt"), value("unitvel"));
-  settings.bits_per_speed = um_per_speed * axis::bits_per_um(settings.resolution);
-  settings.max_speed = value("maxvel") * settings.bits_per_speed;
-  settings.ramps.seconds_per_speed_up = axis::seconds_per_speed(value("tacc"), settings.max_speed);
-  settings.ramps.seconds_per_speed_down = axis::seconds_per_speed(value("tdec"), settings.max_speed);
+  axis_.quota.rescale(settings.resolution, axis::usable(value("measure"), value("pulse")));
+  master_quota_.rescale(master_resolution_, axis::usable(value("measurem"), value("pulsem")));
+  AnaloguePositioner::recompute(value("tacc"), value("tdec"));
   settings.ramps.shape =
       value("ramptype") == 1 ? axis::RampShape::epicycloidal : axis::RampShape::trapezoidal;
   settings.ramps.keep_gradient = value("rtype") == 1;
   settings.finish_ramp = value("stopt") == 0;
-  settings.gains = {value("pgain"), value("feedfw"), value("integt"), value("derivt")};
-  settings.offset = value("offset");
-  settings.period_ms = period_ms_;
-  settings.max_following_error = value("maxfollerr");
   settings.frequency_window_ms = axis::frequency_window_ms(value("tbf"));
   master_window_ms_ = axis::frequency_window_ms(value("tbfm"));
 
   CamLimits limits;
-  const double max_um = value("maxvel") * um_per_speed;
+  const double max_um = value("maxvel") * axis::um_per_second(value("decpt"), value("unitvel"));
   if (value("taccmax") > 0) limits.acceleration = max_um * 100.0 / value("taccmax");
   if (value("tdecmax") > 0) limits.deceleration = max_um * 100.0 / value("tdecmax");
   cam_.set(limits);
-}
-
-void Camming4::check_dependent_range(VariableRow variable) {
-  if (variable == "setvel" || variable == "prsvel") report_outside(variable, 0, "maxvel");
-  if (variable == "sprsvel") report_outside(variable, 0, "prsvel");
-  if (variable == "measure" || variable == "pulse" || variable == "measurem" || variable == "pulsem")
-    tell_acts(variable);
-  if (variable == "setpos" || variable == "prspos") report_outside(variable, value("minpos"), "maxpos");
-}
-
-/// What a part of a resolution acts as, if not as itself.
-void Camming4::tell_acts(VariableRow variable) {
-  const std::int64_t acts = axis::usable(value(variable), 1).measure;
-  if (acts != value(variable)) report(axis::acts_as(name_of(variable), value(variable), acts));
 }
 
 void Camming4::check_resolution(VariableRow measure, VariableRow pulse, axis::Resolution resolution) {

@@ -1,17 +1,20 @@
 #include "devices/epicpos/positioner.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "devices/axis/speed.hpp"
+#include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
-#include "devices/terminals.hpp"
 
 namespace drycut::devices::epicpos {
 namespace {
 
-constexpr int cpu_slot = 1;  // its counters have no wires: a device moves them
+constexpr int cpu_slot = 1;                  // its counters have no wires: a device moves them
+constexpr std::int64_t ratio_bits = 400000;  // cntratio counts 1/100000 Um a pulse, a pulse is 4 bits
+
+bool same_ramps(const axis::Demand& a, const axis::Demand& b) {
+  return a.seconds_per_speed_up == b.seconds_per_speed_up &&
+         a.seconds_per_speed_down == b.seconds_per_speed_down;
+}
 
 }  // namespace
 
@@ -20,147 +23,138 @@ std::unique_ptr<Device> make_epicpos(const Resources& resources, Cards& cards) {
 }
 
 Positioner::Positioner(const DeviceType& type, const Resources& resources, Cards& cards)
-    : TableDevice(type), period_ms_(std::max(resources[FieldRow("TCamp")].number, 1)) {
-  Counter* counter = connect(cards.counters, resources[FieldRow("ICont")]);
-  terminals_.counter = counter;
-  if (counter && resources[FieldRow("ICont")].address->slot == cpu_slot) {
-    terminals_.simulated = counter;
-    ++counter->movers;
-    axis_.settings.simulated = true;
-  }
-  terminals_.enable = connect(cards.inputs, resources[FieldRow("IAZero")]);
-  terminals_.dac = connect(cards.analogue_outputs, resources[FieldRow("IOutA")]);
-  terminals_.zero_line = resources[FieldRow("IntL")].number;
-  rescale();
+    : AnaloguePositioner(type, resources, cards, "ICont", "IOutA") {
+  axis_.settings.simulated = counter_ && resources[FieldRow("ICont")].address->slot == cpu_slot;
+  if (axis_.settings.simulated) ++counter_->movers;
   recompute();
 }
 
 void Positioner::power_up() {
-  Device::power_up();
-  const axis::AxisSettings settings = axis_.settings;
-  const axis::Quota quota = axis_.quota;
-  axis_ = {};
-  axis_.settings = settings;
-  axis_.quota = quota;
-  if (terminals_.simulated) terminals_.simulated->count = terminals_.simulated->latched = 0;
-  if (!terminals_.dac) return;
-  terminals_.dac->word = 0;
-  dac_turn_.release(*terminals_.dac);
+  AnaloguePositioner::power_up();
+  if (axis_.settings.simulated) counter_->count = counter_->latched = 0;
 }
 
 void Positioner::initialise() {
-  rescale();
   recompute();
   // A kept position goes on with its remainder, unless memory was restored from elsewhere.
   if (axis_.posit() != value("posit")) axis_.quota.set_um(value("posit"), axis_.settings.resolution);
-  axis_.rebase(count_of(terminals_.counter));
-  axis_.abort();
-  axis_.settle();
-  search_.abort();
+  begin();
   check_ratio();
   enable_released_ = false;
-  zero_.reset();
   counter_part_ = 0;
   in_tolerance_ms_ = 0;
-  if (terminals_.simulated && terminals_.simulated->movers > 1)
+  if (axis_.settings.simulated && counter_->movers > 1)
     report({Diagnostic::Kind::note, "ICont", "another device moves the same simulated counter"});
 }
 
-void Positioner::latch() {
-  if (state("st_init")) axis_.follow(count_of(terminals_.counter), state("st_cntlock"), state("st_cntrev"));
+bool Positioner::may_write(Symbol symbol, std::int32_t new_value) {
+  const VariableRow variable{symbol.index};
+  if (variable == "setpos" && axis_.placing() && !search_.searching()) {
+    axis::AnalogueAxis trial = axis_;
+    return trial.retarget(clamped(new_value));
+  }
+  if (variable == "posit" && axis_.profile().moving()) {
+    axis::AnalogueAxis trial = axis_;
+    trial.quota.set_um(new_value, trial.settings.resolution);
+    return trial.requota();
+  }
+  return true;
 }
 
-void Positioner::interrupt(int line, bool rising) {
-  if (!state("st_init") || !rising || line != terminals_.zero_line || zero_) return;
-  zero_ = terminals_.counter ? axis_.transducer().total_at(terminals_.counter->latched, state("st_cntlock"),
-                                                           state("st_cntrev"))
-                             : axis_.transducer().total();
+void Positioner::written(Symbol symbol, std::int32_t new_value) {
+  const VariableRow variable{symbol.index};
+  const bool changed = value(variable) != new_value;
+  value(variable) = new_value;
+  check_dependent_range(variable);
+  if (variable == "posit") {
+    axis_.quota.set_um(new_value, axis_.settings.resolution);
+    axis_.requota();
+    return;
+  }
+  if (!changed) return;
+  const axis::Demand ramps = axis_.settings.ramps;
+  recompute();
+  if (variable == "cntratio") check_ratio();
+  write_motion(variable, !same_ramps(ramps, axis_.settings.ramps));
+}
+
+void Positioner::write_motion(VariableRow variable, bool ramps_changed) {
+  if (!axis_.profile().moving() || search_.searching()) return;
+  if (variable == "setpos" && axis_.placing()) axis_.retarget(clamped(value("setpos")));
+  if ((variable == "setvel" || ramps_changed) && !axis_.change(value("setvel")))
+    report(axis::kept_for_the_next(name_of(variable)));
+}
+
+/// What the ratio acts as, if not as itself.
+void Positioner::check_ratio() {
+  if (counter_) tell_acts("cntratio");
+}
+
+void Positioner::recompute() {
+  axis::AxisSettings& settings = axis_.settings;
+  axis_.quota.rescale(settings.resolution, axis::usable(value("cntratio"), ratio_bits));
+  const bool two_times = value("rampmode") == 1;
+  AnaloguePositioner::recompute(two_times ? value("tacc") : value("taccdec"),
+                                two_times ? value("tdec") : value("taccdec"));
+  axis::Demand& ramps = settings.ramps;
+  if (&type() == &epicpos_type) {
+    ramps.shape = axis::RampShape::epicycloidal;
+    ramps.keep_gradient = value("rtype") == 1;
+    settings.finish_ramp = value("stopt") == 0;
+  } else {
+    using EanposRow = NamedRow<eanpos::eanpos_type, &DeviceType::variables>;
+    const bool epicycloidal = value(VariableRow{EanposRow("ramptype")}) == 1;
+    ramps.shape = epicycloidal ? axis::RampShape::epicycloidal : axis::RampShape::trapezoidal;
+    ramps.keep_gradient = true;
+    settings.finish_ramp = false;
+  }
+
+  settings.term_limit = type().variables[VariableRow("integ")].max;
+  settings.reversal_pause_ms = value("tinvt") * 10;
+}
+
+void Positioner::execute(int command) {
+  if (command == CommandRow("DELCNT"))
+    axis_.quota.add_um(value("delta"), axis_.settings.resolution);
+  else
+    AnaloguePositioner::execute(command);
 }
 
 void Positioner::step() {
   sample_preset();
+  const axis::Theoretical before = axis_.theoretical();
   step_motion();
+  if (axis_.settings.simulated) move_counter(axis_.theoretical().minus(before));
   regulate();
-  publish_values();
-  publish_states();
+  publish();
 }
 
 void Positioner::sample_preset() {
-  const bool enable = is_on(terminals_.enable);
-  const auto zero = std::exchange(zero_, std::nullopt);
+  const bool enable = is_on(enable_);
+  const bool locked = state("st_cntlock");
   if (!enable) enable_released_ = true;
-  if (search_.searching()) {
-    search_settings_.locked = state("st_cntlock");
-    search_.sample(search_settings_, enable, zero, axis_);
-    value("setvel") = search_.speed(search_settings_);
-    value("setpos") = search_settings_.quota;
-  } else if (value("prsmode") == 2 && enable && enable_released_ && !state("st_cntlock")) {
-    axis_.quota.set_um(value("prspos"), axis_.settings.resolution);
-    axis_.requota();
-    set_state("st_prsok", true);
-  }
-}
-
-void Positioner::step_motion() {
-  const axis::Theoretical before = axis_.theoretical();
-  axis_.step_profile();
-  if (terminals_.simulated) move_counter(axis_.theoretical().minus(before));
-  if (search_.finished(axis_)) {
-    set_state("st_prson", false);
-    set_state("st_prsok", true);
-  }
-  if (!axis_.profile().moving() && !search_.searching()) set_state("st_still", true);
+  if (sample_search(enable, locked)) return;
+  if (value("prsmode") != 2 || !enable || !enable_released_ || locked) return;
+  load_preset();
+  axis_.requota();
 }
 
 void Positioner::move_counter(double bits) {
   counter_part_ += bits;
   const double whole = std::round(counter_part_);
   counter_part_ -= whole;
-  std::int64_t& count = terminals_.simulated->count;
-  count = axis::multiply_add(count, axis::whole_bits(whole), 1);
+  counter_->count = axis::multiply_add(counter_->count, axis::whole_bits(whole), 1);
   // Nothing happens to it between two samples: this is its count at any edge until the next.
-  terminals_.simulated->latched = count;
+  counter_->latched = counter_->count;
 }
 
-void Positioner::regulate() {
-  using axis::Drive;
-  const Drive drive = state("st_emrg")     ? Drive::emergency
-                      : state("st_regoff") ? Drive::frozen
-                      : state("st_cal")    ? Drive::calibration
-                      : state("st_loopon") ? Drive::reaction
-                                           : Drive::open_loop;
-  axis_.regulate(drive, value("vout"));
-  if (!terminals_.dac) return;
-  if (drive == Drive::frozen)
-    dac_turn_.release(*terminals_.dac);
-  else if (dac_turn_.put(*terminals_.dac, axis_.output().word))
-    report({Diagnostic::Kind::note, "IOutA", std::string(axis::shared_dac_text)});
-}
-
-void Positioner::publish_values() {
-  value("posit") = axis_.posit();
+void Positioner::publish() {
+  AnaloguePositioner::publish();
   value("follerr") = axis::to_long(axis_.error());
-  const axis::Actions& actions = axis_.actions();
-  value("ffwdreg") = axis::to_long(actions.feed_forward);
-  value("propreg") = axis::to_long(actions.proportional);
-  value("integ") = axis::to_long(actions.integral);
-  value("derreg") = axis::to_long(actions.derivative);
-  if (!axis_.frequency_new()) return;
-  const double rate = axis_.frequency().bits_per_second();
-  value("frq") = axis::to_long(rate / 4);
-  value("vel") = axis_.settings.bits_per_speed > 0 ? axis::to_long(rate / axis_.settings.bits_per_speed) : 0;
-}
-
-void Positioner::publish_states() {
-  const axis::Profile& profile = axis_.profile();
-  if (profile.moving()) set_state("st_movdir", profile.backward());
-  set_state("st_foller", axis_.following_error());
-
-  const auto placed = axis_.placed();
-  const bool in_tolerance =
-      placed && std::abs(std::int64_t{value("posit")} - *placed) <= std::int64_t{value("toll")};
-  set_state("st_toll", in_tolerance && in_tolerance_ms_ >= std::int64_t{value("toldly")} * 10);
-  in_tolerance_ms_ = in_tolerance ? in_tolerance_ms_ + period_ms_ : 0;
+  value("integ") = axis::to_long(axis_.actions().integral);
+  const bool placed = in_place();
+  set_state("st_toll", placed && in_tolerance_ms_ >= std::int64_t{value("toldly")} * 10);
+  in_tolerance_ms_ = placed ? in_tolerance_ms_ + period_ms_ : 0;
 }
 
 }  // namespace drycut::devices::epicpos

@@ -34,12 +34,7 @@ void OnOffPositioner::written(Symbol symbol, std::int32_t new_value) {
   if (variable == "setpos") retarget();
 }
 
-void OnOffPositioner::rescale() {
-  const axis::Resolution resolution = axis::usable(value("cntratio"), ratio_bits);
-  if (resolution == resolution_) return;
-  quota_.rescale(resolution_, resolution);
-  resolution_ = resolution;
-}
+void OnOffPositioner::rescale() { quota_.rescale(resolution_, axis::usable(value("cntratio"), ratio_bits)); }
 
 /// What the ratio acts as, if not as itself.
 void OnOffPositioner::check_ratio() {

@@ -48,8 +48,9 @@ TEST(AxisQuota, EachCountMovesTheBitsByOne) {
 TEST(AxisQuota, ANewResolutionKeepsTheQuota) {
   Quota quota;
   quota.count(10, {1, 4});  // 2.5 Um
-  quota.rescale({1, 4}, {10, 3});
-  EXPECT_EQ(quota.um({10, 3}), 2);
+  Resolution resolution{1, 4};
+  quota.rescale(resolution, {10, 3});
+  EXPECT_EQ(quota.um(resolution), 2);
   EXPECT_EQ(quota.numerator(), 6);
 }
 
