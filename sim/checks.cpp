@@ -245,6 +245,13 @@ CheckResult Checks::result(State& state, Time end) {
                                 check.event.text, check.at_least);
     return result;
   }
+  const auto never_looked_at = [&] {
+    return fmt::format("never looked at: the run ended at {} s", seconds_text(end));
+  };
+  if (check.kind == Check::Kind::never && check.from > end) {
+    result.detail = never_looked_at();
+    return result;
+  }
   if (check.kind == Check::Kind::never) {
     result.passed = state.count == 0;
     result.detail = state.count == 0
@@ -257,7 +264,7 @@ CheckResult Checks::result(State& state, Time end) {
   }
   if (check.kind == Check::Kind::all) finish_statistics(state);
   if (state.count == 0) {
-    result.detail = fmt::format("never looked at: the run ended at {} s", seconds_text(end));
+    result.detail = never_looked_at();
     return result;
   }
   result.margin = state.worst;

@@ -111,6 +111,7 @@ Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* 
     entry.over = stimulus.over;
     entry.power = stimulus.power;
     entry.from = stimulus.at.value_or(0);
+    entry.line = stimulus.place.line;
     if (stimulus.when) {
       entry.when = Expression::compile(*stimulus.when, scenario, slot, known, problems);
     } else {
@@ -141,6 +142,21 @@ Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* 
     }
     entries_.push_back(std::move(entry));
   }
+}
+
+std::vector<std::string> Timeline::left_undone(Time end) const {
+  std::vector<std::string> undone;
+  for (const auto& entry : entries_) {
+    if (entry.acted) continue;
+    undone.push_back(
+        entry.when ? fmt::format("the timeline's entry of line {} never happened: its `when` did not "
+                                 "come true in {} s",
+                                 entry.line, seconds_text(end))
+                   : fmt::format("the timeline's entry of line {} never happened: it is due at {} s, the "
+                                 "run ended at {} s",
+                                 entry.line, seconds_text(*entry.due), seconds_text(end)));
+  }
+  return undone;
 }
 
 void Timeline::work(Time now, Recording& recording) {
@@ -189,6 +205,7 @@ void Timeline::act(Entry& entry, Time now, Recording& recording) {
     controller_->power(*entry.power);
     tell("power", *entry.power ? "on" : "off");
   }
+  entry.acted = true;
   entry.due = entry.every ? std::optional(*entry.due + *entry.every) : std::nullopt;
 }
 

@@ -23,6 +23,9 @@ class Timeline {
     if (now >= next_) work(now, recording);
   }
 
+  /// What did not happen in a run that ended at `end`, a line each: a fault that never came proves nothing.
+  [[nodiscard]] std::vector<std::string> left_undone(Time end) const;
+
  private:
   struct Write {
     Target target;
@@ -45,6 +48,8 @@ class Timeline {
     std::vector<Write> ramps;
     std::vector<FaultWrite> faults;
     std::optional<bool> power;
+    int line = 0;  ///< of the scenario
+    bool acted = false;
   };
   struct Ramp {
     Target target;

@@ -66,6 +66,13 @@ inline constexpr std::array readings = {
     Reading{"ST",
             "a function that EN leaves out gives the initial value of its type, a block keeps its outputs",
             "IEC 61131-3 leaves it to the implementer"},
+    Reading{"ST",
+            "a STRING holds the bytes of the UTF-8 text: LEN counts two for a letter such as an umlaut, and "
+            "LEFT, MID, RIGHT cut between bytes",
+            "IEC 61131-3 gives no code of characters"},
+    Reading{"ST",
+            "LINT, ULINT and LWORD are exact in the program; what is recorded or checked is exact to 2^53",
+            "a trace holds REAL numbers"},
     Reading{"ST", "places outside of a STRING are cut off", "IEC 61131-3 calls them errors"},
     Reading{"ST", "whole numbers wrap in their width; conversions round halves to the even number",
             "IEC 61131-3 leaves overflow to the implementer"},

@@ -204,23 +204,24 @@ void run_job(Job& job, const RunOptions& options, int threads,
       progress("at half the step", static_cast<double>(now) / duration);
     });
   write_scenario(job.scenario, folder.add(scenario_file));
-  write_checks(job.result.outcome, folder.add(checks_file));
   if (const auto kept = retentive_file(job.scenario)) {
     OutputFile out(*kept);
     out.write(job.simulation->retentive_state());
     out.finish();
   }
-  if (!options.pictures && !options.gltf) return;
+  const auto finished = [&] { write_checks(job.result.outcome, folder.add(checks_file)); };
+  if (!options.pictures && !options.gltf) return finished();
   const auto film = job.simulation->snapshots().empty() ? renders::Film{}
                                                         : film_of(job.scenario, *job.simulation, job.meshes);
   if (options.gltf && !film.frames.empty()) {
     job.scene = folder.add(scene_file_of(job));
     renders::write_gltf(film, job.scene, job.scenario.pictures.slow);
   }
-  if (!options.pictures) return;
+  if (!options.pictures) return finished();
   job.left_out =
       write_pictures(job.scenario, *job.simulation, film, job.result.outcome, folder, threads, progress);
   job.result.has_report = true;
+  finished();
 }
 
 void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options) {

@@ -97,6 +97,21 @@ TEST_F(ProgramTest, WithoutHelpersTheVerdictStandsAndTheReportIsWritten) {
   EXPECT_FALSE(fs::exists(out / "rotary_knife_short/film.mp4"));
 }
 
+// While pictures are made the run is not at its end: who is ended there leaves no verdict.
+TEST_F(ProgramTest, TheVerdictIsWrittenLast) {
+  fs::create_directories(out / "bin");
+  const auto gnuplot = out / "bin/gnuplot";
+  std::ofstream(gnuplot) << "#!/bin/sh\ncp '" << (out / "rotary_knife_short/checks.json").string() << "' '"
+                         << (out / "seen.json").string() << "'\nexit 1\n";
+  fs::permissions(gnuplot, fs::perms::owner_all);
+  const auto path = std::string(getenv("PATH"));
+  setenv("PATH", ((out / "bin").string() + ":" + path).c_str(), 1);
+  call("run " + scenes + "rotary_knife_short.yaml --set scene.duration='5 s' --set pictures.frames=false" +
+       to());
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_THAT(contents(out / "seen.json"), testing::HasSubstr("the run has not come to its end"));
+}
+
 TEST_F(ProgramTest, WhatStandardOutputDoesNotTakeIsNoSuccess) {
   EXPECT_EQ(call("check --expand " + scenes + "rotary_knife_short.yaml >/dev/full").status, 3);
   EXPECT_EQ(call("devices >/dev/full").status, 3);

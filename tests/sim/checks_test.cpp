@@ -200,6 +200,14 @@ TEST_F(ChecksTest, NeverCountsEvents) {
   EXPECT_EQ(result().detail, "once, first at 2.0000 s: length=800 mm; force=130 N");
 }
 
+TEST_F(ChecksTest, NeverOfATimeThatDidNotComeFails) {
+  add(Check::Kind::never, "cut", "");
+  scenario.checks.back().from = 99 * second;
+  start();
+  EXPECT_FALSE(result().passed);
+  EXPECT_THAT(result().detail, testing::StartsWith("never looked at: the run ended at "));
+}
+
 TEST_F(ChecksTest, UnknownNamesAreProblems) {
   add(Check::Kind::never, "tearr", "");
   add(Check::Kind::each, "cut", "lenght > 3");

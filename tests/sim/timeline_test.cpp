@@ -92,6 +92,31 @@ TEST_F(TimelineTest, ConditionFiresOnceAfterItsDelay) {
   EXPECT_EQ(plant.lost, 200);
 }
 
+// A fault that never came proves nothing: who looks for it in a green run is told.
+TEST_F(TimelineTest, WhatNeverHappensIsTold) {
+  at(50 * millisecond).set = {{text("slLength"), quantity(500)}};
+  auto& late = scenario.timeline.emplace_back();
+  late.when = text("slLength > 900");
+  late.after = 20 * millisecond;
+  late.power = false;
+  auto& vain = scenario.timeline.emplace_back();
+  vain.when = text("slLength > 2000");
+  vain.power = false;
+  at(2 * millisecond).set = {{text("slLength"), quantity(901)}};
+  for (int i = 0; i < 4; ++i) scenario.timeline[static_cast<std::size_t>(i)].place = {10 + i, 5};
+  auto timeline = make();
+  ASSERT_TRUE(problems.empty());
+  run(timeline, 0, 10 * millisecond);
+  EXPECT_THAT(
+      timeline.left_undone(10 * millisecond),
+      testing::ElementsAre("the timeline's entry of line 10 never happened: it is due at 0.05 s, the "
+                           "run ended at 0.01 s",
+                           "the timeline's entry of line 11 never happened: it is due at 0.023 s, the "
+                           "run ended at 0.01 s",
+                           "the timeline's entry of line 12 never happened: its `when` did not come "
+                           "true in 0.01 s"));
+}
+
 TEST_F(TimelineTest, EveryRepeats) {
   auto& stimulus = at(millisecond);
   stimulus.every = 2 * millisecond;
