@@ -10,7 +10,6 @@ struct McCamTableSelect final : ExecutedBlock {
   CamRef CamTable;
   std::uint16_t CamTableID = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 };
 
 struct McCamIn final : ExecutedBlock {
@@ -27,7 +26,6 @@ struct McCamIn final : ExecutedBlock {
   bool InSync = false;
   bool EndOfProfile = false;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 
  private:
   std::int64_t ends_seen_ = 0;
@@ -45,7 +43,6 @@ struct McGearIn final : ExecutedBlock {
   std::int16_t BufferMode = static_cast<std::int16_t>(plcopen::BufferMode::aborting);
   bool InGear = false;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 };
 
 /// MC_CamOut and MC_GearOut: each lets go of its own kind of coupling.
@@ -60,12 +57,10 @@ struct Uncoupling : ExecutedBlock {
 
 struct McCamOut final : Uncoupling {
   McCamOut() : Uncoupling(Command::cam_out) {}
-  PinValue pin(std::size_t number) override;
 };
 
 struct McGearOut final : Uncoupling {
   McGearOut() : Uncoupling(Command::gear_out) {}
-  PinValue pin(std::size_t number) override;
 };
 
 struct McPhasing final : ExecutedBlock {
@@ -77,7 +72,6 @@ struct McPhasing final : ExecutedBlock {
   double Deceleration = 0;
   double Jerk = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 
  private:
   std::uint64_t shift_ = 0;  ///< number of this block's shift
@@ -93,7 +87,6 @@ struct CamTableWrite final : ExecutedBlock {
   double Value = 0;
   bool Changing = false;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 
  private:
   void change(MotionKernel& kernel);

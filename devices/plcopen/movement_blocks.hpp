@@ -12,7 +12,6 @@ struct McPower final : FunctionBlock {
   bool Error = false;
   std::uint32_t ErrorID = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 
  private:
   bool last_ = false;
@@ -20,7 +19,6 @@ struct McPower final : FunctionBlock {
 
 struct McHome final : AxisCommand {
   double Position = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   Order give(MotionKernel&, plcopen::Axis& axis) override { return axis.home(Position); }
@@ -29,14 +27,12 @@ struct McHome final : AxisCommand {
 struct McReset final : ExecutedBlock {
   AxisRef Axis;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 };
 
 struct McStop final : AxisCommand {
   double Deceleration = 0;
   double Jerk = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 
  private:
   Order give(MotionKernel&, plcopen::Axis& axis) override {
@@ -49,7 +45,6 @@ struct McStop final : AxisCommand {
 struct McHalt final : AxisCommand {
   double Deceleration = 0;
   double Jerk = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   Order give(MotionKernel&, plcopen::Axis& axis) override {
@@ -73,7 +68,6 @@ struct MoveCommand : AxisCommand {
 struct McMoveAbsolute final : MoveCommand {
   double Position = 0;
   std::int16_t Direction = static_cast<std::int16_t>(plcopen::Direction::shortest_way);
-  PinValue pin(std::size_t number) override;
 
  private:
   Order give(MotionKernel& kernel, plcopen::Axis&) override {
@@ -85,7 +79,6 @@ struct McMoveAbsolute final : MoveCommand {
 template <Command command>
 struct McMoveBy final : MoveCommand {
   double Distance = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   Order give(MotionKernel& kernel, plcopen::Axis&) override {
@@ -94,10 +87,6 @@ struct McMoveBy final : MoveCommand {
 };
 using McMoveRelative = McMoveBy<Command::move_relative>;
 using McMoveAdditive = McMoveBy<Command::move_additive>;
-template <>
-PinValue McMoveRelative::pin(std::size_t number);
-template <>
-PinValue McMoveAdditive::pin(std::size_t number);
 
 /// On top of the movement or coupling under way, which goes on.
 struct McMoveSuperImposed final : AxisCommand {
@@ -106,7 +95,6 @@ struct McMoveSuperImposed final : AxisCommand {
   double Acceleration = 0;
   double Deceleration = 0;
   double Jerk = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   Order give(MotionKernel&, plcopen::Axis& axis) override {
@@ -118,7 +106,6 @@ struct McMoveVelocity final : MoveCommand {
   std::int16_t Direction = static_cast<std::int16_t>(plcopen::Direction::positive);
   bool InVelocity = false;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 
  private:
   Order give(MotionKernel& kernel, plcopen::Axis&) override {
@@ -133,7 +120,6 @@ struct McSetPosition final : ExecutedBlock {
   double Position = 0;
   bool Relative = false;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 };
 
 /// Its factor stays in force when Enable goes FALSE. Factors of acceleration and jerk are not simulated.
@@ -146,7 +132,6 @@ struct McSetOverride final : FunctionBlock {
   bool Error = false;
   std::uint32_t ErrorID = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 };
 
 }  // namespace drycut::devices::plcopen

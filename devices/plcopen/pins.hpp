@@ -45,19 +45,19 @@ class FunctionBlock {
 
   /// Reads the inputs, gives and watches the command, writes the outputs.
   virtual void call(MotionKernel& kernel) = 0;
-  /// The value of pin `number` of the block type's table.
-  virtual PinValue pin(std::size_t number) = 0;
 
   /// The axis that an error of the last call is about.
   AxisRef about;
 };
 
-/// A kind of function block: its name, its pins in the order of declaration, and how to make one.
+/// A kind of function block: its name, its pins in the order of declaration, how to make one, and where the
+/// value of its pin `number` is.
 struct BlockType {
   std::string_view name;
   std::string_view meaning;
   std::span<const Pin> pins;
   std::unique_ptr<FunctionBlock> (*make)();
+  PinValue (*pin)(FunctionBlock& block, std::size_t number);
 };
 
 /// All function blocks. A Structured Text front finds "MC_CamIn" here, makes an instance for each declared

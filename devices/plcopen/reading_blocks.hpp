@@ -6,7 +6,6 @@ namespace drycut::devices::plcopen {
 
 struct McReadActualPosition final : AxisReading {
   double Position = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   void read(const plcopen::Axis* axis) override;
@@ -14,7 +13,6 @@ struct McReadActualPosition final : AxisReading {
 
 struct McReadActualVelocity final : AxisReading {
   double Velocity = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   void read(const plcopen::Axis* axis) override;
@@ -30,7 +28,6 @@ struct McReadStatus final : AxisReading {
   bool DiscreteMotion = false;
   bool ContinuousMotion = false;
   bool SynchronizedMotion = false;
-  PinValue pin(std::size_t number) override;
 
  private:
   void read(const plcopen::Axis* axis) override;
@@ -38,7 +35,6 @@ struct McReadStatus final : AxisReading {
 
 struct McReadAxisError final : AxisReading {
   std::uint32_t AxisErrorID = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   void read(const plcopen::Axis* axis) override;
@@ -52,7 +48,6 @@ struct McReadAxisInfo final : AxisReading {
   bool PowerOn = false;
   bool IsHomed = false;
   bool AxisWarning = false;
-  PinValue pin(std::size_t number) override;
 
  private:
   void read(const plcopen::Axis* axis) override;
@@ -75,7 +70,6 @@ struct McReadMotionState final : AxisReading {
   double LrActualRev = 0;
   double LrSetRev = 0;
   double LrSetAccel = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   void read(const plcopen::Axis* axis) override;
@@ -84,7 +78,6 @@ struct McReadMotionState final : AxisReading {
 struct McReadParameter final : AxisReading {
   std::int16_t ParameterNumber = 0;
   double Value = 0;
-  PinValue pin(std::size_t number) override;
 
  private:
   void read(const plcopen::Axis* axis) override;
@@ -97,7 +90,6 @@ struct McWriteParameter final : ExecutedBlock {
   std::int16_t ParameterNumber = 0;
   double Value = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 };
 
 /// Records where the axis was when its probe's signal rose: the exact count, not the one of the next cycle.
@@ -110,7 +102,6 @@ struct McTouchProbe final : ExecutedBlock {
   double LastPosition = 0;
   double RecordedPosition = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 
  private:
   [[nodiscard]] ErrorId check(const plcopen::Axis* axis) const;
@@ -125,7 +116,6 @@ struct McAbortTrigger final : ExecutedBlock {
   AxisRef Axis;
   std::uint16_t TriggerInput = 0;
   void call(MotionKernel& kernel) override;
-  PinValue pin(std::size_t number) override;
 };
 
 }  // namespace drycut::devices::plcopen

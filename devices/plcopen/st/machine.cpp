@@ -29,7 +29,7 @@ void Machine::start(bool all) {
     motion.type = place.type;
     motion.block = place.type->motion->make();
     for (std::size_t pin = 0; pin < place.type->members.size(); ++pin)
-      motion.pins.push_back(motion.block->pin(pin));
+      motion.pins.push_back(place.type->motion->pin(*motion.block, pin));
     at(place.cell) = static_cast<Cell>(motions_.size());
     motions_.push_back(std::move(motion));
   }

@@ -278,7 +278,7 @@ const Type* Compiler::motion_type(const BlockType& block) {
   const auto instance = block.make();
   for (std::size_t i = 0; i < block.pins.size(); ++i) {
     const Pin& pin = block.pins[i];
-    const PinValue value = instance->pin(i);
+    const PinValue value = block.pin(*instance, i);
     Variable member;
     member.name = pin.name;
     member.type = type_of_pin(pin, value, cam_ref());

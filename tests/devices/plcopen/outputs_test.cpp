@@ -15,7 +15,7 @@ namespace {
 template <typename T>
 T* pin_of(const BlockType& type, FunctionBlock& block, const char* name) {
   const int number = find_pin(type, name);
-  return number < 0 ? nullptr : std::get<T*>(block.pin(static_cast<std::size_t>(number)));
+  return number < 0 ? nullptr : std::get<T*>(type.pin(block, static_cast<std::size_t>(number)));
 }
 
 /// An order for the slave of `b` that is in range.
@@ -180,7 +180,7 @@ TEST(PlcopenRanges, NoNumberOnAPinDoesHarm) {
         const std::unique_ptr<FunctionBlock> block = type.make();
         fill(type, *block, b);
         if (auto* window = pin_of<bool>(type, *block, "WindowOnly")) *window = true;
-        *std::get<double*>(block->pin(number)) = value;
+        *std::get<double*>(type.pin(*block, number)) = value;
         for (const char* go : {"Execute", "Enable"})
           if (auto* level = pin_of<bool>(type, *block, go)) *level = true;
         block->call(b.kernel);

@@ -28,7 +28,7 @@ struct Monkey : Bench {
   void twist(FunctionBlock& block, const BlockType& type) {
     for (std::size_t i = 0; i < type.pins.size(); ++i) {
       if (type.pins[i].direction == PinDirection::output) continue;
-      const PinValue value = block.pin(i);
+      const PinValue value = type.pin(block, i);
       const std::string_view name = type.pins[i].name;
       if (auto* const* flag = std::get_if<bool*>(&value)) **flag = random() % 2 == 0;
       if (auto* const* number = std::get_if<double*>(&value))

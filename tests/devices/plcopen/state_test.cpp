@@ -70,7 +70,8 @@ struct Walk : Bench {
     std::unique_ptr<FunctionBlock> block = type.make();
     const auto set = [&](const char* pin, auto value) {
       const int number = find_pin(type, pin);
-      if (number >= 0) *std::get<decltype(value)*>(block->pin(static_cast<std::size_t>(number))) = value;
+      if (number >= 0)
+        *std::get<decltype(value)*>(type.pin(*block, static_cast<std::size_t>(number))) = value;
     };
     set("Axis", slave);
     set("Slave", slave);
@@ -89,7 +90,8 @@ struct Walk : Bench {
   }
   template <typename T>
   T value(const std::string& name, FunctionBlock& block, const char* pin) {
-    return *std::get<T*>(block.pin(static_cast<std::size_t>(find_pin(*find_block_type(name), pin))));
+    const BlockType& type = *find_block_type(name);
+    return *std::get<T*>(type.pin(block, static_cast<std::size_t>(find_pin(type, pin))));
   }
 };
 
@@ -173,8 +175,8 @@ TEST(PlcopenStates, EveryBlockInEveryStateDoesWhatTheDiagramSays) {
         EXPECT_EQ(b.s().ticket(), ticket);
       }
       // Error goes with Execute.
-      *std::get<bool*>(
-          block->pin(static_cast<std::size_t>(find_pin(*find_block_type(row.block), "Execute")))) = false;
+      const BlockType& type = *find_block_type(row.block);
+      *std::get<bool*>(type.pin(*block, static_cast<std::size_t>(find_pin(type, "Execute")))) = false;
       block->call(b.kernel);
       EXPECT_FALSE(b.value<bool>(row.block, *block, "Error"));
       EXPECT_EQ(b.value<std::uint32_t>(row.block, *block, "ErrorID"), 0u);
@@ -313,7 +315,7 @@ TEST(PlcopenStates, AnAxisUnpluggedFromARunningBlockDoesNoHarm) {
       for (int i = 0; i < 400; ++i) b.kernel.cycle();
       block->call(b.kernel);
       const int pin = find_pin(type, find_pin(type, "Axis") >= 0 ? "Axis" : "Slave");
-      *std::get<AxisRef*>(block->pin(static_cast<std::size_t>(pin))) = {};
+      *std::get<AxisRef*>(type.pin(*block, static_cast<std::size_t>(pin))) = {};
       block->call(b.kernel);
       if (name == "MC_CamIn") {
         EXPECT_FALSE(b.value<bool>(name, *block, "InSync"));
@@ -336,7 +338,8 @@ TEST(PlcopenStates, ThePinsTypesAreThoseOfTheirValues) {
   for (const BlockType& type : block_types()) {
     const std::unique_ptr<FunctionBlock> block = type.make();
     for (std::size_t i = 0; i < type.pins.size(); ++i) {
-      EXPECT_EQ(block->pin(i).index(), index.at(type.pins[i].type)) << type.name << "." << type.pins[i].name;
+      EXPECT_EQ(type.pin(*block, i).index(), index.at(type.pins[i].type))
+          << type.name << "." << type.pins[i].name;
       EXPECT_FALSE(type.pins[i].meaning.empty());
       EXPECT_EQ(find_pin(type, type.pins[i].name), static_cast<int>(i));
     }
