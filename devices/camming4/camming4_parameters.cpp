@@ -5,22 +5,8 @@
 namespace drycut::devices::camming4 {
 namespace {
 
-Column column_of(int variable) {
-  switch (variable) {
-    case VariableRow("codeG"):
-      return Column::codeG;
-    case VariableRow("codeQm"):
-      return Column::codeQm;
-    case VariableRow("codeQs"):
-      return Column::codeQs;
-    case VariableRow("codeQma"):
-      return Column::codeQma;
-    case VariableRow("codeQsa"):
-      return Column::codeQsa;
-    default:
-      return Column::codeM;
-  }
-}
+// The table has the columns in their order.
+Column column_of(int variable) { return static_cast<Column>(variable - VariableRow("codeG")); }
 
 bool is_table(int variable) { return variable >= VariableRow("codeG") && variable <= VariableRow("codeM"); }
 
