@@ -52,22 +52,6 @@ Arc make_arc(std::int32_t radius, std::int32_t dx, std::int32_t dy, Turn turn) {
   return arc;
 }
 
-Motion at(const Arc& arc, ArcAxis axis, double m, double um_per_turn) {
-  if (axis == ArcAxis::tangent) {
-    const double speed = arc.sense * um_per_turn / (2 * pi * arc.radius);
-    return {speed * m, speed, 0, 0};
-  }
-  const double angle = arc.start_angle + arc.sense * m / arc.radius;
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
-  const double square_of_radius = arc.radius * arc.radius;
-  if (axis == ArcAxis::x)
-    return {arc.centre_x + arc.radius * cosine, -arc.sense * sine, -cosine / arc.radius,
-            arc.sense * sine / square_of_radius};
-  return {arc.centre_y + arc.radius * sine, arc.sense * cosine, -sine / arc.radius,
-          -arc.sense * cosine / square_of_radius};
-}
-
 double peak_acceleration(const Arc& arc, ArcAxis axis) {
   if (axis == ArcAxis::tangent) return 0;
   const double start = phase(arc, axis);

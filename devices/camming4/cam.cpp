@@ -120,7 +120,7 @@ void Cam::follow(const CamSample& sample) {
 /// A sampling with the master inside the sector, `length` from its start.
 void Cam::run_to(const Space& length, const CamSample& sample) {
   inside_ += 1;
-  const Motion motion = show(master_um(length));
+  const CamMotion motion = show(master_um(length));
   const double gradient = motion.acceleration * sample.proven_speed * sample.proven_speed;
   const bool gains = motion.velocity * gradient > 0 || (motion.velocity == 0 && gradient != 0);
   bool& told = gains ? told_gain_ : told_loss_;
@@ -277,9 +277,9 @@ std::int64_t Cam::slave_value(const Point& point, const CamSample& sample) const
   return add(subtract(sample.slave_grains, step_.slave_shift), ahead);
 }
 
-Motion Cam::show(double m) {
+CamMotion Cam::show(double m) {
   const Sector& sector = current();
-  const Motion motion = at(sector, m);
+  const CamMotion motion = at(sector, m);
   const auto measure = static_cast<double>(settings_.slave.measure);
   const double bits = (static_cast<double>(slave_origin_.part) + slave_origin_.fraction +
                        motion.position * static_cast<double>(settings_.slave.pulse)) /

@@ -121,7 +121,7 @@ class Cam {
   void rebase(std::int64_t master_count);
   void wrap_counts(const CamSample& sample);
   bool quota_passed(const CamSample& sample);
-  Motion show(double m);
+  CamMotion show(double m);
   void run_to(const Space& length, const CamSample& sample);
   void pass_boundary(const Space& beyond, bool backwards, const CamSample& sample);
   [[nodiscard]] bool over_too_soon(const Space& left, const CamSample& sample) const;

@@ -23,29 +23,8 @@ double inverse_cycloid(double share) {
   return (low + high) / 2;
 }
 
-Motion at_straight(const Ramp& ramp, double x) {
-  const double slope = (ramp.v1 - ramp.v0) / ramp.length;
-  return {ramp.position + x * (ramp.v0 + slope * x / 2), ramp.v0 + slope * x, slope, 0};
-}
-
-Motion at_cycloidal(const Ramp& ramp, double x) {
-  const double change = ramp.v1 - ramp.v0;
-  const double length = ramp.length;
-  const double p = x / length;
-  const double sine = std::sin(two_pi * p);
-  const double lift = 1 - std::cos(two_pi * p);
-  const double done = p - sine / two_pi;
-  Motion motion;
-  motion.position = ramp.position + length * (ramp.v0 * p + change * (p * p / 2 - lift / (two_pi * two_pi))) +
-                    ramp.excess * done;
-  motion.velocity = ramp.v0 + change * done + ramp.excess / length * lift;
-  motion.acceleration = (change * lift + ramp.excess / length * two_pi * sine) / length;
-  motion.jerk = two_pi * (change * sine + ramp.excess / length * two_pi * (1 - lift)) / (length * length);
-  return motion;
-}
-
 /// Largest |dv/dm| of a ramp while |v| grows (`growing`) or falls.
-double peak(const Ramp& ramp, bool growing) {
+double peak(const CamRamp& ramp, bool growing) {
   const double change = std::abs(ramp.v1 - ramp.v0);
   const double most = (ramp.cycloidal ? 2 : 1) * change / ramp.length;
   if (ramp.v0 * ramp.v1 >= 0) return (std::abs(ramp.v1) > std::abs(ramp.v0)) == growing ? most : 0;
@@ -61,17 +40,11 @@ double peak(const Law& law, bool growing) {
   return most;
 }
 
-void append(Law& law, const Ramp& ramp) { law.ramps[law.count++] = ramp; }
+void append(Law& law, const CamRamp& ramp) { law.ramps[law.count++] = ramp; }
 
 }  // namespace
 
-Motion at(const Ramp& ramp, double m) {
-  return ramp.cycloidal ? at_cycloidal(ramp, m - ramp.start) : at_straight(ramp, m - ramp.start);
-}
-
-double space(const Ramp& ramp) { return ramp.length * (ramp.v0 + ramp.v1) / 2 + ramp.excess; }
-
-Motion at(const Law& law, double m) {
+CamMotion at(const Law& law, double m) {
   int i = law.count - 1;
   while (i > 0 && m < law.ramps[i].from) --i;
   return at(law.ramps[i], m);
@@ -127,7 +100,7 @@ Law fitted(double master, double slave, double v0, double v1, double tolerance, 
 Law joined(const Law& first, double first_slave, const Law& second) {
   Law law = first;
   for (int i = 0; i < second.count && law.count < static_cast<int>(law.ramps.size()); ++i) {
-    Ramp ramp = second.ramps[i];
+    CamRamp ramp = second.ramps[i];
     ramp.from += first.length;
     ramp.start += first.length;
     ramp.position += first_slave;
@@ -141,11 +114,11 @@ Law joined(const Law& first, double first_slave, const Law& second) {
 Law softened(double master, double speed, const Softening& entry, const Softening& exit) {
   Law law{.length = master, .mid_speed = speed, .exit_speed = speed};
   if (entry.half_width > 0) {
-    Ramp ramp{.start = -entry.half_width,
-              .length = 2 * entry.half_width,
-              .v0 = speed - entry.change,
-              .v1 = speed,
-              .cycloidal = entry.shape == Shape::cycloidal};
+    CamRamp ramp{.start = -entry.half_width,
+                 .length = 2 * entry.half_width,
+                 .v0 = speed - entry.change,
+                 .v1 = speed,
+                 .cycloidal = entry.shape == Shape::cycloidal};
     ramp.position = speed * entry.half_width - space(ramp);
     append(law, ramp);
   }

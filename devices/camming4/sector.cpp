@@ -113,7 +113,7 @@ void make_arc_sector(SectorResult& result, const Row& row, const CamSettings& se
   const auto grains_per_um = static_cast<double>(settings.slave.pulse);
   if (row.codeG >= 174) {
     const double turn_um = 360 * std::pow(10.0, std::clamp(settings.decpt, 0, 3));
-    const Motion motion = at(sector.arc, ArcAxis::tangent, sector.arc.length, turn_um);
+    const CamMotion motion = at(sector.arc, ArcAxis::tangent, sector.arc.length, turn_um);
     sector.law = constant(sector.arc.length, motion.velocity);
     sector.slave = space(motion.position * grains_per_um);
     sector.entry_speed = sector.exit_speed = motion.velocity;
@@ -170,7 +170,7 @@ bool asks_softening(const Row& row) {
   return is_change_of_ratio(row) && row.codeQma >= 1 && row.codeQma <= 4;
 }
 
-Motion at(const Sector& sector, double m) {
+CamMotion at(const Sector& sector, double m) {
   switch (sector.kind) {
     case Sector::Kind::arc_x:
       return at(sector.arc, ArcAxis::x, m, 0);

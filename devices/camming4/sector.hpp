@@ -52,7 +52,7 @@ struct Sector {
 };
 
 /// Slave motion of a sector at master position m [Um].
-Motion at(const Sector& sector, double m);
+CamMotion at(const Sector& sector, double m);
 double peak_acceleration(const Sector& sector);
 double peak_deceleration(const Sector& sector);
 

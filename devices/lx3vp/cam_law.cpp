@@ -23,16 +23,16 @@ std::int64_t limited(Wide value) {
 
 }  // namespace
 
-CamLaw::CamLaw(std::vector<Row> rows, Zoom master, Zoom slave)
+RowLaw::RowLaw(std::vector<Row> rows, Zoom master, Zoom slave)
     : rows_(std::move(rows)), master_(master), slave_(slave) {
   assert(rows_.size() >= 2);
 }
 
-Wide CamLaw::length() const {
+Wide RowLaw::length() const {
   return (Wide{rows_.back().master} - rows_.front().master) * master_.denominator;
 }
 
-CamLaw::Place CamLaw::place(std::int64_t counts, std::int64_t first) const {
+RowLaw::Place RowLaw::place(std::int64_t counts, std::int64_t first) const {
   // The limit keeps all products below 128 bit; a counter takes years to reach it.
   constexpr Wide most = Wide{1} << 61;
   const Wide travelled = std::clamp(Wide{first} * master_.denominator + Wide{counts} * master_.numerator,
@@ -42,7 +42,7 @@ CamLaw::Place CamLaw::place(std::int64_t counts, std::int64_t first) const {
   return {limited(cycle), travelled - cycle * length()};
 }
 
-CamLaw::Fraction CamLaw::slave(Wide part) const {
+RowLaw::Fraction RowLaw::slave(Wide part) const {
   const Wide unit = master_.denominator;
   const std::int64_t first = rows_.front().master;
   auto next = std::upper_bound(rows_.begin(), rows_.end(), part, [&](Wide at, const Row& row) {
@@ -57,18 +57,18 @@ CamLaw::Fraction CamLaw::slave(Wide part) const {
   return {base * length * unit + rise * (part - (Wide{from.master} - first) * unit), length * unit};
 }
 
-std::int64_t CamLaw::pulses(const Place& place) const {
+std::int64_t RowLaw::pulses(const Place& place) const {
   const Fraction in_cycle = slave(place.part);
   const Wide a_cycle = Wide{rows_.back().slave} - rows_.front().slave;
   const Wide total = place.cycle * a_cycle * in_cycle.denominator + in_cycle.numerator;
   return limited(nearest_to(total * slave_.numerator, in_cycle.denominator * slave_.denominator));
 }
 
-std::int64_t CamLaw::master_position(const Place& place) const {
+std::int64_t RowLaw::master_position(const Place& place) const {
   return rows_.front().master + static_cast<std::int64_t>(floor_of(place.part, master_.denominator));
 }
 
-std::int64_t CamLaw::slave_position(const Place& place) const {
+std::int64_t RowLaw::slave_position(const Place& place) const {
   const Fraction in_cycle = slave(place.part);
   return rows_.front().slave +
          static_cast<std::int64_t>(nearest_to(in_cycle.numerator, in_cycle.denominator));

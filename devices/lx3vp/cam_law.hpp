@@ -18,12 +18,12 @@ struct Zoom {
 /// The cam's law in whole numbers: straight lines between the rows of a table, repeated from cycle to cycle,
 /// with the zooms of master and slave. There is one rounding, of the pulses at the end, so that nothing
 /// drifts however long the cam runs.
-class CamLaw {
+class RowLaw {
  public:
   using Row = CamTableRow;
-  CamLaw() = default;
+  RowLaw() = default;
   /// At least two rows; masters not negative and ascending.
-  CamLaw(std::vector<Row> rows, Zoom master, Zoom slave);
+  RowLaw(std::vector<Row> rows, Zoom master, Zoom slave);
 
   /// Where the master is: cycle `cycle` and, in it, `part` / master zoom's denominator table units after the
   /// first row. `part` is 0..length(); length() itself is the end of a cycle that goes no further.

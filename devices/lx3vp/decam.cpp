@@ -251,7 +251,7 @@ CamMoment Decam::moment(const PulseOutput& output) const {
   return moment;
 }
 
-bool Decam::limit(CamPort& port, CamLaw::Place& place) const {
+bool Decam::limit(CamPort& port, RowLaw::Place& place) const {
   // A non-cyclic cam has nothing before its first row.
   if (!repeats_for_ever() && place.cycle < 0) place = {0, 0};
   if (stops_after_cycle(port) && state_ == State::run && place.cycle != cycle_) {
@@ -272,7 +272,7 @@ void Decam::finish(CamPort& port) {
   pause_ticks_ = ticks_between_runs;
 }
 
-void Decam::show_positions(CamPort& port, const CamLaw::Place& place, std::int64_t pulses) const {
+void Decam::show_positions(CamPort& port, const RowLaw::Place& place, std::int64_t pulses) const {
   Registers& registers = port.registers;
   const int at = operands_.block;
   registers.set_u32(at + word::slave_pulses, static_cast<std::uint32_t>(pulses));

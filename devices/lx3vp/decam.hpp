@@ -79,7 +79,7 @@ class Decam {
   }
   /// Starts of a run so far, and what the last one took from the block.
   [[nodiscard]] std::uint64_t starts() const { return starts_; }
-  [[nodiscard]] const CamLaw& law() const { return law_; }
+  [[nodiscard]] const RowLaw& law() const { return law_; }
   [[nodiscard]] bool cyclic() const { return repeats_for_ever(); }
   /// The run in table units, from the first row on: the master by its counts, the slave by the pulses given.
   [[nodiscard]] CamMoment moment(const PulseOutput& output) const;
@@ -124,9 +124,9 @@ class Decam {
   /// The present cycle is the last.
   [[nodiscard]] bool stops_after_cycle(CamPort& port) const;
   /// Keeps the place within what the cam may do; true if it is at its end.
-  bool limit(CamPort& port, CamLaw::Place& place) const;
+  bool limit(CamPort& port, RowLaw::Place& place) const;
   void finish(CamPort& port);
-  void show_positions(CamPort& port, const CamLaw::Place& place, std::int64_t pulses) const;
+  void show_positions(CamPort& port, const RowLaw::Place& place, std::int64_t pulses) const;
   void show_status(CamPort& port);
   void drive_sync_output(CamPort& port);
   void tell_late(CamPort& port);
@@ -150,7 +150,7 @@ class Decam {
   std::int64_t cycles_ = 1;  ///< of a run; 0 = endless
   std::int64_t delay_ = 0;
   std::int64_t first_ = 0;  ///< master position at which a run begins, from row 0 [table units]
-  CamLaw law_;
+  RowLaw law_;
 
   // The run.
   CamMaster master_;
@@ -162,7 +162,7 @@ class Decam {
   std::int64_t cycle_ = 0;   ///< present one
   std::int64_t base_ = 0;    ///< output position at the start of cycle 0
   std::int64_t target_ = 0;  ///< output position that is due
-  CamLaw::Place place_;
+  RowLaw::Place place_;
   int pause_ticks_ = 0;
   std::optional<int> sync_output_;
   bool told_late_ = false;

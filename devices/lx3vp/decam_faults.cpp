@@ -92,7 +92,7 @@ std::optional<CamFault> Decam::take_block(CamPort& port, bool taken) {
   cycles_ = repeats == endless && !cyclic_ ? 0 : repeats + 1;
   delay_ = registers.u32(at + word::delay);
   resume_ = (function_ & function::resume) != 0;
-  std::vector<CamLaw::Row> rows(block(port, word::rows));
+  std::vector<RowLaw::Row> rows(block(port, word::rows));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int place = at + word::table + row_words * static_cast<int>(i);
     rows[i] = {registers.i32(place), registers.i32(place + 2)};
@@ -112,7 +112,7 @@ std::optional<CamFault> Decam::take_block(CamPort& port, bool taken) {
     first_ = position - rows.front().master;
   }
   law_ =
-      CamLaw(std::move(rows), zoom(function::master_zoom, word::master_numerator, word::master_denominator),
+      RowLaw(std::move(rows), zoom(function::master_zoom, word::master_numerator, word::master_denominator),
              zoom(function::slave_zoom, word::slave_numerator, word::slave_denominator));
   return std::nullopt;
 }

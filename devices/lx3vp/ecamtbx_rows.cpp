@@ -13,7 +13,7 @@ std::optional<std::vector<int>> share(const CamProfile& profile, int resolution)
   int left = resolution - static_cast<int>(profile.pieces.size()) - 1;
   bool curved = false;
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    if (!profile.pieces[i].is_curved()) continue;
+    if (!ratio_of(profile.pieces[i]).is_curved()) continue;
     curved = true;
     inside[i] = 1;
     --left;
@@ -67,7 +67,7 @@ class Rows {
 };
 
 /// A master position that is a row, strictly inside a piece after rounding.
-bool has_row_inside(const RatioPiece& piece, double place) {
+bool has_row_inside(const CamPiece& piece, double place) {
   const auto row = nearest_pulse(place);
   return row > nearest_pulse(piece.master) && row < nearest_pulse(piece.master + piece.length);
 }
@@ -83,7 +83,7 @@ std::optional<std::vector<CamTableRow>> sample_rows(const CamProfile& profile, c
   for (std::size_t i = 0; i < profile.pieces.size(); ++i) {
     const auto& piece = profile.pieces[i];
     rows.add(piece.master);
-    bool filled = !piece.is_curved();
+    bool filled = !ratio_of(piece).is_curved();
     for (int n = 1; n <= (*inside)[i]; ++n) {
       const double place = piece.master + piece.length * n / ((*inside)[i] + 1);
       rows.add(place);

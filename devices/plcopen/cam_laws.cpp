@@ -20,60 +20,62 @@ std::array<double, 6> quintic(double y0, double y1, double v0, double v1, double
   return {y0, v0 * h, 0, 10 * d - 4 * e, -15 * d + 7 * e, 6 * d - 3 * e};
 }
 
+std::array<double, 6>& coefficients_of(CamCurve& curve, std::size_t piece) {
+  return std::get<CamPolynomial>(curve.pieces[piece].law).c;
+}
+
 void fill_even(CamCurve& curve, const std::vector<double>& y, Interpolation interpolation) {
   const std::size_t n = y.size() - 1;
   const auto step = [&](std::size_t i) { return y[i % n + 1] - y[i % n]; };
   for (std::size_t i = 0; i < n; ++i) {
-    CamSegment& segment = curve.segments[i];
+    auto& c = coefficients_of(curve, i);
     if (interpolation == Interpolation::step_direct) {
-      segment.c = {y[i]};
-      segment.step = true;
+      c = {y[i]};
     } else if (interpolation == Interpolation::linear) {
-      segment.c = {y[i], step(i)};
+      c = {y[i], step(i)};
     } else {
       // Bezier points b1 = y0 + m0/3, b2 = y1 - m1/3 with the slopes of the chords over the neighbours.
       const double m0 = (step(i + n - 1) + step(i)) / 2;
       const double m1 = (step(i) + step(i + 1)) / 2;
-      segment.c = {y[i], m0, 3 * step(i) - 2 * m0 - m1, m0 + m1 - 2 * step(i)};
+      c = {y[i], m0, 3 * step(i) - 2 * m0 - m1, m0 + m1 - 2 * step(i)};
     }
   }
 }
 
-void fill_coefficients(CamCurve& curve, const CamTable& table, Endless endless) {
-  for (std::size_t i = 0; i < curve.segments.size(); ++i)
-    for (int k = 0; k < 4; ++k) curve.segments[i].c[static_cast<std::size_t>(k)] = table.value(i, k);
-  if (endless == Endless::no || curve.slave_modulo <= 0) return;
+void fill_coefficients(CamCurve& curve, const CamTable& table, double slave_modulo, Endless endless) {
+  for (std::size_t i = 0; i < curve.pieces.size(); ++i)
+    for (int k = 0; k < 4; ++k) coefficients_of(curve, i)[static_cast<std::size_t>(k)] = table.value(i, k);
+  if (endless == Endless::no || slave_modulo <= 0) return;
   // The last polynomial ends in the turn in which the cam goes on.
-  const double end = at(curve.segments.back(), 1).position - curve.segments.front().c[0];
-  curve.turns = std::llround(end / curve.slave_modulo);
+  const double end = curve.pieces.back().end().position - coefficients_of(curve, 0)[0];
+  curve.turns = std::llround(end / slave_modulo);
 }
 
 /// Lines and quintics alternately. The type names first what arrives at point 0: POLY5_LINE's last
 /// interval is the quintic, so its first is a line.
 void fill_pairs(CamCurve& curve, const std::vector<double>& x, const std::vector<double>& y,
-                Interpolation interpolation) {
+                Interpolation interpolation, double cycle) {
   const std::size_t n = x.size();
-  const double cycle = static_cast<double>(curve.turns) * curve.slave_modulo;
   curve.even = false;
-  curve.first = x[0];
-  const auto length = [&](std::size_t i) { return (i + 1 < n ? x[i + 1] : x[0] + curve.modulo) - x[i]; };
+  const auto length = [&](std::size_t i) {
+    return (i + 1 < n ? x[i + 1] : x[0] + curve.master_length) - x[i];
+  };
   const auto slope = [&](std::size_t i) { return (y[i % n + 1] - y[i % n]) / length(i % n); };
   for (std::size_t i = 0; i < n; ++i) {
-    CamSegment& segment = curve.segments[i];
-    segment.start = x[i];
-    segment.length = length(i);
+    CamPiece& piece = curve.pieces[i];
+    piece.master = x[i];
+    piece.length = length(i);
     const bool line = (i % 2 == 0) == (interpolation == Interpolation::poly5_line);
     if (line)
-      segment.c = {y[i], y[i + 1] - y[i]};
+      coefficients_of(curve, i) = {y[i], y[i + 1] - y[i]};
     else
-      segment.c = quintic(y[i], y[i + 1], slope(i + n - 1), slope(i + 1), segment.length);
+      coefficients_of(curve, i) = quintic(y[i], y[i + 1], slope(i + n - 1), slope(i + 1), piece.length);
   }
   // Masters before the first point belong to the last interval of the turn before.
   if (x[0] <= 0) return;
-  CamSegment before = curve.segments.back();
-  before.start -= curve.modulo;
-  before.c[0] -= cycle;
-  curve.segments.insert(curve.segments.begin(), before);
+  curve.pieces.insert(curve.pieces.begin(), CamPiece(curve.pieces.back()));
+  curve.pieces.front().master -= curve.master_length;
+  coefficients_of(curve, 0)[0] -= cycle;
 }
 
 }  // namespace
@@ -102,50 +104,23 @@ std::vector<double> unwrapped(const std::vector<double>& positions, double slave
 
 CamCurve curve_of(const CamTable& table, Interpolation interpolation, double modulo, double slave_modulo,
                   Endless endless) {
-  CamCurve curve{.modulo = modulo, .slave_modulo = slave_modulo, .segments = {}};
-  curve.segments.resize(table.lines());
-  const auto count = static_cast<double>(curve.segments.size());
-  for (std::size_t i = 0; i < curve.segments.size(); ++i) {
-    curve.segments[i].start = static_cast<double>(i) * modulo / count;
-    curve.segments[i].length = modulo / count;
-  }
+  CamCurve curve;
+  curve.master_length = modulo;
+  curve.even = true;
+  const auto count = static_cast<double>(table.lines());
+  for (std::size_t i = 0; i < table.lines(); ++i)
+    curve.pieces.push_back({static_cast<double>(i) * modulo / count, modulo / count, 0,
+                            static_cast<int>(i) + 1, CamPolynomial{}});
   if (interpolation == Interpolation::polynom_3_koeff) {
-    fill_coefficients(curve, table, endless);
+    fill_coefficients(curve, table, slave_modulo, endless);
   } else if (interpolation == Interpolation::line_poly5 || interpolation == Interpolation::poly5_line) {
     const std::vector<double> y = unwrapped(column(table, 1), slave_modulo, endless, curve.turns);
-    fill_pairs(curve, column(table, 0), y, interpolation);
+    fill_pairs(curve, column(table, 0), y, interpolation, static_cast<double>(curve.turns) * slave_modulo);
   } else {
     fill_even(curve, unwrapped(column(table, 0), slave_modulo, endless, curve.turns), interpolation);
   }
+  curve.slave_length = static_cast<double>(curve.turns) * slave_modulo;
   return curve;
-}
-
-std::size_t segment_at(const CamCurve& curve, double x) {
-  if (curve.even) {
-    const auto count = static_cast<double>(curve.segments.size());
-    const double number = std::floor(x * count / curve.modulo);
-    return static_cast<std::size_t>(std::clamp(number, 0.0, count - 1));
-  }
-  const auto next = std::upper_bound(curve.segments.begin(), curve.segments.end(), x,
-                                     [](double value, const CamSegment& s) { return value < s.start; });
-  return next == curve.segments.begin() ? 0 : static_cast<std::size_t>(next - curve.segments.begin()) - 1;
-}
-
-CamMotion at(const CamSegment& segment, double u) {
-  const auto& c = segment.c;
-  const double h = segment.length;
-  return {c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5])))),
-          (c[1] + u * (2 * c[2] + u * (3 * c[3] + u * (4 * c[4] + u * 5 * c[5])))) / h,
-          (2 * c[2] + u * (6 * c[3] + u * (12 * c[4] + u * 20 * c[5]))) / (h * h),
-          (6 * c[3] + u * (24 * c[4] + u * 60 * c[5])) / (h * h * h)};
-}
-
-CamMotion at(const CamCurve& curve, double x) {
-  const std::size_t i = segment_at(curve, x);
-  const CamSegment& segment = curve.segments[i];
-  if (!curve.even) return at(segment, (x - segment.start) / segment.length);
-  // In table intervals, so that a knot is met exactly where its master is a whole number.
-  return at(segment, x * static_cast<double>(curve.segments.size()) / curve.modulo - static_cast<double>(i));
 }
 
 }  // namespace drycut::devices::plcopen

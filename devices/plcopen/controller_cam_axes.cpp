@@ -39,7 +39,7 @@ CamMoment PlcopenController::cam_moment(int number) const {
   const Position place = coupling->place(cam, axis(link.master.number).as_master(link.actual_values, delay));
   CamMoment moment;
   moment.follows = true;
-  moment.master = static_cast<double>(place.turns) * cam.curve.modulo + place.part;
+  moment.master = static_cast<double>(place.turns) * cam.curve.master_length + place.part;
   moment.set = (slave.set().position.part - cam.slave_offset) / cam.slave_scaling;
   moment.turn = slave.modulo() / std::abs(cam.slave_scaling);
   if (slave.parameters().kind != static_cast<double>(AxisKind::virtual_axis))
@@ -61,7 +61,7 @@ std::string PlcopenController::cam_table(int number) const {
   auto text = fmt::format(
       "# interpolation: {}\n# master_modulo: {:.0f}\n# slave_modulo: {:.0f}\n# endless: {}\n# periodic: {}\n"
       "# master_unit: {}\n# slave_unit: {}\n# maxvel: {}\n# maxacc: {}\n",
-      name_of(link.interpolation), cam.curve.modulo, slave.modulo(),
+      name_of(link.interpolation), cam.curve.master_length, slave.modulo(),
       endless[static_cast<std::size_t>(static_cast<int>(link.endless) + 1)], cam.periodic ? "yes" : "no",
       unit(link.master.number), unit(number), slave.parameters().vb_max / 1000, slave.parameters().a_max);
   if (!table->file.empty()) text.insert(0, fmt::format("## {}\n", table->file));

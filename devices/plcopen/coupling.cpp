@@ -89,7 +89,7 @@ Position Coupling::place(const CamFollow& cam, const AxisMotion& master) const {
   const auto scaling = static_cast<double>(cam.master_scaling);
   return normalised({times(cam.master_scaling, master.position.turns),
                      scaling * master.position.part + cam.master_offset + shift().position},
-                    cam.curve.modulo);
+                    cam.curve.master_length);
 }
 
 Coupling::Target Coupling::cam_target(const CamFollow& cam, const AxisMotion& master) const {
@@ -290,7 +290,7 @@ CouplingOutcome Coupling::run_pass(const Target& place, AxisMotion& slave) {
   const auto& cam = std::get<CamFollow>(law_);
   const std::int64_t turns = std::llround(cam.slave_scaling * static_cast<double>(cam.curve.turns));
   const double start = at(cam.curve, 0).position;
-  const double end = cam.curve.even ? at(cam.curve.segments.back(), 1).position
+  const double end = cam.curve.even ? cam.curve.pieces.back().end().position
                                     : start + static_cast<double>(cam.curve.turns) * slave_modulo_;
   const std::int64_t cycles = (forward ? pass_origin_ : pass_origin_ - 1) - first_cycle_;
   slave.position = normalised({plus(slave_turns_, times(turns, cycles)),

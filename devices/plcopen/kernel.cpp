@@ -40,20 +40,22 @@ ErrorId check_pins(const GearInRequest& request) {
 /// The scaled cam stays where positions are exact, 100 km at most.
 bool within_reach(const CamCurve& curve, double scaling) {
   constexpr double farthest = 1e12;
-  return std::all_of(curve.segments.begin(), curve.segments.end(), [&](const CamSegment& segment) {
+  return std::all_of(curve.pieces.begin(), curve.pieces.end(), [&](const CamPiece& piece) {
     double most = 0;
-    for (const double c : segment.c) most += std::abs(c);
+    for (const double c : polynomial_of(piece).c) most += std::abs(c);
     return std::abs(scaling) * most <= std::max(farthest, most);
   });
 }
 
 /// Smallest and largest position of a curve, by samples that lie near enough for a cubic or quintic.
 std::pair<double, double> range_of(const CamCurve& curve) {
-  std::pair range{curve.segments.front().c[0], curve.segments.front().c[0]};
+  const double first = polynomial_of(curve.pieces.front()).c[0];
+  std::pair range{first, first};
   constexpr int samples = 64;
-  for (const CamSegment& segment : curve.segments)
+  for (const CamPiece& piece : curve.pieces)
     for (int i = 0; i <= samples; ++i) {
-      const double position = at(segment, static_cast<double>(i) / samples).position;
+      const double position =
+          at(polynomial_of(piece), static_cast<double>(i) / samples, piece.length).position;
       range = {std::min(range.first, position), std::max(range.second, position)};
     }
   return range;

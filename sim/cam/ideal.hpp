@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/cam/course.hpp"
 #include "sim/cam/zone.hpp"
 
 namespace drycut::sim {
@@ -31,5 +32,9 @@ struct IdealCam {
 
   [[nodiscard]] bool runs() const { return cycles.size() > 1; }
 };
+
+/// Fills in the cycles of a cam that goes on for ever, over `range`, in each of them `zones`, which are those
+/// of the first one. After a million cycles the rest is left out.
+void repeat(IdealCam& ideal, const CamCourse& course, MasterRange range, const std::vector<CamZone>& zones);
 
 }  // namespace drycut::sim

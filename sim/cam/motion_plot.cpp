@@ -12,7 +12,7 @@ namespace drycut::sim {
 namespace {
 
 /// A panel of one of the points' numbers times `scale`.
-renders::Panel panel_of(const std::vector<CamPoint>& points, double CamPoint::*number, double scale,
+renders::Panel panel_of(const std::vector<CamPoint>& points, double devices::CamMotion::*number, double scale,
                         const std::string& title, const std::string& unit) {
   renders::Panel panel;
   panel.title = title;
@@ -42,8 +42,9 @@ void draw_limit(renders::Panel& panel, const std::string& name, double limit, co
     panel.bands.push_back({"", -limit, -limit});
 }
 
-CamPeak peak_of(const std::vector<CamPoint>& points, double CamPoint::*number, const std::string& name,
-                const MotionPlot::Unit& unit, const std::vector<MotionPlot::Limit>& limits) {
+CamPeak peak_of(const std::vector<CamPoint>& points, double devices::CamMotion::*number,
+                const std::string& name, const MotionPlot::Unit& unit,
+                const std::vector<MotionPlot::Limit>& limits) {
   CamPeak peak{name, unit.text, 0, 0, limits};
   for (const auto& point : points) {
     const double value = point.*number * unit.scale;
@@ -79,10 +80,11 @@ CamDrawing motion_plot(const std::vector<CamPoint>& points, const MotionPlot& ho
   plot.x_label = fmt::format("master [{}]", how.master_position.empty() ? how.position : how.master_position);
   plot.width = 1600;
   plot.panel_height = 240;
-  const auto panel = [&](double CamPoint::*number, const MotionPlot::Unit& unit, const std::string& title) {
+  const auto panel = [&](double devices::CamMotion::*number, const MotionPlot::Unit& unit,
+                         const std::string& title) {
     return panel_of(points, number, unit.scale, title, unit.text);
   };
-  plot.panels = {panel(&CamPoint::slave, {how.position, 1}, "slave position"),
+  plot.panels = {panel(&CamPoint::position, {how.position, 1}, "slave position"),
                  panel(&CamPoint::velocity, how.velocity, "velocity"),
                  panel(&CamPoint::acceleration, how.acceleration, "acceleration"),
                  panel(&CamPoint::jerk, how.jerk, "jerk, between the steps of acceleration")};

@@ -16,7 +16,7 @@ std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> m
   const auto out = std::back_inserter(text);
   for (const auto& p : points) {
     // Adding 0 turns -0 into 0.
-    fmt::format_to(out, "{},{},{},{},{},{}", p.master + 0.0, p.slave + 0.0, p.velocity + 0.0,
+    fmt::format_to(out, "{},{},{},{},{},{}", p.master + 0.0, p.position + 0.0, p.velocity + 0.0,
                    p.acceleration + 0.0, p.jerk + 0.0, p.row);
     if (master_per_s) {
       const double v = *master_per_s;
@@ -32,7 +32,7 @@ std::string cam_samples_text(const std::vector<CamPoint>& points) {
   Columns columns({false, false, false, false, false, false});
   columns.add({"master", "slave", "velocity", "acceleration", "jerk", "sector"});
   for (const auto& p : points)
-    columns.add({number_text(p.master), number_text(p.slave), number_text(p.velocity),
+    columns.add({number_text(p.master), number_text(p.position), number_text(p.velocity),
                  number_text(p.acceleration), number_text(p.jerk), std::to_string(p.row)});
   return columns.text();
 }

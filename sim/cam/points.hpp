@@ -3,16 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "devices/cam/law.hpp"
+
 namespace drycut::sim {
 
 /// A cam at one master position: full precision, before any quantisation. Positions in the table's unit (Um,
-/// pulses); derivatives are with respect to the master.
-struct CamPoint {
+/// pulses, increments).
+struct CamPoint : devices::CamMotion {
   double master = 0;  ///< counts on across loops and counter updates
-  double slave = 0;
-  double velocity = 0;
-  double acceleration = 0;
-  double jerk = 0;
   int row = 0;  ///< sector, or row of the table, that begins the piece; 0: the cam has released the slave
 };
 

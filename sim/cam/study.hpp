@@ -8,7 +8,7 @@
 #include "base/problem.hpp"
 #include "renders/plots.hpp"
 #include "sim/cam/columns.hpp"
-#include "sim/cam/duty.hpp"
+#include "sim/cam/course.hpp"
 #include "sim/cam/findings.hpp"
 #include "sim/cam/ideal.hpp"
 #include "sim/cam/motion_plot.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/bode/loop.hpp"
-#include "sim/cam/duty.hpp"
+#include "sim/cam/course.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim {

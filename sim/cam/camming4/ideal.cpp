@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "sim/cam/camming4/plot.hpp"
 #include "sim/cam/camming4/run.hpp"
@@ -17,14 +16,14 @@ namespace {
 /// So many passes that the cam reaches `master`.
 CamRun run_to(const CamTable& table, double master) {
   auto run = run_cam(table, {}, 1);
-  if (run.end != CamRun::End::came_round || run.master_total >= master) return run;
+  if (run.end != CamRun::End::came_round || run.master_total() >= master) return run;
   // The pass after the first one is judged only, but it is there: all others are as long.
   double again = 0;
   for (std::size_t i = run.shown; i < run.visits.size(); ++i) again += run.visits[i].master_length;
   if (again <= 0) return run;
   const auto visits = static_cast<double>(run.visits.size() - run.shown);
   const double most = CamRun::most_visits / std::max(visits, 1.0) - 2;
-  const double wanted = std::ceil((master - run.master_total) / again) + 1;
+  const double wanted = std::ceil((master - run.master_total()) / again) + 1;
   return run_cam(table, {}, static_cast<int>(std::clamp(wanted, 1.0, std::max(most, 1.0))));
 }
 
@@ -50,8 +49,8 @@ IdealCam ideal_camming4(std::string_view text, MasterRange range) {
   Problems problems;
   const auto table = read_cam_table(text, "", problems);
   if (!problems.empty()) return {};
-  const auto run = std::make_shared<const CamRun>(run_to(table, range.last));
-  const auto known = known_of(*run);
+  const auto run = run_to(table, range.last);
+  const auto known = known_of(run);
   const auto& slave = table.settings.slave;
   IdealCam ideal;
   ideal.master_unit = ideal.slave_unit = "Um";
@@ -61,24 +60,20 @@ IdealCam ideal_camming4(std::string_view text, MasterRange range) {
   ideal.silence = known.silence;
   if (known.visits == 0) return ideal;
   for (std::size_t i = 0; i < known.visits; ++i) {
-    const CamVisit& visit = run->visits[i];
-    if (i > 0 && visit.pass == run->visits[i - 1].pass) continue;
+    const CamVisit& visit = run.visits[i];
+    if (i > 0 && visit.pass == run.visits[i - 1].pass) continue;
     ideal.cycles.push_back(visit.master_start);
     ideal.origins.push_back(visit.slave_start);
   }
-  const CamVisit& last = run->visits[known.visits - 1];
+  const CamVisit& last = run.visits[known.visits - 1];
   ideal.cycles.push_back(last.master_end());
   ideal.origins.push_back(last.slave_start + last.slave_length);
-  for (auto& zone : zones_of(table, *run))
+  for (auto& zone : zones_of(table, run))
     if (zone.from < last.master_end()) ideal.zones.push_back(std::move(zone));
-  ideal.slave = [run, visits = known.visits](double master) {
-    const auto begin = run->visits.begin();
-    const auto end = begin + static_cast<std::ptrdiff_t>(visits);
-    const auto next = std::upper_bound(
-        begin, end, master, [](double m, const CamVisit& visit) { return m < visit.master_start; });
-    if (next == begin || master > (end - 1)->master_end()) return std::numeric_limits<double>::quiet_NaN();
-    const CamVisit& visit = *(next - 1);
-    return visit.slave_start + visit.at(master - visit.master_start).position;
+  const double first = run.visits[0].master_start;
+  ideal.slave = [law = law_of(run.visits, known.visits), first](double master) {
+    const bool inside = master >= first && master <= law.master_length;
+    return inside ? at(law, master).position : std::numeric_limits<double>::quiet_NaN();
   };
   return ideal;
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "sim/cam/camming4/samples.hpp"
+#include "sim/cam/camming4/run.hpp"
 #include "sim/cam/motion_plot.hpp"
 
 namespace drycut::sim {

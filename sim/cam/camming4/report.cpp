@@ -102,10 +102,10 @@ class Report {
   [[nodiscard]] std::size_t untold() const { return untold_; }
 
   [[nodiscard]] std::string totals() const {
-    std::string text = fmt::format("master total {} Um, slave total {} Um", number_text(run_.master_total),
-                                   number_text(run_.slave_total));
+    std::string text = fmt::format("master total {} Um, slave total {} Um", number_text(run_.master_total()),
+                                   number_text(run_.slave_total()));
     if (run_.passes > 1) text += fmt::format(" in {} passes", run_.passes);
-    if (master_ > 0) text += fmt::format(", {} s", rounded(run_.master_total / master_));
+    if (master_ > 0) text += fmt::format(", {} s", rounded(run_.master_total() / master_));
     return text + '\n';
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "devices/axis/speed.hpp"
 
@@ -57,6 +56,7 @@ class Walk {
   }
 
   CamRun run() {
+    run_.passes = 1;
     cam_.start({});
     leave(1, 0);
     while (!over_) {
@@ -69,6 +69,9 @@ class Walk {
       else
         leave(cam_.step().row + 1, count_at(sector_end()));
     }
+    run_.law = law_of(run_.visits, run_.shown);
+    run_.lets_go = run_.end == CamRun::End::ended && run_.shown == run_.visits.size();
+    if (master_um_per_s_ > 0) run_.master_speed = master_um_per_s_;
     return std::move(run_);
   }
 
@@ -202,10 +205,6 @@ class Walk {
   void show_all() {
     run_.shown = run_.visits.size();
     run_.passes = std::min(pass_, passes_);
-    if (run_.visits.empty()) return;
-    const auto& last = run_.visits.back();
-    run_.master_total = last.master_end();
-    run_.slave_total = last.slave_start + last.slave_length;
   }
 
   // Sector 160: the master goes on to the quota; above it at the start, it would have to come back first.
@@ -268,73 +267,64 @@ class Walk {
   double slave_shown_ = 0;
 };
 
-/// Largest |speed| of a ramp between `begin` and `end`, both positions of the sector.
-double peak_speed(const devices::camming4::Ramp& ramp, double begin, double end) {
-  double peak = std::max(std::abs(at(ramp, begin).velocity), std::abs(at(ramp, end).velocity));
-  if (!ramp.cycloidal || ramp.excess == 0) return peak;
-  // dv/dm = 0 inside: tan(pi p) = -2 pi excess / (length change).
-  const double change = ramp.v1 - ramp.v0;
-  const double angle = std::atan2(-2 * std::numbers::pi * ramp.excess, ramp.length * change);
-  const double p = (angle < 0 ? angle + std::numbers::pi : angle) / std::numbers::pi;
-  const double m = ramp.start + p * ramp.length;
-  return m > begin && m < end ? std::max(peak, std::abs(at(ramp, m).velocity)) : peak;
+double peak_of(const CamVisit& visit, devices::CamOrder order) {
+  double most = 0;
+  for (const auto& piece : visit.pieces()) most = std::max(most, piece.peak(order));
+  return most;
 }
 
 }  // namespace
 
-devices::camming4::Motion CamVisit::at(double m) const {
-  return waiting ? devices::camming4::Motion{} : devices::camming4::at(sector, m);
-}
-
-double peak_speed(const CamVisit& visit) {
-  if (visit.waiting) return 0;
-  const Sector& sector = visit.sector;
+std::vector<devices::CamPiece> CamVisit::pieces() const {
+  devices::CamPiece piece{master_start, master_length, slave_start, row, devices::CamRamp{.length = 1}};
+  if (waiting) return {piece};
   if (sector.kind == Sector::Kind::arc_x || sector.kind == Sector::Kind::arc_y) {
-    // |v| is a sine of the angle: 1 where the axis runs along the tangent, if the arc passes there.
-    const double offset = sector.kind == Sector::Kind::arc_x ? std::numbers::pi / 2 : 0;
-    const double begin = sector.arc.sense * (sector.arc.start_angle - offset) / std::numbers::pi;
-    const double end = begin + sector.arc.sweep / std::numbers::pi;
-    if (std::floor(end) >= std::ceil(begin)) return 1;
-    return std::max(std::abs(visit.at(0).velocity), std::abs(visit.at(sector.arc.length).velocity));
+    const bool x = sector.kind == Sector::Kind::arc_x;
+    piece.law = devices::CamArc{sector.arc, x ? devices::ArcAxis::x : devices::ArcAxis::y};
+    if (master_length <= 0) piece.length = sector.arc.length;
+    return {piece};
   }
-  double peak = 0;
-  for (int i = 0; i < sector.law.count; ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    const double begin = i == 0 ? 0 : sector.law.ramps[place].from;
-    const double end = i + 1 < sector.law.count ? sector.law.ramps[place + 1].from : sector.law.length;
-    peak = std::max(peak, peak_speed(sector.law.ramps[place], begin, end));
+  std::vector<devices::CamPiece> pieces;
+  const auto& law = sector.law;
+  const double whole = master_length > 0 ? master_length : law.length;
+  for (int i = 0; i < law.count; ++i) {
+    auto ramp = law.ramps[static_cast<std::size_t>(i)];
+    const double end = i + 1 < law.count ? law.ramps[static_cast<std::size_t>(i) + 1].from : whole;
+    piece.master = master_start + ramp.from;
+    piece.length = end - ramp.from;
+    ramp.start -= ramp.from;
+    piece.law = ramp;
+    pieces.push_back(piece);
   }
-  return peak;
+  return pieces;
 }
 
-CamReach reach_of(const CamVisit& visit) {
-  CamReach reach{visit.slave_start, visit.slave_start};
-  const auto take = [&](double m) {
-    const double slave = visit.slave_start + visit.at(m).position;
-    reach = {std::min(reach.low, slave), std::max(reach.high, slave)};
-  };
-  // The slave turns round where its speed passes 0.
-  constexpr int steps = 256;
-  constexpr int halvings = 50;
-  const double step = visit.master_length / steps;
-  for (int i = 0; i < steps; ++i) {
-    double begin = i * step;
-    double end = i + 1 == steps ? visit.master_length : (i + 1) * step;
-    take(end);
-    const bool forwards = visit.at(begin).velocity > 0;
-    if (forwards == (visit.at(end).velocity > 0)) continue;
-    for (int half = 0; half < halvings; ++half) {
-      const double middle = (begin + end) / 2;
-      ((visit.at(middle).velocity > 0) == forwards ? begin : end) = middle;
-    }
-    take(begin);
+devices::CamLaw law_of(const std::vector<CamVisit>& visits, std::size_t count) {
+  devices::CamLaw law;
+  while (count > 0 && visits[count - 1].master_length <= 0) --count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const CamVisit& visit = visits[i];
+    for (auto& piece : visit.pieces())
+      if (piece.master == visit.master_start || piece.master < visit.master_end())
+        law.pieces.push_back(std::move(piece));
+    law.master_length = visit.master_end();
+    law.slave_length = visit.slave_start + visit.slave_length;
+  }
+  return law;
+}
+
+double peak_speed(const CamVisit& visit) { return peak_of(visit, devices::CamOrder::velocity); }
+
+double peak_gradient(const CamVisit& visit) { return peak_of(visit, devices::CamOrder::acceleration); }
+
+devices::CamExtremes reach_of(const CamVisit& visit) {
+  devices::CamExtremes reach{visit.slave_start, visit.slave_start};
+  if (visit.master_length <= 0) return reach;
+  for (const auto& piece : visit.pieces()) {
+    const auto found = piece.extremes(devices::CamOrder::position);
+    reach = {std::min(reach.low, found.low), std::max(reach.high, found.high)};
   }
   return reach;
-}
-
-double peak_gradient(const CamVisit& visit) {
-  if (visit.waiting) return 0;
-  return std::max(peak_acceleration(visit.sector), peak_deceleration(visit.sector));
 }
 
 double um_per_second(const CamTable& table) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/cam/camming4/table.hpp"
-#include "sim/cam/duty.hpp"
+#include "sim/cam/course.hpp"
 
 namespace drycut::sim {
 
@@ -22,17 +22,13 @@ struct CamVisit {
   devices::camming4::Sector sector;
 
   [[nodiscard]] double master_end() const { return master_start + master_length; }
-  /// Slave motion at `m` from the visit's start; position from its start too.
-  [[nodiscard]] devices::camming4::Motion at(double m) const;
+  /// Its law: a piece for each of its phases.
+  [[nodiscard]] std::vector<devices::CamPiece> pieces() const;
   [[nodiscard]] double entry_speed() const { return waiting ? 0 : sector.entry_speed; }
   [[nodiscard]] double exit_speed() const { return waiting ? 0 : sector.exit_speed; }
 };
 /// Between which positions the slave is during a visit [slave Um].
-struct CamReach {
-  double low = 0;
-  double high = 0;
-};
-CamReach reach_of(const CamVisit& visit);
+devices::CamExtremes reach_of(const CamVisit& visit);
 /// Largest |speed| [slave Um per master Um] and largest |acceleration| [slave Um per master Um2] of a visit.
 double peak_speed(const CamVisit& visit);
 double peak_gradient(const CamVisit& visit);
@@ -54,8 +50,8 @@ struct CamPassage {
   std::size_t visits = 0;  ///< sectors run before it
 };
 
-/// A cam run without a machine.
-struct CamRun {
+/// A cam run without a machine; its course is that of the passes asked for.
+struct CamRun : CamCourse {
   enum class End {
     ended,       ///< met 136
     came_round,  ///< ran the passes asked for
@@ -71,15 +67,14 @@ struct CamRun {
   std::size_t shown = 0;         ///< number of the visits that belong to the passes asked for
   std::vector<CamPassage> passages;
   std::vector<CamEngineEvent> events;
-  int passes = 1;           ///< that `shown` covers
-  double master_total = 0;  ///< of the visits shown [master Um]
-  double slave_total = 0;   ///< [slave Um]
-  double master_growth =
-      0;  ///< of the device's counts from pass to pass [Um]; 0 also if it did not come round
+  double master_growth = 0;  ///< of the device's counts from pass to pass [Um]; 0: it did not come round
   double slave_growth = 0;
   double end_speed = 0;       ///< slave's ratio when 136 released it
   std::vector<int> released;  ///< gearings that were left after one lap, in the program's stead
 };
+
+/// The law of the first `count` visits; sectors that were only entered at their end are left out.
+devices::CamLaw law_of(const std::vector<CamVisit>& visits, std::size_t count);
 
 /// Um per second of one unit of the table's speeds.
 double um_per_second(const CamTable& table);

@@ -3,7 +3,6 @@
 #include "sim/cam/camming4/judge.hpp"
 #include "sim/cam/camming4/plot.hpp"
 #include "sim/cam/camming4/report.hpp"
-#include "sim/cam/camming4/samples.hpp"
 
 namespace drycut::sim {
 
@@ -19,7 +18,7 @@ CamStudy study_camming4(std::string_view text, const std::string& file, const Ca
   const auto table = read_cam_table(text, file, problems);
   if (!problems.empty()) return {};
   const auto run = run_cam(table, request.duty, request.loops);
-  check_positions(request.at, {0, run.master_total}, "Um", problems);
+  check_positions(request.at, {0, run.master_total()}, "Um", problems);
   if (!problems.empty()) return {};
   CamStudy study;
   study.text = cam_text(table, request.duty, run);

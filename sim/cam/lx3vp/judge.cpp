@@ -11,6 +11,7 @@ namespace drycut::sim {
 
 namespace {
 
+using devices::CamOrder;
 using devices::lx3vp::EcamError;
 using devices::lx3vp::EcamType;
 using Grade = CamFinding::Grade;
@@ -20,7 +21,7 @@ constexpr std::size_t most_rows = 512;
 
 class EcamJudge {
  public:
-  EcamJudge(const EcamTable& table, const CamDuty& duty, const EcamRun& run)
+  EcamJudge(const EcamTable& table, const CamDuty& duty, const CamCourse& run)
       : table_(table), duty_(duty), run_(run) {}
 
   std::vector<CamFinding> findings() {
@@ -34,7 +35,7 @@ class EcamJudge {
       return std::move(found_);
     }
     judge_rows();
-    if (run_.law.pieces.empty()) return std::move(found_);
+    if (!run_.runs()) return std::move(found_);
     judge_ratio();
     judge_speed();
     judge_acceleration();
@@ -140,8 +141,8 @@ class EcamJudge {
   [[nodiscard]] Peak peak_of_law() const {
     Peak most;
     for (std::size_t i = 0; i < run_.law.pieces.size(); ++i)
-      if (peak_ratio(run_.law.pieces[i]) > most.ratio)
-        most = {peak_ratio(run_.law.pieces[i]), fmt::format("piece {}", i + 1)};
+      if (run_.law.pieces[i].peak(CamOrder::velocity) > most.ratio)
+        most = {run_.law.pieces[i].peak(CamOrder::velocity), fmt::format("piece {}", i + 1)};
     return most;
   }
   /// Of the rows, which the device plays, and of the law if that is steeper: rounded to pulses, rows may be
@@ -186,8 +187,8 @@ class EcamJudge {
     std::string place;
     if (table_.is_made()) {
       for (std::size_t i = 0; i < run_.law.pieces.size(); ++i) {
-        if (peak_gradient(run_.law.pieces[i]) <= most) continue;
-        most = peak_gradient(run_.law.pieces[i]);
+        if (run_.law.pieces[i].peak(CamOrder::acceleration) <= most) continue;
+        most = run_.law.pieces[i].peak(CamOrder::acceleration);
         place = fmt::format("piece {}", i + 1);
       }
     } else {
@@ -229,7 +230,7 @@ class EcamJudge {
   void judge_wandering(double low, double high) {
     const double growth = static_cast<double>(table_.rows.back().slave) - table_.rows.front().slave;
     const auto& end = growth > 0 ? table_.travel.most : table_.travel.least;
-    if (!table_.cyclic || run_.law.stops || growth == 0 || !end) return;
+    if (!table_.cyclic || table_.made.profile.stops || growth == 0 || !end) return;
     const double room = growth > 0 ? *end - high : low - *end;
     add(Grade::limit, "",
         fmt::format("the slave goes on by {} pulses each cycle and passes {} {} in cycle {:.0f}",
@@ -268,15 +269,16 @@ class EcamJudge {
 
   void judge_law() {
     const auto& pieces = run_.law.pieces;
-    const double same = 1e-5 * std::abs(pieces.empty() ? 0 : std::max(peak_ratio(pieces.front()), 1e-9));
+    const double same =
+        1e-5 * std::abs(pieces.empty() ? 0 : std::max(pieces.front().peak(CamOrder::velocity), 1e-9));
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const bool wraps = i + 1 == pieces.size();
-      if (wraps && (!table_.cyclic || run_.law.stops)) break;
+      if (wraps && (!table_.cyclic || table_.made.profile.stops)) break;
       const auto& next = pieces[wraps ? 0 : i + 1];
-      if (std::abs(next.r0 - pieces[i].r1) <= same) continue;
+      if (std::abs(ratio_of(next).r0 - ratio_of(pieces[i]).r1) <= same) continue;
       add(Grade::caution, fmt::format("piece {}", i + 1),
-          fmt::format("the ratio jumps from {} to {}{}", number(pieces[i].r1), number(next.r0),
-                      wraps ? " as the cycle begins again" : ""),
+          fmt::format("the ratio jumps from {} to {}{}", number(ratio_of(pieces[i]).r1),
+                      number(ratio_of(next).r0), wraps ? " as the cycle begins again" : ""),
           step_remedy(wraps));
     }
     judge_rest(same);
@@ -290,7 +292,7 @@ class EcamJudge {
   /// A cam that runs once begins and ends at rest; midCAMbegin and midCAMend go on in another.
   void judge_rest(double same) {
     const auto& pieces = run_.law.pieces;
-    if (table_.cyclic && !run_.law.stops) return;
+    if (table_.cyclic && !table_.made.profile.stops) return;
     const auto curve = table_.type == EcamType::rotary_saw ? table_.saw.curve & 0xFFF : 0;
     const auto remedy = [&](std::string_view ramp, std::string_view other) {
       if (table_.is_s_curve()) return fmt::format("give {} some time", ramp);
@@ -298,13 +300,14 @@ class EcamJudge {
                  ? std::string("give P6L 1 or 2 for ramps")
                  : fmt::format("use {} for the {}", other, ramp == "P4" ? "first cycle" : "last");
     };
-    if (!run_.law.stops && std::abs(pieces.front().r0) > same)
+    if (!table_.made.profile.stops && std::abs(ratio_of(pieces.front()).r0) > same)
       add(Grade::caution, "piece 1",
-          fmt::format("the ratio jumps from 0 to {} as the cam starts", number(pieces.front().r0)),
+          fmt::format("the ratio jumps from 0 to {} as the cam starts", number(ratio_of(pieces.front()).r0)),
           remedy("P4", "midCAMbegin"));
-    if (curve != devices::lx3vp::mid_cam_begin && std::abs(pieces.back().r1) > same)
+    if (curve != devices::lx3vp::mid_cam_begin && std::abs(ratio_of(pieces.back()).r1) > same)
       add(Grade::caution, fmt::format("piece {}", pieces.size()),
-          fmt::format("the ratio jumps from {} to 0 at the end of the cam", number(pieces.back().r1)),
+          fmt::format("the ratio jumps from {} to 0 at the end of the cam",
+                      number(ratio_of(pieces.back()).r1)),
           remedy("P5", "midCAMend"));
   }
 
@@ -318,15 +321,15 @@ class EcamJudge {
 
   void remarks() {
     const auto remark = [&](std::string text) { add(Grade::remark, "", std::move(text)); };
-    const auto& law = run_.law;
+    const auto& law = table_.made.profile;
     if (!table_.is_made() && run_.first_master != 0)
       remark(
           fmt::format("the cycle begins at master {}; the cam runs from there", number(run_.first_master)));
     if (law.sync_end > law.sync_begin && !table_.is_s_curve())
       remark(fmt::format("synchronous zone: master {} to {}", number(law.sync_begin), number(law.sync_end)));
     if (law.stops) remark("midCAMend: the cam stops by itself at the end of the cycle");
-    if (table_.cyclic && !law.stops && law.slave_length != 0)
-      remark(fmt::format("the slave goes on by {} pulses each cycle", number_text(law.slave_length)));
+    if (table_.cyclic && !law.stops && run_.law.slave_length != 0)
+      remark(fmt::format("the slave goes on by {} pulses each cycle", number_text(run_.law.slave_length)));
     if (table_.is_made())
       remark(
           fmt::format("samples are of the laws; the device plays {} straight pieces, ratio {} at most, never "
@@ -337,13 +340,13 @@ class EcamJudge {
 
   const EcamTable& table_;
   const CamDuty& duty_;
-  const EcamRun& run_;
+  const CamCourse& run_;
   std::vector<CamFinding> found_;
 };
 
 }  // namespace
 
-std::vector<CamFinding> judge_ecam(const EcamTable& table, const CamDuty& duty, const EcamRun& run) {
+std::vector<CamFinding> judge_ecam(const EcamTable& table, const CamDuty& duty, const CamCourse& run) {
   return EcamJudge(table, duty, run).findings();
 }
 

@@ -155,7 +155,8 @@ CamRemedy top_speed_remedy(const EcamTable& table, double master_speed, double l
     const auto made = make_s_curve(*table.type, parameters);
     if (!made.ok()) break;
     double most = steepness(made.rows, steepest_row(made.rows));
-    for (const auto& piece : made.profile.pieces) most = std::max(most, peak_ratio(piece));
+    for (const auto& piece : made.profile.pieces)
+      most = std::max(most, piece.peak(devices::CamOrder::velocity));
     most *= master_speed;
     if (most <= limit * within)
       return {fmt::format("give P2 {} Hz at most", parameters.top_speed),

@@ -13,9 +13,10 @@ namespace drycut::sim {
 
 namespace {
 
+using devices::CamOrder;
+using devices::CamPiece;
+using devices::Transition;
 using devices::lx3vp::EcamType;
-using devices::lx3vp::RatioPiece;
-using devices::lx3vp::Transition;
 
 std::string type_text(const EcamTable& table) {
   constexpr const char* laws[] = {"uniform", "uniform acceleration", "B type"};
@@ -52,12 +53,10 @@ std::string law_text(Transition law) {
   return "";
 }
 
-std::string what_it_does(const EcamRun& run, const RatioPiece& piece) {
-  const auto& law = run.law;
-  const double middle = piece.master + piece.length / 2;
-  if (piece.is_curved()) return law_text(piece.law);
-  if (law.sync_end > law.sync_begin && middle > law.sync_begin && middle < law.sync_end) return "synchronous";
-  return piece.r0 == 0 ? "stands still" : law_text(piece.law);
+std::string what_it_does(const EcamTable& table, const CamPiece& piece) {
+  if (ratio_of(piece).is_curved()) return law_text(ratio_of(piece).shape);
+  if (table.made.profile.is_synchronous(piece.master + piece.length / 2)) return "synchronous";
+  return ratio_of(piece).r0 == 0 ? "stands still" : law_text(ratio_of(piece).shape);
 }
 
 /// What the master counts in.
@@ -65,7 +64,7 @@ std::string master_unit(const EcamTable& table) {
   return table.time_axis == 0 ? "pulses" : fmt::format("{} us", plain(100.0 * table.time_axis));
 }
 
-std::string heading(const EcamTable& table, const EcamRun& run) {
+std::string heading(const EcamTable& table, const CamCourse& run) {
   auto text =
       fmt::format("{}: LX3VP, {} row{}", table.file, table.rows.size(), table.rows.size() == 1 ? "" : "s");
   if (table.is_made()) text += fmt::format(" made by ECAMTBX {}", type_text(table));
@@ -79,7 +78,7 @@ std::string heading(const EcamTable& table, const EcamRun& run) {
   return text;
 }
 
-Columns sections(const EcamTable& table, const EcamRun& run) {
+Columns sections(const EcamTable& table, const CamCourse& run) {
   const bool timed = run.master_speed.has_value();
   std::vector<std::string> names = {"piece", "master", "slave", "entry", "exit", "peak a"};
   std::vector<std::string> units = {"", master_unit(table), "pulses", "", "", "1/pulse"};
@@ -98,20 +97,23 @@ Columns sections(const EcamTable& table, const EcamRun& run) {
   const auto shown = std::min(pieces.size(), most_lines);
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& piece = pieces[i];
-    std::vector<std::string> cells = {std::to_string(i + 1), plain(piece.length),
-                                      plain(travel(piece)),  plain(piece.r0),
-                                      plain(piece.r1),       plain(peak_gradient(piece))};
+    std::vector<std::string> cells = {std::to_string(i + 1),
+                                      plain(piece.length),
+                                      plain(piece.length * (ratio_of(piece).r0 + ratio_of(piece).r1) / 2),
+                                      plain(ratio_of(piece).r0),
+                                      plain(ratio_of(piece).r1),
+                                      plain(piece.peak(CamOrder::acceleration))};
     if (timed) {
       cells.push_back(plain(piece.length / *run.master_speed));
-      cells.push_back(plain(peak_ratio(piece) * *run.master_speed));
+      cells.push_back(plain(piece.peak(CamOrder::velocity) * *run.master_speed));
     }
-    cells.push_back(what_it_does(run, piece));
+    cells.push_back(what_it_does(table, piece));
     columns.add(std::move(cells));
   }
   return columns;
 }
 
-std::string totals(const EcamTable& table, const EcamRun& run) {
+std::string totals(const EcamTable& table, const CamCourse& run) {
   auto text = fmt::format("master total {} {}, slave total {} pulses", number_text(run.master_total()),
                           table.time_axis == 0 ? "pulses" : "counts", number_text(run.slave_total()));
   if (run.loops > 1) text += fmt::format(" in {} cycles", run.loops);
@@ -120,7 +122,7 @@ std::string totals(const EcamTable& table, const EcamRun& run) {
 }
 
 /// The ratios of the straight pieces that the device plays.
-renders::Curve played(const EcamTable& table, const EcamRun& run, double scale) {
+renders::Curve played(const EcamTable& table, const CamCourse& run, double scale) {
   renders::Curve curve;
   curve.label = "as played";
   for (int pass = 0; pass < run.loops; ++pass) {
@@ -130,7 +132,7 @@ renders::Curve played(const EcamTable& table, const EcamRun& run, double scale) 
       const double ratio =
           (static_cast<double>(to.slave) - from.slave) / (static_cast<double>(to.master) - from.master);
       for (const auto end : {from.master, to.master}) {
-        curve.x.push_back(pass * run.cycle() + end);
+        curve.x.push_back(pass * run.law.master_length + end);
         curve.y.push_back(ratio * scale);
       }
     }
@@ -140,7 +142,7 @@ renders::Curve played(const EcamTable& table, const EcamRun& run, double scale) 
 
 }  // namespace
 
-CamText ecam_text(const EcamTable& table, const EcamRun& run) {
+CamText ecam_text(const EcamTable& table, const CamCourse& run) {
   CamText text{heading(table, run), "nothing to run\n", totals(table, run)};
   const auto pieces = run.law.pieces.size();
   if (pieces == 0) return text;
@@ -151,7 +153,7 @@ CamText ecam_text(const EcamTable& table, const EcamRun& run) {
   return text;
 }
 
-std::vector<CamZone> zones_of(const EcamTable& table, const EcamRun& run) {
+std::vector<CamZone> zones_of(const EcamTable& table, const CamCourse& run) {
   constexpr std::size_t few = 24;
   constexpr double long_share = 0.05;  // of a cycle
   constexpr double same = 1e-9;
@@ -161,18 +163,20 @@ std::vector<CamZone> zones_of(const EcamTable& table, const EcamRun& run) {
     const auto& first = law.pieces[i];
     // Rows at one ratio are one stretch.
     std::size_t end = i + 1;
-    const auto goes_on = [&](const RatioPiece& next) {
-      return !first.is_curved() && !next.is_curved() && std::abs(next.r0 - first.r0) <= same;
+    const auto goes_on = [&](const CamPiece& next) {
+      return !ratio_of(first).is_curved() && !ratio_of(next).is_curved() &&
+             std::abs(ratio_of(next).r0 - ratio_of(first).r0) <= same;
     };
     while (!table.is_made() && end < law.pieces.size() && goes_on(law.pieces[end])) ++end;
     const auto& last = law.pieces[end - 1];
     const double from = run.first_master + first.master;
     const double to = run.first_master + last.master + last.length;
     const double middle = (from + to) / 2 - run.first_master;
-    const bool synchronous =
-        law.sync_end > law.sync_begin && middle > law.sync_begin && middle < law.sync_end;
+    const bool synchronous = table.made.profile.is_synchronous(middle);
     // A ratio of pulses says nothing of the web's speed.
-    auto name = synchronous ? "synchronism" : motion_name(first.r0, last.r1, !first.is_curved());
+    auto name = synchronous
+                    ? "synchronism"
+                    : motion_name(ratio_of(first).r0, ratio_of(last).r1, !ratio_of(first).is_curved());
     if (name == "synchronism" && !synchronous) name = "constant speed";
     if (law.pieces.size() <= few || to - from >= long_share * law.master_length)
       zones.push_back({from, to, fmt::format("{} {}", i + 1, name), synchronous});
@@ -181,9 +185,9 @@ std::vector<CamZone> zones_of(const EcamTable& table, const EcamRun& run) {
   return zones;
 }
 
-CamDrawing ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun& run,
+CamDrawing ecam_plot(const EcamTable& table, const CamDuty& duty, const CamCourse& run,
                      const std::string& name) {
-  if (run.law.pieces.empty()) return {};
+  if (!run.runs()) return {};
   const bool timed = run.master_speed.has_value();
   const double speed = run.master_speed.value_or(1);
   MotionPlot how;
@@ -205,10 +209,10 @@ CamDrawing ecam_plot(const EcamTable& table, const CamDuty& duty, const EcamRun&
   const auto zones = zones_of(table, run);
   for (int pass = 0; pass < run.loops; ++pass)
     for (const CamZone& zone : zones)
-      how.zones.push_back(
-          {pass * run.cycle() + zone.from, pass * run.cycle() + zone.to, zone.name, zone.synchronous});
+      how.zones.push_back({pass * run.law.master_length + zone.from, pass * run.law.master_length + zone.to,
+                           zone.name, zone.synchronous});
   how.master_per_s = run.master_speed;
-  auto drawing = motion_plot(sample_ecam(run, true), how);
+  auto drawing = motion_plot(sample_cam(run, true), how);
   auto& plot = drawing.plot;
   if (!table.is_made()) {
     // Straight pieces have no acceleration between their ends, and no end to it at them.

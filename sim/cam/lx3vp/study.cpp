@@ -2,7 +2,6 @@
 
 #include "sim/cam/lx3vp/judge.hpp"
 #include "sim/cam/lx3vp/report.hpp"
-#include "sim/cam/lx3vp/run.hpp"
 #include "sim/cam/lx3vp/table.hpp"
 
 namespace drycut::sim {
@@ -24,15 +23,14 @@ CamStudy study_lx3vp(std::string_view text, const std::string& file, const CamRe
     problems.push_back({"--master-speed", 1, 1, "the master is time and has its own speed",
                         "leave it out, or give another # time_axis"});
   const auto run = run_ecam(table, request.duty, request.loops);
-  if (!run.law.pieces.empty())
+  if (run.runs())
     check_positions(request.at, {run.first_master, run.first_master + run.master_total()}, "pulses",
                     problems);
   if (!problems.empty()) return {};
   CamStudy study;
   study.text = ecam_text(table, run);
   study.findings = judge_ecam(table, request.duty, run);
-  if (!run.law.pieces.empty())
-    study.points = request.at.empty() ? sample_ecam(run) : sample_ecam_at(run, request.at);
+  if (run.runs()) study.points = request.at.empty() ? sample_cam(run) : sample_cam_at(run, request.at);
   study.master_per_s = run.master_speed;
   take(study, ecam_plot(table, request.duty, run, request.plot_name));
   study.rows_are_given = !table.is_made();

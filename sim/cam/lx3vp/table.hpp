@@ -7,6 +7,7 @@
 
 #include "base/problem.hpp"
 #include "devices/lx3vp/ecamtbx.hpp"
+#include "sim/cam/course.hpp"
 #include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
@@ -39,6 +40,11 @@ struct EcamTable {
 /// Reads the text of a cam table. Every fault becomes a problem with line and column; after 1000 of them the
 /// rest is not told. What the device itself would refuse is no problem of the text: see judge_ecam.
 EcamTable read_ecam_table(std::string_view text, const std::string& file, Problems& problems);
+
+/// The laws that ECAMTBX rounded to its rows, or the straight pieces between rows that were given. Nothing
+/// runs if the table has no two rows in ascending order or ECAMTBX refused it. Of a time axis the master's
+/// speed is always known [pulses/s].
+CamCourse run_ecam(const EcamTable& table, const CamDuty& duty, int loops);
 
 /// The rows as a table that reads back, with the settings of `table`.
 std::string ecam_rows_csv(const EcamTable& table);

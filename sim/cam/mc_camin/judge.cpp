@@ -12,8 +12,10 @@ namespace drycut::sim {
 
 namespace {
 
+using devices::CamExtremes;
+using devices::CamOrder;
+using devices::CamPiece;
 using devices::plcopen::CamLimits;
-using devices::plcopen::CamSegment;
 using devices::plcopen::Endless;
 using Grade = CamFinding::Grade;
 
@@ -77,10 +79,9 @@ class CamInJudge {
     const int power = static_cast<int>(order);
     const double in_time = std::pow(*run_.master_speed, power) / increments_per_unit;
     Worst worst;
-    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
-      const Extremes extremes = extremes_of(run_.curve.segments[i], order);
-      const double peak = std::max(-extremes.low, extremes.high) * in_time;
-      if (peak > *limit * within) worst.take(peak, run_.row_of(i));
+    for (const CamPiece& piece : run_.law.pieces) {
+      const double peak = piece.peak(order) * in_time;
+      if (peak > *limit * within) worst.take(peak, piece.row);
     }
     const double speed = *run_.master_speed / increments_per_unit;
     if (worst.count > 0) {
@@ -117,9 +118,9 @@ class CamInJudge {
   }
 
   void range(double& low, double& high) const {
-    low = high = run_.curve.segments.front().c[0];
-    for (const CamSegment& segment : run_.curve.segments) {
-      const Extremes extremes = extremes_of(segment, CamOrder::position);
+    low = high = run_.law.pieces.front().begin().position;
+    for (const CamPiece& piece : run_.law.pieces) {
+      const CamExtremes extremes = piece.extremes(CamOrder::position);
       low = std::min(low, extremes.low);
       high = std::max(high, extremes.high);
     }
@@ -173,9 +174,10 @@ class CamInJudge {
   /// A single pass ends with a stop without ramp (004 "periodic").
   void judge_rest() {
     if (cam_.periodic) return;
-    const auto& last = run_.curve.segments.back();
-    const double begin = at(run_.curve, 0).velocity;
-    const double end = last.start + last.length > run_.curve.modulo * within ? begin : at(last, 1).velocity;
+    const auto& last = run_.law.pieces.back();
+    const double begin = at(run_.law, 0).velocity;
+    const double end =
+        last.master + last.length > run_.law.master_length * within ? begin : last.end().velocity;
     const auto tell = [&](double velocity, const char* place) {
       if (std::abs(velocity) <= 1e-6 * run_.peak(CamOrder::velocity)) return;
       add(Grade::caution, "",
@@ -192,10 +194,9 @@ class CamInJudge {
     if (cam_.table.columns() == 4) return;  // its jumps are told
     if (cam_.interpolation == devices::plcopen::Interpolation::step_direct) return;
     Worst worst;
-    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
-      const CamSegment& segment = run_.curve.segments[i];
-      const double way = at(segment, 1).position - segment.c[0];
-      if (segment.start >= 0 && std::abs(way) > cam_.slave_modulo / 2) worst.take(way, run_.row_of(i));
+    for (const CamPiece& piece : run_.law.pieces) {
+      const double way = piece.end().position - piece.begin().position;
+      if (piece.master >= 0 && std::abs(way) > cam_.slave_modulo / 2) worst.take(way, piece.row);
     }
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
@@ -205,11 +206,12 @@ class CamInJudge {
   }
 
   /// How far a piece leaves the range between its two ends, negative below it.
-  static double overshoot_of(const CamSegment& segment) {
-    const Extremes reached = extremes_of(segment, CamOrder::position);
-    const double end = at(segment, 1).position;
-    const double above = reached.high - std::max(segment.c[0], end);
-    const double below = std::min(segment.c[0], end) - reached.low;
+  static double overshoot_of(const CamPiece& piece) {
+    const CamExtremes reached = piece.extremes(CamOrder::position);
+    const double begin = piece.begin().position;
+    const double end = piece.end().position;
+    const double above = reached.high - std::max(begin, end);
+    const double below = std::min(begin, end) - reached.low;
     return above > below ? above : -below;
   }
 
@@ -228,7 +230,7 @@ class CamInJudge {
         return false;
       const auto curve =
           curve_of(table, cam_.interpolation, cam_.master_modulo, cam_.slave_modulo, cam_.endless);
-      return std::abs(overshoot_of(curve.segments[curve.segments.size() - table.lines() + index])) <= 1;
+      return std::abs(overshoot_of(curve.pieces[curve.pieces.size() - table.lines() + index])) <= 1;
     };
     double outside = std::floor(begin);
     double inside = std::floor(begin + 0.9 * (end - begin));
@@ -254,11 +256,10 @@ class CamInJudge {
   void judge_overshoot() {
     if (cam_.table.columns() == 4) return;
     Worst worst;
-    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
-      const CamSegment& segment = run_.curve.segments[i];
-      if (segment.start < 0) continue;
-      const double overshoot = overshoot_of(segment);
-      if (std::abs(overshoot) > 1) worst.take(overshoot, run_.row_of(i));
+    for (const CamPiece& piece : run_.law.pieces) {
+      if (piece.master < 0) continue;
+      const double overshoot = overshoot_of(piece);
+      if (std::abs(overshoot) > 1) worst.take(overshoot, piece.row);
     }
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
@@ -273,10 +274,10 @@ class CamInJudge {
     const double direction = cam_.endless == Endless::positive ? 1 : -1;
     const double rounding = 1e-6 * run_.peak(CamOrder::velocity);
     Worst worst;
-    for (std::size_t i = 0; i < run_.curve.segments.size(); ++i) {
-      const Extremes v = extremes_of(run_.curve.segments[i], CamOrder::velocity);
+    for (const CamPiece& piece : run_.law.pieces) {
+      const CamExtremes v = piece.extremes(CamOrder::velocity);
       const double back = direction > 0 ? v.low : v.high;
-      if (direction * back < -rounding) worst.take(back, run_.row_of(i));
+      if (direction * back < -rounding) worst.take(back, piece.row);
     }
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
@@ -302,7 +303,7 @@ class CamInJudge {
     int smooth = 3;
     for (const CamKnot& knot : run_.knots) smooth = std::min(smooth, knot.smooth);
     if (smooth >= 0) remark(fmt::format("C{} at every knot and where the table closes", smooth));
-    if (!run_.curve.even && run_.cam.table.value(0, 0) > 0)
+    if (!run_.law.even && run_.cam.table.value(0, 0) > 0)
       remark(fmt::format("the first point is at master {}: before it the last piece goes on",
                          number_text(run_.cam.table.value(0, 0))));
     if ((limits_.velocity || limits_.acceleration || limits_.jerk) && !run_.master_speed)

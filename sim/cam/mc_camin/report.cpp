@@ -14,7 +14,9 @@ namespace drycut::sim {
 
 namespace {
 
-using devices::plcopen::CamSegment;
+using devices::CamExtremes;
+using devices::CamOrder;
+using devices::CamPiece;
 using devices::plcopen::Endless;
 using devices::plcopen::Interpolation;
 
@@ -39,7 +41,7 @@ struct Scale {
   std::string master;
 };
 
-std::string law_of(const CamInRun& run, const CamSegment& segment) {
+std::string law_of(const CamInRun& run, const CamPiece& piece) {
   switch (run.cam.interpolation) {
     case Interpolation::step_direct:
       return "holds";
@@ -51,7 +53,8 @@ std::string law_of(const CamInRun& run, const CamSegment& segment) {
     default:
       break;
   }
-  const bool line = std::all_of(segment.c.begin() + 2, segment.c.end(), [](double c) { return c == 0; });
+  const auto& c = polynomial_of(piece).c;
+  const bool line = std::all_of(c.begin() + 2, c.end(), [](double number) { return number == 0; });
   return line ? "line" : "quintic";
 }
 
@@ -86,24 +89,22 @@ std::string more(std::size_t all) {
 
 Columns pieces(const CamInRun& run) {
   const Scale scale(run);
-  const auto& segments = run.curve.segments;
   Columns columns({false, false, false, true, false, false, false, false, false});
   columns.add({"row", "master", "slave", "law", "entry", "exit", "peak v", "peak a", "peak j"});
   columns.add({"", increments_of(scale.master), increments_of(scale.slave), "", scale.unit(1), scale.unit(1),
                scale.unit(1), scale.unit(2), scale.unit(3)});
   std::size_t shown = 0;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const CamSegment& segment = segments[i];
-    if (segment.start < 0 || shown == most_lines) continue;
+  for (const CamPiece& piece : run.law.pieces) {
+    if (piece.master < 0 || shown == most_lines) continue;
     ++shown;
     const auto peak = [&](CamOrder order) {
-      const Extremes extremes = extremes_of(segment, order);
+      const CamExtremes extremes = piece.extremes(order);
       const double most = -extremes.low > extremes.high ? extremes.low : extremes.high;
       return plain(most * scale.of(static_cast<int>(order)));
     };
-    columns.add({std::to_string(run.row_of(i)), number_text(segment.start), number_text(segment.c[0]),
-                 law_of(run, segment), plain(at(segment, 0).velocity * scale.of(1)),
-                 plain(at(segment, 1).velocity * scale.of(1)), peak(CamOrder::velocity),
+    columns.add({std::to_string(piece.row), number_text(piece.master), number_text(piece.begin().position),
+                 law_of(run, piece), plain(piece.begin().velocity * scale.of(1)),
+                 plain(piece.end().velocity * scale.of(1)), peak(CamOrder::velocity),
                  peak(CamOrder::acceleration), peak(CamOrder::jerk)});
   }
   return columns;
@@ -134,11 +135,11 @@ Columns knots(const CamInRun& run) {
 std::string totals(const CamInRun& run) {
   if (!run.runs()) return "";
   std::string text = fmt::format("master total {} {}, slave total {} {}", number_text(run.master_total()),
-                                 increments_of(run.cam.master_unit), number_text(run.loops * run.advance()),
+                                 increments_of(run.cam.master_unit), number_text(run.slave_total()),
                                  increments_of(run.cam.slave_unit));
-  if (run.curve.turns != 0)
-    text += fmt::format(" ({} turn{} for each of the master)", run.curve.turns,
-                        std::abs(run.curve.turns) == 1 ? "" : "s");
+  if (run.turns != 0)
+    text +=
+        fmt::format(" ({} turn{} for each of the master)", run.turns, std::abs(run.turns) == 1 ? "" : "s");
   if (run.master_speed) text += fmt::format(", {} s", plain(run.master_total() / *run.master_speed));
   return text + '\n';
 }
@@ -158,20 +159,20 @@ CamText cam_in_text(const CamInRun& run) {
 
 std::vector<CamZone> zones_of(const CamInRun& run) {
   constexpr std::size_t few = 24;
-  const auto& segments = run.curve.segments;
+  const auto& pieces = run.law.pieces;
   const bool same_units = run.cam.slave_unit == run.cam.master_unit;
   std::vector<CamZone> zones;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const CamSegment& segment = segments[i];
-    const Extremes speed = extremes_of(segment, CamOrder::velocity);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const CamPiece& piece = pieces[i];
+    const CamExtremes speed = piece.extremes(CamOrder::velocity);
     const bool steady = speed.high - speed.low <= 1e-9 * std::max(1.0, speed.high);
-    const double entry = at(segment, 0).velocity;
-    auto name = motion_name(entry, at(segment, 1).velocity, steady);
+    const double entry = piece.begin().velocity;
+    auto name = motion_name(entry, piece.end().velocity, steady);
     // Of an angle a steady ratio is all that a cam says of the web's speed.
     const bool synchronous = steady && (same_units ? is_master_speed(entry) : std::abs(entry) > 1e-9);
     if (synchronous) name = "synchronism";
     if (!synchronous && name == "synchronism") name = "constant speed";
-    if (segments.size() <= few) name = fmt::format("{} {}", run.row_of(i), name);
+    if (pieces.size() <= few) name = fmt::format("{} {}", piece.row, name);
     if (!zones.empty() && zones.back().name == name)
       zones.back().to = run.end_of(i);
     else
@@ -203,14 +204,14 @@ CamDrawing cam_in_plot(const CamInRun& run, const CamDuty& duty, const std::stri
   const auto zones = zones_of(run);
   for (int pass = 0; pass < run.loops; ++pass)
     for (const CamZone& zone : zones)
-      how.zones.push_back({(pass * run.curve.modulo + zone.from) / increments_per_unit,
-                           (pass * run.curve.modulo + zone.to) / increments_per_unit, zone.name,
+      how.zones.push_back({(pass * run.law.master_length + zone.from) / increments_per_unit,
+                           (pass * run.law.master_length + zone.to) / increments_per_unit, zone.name,
                            zone.synchronous});
   if (scale.timed) how.master_per_s = scale.speed / increments_per_unit;
-  auto points = sample_cam_in(run, true);
+  auto points = sample_cam(run, true);
   for (CamPoint& point : points) {
     point.master /= increments_per_unit;
-    point.slave /= increments_per_unit;
+    point.position /= increments_per_unit;
     point.velocity *= scale.of(1);
     point.acceleration *= scale.of(2);
     point.jerk *= scale.of(3);

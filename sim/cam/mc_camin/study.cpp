@@ -32,7 +32,7 @@ CamStudy study_mc_camin(std::string_view text, const std::string& file, const Ca
   study.findings = judge_cam_in(run, request.duty);
   study.master_per_s = run.master_speed;
   if (!run.runs()) return study;
-  study.points = request.at.empty() ? sample_cam_in(run) : sample_cam_in_at(run, request.at);
+  study.points = request.at.empty() ? sample_cam(run) : sample_cam_at(run, request.at);
   take(study, cam_in_plot(run, request.duty, request.plot_name));
   return study;
 }

@@ -29,8 +29,8 @@ TEST(CamArc, FourTrajectoriesOfTheManualJoinThePointsOnTheRadius) {
     EXPECT_NEAR(at(arc, ArcAxis::x, arc.length, 0).position, 15, tolerance);
     EXPECT_NEAR(at(arc, ArcAxis::y, arc.length, 0).position, -33, tolerance);
     for (int i = 0; i <= 10; ++i) {
-      const Motion x = at(arc, ArcAxis::x, arc.length * i / 10, 0);
-      const Motion y = at(arc, ArcAxis::y, arc.length * i / 10, 0);
+      const CamMotion x = at(arc, ArcAxis::x, arc.length * i / 10, 0);
+      const CamMotion y = at(arc, ArcAxis::y, arc.length * i / 10, 0);
       EXPECT_NEAR(std::hypot(x.position - arc.centre_x, y.position - arc.centre_y), 26, tolerance);
       EXPECT_NEAR(std::hypot(x.velocity, y.velocity), 1, tolerance);
       // Left turns are counterclockwise.
@@ -102,7 +102,7 @@ TEST(CamArc, PeaksAreThoseOfTheSampledSpeed) {
       double growing = 0;
       double falling = 0;
       for (int i = 0; i <= 20000; ++i) {
-        const Motion motion = at(arc, axis, arc.length * i / 20000, 0);
+        const CamMotion motion = at(arc, axis, arc.length * i / 20000, 0);
         double& most = motion.velocity * motion.acceleration > 0 ? growing : falling;
         most = std::max(most, std::abs(motion.acceleration));
       }

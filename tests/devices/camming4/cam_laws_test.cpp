@@ -25,9 +25,9 @@ void expect_consistent(const Law& law) {
     for (const double u : {0.1, 0.37, 0.5, 0.83}) {
       const double m = from + u * (to - from);
       const double h = (to - from) * 1e-4;
-      const Motion before = at(law, m - h);
-      const Motion here = at(law, m);
-      const Motion after = at(law, m + h);
+      const CamMotion before = at(law, m - h);
+      const CamMotion here = at(law, m);
+      const CamMotion after = at(law, m + h);
       EXPECT_NEAR((after.position - before.position) / (2 * h), here.velocity, 1e-5);
       EXPECT_NEAR((after.velocity - before.velocity) / (2 * h), here.acceleration, 1e-5);
       EXPECT_NEAR((after.acceleration - before.acceleration) / (2 * h), here.jerk, 1e-5);
@@ -55,7 +55,7 @@ TEST(CamLaws, SingleRampIsTheParabolaOfItsSpaces) {
   for (const double v0 : {0.0, 0.5, -0.75, 1.625}) {
     const Law law = single_ramp(M, S, v0, Shape::straight);
     for (const double u : {0.0, 0.1, 0.5, 0.9, 1.0}) {
-      const Motion motion = at(law, u * M);
+      const CamMotion motion = at(law, u * M);
       EXPECT_NEAR(motion.position, v0 * u * M + (S - v0 * M) * u * u, tolerance);
       EXPECT_NEAR(motion.velocity, v0 + 2 * (S / M - v0) * u, tolerance);
       EXPECT_NEAR(motion.acceleration, 2 * (S / M - v0) / M, tolerance);
@@ -195,7 +195,7 @@ TEST(CamLaws, PeaksOfACycloidThroughZeroAreThoseOfItsTwoParts) {
   double growing = 0;
   double falling = 0;
   for (int i = 0; i <= 100000; ++i) {
-    const Motion motion = at(law, i * 1e-3);
+    const CamMotion motion = at(law, i * 1e-3);
     double& most = motion.velocity * motion.acceleration > 0 ? growing : falling;
     most = std::max(most, std::abs(motion.acceleration));
   }

@@ -229,7 +229,7 @@ TEST(Lx3vpBlock, AHundredMillionPulsesEndExactly) {
     counts += step;
   }
   bench.tick(2);
-  const CamLaw law({{0, 0}, {4999, 5003}, {10'007, 10'009}}, {65521, 65519}, {32749, 32771});
+  const RowLaw law({{0, 0}, {4999, 5003}, {10'007, 10'009}}, {65521, 65519}, {32749, 32771});
   // total x 65521/65519 table units are this many cycles and a rest; a cycle is 10009 x 32749/32771 pulses.
   const Wide units = Wide{total} * 65521;
   const Wide cycle = Wide{10'007} * 65519;
@@ -250,7 +250,7 @@ TEST(Lx3vpBlock, AfterAnyRunThePositionIsTheLawOfTheTravel) {
   for (int round = 0; round < 300; ++round) {
     CamBench bench;
     std::vector<std::pair<std::int32_t, std::int32_t>> rows;
-    std::vector<CamLaw::Row> law_rows;
+    std::vector<RowLaw::Row> law_rows;
     std::int32_t master = draw(0, 50);
     for (int count = draw(2, 8); count > 0; --count) {
       rows.emplace_back(master, draw(-200, 200));
@@ -284,7 +284,7 @@ TEST(Lx3vpBlock, AfterAnyRunThePositionIsTheLawOfTheTravel) {
       before = bench.output();
       bench.tick(500);
     }
-    const CamLaw law(law_rows, in, out);
+    const RowLaw law(law_rows, in, out);
     EXPECT_EQ(bench.output(), law.pulses(law.place(travel))) << "round " << round;
     EXPECT_EQ(bench.get_wide(word::master_counts), travel);
   }

@@ -10,10 +10,10 @@
 namespace drycut::devices::lx3vp {
 namespace {
 
-using Rows = std::vector<CamLaw::Row>;
+using Rows = std::vector<RowLaw::Row>;
 
 TEST(Lx3vpCamLaw, LinesRunBetweenTheRows) {
-  const CamLaw law(Rows{{0, 0}, {100, 30}, {400, -30}, {500, 20}}, {}, {});
+  const RowLaw law(Rows{{0, 0}, {100, 30}, {400, -30}, {500, 20}}, {}, {});
   const auto at = [&](std::int64_t counts) { return law.pulses(law.place(counts)); };
   EXPECT_EQ(at(0), 0);
   EXPECT_EQ(at(50), 15);
@@ -26,7 +26,7 @@ TEST(Lx3vpCamLaw, LinesRunBetweenTheRows) {
 }
 
 TEST(Lx3vpCamLaw, BackwardsIsTheSameCurve) {
-  const CamLaw law(Rows{{0, 0}, {300, 100}, {1000, 50}}, {}, {});
+  const RowLaw law(Rows{{0, 0}, {300, 100}, {1000, 50}}, {}, {});
   for (std::int64_t counts = -5000; counts <= 5000; counts += 7) {
     const auto place = law.place(counts);
     const std::int64_t cycle = static_cast<std::int64_t>(std::floor(static_cast<double>(counts) / 1000));
@@ -38,7 +38,7 @@ TEST(Lx3vpCamLaw, BackwardsIsTheSameCurve) {
 }
 
 TEST(Lx3vpCamLaw, TheFirstRowIsTheBeginningWhereverItStands) {
-  const CamLaw law(Rows{{5000, 700}, {6000, 900}}, {}, {});
+  const RowLaw law(Rows{{5000, 700}, {6000, 900}}, {}, {});
   EXPECT_EQ(law.pulses(law.place(0)), 0);
   EXPECT_EQ(law.pulses(law.place(500)), 100);
   EXPECT_EQ(law.pulses(law.place(1500)), 300);
@@ -48,8 +48,8 @@ TEST(Lx3vpCamLaw, TheFirstRowIsTheBeginningWhereverItStands) {
 }
 
 TEST(Lx3vpCamLaw, TheEndOfACycleIsAPlaceOfItsOwn) {
-  const CamLaw law(Rows{{0, 0}, {1000, 77}}, {3, 7}, {});
-  const CamLaw::Place end{2, law.length()};
+  const RowLaw law(Rows{{0, 0}, {1000, 77}}, {3, 7}, {});
+  const RowLaw::Place end{2, law.length()};
   EXPECT_EQ(law.pulses(end), 3 * 77);
   EXPECT_EQ(law.master_position(end), 1000);
   EXPECT_EQ(law.slave_position(end), 77);
@@ -57,7 +57,7 @@ TEST(Lx3vpCamLaw, TheEndOfACycleIsAPlaceOfItsOwn) {
 
 // One rounding at the end: after any number of counts the pulses are the nearest to the true ratio.
 TEST(Lx3vpCamLaw, CoprimeZoomsNeverDrift) {
-  const CamLaw law(Rows{{0, 0}, {9973, 10007}}, {65521, 65519}, {32749, 32771});
+  const RowLaw law(Rows{{0, 0}, {9973, 10007}}, {65521, 65519}, {32749, 32771});
   // Pulses a count as one fraction, too long for 64 bit only when multiplied.
   const auto expected = [](std::int64_t counts) {
     const Wide numerator = Wide{counts} * 65521 * 10007 * 32749;
@@ -88,7 +88,7 @@ TEST(Lx3vpCamLaw, RandomTablesFollowTheDefinition) {
     }
     const Zoom in{static_cast<std::uint16_t>(draw(1, 1000)), static_cast<std::uint16_t>(draw(1, 1000))};
     const Zoom out{static_cast<std::uint16_t>(draw(1, 1000)), static_cast<std::uint16_t>(draw(1, 1000))};
-    const CamLaw law(rows, in, out);
+    const RowLaw law(rows, in, out);
     const std::int64_t counts = draw(-1'000'000, 1'000'000);
     const long double length = rows.back().master - rows.front().master;
     const long double travelled = static_cast<long double>(counts) * in.numerator / in.denominator;
@@ -114,7 +114,7 @@ TEST(Lx3vpCamLaw, ExtremeValuesStayDefined) {
   for (const Zoom in : {up, down}) {
     for (const Zoom out : {up, down}) {
       for (const Rows& rows : {Rows{{0, least}, {1, most}}, Rows{{0, most}, {most, least}}}) {
-        const CamLaw law(rows, in, out);
+        const RowLaw law(rows, in, out);
         for (const std::int64_t counts : {std::int64_t{1}, std::int64_t{most}, std::int64_t{1} << 62,
                                           -(std::int64_t{1} << 62), std::int64_t{-1}}) {
           const auto place = law.place(counts);

@@ -65,7 +65,7 @@ inline void expect_sound(const EcamResult& result, CamTableRow end) {
 /// Ratios at the boundaries of the pieces, as the pieces have them: continuous where the law is no step.
 inline double largest_ratio(const CamProfile& profile) {
   double most = 0;
-  for (const auto& piece : profile.pieces) most = std::max(most, peak_ratio(piece));
+  for (const auto& piece : profile.pieces) most = std::max(most, piece.peak(CamOrder::velocity));
   return most;
 }
 

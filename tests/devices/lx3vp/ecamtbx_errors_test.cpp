@@ -188,7 +188,8 @@ TEST(EcamtbxRandom, RotarySawsAreRightOrRefused) {
     ASSERT_NEAR(made.profile.slave_length, end, 1e-6 * std::abs(static_cast<double>(end)) + 1e-6);
     // Ratios meet where pieces do, but for the steps of law 0 and of a slave that has no way to brake.
     for (std::size_t n = 1; p.acceleration != 0 && n < made.profile.pieces.size(); ++n) {
-      const double step = std::abs(made.profile.pieces[n].r0 - made.profile.pieces[n - 1].r1);
+      const double step =
+          std::abs(ratio_of(made.profile.pieces[n]).r0 - ratio_of(made.profile.pieces[n - 1]).r1);
       ASSERT_TRUE(step <= 2e-6 * std::abs(p.sync_ratio) || p.sync_length == std::abs(p.slave_length)) << n;
     }
   }

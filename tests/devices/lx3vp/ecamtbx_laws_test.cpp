@@ -19,9 +19,9 @@ TEST(EcamtbxLaws, EveryTransitionCoversHalfItsLength) {
     const auto profile = ramp(law);
     EXPECT_DOUBLE_EQ(profile.slave_length, 5);
     EXPECT_DOUBLE_EQ(at(profile, 10).position, 5);
-    EXPECT_DOUBLE_EQ(at(profile, 0).ratio, 0);
-    EXPECT_DOUBLE_EQ(at(profile, 10).ratio, 1);
-    EXPECT_NEAR(at(profile, 5).ratio, 0.5, 1e-15);
+    EXPECT_DOUBLE_EQ(at(profile, 0).velocity, 0);
+    EXPECT_DOUBLE_EQ(at(profile, 10).velocity, 1);
+    EXPECT_NEAR(at(profile, 5).velocity, 0.5, 1e-15);
   }
 }
 
@@ -29,18 +29,18 @@ TEST(EcamtbxLaws, ClosedValues) {
   using std::numbers::pi;
   // Ratio and position a quarter in.
   EXPECT_DOUBLE_EQ(at(ramp(Transition::uniform_acceleration), 2.5).position, 10.0 / 32);
-  EXPECT_DOUBLE_EQ(at(ramp(Transition::b_type), 2.5).ratio, 3.0 / 16 - 2.0 / 64);
+  EXPECT_DOUBLE_EQ(at(ramp(Transition::b_type), 2.5).velocity, 3.0 / 16 - 2.0 / 64);
   EXPECT_DOUBLE_EQ(at(ramp(Transition::b_type), 2.5).position, 10 * (1.0 / 64 - 1.0 / 512));
-  EXPECT_DOUBLE_EQ(at(ramp(Transition::cosine), 2.5).ratio, (1 - std::sqrt(0.5)) / 2);
+  EXPECT_DOUBLE_EQ(at(ramp(Transition::cosine), 2.5).velocity, (1 - std::sqrt(0.5)) / 2);
   EXPECT_NEAR(at(ramp(Transition::cosine), 2.5).position, 10 * (0.125 - std::sqrt(0.5) / (2 * pi)), 1e-14);
-  EXPECT_DOUBLE_EQ(at(ramp(Transition::parabolas), 2.5).ratio, 0.125);
-  EXPECT_DOUBLE_EQ(at(ramp(Transition::parabolas), 7.5).ratio, 0.875);
+  EXPECT_DOUBLE_EQ(at(ramp(Transition::parabolas), 2.5).velocity, 0.125);
+  EXPECT_DOUBLE_EQ(at(ramp(Transition::parabolas), 7.5).velocity, 0.875);
   EXPECT_DOUBLE_EQ(at(ramp(Transition::parabolas), 7.5).position, 10 * (0.5 - 0.25 + 2.0 / 3 / 64));
   // Largest gradients.
-  EXPECT_DOUBLE_EQ(peak_gradient(ramp(Transition::uniform_acceleration).pieces[0]), 0.1);
-  EXPECT_DOUBLE_EQ(peak_gradient(ramp(Transition::b_type).pieces[0]), 0.15);
-  EXPECT_DOUBLE_EQ(peak_gradient(ramp(Transition::cosine).pieces[0]), pi / 20);
-  EXPECT_DOUBLE_EQ(peak_gradient(ramp(Transition::parabolas).pieces[0]), 0.2);
+  EXPECT_DOUBLE_EQ(ramp(Transition::uniform_acceleration).pieces[0].peak(CamOrder::acceleration), 0.1);
+  EXPECT_DOUBLE_EQ(ramp(Transition::b_type).pieces[0].peak(CamOrder::acceleration), 0.15);
+  EXPECT_DOUBLE_EQ(ramp(Transition::cosine).pieces[0].peak(CamOrder::acceleration), pi / 20);
+  EXPECT_DOUBLE_EQ(ramp(Transition::parabolas).pieces[0].peak(CamOrder::acceleration), 0.2);
 }
 
 TEST(EcamtbxLaws, DerivativesAreThoseOfThePosition) {
@@ -51,9 +51,9 @@ TEST(EcamtbxLaws, DerivativesAreThoseOfThePosition) {
       const auto before = at(profile, m - h);
       const auto here = at(profile, m);
       const auto after = at(profile, m + h);
-      EXPECT_NEAR((after.position - before.position) / (2 * h), here.ratio, 1e-8);
-      EXPECT_NEAR((after.ratio - before.ratio) / (2 * h), here.gradient, 1e-8);
-      EXPECT_NEAR((after.gradient - before.gradient) / (2 * h), here.jerk, 1e-8);
+      EXPECT_NEAR((after.position - before.position) / (2 * h), here.velocity, 1e-8);
+      EXPECT_NEAR((after.velocity - before.velocity) / (2 * h), here.acceleration, 1e-8);
+      EXPECT_NEAR((after.acceleration - before.acceleration) / (2 * h), here.jerk, 1e-8);
     }
   }
 }
@@ -61,9 +61,9 @@ TEST(EcamtbxLaws, DerivativesAreThoseOfThePosition) {
 TEST(EcamtbxLaws, TheGradientNeverPassesItsPeak) {
   for (const auto law : curved) {
     const auto profile = ramp(law);
-    const double peak = peak_gradient(profile.pieces[0]);
+    const double peak = profile.pieces[0].peak(CamOrder::acceleration);
     double most = 0;
-    for (int i = 0; i <= 1000; ++i) most = std::max(most, std::abs(at(profile, i / 100.0).gradient));
+    for (int i = 0; i <= 1000; ++i) most = std::max(most, std::abs(at(profile, i / 100.0).acceleration));
     EXPECT_NEAR(most, peak, 1e-12);
   }
 }
@@ -90,7 +90,7 @@ TEST(EcamtbxRotary, AShortCutCatchesUp) {
   const auto made = make_rotary_saw(plain(3200, left_cam));
   ecams::expect_sound(made, {1100, 3200});
   EXPECT_EQ(made.code(), 100);
-  EXPECT_DOUBLE_EQ(at(made.profile, 600).ratio, 4);
+  EXPECT_DOUBLE_EQ(at(made.profile, 600).velocity, 4);
   EXPECT_TRUE(ecams::has(made, {100, 200}));
   EXPECT_TRUE(ecams::has(made, {600, 1700}));
 }
@@ -106,9 +106,9 @@ TEST(EcamtbxRotary, AShortCutIsLimitedToP5) {
 
 TEST(EcamtbxRotary, ALongerCutSlowsDownAndAVeryLongOneStops) {
   const auto slow = make_rotary_saw(plain(1700, left_cam));  // mean 1.5: down to 1
-  EXPECT_DOUBLE_EQ(at(slow.profile, 600).ratio, 1);
+  EXPECT_DOUBLE_EQ(at(slow.profile, 600).velocity, 1);
   const auto touches = make_rotary_saw(plain(1200, left_cam));  // mean 1 = k/2: touches standstill
-  EXPECT_DOUBLE_EQ(at(touches.profile, 600).ratio, 0);
+  EXPECT_DOUBLE_EQ(at(touches.profile, 600).velocity, 0);
   EXPECT_EQ(touches.profile.pieces.size(), 3U);
   const auto stops = make_rotary_saw(plain(800, left_cam));  // mean 0.6: ramps of 300, standing for 400
   ecams::expect_sound(stops, {1100, 800});
@@ -120,7 +120,7 @@ TEST(EcamtbxRotary, UniformStepsToTheMeanRatio) {
   for (const auto curve : {left_cam, mid_cam_all, mid_cam_begin, mid_cam_end, right_cam}) {
     const auto made = make_rotary_saw(plain(1200, curve, 0));
     ecams::expect_sound(made, {1100, 1200});
-    EXPECT_DOUBLE_EQ(at(made.profile, curve == right_cam ? 50 : 1050).ratio, 1);
+    EXPECT_DOUBLE_EQ(at(made.profile, curve == right_cam ? 50 : 1050).velocity, 1);
   }
   EXPECT_EQ(make_rotary_saw(plain(1200, left_cam, 0)).rows, (ecams::Rows{{0, 0}, {100, 200}, {1100, 1200}}));
   EXPECT_EQ(make_rotary_saw(plain(1200, mid_cam_all, 0)).rows,
@@ -131,7 +131,7 @@ TEST(EcamtbxRotary, TheSynchronousZoneStandsWhereTheCurveSays) {
   const auto zone = [](std::uint16_t curve) {
     const auto made = make_rotary_saw(plain(1700, curve));
     for (double m = made.profile.sync_begin; m <= made.profile.sync_end; m += 10)
-      EXPECT_DOUBLE_EQ(at(made.profile, m).ratio, 2) << curve;
+      EXPECT_DOUBLE_EQ(at(made.profile, m).velocity, 2) << curve;
     return std::pair(made.profile.sync_begin, made.profile.sync_end);
   };
   EXPECT_EQ(zone(left_cam), std::pair(0.0, 100.0));
@@ -148,7 +148,7 @@ struct Ends {
 Ends ends(std::int32_t slave, std::uint16_t curve) {
   const auto made = make_rotary_saw(plain(slave, curve));
   EXPECT_TRUE(made.ok());
-  return {at(made.profile, 0).ratio, at(made.profile, 1100).ratio};
+  return {at(made.profile, 0).velocity, at(made.profile, 1100).velocity};
 }
 
 TEST(EcamtbxRotary, RatiosAtTheEndsOfTheCycle) {
@@ -195,8 +195,9 @@ TEST(EcamtbxRotary, RunsInFromRestWithEqualSlopes) {
   // Half the correction: 500 master and 750 slave pulses to k = 2; 2 * 750 > 500 * 2, so it overshoots.
   const auto made = make_rotary_saw(plain(1700, mid_cam_begin));
   const double peak = (750 + std::sqrt(750.0 * 750 - 500 * 750 * 2 + 500.0 * 500 * 4 / 2)) / 500;
-  EXPECT_NEAR(made.profile.pieces[0].r1, peak, 1e-12);
-  EXPECT_NEAR(peak_gradient(made.profile.pieces[0]), peak_gradient(made.profile.pieces[1]), 1e-12);
+  EXPECT_NEAR(ratio_of(made.profile.pieces[0]).r1, peak, 1e-12);
+  EXPECT_NEAR(made.profile.pieces[0].peak(CamOrder::acceleration),
+              made.profile.pieces[1].peak(CamOrder::acceleration), 1e-12);
   EXPECT_NEAR(at(made.profile, 500).position, 750, 1e-9);
   // And without enough to overshoot it waits first.
   const auto waits = make_rotary_saw(plain(1000, mid_cam_begin));  // 400 in 500 to k: stands for 100
@@ -282,8 +283,8 @@ TEST(EcamtbxSCurve, TheTwoTypesDifferOnlyInsideTheRamps) {
   const auto zero = make_s_curve(EcamType::s_curve_0, ecams::s_curve_demo());
   const auto one = make_s_curve(EcamType::s_curve_1, ecams::s_curve_demo());
   EXPECT_NE(zero.rows, one.rows);
-  EXPECT_NEAR(peak_gradient(zero.profile.pieces[0]), std::numbers::pi * 5 / 2000, 1e-12);
-  EXPECT_NEAR(peak_gradient(one.profile.pieces[0]), 2 * 5 / 1000.0, 1e-12);
+  EXPECT_NEAR(zero.profile.pieces[0].peak(CamOrder::acceleration), std::numbers::pi * 5 / 2000, 1e-12);
+  EXPECT_NEAR(one.profile.pieces[0].peak(CamOrder::acceleration), 2 * 5 / 1000.0, 1e-12);
 }
 
 }  // namespace

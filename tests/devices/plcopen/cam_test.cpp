@@ -220,13 +220,13 @@ TEST(PlcopenCam, LinesAndQuinticsRunOnACopyUntilTheNextExecute) {
   EXPECT_EQ(b.kernel.write_table(1, 3, 1, 900'000), ErrorId::none);
   EXPECT_EQ(b.kernel.write_table(1, 2, 1, 900'000), ErrorId::none);
   b.step(5);
-  EXPECT_EQ(b.s().coupling()->cam()->curve.segments[2].c[0], 1'800'000);
+  EXPECT_EQ(b.s().coupling()->cam()->curve.pieces[2].begin().position, 1'800'000);
   // The new table is the same where the slave stands: it stays engaged.
   b.couple();
   EXPECT_EQ(b.phase(), CouplingPhase::coupled);
   b.step();
   EXPECT_TRUE(b.cam.InSync);
-  EXPECT_EQ(b.s().coupling()->cam()->curve.segments[2].c[0], 900'000);
+  EXPECT_EQ(b.s().coupling()->cam()->curve.pieces[2].begin().position, 900'000);
   covers({"POLY5_LINE", "type 7"});
 }
 

@@ -25,17 +25,17 @@ CamCurve curve(const CamTable& table, Interpolation type, Endless endless = Endl
 
 /// The curve over several turns, unwrapped.
 double position(const CamCurve& cam, double x) {
-  const double turns = std::floor(x / cam.modulo);
-  return at(cam, x - turns * cam.modulo).position + turns * static_cast<double>(cam.turns) * cam.slave_modulo;
+  const double turns = std::floor(x / cam.master_length);
+  return at(cam, x - turns * cam.master_length).position + turns * cam.slave_length;
 }
 
 /// Velocity, acceleration and jerk are the derivatives of the position inside every segment.
 void expect_consistent(const CamCurve& cam) {
-  for (const CamSegment& segment : cam.segments) {
+  for (const CamPiece& segment : cam.pieces) {
     const double h = segment.length * 1e-4;
     for (const double u : {0.13, 0.5, 0.77}) {
-      const double x = segment.start + u * segment.length;
-      if (x < h || x + h >= cam.modulo) continue;
+      const double x = segment.master + u * segment.length;
+      if (x < h || x + h >= cam.master_length) continue;
       const CamMotion before = at(cam, x - h);
       const CamMotion here = at(cam, x);
       const CamMotion after = at(cam, x + h);
@@ -93,11 +93,11 @@ TEST(PlcopenLaws, PolynomThreeIsNoNaturalSpline) {
   // reach an interval.
   const CamCurve cam = curve(slaves({0, 0, 1000, 0, 0, 0, 0, 0}), Interpolation::polynom_3);
   const double h = turn / 8;
-  const double left = at(cam.segments[0], 1).acceleration;
-  const double right = at(cam.segments[1], 0).acceleration;
+  const double left = cam.pieces[0].end().acceleration;
+  const double right = cam.pieces[1].begin().acceleration;
 
   EXPECT_NEAR((right - left) * h * h, 2000, 1e-9);
-  EXPECT_NEAR(at(cam.segments[0], 1).velocity, at(cam.segments[1], 0).velocity, 1e-15);
+  EXPECT_NEAR(cam.pieces[0].end().velocity, cam.pieces[1].begin().velocity, 1e-15);
   EXPECT_EQ(at(cam, 5.5 * h).position, 0);
   EXPECT_NE(at(cam, 3.5 * h).position, 0);
 }
@@ -141,10 +141,10 @@ TEST(PlcopenLaws, TheQuinticBetweenTwoLinesMeetsTheHandCheck) {
   EXPECT_NEAR(middle.position, (300'000 + 2'000'000) / 2.0 - 5 * (v1 - v0) * h / 32, 1e-6);
   EXPECT_NEAR(middle.velocity, 15 * 1'700'000 / (8 * h) - 7 * (v0 + v1) / 16, 1e-12);
   // Twice continuously differentiable at both ends, with acceleration 0.
-  EXPECT_NEAR(at(cam.segments[1], 0).velocity, v0, 1e-12);
-  EXPECT_NEAR(at(cam.segments[1], 1).velocity, v1, 1e-12);
-  EXPECT_EQ(at(cam.segments[1], 0).acceleration, 0);
-  EXPECT_NEAR(at(cam.segments[1], 1).acceleration * h * h, 0, 1e-6);
+  EXPECT_NEAR(cam.pieces[1].begin().velocity, v0, 1e-12);
+  EXPECT_NEAR(cam.pieces[1].end().velocity, v1, 1e-12);
+  EXPECT_EQ(cam.pieces[1].begin().acceleration, 0);
+  EXPECT_NEAR(cam.pieces[1].end().acceleration * h * h, 0, 1e-6);
   expect_consistent(cam);
 }
 
@@ -166,14 +166,14 @@ TEST(PlcopenLaws, EveryLawIsContinuousAsItsClassSaysAlsoOverTheWrap) {
           std::pair{curve(slaves(values), Interpolation::polynom_3, endless), 1},
           std::pair{curve(pairs(points), Interpolation::line_poly5, endless), 2},
           std::pair{curve(pairs(points), Interpolation::poly5_line, endless), 2}}) {
-      for (std::size_t i = 0; i < cam.segments.size(); ++i) {
-        const bool wrap = i + 1 == cam.segments.size();
+      for (std::size_t i = 0; i < cam.pieces.size(); ++i) {
+        const bool wrap = i + 1 == cam.pieces.size();
         // A table whose first master is not 0 begins with the end of the last segment, met in the middle.
-        if (wrap && !cam.even && cam.first > 0) continue;
-        CamSegment next = cam.segments[wrap ? 0 : i + 1];
-        if (wrap) next.c[0] += static_cast<double>(cam.turns) * turn;
-        const CamMotion end = at(cam.segments[i], 1);
-        const CamMotion start = at(next, 0);
+        if (wrap && cam.pieces.front().master < 0) continue;
+        CamPiece next = cam.pieces[wrap ? 0 : i + 1];
+        if (wrap) next.slave += static_cast<double>(cam.turns) * turn;
+        const CamMotion end = cam.pieces[i].end();
+        const CamMotion start = next.begin();
         EXPECT_NEAR(end.position, start.position, 1e-6);
         if (order >= 1) {
           EXPECT_NEAR(end.velocity, start.velocity, 1e-9 * (1 + std::abs(end.velocity)));

@@ -7,7 +7,6 @@
 
 #include "sim/cam/camming4/judge.hpp"
 #include "sim/cam/camming4/run.hpp"
-#include "sim/cam/camming4/samples.hpp"
 #include "sim/cam/camming4/table.hpp"
 
 namespace drycut::sim::cams {
@@ -26,6 +25,13 @@ inline CamTable rows(const std::string& text) { return table(header + text); }
 
 inline CamTable introduction() {
   return rows("1,132,100,50\n2,133,200,200\n3,134,160,120\n4,133,150,150\n5,135,90,45\n6,136\n");
+}
+
+/// The slave m after the visit's start.
+inline devices::CamMotion at(const CamVisit& visit, double m) {
+  devices::CamLaw law;
+  law.pieces = visit.pieces();
+  return at(law, visit.master_start + m);
 }
 
 /// The faults of a text, as they are printed, without the file's name.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sim/cam/lx3vp/judge.hpp"
-#include "sim/cam/lx3vp/run.hpp"
 #include "sim/cam/lx3vp/table.hpp"
 
 namespace drycut::sim::ecams {

@@ -340,9 +340,9 @@ TEST(EcamFindings, Remarks) {
 
 TEST(EcamSamples, StraightPiecesAndTheirCycles) {
   const auto run = run_ecam(ecam_rows("100,10\n200,60\n300,60\n"), {}, 2);
-  const auto at = sample_ecam_at(run, {500, 100, 150, 200, 250, 300, 350});
+  const auto at = sample_cam_at(run, {500, 100, 150, 200, 250, 300, 350});
   std::vector<std::vector<double>> told;
-  for (const auto& p : at) told.push_back({p.master, p.slave, p.velocity, static_cast<double>(p.row)});
+  for (const auto& p : at) told.push_back({p.master, p.position, p.velocity, static_cast<double>(p.row)});
   using V = std::vector<double>;
   EXPECT_THAT(told, ElementsAre(V{100, 10, 0.5, 1}, V{150, 35, 0.5, 1}, V{200, 60, 0, 2}, V{250, 60, 0, 2},
                                 V{300, 60, 0.5, 1}, V{350, 85, 0.5, 1}, V{500, 110, 0, 2}));
@@ -352,12 +352,12 @@ TEST(EcamSamples, StraightPiecesAndTheirCycles) {
 
 TEST(EcamSamples, AThousandPointsAndEveryBoundary) {
   const auto run = run_ecam(ecams::table(ecams::rotary()), {}, 1);
-  const auto points = sample_ecam(run);
+  const auto points = sample_cam(run);
   EXPECT_GE(points.size(), 1000U);
   EXPECT_LE(points.size(), 1010U);
   EXPECT_EQ(points.front().master, 0);
   EXPECT_NEAR(points.back().master, 3183, 1e-9);
-  EXPECT_NEAR(points.back().slave, 1000, 1e-9);
+  EXPECT_NEAR(points.back().position, 1000, 1e-9);
   for (const auto& piece : run.law.pieces)
     EXPECT_TRUE(std::any_of(points.begin(), points.end(),
                             [&](const CamPoint& p) { return p.master == piece.master; }));
@@ -365,7 +365,7 @@ TEST(EcamSamples, AThousandPointsAndEveryBoundary) {
 }
 
 TEST(EcamSamples, BeforeAndAfterAStepOfTheRatio) {
-  const auto points = sample_ecam(run_ecam(ecam_rows("0,0\n100,100\n200,300\n"), {}, 1));
+  const auto points = sample_cam(run_ecam(ecam_rows("0,0\n100,100\n200,300\n"), {}, 1));
   std::vector<double> ratios;
   for (const auto& p : points)
     if (p.master == 100) ratios.push_back(p.velocity);
@@ -376,8 +376,8 @@ TEST(EcamSamples, TheLawIsTheLimitOfItsRows) {
   const auto table = ecams::table(ecams::rotary());
   const auto run = run_ecam(table, {}, 1);
   for (const auto& row : table.rows) {
-    const auto point = sample_ecam_at(run, {static_cast<double>(row.master)}).at(0);
-    EXPECT_NEAR(point.slave, row.slave, 0.5 + 1e-6);
+    const auto point = sample_cam_at(run, {static_cast<double>(row.master)}).at(0);
+    EXPECT_NEAR(point.position, row.slave, 0.5 + 1e-6);
   }
 }
 

@@ -62,9 +62,9 @@ void expect_told(const EcamTable& table, const std::string& text) {
                      .max_acceleration = 1e6};
   const auto run = run_ecam(table, duty, 2);
   double last = -1e300;
-  for (const auto& point : sample_ecam(run)) {
+  for (const auto& point : sample_cam(run)) {
     ASSERT_GE(point.master, last) << text;
-    ASSERT_TRUE(std::isfinite(point.slave + point.velocity + point.acceleration + point.jerk)) << text;
+    ASSERT_TRUE(std::isfinite(point.position + point.velocity + point.acceleration + point.jerk)) << text;
     last = point.master;
   }
   for (const auto& finding : judge_ecam(table, duty, run)) {

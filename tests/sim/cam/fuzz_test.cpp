@@ -46,8 +46,8 @@ void expect_joined(const CamRun& run, const std::string& text) {
     const auto& before = run.visits[i - 1];
     const auto& after = run.visits[i];
     ASSERT_NEAR(before.master_end(), after.master_start, 1e-9 * (1 + after.master_start)) << text;
-    const double left = before.slave_start + before.at(before.master_length).position;
-    const double right = after.slave_start + after.at(0).position;
+    const double left = cams::at(before, before.master_length).position;
+    const double right = cams::at(after, 0).position;
     // A ramp of 232, 252 and 253 that fits its space to one bit spreads the rest; nothing jumps.
     if (!before.waiting) {
       ASSERT_NEAR(left, right, 1e-6 * (1 + std::abs(right) + before.master_length)) << text;
@@ -70,10 +70,10 @@ TEST(CamFuzz, RandomTablesEndAndHangTogether) {
     double last = 0;
     for (const auto& point : sample_cam(run)) {
       ASSERT_GE(point.master, last) << text;
-      ASSERT_TRUE(std::isfinite(point.slave + point.velocity + point.acceleration + point.jerk)) << text;
+      ASSERT_TRUE(std::isfinite(point.position + point.velocity + point.acceleration + point.jerk)) << text;
       last = point.master;
     }
-    ASSERT_NEAR(last, run.master_total, 1e-9 * (1 + last)) << text;
+    ASSERT_NEAR(last, run.master_total(), 1e-9 * (1 + last)) << text;
     const auto findings = judge(table, duty, run);
     for (const auto& finding : findings) {
       ASSERT_FALSE(finding.text.empty()) << text;

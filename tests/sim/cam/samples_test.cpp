@@ -1,4 +1,3 @@
-#include "sim/cam/camming4/samples.hpp"
 
 #include <gmock/gmock.h>
 
@@ -41,7 +40,7 @@ TEST(CamSamples, AThousandPointsAndEveryBoundary) {
   }
   EXPECT_EQ(points.front().row, 1);
   EXPECT_EQ(points.back().row, 5);
-  EXPECT_EQ(points.back().slave, 565);
+  EXPECT_EQ(points.back().position, 565);
 }
 
 TEST(CamSamples, BoundariesOnTheGridAreNotSampledTwice) {
@@ -63,7 +62,7 @@ TEST(CamSamples, AStepOfVelocityHasTwoSides) {
   // 136 stops it dead: released, row 0.
   EXPECT_EQ(points[points.size() - 2].velocity, 1);
   EXPECT_EQ(points.back().master, 200);
-  EXPECT_EQ(points.back().slave, 150);
+  EXPECT_EQ(points.back().position, 150);
   EXPECT_EQ(points.back().velocity, 0);
   EXPECT_EQ(points.back().row, 0);
 }
@@ -88,7 +87,7 @@ TEST(CamSamples, AtGivesTheAskedPositionsInTheOrderOfRunning) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(points[i].master, masters[i]);
     EXPECT_EQ(points[i].row, in_row[i]);
-    EXPECT_NEAR(points[i].slave, slaves[i], 1e-9);
+    EXPECT_NEAR(points[i].position, slaves[i], 1e-9);
   }
 }
 
@@ -99,10 +98,13 @@ TEST(CamSamples, DerivativesAreThoseOfThePosition) {
   for (const auto& visit : run.visits) {
     for (int i = 1; i < 40; ++i) {
       const double m = visit.master_length * i / 41;
-      const auto at = visit.at(m);
-      EXPECT_NEAR((visit.at(m + h).position - visit.at(m - h).position) / (2 * h), at.velocity, 1e-6);
-      EXPECT_NEAR((visit.at(m + h).velocity - visit.at(m - h).velocity) / (2 * h), at.acceleration, 1e-6);
-      EXPECT_NEAR((visit.at(m + h).acceleration - visit.at(m - h).acceleration) / (2 * h), at.jerk, 1e-5);
+      const auto at = cams::at(visit, m);
+      EXPECT_NEAR((cams::at(visit, m + h).position - cams::at(visit, m - h).position) / (2 * h), at.velocity,
+                  1e-6);
+      EXPECT_NEAR((cams::at(visit, m + h).velocity - cams::at(visit, m - h).velocity) / (2 * h),
+                  at.acceleration, 1e-6);
+      EXPECT_NEAR((cams::at(visit, m + h).acceleration - cams::at(visit, m - h).acceleration) / (2 * h),
+                  at.jerk, 1e-5);
     }
   }
 }
@@ -117,7 +119,7 @@ TEST(CamSamples, TheCsvReadsBackToTheSameBits) {
   EXPECT_EQ(lines[0], "master,slave,velocity,acceleration,jerk,sector");
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& p = points[i];
-    EXPECT_EQ(numbers_of(lines[i + 1]), (std::vector<double>{p.master, p.slave, p.velocity, p.acceleration,
+    EXPECT_EQ(numbers_of(lines[i + 1]), (std::vector<double>{p.master, p.position, p.velocity, p.acceleration,
                                                              p.jerk, static_cast<double>(p.row)}));
   }
 }
@@ -135,7 +137,7 @@ TEST(CamSamples, WithTheMastersSpeedAlsoInTime) {
 }
 
 TEST(CamSamples, NoMinusZero) {
-  EXPECT_EQ(lines_of(cam_csv({{-0.0, -0.0, -0.0, -0.0, -0.0, 1}}, 1.0))[1], "0,0,0,0,0,1,0,0,0,0");
+  EXPECT_EQ(lines_of(cam_csv({{{-0.0, -0.0, -0.0, -0.0}, -0.0, 1}}, 1.0))[1], "0,0,0,0,0,1,0,0,0,0");
 }
 
 }  // namespace
