@@ -106,8 +106,8 @@ TEST_F(ProgramTest, TheVerdictIsWrittenLast) {
   fs::permissions(gnuplot, fs::perms::owner_all);
   const auto path = std::string(getenv("PATH"));
   setenv("PATH", ((out / "bin").string() + ":" + path).c_str(), 1);
-  call("run " + scenes + "rotary_knife_short.yaml --set scene.duration='5 s' --set pictures.frames=false" +
-       to());
+  call("run " + scenes +
+       "rotary_knife_short.yaml --set scene.duration='5 s' --set pictures.frames.every='2 s'" + to());
   setenv("PATH", path.c_str(), 1);
   EXPECT_THAT(contents(out / "seen.json"), testing::HasSubstr("the run has not come to its end"));
 }
