@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace drycut::sim {
 
@@ -48,6 +49,16 @@ class Grid {
   int next_ = 0;
 };
 
+/// From where to where the pieces of the same row around one reach.
+std::pair<double, double> row_of(const CamCourse& course, std::size_t piece) {
+  const auto& pieces = course.law.pieces;
+  std::size_t first = piece;
+  std::size_t last = piece;
+  while (first > 0 && pieces[first - 1].row == pieces[piece].row) --first;
+  while (last + 1 < pieces.size() && pieces[last + 1].row == pieces[piece].row) ++last;
+  return {course.begin_of(first), course.end_of(last)};
+}
+
 /// Where the slave is behind the end of the course, if its last point does not say it.
 std::optional<CamPoint> behind(const CamCourse& course) {
   if (course.lets_go) return CamPoint{{course.slave_total()}, course.master_total(), 0};
@@ -70,7 +81,7 @@ double CamCourse::peak(devices::CamOrder order) const {
 }
 
 std::vector<CamPoint> sample_cam(const CamCourse& course, bool both_sides) {
-  constexpr int least = 64;
+  constexpr double hair = 1e-9;
   std::vector<CamPoint> points;
   const std::size_t count = course.law.pieces.size();
   for (int loop = 0; loop < course.loops; ++loop) {
@@ -80,11 +91,15 @@ std::vector<CamPoint> sample_cam(const CamCourse& course, bool both_sides) {
       const double end = course.end_of(i);
       auto places = grid.inside(begin, end);
       places.push_back(begin);
-      for (int k = 1; both_sides && k < least; ++k) places.push_back(begin + (end - begin) * k / least);
+      const auto [from, to] = both_sides ? row_of(course, i) : std::pair(begin, end);
+      for (int k = 1; both_sides && k < course.drawn; ++k)
+        if (const double place = from + (to - from) * k / course.drawn; place > begin && place < end)
+          places.push_back(place);
       std::sort(places.begin(), places.end());
       for (const double place : places) points.push_back(point_at(course, loop, i, place));
-      const auto last = point_at(course, loop, i, end);
       const bool wraps = i + 1 == count;
+      // Inside a row a hair before its end, so that a step of acceleration is drawn upright.
+      const auto last = point_at(course, loop, i, to > end ? end - hair * (to - from) : end);
       const bool is_last = wraps && loop + 1 == course.loops;
       const std::size_t next = wraps ? 0 : i + 1;
       if (is_last || both_sides ||

@@ -23,6 +23,7 @@ struct CamCourse {
   double first_slave = 0;
   int loops = 1;         ///< cycles, one after the other
   int passes = 0;        ///< times round that the law has in itself; 0: it is the one that is repeated
+  int drawn = 0;         ///< parts of each row that are drawn at least
   bool holds = false;    ///< each piece holds the slave up to the next one, the last one to the next cycle
   bool lets_go = false;  ///< behind its end the slave stands
   std::optional<double> master_speed = {};  ///< [master's unit/s]
@@ -39,7 +40,7 @@ struct CamCourse {
 };
 
 /// 1000 points a pass, evenly spaced, and every boundary of pieces; where something jumps, before and after.
-/// With `both_sides`, for drawing, before and after at every boundary and at least 64 points a piece.
+/// With `both_sides`, for drawing, before and after at every boundary, and `drawn` parts of each row.
 std::vector<CamPoint> sample_cam(const CamCourse& course, bool both_sides = false);
 /// At the given positions, each within the course, in the order of running; a boundary belongs to the piece
 /// that it begins.

@@ -57,6 +57,7 @@ class Walk {
 
   CamRun run() {
     run_.passes = 1;
+    run_.drawn = 64;
     cam_.start({});
     leave(1, 0);
     while (!over_) {
