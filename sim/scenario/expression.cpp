@@ -4,10 +4,12 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
 
+#include "base/text.hpp"
 #include "sim/scenario/expression_scan.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/units.hpp"
@@ -137,9 +139,23 @@ class Compiler {
     const auto start = tokens_[range.first].offset;
     term.text = text_.substr(start, tokens_[range.last - 1].end - start);
     fill(term.left, term.uses, {range.first, relation});
-    if (relation == range.last) return;
+    if (relation == range.last) return require_condition(term.text, range);
     term.relation = tokens_[relation].text;
     fill(term.right, term.uses, {relation + 1, range.last});
+  }
+
+  // A flag stands alone (AxisX.st_still); any other number that is compared with nothing would always hold.
+  void require_condition(const std::string& text, Range range) {
+    constexpr std::array<std::string_view, 6> conditions{"==", "!=", "||", "&&", "!", "?"};
+    const bool flag = range.last == range.first + 1 && tokens_[range.first].kind == Kind::name;
+    const auto decides = [&](const ExpressionToken& token) {
+      return is_relation(token) || std::ranges::find(conditions, token.text) != conditions.end();
+    };
+    const auto first = tokens_.begin() + static_cast<std::ptrdiff_t>(range.first);
+    if (flag || std::any_of(first, tokens_.begin() + static_cast<std::ptrdiff_t>(range.last), decides))
+      return;
+    fault(tokens_[range.first].offset, fmt::format("{} is a number, not a condition", in_quotes(text)),
+          "compare it with a limit: < <= > >= == !=");
   }
 
   // muParser gets short names of its own: it would not take dots, indices and leading digits.
