@@ -314,7 +314,8 @@ std::vector<std::string> Simulation::notes() const {
     notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
                                 around->number, shutter_.seen()));
   }
-  for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
+  if (time_ > 0)  // it ran
+    for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
   notes.insert(notes.end(), remarks_.begin(), remarks_.end());
   if (remark_count_ > remarks_.size())
     notes.push_back(fmt::format("and {} more remarks, see events.csv", remark_count_ - remarks_.size()));
