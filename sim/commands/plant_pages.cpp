@@ -51,7 +51,8 @@ struct Offered {
 class Specimens {
  public:
   explicit Specimens(const plants::PlantType& type) {
-    for (const auto& p : type.define()->parameters()) {
+    const auto definition = type.define();  // its parameters point into it
+    for (const auto& p : definition->parameters()) {
       if (p.name != "drive" || p.choices.empty()) continue;
       drives_ = {*std::get<std::string*>(p.value)};
       for (const auto& choice : p.choices)
