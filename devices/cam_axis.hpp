@@ -1,13 +1,15 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "devices/cards.hpp"
 
 namespace drycut::devices {
+
+struct CamTable;  // devices/cam/table.hpp
 
 /// The slave of a cam at an instant, in the units of the cam's table, to be compared with its law.
 struct CamMoment {
@@ -21,18 +23,15 @@ struct CamMoment {
 /// An axis of a controller that can play cams, as a simulation looks at it. Stays valid as long as the
 /// controller.
 struct CamAxis {
-  std::string name;       ///< "AxisX", "Y0", "Knife"
-  std::string_view kind;  ///< of its tables: "camming4", "lx3vp", "mc_camin"
+  std::string name;  ///< "AxisX", "Y0", "Knife"
   std::optional<Address> pulses =
       {};  ///< output whose drive knows where the slave is, if the device does not
   /// Another number with each start and with each change of the table that the device takes over; 0 = no cam
   /// was started yet.
   std::function<std::uint64_t()> start;
   std::function<CamMoment()> moment;
-  /// The table that it plays, or would play, with all that its law needs, as cam tables are written: settings
-  /// `# key: value`, a header, the rows (CAMMING4 `sector,codeG,...`; LX3VP `master,slave` or ECAMTBX's
-  /// `parameter,value`; MC_CamIn `slave`, `master,slave` or `a0,a1,a2,a3`). "" = it has none.
-  std::function<std::string()> table;
+  /// The table that it plays, or would play, with all that its law needs; null = it has none.
+  std::function<std::shared_ptr<const CamTable>()> table;
 };
 
 }  // namespace drycut::devices

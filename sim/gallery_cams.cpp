@@ -16,7 +16,7 @@ std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulat
     Problems problems;
     for (const auto& table : plcopen->tables)
       if (auto text = read_file(scenario.file.parent_path() / table.file.text, problems))
-        played.push_back({table.file.text, "mc_camin", std::move(*text), {}});
+        played.push_back({table.file.text, nullptr, {}, std::move(*text)});
   }
   auto pages = cam_pages(played);
   if (const auto untold = simulation.cams()->untold(); untold > 0 && !pages.empty())

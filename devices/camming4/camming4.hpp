@@ -73,7 +73,7 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
 
   // The cam as others see it (camming4_cam_axis.cpp).
   [[nodiscard]] CamMoment cam_moment() const;
-  [[nodiscard]] std::string cam_table() const;
+  [[nodiscard]] std::shared_ptr<const devices::CamTable> cam_table() const;
 
   // Inputs and presets (camming4_inputs.cpp).
   void sample_inputs();

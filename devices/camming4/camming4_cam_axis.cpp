@@ -1,16 +1,14 @@
 // The cam of a CAMMING4 as a simulation compares it with its law.
-#include <iterator>
-
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "devices/axis/speed.hpp"
+#include "devices/cam/table.hpp"
 #include "devices/camming4/camming4.hpp"
 
 namespace drycut::devices::camming4 {
 
 std::optional<CamAxis> Camming4::cam_axis() {
   CamAxis axis;
-  axis.kind = "camming4";
   axis.start = [this] { return cam_starts_; };
   axis.moment = [this] { return cam_moment(); };
   axis.table = [this] { return cam_table(); };
@@ -30,23 +28,26 @@ CamMoment Camming4::cam_moment() const {
   return moment;
 }
 
-std::string Camming4::cam_table() const {
-  std::string rows;
-  for (int number = 1; number <= cam_rows; ++number) {
-    const Row& row = cam_.row(number);
-    if (row.codeG != 0)
-      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{}\n", number, row.codeG, row.codeQm,
-                     row.codeQs, row.codeQma, row.codeQsa, row.codeM);
+std::shared_ptr<const devices::CamTable> Camming4::cam_table() const {
+  CamTable table;
+  for (int number = 1; number <= cam_rows; ++number)
+    if (const Row& row = cam_.row(number); row.codeG != 0)
+      table.sectors[static_cast<std::size_t>(number - 1)] = {row, number};
+  if (table.count() == 0) return nullptr;
+  table.settings = {{value("measurem"), value("pulsem")}, {value("measure"), value("pulse")}, value("decpt")};
+  table.unitvel = value("unitvel");
+  table.TCamp = period_ms_;
+  if (value("maxvel") > 0) {
+    table.maxvel = value("maxvel");
+    table.taccmax = value("taccmax");
+    table.tdecmax = value("tdecmax");
   }
-  if (rows.empty()) return "";
-  auto text = fmt::format(
-      "# measure: {}\n# pulse: {}\n# measurem: {}\n# pulsem: {}\n# decpt: {}\n# unitvel: {}\n# TCamp: {}\n",
-      value("measure"), value("pulse"), value("measurem"), value("pulsem"), value("decpt"), value("unitvel"),
-      period_ms_);
-  if (value("maxvel") > 0)
-    text += fmt::format("# maxvel: {}\n# taccmax: {}\n# tdecmax: {}\n", value("maxvel"), value("taccmax"),
-                        value("tdecmax"));
-  return text + "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM\n" + rows;
+  return std::make_shared<const devices::CamTable>(std::move(table));
+}
+
+int CamTable::count() const {
+  return static_cast<int>(
+      std::count_if(sectors.begin(), sectors.end(), [](const Sector& s) { return s.line > 0; }));
 }
 
 }  // namespace drycut::devices::camming4

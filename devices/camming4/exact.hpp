@@ -11,6 +11,7 @@ namespace drycut::devices::camming4 {
 struct Resolution {
   std::int64_t measure = 1;  ///< [Um], and grains a bit
   std::int64_t pulse = 1;    ///< [bits x4], and grains a Um
+  bool operator==(const Resolution&) const = default;
 };
 Resolution usable(Resolution resolution);
 

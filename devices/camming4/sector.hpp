@@ -25,6 +25,7 @@ struct CamSettings {
   Resolution master;  ///< measurem, pulsem
   Resolution slave;   ///< measure, pulse
   int decpt = 0;      ///< 0..3: the tangent axis counts 360*10^decpt Um a turn
+  bool operator==(const CamSettings&) const = default;
 };
 
 /// An error or a warning with the row that caused it (000 1.3, 1.4); code 0 = none.

@@ -222,7 +222,7 @@ EcamResult make_s_curve(EcamType type, const SCurveParameters& parameters) {
   constexpr int least = 51;
   constexpr int fastest = 150000;
   constexpr double tick = 1e-4;  // s
-  if (type != EcamType::s_curve_0 && type != EcamType::s_curve_1) return failed(EcamError::type);
+  if (!is_s_curve(type)) return failed(EcamError::type);
   if (parameters.length == 0) return failed(EcamError::length);
   if (parameters.resolution < least || parameters.resolution > most_rows)
     return failed(EcamError::resolution);
@@ -251,6 +251,11 @@ EcamResult make_s_curve(EcamType type, const SCurveParameters& parameters) {
   result.uniform_time = static_cast<std::int32_t>(std::llround(level));
   result.speed_reached = static_cast<std::int32_t>(std::llround(ratio / tick));
   return result;
+}
+
+EcamResult make_table(EcamType type, const SawParameters& saw, const SCurveParameters& s_curve) {
+  if (type == EcamType::rotary_saw) return make_rotary_saw(saw);
+  return type == EcamType::fly_saw ? make_fly_saw(saw) : make_s_curve(type, s_curve);
 }
 
 std::span<const EcamError> ecam_errors() {

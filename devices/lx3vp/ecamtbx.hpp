@@ -14,6 +14,7 @@ namespace drycut::devices::lx3vp {
 
 /// Type of the table, operand S1.
 enum class EcamType : int { s_curve_0 = 0, s_curve_1 = 1, rotary_saw = 100, fly_saw = 101 };
+inline bool is_s_curve(EcamType type) { return type == EcamType::s_curve_0 || type == EcamType::s_curve_1; }
 
 /// Parameters of K100 and K101, by the manual's numbers.
 struct SawParameters {
@@ -25,6 +26,7 @@ struct SawParameters {
   std::uint16_t acceleration = 0;  ///< P6 low word: 0 uniform, 1 uniform acceleration, 2 B type
   std::uint16_t curve = 0;         ///< P6 high word: 0, 1, 2, 3 or 5 (K100); bit 12 returns (slave backwards)
   std::uint16_t resolution = 0;    ///< P7, rows: 10..512, 0 = automatic
+  bool operator==(const SawParameters&) const = default;
 };
 /// The cam curves of P6.
 enum SawCurve : std::uint16_t {
@@ -43,6 +45,7 @@ struct SCurveParameters {
   std::int16_t acceleration = 0;  ///< P4 [ms], 0..32767
   std::int16_t deceleration = 0;  ///< P5 [ms], 0..32767
   std::uint16_t resolution = 0;   ///< P6, rows: 51..512
+  bool operator==(const SCurveParameters&) const = default;
 };
 
 /// A row of a cam table, both positions in pulses (the master of K0 and K1: in counts of 100 us).
@@ -91,6 +94,8 @@ EcamResult make_rotary_saw(const SawParameters& parameters);
 EcamResult make_fly_saw(const SawParameters& parameters);
 /// K0 and K1: P2 and back to rest over P1 pulses, the time as master.
 EcamResult make_s_curve(EcamType type, const SCurveParameters& parameters);
+/// By its type, whatever it is.
+EcamResult make_table(EcamType type, const SawParameters& saw, const SCurveParameters& s_curve);
 
 /// Largest distance of the table, played as straight pieces, from the laws [pulses], looked for at 16 points
 /// a piece.

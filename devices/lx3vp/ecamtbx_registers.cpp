@@ -11,21 +11,6 @@ namespace drycut::devices::lx3vp {
 
 namespace {
 
-bool is_s_curve(std::int32_t type) {
-  return type == static_cast<int>(EcamType::s_curve_0) || type == static_cast<int>(EcamType::s_curve_1);
-}
-
-EcamResult make(const Registers& registers, int list, std::int32_t type) {
-  if (is_s_curve(type))
-    return make_s_curve(static_cast<EcamType>(type), read_s_curve_parameters(registers, list));
-  if (type == static_cast<int>(EcamType::rotary_saw))
-    return make_rotary_saw(read_saw_parameters(registers, list));
-  if (type == static_cast<int>(EcamType::fly_saw)) return make_fly_saw(read_saw_parameters(registers, list));
-  EcamResult result;
-  result.error = EcamError::type;
-  return result;
-}
-
 /// A table by midCAMend stops by itself; what it has switched on for that, the next table takes back. What
 /// the program has switched on stays.
 void write_stop(Registers& registers, int block, bool stops) {
@@ -88,7 +73,9 @@ SCurveParameters read_s_curve_parameters(const Registers& registers, int first) 
 }
 
 EcamtbxReport run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result) {
-  auto made = make(registers, list, type);
+  const auto wanted = static_cast<EcamType>(type);
+  auto made =
+      make_table(wanted, read_saw_parameters(registers, list), read_s_curve_parameters(registers, list));
   const auto end = block + cam_block_words + row_words * static_cast<int>(made.rows.size());
   if (made.ok() && end > first_special) made.error = EcamError::area;
   EcamtbxReport report{made.code(), {}};
@@ -98,8 +85,8 @@ EcamtbxReport run_ecamtbx(Registers& registers, int list, std::int32_t type, int
                                block + cam_block_words, end - 1, last_block_word);
   else if (!made.ok())
     report.fault = ecamtbx_fault(registers, list, type, made.error);
-  if (made.ok()) write_block(registers, block, !is_s_curve(type), made);
-  if (is_s_curve(type)) {
+  if (made.ok()) write_block(registers, block, !is_s_curve(wanted), made);
+  if (is_s_curve(wanted)) {
     if (made.ok()) report_s_curve(registers, list, made);
     registers.set_i16(list + s_curve_word::result, static_cast<std::int16_t>(made.code()));
   }

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
+#include "devices/cam/table.hpp"
 #include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/lx3vp_controller.hpp"
@@ -14,11 +14,6 @@ namespace {
 
 constexpr std::size_t block_operand = 1;
 constexpr std::size_t output_operand = 3;
-
-EcamResult made_of(EcamType type, const SawParameters& saw, const SCurveParameters& s_curve) {
-  if (type == EcamType::rotary_saw) return make_rotary_saw(saw);
-  return type == EcamType::fly_saw ? make_fly_saw(saw) : make_s_curve(type, s_curve);
-}
 
 /// The rows that a block holds; none if their number makes no sense.
 std::vector<CamTableRow> rows_of(const Registers& registers, int block) {
@@ -42,7 +37,6 @@ std::vector<CamAxis> Lx3vpController::cam_axes() {
     const int output = step.operands[output_operand].number;
     CamAxis axis;
     axis.name = fmt::format("Y{:o} (DECAM D{})", output, step.operands[block_operand].number);
-    axis.kind = "lx3vp";
     axis.pulses = Address{devices::Kind::output, 0, output};
     axis.start = [this, &step] {
       const Decam* cam = pulses_.cam(step.number);
@@ -52,7 +46,7 @@ std::vector<CamAxis> Lx3vpController::cam_axes() {
       const Decam* cam = pulses_.cam(step.number);
       return cam == nullptr || output >= pulse_outputs ? CamMoment{} : cam->moment(pulses_.output(output));
     };
-    axis.table = [this, &step] { return cam_table_text(step); };
+    axis.table = [this, &step] { return cam_table_of(step); };
     axes.push_back(std::move(axis));
   }
   return axes;
@@ -64,46 +58,32 @@ void Lx3vpController::keep_recipe(int number) {
   if (step == program_.steps.end()) return;
   const int list = step->operands[0].number;
   const il::Operand& type = step->operands[1];
-  const int wanted = type.kind == il::Kind::constant ? type.value : registers_.i16(type.number);
-  recipes_[step->operands[2].number] = {static_cast<EcamType>(wanted), read_saw_parameters(registers_, list),
-                                        read_s_curve_parameters(registers_, list)};
+  EcamTable recipe;
+  recipe.type =
+      static_cast<EcamType>(type.kind == il::Kind::constant ? type.value : registers_.i16(type.number));
+  recipe.saw = read_saw_parameters(registers_, list);
+  recipe.s_curve = read_s_curve_parameters(registers_, list);
+  recipes_[step->operands[2].number] = std::move(recipe);
 }
 
-/// The parameters behind the rows, if an ECAMTBX made just these; else "".
-std::string Lx3vpController::recipe_text(int block, const std::vector<CamTableRow>& rows) const {
-  const auto found = recipes_.find(block);
-  if (found == recipes_.end()) return "";
-  const auto& [type, saw, curve] = found->second;
-  if (made_of(type, saw, curve).rows != rows) return "";
-  const auto head = fmt::format("# ecamtbx: K{}\nparameter,value\n", static_cast<int>(type));
-  if (type == EcamType::s_curve_0 || type == EcamType::s_curve_1)
-    return head + fmt::format("P1,{}\nP2,{}\nP4,{}\nP5,{}\nP6,{}\n", curve.length, curve.top_speed,
-                              curve.acceleration, curve.deceleration, curve.resolution);
-  return head + fmt::format("P1,{}\nP2,{}\nP3,{}\nP4,{}\nP5,{}\nP6L,{}\nP6H,{}\nP7,{}\n", saw.master_length,
-                            saw.slave_length, saw.sync_length, saw.sync_ratio, saw.max_ratio,
-                            saw.acceleration, saw.curve, saw.resolution);
-}
-
-std::string Lx3vpController::cam_table_text(const il::Step& step) const {
+std::shared_ptr<const devices::CamTable> Lx3vpController::cam_table_of(const il::Step& step) const {
   const int block = step.operands[block_operand].number;
-  if (block + block_length - 1 > last_block_word) return "";
+  if (block + block_length - 1 > last_block_word) return nullptr;
   const Decam* cam = pulses_.cam(step.number);
   const bool started = cam != nullptr && cam->starts() > 0;
   const auto rows = started ? cam->law().rows() : rows_of(registers_, block);
-  if (rows.empty()) return "";
-  std::string text;
+  if (rows.empty()) return nullptr;
+  EcamTable table;
+  // The parameters behind the rows, if an ECAMTBX made just these.
+  if (const auto found = recipes_.find(block); found != recipes_.end()) table = found->second;
+  if (!table.is_made() || make_table(*table.type, table.saw, table.s_curve).rows != rows) table = {};
+  table.rows = rows;
   const std::int32_t most = registers_.i32(block + word::max_frequency);
-  if (most > 0 && most <= max_frequency_hz) text += fmt::format("# max_frequency: {}\n", most);
+  if (most > 0 && most <= max_frequency_hz) table.max_frequency = most;
   const il::Operand& master = step.operands[0];
-  if (master.kind == il::Kind::constant) text += fmt::format("# time_axis: {}\n", master.value);
-  const bool cyclic =
-      started ? cam->cyclic() : registers_.d[static_cast<std::size_t>(block + word::start)] == 1;
-  text += fmt::format("# cyclic: {}\n", cyclic ? 1 : 0);
-  if (const auto recipe = recipe_text(block, rows); !recipe.empty()) return text + recipe;
-  text += "master,slave\n";
-  for (const CamTableRow& row : rows)
-    fmt::format_to(std::back_inserter(text), "{},{}\n", row.master, row.slave);
-  return text;
+  if (master.kind == il::Kind::constant) table.time_axis = master.value;
+  table.cyclic = started ? cam->cyclic() : registers_.d[static_cast<std::size_t>(block + word::start)] == 1;
+  return std::make_shared<const devices::CamTable>(std::move(table));
 }
 
 }  // namespace drycut::devices::lx3vp

@@ -10,7 +10,7 @@
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
-#include "devices/lx3vp/ecamtbx.hpp"
+#include "devices/lx3vp/ecam_table.hpp"
 #include "devices/lx3vp/high_speed_counters.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_scan.hpp"
@@ -77,15 +77,8 @@ class Lx3vpController : public Controller, private Instructions {
   void error(int step, int code, const std::string& text) override;
   void cam_table(int step, std::int32_t result, const std::string& text) override;
 
-  /// What an ECAMTBX made its last table of.
-  struct CamRecipe {
-    EcamType type = EcamType::rotary_saw;
-    SawParameters saw;
-    SCurveParameters s_curve;
-  };
   void keep_recipe(int step);
-  [[nodiscard]] std::string cam_table_text(const il::Step& step) const;
-  [[nodiscard]] std::string recipe_text(int block, const std::vector<CamTableRow>& rows) const;
+  [[nodiscard]] std::shared_ptr<const devices::CamTable> cam_table_of(const il::Step& step) const;
 
   void add_used_terminals();
   void add_names();
@@ -119,7 +112,7 @@ class Lx3vpController : public Controller, private Instructions {
   std::vector<ControllerEvent> events_;
   std::set<std::pair<int, std::string>> said_;  ///< since power-up, by step
   std::map<int, std::int32_t> cam_tables_;      ///< last results of ECAMTBX since power-up, by step
-  std::map<int, CamRecipe> recipes_;            ///< by the block that took the table
+  std::map<int, EcamTable> recipes_;            ///< what ECAMTBX last made tables of, by their blocks
 };
 
 }  // namespace drycut::devices::lx3vp

@@ -141,8 +141,8 @@ class CamReader {
     if (name == "maxvel") limits.velocity = reader_.real(value, line, 1e-9, most);
     if (name == "maxacc") limits.acceleration = reader_.real(value, line, 1e-9, most);
     if (name == "maxjerk") limits.jerk = reader_.real(value, line, 1e-9, most);
-    if (name == "minpos") limits.least = reader_.real(value, line, -most, most);
-    if (name == "maxpos") limits.most = reader_.real(value, line, -most, most);
+    if (name == "minpos") limits.travel.least = reader_.real(value, line, -most, most);
+    if (name == "maxpos") limits.travel.most = reader_.real(value, line, -most, most);
     if (name == "interpolation") take_interpolation(value, line);
   }
 

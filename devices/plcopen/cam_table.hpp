@@ -51,6 +51,7 @@ struct CamTable {
   [[nodiscard]] double value(std::size_t line, int column) const {
     return values[line * static_cast<std::size_t>(columns()) + static_cast<std::size_t>(column)];
   }
+  bool operator==(const CamTable&) const = default;
 };
 
 /// The interpolation in force for a table: `wanted`, or what its header says if `wanted` is table_defined.

@@ -108,7 +108,7 @@ class PlcopenController : public Controller {
   void tell_axes();
   void tell_blocks();
   [[nodiscard]] CamMoment cam_moment(int number) const;
-  [[nodiscard]] std::string cam_table(int number) const;
+  [[nodiscard]] std::shared_ptr<const devices::CamTable> cam_table(int number) const;
   std::optional<ControllerValue> axis_value(int number, std::string_view name);
   std::optional<ControllerValue> parameter_value(int number, const AxisParameter& parameter);
   std::optional<ControllerValue> table_value(std::string_view name);

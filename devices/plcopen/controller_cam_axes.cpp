@@ -1,9 +1,7 @@
 // The cams of the axes as a simulation compares them with their laws.
-#include <fmt/format.h>
-
 #include <cmath>
-#include <iterator>
 
+#include "devices/cam/table.hpp"
 #include "devices/plcopen/controller.hpp"
 
 namespace drycut::devices::plcopen {
@@ -13,7 +11,6 @@ std::vector<CamAxis> PlcopenController::cam_axes() {
   for (int number = 0; number < kernel_.axes(); ++number) {
     CamAxis cam;
     cam.name = configuration_.axes[static_cast<std::size_t>(number)].name;
-    cam.kind = "mc_camin";
     cam.start = [this, number]() -> std::uint64_t {
       const Axis& slave = axis(number);
       if (slave.coupling() == nullptr || slave.coupling()->cam() == nullptr) return 0;
@@ -47,31 +44,29 @@ CamMoment PlcopenController::cam_moment(int number) const {
   return moment;
 }
 
-std::string PlcopenController::cam_table(int number) const {
+std::shared_ptr<const devices::CamTable> PlcopenController::cam_table(int number) const {
   const Axis& slave = axis(number);
   const CouplingLink& link = slave.link();
   const CamTable* table = kernel_.tables().find(link.table);
-  if (slave.coupling() == nullptr || slave.coupling()->cam() == nullptr || table == nullptr) return "";
+  if (slave.coupling() == nullptr || slave.coupling()->cam() == nullptr || table == nullptr) return nullptr;
   const CamFollow& cam = *slave.coupling()->cam();
   const auto unit = [&](int axis) {
     return configuration_.axes[static_cast<std::size_t>(axis)].measure == Measure::length ? "mm" : "deg";
   };
-  constexpr std::array endless = {"negative", "no", "positive"};
+  CamFile held;
+  held.table = *table;
+  held.interpolation = link.interpolation;
+  held.endless = link.endless;
+  held.master_modulo = cam.curve.master_length;
+  held.master_modulo_given = true;
+  held.slave_modulo = slave.modulo();
+  held.periodic = cam.periodic;
+  held.master_unit = unit(link.master.number);
+  held.slave_unit = unit(number);
   // The kernel's speeds are 1000 to a mm/s or deg/s, its accelerations 1.
-  auto text = fmt::format(
-      "# interpolation: {}\n# master_modulo: {:.0f}\n# slave_modulo: {:.0f}\n# endless: {}\n# periodic: {}\n"
-      "# master_unit: {}\n# slave_unit: {}\n# maxvel: {}\n# maxacc: {}\n",
-      name_of(link.interpolation), cam.curve.master_length, slave.modulo(),
-      endless[static_cast<std::size_t>(static_cast<int>(link.endless) + 1)], cam.periodic ? "yes" : "no",
-      unit(link.master.number), unit(number), slave.parameters().vb_max / 1000, slave.parameters().a_max);
-  if (!table->file.empty()) text.insert(0, fmt::format("## {}\n", table->file));
-  const int columns = table->columns();
-  text += columns == 4 ? "a0,a1,a2,a3\n" : columns == 2 ? "master,slave\n" : "slave\n";
-  for (std::size_t line = 0; line < table->lines(); ++line)
-    for (int column = 0; column < columns; ++column)
-      fmt::format_to(std::back_inserter(text), "{}{}", table->value(line, column),
-                     column + 1 == columns ? '\n' : ',');
-  return text;
+  held.limits.velocity = slave.parameters().vb_max / 1000;
+  held.limits.acceleration = slave.parameters().a_max;
+  return std::make_shared<const devices::CamTable>(std::move(held));
 }
 
 }  // namespace drycut::devices::plcopen

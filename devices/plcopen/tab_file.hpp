@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/problem.hpp"
+#include "devices/cam/travel.hpp"
 #include "devices/plcopen/cam_laws.hpp"
 #include "devices/plcopen/cam_table.hpp"
 
@@ -22,8 +23,8 @@ struct CamLimits {
   std::optional<double> velocity;      ///< maxvel
   std::optional<double> acceleration;  ///< maxacc
   std::optional<double> jerk;          ///< maxjerk
-  std::optional<double> least;         ///< minpos
-  std::optional<double> most;          ///< maxpos
+  CamTravel travel;                    ///< minpos, maxpos
+  bool operator==(const CamLimits&) const = default;
 };
 
 /// A cam as a file, for use without a controller: the table and the axes that it is meant for.
@@ -40,6 +41,7 @@ struct CamFile {
   CamLimits limits;
   std::vector<int> lines;  ///< of the file, for each row
   int header = 1;          ///< line of the header, or of the first row's columns
+  bool operator==(const CamFile&) const = default;
 };
 
 /// Reads a cam as CSV or .tab file, without MC_CamIn's own checks. CSV has `# key: value` lines, a header

@@ -80,6 +80,12 @@ std::string number_above(double value) {
   return number(told(value) * same >= value ? value : told(value) + last_digit(value));
 }
 
+CamRemedy slower_master(const std::string& words, double most, const std::string& unit) {
+  const auto speed = number_below(most);
+  return {fmt::format("{}run the master at {} {} at most", words, speed, unit),
+          {{0, "master speed", std::strtod(speed.c_str(), nullptr)}}};
+}
+
 std::string whole(double value) { return fmt::format("{:.0f}", value); }
 
 }  // namespace drycut::sim

@@ -56,6 +56,8 @@ std::string number(double value);
 std::string number_below(double value);
 /// The same of one that it names as the least: rounded up.
 std::string number_above(double value);
+/// "... run the master at 90 Um/s at most".
+CamRemedy slower_master(const std::string& words, double most, const std::string& unit);
 /// A whole number with all of its digits.
 std::string whole(double value);
 

@@ -11,43 +11,46 @@ namespace drycut::sim {
 
 namespace {
 
-/// A panel of one of the points' numbers times `scale`.
-renders::Panel panel_of(const std::vector<CamPoint>& points, double devices::CamMotion::*number, double scale,
-                        const std::string& title, const std::string& unit) {
+/// One of the points' numbers against the master.
+struct Drawn {
+  std::string title;
+  double devices::CamMotion::*number;
+  CamQuantity quantity;
+};
+
+renders::Panel panel_of(const std::vector<CamPoint>& points, const Drawn& drawn) {
   renders::Panel panel;
-  panel.title = title;
-  panel.y_label = fmt::format("[{}]", unit);
+  panel.title = drawn.title;
+  panel.y_label = fmt::format("[{}]", drawn.quantity.unit);
   renders::Curve curve;
   for (const auto& point : points) {
     curve.x.push_back(point.master);
-    curve.y.push_back(point.*number * scale);
+    curve.y.push_back(point.*drawn.number * drawn.quantity.scale);
   }
   panel.curves.push_back(std::move(curve));
   return panel;
 }
 
 /// A limit to both sides. One far outside what the curve needs would flatten it: then only the title tells.
-void draw_limit(renders::Panel& panel, const std::string& name, double limit, const std::string& unit) {
+void draw_limit(renders::Panel& panel, const CamQuantity::Limit& limit, const std::string& unit) {
   constexpr double far = 4;
+  const auto& y = panel.curves.front().y;
   double peak = 0;
-  for (const double y : panel.curves.front().y) peak = std::max(peak, std::abs(y));
-  const auto label = fmt::format("{} {} {}", name, number_text(limit, 6), unit);
-  if (limit > far * peak) {
+  for (const double value : y) peak = std::max(peak, std::abs(value));
+  const auto label = fmt::format("{} {} {}", limit.name, number_text(limit.value, 6), unit);
+  if (limit.value > far * peak) {
     panel.title += fmt::format("   (far below {})", label);
     return;
   }
-  panel.bands.push_back({label, limit, limit});
-  const auto& y = panel.curves.front().y;
+  panel.bands.push_back({label, limit.value, limit.value});
   if (std::any_of(y.begin(), y.end(), [](double value) { return value < 0; }))
-    panel.bands.push_back({"", -limit, -limit});
+    panel.bands.push_back({"", -limit.value, -limit.value});
 }
 
-CamPeak peak_of(const std::vector<CamPoint>& points, double devices::CamMotion::*number,
-                const std::string& name, const MotionPlot::Unit& unit,
-                const std::vector<MotionPlot::Limit>& limits) {
-  CamPeak peak{name, unit.text, 0, 0, limits};
+CamPeak peak_of(const std::vector<CamPoint>& points, const Drawn& drawn) {
+  CamPeak peak{drawn.title, drawn.quantity};
   for (const auto& point : points) {
-    const double value = point.*number * unit.scale;
+    const double value = point.*drawn.number * drawn.quantity.scale;
     if (std::abs(value) <= std::abs(peak.value)) continue;
     peak.value = value;
     peak.master = point.master;
@@ -55,14 +58,11 @@ CamPeak peak_of(const std::vector<CamPoint>& points, double devices::CamMotion::
   return peak;
 }
 
-std::vector<CamPeak> motion_peaks(const std::vector<CamPoint>& points, const MotionPlot& how) {
-  return {
-      peak_of(points, &CamPoint::velocity, "velocity", how.velocity, how.velocity_limits),
-      peak_of(points, &CamPoint::acceleration, "acceleration", how.acceleration, how.acceleration_limits),
-      peak_of(points, &CamPoint::jerk, "jerk, between the steps of acceleration", how.jerk, how.jerk_limits)};
-}
-
 }  // namespace
+
+void CamQuantity::limit(const std::string& limited_by, std::optional<double> value) {
+  if (value) limits.push_back({limited_by, *value});
+}
 
 void draw_zones(renders::Plot& plot, const std::vector<CamZone>& zones) {
   constexpr std::size_t most = 1000;
@@ -73,30 +73,46 @@ void draw_zones(renders::Plot& plot, const std::vector<CamZone>& zones) {
   }
 }
 
-CamDrawing motion_plot(const std::vector<CamPoint>& points, const MotionPlot& how) {
-  renders::Plot plot;
-  plot.name = how.name;
+CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zones, const MotionPlot& how,
+                       const std::string& name) {
+  CamDrawing drawing;
+  renders::Plot& plot = drawing.plot;
+  plot.name = name;
   plot.title = how.title;
   plot.x_label = fmt::format("master [{}]", how.master_position.empty() ? how.position : how.master_position);
   plot.width = 1600;
   plot.panel_height = 240;
-  const auto panel = [&](double devices::CamMotion::*number, const MotionPlot::Unit& unit,
-                         const std::string& title) {
-    return panel_of(points, number, unit.scale, title, unit.text);
-  };
-  plot.panels = {panel(&CamPoint::position, {how.position, 1}, "slave position"),
-                 panel(&CamPoint::velocity, how.velocity, "velocity"),
-                 panel(&CamPoint::acceleration, how.acceleration, "acceleration"),
-                 panel(&CamPoint::jerk, how.jerk, "jerk, between the steps of acceleration")};
-  for (const auto& limit : how.velocity_limits)
-    draw_limit(plot.panels[1], limit.name, limit.value, how.velocity.text);
-  for (const auto& limit : how.acceleration_limits)
-    draw_limit(plot.panels[2], limit.name, limit.value, how.acceleration.text);
-  for (const auto& limit : how.jerk_limits)
-    draw_limit(plot.panels[3], limit.name, limit.value, how.jerk.text);
-  draw_zones(plot, how.zones);
-  if (how.master_per_s) plot.second_x = renders::SecondScale{"time [s]", 1 / *how.master_per_s};
-  return {std::move(plot), motion_peaks(points, how)};
+  auto points = sample_cam(course, true);
+  for (auto& point : points) {
+    point.master /= how.per_unit;
+    point.position /= how.per_unit;
+  }
+  plot.panels = {panel_of(points, {"slave position", &CamPoint::position, {how.position}})};
+  std::vector<Drawn> rates = {{"velocity", &CamPoint::velocity, how.velocity},
+                              {"acceleration", &CamPoint::acceleration, how.acceleration},
+                              {"jerk, between the steps of acceleration", &CamPoint::jerk, how.jerk}};
+  // Straight pieces have no acceleration between their ends, and no end to it at them.
+  if (how.straight) rates.resize(1);
+  for (const auto& rate : rates) {
+    auto& panel = plot.panels.emplace_back(panel_of(points, rate));
+    for (const auto& limit : rate.quantity.limits) draw_limit(panel, limit, rate.quantity.unit);
+    drawing.peaks.push_back(peak_of(points, rate));
+  }
+  if (how.played) {
+    plot.panels[1].curves.front().label = "law";
+    // Behind the law, which it follows closely.
+    plot.panels[1].curves.insert(plot.panels[1].curves.begin(), *how.played);
+  }
+  std::vector<CamZone> repeated;
+  for (int loop = 0; loop < course.loops; ++loop)
+    for (const auto& zone : zones)
+      repeated.push_back({(loop * course.law.master_length + zone.from) / how.per_unit,
+                          (loop * course.law.master_length + zone.to) / how.per_unit, zone.name,
+                          zone.synchronous});
+  draw_zones(plot, repeated);
+  if (course.master_speed)
+    plot.second_x = renders::SecondScale{"time [s]", 1 / (*course.master_speed / how.per_unit)};
+  return drawing;
 }
 
 }  // namespace drycut::sim

@@ -43,15 +43,16 @@ MasterRange range_of(const PlayedCam& played) {
 }
 
 renders::ReportRow row_of(const CamPeak& peak, const std::string& master_unit) {
-  renders::ReportRow row{
-      {peak.name,
-       fmt::format("{} {} at master {} {}", number(peak.value), peak.unit, number(peak.master), master_unit),
-       "", ""}};
-  if (peak.limits.empty()) return row;
-  const auto tightest = std::min_element(peak.limits.begin(), peak.limits.end(),
+  renders::ReportRow row{{peak.name,
+                          fmt::format("{} {} at master {} {}", number(peak.value), peak.quantity.unit,
+                                      number(peak.master), master_unit),
+                          "", ""}};
+  const auto& limits = peak.quantity.limits;
+  if (limits.empty()) return row;
+  const auto tightest = std::min_element(limits.begin(), limits.end(),
                                          [](const auto& a, const auto& b) { return a.value < b.value; });
   const double share = std::abs(peak.value) / tightest->value;
-  row.cells[2] = fmt::format("{} {} {}", tightest->name, number(tightest->value), peak.unit);
+  row.cells[2] = fmt::format("{} {} {}", tightest->name, number(tightest->value), peak.quantity.unit);
   row.cells[3] = share <= within ? fmt::format("PASS {:.1f} % left", 100 * std::max(0.0, 1 - share))
                                  : fmt::format("FAIL {:.1f} % too much", 100 * (share - 1));
   return row;
@@ -80,12 +81,9 @@ renders::ReportTable feasibility(const CamStudy& study, const std::string& maste
 /// Columns of text as a table: names with their units, then the lines.
 renders::ReportTable table_of(const std::string& title, const Columns& columns) {
   renders::ReportTable table{title, {}, {}, true};
-  const auto& lines = columns.lines();
-  for (std::size_t i = 0; i < lines[0].size(); ++i) {
-    const auto unit = i < lines[1].size() ? lines[1][i] : "";
-    table.headings.push_back(unit.empty() ? lines[0][i] : fmt::format("{} [{}]", lines[0][i], unit));
-  }
-  for (std::size_t i = 2; i < lines.size(); ++i) table.rows.push_back({lines[i]});
+  for (const auto& [name, unit, words] : columns.headings())
+    table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
+  for (const auto& cells : columns.lines()) table.rows.push_back({cells});
   return table;
 }
 
@@ -111,11 +109,19 @@ renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors
 /// One page, made step by step.
 class PageMaker {
  public:
-  PageMaker(const PlayedCam& played, std::string title, std::string name)
-      : played_(played), kind_(cam_kind(played.kind, played.table)) {
+  PageMaker(const PlayedCam& played, std::string title, std::string name) : played_(played) {
     page_.title = std::move(title);
     page_.name = std::move(name);
-    page_.table = played.table;
+    page_.table = played.text;
+    const auto file = page_.name + ".csv";
+    if (played.table) {
+      table_ = *played.table;
+      page_.table = cam_file(table_, file);
+    }
+    // Also of a table that was written just now: will drycut cam take the file?
+    const auto& kind = cam_kind(played.table ? kind_name(*played.table) : "mc_camin", page_.table);
+    auto read = kind.read(page_.table, file, problems_);
+    if (!played.table) table_ = std::move(read);
   }
 
   CamPage make() {
@@ -126,7 +132,7 @@ class PageMaker {
           fmt::format("Shown and measured over the last {} samples, from {:.1f} s on; {} "
                       "before them are left out.",
                       played_.samples.size(), seconds(played_.samples.front().time), played_.left_out));
-    ideal_ = kind_.ideal(played_.table, range_of(played_));
+    if (problems_.empty()) ideal_ = ideal_cam(table_, range_of(played_));
     draw_cam();
     if (!ideal_.silence.empty())
       page_.notes.push_back(
@@ -137,18 +143,15 @@ class PageMaker {
 
  private:
   void draw_cam() {
-    const auto file = page_.name + ".csv";
-    Problems problems;
     CamRequest request;
     request.plot_name = "cam_" + page_.name;
-    const bool has_speed = kind_.check(played_.table, file, problems);
     const double fastest = fastest_master(played_) * ideal_.speed_scale;
-    if (!has_speed && fastest > 0) request.duty.master_speed = rounded(fastest);
-    auto study = kind_.study(played_.table, file, request, problems);
-    // `check` and `study` tell the same.
-    if (!problems.empty()) {
+    if (!gives_master_speed(table_) && fastest > 0) request.duty.master_speed = rounded(fastest);
+    CamStudy study;
+    if (problems_.empty()) study = study_cam(table_, request, problems_);
+    if (!problems_.empty()) {
       page_.notes.push_back(
-          fmt::format("drycut cam does not take this table: {}", to_string(problems.front())));
+          fmt::format("drycut cam does not take this table: {}", to_string(problems_.front())));
       return;
     }
     for (std::size_t begin = 0; begin < study.text.heading.size();) {
@@ -174,7 +177,8 @@ class PageMaker {
   }
 
   const PlayedCam& played_;
-  const CamKind& kind_;
+  devices::CamTable table_;
+  Problems problems_;
   IdealCam ideal_;
   CamPage page_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "devices/cam/table.hpp"
+
 namespace drycut::sim {
 
 namespace {
@@ -34,8 +36,8 @@ void CamRecorder::take_table(Follower& follower) {
   constexpr std::size_t most_tables = 8;
   auto table = follower.axis.table();
   follower.now = none;
-  if (table.empty()) return;
-  const auto same = [&](std::size_t cam) { return played_[cam].table == table; };
+  if (table == nullptr) return;
+  const auto same = [&](std::size_t cam) { return *played_[cam].table == *table; };
   const auto found = std::find_if(follower.cams.begin(), follower.cams.end(), same);
   if (found != follower.cams.end()) {
     follower.now = *found;
@@ -44,7 +46,7 @@ void CamRecorder::take_table(Follower& follower) {
   } else {
     follower.now = played_.size();
     follower.cams.push_back(follower.now);
-    played_.push_back({follower.axis.name, follower.axis.kind, std::move(table), {}});
+    played_.push_back({follower.axis.name, std::move(table)});
   }
 }
 
@@ -71,8 +73,8 @@ void CamRecorder::sample(Time time) {
 std::vector<PlayedCam> CamRecorder::played() const {
   auto played = played_;
   for (const auto& follower : followers_)
-    if (auto table = follower.cams.empty() ? follower.axis.table() : ""; !table.empty())
-      played.push_back({follower.axis.name, follower.axis.kind, std::move(table), {}});
+    if (auto table = follower.cams.empty() ? follower.axis.table() : nullptr; table != nullptr)
+      played.push_back({follower.axis.name, std::move(table)});
   return played;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "devices/cam_axis.hpp"
@@ -21,9 +21,9 @@ struct PlayedCam {
     double turn = 0;    ///< both are known but for whole turns of this length; 0 = they are known
   };
   std::string axis;
-  std::string_view kind;  ///< of the table, as `drycut cam --device` names it
-  std::string table;      ///< as the device held it when it took it over
-  std::vector<Sample> samples;
+  std::shared_ptr<const devices::CamTable> table;  ///< as the device held it when it took it over
+  std::vector<Sample> samples = {};
+  std::string text = {};     ///< of a cam of MC_CamIn that is read from its file: no device held it
   std::size_t left_out = 0;  ///< earlier samples: of a long run the last ones are kept
 };
 

@@ -4,8 +4,8 @@
 
 #include <iterator>
 
-#include "sim/cam/columns.hpp"
 #include "sim/cam/findings.hpp"
+#include "sim/cam/report.hpp"
 
 namespace drycut::sim {
 
@@ -29,11 +29,11 @@ std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> m
 }
 
 std::string cam_samples_text(const std::vector<CamPoint>& points) {
-  Columns columns({false, false, false, false, false, false});
-  columns.add({"master", "slave", "velocity", "acceleration", "jerk", "sector"});
+  Columns columns({{"master"}, {"slave"}, {"velocity"}, {"acceleration"}, {"jerk"}, {"sector"}});
   for (const auto& p : points)
     columns.add({number_text(p.master), number_text(p.position), number_text(p.velocity),
-                 number_text(p.acceleration), number_text(p.jerk), std::to_string(p.row)});
+                 number_text(p.acceleration), number_text(p.jerk), std::to_string(p.row)},
+                points.size());
   return columns.text();
 }
 

@@ -20,7 +20,8 @@ std::string moved_begin(double shift, const TravelWords& words) {
                      shift < 0 ? "back" : "on");
 }
 
-CamRemedy remedy_of(const CamTravel& travel, double low, double high, bool above, const TravelWords& words) {
+CamRemedy travel_remedy(const devices::CamTravel& travel, double low, double high, bool above,
+                        const TravelWords& words) {
   const double stroke = high - low;
   const bool both = travel.least && travel.most;
   if (both && stroke > *travel.most - *travel.least + just_met) {
@@ -39,7 +40,7 @@ CamRemedy remedy_of(const CamTravel& travel, double low, double high, bool above
 
 }  // namespace
 
-std::vector<TravelFault> travel_faults(const CamTravel& travel, double low, double high,
+std::vector<TravelFault> travel_faults(const devices::CamTravel& travel, double low, double high,
                                        const TravelWords& words) {
   std::vector<TravelFault> faults;
   const auto tell = [&](bool above, double reached, double limit) {
@@ -47,7 +48,7 @@ std::vector<TravelFault> travel_faults(const CamTravel& travel, double low, doub
         {above,
          fmt::format("the stroke does not fit the travel: slave at {} {}, {} is {}", place_text(reached),
                      words.unit, above ? words.most : words.least, place_text(limit)),
-         remedy_of(travel, low, high, above, words)});
+         travel_remedy(travel, low, high, above, words)});
   };
   if (travel.most && high > *travel.most + just_met) tell(true, high, *travel.most);
   if (travel.least && low < *travel.least - just_met) tell(false, low, *travel.least);

@@ -1,21 +1,12 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "devices/cam/travel.hpp"
 #include "sim/cam/findings.hpp"
 
 namespace drycut::sim {
-
-/// From where to where the slave's machine lets it go, in its unit, from the place where the cam counts 0.
-/// No device watches it in a cam; `drycut cam` does, before a carriage meets its end stop.
-struct CamTravel {
-  std::optional<double> least = {};
-  std::optional<double> most = {};
-
-  [[nodiscard]] bool is_given() const { return least || most; }
-};
 
 /// How a table calls the travel.
 struct TravelWords {
@@ -33,7 +24,7 @@ struct TravelFault {
 };
 
 /// What is wrong with a stroke that reaches from `low` to `high`: nothing, one side or both.
-std::vector<TravelFault> travel_faults(const CamTravel& travel, double low, double high,
+std::vector<TravelFault> travel_faults(const devices::CamTravel& travel, double low, double high,
                                        const TravelWords& words);
 
 }  // namespace drycut::sim

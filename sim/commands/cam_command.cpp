@@ -44,7 +44,7 @@ void write_file(const std::string& name, const std::string& text) {
 
 void write(const CamOptions& options, const CamStudy& study) {
   if (!options.csv.empty()) {
-    const auto text = cam_csv(study.points, study.master_per_s);
+    const auto text = cam_csv(study.points, study.course.master_speed);
     if (options.csv == "-")
       fmt::print("{}", text);
     else
@@ -60,13 +60,13 @@ int validate_cam(const CamOptions& options) {
   Problems problems;
   const auto text = read_file(options.table, problems);
   const auto& kind = cam_kind(options.device, text.value_or(""));
-  const bool speed_known = text && kind.check(*text, options.table.string(), problems);
-  check_options(options, speed_known, problems);
+  const auto table = text ? kind.read(*text, options.table.string(), problems) : devices::CamTable();
+  check_options(options, gives_master_speed(table), problems);
   CamStudy study;
   if (problems.empty()) {
     const CamRequest request{options.duty, options.at, options.loops,
                              std::filesystem::path(options.png).stem().string()};
-    study = kind.study(*text, options.table.string(), request, problems);
+    study = study_cam(table, request, problems);
   }
   if (problems.empty() && !options.rows.empty() && study.rows_are_given)
     problems.push_back({"--table", 1, 1, "the table's rows were given, not made", "leave it out"});
@@ -74,7 +74,7 @@ int validate_cam(const CamOptions& options) {
     print_problems(problems);
     return bad_input;
   }
-  auto report = cam_report(study);
+  auto report = cam_report(study.text, study.findings);
   if (!options.at.empty() && options.csv.empty()) report += '\n' + cam_samples_text(study.points);
   // Samples on standard output are for a program: it must find nothing else there.
   fmt::print(options.csv == "-" ? stderr : stdout, "{}", report);

@@ -7,10 +7,11 @@ namespace drycut {
 DRYCUT_FUZZ(text) {
   for (const char* device : {"camming4", "lx3vp"}) {
     Problems problems;
-    const auto study =
-        sim::cam_kind(device, text).study(text, "f.csv", sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
+    const auto table = sim::cam_kind(device, text).read(text, "f.csv", problems);
     fuzz::expect_placed(problems, text);
-    if (problems.empty()) sim::cam_report(study);
+    if (!problems.empty()) continue;
+    const auto study = sim::study_cam(table, sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
+    if (problems.empty()) sim::cam_report(study.text, study.findings);
   }
 }
 

@@ -10,10 +10,11 @@ DRYCUT_FUZZ(text) {
   devices::plcopen::parse_tab(text, "f.tab", problems);
   fuzz::expect_placed(problems, text);
   problems.clear();
-  const auto study = sim::cam_kind("mc_camin", text)
-                         .study(text, "f.csv", sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
+  const auto table = sim::cam_kind("mc_camin", text).read(text, "f.csv", problems);
   fuzz::expect_placed(problems, text);
-  if (problems.empty()) sim::cam_report(study);
+  if (!problems.empty()) return;
+  const auto study = sim::study_cam(table, sim::CamRequest{.duty = {}, .at = {0, 1}}, problems);
+  if (problems.empty()) sim::cam_report(study.text, study.findings);
 }
 
 }  // namespace drycut

@@ -9,6 +9,7 @@
 
 #include "devices/camming4/messages.hpp"
 #include "sim/cam/camming4/remedies.hpp"
+#include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
 
@@ -21,7 +22,7 @@ using Grade = CamFinding::Grade;
 
 class CammingJudge {
  public:
-  CammingJudge(const CamTable& table, const CamDuty& duty, const CamRun& run)
+  CammingJudge(const CammingTable& table, const CamDuty& duty, const CamRun& run)
       : table_(table), duty_(duty), run_(run) {
     if (duty.master_speed) master_ = *duty.master_speed * um_per_second(table);
   }
@@ -159,8 +160,8 @@ class CammingJudge {
     const auto column = master_column(sector.row);
     const double least = least_master_space(table_, duty_, sector.kind == camming4::Sector::Kind::gearing);
     const bool is_arc = column.name == nullptr;
-    auto remedy = master_speed_remedy(is_arc ? "" : fmt::format("give it at least {} Um, or ", whole(least)),
-                                      length * 1000 / table_.TCamp / um_per_second(table_), table_);
+    auto remedy = slower_master(is_arc ? "" : fmt::format("give it at least {} Um, or ", whole(least)),
+                                length * 1000 / table_.TCamp / um_per_second(table_), speed_unit(table_));
     if (!is_arc) remedy.cures.push_back({sector.number, column.name, least - column.other});
     return remedy;
   }
@@ -186,14 +187,14 @@ class CammingJudge {
     if (duty_.max_velocity && speed > *duty_.max_velocity * within)
       tell(Grade::limit, 0,
            fmt::format("velocity {} {} above {}", number(speed), unit, number(*duty_.max_velocity)),
-           master_speed_remedy(fmt::format("lower its ratio {} to {}, or ", number(peak),
-                                           number_below(*duty_.max_velocity / *duty_.master_speed)),
-                               *duty_.max_velocity / peak, table_));
+           slower_master(fmt::format("lower its ratio {} to {}, or ", number(peak),
+                                     number_below(*duty_.max_velocity / *duty_.master_speed)),
+                         *duty_.max_velocity / peak, unit));
     if (table_.maxvel > 0 && speed > table_.maxvel * within)
       tell(Grade::limit, 0,
            fmt::format("velocity {} {} above maxvel {}: the output saturates (warning 3 or 4)", number(speed),
                        unit, table_.maxvel),
-           master_speed_remedy("", table_.maxvel / peak, table_));
+           slower_master("", table_.maxvel / peak, unit));
   }
 
   template <typename Tell>
@@ -295,7 +296,7 @@ class CammingJudge {
     std::size_t order;
     CamFinding finding;
   };
-  const CamTable& table_;
+  const CammingTable& table_;
   const CamDuty& duty_;
   const CamRun& run_;
   double master_ = 0;  ///< [Um/s], 0 = not given
@@ -310,7 +311,7 @@ std::string code_text(int code) {
   return found == nullptr ? std::to_string(code) : fmt::format("{} {}", code, found->mnemonic);
 }
 
-std::vector<CamFinding> judge(const CamTable& table, const CamDuty& duty, const CamRun& run) {
+std::vector<CamFinding> judge(const CammingTable& table, const CamDuty& duty, const CamRun& run) {
   return CammingJudge(table, duty, run).findings();
 }
 

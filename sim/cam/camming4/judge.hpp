@@ -8,7 +8,7 @@
 namespace drycut::sim {
 
 /// Everything wrong or noteworthy, each once, in the order of running; remarks come last.
-std::vector<CamFinding> judge(const CamTable& table, const CamDuty& duty, const CamRun& run);
+std::vector<CamFinding> judge(const CammingTable& table, const CamDuty& duty, const CamRun& run);
 
 /// "132 AZM"; "999" for a code that does not exist.
 std::string code_text(int code);

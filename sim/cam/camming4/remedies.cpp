@@ -31,7 +31,7 @@ TwoPhase with_sense(TwoPhase law) {
   return law;
 }
 
-TwoPhase two_phase_of(const Row& row, const CamVisit& visit, const CamTable& table) {
+TwoPhase two_phase_of(const Row& row, const CamVisit& visit, const CammingTable& table) {
   TwoPhase law{"codeQs", static_cast<double>(row.codeQm), visit.entry_speed(), visit.exit_speed()};
   const auto* code = camming4::find_code(row.codeG);
   if (code == nullptr || code->qma != camming4::Use::master_space) return with_sense(law);
@@ -46,7 +46,7 @@ TwoPhase two_phase_of(const Row& row, const CamVisit& visit, const CamTable& tab
 
 /// "codeQs at least 23" or, where the speed is below 0, "codeQs at most -23": the first whole number from
 /// `bound` on with which the engine does not give the warning.
-CamRemedy slave_space(const CamVisit& visit, const CamTable& table, int warning, const TwoPhase& law,
+CamRemedy slave_space(const CamVisit& visit, const CammingTable& table, int warning, const TwoPhase& law,
                       double bound) {
   constexpr int tries = 16;
   constexpr double widest = 999'999;  // that the columns take (000 1.9.4)
@@ -66,7 +66,7 @@ CamRemedy slave_space(const CamVisit& visit, const CamTable& table, int warning,
           {{visit.row, law.column, space}}};
 }
 
-CamAdvice too_small(const Row& row, int number_of_row, const CamTable& table, const CamDuty& duty) {
+CamAdvice too_small(const Row& row, int number_of_row, const CammingTable& table, const CamDuty& duty) {
   const auto* code = camming4::find_code(row.codeG);
   const bool gearing = (row.codeG == 154 || row.codeG == 254) && row.codeQsa == 2;
   const double least = least_master_space(table, duty, gearing);
@@ -95,7 +95,7 @@ CamRemedy radius_remedy(const Row& row, int number_of_row) {
       {{number_of_row, "codeQm", radius}, {number_of_row, "codeQm", -radius}}};
 }
 
-CamAdvice on_error(const CamEngineEvent& event, const CamTable& table, const CamDuty& duty) {
+CamAdvice on_error(const CamEngineEvent& event, const CammingTable& table, const CamDuty& duty) {
   const Row& row = table.sector(event.row).row;
   const std::string plain(camming4::error_text(event.number));
   switch (event.number) {
@@ -126,7 +126,8 @@ CamAdvice on_error(const CamEngineEvent& event, const CamTable& table, const Cam
   }
 }
 
-CamAdvice too_steep(bool acceleration, const CamVisit& visit, const CamTable& table, const CamDuty& duty) {
+CamAdvice too_steep(bool acceleration, const CamVisit& visit, const CammingTable& table,
+                    const CamDuty& duty) {
   const double speed = duty.master_speed.value_or(0) * um_per_second(table);
   const double gradient = acceleration ? peak_acceleration(visit.sector) : peak_deceleration(visit.sector);
   const int hundredths = acceleration ? table.taccmax : table.tdecmax;
@@ -138,7 +139,7 @@ CamAdvice too_steep(bool acceleration, const CamVisit& visit, const CamTable& ta
           gradient_remedy(visit, table, gradient, most)};
 }
 
-CamAdvice turned_back(const CamVisit& visit, const CamTable& table) {
+CamAdvice turned_back(const CamVisit& visit, const CammingTable& table) {
   const Row& row = visit.sector.row;
   const double v0 = visit.entry_speed();
   CamAdvice advice{fmt::format("{}: enters at ratio {}, leaves at {}", camming4::warning_text(5), number(v0),
@@ -152,7 +153,7 @@ CamAdvice turned_back(const CamVisit& visit, const CamTable& table) {
   return advice;
 }
 
-CamAdvice reverses_inside(const CamVisit& visit, const CamTable& table) {
+CamAdvice reverses_inside(const CamVisit& visit, const CammingTable& table) {
   const auto law = two_phase_of(visit.sector.row, visit, table);
   const double least = law.master * (law.v0 + law.v1) / 4 * law.slave_unit;
   auto space = slave_space(visit, table, 7, law, least);
@@ -165,7 +166,7 @@ CamAdvice reverses_inside(const CamVisit& visit, const CamTable& table) {
 }
 
 CamAdvice on_warning(const CamEngineEvent& event, const CamVisit& visit, int row_before,
-                     const CamTable& table, const CamDuty& duty) {
+                     const CammingTable& table, const CamDuty& duty) {
   const std::string plain(camming4::warning_text(event.number));
   switch (event.number) {
     case 1:
@@ -201,7 +202,7 @@ MasterColumn master_column(const Row& row) {
   return {ramp ? "codeQma" : nullptr, 0};
 }
 
-double least_master_space(const CamTable& table, const CamDuty& duty, bool gearing) {
+double least_master_space(const CammingTable& table, const CamDuty& duty, bool gearing) {
   const auto& master = table.settings.master;
   const double count = static_cast<double>(master.measure) / static_cast<double>(master.pulse);
   const double advance = duty.master_speed.value_or(0) * um_per_second(table) * table.TCamp / 1000;
@@ -209,23 +210,17 @@ double least_master_space(const CamTable& table, const CamDuty& duty, bool geari
   return std::max(gearing ? std::floor(count) + 1 : std::ceil(count), std::ceil(advance / within));
 }
 
-CamRemedy master_speed_remedy(const std::string& words, double most, const CamTable& table) {
-  const auto speed = number_below(most);
-  return {fmt::format("{}run the master at {} {} at most", words, speed, speed_unit(table)),
-          {{0, "master speed", std::stod(speed)}}};
-}
-
-CamRemedy gradient_remedy(const CamVisit& visit, const CamTable& table, double peak, double most) {
+CamRemedy gradient_remedy(const CamVisit& visit, const CammingTable& table, double peak, double most) {
   const auto& row = visit.sector.row;
   // With all of its spaces grown alike a ramp joins the same speeds; master space alone changes them. What is
   // softened hangs on the neighbour's space too.
   const bool grows = master_column(row).name != nullptr && row.codeG != 154 && row.codeG != 254;
-  return master_speed_remedy(grows ? "give it more master and slave space alike, or " : "",
-                             std::sqrt(most / peak) / um_per_second(table), table);
+  return slower_master(grows ? "give it more master and slave space alike, or " : "",
+                       std::sqrt(most / peak) / um_per_second(table), speed_unit(table));
 }
 
-CamAdvice advice_on(const CamEngineEvent& event, const CamVisit* visit, int row_before, const CamTable& table,
-                    const CamDuty& duty) {
+CamAdvice advice_on(const CamEngineEvent& event, const CamVisit* visit, int row_before,
+                    const CammingTable& table, const CamDuty& duty) {
   if (event.error) return on_error(event, table, duty);
   if (visit == nullptr) return {std::string(camming4::warning_text(event.number)), "see the error below"};
   return on_warning(event, *visit, row_before, table, duty);

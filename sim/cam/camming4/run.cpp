@@ -29,7 +29,7 @@ double to_um(const Point& point, const Resolution& axis) {
 /// The first count at or behind a point.
 std::int64_t count_at(const Point& point) { return point.bits + (point.part > 0 || point.fraction > 0); }
 
-CamLimits limits_of(const CamTable& table) {
+CamLimits limits_of(const CammingTable& table) {
   CamLimits limits;
   const double max_um = table.maxvel * um_per_second(table);
   if (table.maxvel > 0 && table.taccmax > 0) limits.acceleration = max_um * 100 / table.taccmax;
@@ -40,7 +40,7 @@ CamLimits limits_of(const CamTable& table) {
 /// The engine with the counters that a device would keep around it, the slave exactly where theory wants it.
 class Walk {
  public:
-  Walk(const CamTable& table, const CamDuty& duty, int passes) : table_(table), passes_(passes) {
+  Walk(const CammingTable& table, const CamDuty& duty, int passes) : table_(table), passes_(passes) {
     for (int number = 1; number <= devices::camming4::cam_rows; ++number) {
       const Row& row = table.sector(number).row;
       cam_.write(number, Column::codeG, row.codeG);
@@ -252,7 +252,7 @@ class Walk {
     if (pass_ <= passes_) show_all();
   }
 
-  const CamTable& table_;
+  const CammingTable& table_;
   int passes_;
   double master_um_per_s_ = 0;
   Cam cam_;
@@ -328,15 +328,15 @@ devices::CamExtremes reach_of(const CamVisit& visit) {
   return reach;
 }
 
-double um_per_second(const CamTable& table) {
+double um_per_second(const CammingTable& table) {
   return devices::axis::um_per_second(table.settings.decpt, table.unitvel);
 }
 
-std::string speed_unit(const CamTable& table) {
+std::string speed_unit(const CammingTable& table) {
   return std::string(table.settings.decpt == 0 ? "Um" : "unit") + (table.unitvel == 1 ? "/s" : "/min");
 }
 
-CamRun run_cam(const CamTable& table, const CamDuty& duty, int passes) {
+CamRun run_cam(const CammingTable& table, const CamDuty& duty, int passes) {
   return Walk(table, duty, passes).run();
 }
 

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/cam/camming4/table.hpp"
-#include "sim/cam/course.hpp"
+#include "sim/cam/kinds.hpp"
 
 namespace drycut::sim {
 
@@ -77,13 +76,13 @@ struct CamRun : CamCourse {
 devices::CamLaw law_of(const std::vector<CamVisit>& visits, std::size_t count);
 
 /// Um per second of one unit of the table's speeds.
-double um_per_second(const CamTable& table);
+double um_per_second(const CammingTable& table);
 /// "Um/s", "Um/min"; with decimals "unit/s", "unit/min", 1 unit = 10^decpt Um.
-std::string speed_unit(const CamTable& table);
+std::string speed_unit(const CammingTable& table);
 
 /// Runs CAMMING4's cam engine over the table behind a master that advances slowly from 0, `passes` times
 /// round (137 or 138 back to a row before is once round; 190 runs its times), and once more to judge how the
 /// cam closes.
-CamRun run_cam(const CamTable& table, const CamDuty& duty, int passes);
+CamRun run_cam(const CammingTable& table, const CamDuty& duty, int passes);
 
 }  // namespace drycut::sim

@@ -1,15 +1,15 @@
-#include "sim/cam/camming4/table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <vector>
 
 #include "base/text.hpp"
 #include "devices/camming4/table.hpp"
 #include "sim/cam/csv.hpp"
+#include "sim/cam/kinds.hpp"
 
 namespace drycut::sim {
 
@@ -89,7 +89,7 @@ class Reader {
     });
   }
 
-  CamTable read() {
+  CammingTable read() {
     while (!text_.empty() && !told_.full()) {
       const auto end = std::min(text_.find('\n'), text_.size());
       ++line_;
@@ -202,7 +202,7 @@ class Reader {
 
   std::string_view text_;
   TableProblems told_;
-  CamTable table_;
+  CammingTable table_;
   int line_ = 0;
   Header header_{columns, 2};
   std::int32_t measure_ = 1, pulse_ = 1, measurem_ = 1, pulsem_ = 1, decpt_ = 0;
@@ -211,13 +211,27 @@ class Reader {
 
 }  // namespace
 
-int CamTable::count() const {
-  return static_cast<int>(
-      std::count_if(sectors.begin(), sectors.end(), [](const Sector& s) { return s.line > 0; }));
+devices::CamTable read_camming4(std::string_view text, const std::string& file, Problems& problems) {
+  return Reader(text, file, problems).read();
 }
 
-CamTable read_cam_table(std::string_view text, const std::string& file, Problems& problems) {
-  return Reader(text, file, problems).read();
+std::string file_of(CammingTable& table, const std::string& file) {
+  const auto& [master, slave, decpt] = table.settings;
+  auto text = fmt::format(
+      "# measure: {}\n# pulse: {}\n# measurem: {}\n# pulsem: {}\n# decpt: {}\n# unitvel: {}\n# TCamp: {}\n",
+      slave.measure, slave.pulse, master.measure, master.pulse, decpt, table.unitvel, table.TCamp);
+  if (table.maxvel > 0)
+    text += fmt::format("# maxvel: {}\n# taccmax: {}\n# tdecmax: {}\n", table.maxvel, table.taccmax,
+                        table.tdecmax);
+  text += "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM\n";
+  for (int number = 1; number <= camming4::cam_rows; ++number) {
+    if (!table.has(number)) continue;
+    const Row& row = table.sector(number).row;
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", number, row.codeG, row.codeQm,
+                   row.codeQs, row.codeQma, row.codeQsa, row.codeM);
+  }
+  table.file = file;
+  return text;
 }
 
 }  // namespace drycut::sim

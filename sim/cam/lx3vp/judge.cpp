@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/cam/lx3vp/remedies.hpp"
+#include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
 
@@ -154,18 +155,12 @@ class EcamJudge {
     return played.ratio > law.ratio * within ? played : law;
   }
 
-  static CamRemedy master_speed_remedy(double most) {
-    const auto speed = number_below(most);
-    return {fmt::format("run the master at {} pulses/s at most", speed),
-            {{0, "master speed", std::stod(speed)}}};
-  }
-
   void judge_speed() {
     if (!run_.master_speed) return;
     const auto most = peak();
     const double frequency = most.ratio * *run_.master_speed;
     const auto remedy = [&](double limit) -> CamRemedy {
-      if (table_.time_axis == 0) return master_speed_remedy(limit / most.ratio);
+      if (table_.time_axis == 0) return slower_master("", limit / most.ratio, "pulses/s");
       if (table_.is_s_curve()) return top_speed_remedy(table_, *run_.master_speed, limit);
       return "give the same way more time";
     };
@@ -206,7 +201,7 @@ class EcamJudge {
         fmt::format("acceleration {} pulses/s2 above {}", number(acceleration),
                     number(*duty_.max_acceleration)),
         table_.time_axis > 0 ? "give its ramps more time"
-                             : master_speed_remedy(std::sqrt(*duty_.max_acceleration / most)));
+                             : slower_master("", std::sqrt(*duty_.max_acceleration / most), "pulses/s"));
   }
 
   /// The slave is farthest at a row, for the device plays straight pieces.

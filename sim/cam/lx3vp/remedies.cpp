@@ -34,16 +34,12 @@ std::string wrong_words(const EcamTable& table) {
 
 namespace {
 
-devices::lx3vp::EcamResult made_with(const devices::lx3vp::SawParameters& saw, const EcamTable& table) {
-  return table.type == EcamType::fly_saw ? make_fly_saw(saw) : make_rotary_saw(saw);
-}
-
 /// What ECAMTBX says with one of the numbers changed.
 template <typename Number>
 EcamError error_with(Number devices::lx3vp::SawParameters::*parameter, double value, const EcamTable& table) {
   auto saw = table.saw;
   saw.*parameter = static_cast<Number>(value);
-  return made_with(saw, table).error;
+  return make_table(*table.type, saw, table.s_curve).error;
 }
 
 CamRemedy give(const char* parameter, double value, const std::string& words) {
@@ -152,7 +148,7 @@ CamRemedy top_speed_remedy(const EcamTable& table, double master_speed, double l
   constexpr int most_turns = 2000;  // rounding may ask for many small steps
   auto parameters = table.s_curve;
   for (int turn = 0; turn < most_turns && parameters.top_speed > 0; ++turn) {
-    const auto made = make_s_curve(*table.type, parameters);
+    const auto made = make_table(*table.type, table.saw, parameters);
     if (!made.ok()) break;
     double most = steepness(made.rows, steepest_row(made.rows));
     for (const auto& piece : made.profile.pieces)

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/cam/findings.hpp"
-#include "sim/cam/lx3vp/table.hpp"
+#include "sim/cam/kinds.hpp"
 
 namespace drycut::sim {
 

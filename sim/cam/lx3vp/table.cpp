@@ -1,5 +1,3 @@
-#include "sim/cam/lx3vp/table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,9 @@
 #include <map>
 
 #include "base/text.hpp"
+#include "devices/lx3vp/block.hpp"
 #include "sim/cam/csv.hpp"
+#include "sim/cam/lx3vp/judge.hpp"
 
 namespace drycut::sim {
 
@@ -55,6 +55,7 @@ class Reader {
       text_.remove_prefix(std::min(end + 1, text_.size()));
     }
     if (!told_.full()) finish();
+    if (told_.none()) table_.complete();
     return std::move(table_);
   }
 
@@ -238,7 +239,7 @@ class Reader {
         if (part != given_.end())
           told_.add(part->second.line, 1, fmt::format("{} is a word of P6, which is given too", part->first),
                     "give P6, or P6L (acceleration) and P6H (cam curve)");
-    if (told_.none()) make();
+    if (told_.none()) take_parameters();
   }
 
   [[nodiscard]] double value(std::string_view name) const {
@@ -250,33 +251,25 @@ class Reader {
     return static_cast<Number>(static_cast<std::int64_t>(value(name)));
   }
 
-  void make() {
+  void take_parameters() {
     if (table_.is_s_curve()) {
       table_.s_curve = {.length = whole<std::int32_t>("P1"),
                         .top_speed = whole<std::int32_t>("P2"),
                         .acceleration = whole<std::int16_t>("P4"),
                         .deceleration = whole<std::int16_t>("P5"),
                         .resolution = whole<std::uint16_t>("P6")};
-      table_.made = make_s_curve(*table_.type, table_.s_curve);
-      // Its master is time.
-      if (table_.time_axis == 0) table_.time_axis = 1;
       table_.cyclic = table_.cyclic && settings_.line_of("cyclic") > 0;
-    } else {
-      const auto curves = whole<std::uint32_t>("P6");
-      table_.saw = {
-          .master_length = whole<std::int32_t>("P1"),
-          .slave_length = whole<std::int32_t>("P2"),
-          .sync_length = whole<std::int32_t>("P3"),
-          .sync_ratio = static_cast<float>(value("P4")),
-          .max_ratio = static_cast<float>(value("P5")),
-          .acceleration = static_cast<std::uint16_t>((curves & 0xFFFF) + whole<std::uint16_t>("P6L")),
-          .curve = static_cast<std::uint16_t>((curves >> 16) + whole<std::uint16_t>("P6H")),
-          .resolution = whole<std::uint16_t>("P7")};
-      table_.made =
-          *table_.type == EcamType::rotary_saw ? make_rotary_saw(table_.saw) : make_fly_saw(table_.saw);
-      if (!table_.max_ratio) table_.max_ratio = static_cast<double>(table_.saw.max_ratio);
+      return;
     }
-    table_.rows = table_.made.rows;
+    const auto curves = whole<std::uint32_t>("P6");
+    table_.saw = {.master_length = whole<std::int32_t>("P1"),
+                  .slave_length = whole<std::int32_t>("P2"),
+                  .sync_length = whole<std::int32_t>("P3"),
+                  .sync_ratio = static_cast<float>(value("P4")),
+                  .max_ratio = static_cast<float>(value("P5")),
+                  .acceleration = static_cast<std::uint16_t>((curves & 0xFFFF) + whole<std::uint16_t>("P6L")),
+                  .curve = static_cast<std::uint16_t>((curves >> 16) + whole<std::uint16_t>("P6H")),
+                  .resolution = whole<std::uint16_t>("P7")};
   }
 
   struct Given {
@@ -297,21 +290,54 @@ class Reader {
 
 }  // namespace
 
-EcamTable read_ecam_table(std::string_view text, const std::string& file, Problems& problems) {
+devices::CamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems) {
   return Reader(text, file, problems).read();
 }
 
+namespace {
+
+std::string rows_text(const std::vector<devices::lx3vp::CamTableRow>& rows) {
+  std::string text = "master,slave\n";
+  for (const auto& row : rows) text += fmt::format("{},{}\n", row.master, row.slave);
+  return text;
+}
+
+}  // namespace
+
 std::string ecam_rows_csv(const EcamTable& table) {
   std::string text;
-  if (table.max_frequency != EcamTable{}.max_frequency)
+  if (table.max_frequency != devices::lx3vp::max_frequency_hz)
     text += fmt::format("# max_frequency: {}\n", table.max_frequency);
   if (table.time_axis > 0) text += fmt::format("# time_axis: {}\n", table.time_axis);
   if (table.max_ratio) text += fmt::format("# max_ratio: {}\n", *table.max_ratio);
   if (table.travel.least) text += fmt::format("# min_position: {:.0f}\n", *table.travel.least);
   if (table.travel.most) text += fmt::format("# max_position: {:.0f}\n", *table.travel.most);
   if (!table.cyclic) text += "# cyclic: 0\n";
-  text += "master,slave\n";
-  for (const auto& row : table.rows) text += fmt::format("{},{}\n", row.master, row.slave);
+  return text + rows_text(table.rows);
+}
+
+std::string file_of(EcamTable& table, const std::string& file) {
+  std::string text;
+  if (table.max_frequency > 0) text += fmt::format("# max_frequency: {}\n", table.max_frequency);
+  if (table.time_axis != 0) text += fmt::format("# time_axis: {}\n", table.time_axis);
+  text += fmt::format("# cyclic: {}\n", table.cyclic ? 1 : 0);
+  if (!table.is_made()) {
+    const auto above = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+    for (std::size_t i = 1; i <= table.rows.size(); ++i) table.lines.push_back(above + static_cast<int>(i));
+    text += rows_text(table.rows);
+  } else {
+    text += fmt::format("# ecamtbx: K{}\nparameter,value\n", static_cast<int>(*table.type));
+    const auto& saw = table.saw;
+    const auto& curve = table.s_curve;
+    text += table.is_s_curve()
+                ? fmt::format("P1,{}\nP2,{}\nP4,{}\nP5,{}\nP6,{}\n", curve.length, curve.top_speed,
+                              curve.acceleration, curve.deceleration, curve.resolution)
+                : fmt::format("P1,{}\nP2,{}\nP3,{}\nP4,{}\nP5,{}\nP6L,{}\nP6H,{}\nP7,{}\n", saw.master_length,
+                              saw.slave_length, saw.sync_length, saw.sync_ratio, saw.max_ratio,
+                              saw.acceleration, saw.curve, saw.resolution);
+  }
+  table.file = file;
+  table.complete();
   return text;
 }
 

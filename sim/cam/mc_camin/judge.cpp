@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/cam/findings.hpp"
 #include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
@@ -85,12 +84,10 @@ class CamInJudge {
     }
     const double speed = *run_.master_speed / increments_per_unit;
     if (worst.count > 0) {
-      const auto most = number_below(speed * std::pow(*limit / worst.value, 1.0 / power));
       add(Grade::limit, where(worst.row),
           fmt::format("{} {} {} above {}{}", name, number(worst.value), per(power), number(*limit),
                       worst.others()),
-          {fmt::format("run the master at {} {}/s at most", most, cam_.master_unit),
-           {{0, "master speed", std::stod(most)}}});
+          slower_master("", speed * std::pow(*limit / worst.value, 1.0 / power), cam_.master_unit + "/s"));
     }
     judge_steps(power, name);
   }
@@ -107,13 +104,12 @@ class CamInJudge {
   }
 
   void judge_travel() {
-    const CamTravel travel{limits_.least, limits_.most};
-    if (!travel.is_given()) return;
+    if (!limits_.travel.is_given()) return;
     double low = 0;
     double high = 0;
     range(low, high);
     const std::string unit = increments_of(unit_);
-    for (const TravelFault& fault : travel_faults(travel, low, high, {"minpos", "maxpos", unit, ""}))
+    for (const TravelFault& fault : travel_faults(limits_.travel, low, high, {"minpos", "maxpos", unit, ""}))
       add(Grade::limit, "", fault.text, fault.remedy);
   }
 

@@ -2,28 +2,28 @@
 // Cam tables for tests, written as CSV text.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "sim/cam/camming4/judge.hpp"
 #include "sim/cam/camming4/run.hpp"
-#include "sim/cam/camming4/table.hpp"
 
 namespace drycut::sim::cams {
 
 inline const std::string header = "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM\n";
 
 /// Reads a table that has no fault.
-inline CamTable table(const std::string& text) {
+inline CammingTable table(const std::string& text) {
   Problems problems;
-  auto read = read_cam_table(text, "cam.csv", problems);
+  auto read = std::get<CammingTable>(read_camming4(text, "cam.csv", problems));
   for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
   return read;
 }
 /// The header is put before the rows.
-inline CamTable rows(const std::string& text) { return table(header + text); }
+inline CammingTable rows(const std::string& text) { return table(header + text); }
 
-inline CamTable introduction() {
+inline CammingTable introduction() {
   return rows("1,132,100,50\n2,133,200,200\n3,134,160,120\n4,133,150,150\n5,135,90,45\n6,136\n");
 }
 
@@ -34,10 +34,24 @@ inline devices::CamMotion at(const CamVisit& visit, double m) {
   return at(law, visit.master_start + m);
 }
 
+/// A table as a controller holds it.
+inline std::shared_ptr<const devices::CamTable> held(std::string_view kind, const std::string& text) {
+  Problems problems;
+  return std::make_shared<const devices::CamTable>(cam_kind(kind, text).read(text, "", problems));
+}
+
+/// The study of a cam in which nothing is wrongly asked.
+inline CamStudy study(const devices::CamTable& read, const CamRequest& request = {}) {
+  Problems problems;
+  auto made = study_cam(read, request, problems);
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  return made;
+}
+
 /// The faults of a text, as they are printed, without the file's name.
 inline std::vector<std::string> faults(const std::string& text) {
   Problems problems;
-  read_cam_table(text, "cam.csv", problems);
+  read_camming4(text, "cam.csv", problems);
   std::vector<std::string> told;
   for (const auto& problem : problems)
     told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));
@@ -45,7 +59,7 @@ inline std::vector<std::string> faults(const std::string& text) {
 }
 
 /// The findings on a table, as they are printed.
-inline std::vector<std::string> findings(const CamTable& read, const CamDuty& duty = {}) {
+inline std::vector<std::string> findings(const CammingTable& read, const CamDuty& duty = {}) {
   std::vector<std::string> told;
   for (const auto& finding : judge(read, duty, run_cam(read, duty, 1))) told.push_back(to_string(finding));
   return told;

@@ -6,16 +6,15 @@
 #include <vector>
 
 #include "sim/cam/mc_camin/judge.hpp"
-#include "sim/cam/mc_camin/run.hpp"
 
 namespace drycut::sim::camin {
 
 /// Reads a table that has no fault.
-inline devices::plcopen::CamFile table(const std::string& text) {
+inline CamFile table(const std::string& text) {
   Problems problems;
   const auto read = devices::plcopen::read_cam(text, "cam.csv", problems);
   for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-  return read.value_or(devices::plcopen::CamFile{});
+  return read.value_or(CamFile{});
 }
 
 /// The faults of a text, as they are printed, without the file's name.

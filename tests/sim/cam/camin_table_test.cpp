@@ -37,8 +37,8 @@ TEST(CamInTable, SettingsHaveTheirDefaults) {
   EXPECT_EQ(cam.slave_modulo, 3'600'000);
   EXPECT_EQ(cam.master_unit, "deg");
   EXPECT_EQ(cam.slave_unit, "deg");
-  EXPECT_FALSE(cam.limits.velocity || cam.limits.acceleration || cam.limits.jerk || cam.limits.least ||
-               cam.limits.most);
+  EXPECT_FALSE(cam.limits.velocity || cam.limits.acceleration || cam.limits.jerk || cam.limits.travel.least ||
+               cam.limits.travel.most);
   EXPECT_EQ(camin::table("# slave_modulo: 0\nslave\n1\n").slave_unit, "mm");
   EXPECT_EQ(camin::table("# slave_modulo: 0\n# slave_unit: deg\nslave\n1\n").slave_unit, "deg");
 }
@@ -56,8 +56,8 @@ TEST(CamInTable, EverySettingIsTaken) {
   EXPECT_EQ(cam.limits.velocity, 1.5);
   EXPECT_EQ(cam.limits.acceleration, 2.5);
   EXPECT_EQ(cam.limits.jerk, 3.5);
-  EXPECT_EQ(cam.limits.least, -4);
-  EXPECT_EQ(cam.limits.most, 5);
+  EXPECT_EQ(cam.limits.travel.least, -4);
+  EXPECT_EQ(cam.limits.travel.most, 5);
 }
 
 TEST(CamInTable, AllThatIsWrongWithACsvIsToldAtOnce) {

@@ -6,7 +6,6 @@
 #include <limits>
 #include <sstream>
 
-#include "sim/cam/camming4/plot.hpp"
 #include "sim/commands/commands.hpp"
 #include "tests/sim/cam/bench.hpp"
 #include "tests/sim/command_bench.hpp"
@@ -189,7 +188,7 @@ TEST_F(CamCommand, ThePlotHasFourPanelsMarksAndLimits) {
   const auto table = cams::table("# maxvel: 1000\n# taccmax: 50\n# tdecmax: 50\n" + cams::header +
                                  "1,132,100,50\n2,133,200,200\n3,130\n4,135,90,45\n5,136\n");
   const CamDuty duty{.master_speed = 300.0, .max_velocity = 400.0, .max_acceleration = 1e6};
-  const auto plot = cam_plot(table, duty, run_cam(table, duty, 1), "x").plot;
+  const auto plot = cams::study(table, {duty}).plot;
   ASSERT_EQ(plot.panels.size(), 4U);
   EXPECT_EQ(plot.panels[1].y_label, "[Um/s]");
   EXPECT_EQ(plot.panels[2].y_label, "[Um/s²]");

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "sim/cam/lx3vp/judge.hpp"
-#include "sim/cam/lx3vp/table.hpp"
 
 namespace drycut::sim::ecams {
 
 /// Reads a table that has no fault.
 inline EcamTable table(const std::string& text) {
   Problems problems;
-  auto read = read_ecam_table(text, "cam.csv", problems);
+  auto read = std::get<EcamTable>(read_lx3vp(text, "cam.csv", problems));
   for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
   return read;
 }
@@ -21,7 +20,7 @@ inline EcamTable table(const std::string& text) {
 /// The faults of a text, as they are printed, without the file's name.
 inline std::vector<std::string> faults(const std::string& text) {
   Problems problems;
-  read_ecam_table(text, "cam.csv", problems);
+  read_lx3vp(text, "cam.csv", problems);
   std::vector<std::string> told;
   for (const auto& problem : problems)
     told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));

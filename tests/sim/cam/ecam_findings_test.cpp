@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/cam/lx3vp/report.hpp"
+#include "tests/sim/cam/bench.hpp"
 #include "tests/sim/cam/ecam_bench.hpp"
 
 namespace drycut::sim {
@@ -383,25 +383,25 @@ TEST(EcamSamples, TheLawIsTheLimitOfItsRows) {
 
 TEST(EcamReport, TellsThePiecesAndTheTotals) {
   const auto table = ecams::table(ecams::s_curve());
-  const auto text = ecam_text(table, run_ecam(table, {}, 1));
+  const auto text = cams::study(table).text;
   EXPECT_EQ(text.heading,
             "cam.csv: LX3VP, 200 rows made by ECAMTBX K0 (S-curve, cosine), not cyclic\n"
             "master is the time axis K1: 10000 counts/s, output at 200000 Hz at most\n");
-  EXPECT_THAT(text.sections,
+  EXPECT_THAT(text.tables.at(0).second.text(),
               HasSubstr("1    1000    2500      0     5  0.00785398   0.1   50000  ramp, cosine\n"));
   EXPECT_EQ(text.totals, "master total 3000 counts, slave total 10000 pulses, 0.3 s\n");
 }
 
 TEST(EcamPlot, DrawsTheLawAndWhatIsPlayed) {
   const auto table = ecams::table(ecams::rotary());
-  const auto plot = ecam_plot(table, {}, run_ecam(table, {}, 2), "p").plot;
+  const auto plot = cams::study(table, {.duty = {}, .loops = 2}).plot;
   ASSERT_EQ(plot.panels.size(), 4U);
   EXPECT_EQ(plot.panels[1].curves.size(), 2U);
   EXPECT_EQ(plot.marks.size(), 8U);
   const auto given = ecam_rows("0,0\n100,50\n");
-  EXPECT_EQ(ecam_plot(given, {}, run_ecam(given, {}, 1), "p").plot.panels.size(), 2U);
+  EXPECT_EQ(cams::study(given).plot.panels.size(), 2U);
   const auto failed = ecams::table(ecams::rotary("1"));
-  EXPECT_THAT(ecam_plot(failed, {}, run_ecam(failed, {}, 1), "p").plot.panels, IsEmpty());
+  EXPECT_THAT(cams::study(failed).plot.panels, IsEmpty());
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/cam/lx3vp/report.hpp"
+#include "tests/sim/cam/bench.hpp"
 #include "tests/sim/cam/ecam_bench.hpp"
 
 namespace drycut::sim {
@@ -73,7 +73,7 @@ void expect_told(const EcamTable& table, const std::string& text) {
       ASSERT_FALSE(finding.remedy.text.empty()) << to_string(finding);
     }
   }
-  ASSERT_FALSE(ecam_text(table, run).totals.empty());
+  ASSERT_FALSE(cams::study(table).text.totals.empty());
 }
 
 TEST(EcamFuzz, AnyTextIsReadOrRefused) {
@@ -82,7 +82,7 @@ TEST(EcamFuzz, AnyTextIsReadOrRefused) {
   for (int i = 0; i < 4000; ++i) {
     const auto text = random_text(random);
     Problems problems;
-    const auto table = read_ecam_table(text, "cam.csv", problems);
+    const auto table = std::get<EcamTable>(read_lx3vp(text, "cam.csv", problems));
     for (const auto& problem : problems) ASSERT_FALSE(problem.remedy.empty()) << problem.what;
     if (!problems.empty()) continue;
     ++read;

@@ -337,7 +337,7 @@ TEST(CamFindings, AViolationThatOnlyTheSecondPassMeetsIsFound) {
 }
 
 TEST(CamFindings, SoundnessAndStrictness) {
-  const auto judged = [](const CamTable& table) { return judge(table, {}, run_cam(table, {}, 1)); };
+  const auto judged = [](const CammingTable& table) { return judge(table, {}, run_cam(table, {}, 1)); };
   const auto warned = judged(rows("1,131,100,50\n2,135,100,20\n3,136\n"));
   EXPECT_FALSE(is_unsound(warned, false));
   EXPECT_TRUE(is_unsound(warned, true));

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "devices/camming4/codes.hpp"
-#include "sim/cam/camming4/report.hpp"
 #include "tests/sim/cam/bench.hpp"
 
 namespace drycut::sim {
@@ -82,7 +81,7 @@ TEST(CamFuzz, RandomTablesEndAndHangTogether) {
       }
       warned += finding.grade == CamFinding::Grade::warning ? 1 : 0;
     }
-    ASSERT_FALSE(cam_text(table, duty, run).sections.empty());
+    ASSERT_FALSE(cams::study(table, {duty}).text.tables.empty());
     if (run.end == CamRun::End::failed) {
       EXPECT_TRUE(is_unsound(findings, false)) << text;
     }

@@ -15,7 +15,9 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 IdealCam ideal(std::string_view kind, const std::string& text, MasterRange range) {
-  return cam_kind(kind, text).ideal(text, range);
+  Problems problems;
+  const auto table = cam_kind(kind, text).read(text, "", problems);
+  return problems.empty() ? ideal_cam(table, range) : IdealCam();
 }
 IdealCam camming4(const std::string& rows, MasterRange range, const std::string& settings = "") {
   return ideal("camming4", settings + cams::header + rows, range);

@@ -32,16 +32,19 @@ double slave_of(double master) {
   return 300 * cycle + way;
 }
 
+std::shared_ptr<const devices::CamTable> held(const std::string& text) {
+  return cams::held("camming4", text);
+}
+
 /// An axis that plays what a test tells it.
 struct FakeAxis {
   std::uint64_t start = 0;
   devices::CamMoment moment;
-  std::string table = cam;
+  std::shared_ptr<const devices::CamTable> table = held(cam);
 
   devices::CamAxis axis(const std::string& name = "AxisX") {
     devices::CamAxis made;
     made.name = name;
-    made.kind = "camming4";
     made.start = [this] { return start; };
     made.moment = [this] { return moment; };
     made.table = [this] { return table; };
@@ -62,9 +65,7 @@ struct PlayedCams : testing::Test {
       recorder.sample(time += 2 * millisecond);
     }
   }
-  static IdealCam ideal(const PlayedCam& played, double last) {
-    return cam_kind(played.kind, played.table).ideal(played.table, {0, last});
-  }
+  static IdealCam ideal(const PlayedCam& played, double last) { return ideal_cam(*played.table, {0, last}); }
 
   const CamRecorder::Deviation no_drive = [](const devices::Address& /*pulses*/) {
     return std::function<double()>();
@@ -81,12 +82,12 @@ TEST_F(PlayedCams, TheTableIsTheOneAtTheStart) {
   fake.start = 1;
   fake.at(0);
   recorder.step();
-  fake.table += "9,136\n";
+  fake.table = held(cam + "9,136\n");
   recorder.step();
   recorder.sample(1);
   const auto played = recorder.played();
   ASSERT_EQ(played.size(), 1U);
-  EXPECT_EQ(played[0].table, cam);
+  EXPECT_EQ(*played[0].table, *held(cam));
   EXPECT_EQ(played[0].samples.size(), 1U);
 }
 
@@ -109,7 +110,7 @@ TEST_F(PlayedCams, StartsWithOneTableAreOneCamAndOthersAreOthersUpToEight) {
   auto recorder = recorder_of();
   for (int i = 0; i < 20; ++i) {
     fake.start = static_cast<std::uint64_t>(i) + 1;
-    fake.table = cam + fmt::format("9,133,{},0\n", i % 10);
+    fake.table = held(cam + fmt::format("9,133,{},0\n", i % 10));
     run(recorder, 0, 5);
   }
   const auto played = recorder.played();
@@ -119,7 +120,7 @@ TEST_F(PlayedCams, StartsWithOneTableAreOneCamAndOthersAreOthersUpToEight) {
 }
 
 TEST_F(PlayedCams, AnAxisWithoutATableIsNone) {
-  fake.table = "";
+  fake.table = nullptr;
   auto recorder = recorder_of();
   fake.start = 1;
   run(recorder, 0, 50);
@@ -170,7 +171,7 @@ TEST_F(PlayedCams, AWrongCamShowsInBits) {
 }
 
 TEST_F(PlayedCams, WholeTurnsOfTheSlaveAreNoError) {
-  PlayedCam played{"Knife", "camming4", cam, {}};
+  PlayedCam played{"Knife", held(cam)};
   played.samples.push_back({0, true, 150, slave_of(150) - 360, 0, 360});
   played.samples.push_back({0, false, 150, slave_of(150) + 719, 0, 360});
   EXPECT_THAT(errors_of(played, ideal(played, 400)).set,
@@ -295,7 +296,7 @@ TEST_F(CamPages, ShowTheCamItsFeasibilityAndTheRun) {
   const auto& page = pages[0];
   EXPECT_EQ(page.title, "Cam of AxisX");
   EXPECT_EQ(page.name, "AxisX");
-  EXPECT_EQ(page.table, cam);
+  EXPECT_EQ(*held(page.table), *held(cam));
   ASSERT_EQ(page.plots.size(), 2U);
   EXPECT_EQ(page.plots[0].name, "cam_AxisX");
   EXPECT_EQ(page.plots[0].panels.size(), 4U);
@@ -314,7 +315,7 @@ TEST_F(CamPages, ShowTheCamItsFeasibilityAndTheRun) {
 }
 
 TEST_F(CamPages, FailWhatTheFastestMasterMakesTooFast) {
-  fake.table = "# pulse: 2\n# maxvel: 2000\n# unitvel: 1\n" + cam.substr(cam.find("sector"));
+  fake.table = held("# pulse: 2\n# maxvel: 2000\n# unitvel: 1\n" + cam.substr(cam.find("sector")));
   auto recorder = recorder_of();
   fake.start = 1;
   run(recorder, 0, 400);
@@ -334,14 +335,16 @@ TEST_F(CamPages, SayThatACamWasNeverEntered) {
 }
 
 TEST_F(CamPages, SayWhyATableCannotBeShown) {
-  fake.table = "sector,codeG\n1,999\n";
+  CammingTable table;
+  table.sectors[0] = {{.codeG = 999}, 1};
+  fake.table = std::make_shared<const devices::CamTable>(table);
   auto recorder = recorder_of();
   fake.start = 1;
   run(recorder, 0, 10);
   const auto pages = cam_pages(recorder.played());
   EXPECT_THAT(
       pages.at(0).notes,
-      Contains(HasSubstr("drycut cam does not take this table: AxisX.csv:2:3: there is no codeG 999")));
+      Contains(HasSubstr("drycut cam does not take this table: AxisX.csv:9:3: there is no codeG 999")));
   EXPECT_THAT(pages.at(0).plots, IsEmpty());
 }
 
@@ -349,11 +352,11 @@ TEST_F(CamPages, NumberTheTablesOfAnAxis) {
   auto recorder = recorder_of();
   for (int i = 1; i <= 2; ++i) {
     fake.start = static_cast<std::uint64_t>(i);
-    fake.table = cam + fmt::format("9,133,{},0\n", i);
+    fake.table = held(cam + fmt::format("9,133,{},0\n", i));
     run(recorder, 0, 400);
   }
   auto played = recorder.played();
-  played.push_back({"Y0 (DECAM D1000)", "lx3vp", "master,slave\n0,0\n100,50\n", {}});
+  played.push_back({"Y0 (DECAM D1000)", cams::held("lx3vp", "master,slave\n0,0\n100,50\n")});
   const auto pages = cam_pages(played);
   ASSERT_EQ(pages.size(), 3U);
   EXPECT_EQ(pages[1].title, "Cam of AxisX, table 2 of 2");

@@ -15,7 +15,7 @@ using cams::rows;
 constexpr double tolerance = 1e-9;
 constexpr double pi = std::numbers::pi;
 
-CamPoint at(const CamTable& table, double master, int passes = 1) {
+CamPoint at(const CammingTable& table, double master, int passes = 1) {
   return sample_cam_at(run_cam(table, {}, passes), {master}).front();
 }
 
