@@ -235,11 +235,13 @@ CamStudy study_of(const EcamTable& table, const CamRequest& request, Problems& p
 }
 
 IdealCam ideal_of(const EcamTable& table, MasterRange range) {
-  const auto run = run_ecam(table, {}, 1);
+  auto whole = table;  // what a controller holds may lack what follows from the rest
+  whole.complete();
+  const auto run = run_ecam(whole, {}, 1);
   IdealCam ideal;
   ideal.master_unit = table.time_axis > 0 ? "counts" : "pulses";
   ideal.slave_unit = ideal.error_unit = "pulses";
-  repeat(ideal, run, range, zones_of(table, run));
+  repeat(ideal, run, range, zones_of(whole, run));
   return ideal;
 }
 
