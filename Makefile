@@ -103,7 +103,7 @@ tidy: setup
 	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DDRYCUT_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 	git log --since=1.day --name-only --format= --diff-filter=AM -- '*.cpp' | awk 'NF && !seen[$$0]++' | \
 	  while read -r f; do [ -f "$$f" ] && echo "$$f"; done | head -n $(TIDY_MOST) | \
-	  xargs -r -P $(JOBS) -n 4 clang-tidy -quiet -p $(BUILD)-lint
+	  xargs -r -P $(JOBS) -n 1 clang-tidy -quiet -p $(BUILD)-lint
 
 format:
 	$(call install,$(LINT_PACKAGES))
