@@ -5,7 +5,7 @@
 #   make quick   the tests that take seconds
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
-#   make sanitize, make fuzz, make same-bytes, make lint, make tidy, make format, make meshes: for those who change the code
+#   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
 
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
@@ -31,7 +31,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test quick bench clang sanitize fuzz same-bytes lint tidy format meshes clean
+.PHONY: all setup demo test quick bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -89,6 +89,17 @@ same-bytes: all clang
 	cmake --build $(CLANG) -j $(JOBS) --target drycut
 	for c in $(BUILD) $(CLANG); do $$c/drycut run scenes/rotary_knife.yaml --no-pictures --out $$c/bytes || exit 1; done
 	for f in trace.csv events.csv; do cmp $(BUILD)/bytes/rotary_knife/$$f $(CLANG)/bytes/rotary_knife/$$f || exit 1; done
+
+# docs/reference from the program's own tables.
+reference: all
+	rm -rf docs/reference
+	$(BUILD)/drycut reference docs/reference
+	rm docs/reference/drycut.1 docs/reference/drycut.bash
+
+# Debian packages of the program and of the library.
+deb: all
+	$(call install,dpkg-dev)
+	cd $(BUILD) && cpack
 
 lint: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))

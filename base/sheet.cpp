@@ -46,6 +46,16 @@ void fit(std::vector<std::size_t>& widths, const std::vector<std::size_t>& least
   }
 }
 
+/// What would end a cell or begin markup in it.
+std::string markdown_cell(std::string_view cell) {
+  std::string safe;
+  for (const char c : cell) {
+    if (std::string_view("|*_<\\").find(c) != std::string_view::npos) safe += '\\';
+    safe += c == '\n' ? ' ' : c;
+  }
+  return safe;
+}
+
 }  // namespace
 
 std::size_t characters(std::string_view text) {
@@ -114,8 +124,7 @@ Sheet::Sheet(std::string key, std::string title, const std::vector<std::string>&
   }
 }
 
-std::string Sheet::text(std::size_t width) const {
-  if (title_.empty()) return "";
+std::vector<std::vector<std::string>> Sheet::shown() const {
   std::vector<std::vector<std::string>> lines(1);
   for (const auto& heading : headings_)
     if (!heading.empty()) lines.front().push_back(heading);
@@ -129,7 +138,27 @@ std::string Sheet::text(std::size_t width) const {
     }
     if (!empty) lines.push_back(std::move(cells));
   }
+  return lines;
+}
+
+std::string Sheet::text(std::size_t width) const {
+  if (title_.empty()) return "";
+  const auto lines = shown();
   return lines.size() == 1 ? "" : fmt::format("\n{}\n{}", title_, in_columns(lines, width));
+}
+
+std::string Sheet::markdown() const {
+  const auto lines = shown();
+  if (lines.size() == 1) return "";
+  auto text = title_.empty() ? "\n" : fmt::format("\n## {}\n\n", title_);
+  for (const auto& line : lines) {
+    for (const auto& cell : line) text += "| " + markdown_cell(cell) + ' ';
+    text += "|\n";
+    if (&line != &lines.front()) continue;
+    for (std::size_t i = 0; i < line.size(); ++i) text += "|---";
+    text += "|\n";
+  }
+  return text;
 }
 
 ordered_json Sheet::json() const {

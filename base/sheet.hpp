@@ -20,7 +20,7 @@ std::size_t output_width();
 std::string in_columns(const std::vector<std::vector<std::string>>& rows, std::size_t width,
                        const std::vector<bool>& right = {});
 
-/// A table with a title and named columns, written down once and shown as text and as JSON.
+/// A table with a title and named columns, written down once and shown as text, Markdown and JSON.
 class Sheet {
  public:
   /// What stands in a row: a number stays one in JSON; null is absent there.
@@ -48,10 +48,15 @@ class Sheet {
   [[nodiscard]] const std::string& key() const { return key_; }
   /// The title and the rows under their headings, after an empty line; "" without rows.
   [[nodiscard]] std::string text(std::size_t width) const;
+  /// The same in Markdown, with a heading of the second level; "" without rows.
+  [[nodiscard]] std::string markdown() const;
   /// An array of an object a row.
   [[nodiscard]] nlohmann::ordered_json json() const;
 
  private:
+  /// Headings and rows as text shows them.
+  [[nodiscard]] std::vector<std::vector<std::string>> shown() const;
+
   std::string key_;
   std::string title_;
   std::vector<std::string> keys_;

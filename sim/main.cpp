@@ -14,6 +14,7 @@
 #include "base/plain_text.hpp"
 #include "sim/cam/study.hpp"
 #include "sim/commands/commands.hpp"
+#include "sim/commands/reference.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace {
@@ -233,6 +234,11 @@ int run(int argc, char** argv) {
   plants->add_option("name", name, "Plant type, such as rotary_knife");
   plants->add_flag("--json", json, "As JSON");
   plants->callback([&] { status = list_plants(name, json); });
+
+  std::filesystem::path folder;
+  auto* reference = app.add_subcommand("reference", "Write the reference: manual page, completion, pages");
+  reference->add_option("folder", folder, "Directory for the files")->required()->check(named());
+  reference->group("")->callback([&] { status = write_reference(app, folder); });
 
   std::vector<std::string> commands;
   for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());

@@ -355,6 +355,10 @@ Outcome Simulation::run(const std::function<void(Time)>& progress) {
   } catch (const std::runtime_error& no_room) {
     failure_ = no_room.what();
   }
+  return outcome();
+}
+
+Outcome Simulation::outcome() {
   Outcome outcome;
   outcome.end = time_;
   outcome.failure = failure_;

@@ -61,12 +61,15 @@ class Simulation {
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
   Outcome run(const std::function<void(Time)>& progress = {});
 
-  // For measurements that work at the machine while it runs, in place of run().
+  // For whoever works at the machine while it runs, in place of run().
   /// One step; false if the simulation itself failed, now or before.
   bool advance() {
+    if (time_ == 0) record();
     if (failure_.empty()) step();
     return failure_.empty();
   }
+  /// What came of the run, if it ended now.
+  [[nodiscard]] Outcome outcome();
   [[nodiscard]] Time time() const { return time_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
   [[nodiscard]] Bus& bus() { return bus_; }

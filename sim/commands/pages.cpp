@@ -60,12 +60,14 @@ int show(const std::string& kind, const std::vector<Page>& pages, const std::str
 
 }  // namespace
 
-int list_devices(const std::string& name, bool json) {
+std::vector<Page> device_pages() {
   auto pages = qmove_pages();
   std::ranges::move(plcopen_pages(), std::back_inserter(pages));
   std::ranges::move(lx3vp_pages(), std::back_inserter(pages));
-  return show("device", pages, name, json);
+  return pages;
 }
+
+int list_devices(const std::string& name, bool json) { return show("device", device_pages(), name, json); }
 
 int list_plants(const std::string& name, bool json) { return show("plant", plant_pages(), name, json); }
 

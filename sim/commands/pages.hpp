@@ -24,6 +24,8 @@ std::vector<Page> plcopen_pages();
 /// DECAM, the parameter block of an electronic cam, ECAMTBX, its parameter lists, and LX3VP, special
 /// registers and instructions.
 std::vector<Page> lx3vp_pages();
+/// All of these, in this order.
+std::vector<Page> device_pages();
 /// A page for each plant type.
 std::vector<Page> plant_pages();
 

@@ -1,0 +1,130 @@
+// The library's front, include/drycut/simulation.hpp, before the simulation that the program runs.
+#include <fmt/format.h>
+
+#include <drycut/simulation.hpp>
+
+#include <cmath>
+#include <unordered_map>
+
+#include "base/text.hpp"
+#include "devices/value_range.hpp"
+#include "sim/scenario/units.hpp"
+#include "sim/simulation.hpp"
+
+namespace drycut {
+
+namespace {
+
+[[noreturn]] void refuse(const Problems& problems) {
+  std::string lines;
+  for (const auto& problem : problems) lines += (lines.empty() ? "" : "\n") + to_string(problem);
+  throw BadInput(lines);
+}
+
+sim::Scenario read(const std::filesystem::path& file, const std::map<std::string, std::string>& set) {
+  std::vector<sim::Override> overrides;
+  for (const auto& [path, value] : set) overrides.push_back({path, value});
+  Problems problems;
+  auto scenario = sim::read_scenario(file, overrides, problems);
+  if (!problems.empty()) refuse(problems);
+  scenario.pictures = {};
+  scenario.record.channels.clear();
+  return scenario;
+}
+
+}  // namespace
+
+struct Simulation::Run {
+  Run(const std::filesystem::path& file, const std::map<std::string, std::string>& set)
+      : scenario(drycut::read(file, set)), simulation(scenario, problems) {
+    if (!problems.empty()) refuse(problems);
+  }
+
+  const sim::Reading& reading(const std::string& name) {
+    const auto known = readings.find(name);
+    if (known != readings.end()) return known->second;
+    auto found = simulation.names().reading(name);
+    if (!found)
+      throw BadInput(fmt::format("there is no channel {}; {}", in_quotes(name),
+                                 simulation.names().suggest_reading(name)));
+    return readings.emplace(name, std::move(*found)).first->second;
+  }
+
+  const sim::Target& target(const std::string& name) {
+    const auto known = targets.find(name);
+    if (known != targets.end()) return known->second;
+    auto found = simulation.names().target(name);
+    if (!found)
+      throw BadInput(fmt::format("nothing called {} can be set; {}", in_quotes(name),
+                                 simulation.names().suggest_target(name)));
+    return targets.emplace(name, std::move(*found)).first->second;
+  }
+
+  void step() {
+    if (!simulation.advance()) throw Diverged(simulation.failure());
+  }
+
+  Problems problems;
+  sim::Scenario scenario;
+  sim::Simulation simulation;
+  std::unordered_map<std::string, sim::Reading> readings;
+  std::unordered_map<std::string, sim::Target> targets;
+  std::size_t events_taken = 0;
+};
+
+Simulation::Simulation(const std::filesystem::path& scenario, const std::map<std::string, std::string>& set)
+    : run_(std::make_unique<Run>(scenario, set)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step() { run_->step(); }
+
+void Simulation::advance(double seconds) {
+  constexpr double longest = 1e9;
+  if (!(seconds >= 0 && seconds <= longest))
+    throw BadInput(fmt::format("{} s cannot be simulated; give 0 to {} s", seconds, longest));
+  const auto steps = std::llround(seconds / step_length());
+  for (long long i = 0; i < steps; ++i) run_->step();
+}
+
+double Simulation::time() const { return sim::seconds(run_->simulation.time()); }
+double Simulation::step_length() const { return sim::seconds(run_->scenario.scene.step); }
+double Simulation::duration() const { return sim::seconds(run_->scenario.scene.duration); }
+
+std::vector<std::string> Simulation::names() const { return run_->simulation.names().reading_names(); }
+
+double Simulation::read(const std::string& name) { return run_->reading(name).read(); }
+
+std::string Simulation::unit(const std::string& name) {
+  if (run_->simulation.names().reading(name)) return run_->reading(name).unit;
+  return std::string(run_->target(name).unit);
+}
+
+void Simulation::write(const std::string& name, double value) {
+  const auto& target = run_->target(name);
+  const auto fault = target.range ? devices::misfit(name, *target.range, value, target.unit) : std::nullopt;
+  if (fault) throw BadInput(fault->what + "; " + fault->remedy);
+  target.write(target.unit.empty() ? value : sim::to_si(value, target.unit));
+}
+
+std::vector<Event> Simulation::take_events() {
+  const auto& log = run_->simulation.recording().events();
+  std::vector<Event> events;
+  for (; run_->events_taken < log.size(); ++run_->events_taken) {
+    const auto recorded = log[run_->events_taken];
+    Event event{recorded.at_seconds(), recorded.source, recorded.event, {}, recorded.text};
+    for (const auto& value : recorded.values) event.values.emplace(value.name, value.number);
+    events.push_back(std::move(event));
+  }
+  return events;
+}
+
+std::vector<Check> Simulation::checks() {
+  std::vector<Check> checks;
+  for (const auto& result : run_->simulation.outcome().checks)
+    checks.push_back({result.name, result.passed, result.margin, result.unit, result.detail});
+  return checks;
+}
+
+}  // namespace drycut
