@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "base/text.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -92,8 +93,8 @@ TEST(Library, WhatDoesNotFitIsThrown) {
       ThrowsMessage<BadInput>(HasSubstr("did you mean speed?")));
   EXPECT_THAT([] { Simulation("missing.yaml"); }, ThrowsMessage<BadInput>(HasSubstr("missing.yaml:1:1: ")));
   Simulation line(scenes / "rotary_knife.yaml");
-  EXPECT_THAT([&] { line.read("web.sped"); }, ThrowsMessage<BadInput>(HasSubstr("web.speed")));
-  EXPECT_THAT([&] { line.unit("web.sped"); }, ThrowsMessage<BadInput>(HasSubstr("'web.sped'")));
+  EXPECT_THAT([&] { std::ignore = line.read("web.sped"); }, ThrowsMessage<BadInput>(HasSubstr("web.speed")));
+  EXPECT_THAT([&] { std::ignore = line.unit("web.sped"); }, ThrowsMessage<BadInput>(HasSubstr("'web.sped'")));
   EXPECT_THAT([&] { line.write("knife.angle", 1); }, ThrowsMessage<BadInput>(HasSubstr("only be read")));
   EXPECT_THAT([&] { line.write("AxisX.pgain", 1e9); }, ThrowsMessage<BadInput>(HasSubstr("AxisX.pgain")));
   EXPECT_THAT([&] { line.write("panel.start", 0.5); }, ThrowsMessage<BadInput>(HasSubstr("panel.start")));
