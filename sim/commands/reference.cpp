@@ -30,7 +30,9 @@ bool is_positional(const CLI::Option& option) { return option.get_positional(); 
 /// "--jobs N", "scenarios".
 std::string spelling(const CLI::Option& option) {
   if (is_positional(option)) return option.get_name(true);
-  return option.get_name(false, true) + (option.get_expected_max() > 0 ? " " + option.get_type_name() : "");
+  const auto type = option.get_type_name();  // "INT:INT in [1 - 256]": what it takes is the latter
+  return option.get_name(false, true) +
+         (option.get_expected_max() > 0 ? " " + type.substr(type.find(':') + 1) : "");
 }
 
 /// "drycut run scenarios... [options]"
