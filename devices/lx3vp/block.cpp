@@ -11,48 +11,54 @@ using Access = BlockWord::Access;
 // Words 9 to 12: the manual's table names "high" and "low" crosswise and its example writes words 10 and 12;
 // 9/10 low and 11/12 high is the only reading in which each threshold has both of its words.
 constexpr BlockWord words[] = {
-    {0, 1, "version", "u16", "", 1, Access::read, "", "version of the block's layout"},
-    {1, 1, "status", "flags", "", 0, Access::write, "always",
+    {word::version, 1, "version", "u16", "", 1, Access::read, "", "version of the block's layout"},
+    {word::status, 1, "status", "flags", "", 0, Access::write, "always",
      "state of the cam; bits 0, 1 and 9 may be reset"},
-    {2, 1, "error", "u16", "", 0, Access::read, "", "the error code; of a table error the number of the row"},
-    {3, 1, "function", "flags", "", 0, Access::write, "start", "how the cam starts and scales"},
-    {4, 1, "live", "flags", "", 0, Access::write, "always", "what may be changed while it runs"},
-    {5, 1, "start", "u16", "0..2", 0, Access::write, "always",
+    {word::error, 1, "error", "u16", "", 0, Access::read, "",
+     "the error code; of a table error the number of the row"},
+    {word::function, 1, "function", "flags", "", 0, Access::write, "start", "how the cam starts and scales"},
+    {word::live, 1, "live", "flags", "", 0, Access::write, "always", "what may be changed while it runs"},
+    {word::start, 1, "start", "u16", "0..2", 0, Access::write, "always",
      "1 cyclic, 2 non-cyclic, else stop at once; a new start needs 0 for more than 100 us before"},
-    {6, 2, "max frequency", "i32", "1..200000", 200000, Access::write, "always",
+    {word::max_frequency, 2, "max frequency", "i32", "1..200000", 200000, Access::write, "always",
      "of the output [Hz]; beyond the range 200000, with 0 nothing comes out"},
-    {8, 1, "sync output", "u16", "0..255", 0, Access::write, "always",
+    {word::sync_output, 1, "sync output", "u16", "0..255", 0, Access::write, "always",
      "plain number of the synchronous output Y: 8 is Y10"},
-    {9, 2, "sync low", "u32", "", 0, Access::write, "always",
+    {word::sync_low, 2, "sync low", "u32", "", 0, Access::write, "always",
      "first master position at which the synchronous output is on"},
-    {11, 2, "sync high", "u32", "", 0, Access::write, "always",
+    {word::sync_high, 2, "sync high", "u32", "", 0, Access::write, "always",
      "last master position at which the synchronous output is on"},
     {13, 1, "reserved", "u16", "", 0, Access::reserved, "", "remaining master pulses"},
-    {14, 1, "repeats", "u16", "", 0, Access::write, "start",
+    {word::repeats, 1, "repeats", "u16", "", 0, Access::write, "start",
      "non-cyclic: n makes n + 1 cycles a start signal, 65535 (HFFFF) turns it cyclic from the start on"},
-    {15, 2, "delay", "u32", "", 0, Access::write, "start",
+    {word::delay, 2, "delay", "u32", "", 0, Access::write, "start",
      "non-cyclic, with function bit 0: master counts from the start signal to the start of the cam"},
-    {17, 2, "start position", "u32", "", 0, Access::write, "start",
+    {word::start_position, 2, "start position", "u32", "", 0, Access::write, "start",
      "non-cyclic, with function bit 1: master position of the table at which the cam starts"},
-    {19, 2, "slave pulses", "i32", "", 0, Access::write, "start",
+    {word::slave_pulses, 2, "slave pulses", "i32", "", 0, Access::write, "start",
      "output pulses of the present cycle; function bit 6 starts from here"},
-    {21, 2, "slave position", "i32", "", 0, Access::read, "", "slave position in the table, before the zoom"},
-    {23, 1, "slave denominator", "u16", "1..65535", 1, Access::write, "start", "of the slave's zoom"},
-    {24, 1, "slave numerator", "u16", "1..65535", 1, Access::write, "start", "of the slave's zoom"},
-    {25, 2, "master position", "u32", "", 0, Access::read, "",
+    {word::slave_position, 2, "slave position", "i32", "", 0, Access::read, "",
+     "slave position in the table, before the zoom"},
+    {word::slave_denominator, 1, "slave denominator", "u16", "1..65535", 1, Access::write, "start",
+     "of the slave's zoom"},
+    {word::slave_numerator, 1, "slave numerator", "u16", "1..65535", 1, Access::write, "start",
+     "of the slave's zoom"},
+    {word::master_position, 2, "master position", "u32", "", 0, Access::read, "",
      "master position in the table, after the zoom"},
-    {27, 2, "master counts", "i32", "", 0, Access::write, "start",
+    {word::master_counts, 2, "master counts", "i32", "", 0, Access::write, "start",
      "master counts since the start, before the zoom; function bit 6 starts from here"},
-    {29, 1, "master denominator", "u16", "1..65535", 1, Access::write, "start", "of the master's zoom"},
-    {30, 1, "master numerator", "u16", "1..65535", 1, Access::write, "start", "of the master's zoom"},
-    {31, 1, "stops by itself", "u16", "", 0, Access::read, "",
+    {word::master_denominator, 1, "master denominator", "u16", "1..65535", 1, Access::write, "start",
+     "of the master's zoom"},
+    {word::master_numerator, 1, "master numerator", "u16", "1..65535", 1, Access::write, "start",
+     "of the master's zoom"},
+    {word::own_stop, 1, "stops by itself", "u16", "", 0, Access::read, "",
      "ECAMTBX writes 3 as it switches on word 4 bit 1 for midCAMend, and 0 as it takes that back"},
     {32, 6, "reserved", "u16", "", 0, Access::reserved, "", ""},
-    {38, 1, "rows", "u16", "2..512", 0, Access::write, "start",
+    {word::rows, 1, "rows", "u16", "2..512", 0, Access::write, "start",
      "number of rows of the table; ECAMTBX writes it too"},
-    {39, 1, "table offset", "u16", "40", 40, Access::write, "start",
+    {word::table_offset, 1, "table offset", "u16", "40", 40, Access::write, "start",
      "where the table begins; ECAMTBX writes it too"},
-    {40, 2, "row master", "i32", "0..", 0, Access::write, "start",
+    {word::table, 2, "row master", "i32", "0..", 0, Access::write, "start",
      "master position of row 0; row i at 40 + 4 i, ascending"},
     {42, 2, "row slave", "i32", "", 0, Access::write, "start", "slave position of row 0; row i at 42 + 4 i"},
 };
@@ -144,30 +150,6 @@ constexpr SpecialRegister specials[] = {
     {"D8150", "i32", "write", "pulses of Y2, less those backwards"},
     {"D8152", "i32", "write", "pulses of Y3, less those backwards"},
 };
-
-// The engine's offsets are those of the table.
-consteval bool in_table(int offset, std::string_view name) {
-  for (const BlockWord& entry : words)
-    if (entry.name == name) return entry.offset == offset;
-  return false;
-}
-static_assert(in_table(word::version, "version") && in_table(word::status, "status") &&
-              in_table(word::error, "error") && in_table(word::function, "function") &&
-              in_table(word::live, "live") && in_table(word::start, "start") &&
-              in_table(word::max_frequency, "max frequency") && in_table(word::sync_output, "sync output") &&
-              in_table(word::sync_low, "sync low") && in_table(word::sync_high, "sync high") &&
-              in_table(word::repeats, "repeats") && in_table(word::delay, "delay") &&
-              in_table(word::start_position, "start position") &&
-              in_table(word::slave_pulses, "slave pulses") &&
-              in_table(word::slave_position, "slave position") &&
-              in_table(word::slave_denominator, "slave denominator") &&
-              in_table(word::slave_numerator, "slave numerator") &&
-              in_table(word::master_position, "master position") &&
-              in_table(word::master_counts, "master counts") &&
-              in_table(word::master_denominator, "master denominator") &&
-              in_table(word::master_numerator, "master numerator") &&
-              in_table(word::own_stop, "stops by itself") && in_table(word::rows, "rows") &&
-              in_table(word::table_offset, "table offset") && in_table(word::table, "row master"));
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <limits>
 
+#include "devices/lx3vp/block.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -22,6 +24,16 @@ std::int64_t limited(Wide value) {
 }
 
 }  // namespace
+
+std::vector<CamTableRow> read_rows(const Registers& registers, int block) {
+  std::vector<CamTableRow> rows(registers.d[static_cast<std::size_t>(block + word::rows)]);
+  int at = block + word::table;
+  for (auto& row : rows) {
+    row = {registers.i32(at), registers.i32(at + 2)};
+    at += row_words;
+  }
+  return rows;
+}
 
 RowLaw::RowLaw(std::vector<Row> rows, Zoom master, Zoom slave)
     : rows_(std::move(rows)), master_(master), slave_(slave) {

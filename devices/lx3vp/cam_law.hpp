@@ -3,8 +3,12 @@
 #include <vector>
 
 #include "devices/lx3vp/ecamtbx.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp {
+
+/// The rows in the block at D`block`, as many as its word 38 says.
+std::vector<CamTableRow> read_rows(const Registers& registers, int block);
 
 /// Integers of 128 bit: positions of the cam are fractions whose terms do not fit 64.
 __extension__ using Wide = __int128;

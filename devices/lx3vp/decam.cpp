@@ -296,11 +296,7 @@ void Decam::drive_sync_output(CamPort& port) {
   const int number = block(port, word::sync_output);
   const bool works =
       state_ == State::run && (block(port, word::live) & live::sync_output) != 0 && number < terminals;
-  const auto give = [&](int output, bool level) {
-    port.outputs[static_cast<std::size_t>(output)] = level;
-    port.registers.y[static_cast<std::size_t>(output)] = level;
-  };
-  if (sync_output_ && (!works || *sync_output_ != number)) give(*sync_output_, false);
+  if (sync_output_ && (!works || *sync_output_ != number)) port.give(*sync_output_, false);
   const bool begins = works && !sync_output_;
   sync_output_.reset();
   if (!works) return;
@@ -309,7 +305,7 @@ void Decam::drive_sync_output(CamPort& port) {
   const std::int64_t low = port.registers.u32(operands_.block + word::sync_low);
   const std::int64_t high = port.registers.u32(operands_.block + word::sync_high);
   if (begins) judge_thresholds(low, high);
-  give(number, low <= position && position <= high);
+  port.give(number, low <= position && position <= high);
 }
 
 void Decam::judge_thresholds(std::int64_t low, std::int64_t high) {

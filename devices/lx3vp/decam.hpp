@@ -21,6 +21,11 @@ struct CamPort {
   const std::array<bool, terminals>& inputs;             ///< levels of X, this tick's
   const std::array<std::int64_t, counters>& high_speed;  ///< pulses of C235..C255 since power-up
   std::array<bool, terminals>& outputs;                  ///< levels of Y, given at once
+
+  void give(int y, bool level) {
+    outputs[static_cast<std::size_t>(y)] = level;
+    registers.y[static_cast<std::size_t>(y)] = level;
+  }
 };
 
 /// An error of DECAM: code 6781, 6782 or 6783, and what is wrong with what.

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int parameter = 6781;
 constexpr int form = 6782;
-constexpr int pulse_outputs = 4;
 constexpr std::uint16_t endless = 0xFFFF;
 
 }  // namespace
@@ -92,11 +91,7 @@ std::optional<CamFault> Decam::take_block(CamPort& port, bool taken) {
   cycles_ = repeats == endless && !cyclic_ ? 0 : repeats + 1;
   delay_ = registers.u32(at + word::delay);
   resume_ = (function_ & function::resume) != 0;
-  std::vector<RowLaw::Row> rows(block(port, word::rows));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const int place = at + word::table + row_words * static_cast<int>(i);
-    rows[i] = {registers.i32(place), registers.i32(place + 2)};
-  }
+  auto rows = read_rows(registers, at);
   const auto zoom = [&](unsigned bit, int numerator, int denominator) {
     if ((function_ & bit) == 0) return Zoom{};
     return Zoom{block(port, numerator), block(port, denominator)};

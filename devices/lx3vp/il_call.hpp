@@ -29,8 +29,17 @@ class Call {
   [[nodiscard]] std::int32_t value(std::size_t i) const {
     return read_value(registers_, step_.operands[i], wide_);
   }
+  [[nodiscard]] std::int64_t long_value(std::size_t i) const { return value(i); }
+  [[nodiscard]] std::uint32_t bits(std::size_t i) const { return static_cast<std::uint32_t>(value(i)); }
   void set(std::size_t i, std::int32_t value) { write_value(registers_, step_.operands[i], wide_, value); }
+  void set_bits(std::size_t i, std::uint32_t bits) { set(i, static_cast<std::int32_t>(bits)); }
   [[nodiscard]] float real(std::size_t i) const { return read_float(registers_, step_.operands[i]); }
+  /// The same, which has to be a number.
+  [[nodiscard]] double finite(std::size_t i) const {
+    const auto value = static_cast<double>(real(i));
+    if (!std::isfinite(value)) throw RuntimeError(bad_operand, "an operand is no floating-point number");
+    return value;
+  }
   [[nodiscard]] int number(std::size_t i) const { return step_.operands[i].number; }
   [[nodiscard]] bool wide() const { return wide_; }
   [[nodiscard]] Registers& registers() const { return registers_; }
@@ -54,10 +63,15 @@ class Call {
     registers_.set_f32(number(i), rounded);
   }
 
-  /// The three devices of CMP and ZCP: exactly one is ON.
-  void set_three(std::size_t i, int which) {
-    auto device = step_.operands[i];
-    for (int n = 0; n < 3; ++n, ++device.number) write_bit(registers_, device, n == which);
+  /// The three devices of CMP: above, equal, below.
+  template <typename Number>
+  void set_order(std::size_t i, Number a, Number b) {
+    set_three(i, a > b ? 0 : a == b ? 1 : 2);
+  }
+  /// The three devices of ZCP: below, within, above.
+  template <typename Number>
+  void set_zone(std::size_t i, Number value, Number low, Number high) {
+    set_three(i, value < low ? 0 : value > high ? 2 : 1);
   }
 
   /// K or D that counts devices, 1 to `most`.
@@ -74,12 +88,15 @@ class Call {
   }
 
  private:
+  /// Exactly one of three devices is ON.
+  void set_three(std::size_t i, int which) {
+    auto device = step_.operands[i];
+    for (int n = 0; n < 3; ++n, ++device.number) write_bit(registers_, device, n == which);
+  }
+
   Registers& registers_;
   const Step& step_;
   bool wide_;
 };
-
-/// SFTL, SFTR, ROL, ROR, BCD, BIN, MEAN and SQR. Throws RuntimeError.
-void apply_shifts(Call& call, Op op);
 
 }  // namespace drycut::devices::lx3vp::il

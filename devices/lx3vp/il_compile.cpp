@@ -19,7 +19,7 @@ constexpr std::size_t most_problems = 1000;
 
 bool needs_memory(const Step& step) {
   const Op op = step.op();
-  return (op >= Op::ldp && op <= Op::orf) || op == Op::pls || op == Op::plf || op == Op::out ||
+  return op == Op::rising || op == Op::falling || op == Op::pls || op == Op::plf || op == Op::out ||
          op == Op::stl || (step.spelling != nullptr && step.spelling->pulse);
 }
 
@@ -90,7 +90,7 @@ class Compiler {
   void read_label(const Statement& words) {
     auto text = words.front().text;
     if (text.ends_with(':')) text.pop_back();
-    OperandFault fault;
+    ValueFault fault;
     auto operand = read_operand(text, fault);
     if (!operand) {
       problem(words.front().column, std::move(fault.what), std::move(fault.remedy));
@@ -133,14 +133,14 @@ class Compiler {
   /// One problem an instruction: the others may only follow from it.
   void read_operands(Step& step, const Statement& words) {
     std::string kinds(step.spelling->mnemonic->operands);
-    std::optional<OperandFault> fault;
+    std::optional<ValueFault> fault;
     const Word* at = &words.front();
-    const auto refuse = [&](const Word& word, OperandFault what) {
+    const auto refuse = [&](const Word& word, ValueFault what) {
       if (!fault) at = &word;
       if (!fault) fault = std::move(what);
     };
     for (std::size_t i = 1; i < words.size(); ++i) {
-      OperandFault unread;
+      ValueFault unread;
       auto operand = read_operand(words[i].text, unread);
       if (!operand) {
         refuse(words[i], std::move(unread));
@@ -182,7 +182,7 @@ class Compiler {
     return text;
   }
 
-  static std::optional<OperandFault> misfit_of_set_value(const Step& step, const Operand& operand) {
+  static std::optional<ValueFault> misfit_of_set_value(const Step& step, const Operand& operand) {
     constexpr int most = 32767;
     const auto& coil = step.operands.front();
     const bool wide = coil.kind == Kind::C && coil.number >= first_wide_counter;
@@ -190,58 +190,58 @@ class Compiler {
         wide ? "give a set value K or the first D of a pair" : "give a set value K1 to K32767 or a D";
     const bool is_number = operand.kind == Kind::constant;
     if (coil.index != Operand::no_index || operand.index != Operand::no_index)
-      return OperandFault{fmt::format("OUT {} {} has an index register", to_string(coil), to_string(operand)),
-                          "timers, counters and their set values take none"};
+      return ValueFault{fmt::format("OUT {} {} has an index register", to_string(coil), to_string(operand)),
+                        "timers, counters and their set values take none"};
     if (!is_number && operand.kind != Kind::D)
-      return OperandFault{fmt::format("{} is no set value", to_string(operand)), remedy};
+      return ValueFault{fmt::format("{} is no set value", to_string(operand)), remedy};
     if (is_number && !wide && (operand.value < 1 || operand.value > most))
-      return OperandFault{fmt::format("set value {} is out of range", to_string(operand)), remedy};
+      return ValueFault{fmt::format("set value {} is out of range", to_string(operand)), remedy};
     if (!is_number && wide && operand.number + 1 >= data_words)
-      return OperandFault{fmt::format("{} is no pair of words", to_string(operand)), remedy};
+      return ValueFault{fmt::format("{} is no pair of words", to_string(operand)), remedy};
     return {};
   }
 
   /// Operands that must go together: all of them are there. Told at the last.
-  static std::optional<OperandFault> misfit_together(const Step& step) {
+  static std::optional<ValueFault> misfit_together(const Step& step) {
     const Op op = step.op();
     const auto& operands = step.operands;
     if (op == Op::zrst) {
       const auto pair = fmt::format("ZRST from {} to {}", to_string(operands[0]), to_string(operands[1]));
       if (operands[0].kind != operands[1].kind)
-        return OperandFault{pair, "name two devices of the same letter"};
+        return ValueFault{pair, "name two devices of the same letter"};
       if (!step.indexed && operands[0].number > operands[1].number)
-        return OperandFault{pair, "name the lower one first"};
+        return ValueFault{pair, "name the lower one first"};
     }
-    if (op == Op::rol || op == Op::ror) {
+    if (op == Op::rotate) {
       const int width = step.wide() ? 32 : 16;
       const auto& count = operands[1];
       if (operands[0].kind == Kind::bits && 4 * operands[0].count != width)
-        return OperandFault{fmt::format("{} turns {} bits, not those of {}", step.spelling->text, width,
-                                        to_string(operands[0])),
-                            fmt::format("group K{}", width / 4)};
+        return ValueFault{fmt::format("{} turns {} bits, not those of {}", step.spelling->text, width,
+                                      to_string(operands[0])),
+                          fmt::format("group K{}", width / 4)};
       if (count.kind == Kind::constant && !step.indexed && (count.value < 1 || count.value > width))
-        return OperandFault{fmt::format("{} turns by {} bits", step.spelling->text, to_string(count)),
-                            fmt::format("write K1 to K{}", width)};
+        return ValueFault{fmt::format("{} turns by {} bits", step.spelling->text, to_string(count)),
+                          fmt::format("write K1 to K{}", width)};
     }
-    if (op == Op::sftl || op == Op::sftr) return misfit_of_shift(step);
-    const bool directs = op == Op::plsv || op == Op::drvi || op == Op::drva || op == Op::decam;
-    if (!directs) return {};
+    if (op == Op::shift) return misfit_of_shift(step);
+    // Pulses, and behind them their direction.
+    if (!step.spelling->mnemonic->operands.ends_with("py")) return {};
     const auto& direction = operands.back();
     const auto& output = operands[operands.size() - 2];
     if (output.kind == direction.kind && output.number == direction.number)
-      return OperandFault{fmt::format("{} is the pulse output itself", to_string(direction)),
-                          "name another Y for the direction"};
+      return ValueFault{fmt::format("{} is the pulse output itself", to_string(direction)),
+                        "name another Y for the direction"};
     return {};
   }
 
-  static std::optional<OperandFault> misfit_of_shift(const Step& step) {
+  static std::optional<ValueFault> misfit_of_shift(const Step& step) {
     constexpr int most = 1024;
     const auto& length = step.operands[2];
     const auto& by = step.operands[3];
     if (length.kind != Kind::constant || by.kind != Kind::constant || step.indexed) return {};
     if (by.value >= 1 && by.value <= length.value && length.value <= most) return {};
-    return OperandFault{fmt::format("{} shifts {} bits by {}", step.spelling->text, length.value, by.value),
-                        fmt::format("n1 is up to K{}, n2 K1 up to n1", most)};
+    return ValueFault{fmt::format("{} shifts {} bits by {}", step.spelling->text, length.value, by.value),
+                      fmt::format("n1 is up to K{}, n2 K1 up to n1", most)};
   }
 
   // Structure.

@@ -85,8 +85,7 @@ void Scanner::transfer(const Operand& device, Rung& rung) {
 }
 
 void Scanner::jump(const Step& step, Rung& rung) {
-  const bool jumps = step.memory >= 0 ? rises(step, rung.power()) : rung.power();
-  if (!jumps) return;
+  if (!executes(step, rung)) return;
   rung.branches.clear();
   rung.next = static_cast<std::size_t>(step.target);
   // Out of loops: those around the label go on.
@@ -97,8 +96,7 @@ void Scanner::jump(const Step& step, Rung& rung) {
 
 void Scanner::call_subroutine(const Step& step, Rung& rung) {
   constexpr std::size_t most_calls = 5;
-  const bool calls = step.memory >= 0 ? rises(step, rung.power()) : rung.power();
-  if (!calls) return;
+  if (!executes(step, rung)) return;
   if (rung.frames.size() == most_calls)
     return tell_error(step, RuntimeError(calls_too_deep, "five subroutines call each other already"), rung);
   rung.frames.push_back({rung.next, rung.loops.size()});

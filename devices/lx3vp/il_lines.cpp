@@ -9,16 +9,6 @@ namespace drycut::devices::lx3vp::il {
 
 namespace {
 
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
-
 bool is_gap(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
 
 void append_words(std::string_view text, int line, int column, Statement& words) {
@@ -77,7 +67,6 @@ struct Cell {
 };
 
 std::vector<Cell> cells_of(std::string_view line, char separator) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
   std::vector<Cell> cells(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -101,8 +90,22 @@ struct Columns {
   char separator = ',';
   std::size_t heading = 0;  ///< its line, from 0
   std::size_t instruction = 0;
-  std::size_t operand = 0;
+  std::size_t operand = 0;      ///< the first
+  std::size_t operand_end = 0;  ///< one behind the last
 };
+
+bool names_operand(std::string_view name) {
+  return name.starts_with("I/O") || name.starts_with("DEVICE") || name.starts_with("OPERAND");
+}
+
+/// Operands have a column, or some side by side: named as such, or without a name, also behind the heading.
+std::size_t end_of_operands(const std::vector<Cell>& heading, std::size_t first) {
+  for (std::size_t c = first + 1; c < heading.size(); ++c) {
+    const auto name = upper(trimmed(heading[c].text));
+    if (!name.empty() && (!names_operand(name) || name.find("COMMENT") != std::string::npos)) return c;
+  }
+  return std::string_view::npos;
+}
 
 std::optional<Columns> columns_of(const std::vector<std::string_view>& lines) {
   constexpr std::size_t most = 20;  // titles before the heading
@@ -113,10 +116,11 @@ std::optional<Columns> columns_of(const std::vector<std::string_view>& lines) {
       for (std::size_t c = cells.size(); c-- > 0;) {
         const auto name = upper(cells[c].text);
         if (name == "INSTRUCTION") columns.instruction = c;
-        if (name.starts_with("I/O") || name.starts_with("DEVICE") || name.starts_with("OPERAND"))
-          columns.operand = c;
+        if (names_operand(name)) columns.operand = c;
       }
-      if (columns.instruction < cells.size() && columns.operand < cells.size()) return columns;
+      if (columns.instruction == cells.size() || columns.operand == cells.size()) continue;
+      columns.operand_end = end_of_operands(cells, columns.operand);
+      return columns;
     }
   }
   return std::nullopt;
@@ -134,7 +138,7 @@ std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const
     Statement words;
     take(columns.instruction, words);
     const bool continues = words.empty();
-    take(columns.operand, words);
+    for (auto c = columns.operand; c < std::min(columns.operand_end, cells.size()); ++c) take(c, words);
     if (words.empty()) continue;  // a note or a title
     if (!continues)
       statements.push_back(std::move(words));
@@ -150,7 +154,7 @@ std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const
 }  // namespace
 
 std::vector<Statement> statements_of(std::string_view text, const TellLine& tell) {
-  const auto lines = lines_of(text);
+  const auto lines = split_lines(text);
   if (const auto columns = columns_of(lines)) return rows_of(lines, *columns, tell);
   std::vector<Statement> statements;
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -159,6 +163,6 @@ std::vector<Statement> statements_of(std::string_view text, const TellLine& tell
   return statements;
 }
 
-bool is_table(std::string_view text) { return columns_of(lines_of(text)).has_value(); }
+bool is_table(std::string_view text) { return columns_of(split_lines(text)).has_value(); }
 
 }  // namespace drycut::devices::lx3vp::il

@@ -22,8 +22,7 @@ using TellLine = std::function<void(int line, int column, std::string what, std:
 /// - lines `LD X0`, words by blanks, tabs or commas, comments behind ; or //; before them a step number
 ///   (`12 LD X0`), around them brackets (`[MOV K5 D0]`);
 /// - a table, by tabs or commas, with a heading that names a column Instruction and one I/O or Device: a row
-/// an
-///   instruction, further operands in rows of their own;
+///   an instruction, further operands in columns beside that one, or in rows of their own;
 /// in ASCII, UTF-8 or UTF-16 with its byte-order mark.
 std::vector<Statement> statements_of(std::string_view text, const TellLine& tell);
 

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "devices/lx3vp/ecamtbx_registers.hpp"
+#include "devices/lx3vp/registers.hpp"
+
 namespace drycut::devices::lx3vp::il {
 
 namespace {
@@ -18,33 +21,74 @@ struct Range {
 };
 struct Family {
   char letter;
-  Kind kind;
   bool octal;
   Range ranges[2];
 };
 constexpr Family families[] = {
-    {'X', Kind::X, true, {{0, 0377}, {0, -1}}},       {'Y', Kind::Y, true, {{0, 0377}, {0, -1}}},
-    {'M', Kind::M, false, {{0, 3071}, {8000, 8255}}}, {'S', Kind::S, false, {{0, 999}, {0, -1}}},
-    {'T', Kind::T, false, {{0, 255}, {0, -1}}},       {'C', Kind::C, false, {{0, 255}, {0, -1}}},
-    {'D', Kind::D, false, {{0, 8255}, {0, -1}}},      {'P', Kind::label, false, {{0, 127}, {0, -1}}},
-    {'V', Kind::V, false, {{0, 7}, {0, -1}}},         {'Z', Kind::Z, false, {{0, 7}, {0, -1}}},
-    {'N', Kind::nesting, false, {{0, 7}, {0, -1}}},
+    {'X', true, {{0, 0377}, {0, -1}}},       {'Y', true, {{0, 0377}, {0, -1}}},
+    {'M', false, {{0, 3071}, {8000, 8255}}}, {'S', false, {{0, 999}, {0, -1}}},
+    {'T', false, {{0, 255}, {0, -1}}},       {'C', false, {{0, 255}, {0, -1}}},
+    {'D', false, {{0, 8255}, {0, -1}}},      {'P', false, {{0, 127}, {0, -1}}},
+    {'V', false, {{0, 7}, {0, -1}}},         {'Z', false, {{0, 7}, {0, -1}}},
+    {'N', false, {{0, 7}, {0, -1}}},
 };
-constexpr int first_wide_counter = 200;
-constexpr int parameter_words = 20;  // of ECAMTBX
-constexpr int block_words = 40;      // of DECAM, before its table
-constexpr int first_special_word = 8000;
 
-const Family* family_of(Kind kind) {
-  for (const auto& family : families)
-    if (family.kind == kind) return &family;
-  return nullptr;
+/// A kind of operand, by its letter in Mnemonic::operands.
+struct OperandKind {
+  char letter;
+  std::string_view text;   ///< what it may be, for messages
+  std::string_view takes;  ///< the letters of what it may be
+  int extent;              ///< words or bits from there on
+  int wide_extent;         ///< of a 32-bit instruction
+  /// Whether it may have an index register: all that instructions read and write, not what says where a
+  /// program goes or which terminals pulses take.
+  bool indexed = true;
+};
+constexpr std::string_view any_number = "K, H or D";
+constexpr OperandKind operand_kinds[] = {
+    {'b', "X, Y, M, S, T, C or a bit of D (D10.F)", "XYMSTC.", 1, 1},
+    {'o', "Y, M, S, T, C or a bit of D (D10.F)", "YMSTC.", 1, 1},
+    {'s', "Y, M, S or a bit of D (D10.F)", "YMS.", 1, 1},
+    {'r', "Y, M, S, T, C, D or a bit of D (D10.F)", "YMSTCD.", 1, 1},
+    {'e', "Y or M", "YM", 1, 1},
+    {'l', "Y, M, S, T, C or D", "YMSTCD", 1, 1},
+    {'g', "X, Y, M or S", "XYMS", 1, 1},
+    {'h', "Y, M or S", "YMS", 1, 1},
+    {'B', "Y, M or S", "YMS", 3, 3},
+    {'x', "X or M", "XM", 1, 1, false},
+    {'y', "Y", "Y", 1, 1, false},
+    {'p', "Y0 to Y3", "Y", 1, 1, false},
+    {'S', "S", "S", 1, 1, false},
+    {'n', "K, H, D, T, C, V, Z or bits (K4M0) of X, Y, M or S", "KDTCVZ#", 1, 2},
+    {'w', "D, T, C, V, Z or bits (K4M0) of Y, M or S", "DTCVZ#", 1, 2},
+    {'u', "D, T, C or bits (K4M0) of X, Y, M or S", "DTC#", 1, 2},
+    {'i', "D", "D", 1, 2},
+    {'q', "D", "D", 2, 4},
+    {'F', "D", "D", 2, 2},
+    {'D', "D", "D", 2, 2, false},
+    {'a', "D", "D", ecamtbx_parameters, ecamtbx_parameters, false},
+    {'d', "D", "D", block_length, block_length, false},
+    {'f', "E (E1.5), K, H or D", "EKD", 2, 2},
+    {'j', any_number, "KD", 1, 2},
+    {'k', any_number, "KD", 1, 1},
+    {'t', any_number, "KD", 1, 1, false},
+    {'v', "K or D", "KD", 1, 1},
+    {'m', "C, D or K", "CDK", 1, 1, false},
+    {'N', "N0 to N7", "N", 1, 1, false},
+    {'P', "a label, P0 to P127", "P", 1, 1, false},
+};
+
+const OperandKind& operand_kind(char letter) {
+  return *std::find_if(std::begin(operand_kinds), std::end(operand_kinds),
+                       [&](const OperandKind& kind) { return kind.letter == letter; });
 }
+
 const Family* family_of(char letter) {
   for (const auto& family : families)
     if (family.letter == letter) return &family;
   return nullptr;
 }
+const Family* family_of(Kind kind) { return family_of(letter_of(kind)); }
 
 std::string number_text(const Family& family, int number) {
   return family.octal ? fmt::format("{}{:o}", family.letter, number)
@@ -73,7 +117,7 @@ bool read_whole(std::string_view text, Number& number, int base = 10) {
 
 class Reader {
  public:
-  Reader(std::string_view text, OperandFault& fault) : fault_(fault) {
+  Reader(std::string_view text, ValueFault& fault) : fault_(fault) {
     for (const char c : text) text_ += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   }
 
@@ -112,10 +156,7 @@ class Reader {
   }
 
   std::nullopt_t refuse(std::string_view what, std::string remedy) {
-    constexpr std::size_t most = 24;
-    std::string shown;
-    for (const char c : text_.substr(0, most)) shown += c >= ' ' && c <= '~' ? c : '?';
-    fault_ = {fmt::format("'{}{}' {}", shown, text_.size() > most ? "..." : "", what), std::move(remedy)};
+    fault_ = {fmt::format("'{}' {}", shown(text_), what), std::move(remedy)};
     return std::nullopt;
   }
 
@@ -133,8 +174,8 @@ class Reader {
     Operand operand;
     operand.kind = Kind::bits;
     const auto& family = *family_of(letter);
-    operand.of = family.kind;
-    if (letter != 'X' && letter != 'Y' && letter != 'M' && letter != 'S')
+    operand.of = static_cast<Kind>(letter);
+    if (std::string_view("XYMS").find(letter) == std::string_view::npos)
       return refuse("groups no bits", "bits are grouped of X, Y, M or S: K4M0");
     if (!read_whole(groups, operand.count) || operand.count < 1 || operand.count > 8)
       return refuse("has no such groups of bits", "group K1 (4 bits) to K8 (32 bits)");
@@ -166,9 +207,9 @@ class Reader {
 
   std::optional<Operand> read_device(const Family& family, std::string_view digits) {
     Operand operand;
-    operand.kind = family.kind;
+    operand.kind = static_cast<Kind>(family.letter);
     const auto dot = digits.find('.');
-    if (family.kind == Kind::D && dot != std::string_view::npos) {
+    if (operand.kind == Kind::D && dot != std::string_view::npos) {
       operand.kind = Kind::word_bit;
       if (!read_whole(digits.substr(dot + 1), operand.count, 16) || operand.count < 0 || operand.count > 15)
         return refuse("has no such bit", "a word has the bits 0 to F: D10.F");
@@ -188,171 +229,93 @@ class Reader {
   }
 
   std::string text_;
-  OperandFault& fault_;
+  ValueFault& fault_;
 };
 
 /// Whether a kind of operand takes what the text named.
 bool takes(char kind, const Operand& operand) {
-  const auto any = [&](std::initializer_list<Kind> kinds) {
-    return std::find(kinds.begin(), kinds.end(), operand.kind) != kinds.end();
-  };
-  switch (kind) {
-    case 'b':
-      return any({Kind::X, Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::word_bit});
-    case 'o':
-      return any({Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::word_bit});
-    case 's':
-      return any({Kind::Y, Kind::M, Kind::S, Kind::word_bit});
-    case 'r':
-      return any({Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::D, Kind::word_bit});
-    case 'e':
-      return any({Kind::Y, Kind::M});
-    case 'l':
-      return any({Kind::Y, Kind::M, Kind::S, Kind::T, Kind::C, Kind::D});
-    case 'n':
-      return any({Kind::constant, Kind::D, Kind::T, Kind::C, Kind::V, Kind::Z, Kind::bits});
-    case 'w':
-      return any({Kind::D, Kind::T, Kind::C, Kind::V, Kind::Z}) ||
-             (operand.kind == Kind::bits && operand.of != Kind::X);
-    case 'u':
-      return any({Kind::D, Kind::T, Kind::C, Kind::bits});
-    case 'g':
-      return any({Kind::X, Kind::Y, Kind::M, Kind::S});
-    case 'S':
-      return operand.kind == Kind::S;
-    case 'N':
-      return operand.kind == Kind::nesting;
-    case 'f':
-      return any({Kind::real, Kind::constant, Kind::D});
-    case 'k':
-    case 't':
-    case 'v':
-    case 'j':
-      return any({Kind::constant, Kind::D});
-    case 'B':
-    case 'h':
-      return any({Kind::Y, Kind::M, Kind::S});
-    case 'm':
-      return any({Kind::C, Kind::D, Kind::constant});
-    case 'x':
-      return any({Kind::X, Kind::M});
-    case 'p':
-      return operand.kind == Kind::Y && operand.number <= 3;
-    case 'y':
-      return operand.kind == Kind::Y;
-    case 'P':
-      return operand.kind == Kind::label;
-    default:
-      return operand.kind == Kind::D;
-  }
+  if (kind == 'w' && operand.kind == Kind::bits && operand.of == Kind::X) return false;
+  if (kind == 'p' && operand.number >= pulse_outputs) return false;
+  return operand_kind(kind).takes.find(letter_of(operand.kind)) != std::string_view::npos;
 }
 
 bool is_word(char kind) { return kind == 'n' || kind == 'w' || kind == 'u'; }
 
-/// Whether an operand of the kind may have an index register: all that instructions read and write, not what
-/// says where a program goes or which terminals pulses take.
-bool takes_index(char kind) {
-  return std::string_view("bosrelnwuqifFkvjBgh").find(kind) != std::string::npos;
-}
-
 /// V and Z, as devices and as indexes.
-std::optional<OperandFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
+std::optional<ValueFault> misfit_of_index(const Operand& operand, char kind, const Spelling& spelling) {
   if (operand.kind == Kind::V && spelling.wide)
-    return OperandFault{fmt::format("{} is the upper half of a 32-bit index", to_string(operand)),
-                        fmt::format("use Z{0}: a 32-bit instruction takes V{0} with it", operand.number)};
+    return ValueFault{fmt::format("{} is the upper half of a 32-bit index", to_string(operand)),
+                      fmt::format("use Z{0}: a 32-bit instruction takes V{0} with it", operand.number)};
   if (operand.index == Operand::no_index) return {};
-  if (!takes_index(kind))
-    return OperandFault{fmt::format("{} does not take an index register here", spelling.text),
-                        fmt::format("write the number itself, not {}", to_string(operand))};
+  if (!operand_kind(kind).indexed)
+    return ValueFault{fmt::format("{} does not take an index register here", spelling.text),
+                      fmt::format("write the number itself, not {}", to_string(operand))};
   if (spelling.wide && operand.index < Operand::first_z)
-    return OperandFault{fmt::format("{} is indexed by V in a 32-bit instruction", to_string(operand)),
-                        "use Z: a 32-bit instruction takes V with it"};
+    return ValueFault{fmt::format("{} is indexed by V in a 32-bit instruction", to_string(operand)),
+                      "use Z: a 32-bit instruction takes V with it"};
   return {};
 }
 
-std::optional<OperandFault> misfit_of_constant(const Operand& operand, char kind, const Spelling& spelling) {
+std::optional<ValueFault> misfit_of_constant(const Operand& operand, char kind, const Spelling& spelling) {
   if (kind == 'm') {
     if (operand.value >= 1) return {};
-    return OperandFault{fmt::format("{} is no time axis", to_string(operand)),
-                        "K1 counts every 100 us, K10 every ms"};
+    return ValueFault{fmt::format("{} is no time axis", to_string(operand)),
+                      "K1 counts every 100 us, K10 every ms"};
   }
   const bool narrow = (is_word(kind) && !spelling.wide) || kind == 'k';
   const bool fits = operand.hexadecimal ? static_cast<std::uint32_t>(operand.value) <= 0xFFFF
                                         : operand.value >= std::numeric_limits<std::int16_t>::min() &&
                                               operand.value <= std::numeric_limits<std::int16_t>::max();
   if (!narrow || fits) return {};
-  return OperandFault{
+  return ValueFault{
       fmt::format("{} is wider than 16 bits", to_string(operand)),
-      spelling.mnemonic->has(Mnemonic::wide) ? "use the 32-bit instruction" : "write K-32768 to K32767"};
+      spelling.mnemonic->has(form::w) ? "use the 32-bit instruction" : "write K-32768 to K32767"};
 }
 
 }  // namespace
 
-std::optional<Operand> read_operand(std::string_view text, OperandFault& fault) {
+std::optional<Operand> read_operand(std::string_view text, ValueFault& fault) {
   return Reader(text, fault).read();
 }
 
-int extent(char kind, const Spelling& spelling) {
-  switch (kind) {
-    case 'n':
-    case 'w':
-    case 'u':
-    case 'i':
-    case 'j':
-      return spelling.wide ? 2 : 1;
-    case 'q':
-      return spelling.wide ? 4 : 2;
-    case 'f':
-    case 'F':
-    case 'D':
-      return 2;
-    case 'B':
-      return 3;
-    case 'a':
-      return parameter_words;
-    case 'd':
-      return block_words;
-    default:
-      return 1;
-  }
-}
+std::string_view operand_text(char kind) { return operand_kind(kind).text; }
 
 bool exists(const Operand& operand) {
   const auto* family = family_of(operand.kind == Kind::bits ? operand.of : operand.kind);
   return family == nullptr || exists(*family, operand.number);
 }
 
-std::optional<OperandFault> misfit(const Operand& operand, char kind, const Spelling& spelling) {
+std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelling& spelling) {
   if (!takes(kind, operand))
-    return OperandFault{fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
-                        fmt::format("it takes {}", operand_text(kind))};
+    return ValueFault{fmt::format("{} does not take {} here", spelling.text, to_string(operand)),
+                      fmt::format("it takes {}", operand_text(kind))};
   if (auto fault = misfit_of_index(operand, kind, spelling)) return fault;
   if (operand.kind == Kind::V || operand.kind == Kind::Z) return {};
   if (operand.kind == Kind::constant) return misfit_of_constant(operand, kind, spelling);
   if (operand.kind == Kind::bits) {
     if (!exists(*family_of(operand.of), operand.number, 4 * operand.count))
-      return OperandFault{fmt::format("{} goes beyond the devices", to_string(operand)),
-                          fmt::format("there are {}", range_text(*family_of(operand.of)))};
+      return ValueFault{fmt::format("{} goes beyond the devices", to_string(operand)),
+                        fmt::format("there are {}", range_text(*family_of(operand.of)))};
     if (spelling.wide || operand.count <= 4) return {};
-    return OperandFault{fmt::format("{} is wider than 16 bits", to_string(operand)),
-                        "group K1 to K4, or use the 32-bit instruction"};
+    return ValueFault{fmt::format("{} is wider than 16 bits", to_string(operand)),
+                      "group K1 to K4, or use the 32-bit instruction"};
   }
   const auto* family = family_of(operand.kind);
   if (family == nullptr) return {};
   if (operand.kind == Kind::C && operand.number >= first_wide_counter && is_word(kind)) {
     if (spelling.wide) return {};
-    return OperandFault{fmt::format("{} is 32 bits wide", to_string(operand)), "use the 32-bit instruction"};
+    return ValueFault{fmt::format("{} is 32 bits wide", to_string(operand)), "use the 32-bit instruction"};
   }
-  int count = extent(kind, spelling);
+  const int count = spelling.wide ? operand_kind(kind).wide_extent : operand_kind(kind).extent;
   if (operand.kind == Kind::C && is_word(kind) && operand.number + count > first_wide_counter)
-    return OperandFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
-                        "the 16-bit counters end at C199"};
-  if ((kind == 'a' || kind == 'd') && operand.number + count > first_special_word)
-    return OperandFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
-                        "the block has to end at D7999"};
+    return ValueFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
+                      "the 16-bit counters end at C199"};
+  if ((kind == 'a' || kind == 'd') && operand.number + count > first_special)
+    return ValueFault{fmt::format("{} takes {} words from {} on", spelling.text, count, to_string(operand)),
+                      "the block has to end at D7999"};
   if (exists(*family, operand.number, count)) return {};
-  return OperandFault{fmt::format("{} takes {} devices from {} on", spelling.text, count, to_string(operand)),
-                      fmt::format("there are {}", range_text(*family))};
+  return ValueFault{fmt::format("{} takes {} devices from {} on", spelling.text, count, to_string(operand)),
+                    fmt::format("there are {}", range_text(*family))};
 }
 
 std::string to_string(const Operand& operand) {

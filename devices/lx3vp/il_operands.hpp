@@ -4,26 +4,21 @@
 #include <string_view>
 
 #include "devices/lx3vp/il_program.hpp"
+#include "devices/value_range.hpp"
 
 namespace drycut::devices::lx3vp::il {
 
-/// What is wrong with an operand, and what would be right.
-struct OperandFault {
-  std::string what;
-  std::string remedy;
-};
-
 /// Reads an operand: a device in its range, a number or a label. A fault is told in `fault`.
-std::optional<Operand> read_operand(std::string_view text, OperandFault& fault);
+std::optional<Operand> read_operand(std::string_view text, ValueFault& fault);
 
 /// Whether an operand is of the kind that an instruction asks for (a letter of Mnemonic::operands), and fits
 /// its range with all the words or bits that the instruction takes there; else what is wrong.
-std::optional<OperandFault> misfit(const Operand& operand, char kind, const Spelling& spelling);
+std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelling& spelling);
 
 /// Whether there is such a device, or such bits; true for what is none.
 bool exists(const Operand& operand);
 
-/// Words or bits that an instruction takes from an operand on: 1, 2 or more.
-int extent(char kind, const Spelling& spelling);
+/// What an operand of a kind may be, for messages: "D", "X, Y, M, S, T or C".
+std::string_view operand_text(char kind);
 
 }  // namespace drycut::devices::lx3vp::il

@@ -14,8 +14,25 @@ namespace drycut::devices::lx3vp::il {
 // D2044`. Step numbers before it, brackets around it and the tables that editors export are read too
 // (il_lines.hpp).
 
-/// What an operand names.
-enum class Kind : std::uint8_t { X, Y, M, S, T, C, D, V, Z, constant, real, bits, word_bit, label, nesting };
+/// What an operand names: devices, labels and nestings have their letters.
+enum class Kind : char {
+  X = 'X',
+  Y = 'Y',
+  M = 'M',
+  S = 'S',
+  T = 'T',
+  C = 'C',
+  D = 'D',
+  V = 'V',
+  Z = 'Z',
+  label = 'P',
+  nesting = 'N',
+  constant = 'K',
+  real = 'E',
+  bits = '#',     ///< a group: K4M0
+  word_bit = '.'  ///< D10.F
+};
+constexpr char letter_of(Kind kind) { return static_cast<char>(kind); }
 
 /// A checked operand.
 struct Operand {
@@ -49,6 +66,11 @@ struct Step {
   bool opens_block = false;  ///< LD and its kind: keeps the block before it for ANB, ORB
 
   [[nodiscard]] Op op() const { return spelling == nullptr ? Op::label : spelling->mnemonic->op; }
+  /// Letter of Mnemonic::operands; of the set value of a timer or a counter, which stands behind them, v.
+  [[nodiscard]] char kind(std::size_t operand) const {
+    const auto kinds = spelling == nullptr ? "P" : spelling->mnemonic->operands;
+    return operand < kinds.size() ? kinds[operand] : 'v';
+  }
   [[nodiscard]] bool wide() const { return spelling != nullptr && spelling->wide; }
 };
 

@@ -15,19 +15,12 @@ constexpr int most_branches = 11;  // FX: MPS without MPP
 /// Where an instruction may stand in a rung.
 enum class Place { opens, contact, joins, branch, output, state, free };
 
-Place place_of(Op op) {
+Place place_of(const Step& step) {
+  const Op op = step.op();
+  if (is_contact(op)) return step.spelling->mnemonic->join() == Join::begins ? Place::opens : Place::contact;
   switch (op) {
-    case Op::ld:
-    case Op::ldi:
-    case Op::ldp:
-    case Op::ldf:
-    case Op::ld_equal:
-    case Op::ld_gt:
-    case Op::ld_lt:
-    case Op::ld_unequal:
-    case Op::ld_le:
-    case Op::ld_ge:
-      return Place::opens;
+    case Op::inv:
+      return Place::contact;
     case Op::anb:
     case Op::orb:
       return Place::joins;
@@ -48,14 +41,14 @@ Place place_of(Op op) {
     case Op::end:
       return Place::free;
     default:
-      return op <= Op::or_ge || op == Op::inv ? Place::contact : Place::output;
+      return Place::output;
   }
 }
 
 }  // namespace
 
 void Rungs::add(Step& step) {
-  switch (place_of(step.op())) {
+  switch (place_of(step)) {
     case Place::opens:
       open(step);
       break;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "devices/lx3vp/il_apply.hpp"
+#include "devices/lx3vp/ecamtbx_registers.hpp"
+#include "devices/lx3vp/il_call.hpp"
 #include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/il_outputs.hpp"
 #include "devices/lx3vp/il_rung.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -15,20 +17,40 @@ namespace {
 
 constexpr int count_down_flags = 8000;  ///< M8200..M8234: C200..C234 count down; M8000 + the counter's number
 
-/// RST: OFF, or 0.
-void reset(Registers& registers, const Operand& device) {
-  const auto place = static_cast<std::size_t>(device.number);
-  if (device.kind == Kind::D) {
-    registers.put(device.number, 0);
-    return;
+/// Whether a comparison as a contact (LD=, ANDD>) holds.
+bool compare(const Registers& registers, const Step& step) {
+  const auto left = read_value(registers, step.operands[0], step.wide());
+  const auto right = read_value(registers, step.operands[1], step.wide());
+  switch (step.op()) {
+    case Op::equal:
+      return left == right;
+    case Op::greater:
+      return left > right;
+    case Op::less:
+      return left < right;
+    case Op::unequal:
+      return left != right;
+    case Op::less_or_equal:
+      return left <= right;
+    default:
+      return left >= right;
   }
-  if (device.kind == Kind::T) registers.t[place].value = 0;
-  if (device.kind == Kind::C) registers.c[place].value = 0;
-  write_bit(registers, device, false);
 }
 
-void reset_all(Registers& registers, Operand first, const Operand& last) {
-  for (; first.number <= last.number; ++first.number) reset(registers, first);
+void execute_action(Registers& registers, const Step& step) {
+  Call call(registers, step);
+  step.spelling->mnemonic->action(call);
+}
+
+/// What an instruction costs beyond that of any other, for the watchdog: words and bits that it handles.
+std::int64_t work_of(const Registers& registers, const Step& step) {
+  if (step.op() == Op::zrst) return std::max(0, step.operands[1].number - step.operands[0].number);
+  if (step.op() == Op::ecamtbx) return 10 * max_rows;
+  // Blocks and rows of bits have their count there.
+  constexpr std::size_t count = 2;
+  const auto kinds = step.spelling->mnemonic->operands;
+  if (kinds.size() <= count || kinds[count] != 'k') return 0;
+  return std::max(0, read_value(registers, step.operands[count], false));
 }
 
 }  // namespace
@@ -88,29 +110,22 @@ void Scanner::tell_error(const Step& step, const RuntimeError& error, Rung& rung
                                       step.spelling->text, error.what()));
 }
 
-bool Scanner::rises(const Step& step, bool now) {
+bool Scanner::turns(const Step& step, bool now, bool on) {
   const auto memory = static_cast<std::size_t>(step.memory);
   const bool before = memories_[memory];
   memories_[memory] = now;
-  return now && !before;
-}
-
-bool Scanner::falls(const Step& step, bool now) {
-  const auto memory = static_cast<std::size_t>(step.memory);
-  const bool before = memories_[memory];
-  memories_[memory] = now;
-  return !now && before;
+  return now == on && before != on;
 }
 
 bool Scanner::contact(const Step& step, Rung& rung) {
   const Op op = step.op();
   const Step* taken = indexed(step, rung);
   if (taken == nullptr) return false;
-  if (op >= Op::ld_equal) return compare(rung.registers, *taken);
+  if (is_comparison(op)) return compare(rung.registers, *taken);
   const bool on = read_bit(rung.registers, taken->operands[0]);
-  if (op >= Op::ldf) return falls(step, on);
-  if (op >= Op::ldp) return rises(step, on);
-  return op >= Op::ldi ? !on : on;
+  if (op == Op::rising) return rises(step, on);
+  if (op == Op::falling) return falls(step, on);
+  return on == (op == Op::on);
 }
 
 void Scanner::join(Op op, Rung& rung) {
@@ -141,21 +156,20 @@ void Scanner::join(Op op, Rung& rung) {
 
 void Scanner::execute(const Step& step, Rung& rung) {
   const Op op = step.op();
-  if (op <= Op::or_ge) {
+  if (is_contact(op)) {
     const bool on = contact(step, rung);
-    // Contacts come in the order LD, AND, OR.
-    switch ((static_cast<int>(op) - static_cast<int>(Op::ld)) % 3) {
-      case 0:
+    switch (step.spelling->mnemonic->join()) {
+      case Join::begins:
         if (step.opens_block)
           rung.blocks.push_back(rung.flow);
         else
           rung.blocks.clear();
         rung.flow = on;
         break;
-      case 1:
+      case Join::series:
         rung.flow = rung.flow && on;
         break;
-      default:
+      case Join::parallel:
         rung.flow = rung.flow || on;
         break;
     }
@@ -258,25 +272,25 @@ void Scanner::counter(const Step& step, bool on, Rung& rung) {
   if (down && before == preset) counter.contact = false;
 }
 
+bool Scanner::executes(const Step& step, const Rung& rung) {
+  return step.spelling->pulse ? rises(step, rung.power()) : rung.power();
+}
+
 void Scanner::call(const Step& step, Rung& rung) {
   const Op op = step.op();
   const bool power = rung.power();
   const bool drives = op >= Op::plsv && op <= Op::decam;
-  const bool executes = step.spelling->pulse ? rises(step, power) : power;
-  if (!executes && !drives) return;
-  const Step* taken = executes ? indexed(step, rung) : &step;
+  const bool executed = executes(step, rung);
+  if (!executed && !drives) return;
+  const Step* taken = executed ? indexed(step, rung) : &step;
   if (taken == nullptr) return;
   try {
     if (drives)
       drive_outputs(rung.registers, *taken, power, rung.instructions);
-    else if (op == Op::zrst)
-      reset_all(rung.registers, taken->operands[0], taken->operands[1]);
-    else if (op == Op::alt)
-      write_bit(rung.registers, taken->operands[0], !read_bit(rung.registers, taken->operands[0]));
     else if (op == Op::ecamtbx)
       make_cam_table(*taken, rung);
     else
-      apply(rung.registers, *taken);
+      execute_action(rung.registers, *taken);
     rung.work += work_of(rung.registers, *taken);
   } catch (const RuntimeError& error) {
     tell_error(step, error, rung);
@@ -284,11 +298,16 @@ void Scanner::call(const Step& step, Rung& rung) {
 }
 
 void Scanner::make_cam_table(const Step& step, Rung& rung) {
-  const auto report = apply_ecamtbx(rung.registers, step);
+  const auto number = [&](std::size_t i) { return step.operands[i].number; };
+  const auto& type = step.operands[1];
+  // The type is read from the low word: a program may have written it with MOV.
+  const auto report =
+      run_ecamtbx(rung.registers, number(0), read_value(rung.registers, type, type.kind == Kind::constant),
+                  number(2), number(3));
   std::string text;
   if (report.code < 0)
     text = fmt::format("{}:{}: ECAMTBX {}: {}; the block D{} is left as it was", program_.file, step.line,
-                       report.code, report.fault, step.operands[2].number);
+                       report.code, report.fault, number(2));
   rung.instructions.cam_table(step.number, report.code, text);
 }
 

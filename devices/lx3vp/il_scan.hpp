@@ -43,11 +43,14 @@ class Scanner {
   void coil(const Step& step, Rung& rung);
   void timer(const Step& step, bool on, Rung& rung);
   void counter(const Step& step, bool on, Rung& rung);
+  /// With power, of the pulse form as power comes.
+  bool executes(const Step& step, const Rung& rung);
   void call(const Step& step, Rung& rung);
   void make_cam_table(const Step& step, Rung& rung);
   /// Whether `now` is ON and was not at this step in the scan before; keeps it.
-  bool rises(const Step& step, bool now);
-  bool falls(const Step& step, bool now);
+  bool rises(const Step& step, bool now) { return turns(step, now, true); }
+  bool falls(const Step& step, bool now) { return turns(step, now, false); }
+  bool turns(const Step& step, bool now, bool on);
 
   const Program& program_;
   std::vector<bool> memories_;

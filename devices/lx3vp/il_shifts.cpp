@@ -1,4 +1,4 @@
-// Shifts, rotations and conversions of whole numbers.
+// Shifts, rotations and conversions of whole numbers: what each does, with its row in the table.
 #include <cmath>
 #include <vector>
 
@@ -8,6 +8,8 @@
 namespace drycut::devices::lx3vp::il {
 
 namespace {
+
+using namespace form;
 
 constexpr int most_shifted = 1024;  // FX
 constexpr int most_averaged = 64;   // FX
@@ -116,25 +118,24 @@ void square_root(Call& call) {
   call.set_flag(borrow_flag, root * root != square);
 }
 
+constexpr Mnemonic shift_rows[] = {
+    {"SFTL", Op::shift, "ghkk", np, 9, 0, "shifts n1 bits from D on up by n2, from S on fill in",
+     [](Call& c) { shift(c, true); }},
+    {"SFTR", Op::shift, "ghkk", np, 9, 0, "shifts n1 bits from D on down by n2, from S on fill in",
+     [](Call& c) { shift(c, false); }},
+    {"ROL", Op::rotate, "wk", nwp, 5, 7, "turns D round to the left by n bits, the last of them in M8022",
+     [](Call& c) { rotate(c, true); }},
+    {"ROR", Op::rotate, "wk", nwp, 5, 7, "turns D round to the right by n bits, the last in M8022",
+     [](Call& c) { rotate(c, false); }},
+    {"BCD", Op::action, "nw", nwp, 5, 9, "D = S with a decimal digit in each four bits", to_decimal_digits},
+    {"BIN", Op::action, "nw", nwp, 5, 9, "D = S, which has a decimal digit in each four bits",
+     from_decimal_digits},
+    {"MEAN", Op::action, "uwk", nwp, 7, 13, "D = mean of n values (1 to 64) from S on, no decimals", average},
+    {"SQR", Op::action, "ji", nwp, 5, 9, "D = square root of S, no decimals", square_root},
+};
+
 }  // namespace
 
-void apply_shifts(Call& call, Op op) {
-  switch (op) {
-    case Op::sftl:
-    case Op::sftr:
-      return shift(call, op == Op::sftl);
-    case Op::rol:
-    case Op::ror:
-      return rotate(call, op == Op::rol);
-    case Op::bcd:
-      return to_decimal_digits(call);
-    case Op::bin:
-      return from_decimal_digits(call);
-    case Op::mean:
-      return average(call);
-    default:
-      return square_root(call);
-  }
-}
+std::span<const Mnemonic> shift_mnemonics() { return shift_rows; }
 
 }  // namespace drycut::devices::lx3vp::il

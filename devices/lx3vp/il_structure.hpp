@@ -1,8 +1,8 @@
 #pragma once
-#include <functional>
 #include <map>
 #include <string>
 
+#include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_program.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -14,15 +14,12 @@ struct Label {
 };
 using Labels = std::map<int, Label>;
 
-/// Tells what is wrong at a line and a column, and what would be right.
-using TellAt = std::function<void(int line, int column, std::string what, std::string remedy)>;
-
 /// Looks only whether each jump and call has its label.
-void find_labels(Program& program, const Labels& labels, const TellAt& tell);
+void find_labels(Program& program, const Labels& labels, const TellLine& tell);
 
 /// Joins what belongs together in a program that is read: jumps and calls with their labels, FOR with NEXT,
 /// the steps of sequences, subroutines with SRET; sets Step::target, Step::depth and Program::states. Tells
 /// what has no counterpart, stands where it may not, or is jumped into from outside.
-void join_structure(Program& program, const Labels& labels, const TellAt& tell);
+void join_structure(Program& program, const Labels& labels, const TellLine& tell);
 
 }  // namespace drycut::devices::lx3vp::il

@@ -9,50 +9,6 @@ namespace {
 
 std::size_t place(int number) { return static_cast<std::size_t>(number); }
 
-bool bit_of(const Registers& registers, Kind kind, int number) {
-  switch (kind) {
-    case Kind::X:
-      return registers.x[place(number)];
-    case Kind::Y:
-      return registers.y[place(number)];
-    case Kind::M:
-      return registers.m[place(number)];
-    case Kind::S:
-      return registers.s[place(number)];
-    case Kind::T:
-      return registers.t[place(number)].contact;
-    case Kind::C:
-      return registers.c[place(number)].contact;
-    default:
-      return false;
-  }
-}
-
-void set_bit(Registers& registers, Kind kind, int number, bool on) {
-  switch (kind) {
-    case Kind::X:
-      registers.x[place(number)] = on;
-      break;
-    case Kind::Y:
-      registers.y[place(number)] = on;
-      break;
-    case Kind::M:
-      registers.m[place(number)] = on;
-      break;
-    case Kind::S:
-      registers.s[place(number)] = on;
-      break;
-    case Kind::T:
-      registers.t[place(number)].contact = on;
-      break;
-    case Kind::C:
-      registers.c[place(number)].contact = on;
-      break;
-    default:
-      break;
-  }
-}
-
 /// A word of D, or the value of a timer or a counter.
 std::uint16_t word_of(const Registers& registers, Kind kind, int number) {
   if (kind == Kind::D) return registers.d[place(number)];
@@ -89,17 +45,28 @@ bool is_wide_counter(const Operand& operand) {
 
 bool read_bit(const Registers& registers, const Operand& operand) {
   if (operand.kind == Kind::word_bit) return (registers.d[place(operand.number)] >> operand.count & 1) != 0;
-  return bit_of(registers, operand.kind, operand.number);
+  return *bit_at(registers, letter_of(operand.kind), operand.number);
 }
 
 void write_bit(Registers& registers, const Operand& operand, bool on) {
   if (operand.kind != Kind::word_bit) {
-    set_bit(registers, operand.kind, operand.number, on);
+    *bit_at(registers, letter_of(operand.kind), operand.number) = on;
     return;
   }
   const auto word = registers.d[place(operand.number)];
   const auto bit = static_cast<std::uint16_t>(1U << operand.count);
   registers.put(operand.number, static_cast<std::uint16_t>(on ? word | bit : word & ~bit));
+}
+
+void reset(Registers& registers, const Operand& device) {
+  const auto place = static_cast<std::size_t>(device.number);
+  if (device.kind == Kind::D) {
+    registers.put(device.number, 0);
+    return;
+  }
+  if (device.kind == Kind::T) registers.t[place].value = 0;
+  if (device.kind == Kind::C) registers.c[place].value = 0;
+  write_bit(registers, device, false);
 }
 
 std::int32_t read_value(const Registers& registers, const Operand& operand, bool wide) {
@@ -108,7 +75,7 @@ std::int32_t read_value(const Registers& registers, const Operand& operand, bool
     value = static_cast<std::uint32_t>(operand.value);
   } else if (operand.kind == Kind::bits) {
     for (int i = 4 * operand.count - 1; i >= 0; --i)
-      value = value << 1 | (bit_of(registers, operand.of, operand.number + i) ? 1U : 0U);
+      value = value << 1 | (*bit_at(registers, letter_of(operand.of), operand.number + i) ? 1U : 0U);
     // Fewer bits than the instruction is wide are a number without sign.
     if (4 * operand.count < (wide ? 32 : 16)) return static_cast<std::int32_t>(value);
   } else if (is_wide_counter(operand)) {
@@ -125,7 +92,7 @@ void write_value(Registers& registers, const Operand& operand, bool wide, std::i
   const auto bits = static_cast<std::uint32_t>(value);
   if (operand.kind == Kind::bits) {
     for (int i = 0; i < 4 * operand.count; ++i)
-      set_bit(registers, operand.of, operand.number + i, (bits >> i & 1) != 0);
+      *bit_at(registers, letter_of(operand.of), operand.number + i) = (bits >> i & 1) != 0;
   } else if (is_wide_counter(operand)) {
     registers.c[place(operand.number)].value = value;
   } else {

@@ -22,6 +22,8 @@ inline constexpr int bad_operand = 6706;
 bool read_bit(const Registers& registers, const Operand& operand);
 /// Switches a bit; of timers and counters the contact.
 void write_bit(Registers& registers, const Operand& operand, bool on);
+/// RST: OFF, or 0.
+void reset(Registers& registers, const Operand& device);
 
 /// A number as the instruction sees it: sign-extended 16 bit, or 32 bit.
 std::int32_t read_value(const Registers& registers, const Operand& operand, bool wide);

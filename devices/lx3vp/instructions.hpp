@@ -23,13 +23,6 @@ struct StartSignal {
   bool operator==(const StartSignal&) const = default;
 };
 
-/// S3 of ZRN: the switch near the zero point.
-struct DogSignal {
-  enum class Kind : std::uint8_t { x, y, m, s };
-  Kind kind = Kind::x;
-  int number = 0;  ///< plain: X10 is 8
-};
-
 /// Operands of DECAM as the program gives them; what they must be is checked when they are executed (6781).
 struct DecamOperands {
   MasterSource master;
@@ -38,6 +31,33 @@ struct DecamOperands {
   int output = 0;     ///< D1, plain number of the pulse output Y
   int direction = 0;  ///< D2, plain number of the direction output Y; on = forwards
   bool operator==(const DecamOperands&) const = default;
+};
+
+/// S3 of ZRN: the switch near the zero point.
+struct DogSignal {
+  char letter = 'X';  ///< X, Y, M or S
+  int number = 0;     ///< plain: X10 is 8
+};
+
+/// What DPLSV, DDRVI, DDRVA, PLSY and ZRN ask of a pulse output. All but DPLSV begin on the rising edge of
+/// power, set M8029 when they are done, and stop as power goes off.
+struct PulseOrder {
+  enum class Kind : std::uint8_t {
+    speed,  ///< DPLSV: at `frequency` at once, without ramp, backwards if negative, as long as it has power
+    distance,  ///< DDRVI: `pulses` at `frequency` with the ramps of D8145..D8148
+    position,  ///< DDRVA: likewise to position `pulses`
+    train,     ///< PLSY: `pulses` at once and without ramp, 0 = without end, counting forwards; the frequency
+               ///< may change on the way
+    zero       ///< ZRN: backwards, from the dog on at `creep`, to where the dog ends; the position is 0 then
+  };
+  Kind kind = Kind::speed;
+  static constexpr int no_direction = -1;  ///< the direction is the program's own affair
+  int output = 0;                          ///< plain number of Y
+  int direction = no_direction;            ///< plain number of the Y that is on forwards
+  std::int32_t frequency = 0;              ///< [Hz]
+  std::int32_t pulses = 0;
+  std::int32_t creep = 0;  ///< [Hz]
+  DogSignal dog = {};
 };
 
 /// What instructions do beyond the registers: the controller gives it to the scan of its program. Every call
@@ -53,26 +73,8 @@ class Instructions {
   /// DECAM S1 S2 S3 D1 D2: `powered` is the power flow into it. On enables the cam, off stops it at once.
   virtual void decam(int step, const DecamOperands& operands, bool powered) = 0;
 
-  /// DPLSV S D1 D2: pulses at `frequency` [Hz] at once, without ramp, backwards if negative, as long as it is
-  /// powered; `direction` is on forwards. Both outputs as plain numbers of Y.
-  virtual void plsv(int step, std::int32_t frequency, int output, int direction, bool powered) = 0;
-
-  /// DDRVI and DDRVA S1 S2 D1 D2: on the rising edge of power a move by (or to) `pulses` at `frequency` [Hz]
-  /// with the ramps of D8145..D8148; off stops it. Sets M8029 when it has arrived.
-  virtual void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
-                     int direction, bool powered) = 0;
-
-  /// PLSY S1 S2 D: on the rising edge of power `pulses` at `frequency` [Hz], at once and without ramp; 0
-  /// pulses are a train without end. The frequency may change on the way; off stops it. Counts forwards and
-  /// leaves the direction to the program. Sets M8029 when all are given.
-  virtual void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output,
-                           bool powered) = 0;
-
-  /// ZRN S1 S2 S3 D: on the rising edge of power backwards at `speed` [Hz], from the dog on at `creep` [Hz],
-  /// to where the dog ends; the position is 0 then and M8029 set. Off stops it. Leaves the direction to the
-  /// program.
-  virtual void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
-                           bool powered) = 0;
+  /// DPLSV, DDRVI, DDRVA, PLSY or ZRN: `powered` is the power flow into it.
+  virtual void pulses(int step, const PulseOrder& order, bool powered) = 0;
 
   /// OUT C235..C255 K: counts the pulses of its terminals while powered; the contact is on from `preset` on.
   /// Register and contact are the controller's work then; RST C sets both back in the registers.

@@ -16,16 +16,11 @@ constexpr std::size_t block_operand = 1;
 constexpr std::size_t output_operand = 3;
 
 /// The rows that a block holds; none if their number makes no sense.
-std::vector<CamTableRow> rows_of(const Registers& registers, int block) {
+std::vector<CamTableRow> sound_rows(const Registers& registers, int block) {
   const int count = registers.d[static_cast<std::size_t>(block + word::rows)];
   if (count < min_rows || count > max_rows || block + word::table + row_words * count > last_block_word + 1)
     return {};
-  std::vector<CamTableRow> rows;
-  for (int row = 0; row < count; ++row) {
-    const int at = block + word::table + row_words * row;
-    rows.push_back({registers.i32(at), registers.i32(at + 2)});
-  }
-  return rows;
+  return read_rows(registers, block);
 }
 
 }  // namespace
@@ -53,9 +48,8 @@ std::vector<CamAxis> Lx3vpController::cam_axes() {
 }
 
 void Lx3vpController::keep_recipe(int number) {
-  const auto step = std::find_if(program_.steps.begin(), program_.steps.end(),
-                                 [&](const il::Step& candidate) { return candidate.number == number; });
-  if (step == program_.steps.end()) return;
+  const il::Step* step = step_at(number);
+  if (step == nullptr) return;
   const int list = step->operands[0].number;
   const il::Operand& type = step->operands[1];
   EcamTable recipe;
@@ -71,7 +65,7 @@ std::shared_ptr<const devices::CamTable> Lx3vpController::cam_table_of(const il:
   if (block + block_length - 1 > last_block_word) return nullptr;
   const Decam* cam = pulses_.cam(step.number);
   const bool started = cam != nullptr && cam->starts() > 0;
-  const auto rows = started ? cam->law().rows() : rows_of(registers_, block);
+  const auto rows = started ? cam->law().rows() : sound_rows(registers_, block);
   if (rows.empty()) return nullptr;
   EcamTable table;
   // The parameters behind the rows, if an ECAMTBX made just these.

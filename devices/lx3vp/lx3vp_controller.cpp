@@ -152,20 +152,17 @@ void Lx3vpController::watchdog(int step, const std::string& text) {
 
 // What power-up leaves of the registers.
 void Lx3vpController::reset_registers() {
-  const auto clear = [](auto& registers, int first, int end) {
-    std::fill(registers.begin() + first, registers.begin() + end,
-              typename std::decay_t<decltype(registers)>::value_type{});
+  const auto clear = [](char letter, auto& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!is_retentive(letter, static_cast<int>(i))) values[i] = {};
   };
-  clear(registers_.d, 0, first_retentive_word);
-  clear(registers_.d, first_special, data_words);
-  clear(registers_.m, 0, first_retentive_relay);
-  clear(registers_.m, first_special, relays);
-  clear(registers_.s, 0, first_retentive_state);
-  clear(registers_.t, 0, first_retentive_timer);
-  clear(registers_.c, 0, first_retentive_counter);
-  clear(registers_.c, first_wide_counter, first_retentive_wide);
+  clear('D', registers_.d);
+  clear('M', registers_.m);
+  clear('S', registers_.s);
+  clear('T', registers_.t);
+  clear('C', registers_.c);
   for (int i = 0; i < data_words; ++i)
-    if (i < first_retentive_word || i >= first_special) registers_.written.reset(static_cast<std::size_t>(i));
+    if (!is_retentive('D', i)) registers_.written.reset(static_cast<std::size_t>(i));
   registers_.v.fill(0);
   registers_.z.fill(0);
   registers_.x.fill(false);
@@ -207,23 +204,8 @@ void Lx3vpController::decam(int step, const DecamOperands& operands, bool powere
   pulses_.decam(step, operands, powered, cams);
 }
 
-void Lx3vpController::plsv(int step, std::int32_t frequency, int output, int direction, bool powered) {
-  pulses_.plsv(step, frequency, output, direction, powered);
-}
-
-void Lx3vpController::drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
-                            int direction, bool powered) {
-  pulses_.drive(step, absolute, pulses, frequency, output, direction, powered, registers_);
-}
-
-void Lx3vpController::pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output,
-                                  bool powered) {
-  pulses_.pulse_train(step, frequency, pulses, output, powered, registers_);
-}
-
-void Lx3vpController::zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
-                                  bool powered) {
-  pulses_.zero_return(step, speed, creep, dog, output, powered, registers_);
+void Lx3vpController::pulses(int step, const PulseOrder& order, bool powered) {
+  pulses_.pulses(step, order, powered, registers_);
 }
 
 void Lx3vpController::high_speed_counter(int number, std::int32_t preset, bool powered) {
@@ -247,12 +229,16 @@ void Lx3vpController::cam_table(int step, std::int32_t result, const std::string
   if (result < 0 && (first || changed)) events_.push_back({"LX3VP", "warning", text});
 }
 
+const il::Step* Lx3vpController::step_at(int number) const {
+  const auto step = std::find_if(program_.steps.begin(), program_.steps.end(),
+                                 [&](const il::Step& candidate) { return candidate.number == number; });
+  return step == program_.steps.end() ? nullptr : &*step;
+}
+
 void Lx3vpController::tell_notes() {
   for (const PulseNote& note : pulses_.take_notes()) {
-    const auto step = std::find_if(program_.steps.begin(), program_.steps.end(),
-                                   [&](const il::Step& candidate) { return candidate.number == note.step; });
-    const std::string place =
-        step == program_.steps.end() ? "" : fmt::format("{}:{}: ", program_.file, step->line);
+    const il::Step* step = step_at(note.step);
+    const std::string place = step == nullptr ? "" : fmt::format("{}:{}: ", program_.file, step->line);
     if (note.code <= 0)
       tell(note.step, note.code == 0 ? "warning" : "note", place + note.text);
     else

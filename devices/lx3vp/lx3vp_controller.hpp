@@ -66,17 +66,14 @@ class Lx3vpController : public Controller, private Instructions {
 
  private:
   void decam(int step, const DecamOperands& operands, bool powered) override;
-  void plsv(int step, std::int32_t frequency, int output, int direction, bool powered) override;
-  void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output, int direction,
-             bool powered) override;
-  void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered) override;
-  void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
-                   bool powered) override;
+  void pulses(int step, const PulseOrder& order, bool powered) override;
   void high_speed_counter(int number, std::int32_t preset, bool powered) override;
   void watchdog(int step, const std::string& text) override;
   void error(int step, int code, const std::string& text) override;
   void cam_table(int step, std::int32_t result, const std::string& text) override;
 
+  /// By its place in program memory; nullptr if there is none.
+  [[nodiscard]] const il::Step* step_at(int number) const;
   void keep_recipe(int step);
   [[nodiscard]] std::shared_ptr<const devices::CamTable> cam_table_of(const il::Step& step) const;
 

@@ -10,40 +10,10 @@ namespace drycut::devices::lx3vp {
 
 namespace {
 
-// Where an instruction names a pulse output, -1 = it names none.
-int pulse_operand(il::Op op) {
-  if (op == il::Op::decam || op == il::Op::zrn) return 3;
-  if (op == il::Op::plsv) return 1;
-  return op == il::Op::drvi || op == il::Op::drva || op == il::Op::plsy ? 2 : -1;
-}
-
-bool is_retentive(const RegisterName& name) {
-  using Kind = RegisterName::Kind;
-  const int n = name.number;
-  switch (name.kind) {
-    case Kind::word:
-    case Kind::bit:
-      return n >= first_retentive_word && n < first_special;
-    case Kind::wide:
-    case Kind::real:
-      return n >= first_retentive_word && n + 1 < first_special;
-    case Kind::m:
-      return n >= first_retentive_relay && n < first_special;
-    case Kind::s:
-      return n >= first_retentive_state;
-    case Kind::timer:
-    case Kind::timer_contact:
-      return n >= first_retentive_timer;
-    case Kind::counter:
-    case Kind::counter_contact:
-      return n >= first_retentive_wide || (n >= first_retentive_counter && n < first_wide_counter);
-    case Kind::x:
-    case Kind::y:
-    case Kind::v:
-    case Kind::z:
-      return false;
-  }
-  return false;
+bool keeps_value(const RegisterName& name) {
+  const bool two_words = name.kind == RegisterName::Kind::wide || name.kind == RegisterName::Kind::real;
+  const char letter = letter_of(name);
+  return is_retentive(letter, name.number) && (!two_words || is_retentive(letter, name.number + 1));
 }
 
 // Calls `act` with every name that holds a retentive value.
@@ -52,7 +22,7 @@ void for_each_retentive(Act act) {
   using Kind = RegisterName::Kind;
   const auto all = [&](Kind kind, int count) {
     for (int i = 0; i < count; ++i)
-      if (const RegisterName name{kind, i}; is_retentive(name)) act(name);
+      if (const RegisterName name{kind, i}; keeps_value(name)) act(name);
   };
   all(Kind::word, data_words);
   all(Kind::m, relays);
@@ -75,7 +45,7 @@ void Lx3vpController::add_used_terminals() {
   for (const il::Step& step : program_.steps) {
     for (std::size_t i = 0; i < step.operands.size(); ++i) {
       const il::Operand& operand = step.operands[i];
-      if (static_cast<int>(i) == pulse_operand(step.op())) {
+      if (step.kind(i) == 'p') {
         cards_.pulse_outputs.try_emplace({Kind::output, 0, operand.number});
       } else if (operand.kind == il::Kind::bits) {
         for (int bit = 0; bit < 4 * operand.count; ++bit) used(operand.of, operand.number + bit);
@@ -89,38 +59,14 @@ void Lx3vpController::add_used_terminals() {
 // For suggestions and the report's table: what the program itself is about, not 20000 registers.
 void Lx3vpController::add_names() {
   using Kind = RegisterName::Kind;
-  const auto add = [&](Kind kind, int number) {
-    const std::string name = to_string(RegisterName{kind, number});
+  const auto add_name = [&](const std::string& name) {
     if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
   };
-  const auto add_operand = [&](const il::Operand& operand, bool wide) {
-    switch (operand.kind) {
-      case il::Kind::X:
-        return add(Kind::x, operand.number);
-      case il::Kind::Y:
-        return add(Kind::y, operand.number);
-      case il::Kind::M:
-        return add(Kind::m, operand.number);
-      case il::Kind::S:
-        return add(Kind::s, operand.number);
-      case il::Kind::T:
-        return add(Kind::timer, operand.number);
-      case il::Kind::C:
-        return add(Kind::counter, operand.number);
-      case il::Kind::D:
-        return add(wide ? Kind::wide : Kind::word, operand.number);
-      case il::Kind::V:
-        return add(Kind::v, operand.number);
-      case il::Kind::Z:
-        return add(Kind::z, operand.number);
-      case il::Kind::constant:
-      case il::Kind::nesting:
-      case il::Kind::real:
-      case il::Kind::bits:
-      case il::Kind::word_bit:
-      case il::Kind::label:
-        return;
-    }
+  const auto add = [&](Kind kind, int number) { add_name(to_string(RegisterName{kind, number})); };
+  const auto add_operand = [&](il::Operand operand, bool wide) {
+    if (std::string_view("XYMSTCDVZ").find(letter_of(operand.kind)) == std::string_view::npos) return;
+    operand.index = il::Operand::no_index;
+    add_name((wide && operand.kind == il::Kind::D ? "D" : "") + to_string(operand));
   };
   constexpr std::size_t block_operand = 1;
   for (const il::Step& step : program_.steps) {
@@ -177,7 +123,7 @@ bool Lx3vpController::restore(const std::string& text, Problems& problems, const
       registers_.written.reset(static_cast<std::size_t>(name.number));
   });
   for (const RegisterValue& entry : values)
-    if (is_retentive(entry.name)) lx3vp::write(registers_, entry.name, entry.value);
+    if (keeps_value(entry.name)) lx3vp::write(registers_, entry.name, entry.value);
   return true;
 }
 

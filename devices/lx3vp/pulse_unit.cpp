@@ -25,11 +25,6 @@ bool stopped(const Registers& registers, int output) {
   return registers.m[static_cast<std::size_t>(stop_relays[static_cast<std::size_t>(output)])];
 }
 
-void give(CamPort& port, int y, bool level) {
-  port.outputs[static_cast<std::size_t>(y)] = level;
-  port.registers.y[static_cast<std::size_t>(y)] = level;
-}
-
 }  // namespace
 
 void PulseUnit::decam(int step, const DecamOperands& operands, bool powered, CamPort& port) {
@@ -72,25 +67,19 @@ bool PulseUnit::take(Line& line, int step, int output) {
   return false;
 }
 
-void PulseUnit::plsv(int step, std::int32_t frequency, int output, int direction, bool powered) {
-  Line& line = lines_[static_cast<std::size_t>(output)];
-  if (!powered) {
-    refused_[step] = false;
-    if (line.motion.step == step) line.motion = {};
-  } else if (take(line, step, output)) {
-    line.motion.direction = direction;
-    line.motion.frequency = std::clamp(frequency, -max_frequency_hz, max_frequency_hz);
-  }
+bool PulseUnit::lets_go(Line& line, int step, bool powered) {
+  if (powered) return false;
+  refused_[step] = false;
+  if (line.motion.step == step) line.motion = {};
+  return true;
 }
 
 bool PulseUnit::begins(int step, int output, bool powered, Registers& registers) {
   Line& line = lines_[static_cast<std::size_t>(output)];
   Progress& progress = drives_[step];
   bool begins = false;
-  if (!powered) {
-    refused_[step] = false;
+  if (lets_go(line, step, powered)) {
     progress = Progress::off;
-    if (line.motion.step == step) line.motion = {};
   } else if (progress == Progress::off && take(line, step, output)) {
     progress = Progress::on;
     begins = true;
@@ -99,38 +88,36 @@ bool PulseUnit::begins(int step, int output, bool powered, Registers& registers)
   return begins;
 }
 
-void PulseUnit::drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output,
-                      int direction, bool powered, Registers& registers) {
-  if (!begins(step, output, powered, registers)) return;
-  Line& line = lines_[static_cast<std::size_t>(output)];
-  const std::int64_t from =
-      absolute ? registers.i32(position_registers[static_cast<std::size_t>(output)]) : 0;
-  line.motion.kind = Motion::Kind::position;
-  line.motion.direction = direction;
-  line.motion.frequency = std::clamp(std::abs(std::max(frequency, -max_frequency_hz)), 1, max_frequency_hz);
-  line.motion.target = line.output.position() + (pulses - from);
-}
-
-void PulseUnit::pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered,
-                            Registers& registers) {
-  Line& line = lines_[static_cast<std::size_t>(output)];
-  if (begins(step, output, powered, registers)) {
-    line.motion.kind = Motion::Kind::train;
-    line.motion.endless = pulses == 0;
-    line.motion.target = line.output.position() + pulses;
-    line.output.face(true);
+void PulseUnit::pulses(int step, const PulseOrder& order, bool powered, Registers& registers) {
+  using enum PulseOrder::Kind;
+  Line& line = lines_[static_cast<std::size_t>(order.output)];
+  if (order.kind == speed) {
+    if (!lets_go(line, step, powered) && take(line, step, order.output)) line.motion.order = order;
+  } else if (begins(step, order.output, powered, registers)) {
+    begin(line, order, registers);
   }
-  if (powered && line.motion.step == step) line.motion.frequency = std::min(frequency, max_frequency_hz);
+  // What may change on the way.
+  if (!powered || line.motion.step != step) return;
+  if (order.kind == speed)
+    line.motion.order.frequency = std::clamp(order.frequency, -max_frequency_hz, max_frequency_hz);
+  if (order.kind == train) line.motion.order.frequency = std::min(order.frequency, max_frequency_hz);
 }
 
-void PulseUnit::zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
-                            bool powered, Registers& registers) {
-  if (!begins(step, output, powered, registers)) return;
-  Line& line = lines_[static_cast<std::size_t>(output)];
-  line.motion.kind = Motion::Kind::zero;
-  line.motion.frequency = std::min(speed, max_frequency_hz);
-  line.motion.creep = std::min(creep, line.motion.frequency);
-  line.motion.dog = dog;
+void PulseUnit::begin(Line& line, const PulseOrder& order, const Registers& registers) {
+  using enum PulseOrder::Kind;
+  const std::int32_t frequency = order.frequency;
+  Motion& motion = line.motion;
+  motion.order = order;
+  motion.target = line.output.position() + order.pulses;
+  if (order.kind == position)
+    motion.target -= registers.i32(position_registers[static_cast<std::size_t>(order.output)]);
+  if (order.kind == distance || order.kind == position)
+    motion.order.frequency =
+        std::clamp(std::abs(std::max(frequency, -max_frequency_hz)), 1, max_frequency_hz);
+  if (order.kind == train) line.output.face(true);
+  if (order.kind != zero) return;
+  motion.order.frequency = std::min(frequency, max_frequency_hz);
+  motion.order.creep = std::min(order.creep, motion.order.frequency);
   line.output.face(false);
 }
 
@@ -152,17 +139,9 @@ struct Ramp {
 
 bool is_on(const DogSignal& dog, const CamPort& port) {
   const auto at = static_cast<std::size_t>(dog.number);
-  switch (dog.kind) {
-    case DogSignal::Kind::x:
-      return port.inputs[at];
-    case DogSignal::Kind::y:
-      return port.outputs[at];
-    case DogSignal::Kind::m:
-      return port.registers.m[at];
-    case DogSignal::Kind::s:
-      return port.registers.s[at];
-  }
-  return false;
+  if (dog.letter == 'X') return port.inputs[at];
+  if (dog.letter == 'Y') return port.outputs[at];
+  return *bit_at(port.registers, dog.letter, dog.number);
 }
 
 }  // namespace
@@ -172,7 +151,7 @@ PulseTick PulseUnit::move(Line& line, const Registers& registers) {
   Motion& motion = line.motion;
   const Ramp ramp(registers);
   const auto remaining = static_cast<double>(std::abs(motion.target - line.output.position()));
-  const double most = std::max(ramp.least, std::min<double>(motion.frequency, ramp.top));
+  const double most = std::max(ramp.least, std::min<double>(motion.order.frequency, ramp.top));
   motion.speed = std::clamp(motion.speed + ramp.slope / ticks_per_second, ramp.least, most);
   motion.speed = std::min(motion.speed, std::sqrt(ramp.least * ramp.least + 2 * ramp.slope * remaining));
   const auto frequency = static_cast<std::int32_t>(std::lround(motion.speed));
@@ -184,26 +163,26 @@ PulseTick PulseUnit::move(Line& line, const Registers& registers) {
 
 PulseTick PulseUnit::train(Line& line) {
   const Motion& motion = line.motion;
-  const auto left = motion.endless ? max_frequency_hz : motion.target - line.output.position();
-  const auto tick = line.output.run(motion.frequency, left);
-  if (!motion.endless && line.output.position() == motion.target) arrive(line);
+  const auto left = motion.ends() ? motion.target - line.output.position() : max_frequency_hz;
+  const auto tick = line.output.run(motion.order.frequency, left);
+  if (motion.ends() && line.output.position() == motion.target) arrive(line);
   return tick;
 }
 
 // Backwards to the dog, slower from there on, to where it ends: that is 0.
 PulseTick PulseUnit::seek(Line& line, const CamPort& port) {
   Motion& motion = line.motion;
-  const bool dog = is_on(motion.dog, port);
+  const bool dog = is_on(motion.order.dog, port);
   if (motion.at_dog && !dog) {
     port.registers.set_i32(position_registers[static_cast<std::size_t>(&line - lines_.data())], 0);
     arrive(line);
     return {0, false, false};
   }
   // A start on the dog has no way left to be fast.
-  if (dog && motion.speed == 0) motion.speed = motion.creep;
+  if (dog && motion.speed == 0) motion.speed = motion.order.creep;
   motion.at_dog = dog;
   const Ramp ramp(port.registers);
-  const double wanted = dog ? motion.creep : std::min<double>(motion.frequency, ramp.top);
+  const double wanted = dog ? motion.order.creep : std::min<double>(motion.order.frequency, ramp.top);
   const double change = ramp.slope / ticks_per_second;
   motion.speed = std::max(motion.speed, std::min(ramp.least, wanted));
   motion.speed = motion.speed < wanted ? std::min(motion.speed + change, wanted)
@@ -228,7 +207,7 @@ void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
   Line& line = lines_[static_cast<std::size_t>(output)];
   count(output, cam.tick(port, line.output, stopped(port.registers, output), line.motion.step >= 0),
         port.registers);
-  if (line.motion.step < 0) give(port, cam.operands().direction, line.output.forwards());
+  if (line.motion.step < 0) port.give(cam.operands().direction, line.output.forwards());
   for (auto& note : cam.take_notes()) notes_.push_back({step, note.warns ? 0 : -1, std::move(note.text)});
   if (auto fault = cam.take_fault()) notes_.push_back({step, fault->code, std::move(fault->text)});
 }
@@ -236,20 +215,20 @@ void PulseUnit::tick_cam(int step, Decam& cam, CamPort& port) {
 void PulseUnit::tick_motion(int output, CamPort& port) {
   Line& line = lines_[static_cast<std::size_t>(output)];
   if (line.motion.step < 0) return;
-  const int direction = line.motion.direction;
+  const int direction = line.motion.order.direction;
   const bool stop = stopped(port.registers, output);
   PulseTick tick{0, line.output.forwards(), false};
-  if (line.motion.kind == Motion::Kind::speed)
-    tick = line.output.run(stop ? 0 : line.motion.frequency, max_frequency_hz);
+  if (line.motion.order.kind == PulseOrder::Kind::speed)
+    tick = line.output.run(stop ? 0 : line.motion.order.frequency, max_frequency_hz);
   else if (stop)
     line.motion = {};
-  else if (line.motion.kind == Motion::Kind::position)
-    tick = move(line, port.registers);
-  else if (line.motion.kind == Motion::Kind::train)
+  else if (line.motion.order.kind == PulseOrder::Kind::train)
     tick = train(line);
-  else
+  else if (line.motion.order.kind == PulseOrder::Kind::zero)
     tick = seek(line, port);
-  if (direction >= 0) give(port, direction, line.output.forwards());
+  else
+    tick = move(line, port.registers);
+  if (direction >= 0) port.give(direction, line.output.forwards());
   count(output, tick, port.registers);
 }
 
@@ -259,7 +238,8 @@ void PulseUnit::tick(CamPort& port) {
   for (int output = 0; output < pulse_outputs; ++output) {
     tick_motion(output, port);
     const Motion& motion = lines_[static_cast<std::size_t>(output)].motion;
-    const bool moves = motion.step >= 0 && (motion.kind != Motion::Kind::speed || motion.frequency != 0);
+    const bool moves =
+        motion.step >= 0 && (motion.order.kind != PulseOrder::Kind::speed || motion.order.frequency != 0);
     port.registers.m[static_cast<std::size_t>(first_busy_relay + output)] = moves || cam_uses(output);
   }
 }
@@ -269,8 +249,9 @@ bool PulseUnit::holds(int y) const {
     if (cam.enabled() && !cam.refused() && (cam.operands().direction == y || cam.sync_output() == y))
       return true;
   }
-  return std::any_of(lines_.begin(), lines_.end(),
-                     [&](const Line& line) { return line.motion.step >= 0 && line.motion.direction == y; });
+  return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
+    return line.motion.step >= 0 && line.motion.order.direction == y;
+  });
 }
 
 std::vector<PulseNote> PulseUnit::take_notes() { return std::exchange(notes_, {}); }

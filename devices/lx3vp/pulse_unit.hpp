@@ -10,8 +10,6 @@
 
 namespace drycut::devices::lx3vp {
 
-inline constexpr int pulse_outputs = 4;  ///< Y0..Y3
-
 /// Something that an instruction of the pulse outputs has to tell.
 struct PulseNote {
   int step = 0;  ///< of the program
@@ -24,13 +22,7 @@ struct PulseNote {
 class PulseUnit {
  public:
   void decam(int step, const DecamOperands& operands, bool powered, CamPort& port);
-  void plsv(int step, std::int32_t frequency, int output, int direction, bool powered);
-  void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output, int direction,
-             bool powered, Registers& registers);
-  void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered,
-                   Registers& registers);
-  void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output, bool powered,
-                   Registers& registers);
+  void pulses(int step, const PulseOrder& order, bool powered, Registers& registers);
 
   /// A tick of 100 us: pulses, directions, D8140.. and M8147...
   void tick(CamPort& port);
@@ -56,17 +48,14 @@ class PulseUnit {
  private:
   /// What an instruction does on an output.
   struct Motion {
-    enum class Kind : std::uint8_t { speed, position, train, zero };
     int step = -1;  ///< whose; -1 = none
-    Kind kind = Kind::speed;
-    int direction = -1;  ///< plain number of the Y; -1: the program's own affair
-    std::int32_t frequency = 0;
-    std::int64_t target = 0;  ///< of `position` and `train`
-    bool endless = false;     ///< `train`
+    PulseOrder order = {};
+    std::int64_t target = 0;  ///< of a distance, a position, a train
     double speed = 0;         ///< with ramps: present [Hz]
-    std::int32_t creep = 0;   ///< `zero` [Hz]
-    DogSignal dog = {};
-    bool at_dog = false;  ///< `zero`: the dog has come
+    bool at_dog = false;      ///< of a return to zero: the dog has come
+
+    /// A train may be without end.
+    [[nodiscard]] bool ends() const { return order.kind != PulseOrder::Kind::train || order.pulses != 0; }
   };
   struct Line {
     PulseOutput output;
@@ -78,9 +67,12 @@ class PulseUnit {
   [[nodiscard]] bool cam_uses(int output) const;
   /// True if the instruction has the output, taking it if it is free.
   bool take(Line& line, int step, int output);
-  /// The same for an instruction that comes to an end: true in the scan in which it begins. Tells in M8029
+  /// Without power the instruction gives its output back; true then.
+  bool lets_go(Line& line, int step, bool powered);
+  /// As `take` for an instruction that comes to an end: true in the scan in which it begins. Tells in M8029
   /// whether it is done.
   bool begins(int step, int output, bool powered, Registers& registers);
+  void begin(Line& line, const PulseOrder& order, const Registers& registers);
   PulseTick move(Line& line, const Registers& registers);
   PulseTick train(Line& line);
   PulseTick seek(Line& line, const CamPort& port);

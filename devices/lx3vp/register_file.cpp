@@ -17,14 +17,6 @@ namespace {
 
 using Kind = RegisterName::Kind;
 
-// As much of a text as a message shows, without what a terminal would take for a command.
-std::string shown(std::string_view text) {
-  constexpr std::size_t most = 24;
-  std::string result;
-  for (const char c : text.substr(0, most)) result += c >= ' ' && c <= '~' ? c : '?';
-  return text.size() > most ? result + "..." : result;
-}
-
 std::optional<double> read_number(std::string_view text) {
   const char first = text.empty() ? ' ' : text.front();
   const bool hexadecimal = first == 'H' || first == 'h';
@@ -50,13 +42,6 @@ std::string_view content_of(std::string_view line) {
     if (line[i] == ';' || (line[i] == '#' && !in_word)) return trimmed(line.substr(0, i));
   }
   return trimmed(line);
-}
-
-// Takes the first line off the text.
-std::string_view next_line(std::string_view& text) {
-  const auto line = text.substr(0, text.find('\n'));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
-  return line;
 }
 
 bool holds_32_bit(const RegisterName& name) { return name.kind == Kind::wide || name.kind == Kind::real; }
@@ -148,13 +133,13 @@ std::vector<RegisterValue> read_register_values(std::string_view text, const std
                                                 char separator, Problems& problems) {
   RowReader reader(file, separator, problems);
   int number = 0;
-  for (text = without_byte_order_mark(text); !text.empty();) reader.read(next_line(text), ++number);
+  for (const auto line : split_lines(without_byte_order_mark(text))) reader.read(line, ++number);
   return reader.take_values();
 }
 
 bool is_register_file(std::string_view text, char separator) {
-  for (text = without_byte_order_mark(text); !text.empty();) {
-    const auto content = content_of(next_line(text));
+  for (const auto line : split_lines(without_byte_order_mark(text))) {
+    const auto content = content_of(line);
     const auto at = content.find(separator);
     if (at == std::string_view::npos) continue;
     const auto name = trimmed(content.substr(0, at));

@@ -39,6 +39,13 @@ constexpr Prefix prefixes[] = {
     {"Z", Kind::z, index_registers},
 };
 
+const Prefix& prefix_of(Kind kind) {
+  // A bit is one of a word.
+  return *std::find_if(std::begin(prefixes), std::end(prefixes), [&](const Prefix& prefix) {
+    return prefix.kind == (kind == Kind::bit ? Kind::word : kind);
+  });
+}
+
 // What stands behind the number: `D10:L`, `D10:F`, `D10.A`.
 bool read_suffix(std::string_view suffix, RegisterName& name) {
   if (suffix.empty()) return true;
@@ -55,7 +62,31 @@ bool read_suffix(std::string_view suffix, RegisterName& name) {
   return name.bit >= 0 && name.bit <= 15;
 }
 
+template <typename Bits>
+auto* bit_in(Bits& registers, char letter, int number) {
+  const auto at = static_cast<std::size_t>(number);
+  switch (letter) {
+    case 'X':
+      return &registers.x[at];
+    case 'Y':
+      return &registers.y[at];
+    case 'M':
+      return &registers.m[at];
+    case 'S':
+      return &registers.s[at];
+    case 'T':
+      return &registers.t[at].contact;
+    default:
+      return &registers.c[at].contact;
+  }
+}
+
 }  // namespace
+
+bool* bit_at(Registers& registers, char letter, int number) { return bit_in(registers, letter, number); }
+const bool* bit_at(const Registers& registers, char letter, int number) {
+  return bit_in(registers, letter, number);
+}
 
 std::uint32_t Registers::u32(int index) const {
   return static_cast<std::uint32_t>(d[static_cast<std::size_t>(index)]) |
@@ -67,6 +98,13 @@ void Registers::set_u32(int index, std::uint32_t value) {
   put(index + 1, static_cast<std::uint16_t>(value >> 16U));
 }
 void Registers::set_f32(int index, float value) { set_u32(index, std::bit_cast<std::uint32_t>(value)); }
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t most = 24;
+  std::string result;
+  for (const char c : text.substr(0, most)) result += c >= ' ' && c <= '~' ? c : '?';
+  return text.size() > most ? result + "..." : result;
+}
 
 std::optional<RegisterName> parse_register(std::string_view text) {
   const auto name_text = upper(text);
@@ -88,12 +126,14 @@ std::optional<RegisterName> parse_register(std::string_view text) {
 
 std::string to_string(const RegisterName& name) {
   if (name.kind == Kind::bit) return fmt::format("D{}.{:X}", name.number, name.bit);
-  for (const Prefix& prefix : prefixes) {
-    if (prefix.kind != name.kind) continue;
-    return prefix.base == 8 ? fmt::format("{}{:o}", prefix.text, name.number)
-                            : fmt::format("{}{}", prefix.text, name.number);
-  }
-  return {};
+  const Prefix& prefix = prefix_of(name.kind);
+  return prefix.base == 8 ? fmt::format("{}{:o}", prefix.text, name.number)
+                          : fmt::format("{}{}", prefix.text, name.number);
+}
+
+char letter_of(const RegisterName& name) {
+  const Prefix& prefix = prefix_of(name.kind);
+  return prefix.kind == Kind::wide || prefix.kind == Kind::real ? 'D' : prefix.text.front();
 }
 
 double read(const Registers& registers, const RegisterName& name) {
@@ -107,28 +147,17 @@ double read(const Registers& registers, const RegisterName& name) {
       return static_cast<double>(registers.f32(name.number));
     case Kind::bit:
       return registers.d[at] >> name.bit & 1;
-    case Kind::m:
-      return registers.m[at] ? 1 : 0;
-    case Kind::s:
-      return registers.s[at] ? 1 : 0;
-    case Kind::x:
-      return registers.x[at] ? 1 : 0;
-    case Kind::y:
-      return registers.y[at] ? 1 : 0;
     case Kind::timer:
       return registers.t[at].value;
-    case Kind::timer_contact:
-      return registers.t[at].contact ? 1 : 0;
     case Kind::counter:
       return registers.c[at].value;
-    case Kind::counter_contact:
-      return registers.c[at].contact ? 1 : 0;
     case Kind::v:
       return static_cast<std::int16_t>(registers.v[at]);
     case Kind::z:
       return static_cast<std::int16_t>(registers.z[at]);
+    default:
+      return *bit_at(registers, letter_of(name), name.number) ? 1 : 0;
   }
-  return 0;
 }
 
 ValueRange range_of(const RegisterName& name) {
@@ -149,16 +178,9 @@ ValueRange range_of(const RegisterName& name) {
     case Kind::counter:
       if (name.number < first_wide_counter) return {-32768, 32767, true};
       return {-most - 1, most, true};
-    case Kind::bit:
-    case Kind::m:
-    case Kind::s:
-    case Kind::x:
-    case Kind::y:
-    case Kind::timer_contact:
-    case Kind::counter_contact:
+    default:
       return {0, 1, true};
   }
-  return {};
 }
 
 void write(Registers& registers, const RegisterName& name, double value) {
@@ -181,29 +203,11 @@ void write(Registers& registers, const RegisterName& name, double value) {
                     static_cast<std::uint16_t>(on ? registers.d[at] | mask : registers.d[at] & ~mask));
       break;
     }
-    case Kind::m:
-      registers.m[at] = on;
-      break;
-    case Kind::s:
-      registers.s[at] = on;
-      break;
-    case Kind::x:
-      registers.x[at] = on;
-      break;
-    case Kind::y:
-      registers.y[at] = on;
-      break;
     case Kind::timer:
       registers.t[at].value = static_cast<std::uint16_t>(whole);
       break;
-    case Kind::timer_contact:
-      registers.t[at].contact = on;
-      break;
     case Kind::counter:
       registers.c[at].value = static_cast<std::int32_t>(whole);
-      break;
-    case Kind::counter_contact:
-      registers.c[at].contact = on;
       break;
     case Kind::v:
       registers.v[at] = static_cast<std::uint16_t>(whole);
@@ -211,7 +215,8 @@ void write(Registers& registers, const RegisterName& name, double value) {
     case Kind::z:
       registers.z[at] = static_cast<std::uint16_t>(whole);
       break;
-    case Kind::real:
+    default:
+      *bit_at(registers, letter_of(name), name.number) = on;
       break;
   }
 }

@@ -19,6 +19,7 @@ inline constexpr int last_relay = 3071;               ///< of the ordinary ones
 inline constexpr int first_special = 8000;            ///< of D and M
 inline constexpr int terminals = 256;                 ///< X0..X377 and Y0..Y377
 inline constexpr int states = 1000;                   ///< S0..S999
+inline constexpr int pulse_outputs = 4;               ///< Y0..Y3
 inline constexpr int timers = 256;                    ///< T0..T255
 inline constexpr int counters = 256;                  ///< C0..C255
 inline constexpr int index_registers = 8;             ///< V0..V7 and Z0..Z7
@@ -28,12 +29,24 @@ inline constexpr int first_two_way_counter = 246;  ///< C246..C255 count both wa
 
 // What keeps its value without power; the rest is 0 after power-up. The seed manual gives no ranges: these
 // are the FX ones, and they stand in one place.
-inline constexpr int first_retentive_word = 200;     ///< D200..D7999
-inline constexpr int first_retentive_relay = 500;    ///< M500..M3071
-inline constexpr int first_retentive_state = 500;    ///< S500..S999
-inline constexpr int first_retentive_timer = 246;    ///< T246..T255
-inline constexpr int first_retentive_counter = 100;  ///< C100..C199
-inline constexpr int first_retentive_wide = 220;     ///< C220..C255
+struct RetentiveRange {
+  char letter;
+  int first;
+  int end;  ///< the last and one more
+};
+inline constexpr int first_retentive_timer = 246;
+inline constexpr RetentiveRange retentive_ranges[] = {{'D', 200, first_special},
+                                                      {'M', 500, first_special},
+                                                      {'S', 500, states},
+                                                      {'T', first_retentive_timer, timers},
+                                                      {'C', 100, first_wide_counter},
+                                                      {'C', 220, counters}};
+/// Whether a device is one of them.
+constexpr bool is_retentive(char letter, int number) {
+  for (const auto& range : retentive_ranges)
+    if (range.letter == letter && number >= range.first && number < range.end) return true;
+  return false;
+}
 
 struct Timer {
   std::uint16_t value = 0;
@@ -89,6 +102,10 @@ struct Registers {
   void set_f32(int index, float value);
 };
 
+/// A bit by its device's letter: X, Y, M, S, or the contact of T and C.
+bool* bit_at(Registers& registers, char letter, int number);
+const bool* bit_at(const Registers& registers, char letter, int number);
+
 /// A value by its name in scenarios, recordings and register files: `D10` signed word, `DD10` (also `D10:L`)
 /// signed 32 bit of D10 and D11, `FD10` (also `D10:F`) float of both, `D10.A` bit 10 of D10 (hexadecimal),
 /// `M0`, `S0`, `X10` and `Y10` (octal) 0 or 1, `T0` and `C0` values, `TS0` and `CS0` contacts, `V0` and `Z0`
@@ -115,8 +132,12 @@ struct RegisterName {
   int bit = 0;     ///< 0..15 of Kind::bit
   bool operator==(const RegisterName&) const = default;
 };
+/// As much of a text as a message shows, without what a terminal would take for a command.
+std::string shown(std::string_view text);
 /// Nullopt if `text` names no register of the LX3VP.
 std::optional<RegisterName> parse_register(std::string_view text);
+/// The letter of its device.
+char letter_of(const RegisterName& name);
 /// In the first of the spellings above.
 std::string to_string(const RegisterName& name);
 

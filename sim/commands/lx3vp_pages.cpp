@@ -8,6 +8,7 @@
 #include "devices/lx3vp/ecamtbx.hpp"
 #include "devices/lx3vp/ecamtbx_words.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
+#include "devices/lx3vp/il_operands.hpp"
 #include "sim/commands/pages.hpp"
 
 namespace drycut::sim {

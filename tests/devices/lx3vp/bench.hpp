@@ -54,8 +54,16 @@ class CamBench {
     return registers.d[static_cast<std::size_t>(at + offset)];
   }
   [[nodiscard]] std::int32_t get_wide(int offset, int at = block) const { return registers.i32(at + offset); }
-  [[nodiscard]] bool flag(unsigned bits) const {
-    return (static_cast<unsigned>(get(word::status)) & bits) == bits;
+  [[nodiscard]] std::vector<std::int32_t> wide_words(std::initializer_list<int> offsets) const {
+    std::vector<std::int32_t> values;
+    for (const int offset : offsets) values.push_back(get_wide(offset));
+    return values;
+  }
+  /// Whether bits of the status are all on, and others all off.
+  [[nodiscard]] testing::AssertionResult flag(unsigned on, unsigned off = 0) const {
+    const auto status = static_cast<unsigned>(get(word::status));
+    if ((status & on) == on && (status & off) == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "the status is " << status;
   }
 
   CamPort port() { return {registers, inputs, high_speed, outputs}; }
@@ -63,9 +71,11 @@ class CamBench {
     CamPort cams = port();
     unit.decam(step, operands, on, cams);
   }
-  void tick(int count = 1) {
+  /// The output after so many ticks.
+  std::int32_t tick(int count = 1) {
     CamPort cams = port();
     for (int i = 0; i < count; ++i) unit.tick(cams);
+    return output();
   }
   /// Enables the cam and starts it as word 5 says; it waits for its start signal, or its master counts from
   /// the next tick on.
@@ -74,25 +84,39 @@ class CamBench {
     set(word::start, mode);
     tick(3);
   }
+  /// Stops the cam by word 5 and starts it anew.
+  void restart(int mode) {
+    set(word::start, 0);
+    tick(2);
+    set(word::start, mode);
+    tick(3);
+  }
+  void zoom(Zoom master, Zoom slave) {
+    set(word::master_numerator, master.numerator);
+    set(word::master_denominator, master.denominator);
+    set(word::slave_numerator, slave.numerator);
+    set(word::slave_denominator, slave.denominator);
+  }
   /// Rising edge of X2, taken in a tick.
   void trigger() {
     inputs[start_input] = true;
     tick();
     inputs[start_input] = false;
   }
-  /// Moves the master and lets a tick pass.
-  void move(std::int32_t counts) {
+  /// Moves the master and lets a tick pass; the output then.
+  std::int32_t move(std::int32_t counts) {
     const auto now = static_cast<std::uint32_t>(registers.i32(master_register));
     registers.set_u32(master_register, now + static_cast<std::uint32_t>(counts));
-    tick();
+    return tick();
   }
   /// The same, and ticks until the output has given all that it owes: it gives 20 pulses a tick at most.
-  void travel(std::int32_t counts) {
+  std::int32_t travel(std::int32_t counts) {
     move(counts);
     for (std::int32_t before = output() + 1; before != output();) {
       before = output();
       tick(2);
     }
+    return output();
   }
   /// Pulses given, less those backwards, as the special register of Y0 tells.
   [[nodiscard]] std::int32_t output() const { return registers.i32(8140); }

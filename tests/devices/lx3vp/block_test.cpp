@@ -28,8 +28,7 @@ TEST(Lx3vpBlock, TheLimitHoldsPulsesBackAndLosesNone) {
   }
   EXPECT_THAT(given, testing::Each(testing::AnyOf(2, 3)));
   EXPECT_EQ(std::accumulate(given.begin(), given.end(), 0), 20);
-  bench.tick(500);
-  EXPECT_EQ(bench.output(), 1000);
+  EXPECT_EQ(bench.tick(500), 1000);
   EXPECT_THAT(bench.notes(), IsEmpty()) << "told once a start";
   covers({"word 6", "word 1 bit 2"});
 }
@@ -58,15 +57,13 @@ TEST(Lx3vpBlock, LimitsOutOfRangeAreTheLargest) {
     CamBench bench;
     bench.set_wide(word::max_frequency, limit);
     bench.start(1);
-    bench.move(1000);
-    EXPECT_EQ(bench.output(), 20) << limit;
+    EXPECT_EQ(bench.move(1000), 20) << limit;
   }
   CamBench frozen;
   frozen.set_wide(word::max_frequency, 0);
   frozen.start(1);
   frozen.move(10);
-  frozen.tick(1000);
-  EXPECT_EQ(frozen.output(), 0);
+  EXPECT_EQ(frozen.tick(1000), 0);
   EXPECT_TRUE(frozen.flag(status::delayed));
 }
 
@@ -124,41 +121,32 @@ TEST(Lx3vpBlock, TheWindowEndsWithTheCam) {
 TEST(Lx3vpBlock, TheZoomsAreRatios) {
   CamBench bench;
   bench.table({{0, 0}, {3000, 1000}});
-  bench.set(word::master_denominator, 7);
-  bench.set(word::master_numerator, 3);
-  bench.set(word::slave_denominator, 5);
-  bench.set(word::slave_numerator, 2);
+  bench.zoom({3, 7}, {2, 5});
   bench.set(word::function, function::master_zoom | function::slave_zoom);
   bench.start(1);
-  bench.travel(7000);  // 3000 table units
-  EXPECT_EQ(bench.output(), 400);
-  bench.travel(700);  // 300 more
-  EXPECT_EQ(bench.output(), 440);
-  EXPECT_EQ(bench.get_wide(word::master_position), 300);
-  EXPECT_EQ(bench.get_wide(word::master_counts), 7700);
-  EXPECT_EQ(bench.get_wide(word::slave_position), 100);
-  EXPECT_EQ(bench.get_wide(word::slave_pulses), 40);
+  EXPECT_EQ(bench.travel(7000), 400);  // 3000 table units
+  EXPECT_EQ(bench.travel(700), 440);   // 300 more
+  EXPECT_THAT(bench.wide_words(
+                  {word::master_position, word::master_counts, word::slave_position, word::slave_pulses}),
+              ElementsAre(300, 7700, 100, 40));
   // Each has a bit of its own.
   CamBench master;
   master.set(word::master_numerator, 2);
   master.set(word::slave_numerator, 3);
   master.set(word::function, function::master_zoom);
   master.start(1);
-  master.travel(100);
-  EXPECT_EQ(master.output(), 200);
+  EXPECT_EQ(master.travel(100), 200);
   CamBench slave;
   slave.set(word::master_numerator, 2);
   slave.set(word::slave_numerator, 3);
   slave.set(word::function, function::slave_zoom);
   slave.start(1);
-  slave.travel(100);
-  EXPECT_EQ(slave.output(), 300);
+  EXPECT_EQ(slave.travel(100), 300);
   CamBench none;
   none.set(word::master_numerator, 2);
   none.set(word::slave_numerator, 3);
   none.start(1);
-  none.travel(100);
-  EXPECT_EQ(none.output(), 100);
+  EXPECT_EQ(none.travel(100), 100);
   covers({"word 23", "word 24", "word 29", "word 30", "word 3 bit 2", "word 3 bit 3"});
 }
 
@@ -171,8 +159,7 @@ TEST(Lx3vpBlock, TheTimeAxisCountsTicks) {
     bench.tick(500 * unit);
     EXPECT_EQ(bench.get_wide(word::master_position), 500) << unit;
     EXPECT_EQ(bench.output(), 500) << unit;
-    bench.tick(unit - 1);
-    EXPECT_EQ(bench.output(), 500) << unit;
+    EXPECT_EQ(bench.tick(unit - 1), 500) << unit;
   }
   CamBench other;
   other.start(1);
@@ -187,8 +174,7 @@ TEST(Lx3vpBlock, AHighSpeedCounterIsItsTerminalsPulses) {
   bench.start(1);
   bench.high_speed[251] += 15;
   bench.registers.c[251].value = 700;  // writing the register moves nothing
-  bench.tick();
-  EXPECT_EQ(bench.output(), 15);
+  EXPECT_EQ(bench.tick(), 15);
 }
 
 TEST(Lx3vpBlock, AnOrdinaryCounterIsItsRegister) {
@@ -197,8 +183,7 @@ TEST(Lx3vpBlock, AnOrdinaryCounterIsItsRegister) {
   bench.start(1);
   bench.registers.c[200].value = 12;
   bench.high_speed[200] = 700;
-  bench.tick();
-  EXPECT_EQ(bench.output(), 12);
+  EXPECT_EQ(bench.tick(), 12);
 }
 
 TEST(Lx3vpBlock, ARegisterMasterPassesTheEndOf32Bit) {
@@ -214,10 +199,7 @@ TEST(Lx3vpBlock, ARegisterMasterPassesTheEndOf32Bit) {
 TEST(Lx3vpBlock, AHundredMillionPulsesEndExactly) {
   CamBench bench;
   bench.table({{0, 0}, {4999, 5003}, {10'007, 10'009}});
-  bench.set(word::master_numerator, 65521);
-  bench.set(word::master_denominator, 65519);
-  bench.set(word::slave_numerator, 32749);
-  bench.set(word::slave_denominator, 32771);
+  bench.zoom({65521, 65519}, {32749, 32771});
   bench.set(word::function, function::master_zoom | function::slave_zoom);
   bench.start(1);
   // 19 counts a tick, whole cycles of the master's zoom and the table at the end.
@@ -260,10 +242,7 @@ TEST(Lx3vpBlock, AfterAnyRunThePositionIsTheLawOfTheTravel) {
     bench.table(rows);
     const Zoom in{static_cast<std::uint16_t>(draw(1, 9)), static_cast<std::uint16_t>(draw(1, 9))};
     const Zoom out{static_cast<std::uint16_t>(draw(1, 9)), static_cast<std::uint16_t>(draw(1, 9))};
-    bench.set(word::master_numerator, in.numerator);
-    bench.set(word::master_denominator, in.denominator);
-    bench.set(word::slave_numerator, out.numerator);
-    bench.set(word::slave_denominator, out.denominator);
+    bench.zoom(in, out);
     bench.set_wide(word::max_frequency, draw(20'000, 200'000));
     bench.set(word::function,
               function::master_zoom | function::slave_zoom | (round % 2 == 0 ? function::resume : 0U));
@@ -274,10 +253,7 @@ TEST(Lx3vpBlock, AfterAnyRunThePositionIsTheLawOfTheTravel) {
       bench.move(counts);
       travel += counts;
       if (round % 2 == 0 && draw(0, 20) == 0) {  // stop, and go on from there
-        bench.set(word::start, 0);
-        bench.tick(2);
-        bench.set(word::start, 1);
-        bench.tick(3);
+        bench.restart(1);
       }
     }
     for (std::int32_t before = bench.output() + 1; before != bench.output();) {  // until nothing is owed
@@ -337,8 +313,7 @@ TEST(Lx3vpBlock, ThePositionRegistersCountBothWaysAndMayBeWritten) {
   bench.travel(300);
   EXPECT_EQ(bench.registers.d[8140], 300);
   bench.registers.set_i32(8140, 0);
-  bench.travel(-301);
-  EXPECT_EQ(bench.output(), -301);
+  EXPECT_EQ(bench.travel(-301), -301);
   EXPECT_EQ(bench.unit.pulses(0), 601) << "the train counts every pulse";
 }
 

@@ -1,6 +1,7 @@
 // The PLC as a whole: program, scan, terminals, power, and the manual's examples.
 #include <gmock/gmock.h>
 
+#include <sstream>
 #include <string>
 
 #include "devices/lx3vp/lx3vp_controller.hpp"
@@ -34,7 +35,7 @@ class Plc {
     return program;
   }
 
-  void run_ticks(int ticks) {
+  Plc& run_ticks(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       controller_.run_devices(time_);
       controller_.run_tasks(time_);
@@ -42,8 +43,9 @@ class Plc {
       controller_.cards().counters[{Kind::counter, 0, 235}].count =
           4 * controller_.cards().pulse_outputs[{Kind::output, 0, 1}].count;
     }
+    return *this;
   }
-  void run_ms(int count) { run_ticks(10 * count); }
+  Plc& run_ms(int count) { return run_ticks(10 * count); }
   double get(const std::string& name) {
     const auto value = controller_.find(name);
     EXPECT_TRUE(value) << name;
@@ -53,6 +55,16 @@ class Plc {
     const auto value = controller_.find(name);
     ASSERT_TRUE(value && value->write) << name;
     value->write(number);
+  }
+  void set(const std::vector<std::pair<std::string, double>>& values) {
+    for (const auto& [name, number] : values) set(name, number);
+  }
+  /// By their names, with blanks between them.
+  std::vector<double> values(const std::string& names) {
+    std::vector<double> read;
+    std::istringstream words(names);
+    for (std::string name; words >> name;) read.push_back(get(name));
+    return read;
   }
   void press(int input, bool on) { controller_.cards().inputs[{Kind::input, 0, input}].level = on; }
   bool lamp(int output) { return controller_.cards().outputs[{Kind::output, 0, output}].level; }
@@ -99,8 +111,7 @@ DECAM C235 D2000 X2 Y0 Y4
 END
 )");
   plc.block(2000, {{0, 0}, {20'000, 10'000}, {30'000, 30'000}, {50'000, 40'000}});
-  plc.run_ms(5);
-  EXPECT_FALSE(plc.lamp(7));
+  EXPECT_FALSE(plc.run_ms(5).lamp(7));
   plc.set("M0", 1);
   int cycles = 0;
   bool was_on = false;
@@ -122,8 +133,7 @@ END
   plc.set("M0", 0);
   plc.run_ms(2);
   const double stopped = plc.get("DD8140");
-  plc.run_ms(100);
-  EXPECT_EQ(plc.get("DD8140"), stopped);
+  EXPECT_EQ(plc.run_ms(100).get("DD8140"), stopped);
   EXPECT_EQ(plc.get("C235"), plc.get("DD8142")) << "all of Y1's pulses came in at X0";
   EXPECT_FALSE(plc.lamp(7));
   EXPECT_THAT(plc.events(), IsEmpty());
@@ -147,8 +157,7 @@ END
 )");
   plc.block(1000, {{0, 0}, {40'000, 9'000}, {100'000, 15'000}});
   plc.set("M0", 1);
-  plc.run_ms(500);
-  EXPECT_EQ(plc.get("D1001.0"), 1) << "initialised";
+  EXPECT_EQ(plc.run_ms(500).get("D1001.0"), 1) << "initialised";
   EXPECT_EQ(plc.get("D1001.7"), 1);
   EXPECT_EQ(plc.get("DD8140"), 0) << "not yet started";
   for (int run = 1; run <= 2; ++run) {
@@ -156,15 +165,12 @@ END
     plc.run_ms(50);
     plc.press(2, false);
     EXPECT_GT(plc.get("DD8140"), 45'000 * (run - 1));
-    plc.run_ms(2'900);
-    EXPECT_EQ(plc.get("D1001.0"), 1) << "still running";
+    EXPECT_EQ(plc.run_ms(2'900).get("D1001.0"), 1) << "still running";
     EXPECT_EQ(plc.get("D1001.9"), 1) << "cycles have ended";
-    plc.run_ms(60);
-    EXPECT_EQ(plc.get("DD8140"), 45'000 * run) << "three cycles to the pulse";
+    EXPECT_EQ(plc.run_ms(60).get("DD8140"), 45'000 * run) << "three cycles to the pulse";
     EXPECT_EQ(plc.get("D1001.1"), 1);
     plc.set("D1001", static_cast<int>(plc.get("D1001")) & ~0x202);
-    plc.run_ms(500);
-    EXPECT_EQ(plc.get("DD8140"), 45'000 * run);
+    EXPECT_EQ(plc.run_ms(500).get("DD8140"), 45'000 * run);
   }
   plc.press(2, true);
   plc.run_ms(100);
@@ -172,28 +178,19 @@ END
   plc.run_ms(2);
   const double stopped = plc.get("DD8140");
   EXPECT_GT(stopped, 90'000);
-  plc.run_ms(100);
-  EXPECT_EQ(plc.get("DD8140"), stopped) << "stopped at once";
+  EXPECT_EQ(plc.run_ms(100).get("DD8140"), stopped) << "stopped at once";
 }
 
 TEST(Lx3vpController, TheSystemRelaysTellTheState) {
   Plc plc("LD M8002\nINC D0\nLDI M8003\nINC D1\nLD M8000\nINC D2\nLDI M8001\nINC D3\nEND\n");
-  plc.run_ms(10);
-  EXPECT_EQ(plc.get("D0"), 1);
-  EXPECT_EQ(plc.get("D1"), 1);
-  EXPECT_EQ(plc.get("D2"), 10);
-  EXPECT_EQ(plc.get("D3"), 10);
+  EXPECT_THAT(plc.run_ms(10).values("D0 D1 D2 D3"), ElementsAre(1, 1, 10, 10));
   EXPECT_EQ(plc.get("D8010"), 10) << "0.1 ms";
   covers({"M8000", "M8001", "M8002", "M8003", "D8010"});
 }
 
 TEST(Lx3vpController, TheClocksRun) {
   Plc plc("LDP M8011\nINC D0\nLDP M8012\nINC D1\nLDP M8013\nINC D2\nLDP M8014\nINC D3\nEND\n");
-  plc.run_ms(120'000);
-  EXPECT_EQ(plc.get("D0"), 12'000);
-  EXPECT_EQ(plc.get("D1"), 1'200);
-  EXPECT_EQ(plc.get("D2"), 120);
-  EXPECT_EQ(plc.get("D3"), 2);
+  EXPECT_THAT(plc.run_ms(120'000).values("D0 D1 D2 D3"), ElementsAre(12'000, 1'200, 120, 2));
   covers({"M8011", "M8012", "M8013", "M8014"});
 }
 
@@ -201,35 +198,23 @@ TEST(Lx3vpController, InputsAreTakenAtTheScanAndOutputsGivenAtItsEnd) {
   Plc plc("LD X2\nOUT Y7\nEND\n", 10 * ms);
   plc.run_ticks(1);
   plc.press(2, true);
-  plc.run_ticks(99);
-  EXPECT_FALSE(plc.lamp(7));
+  EXPECT_FALSE(plc.run_ticks(99).lamp(7));
   EXPECT_EQ(plc.get("X2"), 1) << "the level of the terminal";
-  plc.run_ticks(1);
-  EXPECT_TRUE(plc.lamp(7));
+  EXPECT_TRUE(plc.run_ticks(1).lamp(7));
   plc.press(2, false);
-  plc.run_ticks(99);
-  EXPECT_TRUE(plc.lamp(7));
-  plc.run_ticks(1);
-  EXPECT_FALSE(plc.lamp(7));
+  EXPECT_TRUE(plc.run_ticks(99).lamp(7));
+  EXPECT_FALSE(plc.run_ticks(1).lamp(7));
 }
 
 TEST(Lx3vpController, AProgramMayUseASynchronousOutputOnlyWhileTheCamDoesNot) {
   Plc plc("LD M1\nOUT Y7\nLD M0\nDECAM K1 D2000 X2 Y0 Y4\nEND\n");
   plc.block(2000, {{0, 0}, {100'000, 10}});
-  plc.set("D2004", 1);
-  plc.set("D2008", 7);
-  plc.set("DD2009", 50'000);
-  plc.set("DD2011", 60'000);
-  plc.set("D2005", 1);
-  plc.set("M1", 1);
-  plc.run_ms(5);
-  EXPECT_TRUE(plc.lamp(7));
+  plc.set({{"D2004", 1}, {"D2008", 7}, {"DD2009", 50'000}, {"DD2011", 60'000}, {"D2005", 1}, {"M1", 1}});
+  EXPECT_TRUE(plc.run_ms(5).lamp(7));
   plc.set("M0", 1);
-  plc.run_ms(5);
-  EXPECT_FALSE(plc.lamp(7)) << "the cam's, outside its window";
+  EXPECT_FALSE(plc.run_ms(5).lamp(7)) << "the cam's, outside its window";
   plc.set("M0", 0);
-  plc.run_ms(5);
-  EXPECT_TRUE(plc.lamp(7));
+  EXPECT_TRUE(plc.run_ms(5).lamp(7));
 }
 
 TEST(Lx3vpController, ErrorsAreToldOnceWithTheirLine) {
@@ -242,8 +227,7 @@ TEST(Lx3vpController, ErrorsAreToldOnceWithTheirLine) {
   EXPECT_THAT(events[0], HasSubstr("LX3VP error: test.il:4: 6706"));
   EXPECT_EQ(events[1],
             "LX3VP error: test.il:2: 6782: the master of row 1 (D2044) is 0, not above 0 of the row before");
-  EXPECT_EQ(plc.get("M8004"), 1);
-  EXPECT_EQ(plc.get("M8067"), 1);
+  EXPECT_THAT(plc.values("M8004 M8067"), ElementsAre(1, 1));
   EXPECT_GT(plc.get("D8069"), 0);
   covers({"M8004", "M8067", "D8067", "D8069"});
 
@@ -251,9 +235,7 @@ TEST(Lx3vpController, ErrorsAreToldOnceWithTheirLine) {
   second.set("D2023", 0);
   second.set("D2005", 1);
   second.run_ms(5);
-  EXPECT_EQ(second.get("D8067"), 6781);
-  EXPECT_EQ(second.get("D8069"), 1);
-  EXPECT_EQ(second.get("D2002"), 6781);
+  EXPECT_THAT(second.values("D8067 D8069 D2002"), ElementsAre(6781, 1, 6781));
 }
 
 TEST(Lx3vpController, HeldBackPulsesAreAWarning) {
@@ -262,8 +244,7 @@ TEST(Lx3vpController, HeldBackPulsesAreAWarning) {
   plc.set("D2005", 1);
   plc.run_ms(5);
   plc.set("DD100", 5'000);
-  plc.run_ms(100);
-  EXPECT_THAT(plc.events(),
+  EXPECT_THAT(plc.run_ms(100).events(),
               ElementsAre("LX3VP warning: test.il:2: the frequency limit of D2006 holds back pulses "
                           "of Y0; they come later"));
 }
@@ -275,8 +256,7 @@ TEST(Lx3vpController, ALimitOfZeroIsAWarningOfItsOwn) {
   plc.set("D2005", 1);
   plc.run_ms(5);
   plc.set("DD100", 5'000);
-  plc.run_ms(100);
-  EXPECT_EQ(plc.get("DD8140"), 0);
+  EXPECT_EQ(plc.run_ms(100).get("DD8140"), 0);
   EXPECT_THAT(plc.events(), ElementsAre("LX3VP warning: test.il:2: D2006 is 0: nothing comes out of Y0; "
                                         "write 1 to 200000"));
 }
@@ -284,21 +264,13 @@ TEST(Lx3vpController, ALimitOfZeroIsAWarningOfItsOwn) {
 // A failing ECAMTBX stops no program, and the machine only stands still: it is told, once a change.
 TEST(Lx3vpController, AFailingEcamtbxIsAWarningOnceAChange) {
   Plc plc("LD M8000\nECAMTBX D500 K101 D1000 D540\nEND\n");
-  plc.set("DD500", 6560);
-  plc.set("DD502", 12900);
-  plc.set("DD504", 9400);
-  plc.set("FD506", 2.5);
-  plc.set("FD508", 2.5);
-  plc.set("D510", 1);
-  plc.run_ms(100);
-  EXPECT_EQ(plc.get("DD540"), 200);
+  plc.set({{"DD500", 6560}, {"DD502", 12900}, {"DD504", 9400}, {"FD506", 2.5}, {"FD508", 2.5}, {"D510", 1}});
+  EXPECT_EQ(plc.run_ms(100).get("DD540"), 200);
   EXPECT_THAT(plc.events(), testing::IsEmpty());
   plc.set("DD500", 3000);
   plc.run_ms(100);
   plc.set("DD500", 2999);  // the same result
-  plc.run_ms(100);
-  EXPECT_EQ(plc.get("DD540"), -3);
-  EXPECT_EQ(plc.get("M8067"), 0);
+  EXPECT_THAT(plc.run_ms(100).values("DD540 M8067"), ElementsAre(-3, 0));
   EXPECT_THAT(plc.events(),
               ElementsAre("LX3VP warning: test.il:2: ECAMTBX -3: P1 (D500) is 3000, but a stroke takes 6560 "
                           "master pulses (P2 (D502) is 12900, P3 (D504) is 9400, P4 (D506) is 2.5); "
@@ -312,8 +284,7 @@ TEST(Lx3vpController, AFailingEcamtbxIsAWarningOnceAChange) {
   EXPECT_THAT(events[0], HasSubstr("ECAMTBX -8: "));
   EXPECT_THAT(events[1], HasSubstr("ECAMTBX -3: P1 (D500) is 2999"));
   plc.set("DD500", 6560);
-  plc.run_ms(100);
-  EXPECT_THAT(plc.events(), testing::IsEmpty());
+  EXPECT_THAT(plc.run_ms(100).events(), testing::IsEmpty());
   plc.controller_.power(false);
   plc.controller_.power(true);
   plc.set("DD500", 3000);
@@ -323,42 +294,33 @@ TEST(Lx3vpController, AFailingEcamtbxIsAWarningOnceAChange) {
 
 TEST(Lx3vpController, PowerOffKeepsWhatIsRetentive) {
   Plc plc("LD M8002\nINC D300\nINC D0\nLD M8000\nOUT Y7\nDPLSV K1000 Y0 Y4\nEND\n");
-  plc.set("D199", 1);
-  plc.set("D200", 2);
-  plc.set("D7999", 3);
-  plc.set("M499", 1);
-  plc.set("M500", 1);
-  plc.set("S499", 1);
-  plc.set("S500", 1);
-  plc.set("T245", 5);
-  plc.set("T246", 6);
-  plc.set("C99", 7);
-  plc.set("C100", 8);
-  plc.set("C219", 9);
-  plc.set("C220", 10);
-  plc.run_ms(1'000);
-  EXPECT_TRUE(plc.lamp(7));
+  plc.set({{"D199", 1},
+           {"D200", 2},
+           {"D7999", 3},
+           {"M499", 1},
+           {"M500", 1},
+           {"S499", 1},
+           {"S500", 1},
+           {"T245", 5},
+           {"T246", 6},
+           {"C99", 7},
+           {"C100", 8},
+           {"C219", 9},
+           {"C220", 10}});
+  EXPECT_TRUE(plc.run_ms(1'000).lamp(7));
   const auto pulses = plc.controller_.cards().pulse_outputs[{Kind::output, 0, 0}].count;
   EXPECT_GT(pulses, 900);
   plc.controller_.power(false);
   EXPECT_FALSE(plc.lamp(7));
-  plc.run_ms(1'000);
-  EXPECT_FALSE(plc.lamp(7));
+  EXPECT_FALSE(plc.run_ms(1'000).lamp(7));
   EXPECT_EQ(plc.controller_.cards().pulse_outputs[(Address{Kind::output, 0, 0})].count, pulses);
   plc.controller_.power(true);
-  plc.run_ms(1);
-  EXPECT_EQ(plc.get("D300"), 2) << "the first scan again";
+  EXPECT_EQ(plc.run_ms(1).get("D300"), 2) << "the first scan again";
   EXPECT_EQ(plc.get("D0"), 1);
   for (const char* name : {"D199", "M499", "S499", "T245", "C99", "C219"})
     EXPECT_EQ(plc.get(name), 0) << name;
-  EXPECT_EQ(plc.get("D200"), 2);
-  EXPECT_EQ(plc.get("D7999"), 3);
-  EXPECT_EQ(plc.get("M500"), 1);
-  EXPECT_EQ(plc.get("S500"), 1);
-  EXPECT_EQ(plc.get("T246"), 6);
-  EXPECT_EQ(plc.get("C100"), 8);
-  EXPECT_EQ(plc.get("C220"), 10);
-  EXPECT_EQ(plc.get("DD8146"), 100'000);
+  EXPECT_THAT(plc.values("D200 D7999 M500 S500 T246 C100 C220 DD8146"),
+              ElementsAre(2, 3, 1, 1, 6, 8, 10, 100'000));
   plc.run_ms(1'000);
   EXPECT_GT(plc.controller_.cards().pulse_outputs[(Address{Kind::output, 0, 0})].count, pulses + 900)
       << "a pulse train never goes back";
@@ -370,19 +332,13 @@ TEST(Lx3vpController, TimersBeginAnewWithThePower) {
   plc.controller_.power(false);
   plc.run_ms(50'000);
   plc.controller_.power(true);
-  plc.run_ms(990);
-  EXPECT_FALSE(plc.lamp(7));
-  plc.run_ms(20);
-  EXPECT_TRUE(plc.lamp(7));
+  EXPECT_FALSE(plc.run_ms(990).lamp(7));
+  EXPECT_TRUE(plc.run_ms(20).lamp(7));
 }
 
 TEST(Lx3vpController, TheRetentiveStateComesBackWhole) {
   Plc plc("LD M8000\nINC D300\nEND\n");
-  plc.set("M700", 1);
-  plc.set("D201", -5);
-  plc.set("C225", -70'000);
-  plc.set("CS225", 1);
-  plc.set("D5", 9);
+  plc.set({{"M700", 1}, {"D201", -5}, {"C225", -70'000}, {"CS225", 1}, {"D5", 9}});
   plc.run_ms(7);
   const std::string text = plc.controller_.retentive_state();
   EXPECT_EQ(text,
@@ -392,9 +348,7 @@ TEST(Lx3vpController, TheRetentiveStateComesBackWhole) {
   Problems problems;
   EXPECT_TRUE(other.controller_.restore(text, problems));
   EXPECT_THAT(problems, IsEmpty());
-  EXPECT_EQ(other.get("D300"), 7);
-  EXPECT_EQ(other.get("CS225"), 1);
-  EXPECT_EQ(other.get("D400"), 0);
+  EXPECT_THAT(other.values("D300 CS225 D400"), ElementsAre(7, 1, 0));
   EXPECT_EQ(other.controller_.retentive_state(), text);
   EXPECT_FALSE(other.controller_.restore("D300 = x\n", problems, "kept.txt"));
   ASSERT_EQ(problems.size(), 1u);
@@ -476,8 +430,7 @@ DPLSV K1000 Y1 Y5
 DECAM C235 D2000 X2 Y0 Y4
 END
 )");
-  plc.run_ms(2);
-  EXPECT_EQ(plc.get("D540"), 200);
+  EXPECT_EQ(plc.run_ms(2).get("D540"), 200);
   plc.set("M0", 1);
   plc.run_ms(10'000);
   EXPECT_THAT(
@@ -508,8 +461,7 @@ TEST(Lx3vpController, TheWatchdogStopsItUntilPowerUp) {
   Plc plc(
       "LD M8000\nINC D0\nOUT Y7\nDPLSV K1000 Y0 Y5\nLD M1\nOUT M2\nFOR K32767\nFOR D300\nNEXT\nNEXT\nEND\n");
   plc.set("D300", 1);
-  plc.run_ms(20);
-  EXPECT_TRUE(plc.lamp(7));
+  EXPECT_TRUE(plc.run_ms(20).lamp(7));
   plc.set("D300", 32767);
   plc.run_ms(100);
   EXPECT_THAT(
@@ -518,8 +470,7 @@ TEST(Lx3vpController, TheWatchdogStopsItUntilPowerUp) {
                             "repeat less in a scan (CJ back, FOR, blocks); the PLC stops until")));
   EXPECT_EQ(plc.get("D0"), 21);
   EXPECT_FALSE(plc.lamp(7));
-  EXPECT_EQ(plc.get("M8061"), 1);
-  EXPECT_EQ(plc.get("D8061"), 6105);
+  EXPECT_THAT(plc.values("M8061 D8061"), ElementsAre(1, 6105));
   const auto given = plc.controller_.cards().pulse_outputs[{Kind::output, 0, 0}].count;
   plc.run_ms(100);
   EXPECT_EQ((plc.controller_.cards().pulse_outputs[{Kind::output, 0, 0}].count), given);
@@ -527,8 +478,7 @@ TEST(Lx3vpController, TheWatchdogStopsItUntilPowerUp) {
   plc.controller_.power(false);
   plc.run_ms(1);
   plc.controller_.power(true);
-  plc.run_ms(10);
-  EXPECT_EQ(plc.get("D0"), 10);
+  EXPECT_EQ(plc.run_ms(10).get("D0"), 10);
   EXPECT_TRUE(plc.lamp(7));
   EXPECT_EQ(plc.get("M8061"), 0);
 }

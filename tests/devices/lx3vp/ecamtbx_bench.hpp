@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "devices/lx3vp/ecamtbx.hpp"
+#include "devices/lx3vp/registers.hpp"
 
 namespace drycut::devices::lx3vp::ecams {
 
@@ -42,6 +43,25 @@ inline SawParameters fly_demo() {
 /// The manual's S-curve (appendix 3.2).
 inline SCurveParameters s_curve_demo() {
   return {.length = 10000, .top_speed = 50000, .acceleration = 100, .deceleration = 100, .resolution = 200};
+}
+
+/// Writes a list as a program does, from D`first` on.
+inline void put(Registers& d, int first, const SawParameters& p) {
+  d.set_i32(first, p.master_length);
+  d.set_i32(first + 2, p.slave_length);
+  d.set_i32(first + 4, p.sync_length);
+  d.set_f32(first + 6, p.sync_ratio);
+  d.set_f32(first + 8, p.max_ratio);
+  d.set_i16(first + 10, static_cast<std::int16_t>(p.acceleration));
+  d.set_i16(first + 11, static_cast<std::int16_t>(p.curve));
+  d.set_i16(first + 12, static_cast<std::int16_t>(p.resolution));
+}
+inline void put(Registers& d, int first, const SCurveParameters& p) {
+  d.set_i32(first, p.length);
+  d.set_i32(first + 2, p.top_speed);
+  d.set_i16(first + 6, p.acceleration);
+  d.set_i16(first + 7, p.deceleration);
+  d.set_i16(first + 8, static_cast<std::int16_t>(p.resolution));
 }
 
 /// Whether a table has this row.

@@ -23,7 +23,6 @@ std::string rotary_program(const std::string& more = "") {
 
 TEST(EcamtbxRegisters, TheRotaryDemoAsAProgram) {
   il::Plc plc(rotary_program());
-  plc.registers.m[8000] = true;
   plc.scan();
   EXPECT_THAT(plc.notes.calls, testing::IsEmpty());
   const auto& d = plc.registers;
@@ -41,7 +40,6 @@ TEST(EcamtbxRegisters, TheRotaryDemoAsAProgram) {
 
 TEST(EcamtbxRegisters, WritesTheSynchronousZoneIfItsOutputIsEnabled) {
   il::Plc plc(rotary_program("MOV H1 D2004\nMOV K5 D111\n"));
-  plc.registers.m[8000] = true;
   plc.scan();
   EXPECT_EQ(plc.registers.u32(block + 9), 2983U);
   EXPECT_EQ(plc.registers.u32(block + 11), 3183U);
@@ -50,13 +48,7 @@ TEST(EcamtbxRegisters, WritesTheSynchronousZoneIfItsOutputIsEnabled) {
 TEST(EcamtbxRegisters, MidCamEndStopsAtTheEndOfTheCycle) {
   for (const int curve : {0, 1, 2, 3, 5, 0x1003, 0x1001}) {
     Registers d;
-    d.set_i32(100, 2000);
-    d.set_i32(102, 1000);
-    d.set_i32(104, 400);
-    d.set_f32(106, 1);
-    d.set_f32(108, 3);
-    d.set_i16(110, 1);
-    d.set_i16(111, static_cast<std::int16_t>(curve));
+    ecams::put(d, 100, SawParameters{2000, 1000, 400, 1, 3, 1, static_cast<std::uint16_t>(curve)});
     d.d[block + 4] = 0x8000;
     run_ecamtbx(d, 100, 100, block, result);
     ASSERT_EQ(d.i32(result), 200) << curve;
@@ -77,24 +69,14 @@ TEST(EcamtbxRegisters, MidCamEndStopsAtTheEndOfTheCycle) {
 TEST(EcamtbxRegisters, ACyclicCamByMidCamEndRunsOneCycle) {
   CamBench bench;
   auto& d = bench.registers;
-  d.set_i32(300, 1000);
-  d.set_i32(302, 1500);
-  d.set_i32(304, 300);
-  d.set_f32(306, 2);
-  d.set_f32(308, 8);
-  d.set_i16(310, 1);
-  d.set_i16(311, mid_cam_end);
+  ecams::put(d, 300, SawParameters{1000, 1500, 300, 2, 8, 1, mid_cam_end});
   run_ecamtbx(d, 300, 100, CamBench::block, 330);
   ASSERT_GT(d.i32(330), 0);
   bench.start(1);
   for (int i = 0; i < 300; ++i) bench.travel(10);
   EXPECT_EQ(d.i32(8140), 1500);
-  EXPECT_TRUE(bench.flag(status::completed));
-  EXPECT_FALSE(bench.flag(status::cyclic));
-  bench.set(word::start, 0);
-  bench.tick(3);
-  bench.set(word::start, 1);
-  bench.tick(3);
+  EXPECT_TRUE(bench.flag(status::completed, status::cyclic));
+  bench.restart(1);
   for (int i = 0; i < 300; ++i) bench.travel(10);
   EXPECT_EQ(d.i32(8140), 3000);
 }
@@ -104,12 +86,8 @@ TEST(EcamtbxRegisters, ACyclicCamByMidCamEndRunsOneCycle) {
 TEST(EcamtbxRegisters, ALeftCamAfterAMidCamEndRunsOn) {
   CamBench bench;
   auto& d = bench.registers;
-  for (const int word : {0, 2, 4}) d.set_i32(300 + word, word == 0 ? 1000 : word == 2 ? 1500 : 300);
-  d.set_f32(306, 2);
-  d.set_f32(308, 8);
-  d.set_i16(310, 1);
-  for (const int curve : {mid_cam_end, left_cam}) {
-    d.set_i16(311, static_cast<std::int16_t>(curve));
+  for (const std::uint16_t curve : {mid_cam_end, left_cam}) {
+    ecams::put(d, 300, SawParameters{1000, 1500, 300, 2, 8, 1, curve});
     run_ecamtbx(d, 300, 100, CamBench::block, 330);
     ASSERT_GT(d.i32(330), 0);
   }
@@ -121,7 +99,6 @@ TEST(EcamtbxRegisters, ALeftCamAfterAMidCamEndRunsOn) {
 
 TEST(EcamtbxRegisters, AnErrorLeavesTheBlockAsItIs) {
   il::Plc plc(rotary_program("DEMOV E1 D108\n"));  // P5 below P4
-  plc.registers.m[8000] = true;
   plc.registers.d[block + 38] = 77;
   plc.scan();
   EXPECT_EQ(plc.registers.i32(result), -4);
@@ -137,59 +114,47 @@ TEST(EcamtbxRegisters, ErrorsSayWhatIsWrong) {
         "LD M8000\nDMOV K3000 D100\nDMOV K12900 D102\nDMOV K9400 D104\nDEMOV E2.5 D106\n"
         "DEMOV E2.5 D108\nMOV K1 D110\nMOV K101 D50\n" +
         change + "ECAMTBX D100 D50 D2000 D300");
-    plc.registers.m[8000] = true;
     plc.scan();
     return plc.notes.calls.empty() ? std::string("no error")
                                    : plc.notes.calls[0].substr(plc.notes.calls[0].find("ECAMTBX"));
   };
-  const std::string left = "; the block D2000 is left as it was";
   EXPECT_EQ(fault("DMOV K6560 D100\n"), "no error");
-  EXPECT_EQ(fault(""),
-            "ECAMTBX -3: P1 (D100) is 3000, but a stroke takes 6560 master pulses (P2 (D102) is 12900, "
-            "P3 (D104) is 9400, P4 (D106) is 2.5)" +
-                left);
   EXPECT_EQ(fault("DMOV K6559 D100\n").substr(0, 60),
             "ECAMTBX -3: P1 (D100) is 6559, but a stroke takes 6560 maste");
   EXPECT_EQ(fault("MOV K0 D110\n").substr(0, 60),
             "ECAMTBX -3: P1 (D100) is 3000, but a stroke takes 5160 maste");
-  EXPECT_EQ(
-      fault("DMOV K13000 D104\n"),
-      "ECAMTBX -3: P3 (D104) is 13000: the synchronous zone is longer than the slave, P2 (D102) is 12900" +
-          left);
-  EXPECT_EQ(fault("MOV K100 D50\n"),
-            "ECAMTBX -3: P1 (D100) is 3000, but the synchronous zone alone takes 3760 master pulses "
-            "(P2 (D102) is 12900, P3 (D104) is 9400, P4 (D106) is 2.5)" +
-                left);
-  EXPECT_EQ(fault("MOV K100 D50\nDMOV K4760 D100\n"),
-            "ECAMTBX -4: P5 (D108) is 2.5, but the cycle needs more: outside the synchronous zone the mean "
-            "ratio is 3.5 (P1 (D100) is 4760, P2 (D102) is 12900, P3 (D104) is 9400, P4 (D106) is 2.5)" +
-                left);
-  EXPECT_EQ(fault("DEMOV E1 D108\n"), "ECAMTBX -4: P5 (D108) is 1, less than P4 (D106) is 2.5" + left);
-  EXPECT_EQ(fault("DEMOV E0 D106\n"),
-            "ECAMTBX -8: P4 (D106) is 0 and P5 (D108) is 2.5; write ratios above 0" + left);
-  EXPECT_EQ(fault("MOV K7 D50\n"), "ECAMTBX -1: the type is 7; write K0, K1, K100 or K101" + left);
-  EXPECT_EQ(fault("MOV K3 D110\n"),
-            "ECAMTBX -1: P6 low (D110) is 3; write 0, 1 or 2 for the acceleration" + left);
-  EXPECT_EQ(fault("MOV K100 D50\nMOV K4 D111\n"),
-            "ECAMTBX -1: P6 high (D111) is 4; write 0, 1, 2, 3 or 5 for the cam curve, plus H1000 backwards" +
-                left);
-  EXPECT_EQ(fault("DMOV K0 D100\n"), "ECAMTBX -2: P1 (D100) is 0; write a master length above 0" + left);
-  EXPECT_EQ(fault("DMOV K0 D102\n"), "ECAMTBX -2: P2 (D102) is 0; write a slave length other than 0" + left);
-  EXPECT_EQ(fault("DMOV K-1 D104\n"), "ECAMTBX -2: P3 (D104) is -1; write 0 or more" + left);
-  EXPECT_EQ(
-      fault("DMOV K1073741824 D100\n"),
-      "ECAMTBX -2: P1 (D100) is 1073741824; both strokes go beyond 32 bits, write 1073741823 at most" + left);
-  EXPECT_EQ(fault("MOV K9 D112\n"), "ECAMTBX -5: P7 (D112) is 9; write 0 (automatic) or 10 to 512" + left);
+  const std::pair<const char*, const char*> faults[] = {
+      {"",
+       "-3: P1 (D100) is 3000, but a stroke takes 6560 master pulses (P2 (D102) is 12900, P3 (D104) is 9400, "
+       "P4 (D106) is 2.5)"},
+      {"DMOV K13000 D104\n",
+       "-3: P3 (D104) is 13000: the synchronous zone is longer than the slave, P2 (D102) is 12900"},
+      {"MOV K100 D50\n",
+       "-3: P1 (D100) is 3000, but the synchronous zone alone takes 3760 master pulses (P2 (D102) is 12900, "
+       "P3 (D104) is 9400, P4 (D106) is 2.5)"},
+      {"MOV K100 D50\nDMOV K4760 D100\n",
+       "-4: P5 (D108) is 2.5, but the cycle needs more: outside the synchronous zone the mean ratio is 3.5 "
+       "(P1 (D100) is 4760, P2 (D102) is 12900, P3 (D104) is 9400, P4 (D106) is 2.5)"},
+      {"DEMOV E1 D108\n", "-4: P5 (D108) is 1, less than P4 (D106) is 2.5"},
+      {"DEMOV E0 D106\n", "-8: P4 (D106) is 0 and P5 (D108) is 2.5; write ratios above 0"},
+      {"MOV K7 D50\n", "-1: the type is 7; write K0, K1, K100 or K101"},
+      {"MOV K3 D110\n", "-1: P6 low (D110) is 3; write 0, 1 or 2 for the acceleration"},
+      {"MOV K100 D50\nMOV K4 D111\n",
+       "-1: P6 high (D111) is 4; write 0, 1, 2, 3 or 5 for the cam curve, plus H1000 backwards"},
+      {"DMOV K0 D100\n", "-2: P1 (D100) is 0; write a master length above 0"},
+      {"DMOV K0 D102\n", "-2: P2 (D102) is 0; write a slave length other than 0"},
+      {"DMOV K-1 D104\n", "-2: P3 (D104) is -1; write 0 or more"},
+      {"DMOV K1073741824 D100\n",
+       "-2: P1 (D100) is 1073741824; both strokes go beyond 32 bits, write 1073741823 at most"},
+      {"MOV K9 D112\n", "-5: P7 (D112) is 9; write 0 (automatic) or 10 to 512"}};
+  for (const auto& [change, told] : faults)
+    EXPECT_EQ(fault(change), std::string("ECAMTBX ") + told + "; the block D2000 is left as it was");
 }
 
 TEST(EcamtbxRegisters, ErrorsOfTheSCurveSayWhatIsWrong) {
   const auto fault = [](int offset, std::int32_t value, int at = block) {
     Registers d;
-    d.set_i32(100, 10000);
-    d.set_i32(102, 50000);
-    d.set_i16(106, 100);
-    d.set_i16(107, 100);
-    d.set_i16(108, 200);
+    ecams::put(d, 100, ecams::s_curve_demo());
     if (offset < 6)
       d.set_i32(100 + offset, value);
     else
@@ -220,12 +185,7 @@ TEST(EcamtbxRegisters, TheListsDoNotOverlap) {
 
 TEST(EcamtbxRegisters, ATableThatDoesNotFitTheRegisters) {
   Registers d;
-  const auto p = ecams::s_curve_demo();
-  d.set_i32(100, p.length);
-  d.set_i32(102, p.top_speed);
-  d.set_i16(106, p.acceleration);
-  d.set_i16(107, p.deceleration);
-  d.set_i16(108, 200);
+  ecams::put(d, 100, ecams::s_curve_demo());
   run_ecamtbx(d, 100, 0, 7160, result);  // 7160 + 40 + 800 = D8000, just behind the last
   EXPECT_EQ(d.i32(result), 200);
   run_ecamtbx(d, 100, 0, 7161, result);
@@ -236,11 +196,7 @@ TEST(EcamtbxRegisters, ATableThatDoesNotFitTheRegisters) {
 TEST(EcamtbxRegisters, TheSCurveReportsInItsList) {
   for (const int type : {0, 1}) {
     Registers d;
-    d.set_i32(100, 10000);
-    d.set_i32(102, 50000);
-    d.set_i16(106, 100);
-    d.set_i16(107, 100);
-    d.set_i16(108, 200);
+    ecams::put(d, 100, ecams::s_curve_demo());
     run_ecamtbx(d, 100, type, block, result);
     EXPECT_EQ(d.i32(result), 200);
     EXPECT_EQ(d.i32(110), 3000);   // P8
@@ -259,7 +215,6 @@ TEST(EcamtbxRegisters, TheTypeFromARegisterCountsByItsLowWord) {
   il::Plc plc(
       "LD M8000\nMOV K101 D50\nMOV K9 D51\nDMOV K1750 D100\nDMOV K2000 D102\nDMOV K667 D104\n"
       "DEMOV E9.424778 D106\nDEMOV E10 D108\nMOV K1 D110\nECAMTBX D100 D50 D2000 D300");
-  plc.registers.m[8000] = true;
   plc.scan();
   EXPECT_EQ(plc.registers.i32(result), 200);
   EXPECT_EQ(plc.registers.i32(block + 40 + 4 * 199), 3500);
@@ -268,23 +223,12 @@ TEST(EcamtbxRegisters, TheTypeFromARegisterCountsByItsLowWord) {
 
 TEST(EcamtbxRegisters, ReadsWhatTheListHolds) {
   Registers d;
-  d.set_i32(100, -1);
-  d.set_i32(102, 123456);
-  d.set_i32(104, 7);
-  d.set_f32(106, 1.5F);
-  d.set_f32(108, 2.5F);
-  d.set_i16(110, 2);
-  d.set_i16(111, 0x1005);
-  d.set_i16(112, 100);
-  const auto p = read_saw_parameters(d, 100);
-  EXPECT_EQ(p.master_length, -1);
-  EXPECT_EQ(p.slave_length, 123456);
-  EXPECT_EQ(p.sync_length, 7);
-  EXPECT_EQ(p.sync_ratio, 1.5F);
-  EXPECT_EQ(p.max_ratio, 2.5F);
-  EXPECT_EQ(p.acceleration, 2);
-  EXPECT_EQ(p.curve, 0x1005);
-  EXPECT_EQ(p.resolution, 100);
+  const SawParameters saw{-1, 123456, 7, 1.5F, 2.5F, 2, 0x1005, 100};
+  ecams::put(d, 100, saw);
+  EXPECT_EQ(read_saw_parameters(d, 100), saw);
+  const SCurveParameters curve{-1, 123456, -7, 32767, 65535};
+  ecams::put(d, 100, curve);
+  EXPECT_EQ(read_s_curve_parameters(d, 100), curve);
 }
 
 }  // namespace

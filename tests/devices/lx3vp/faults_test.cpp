@@ -109,8 +109,7 @@ TEST(Lx3vpFaults, TheBlockEndsBelowTheSpecialRegisters) {
   bench.set(word::start, 1, at);
   bench.enable();
   bench.tick(3);
-  bench.move(5);
-  EXPECT_EQ(bench.output(), 5);
+  EXPECT_EQ(bench.move(5), 5);
   EXPECT_THAT(bench.notes(), IsEmpty());
 
   CamBench longer;
@@ -147,8 +146,7 @@ TEST(Lx3vpFaults, TheNextStartClearsThem) {
   EXPECT_FALSE(bench.flag(status::stopped));
   EXPECT_EQ(bench.get(word::error), 0);
   bench.tick(2);
-  bench.move(10);
-  EXPECT_EQ(bench.output(), 10);
+  EXPECT_EQ(bench.move(10), 10);
 }
 
 TEST(Lx3vpFaults, AnOutputHasOneCam) {
@@ -164,16 +162,14 @@ TEST(Lx3vpFaults, AnOutputHasOneCam) {
   EXPECT_THAT(bench.notes(), ElementsAre("6783: Y0 has a cam already"));
   EXPECT_EQ(bench.get(word::error, 3000), 6783);
   EXPECT_EQ(bench.get(word::status, 3000), static_cast<int>(status::stopped));
-  bench.move(10);
-  EXPECT_EQ(bench.output(), 10) << "the first goes on";
+  EXPECT_EQ(bench.move(10), 10) << "the first goes on";
   // With the first off, the second is enabled by getting power again.
   bench.enable(false);
   bench.unit.decam(20, second, false, port);
   bench.table({{0, 0}, {1000, 1000}}, 3000);
   bench.unit.decam(20, second, true, port);
   bench.tick(3);
-  bench.move(7);
-  EXPECT_EQ(bench.output(), 17);
+  EXPECT_EQ(bench.move(7), 17);
 }
 
 TEST(Lx3vpFaults, ThereAreFourCams) {

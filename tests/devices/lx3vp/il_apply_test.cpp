@@ -14,7 +14,6 @@ constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
 
 /// A PLC after one scan of a line that is always executed, with D0, D2 .. as 32-bit values.
 Plc& run(Plc& plc, std::initializer_list<std::int32_t> values = {}) {
-  plc.registers.m[8000] = true;
   int at = 0;
   for (const auto value : values) {
     plc.registers.set_i32(at, value);
@@ -62,22 +61,13 @@ TEST(IlWords, GroupsOfBits) {
   plc.registers.t[5].value = 321;
   plc.registers.c[200].value = -70000;
   run(plc);
-  EXPECT_EQ(plc.registers.d[0], 0x89);
-  EXPECT_TRUE(plc.registers.m[102]);
-  EXPECT_FALSE(plc.registers.m[103]);
-  EXPECT_TRUE(plc.registers.m[112]);
-  EXPECT_EQ(plc.registers.i32(2), 0x1234);
-  EXPECT_TRUE(plc.registers.y[9]);
-  EXPECT_EQ(plc.registers.d[4], 321);
-  EXPECT_EQ(plc.registers.i32(6), -70000);
-  EXPECT_EQ(plc.registers.t[7].value, 9);
+  EXPECT_THAT(plc.values("D0 M102 M103 M112 DD2 Y11 D4 DD6 T7"),
+              ElementsAre(0x89, 1, 0, 1, 0x1234, 1, 321, -70000, 9));
   // Fewer bits than the instruction is wide have no sign; as many have.
   Plc signs(always("MOV K4M0 D0\nMOV K3M0 D1\nDMOV K4M0 D2"));
   signs.registers.m.fill(true);
   signs.scan();
-  EXPECT_EQ(signs.registers.i16(0), -1);
-  EXPECT_EQ(signs.registers.i16(1), 4095);
-  EXPECT_EQ(signs.registers.i32(2), 65535);
+  EXPECT_THAT(signs.values("D0 D1 DD2"), ElementsAre(-1, 4095, 65535));
 }
 
 struct Flags {
@@ -116,25 +106,16 @@ TEST(IlWords, ProductsTakeTwiceTheWords) {
 TEST(IlWords, QuotientsAndRemainders) {
   Plc plc(always("DIV D0 D2 D10\nDDIV D0 D2 D20"));
   run(plc, {-17, 5});
-  EXPECT_EQ(plc.registers.i16(10), -3);
-  EXPECT_EQ(plc.registers.i16(11), -2);
-  EXPECT_EQ(plc.registers.i32(20), -3);
-  EXPECT_EQ(plc.registers.i32(22), -2);
+  EXPECT_THAT(plc.values("D10 D11 DD20 DD22"), ElementsAre(-3, -2, -3, -2));
   run(plc, {least, -1});  // 2147483648 does not fit
   EXPECT_EQ(plc.registers.i32(20), least);
-  EXPECT_EQ(plc.registers.i32(22), 0);
-  EXPECT_TRUE(plc.registers.m[8022]);
+  EXPECT_THAT(plc.values("DD22 M8022"), ElementsAre(0, 1));
 }
 
 TEST(IlWords, CountsAndSigns) {
   Plc plc(always("INC D0\nDEC D2\nDINC D4\nDDEC D6\nNEG D8\nDNEG D10"));
   run(plc, {32767, 0x8000, -1, least, 32768, 5});
-  EXPECT_EQ(plc.registers.i16(0), -32768);
-  EXPECT_EQ(plc.registers.i16(2), 32767);
-  EXPECT_EQ(plc.registers.i32(4), 0);
-  EXPECT_EQ(plc.registers.i32(6), 2147483647);
-  EXPECT_EQ(plc.registers.i16(8), -32768);
-  EXPECT_EQ(plc.registers.i32(10), -5);
+  EXPECT_THAT(plc.values("D0 D2 DD4 DD6 D8 DD10"), ElementsAre(-32768, 32767, 0, 2147483647, -32768, -5));
 }
 
 TEST(IlWords, ExchangesAndBlocks) {
@@ -142,15 +123,11 @@ TEST(IlWords, ExchangesAndBlocks) {
   for (int i = 0; i < 6; ++i) plc.registers.set_i16(100 + i, static_cast<std::int16_t>(i + 1));
   plc.registers.set_i16(50, 2);
   run(plc, {111111, 222222});
-  EXPECT_EQ(plc.registers.i32(0), 222222);
-  EXPECT_EQ(plc.registers.i32(2), 111111);
+  EXPECT_THAT(plc.values("DD0 DD2"), ElementsAre(222222, 111111));
   std::vector<int> moved;
   for (int i = 100; i < 106; ++i) moved.push_back(plc.registers.i16(i));
   EXPECT_THAT(moved, ElementsAre(1, 1, 2, 2, 3, 4));  // 1 2 1 2 3 4, then two down by one
-  EXPECT_EQ(plc.registers.i16(112), 7);
-  EXPECT_EQ(plc.registers.i16(113), 0);
-  EXPECT_EQ(plc.registers.i32(122), -1);
-  EXPECT_EQ(plc.registers.i32(124), 0);
+  EXPECT_THAT(plc.values("D112 D113 DD122 DD124"), ElementsAre(7, 0, -1, 0));
 }
 
 TEST(IlWords, ComparesIntoThreeDevices) {
@@ -193,8 +170,7 @@ TEST(IlWords, ContactsThatCompare) {
   // 16 bit see the low word only.
   Plc plc("LD= D0 K0\nOUT Y0\nLDD= D0 K0\nOUT Y1");
   run(plc, {65536});
-  EXPECT_TRUE(plc.registers.y[0]);
-  EXPECT_FALSE(plc.registers.y[1]);
+  EXPECT_THAT(plc.values("Y0 Y1"), ElementsAre(1, 0));
 }
 
 // Floating point.
@@ -212,23 +188,19 @@ TEST(IlReals, Arithmetic) {
   EXPECT_FLOAT_EQ(plc.registers.f32(8), 11.0F);
   EXPECT_FLOAT_EQ(plc.registers.f32(10), -100000.0F);
   EXPECT_FLOAT_EQ(plc.registers.f32(12), -3.0F);
-  EXPECT_EQ(plc.registers.i32(14), 11);
-  EXPECT_EQ(plc.registers.i16(16), 3);
+  EXPECT_THAT(plc.values("DD14 D16"), ElementsAre(11, 3));
 }
 
 TEST(IlReals, TheRatioOfTheRotaryDemoHasItsWords) {
   Plc plc(always("DEDIV K5 K3 D6"));
   run(plc);
-  EXPECT_EQ(plc.registers.d[6], 0x5555);
-  EXPECT_EQ(plc.registers.d[7], 0x3FD5);
+  EXPECT_THAT(plc.values("D6 D7"), ElementsAre(0x5555, 0x3FD5));
 }
 
 TEST(IlReals, Compares) {
   Plc plc(always("DECMP E1.5 E1.25 M0\nDEZCP E1 E2 E2.5 M3"));
   run(plc);
-  EXPECT_TRUE(plc.registers.m[0]);
-  EXPECT_FALSE(plc.registers.m[1]);
-  EXPECT_TRUE(plc.registers.m[5]);
+  EXPECT_THAT(plc.values("M0 M1 M5"), ElementsAre(1, 0, 1));
 }
 
 // Errors while running.
@@ -243,8 +215,7 @@ TEST(IlErrors, AreToldAndTheScanGoesOn) {
   Plc plc(always("DIV D0 D2 D10\nINC D20"));
   run(plc, {5, 0});
   EXPECT_THAT(plc.notes.calls, ElementsAre("error 1 6706 p.il:2: 6706: DIV: division by 0"));
-  EXPECT_EQ(plc.registers.i16(20), 1);
-  EXPECT_EQ(plc.registers.i32(10), 0);
+  EXPECT_THAT(plc.values("D20 DD10"), ElementsAre(1, 0));
 }
 
 TEST(IlErrors, ByTheirMessage) {

@@ -1,8 +1,11 @@
 #pragma once
 // Programs for the tests of the instruction list, and a controller that only writes down what it is told.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,45 +23,43 @@ inline std::vector<std::string> faults(const std::string& text) {
   return told;
 }
 
+/// A text and all that it is refused for.
+struct Refused {
+  std::string text;
+  std::vector<std::string> faults;
+};
+inline void expect_faults(const std::vector<Refused>& cases) {
+  for (const auto& [text, told] : cases) EXPECT_THAT(faults(text), testing::ElementsAreArray(told)) << text;
+}
+
 /// Writes the calls down: "decam 12 K10 D2000 X2 Y0 Y4 on".
 struct Notes : Instructions {
   std::vector<std::string> calls;
 
   static std::string state(bool on) { return on ? " on" : " off"; }
   void decam(int step, const DecamOperands& o, bool powered) override {
-    const char master = o.master.kind == MasterSource::Kind::counter ? 'C'
-                        : o.master.kind == MasterSource::Kind::word  ? 'D'
-                                                                     : 'K';
-    calls.push_back("decam " + std::to_string(step) + " " + master + std::to_string(o.master.number) + " D" +
-                    std::to_string(o.block) + (o.start.is_input ? " X" : " M") +
-                    std::to_string(o.start.number) + " Y" + std::to_string(o.output) + " Y" +
-                    std::to_string(o.direction) + state(powered));
+    const char master = "CDK"[static_cast<std::size_t>(o.master.kind)];
+    calls.push_back(fmt::format("decam {} {}{} D{} {}{} Y{} Y{}{}", step, master, o.master.number, o.block,
+                                o.start.is_input ? 'X' : 'M', o.start.number, o.output, o.direction,
+                                state(powered)));
   }
-  void plsv(int step, std::int32_t frequency, int output, int direction, bool powered) override {
-    calls.push_back("plsv " + std::to_string(step) + " " + std::to_string(frequency) + " Y" +
-                    std::to_string(output) + " Y" + std::to_string(direction) + state(powered));
-  }
-  void drive(int step, bool absolute, std::int32_t pulses, std::int32_t frequency, int output, int direction,
-             bool powered) override {
-    calls.push_back((absolute ? "drva " : "drvi ") + std::to_string(step) + " " + std::to_string(pulses) +
-                    " " + std::to_string(frequency) + " Y" + std::to_string(output) + " Y" +
-                    std::to_string(direction) + state(powered));
-  }
-  void pulse_train(int step, std::int32_t frequency, std::int32_t pulses, int output, bool powered) override {
-    calls.push_back("plsy " + std::to_string(step) + " " + std::to_string(frequency) + " " +
-                    std::to_string(pulses) + " Y" + std::to_string(output) + state(powered));
-  }
-  void zero_return(int step, std::int32_t speed, std::int32_t creep, DogSignal dog, int output,
-                   bool powered) override {
-    calls.push_back("zrn " + std::to_string(step) + " " + std::to_string(speed) + " " +
-                    std::to_string(creep) + " " + "XYMS"[static_cast<int>(dog.kind)] +
-                    std::to_string(dog.number) + " Y" + std::to_string(output) + state(powered));
+  void pulses(int step, const PulseOrder& o, bool powered) override {
+    static constexpr std::array names = {"plsv", "drvi", "drva", "plsy", "zrn"};
+    using enum PulseOrder::Kind;
+    auto text = fmt::format("{} {}", names[static_cast<std::size_t>(o.kind)], step);
+    if (o.kind == distance || o.kind == position) text += fmt::format(" {}", o.pulses);
+    text += fmt::format(" {}", o.frequency);
+    if (o.kind == train) text += fmt::format(" {}", o.pulses);
+    if (o.kind == zero) text += fmt::format(" {} {}{}", o.creep, o.dog.letter, o.dog.number);
+    text += fmt::format(" Y{}", o.output);
+    if (o.direction >= 0) text += fmt::format(" Y{}", o.direction);
+    calls.push_back(text + state(powered));
   }
   void high_speed_counter(int number, std::int32_t preset, bool powered) override {
-    calls.push_back("counter C" + std::to_string(number) + " " + std::to_string(preset) + state(powered));
+    calls.push_back(fmt::format("counter C{} {}{}", number, preset, state(powered)));
   }
   void error(int step, int code, const std::string& text) override {
-    calls.push_back("error " + std::to_string(step) + " " + std::to_string(code) + " " + text);
+    calls.push_back(fmt::format("error {} {} {}", step, code, text));
   }
   void watchdog(int step, const std::string& text) override {
     calls.push_back("watchdog " + std::to_string(step) + " " + text);
@@ -76,6 +77,7 @@ class Plc {
     program_ = compile(text + "\nEND\n", "p.il", problems);
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
     scanner_ = std::make_unique<Scanner>(program_);
+    registers.m[8000] = true;  // always ON
   }
   Plc& scan(int times = 1) {
     for (int i = 0; i < times; ++i) {
@@ -86,6 +88,13 @@ class Plc {
     return *this;
   }
   void restart() { scanner_->restart(); }
+  /// By the names of registers, with blanks between them: "D0 DD10 M5".
+  [[nodiscard]] std::vector<double> values(const std::string& names) const {
+    std::vector<double> read;
+    std::istringstream words(names);
+    for (std::string name; words >> name;) read.push_back(lx3vp::read(registers, *parse_register(name)));
+    return read;
+  }
 
   Registers registers;
   Notes notes;

@@ -9,7 +9,6 @@ using testing::IsEmpty;
 
 /// A scan with these inputs.
 Plc& scan(Plc& plc, std::initializer_list<int> on = {}) {
-  plc.registers.m[8000] = true;
   plc.registers.x.fill(false);
   for (const int x : on) plc.registers.x[static_cast<std::size_t>(x)] = true;
   return plc.scan();
@@ -25,13 +24,9 @@ std::string outputs(const Plc& plc, std::size_t count = 4) {
 TEST(IlLoops, RepeatWhatIsBetweenThem) {
   Plc plc("FOR K3\nLD M8000\nINC D0\nFOR D5\nLD M8000\nINC D1\nNEXT\nNEXT\nLD M8000\nINC D2");
   plc.registers.d[5] = 4;
-  scan(plc);
-  EXPECT_EQ(plc.registers.d[0], 3);
-  EXPECT_EQ(plc.registers.d[1], 12);
-  EXPECT_EQ(plc.registers.d[2], 1);
+  EXPECT_THAT(scan(plc).values("D0 D1 D2"), ElementsAre(3, 12, 1));
   plc.registers.set_i16(5, -7);
-  scan(plc);
-  EXPECT_EQ(plc.registers.d[1], 15) << "0 and less are once";
+  EXPECT_EQ(scan(plc).registers.d[1], 15) << "0 and less are once";
 }
 
 TEST(IlLoops, AJumpLeavesThem) {
@@ -40,9 +35,7 @@ TEST(IlLoops, AJumpLeavesThem) {
       "FOR K2\nFOR K10\nLD= K0 D10Z0\nCJ P0\nLD M8000\nINC Z0\nNEXT\nNEXT\nP0\nFOR K2\nLD M8000\nINC "
       "D0\nNEXT");
   for (std::size_t i = 10; i < 14; ++i) plc.registers.d[i] = 1;
-  scan(plc);
-  EXPECT_EQ(plc.registers.z[0], 4);
-  EXPECT_EQ(plc.registers.d[0], 2);
+  EXPECT_THAT(scan(plc).values("Z0 D0"), ElementsAre(4, 2));
 }
 
 TEST(IlLoops, ATimerInALoopRunsOnce) {
@@ -53,26 +46,23 @@ TEST(IlLoops, ATimerInALoopRunsOnce) {
 }
 
 TEST(IlLoops, WhatDoesNotPairOff) {
-  EXPECT_THAT(faults("FOR K3\nLD X0\nINC D0\nEND"),
-              ElementsAre("1:1: FOR has no NEXT before END in line 4; end what is repeated with NEXT"));
-  EXPECT_THAT(faults("LD X0\nINC D0\nNEXT\nEND"),
-              ElementsAre("3:1: NEXT has no FOR; begin what is repeated with FOR"));
+  expect_faults({{"FOR K3\nLD X0\nINC D0\nEND",
+                  {"1:1: FOR has no NEXT before END in line 4; end what is repeated with NEXT"}},
+                 {"LD X0\nINC D0\nNEXT\nEND", {"3:1: NEXT has no FOR; begin what is repeated with FOR"}}});
   std::string six;
   for (int i = 0; i < 6; ++i) six += "FOR K2\n";
   for (int i = 0; i < 6; ++i) six += "NEXT\n";
-  EXPECT_THAT(faults(six + "END"),
-              ElementsAre("6:1: FOR stands inside 5 others; no more than 5 FORs in each other"));
-  EXPECT_THAT(faults("LD X0\nCJ P1\nFOR K2\nP1\nLD X1\nINC D0\nNEXT\nEND"),
-              ElementsAre("2:4: CJ jumps between FOR in line 3 and its NEXT; begin the loop at its FOR"));
-  EXPECT_THAT(
-      faults("FOR K2\nLD X0\nMC N0 M100\nMCR N0\nNEXT\nEND"),
-      ElementsAre("3:1: MC stands between FOR in line 1 and its NEXT; loops hold no master contacts and no "
-                  "steps of sequences",
-                  "4:1: MCR stands between FOR in line 1 and its NEXT; loops hold no master contacts and no "
-                  "steps of sequences"));
-  EXPECT_THAT(
-      faults("LD X0\nFOR K2\nNEXT\nEND"),
-      ElementsAre("2:1: the contacts before it lead to no coil; end them with OUT or another instruction"));
+  expect_faults(
+      {{six + "END", {"6:1: FOR stands inside 5 others; no more than 5 FORs in each other"}},
+       {"LD X0\nCJ P1\nFOR K2\nP1\nLD X1\nINC D0\nNEXT\nEND",
+        {"2:4: CJ jumps between FOR in line 3 and its NEXT; begin the loop at its FOR"}},
+       {"FOR K2\nLD X0\nMC N0 M100\nMCR N0\nNEXT\nEND",
+        {"3:1: MC stands between FOR in line 1 and its NEXT; loops hold no master contacts and no "
+         "steps of sequences",
+         "4:1: MCR stands between FOR in line 1 and its NEXT; loops hold no master contacts and no "
+         "steps of sequences"}},
+       {"LD X0\nFOR K2\nNEXT\nEND",
+        {"2:1: the contacts before it lead to no coil; end them with OUT or another instruction"}}});
 }
 
 // CALL and SRET.
@@ -81,59 +71,46 @@ TEST(IlCalls, RunASubroutineAndComeBack) {
   Plc plc(
       "LD X0\nCALL P1\nLD X1\nCALLP P1\nLD M8000\nOUT Y0\nFEND\nP1\nLD M8000\nINC D0\nLD X2\nCALL "
       "P2\nSRET\nP2\nLD M8000\nINC D1\nSRET");
-  scan(plc);
-  EXPECT_EQ(plc.registers.d[0], 0);
-  EXPECT_TRUE(plc.registers.y[0]);
-  scan(plc, {0});
-  EXPECT_EQ(plc.registers.d[0], 1);
-  scan(plc, {0, 1, 2});
-  EXPECT_EQ(plc.registers.d[0], 3);
-  EXPECT_EQ(plc.registers.d[1], 2);
-  scan(plc, {1});
-  EXPECT_EQ(plc.registers.d[0], 3) << "CALLP on the edge only";
+  EXPECT_THAT(scan(plc).values("D0 Y0"), ElementsAre(0, 1));
+  EXPECT_EQ(scan(plc, {0}).registers.d[0], 1);
+  EXPECT_THAT(scan(plc, {0, 1, 2}).values("D0 D1"), ElementsAre(3, 2));
+  EXPECT_EQ(scan(plc, {1}).registers.d[0], 3) << "CALLP on the edge only";
 }
 
 TEST(IlCalls, ALoopGoesOnBehindACall) {
   Plc plc(
       "FOR K3\nLD M8000\nCALL P1\nNEXT\nFEND\nP1\nFOR K10\nLD M8000\nINC D0\nLD= D0 K2\nCJ "
       "P2\nNEXT\nP2\nSRET");
-  scan(plc);
-  EXPECT_EQ(plc.registers.d[0], 22) << "2, 10 and 10: the jump leaves the inner loop only";
+  EXPECT_EQ(scan(plc).registers.d[0], 22) << "2, 10 and 10: the jump leaves the inner loop only";
 }
 
 TEST(IlCalls, FiveDeepAtMost) {
   Plc plc("LD M8000\nCALL P1\nFEND\nP1\nLD M8000\nINC D0\nCALL P1\nSRET");
-  scan(plc);
-  EXPECT_EQ(plc.registers.d[0], 5);
+  EXPECT_EQ(scan(plc).registers.d[0], 5);
   EXPECT_THAT(plc.notes.calls,
               ElementsAre("error 10 6702 p.il:7: 6702: CALL: five subroutines call each other already"));
 }
 
 TEST(IlCalls, SubroutinesStandBehindFendAndEndWithSret) {
-  EXPECT_THAT(
-      faults("LD X0\nCALL P1\nP1\nLD X1\nOUT Y0\nEND"),
-      ElementsAre("2:6: P1 in line 3 is no subroutine: it has no SRET; put it behind FEND and end it with "
-                  "SRET"));
-  EXPECT_THAT(faults("LD X0\nCALL P7\nFEND\nEND"),
-              ElementsAre("2:6: there is no label P7; give it a line of its own"));
-  EXPECT_THAT(faults("LD X0\nOUT Y0\nSRET\nEND"),
-              ElementsAre("3:1: SRET stands in the main program; put subroutines behind FEND"));
+  expect_faults(
+      {{"LD X0\nCALL P1\nP1\nLD X1\nOUT Y0\nEND",
+        {"2:6: P1 in line 3 is no subroutine: it has no SRET; put it behind FEND and end it with "
+         "SRET"}},
+       {"LD X0\nCALL P7\nFEND\nEND", {"2:6: there is no label P7; give it a line of its own"}},
+       {"LD X0\nOUT Y0\nSRET\nEND", {"3:1: SRET stands in the main program; put subroutines behind FEND"}}});
   const std::string subroutine = "FEND\nP1\nLD X1\nOUT Y0\n";
-  EXPECT_THAT(faults("LD X0\nCJ P1\n" + subroutine + "SRET\nEND"),
-              ElementsAre("2:4: CJ jumps into a subroutine; use CALL"));
-  EXPECT_THAT(faults("P0\nLD X0\nCALL P1\n" + subroutine + "CJ P0\nSRET\nEND"),
-              ElementsAre("8:4: CJ jumps out of a subroutine; leave it by SRET"));
-  EXPECT_THAT(
-      faults("LD X0\nCALL P1\nFEND\nFOR K2\nP1\nNEXT\nSRET\nEND"),
-      ElementsAre("2:6: P1 stands between FOR in line 4 and its NEXT; call a subroutine at its beginning"));
+  expect_faults(
+      {{"LD X0\nCJ P1\n" + subroutine + "SRET\nEND", {"2:4: CJ jumps into a subroutine; use CALL"}},
+       {"P0\nLD X0\nCALL P1\n" + subroutine + "CJ P0\nSRET\nEND",
+        {"8:4: CJ jumps out of a subroutine; leave it by SRET"}},
+       {"LD X0\nCALL P1\nFEND\nFOR K2\nP1\nNEXT\nSRET\nEND",
+        {"2:6: P1 stands between FOR in line 4 and its NEXT; call a subroutine at its beginning"}}});
 }
 
 TEST(IlJumps, P63IsTheEnd) {
   Plc plc("LD X0\nCJ P63\nLD M8000\nINC D0");
-  scan(plc, {0});
-  EXPECT_EQ(plc.registers.d[0], 0);
-  scan(plc);
-  EXPECT_EQ(plc.registers.d[0], 1);
+  EXPECT_EQ(scan(plc, {0}).registers.d[0], 0);
+  EXPECT_EQ(scan(plc).registers.d[0], 1);
 }
 
 // MC and MCR.
@@ -143,37 +120,30 @@ TEST(IlMasters, SwitchWhatFollows) {
       "LD X0\nMC N0 M100\nLDI X1\nOUT Y0\nLD X2\nSET Y1\nLD M8000\nOUT T0 K50\nLD X3\nMC N1 M101\nLD "
       "M8000\nOUT "
       "Y2\nMCR N1\nLD M8000\nOUT Y3\nMCR N0\nLD M8000\nOUT Y4");
-  scan(plc, {2});
-  EXPECT_EQ(outputs(plc, 5), "00001") << "LDI too has no power";
-  scan(plc, {0, 2});
-  EXPECT_EQ(outputs(plc, 5), "11011");
-  EXPECT_TRUE(plc.registers.m[100]);
-  EXPECT_FALSE(plc.registers.m[101]);
-  scan(plc, {0, 3});
-  EXPECT_EQ(outputs(plc, 5), "11111");
+  EXPECT_EQ(outputs(scan(plc, {2}), 5), "00001") << "LDI too has no power";
+  EXPECT_EQ(outputs(scan(plc, {0, 2}), 5), "11011");
+  EXPECT_THAT(plc.values("M100 M101"), ElementsAre(1, 0));
+  EXPECT_EQ(outputs(scan(plc, {0, 3}), 5), "11111");
   EXPECT_TRUE(plc.registers.t[0].coil);
-  scan(plc, {3});
-  EXPECT_EQ(outputs(plc, 5), "01001") << "what was set stays";
+  EXPECT_EQ(outputs(scan(plc, {3}), 5), "01001") << "what was set stays";
   EXPECT_FALSE(plc.registers.m[101]) << "an inner master needs the outer one";
   EXPECT_FALSE(plc.registers.t[0].coil);
 }
 
 TEST(IlMasters, AnOuterMcrEndsTheInnerOnes) {
   Plc plc("LD X0\nMC N0 M100\nLD X1\nMC N1 M101\nMCR N0\nLD M8000\nOUT Y0");
-  scan(plc);
-  EXPECT_TRUE(plc.registers.y[0]);
+  EXPECT_TRUE(scan(plc).registers.y[0]);
 }
 
 TEST(IlMasters, WhatDoesNotPairOff) {
-  EXPECT_THAT(faults("LD X0\nMC N0 M100\nLD X1\nOUT Y0\nEND"),
-              ElementsAre("2:1: MC N0 has no MCR N0 before END in line 5; end it with MCR N0"));
-  EXPECT_THAT(faults("MCR N2\nEND"), ElementsAre("1:1: MCR N2 has no MC N2; begin it with MC"));
-  EXPECT_THAT(
-      faults("LD X0\nMC N1 M100\nLD X1\nMC N1 M101\nMCR N1\nMCR N1\nEND"),
-      ElementsAre("4:1: MC N1 stands inside N1 of line 2; inner master contacts have the higher number",
-                  "6:1: MCR N1 has no MC N1; begin it with MC"));
-  EXPECT_THAT(faults("MC N0 M100\nMCR N0\nEND"),
-              ElementsAre("1:1: MC has no contact before it; begin with LD; LD M8000 is always ON"));
+  expect_faults({{"LD X0\nMC N0 M100\nLD X1\nOUT Y0\nEND",
+                  {"2:1: MC N0 has no MCR N0 before END in line 5; end it with MCR N0"}},
+                 {"MCR N2\nEND", {"1:1: MCR N2 has no MC N2; begin it with MC"}},
+                 {"LD X0\nMC N1 M100\nLD X1\nMC N1 M101\nMCR N1\nMCR N1\nEND",
+                  {"4:1: MC N1 stands inside N1 of line 2; inner master contacts have the higher number",
+                   "6:1: MCR N1 has no MC N1; begin it with MC"}},
+                 {"MC N0 M100\nMCR N0\nEND",
+                  {"1:1: MC has no contact before it; begin with LD; LD M8000 is always ON"}}});
   EXPECT_THAT(faults("LD X0\nMC N8 M100\nEND"),
               testing::Contains("2:4: 'N8' does not exist; there are N0 to N7"));
 }
@@ -189,79 +159,63 @@ const char* const sequence =
 
 TEST(IlStates, GoOnFromStepToStep) {
   Plc plc(sequence);
-  scan(plc, {0});
-  EXPECT_EQ(outputs(plc), "0001") << "no step is active";
+  EXPECT_EQ(outputs(scan(plc, {0})), "0001") << "no step is active";
   plc.registers.m[0] = true;
   scan(plc);
   plc.registers.m[0] = false;
   EXPECT_EQ(outputs(plc), "1001");
-  scan(plc, {0});
-  EXPECT_EQ(outputs(plc), "1101") << "both steps work in the scan of the change";
-  EXPECT_FALSE(plc.registers.s[0]);
-  EXPECT_TRUE(plc.registers.s[20]);
-  scan(plc, {3});
-  EXPECT_EQ(outputs(plc), "0101") << "the coils of the step that was left go OFF";
+  EXPECT_EQ(outputs(scan(plc, {0})), "1101") << "both steps work in the scan of the change";
+  EXPECT_THAT(plc.values("S0 S20"), ElementsAre(0, 1));
+  EXPECT_EQ(outputs(scan(plc, {3})), "0101") << "the coils of the step that was left go OFF";
   plc.scan(60);
   EXPECT_EQ(outputs(plc), "0011");
   EXPECT_EQ(plc.registers.t[0].value, 0);
   EXPECT_TRUE(plc.registers.y[5]) << "what was set stays";
-  scan(plc, {1});
-  EXPECT_TRUE(plc.registers.s[0]) << "OUT goes on to a step too";
+  EXPECT_TRUE(scan(plc, {1}).registers.s[0]) << "OUT goes on to a step too";
   EXPECT_FALSE(plc.registers.s[21]);
-  scan(plc);
-  EXPECT_EQ(outputs(plc), "1001");
+  EXPECT_EQ(outputs(scan(plc)), "1001");
 }
 
 // A coil of a step that is not active is not touched: another step may have the same.
 TEST(IlStates, StepsMayShareACoil) {
   Plc plc("STL S20\nOUT Y0\nSTL S21\nOUT Y0\nSTL S22\nOUT Y1\nRET");
   plc.registers.s[20] = true;
-  scan(plc);
-  EXPECT_EQ(outputs(plc, 2), "10");
+  EXPECT_EQ(outputs(scan(plc), 2), "10");
   plc.registers.s[20] = false;
   plc.registers.s[21] = true;
-  scan(plc);
-  EXPECT_EQ(outputs(plc, 2), "10");
+  EXPECT_EQ(outputs(scan(plc), 2), "10");
   plc.registers.y[1] = true;
-  scan(plc);
-  EXPECT_EQ(outputs(plc, 2), "11") << "S22 was never active";
+  EXPECT_EQ(outputs(scan(plc), 2), "11") << "S22 was never active";
 }
 
 // Parallel branches come together: the STL in a row are one condition, and the way on leaves all of them.
 TEST(IlStates, BranchesComeTogether) {
   Plc plc("STL S20\nOUT Y0\nSTL S30\nOUT Y1\nSTL S21\nSTL S31\nLD X0\nSET S40\nSTL S40\nOUT Y2\nRET");
   plc.registers.s[21] = true;
-  scan(plc, {0});
-  EXPECT_FALSE(plc.registers.s[40]) << "S31 is not active yet";
+  EXPECT_FALSE(scan(plc, {0}).registers.s[40]) << "S31 is not active yet";
   plc.registers.s[31] = true;
-  scan(plc, {0});
-  EXPECT_EQ(outputs(plc, 3), "001");
-  EXPECT_FALSE(plc.registers.s[21]);
-  EXPECT_FALSE(plc.registers.s[31]);
+  EXPECT_EQ(outputs(scan(plc, {0}), 3), "001");
+  EXPECT_THAT(plc.values("S21 S31"), ElementsAre(0, 0));
 }
 
 TEST(IlStates, WhatDoesNotPairOff) {
-  EXPECT_THAT(
-      faults("STL S20\nOUT Y0\nEND"),
-      ElementsAre("1:1: the sequence with S20 has no RET before END in line 3; end the last step of a "
-                  "sequence with RET"));
-  EXPECT_THAT(faults("RET\nEND"),
-              ElementsAre("1:1: RET has no STL before it; begin a step of a sequence with STL"));
-  EXPECT_THAT(faults("STL S20\nLD X0\nMC N0 M100\nMCR N0\nRET\nEND"),
-              ElementsAre("3:1: MC stands inside the step S20; end the sequence with RET before",
-                          "4:1: MCR stands inside the step S20; end the sequence with RET before"));
-  EXPECT_THAT(faults("LD X0\nMC N0 M100\nSTL S20\nOUT Y0\nRET\nMCR N0\nEND"),
-              ElementsAre("3:1: STL stands inside MC of line 2; end the master contact with MCR before"));
-  EXPECT_THAT(
-      faults("LD X0\nCALL P1\nFEND\nP1\nSTL S20\nOUT Y0\nRET\nSRET\nEND"),
-      ElementsAre(
-          "5:1: STL stands in a subroutine; put master contacts and sequences into the main program"));
-  EXPECT_THAT(
-      faults("LD X0\nCALL P1\nFEND\nP1\nLD X1\nMC N0 M100\nMCR N0\nSRET\nEND"),
-      ElementsAre("6:1: MC stands in a subroutine; put master contacts and sequences into the main program"));
-  EXPECT_THAT(faults("STL S20\nLD X0\nCJ P1\nRET\nP1\nEND"),
-              ElementsAre("3:4: CJ jumps out of a step of a sequence; go on to another step with SET"));
-  EXPECT_THAT(faults("STL M20\nRET\nEND"), ElementsAre("1:5: STL does not take M20 here; it takes S"));
+  expect_faults(
+      {{"STL S20\nOUT Y0\nEND",
+        {"1:1: the sequence with S20 has no RET before END in line 3; end the last step of a "
+         "sequence with RET"}},
+       {"RET\nEND", {"1:1: RET has no STL before it; begin a step of a sequence with STL"}},
+       {"STL S20\nLD X0\nMC N0 M100\nMCR N0\nRET\nEND",
+        {"3:1: MC stands inside the step S20; end the sequence with RET before",
+         "4:1: MCR stands inside the step S20; end the sequence with RET before"}},
+       {"LD X0\nMC N0 M100\nSTL S20\nOUT Y0\nRET\nMCR N0\nEND",
+        {"3:1: STL stands inside MC of line 2; end the master contact with MCR before"}},
+       {"LD X0\nCALL P1\nFEND\nP1\nSTL S20\nOUT Y0\nRET\nSRET\nEND",
+        {"5:1: STL stands in a subroutine; put master contacts and sequences into the main program"}},
+       {"LD X0\nCALL P1\nFEND\nP1\nLD X1\nMC N0 M100\nMCR N0\nSRET\nEND",
+        {"6:1: MC stands in a subroutine; put master contacts and sequences into the main program"}},
+       {"STL S20\nLD X0\nCJ P1\nRET\nP1\nEND",
+        {"3:4: CJ jumps out of a step of a sequence; go on to another step with SET"}},
+       {"STL M20\nRET\nEND", {"1:5: STL does not take M20 here; it takes S"}}});
 }
 
 // The watchdog counts work, not instructions.

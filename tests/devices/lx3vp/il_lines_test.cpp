@@ -49,14 +49,27 @@ TEST(IlLines, TheTableOfAnExport) {
   EXPECT_THAT(instructions(tabs), same);
 }
 
+// Further operands in columns beside the first, with a heading or without one.
+TEST(IlLines, OperandsInColumnsOfTheirOwn) {
+  const std::string rows = "0,LD,X0\n1,DMOV,K50000,D2044\n10,OUT,T0,K10\n13,P3\n14,END,,\n";
+  EXPECT_THAT(instructions("Step,Instruction,I/O device\n" + rows), same);
+  EXPECT_THAT(instructions("Step,Instruction,I/O device,\n" + rows), same);
+  EXPECT_THAT(instructions("Step,Instruction,Operand 1,Operand 2\n" + rows), same);
+  // What has another name is none.
+  EXPECT_THAT(instructions("Instruction,Device,Device comment,Note\nLD,X0,the start,D9\nOUT,Y0\nEND"),
+              ElementsAre("LD X0", "OUT Y0", "END"));
+  EXPECT_THAT(faults("Step,Instruction,I/O device\n0,LD,X0\n1,MOV,K1,D9999\n5,END\n"),
+              ElementsAre("3:10: 'D9999' does not exist; there are D0 to D8255"));
+}
+
 TEST(IlLines, FaultsOfATableStandInItsCells) {
   const std::string heading = "Step No.,Instruction,I/O(Device)\n";
-  EXPECT_THAT(faults(heading + "0,LD,X0\n1,MOV,K1\n,,D9999\n5,OTU,Y0\n6,END,\n"),
-              ElementsAre("4:3: 'D9999' does not exist; there are D0 to D8255",
-                          "5:3: there is no instruction 'OTU'; did you mean OUT?"));
-  EXPECT_THAT(
-      faults(heading + ",,D5\n0,LD,X0\n1,OUT,Y0\n2,END,\n"),
-      ElementsAre("2:3: an operand stands before the first instruction; name the instruction in its column"));
+  expect_faults(
+      {{heading + "0,LD,X0\n1,MOV,K1\n,,D9999\n5,OTU,Y0\n6,END,\n",
+        {"4:3: 'D9999' does not exist; there are D0 to D8255",
+         "5:3: there is no instruction 'OTU'; did you mean OUT?"}},
+       {heading + ",,D5\n0,LD,X0\n1,OUT,Y0\n2,END,\n",
+        {"2:3: an operand stands before the first instruction; name the instruction in its column"}}});
 }
 
 TEST(IlLines, BracketsThatDoNotMatch) {
@@ -69,19 +82,19 @@ TEST(IlLines, BracketsThatDoNotMatch) {
 
 // What follows from a line that was refused is not told too.
 TEST(IlLines, OneRefusedLineIsOneMessage) {
-  EXPECT_THAT(faults("LDX X0\nMPS\nAND X1\nOUT Y0\nMPP\nOUT Y1\nLD X2\nOUT Y2\nEND"),
-              ElementsAre("1:1: there is no instruction 'LDX'; did you mean LD?"));
-  EXPECT_THAT(faults("LD X0\nMOV KX D9999 K5\nEND"),
-              ElementsAre("2:5: 'KX' is no 32-bit number; write K-2147483648 to K2147483647"));
-  EXPECT_THAT(faults("FORR K5\nLD X0\nINC D0\nNEXT\nENDE"),
-              ElementsAre("1:1: there is no instruction 'FORR'; did you mean FOR?",
-                          "5:1: there is no instruction 'ENDE'; did you mean END?"));
-  EXPECT_THAT(faults("LDX X0\nCJ P5\nEND"),
-              ElementsAre("1:1: there is no instruction 'LDX'; did you mean LD?",
-                          "2:4: there is no label P5; give it a line of its own"));
-  EXPECT_THAT(faults("LD X0\nOUTT Y0\nLD X1\nMPP\nOUT Y1\nLD X2\nMPP\nOUT Y0\nEND"),
-              ElementsAre("2:1: there is no instruction 'OUTT'; did you mean OUT?",
-                          "7:1: MPP has no branch to take up; keep the result with MPS before"));
+  expect_faults(
+      {{"LDX X0\nMPS\nAND X1\nOUT Y0\nMPP\nOUT Y1\nLD X2\nOUT Y2\nEND",
+        {"1:1: there is no instruction 'LDX'; did you mean LD?"}},
+       {"LD X0\nMOV KX D9999 K5\nEND", {"2:5: 'KX' is no 32-bit number; write K-2147483648 to K2147483647"}},
+       {"FORR K5\nLD X0\nINC D0\nNEXT\nENDE",
+        {"1:1: there is no instruction 'FORR'; did you mean FOR?",
+         "5:1: there is no instruction 'ENDE'; did you mean END?"}},
+       {"LDX X0\nCJ P5\nEND",
+        {"1:1: there is no instruction 'LDX'; did you mean LD?",
+         "2:4: there is no label P5; give it a line of its own"}},
+       {"LD X0\nOUTT Y0\nLD X1\nMPP\nOUT Y1\nLD X2\nMPP\nOUT Y0\nEND",
+        {"2:1: there is no instruction 'OUTT'; did you mean OUT?",
+         "7:1: MPP has no branch to take up; keep the result with MPS before"}}});
 }
 
 // Whatever is put into it, it neither crashes nor reads beyond its end.

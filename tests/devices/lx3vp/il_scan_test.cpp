@@ -15,37 +15,37 @@ bool out(Plc& plc, std::initializer_list<int> on) {
   return plc.registers.y[0];
 }
 
+/// A scan with every combination of so many inputs; `check` is given their bits.
+template <typename Check>
+void with_inputs(Plc& plc, int count, const Check& check) {
+  for (int inputs = 0; inputs < 1 << count; ++inputs) {
+    SCOPED_TRACE(inputs);
+    const auto bit = [&](int n) { return (inputs >> n & 1) != 0; };
+    for (int n = 0; n < count; ++n) plc.registers.x[static_cast<std::size_t>(n)] = bit(n);
+    plc.scan();
+    check(bit);
+  }
+}
+
 TEST(IlScan, SeriesAndParallel) {
   Plc plc("LD X0\nANI X1\nOR X2\nORI X3\nOUT Y0");
-  for (int inputs = 0; inputs < 16; ++inputs) {
-    const auto bit = [&](int n) { return (inputs >> n & 1) != 0; };
-    for (int n = 0; n < 4; ++n) plc.registers.x[static_cast<std::size_t>(n)] = bit(n);
-    plc.scan();
-    EXPECT_EQ(plc.registers.y[0], (bit(0) && !bit(1)) || bit(2) || !bit(3)) << inputs;
-  }
+  with_inputs(plc, 4,
+              [&](auto bit) { EXPECT_EQ(plc.registers.y[0], (bit(0) && !bit(1)) || bit(2) || !bit(3)); });
 }
 
 TEST(IlScan, BlocksAreJoined) {
   Plc plc("LD X0\nOR X1\nLD X2\nAND X3\nLDI X4\nORB\nANB\nINV\nOUT Y0");
-  for (int inputs = 0; inputs < 32; ++inputs) {
-    const auto bit = [&](int n) { return (inputs >> n & 1) != 0; };
-    for (int n = 0; n < 5; ++n) plc.registers.x[static_cast<std::size_t>(n)] = bit(n);
-    plc.scan();
-    EXPECT_EQ(plc.registers.y[0], !((bit(0) || bit(1)) && ((bit(2) && bit(3)) || !bit(4)))) << inputs;
-  }
+  with_inputs(plc, 5, [&](auto bit) {
+    EXPECT_EQ(plc.registers.y[0], !((bit(0) || bit(1)) && ((bit(2) && bit(3)) || !bit(4))));
+  });
 }
 
 TEST(IlScan, BranchesAreTakenUp) {
   Plc plc("LD X0\nMPS\nAND X1\nOUT Y0\nMRD\nLD X2\nOR X3\nANB\nOUT Y1\nMPP\nANI X1\nOUT Y2\nLD X4\nOUT Y3");
-  for (int inputs = 0; inputs < 32; ++inputs) {
-    const auto bit = [&](int n) { return (inputs >> n & 1) != 0; };
-    for (int n = 0; n < 5; ++n) plc.registers.x[static_cast<std::size_t>(n)] = bit(n);
-    plc.scan();
-    EXPECT_EQ(plc.registers.y[0], bit(0) && bit(1));
-    EXPECT_EQ(plc.registers.y[1], bit(0) && (bit(2) || bit(3)));
-    EXPECT_EQ(plc.registers.y[2], bit(0) && !bit(1));
-    EXPECT_EQ(plc.registers.y[3], bit(4));
-  }
+  with_inputs(plc, 5, [&](auto bit) {
+    EXPECT_THAT(plc.values("Y0 Y1 Y2 Y3"),
+                ElementsAre(bit(0) && bit(1), bit(0) && (bit(2) || bit(3)), bit(0) && !bit(1), bit(4)));
+  });
 }
 
 TEST(IlScan, OctalNumbersAndBitsOfWords) {
@@ -53,31 +53,24 @@ TEST(IlScan, OctalNumbersAndBitsOfWords) {
   plc.registers.x[8] = true;
   plc.registers.d[5] = 0x0400;
   plc.registers.d[6] = 0xFFFE;
-  plc.scan();
-  EXPECT_TRUE(plc.registers.y[15]);
+  EXPECT_TRUE(plc.scan().registers.y[15]);
   EXPECT_EQ(plc.registers.d[6], 0xFFFF);
   plc.registers.d[5] = 0xFBFF;
-  plc.scan();
-  EXPECT_EQ(plc.registers.d[6], 0xFFFE);
+  EXPECT_EQ(plc.scan().registers.d[6], 0xFFFE);
 }
 
 TEST(IlScan, EdgesLastOneScan) {
-  for (const auto* text : {"LDP X0\nOUT Y0", "LD M8000\nANDP X0\nOUT Y0", "LD M1\nORP X0\nOUT Y0"}) {
-    Plc plc(text);
-    plc.registers.m[8000] = true;
-    EXPECT_FALSE(out(plc, {}));
-    EXPECT_TRUE(out(plc, {0}));
-    EXPECT_FALSE(out(plc, {0}));
-    EXPECT_FALSE(out(plc, {}));
-    EXPECT_TRUE(out(plc, {0}));
-  }
-  for (const auto* text : {"LDF X0\nOUT Y0", "LD M8000\nANDF X0\nOUT Y0", "LD M1\nORF X0\nOUT Y0"}) {
-    Plc plc(text);
-    plc.registers.m[8000] = true;
-    EXPECT_FALSE(out(plc, {}));
-    EXPECT_FALSE(out(plc, {0}));
-    EXPECT_TRUE(out(plc, {}));
-    EXPECT_FALSE(out(plc, {}));
+  for (const std::string edge : {"P", "F"}) {
+    for (const std::string way : {"LD", "LD M8000\nAND", "LD M1\nOR"}) {
+      Plc plc(way + edge + " X0\nOUT Y0");
+      std::string outputs;
+      for (const char input : std::string("01100100")) {
+        plc.registers.x[0] = input == '1';
+        plc.scan();
+        outputs += plc.registers.y[0] ? '1' : '0';
+      }
+      EXPECT_EQ(outputs, edge == "P" ? "01000100" : "00010010") << way << edge;
+    }
   }
 }
 
@@ -103,11 +96,9 @@ TEST(IlScan, PulsesOfOneScan) {
 TEST(IlScan, AfterPowerUpWhatIsOnIsAnEdge) {
   Plc plc("LD X0\nINCP D0");
   plc.registers.x[0] = true;
-  plc.scan(3);
-  EXPECT_EQ(plc.registers.d[0], 1);
+  EXPECT_EQ(plc.scan(3).registers.d[0], 1);
   plc.restart();
-  plc.scan();
-  EXPECT_EQ(plc.registers.d[0], 2);
+  EXPECT_EQ(plc.scan().registers.d[0], 2);
 }
 
 TEST(IlScan, SetAndResetStay) {
@@ -117,16 +108,9 @@ TEST(IlScan, SetAndResetStay) {
   plc.registers.c[0] = {5, false, true};
   out(plc, {0});
   out(plc, {});
-  EXPECT_TRUE(plc.registers.m[5]);
-  EXPECT_EQ(plc.registers.d[1], 8);
+  EXPECT_THAT(plc.values("M5 D1"), ElementsAre(1, 8));
   out(plc, {1});
-  EXPECT_FALSE(plc.registers.m[5]);
-  EXPECT_EQ(plc.registers.d[1], 0);
-  EXPECT_EQ(plc.registers.d[2], 0);
-  EXPECT_EQ(plc.registers.t[0].value, 0);
-  EXPECT_FALSE(plc.registers.t[0].contact);
-  EXPECT_EQ(plc.registers.c[0].value, 0);
-  EXPECT_FALSE(plc.registers.c[0].contact);
+  EXPECT_THAT(plc.values("M5 D1 D2 T0 TS0 C0 CS0"), ElementsAre(0, 0, 0, 0, 0, 0, 0));
 }
 
 TEST(IlScan, ZrstResetsARange) {
@@ -138,9 +122,7 @@ TEST(IlScan, ZrstResetsARange) {
   for (int i = 8; i < 15; ++i) EXPECT_EQ(plc.registers.m[static_cast<std::size_t>(i)], i < 10 || i > 12) << i;
   for (int i = 4; i < 9; ++i)
     EXPECT_EQ(plc.registers.d[static_cast<std::size_t>(i)], i < 5 || i > 7 ? 9 : 0) << i;
-  EXPECT_EQ(plc.registers.c[2].value, 7);
-  EXPECT_EQ(plc.registers.c[3].value, 0);
-  EXPECT_FALSE(plc.registers.c[4].contact);
+  EXPECT_THAT(plc.values("C2 C3 CS4"), ElementsAre(7, 0, 0));
 }
 
 TEST(IlScan, AltInverts) {
@@ -156,17 +138,11 @@ TEST(IlScan, AltInverts) {
 TEST(IlTimers, OnDelay) {
   Plc plc("LD X0\nOUT T0 K3\nLD T0\nOUT Y0");  // 300 ms
   plc.registers.x[0] = true;
-  plc.scan(30);
-  EXPECT_FALSE(plc.registers.y[0]);
-  EXPECT_EQ(plc.registers.t[0].value, 2);
-  plc.scan();
-  EXPECT_TRUE(plc.registers.y[0]);
-  plc.scan(100);
-  EXPECT_EQ(plc.registers.t[0].value, 3);
+  EXPECT_THAT(plc.scan(30).values("Y0 T0"), ElementsAre(0, 2));
+  EXPECT_TRUE(plc.scan().registers.y[0]);
+  EXPECT_EQ(plc.scan(100).registers.t[0].value, 3);
   plc.registers.x[0] = false;
-  plc.scan();
-  EXPECT_FALSE(plc.registers.y[0]);
-  EXPECT_EQ(plc.registers.t[0].value, 0);
+  EXPECT_THAT(plc.scan().values("Y0 T0"), ElementsAre(0, 0));
 }
 
 TEST(IlTimers, UnitsAndSetValuesInRegisters) {
@@ -175,13 +151,10 @@ TEST(IlTimers, UnitsAndSetValuesInRegisters) {
   plc.registers.x[0] = true;
   plc.scan(3);  // 20 ms
   EXPECT_FALSE(plc.registers.y[1]);
-  plc.scan();
-  EXPECT_TRUE(plc.registers.y[1]);  // 25 ms are over at 30
+  EXPECT_TRUE(plc.scan().registers.y[1]);  // 25 ms are over at 30
   EXPECT_EQ(plc.registers.t[246].value, 25);
-  plc.scan();
-  EXPECT_FALSE(plc.registers.y[0]);
-  plc.scan();
-  EXPECT_TRUE(plc.registers.y[0]);
+  EXPECT_FALSE(plc.scan().registers.y[0]);
+  EXPECT_TRUE(plc.scan().registers.y[0]);
 }
 
 TEST(IlTimers, RetentiveOnesGoOn) {
@@ -192,15 +165,11 @@ TEST(IlTimers, RetentiveOnesGoOn) {
   plc.registers.x[0] = false;
   plc.scan(50);
   plc.registers.x[0] = true;
-  plc.scan(5);
-  EXPECT_FALSE(plc.registers.y[0]);  // 190 ms
-  plc.scan();
-  EXPECT_TRUE(plc.registers.y[0]);
+  EXPECT_FALSE(plc.scan(5).registers.y[0]);  // 190 ms
+  EXPECT_TRUE(plc.scan().registers.y[0]);
   plc.registers.x[0] = false;
   plc.registers.x[1] = true;
-  plc.scan();
-  EXPECT_FALSE(plc.registers.y[0]);
-  EXPECT_EQ(plc.registers.t[250].value, 0);
+  EXPECT_THAT(plc.scan().values("Y0 T250"), ElementsAre(0, 0));
 }
 
 TEST(IlTimers, NoTimeIsLostBetweenScansThatDoNotDivideTheUnit) {
@@ -285,18 +254,15 @@ TEST(IlOutputs, CamsAndPulsesWithTheirPower) {
 
 TEST(IlJumps, PassOverWhatIsBetween) {
   Plc plc("LD X0\nCJ P1\nLD M8000\nOUT Y0\nINC D0\nP1\nLD M8000\nOUT Y1");
-  plc.registers.m[8000] = true;
   EXPECT_TRUE(out(plc, {}));
   EXPECT_EQ(plc.registers.d[0], 1);
   plc.registers.m[8000] = false;
   EXPECT_TRUE(out(plc, {0}));  // the coil stays as it was
-  EXPECT_EQ(plc.registers.d[0], 1);
-  EXPECT_FALSE(plc.registers.y[1]);
+  EXPECT_THAT(plc.values("D0 Y1"), ElementsAre(1, 0));
 }
 
 TEST(IlJumps, FendEndsTheScan) {
   Plc plc("LD X0\nCJ P5\nLD M8000\nOUT Y0\nFEND\nP5\nLD M8000\nOUT Y1");
-  plc.registers.m[8000] = true;
   out(plc, {});
   EXPECT_FALSE(plc.registers.y[1]);
   out(plc, {0});
@@ -308,9 +274,7 @@ TEST(IlJumps, OutOfABranch) {
   out(plc, {0, 1});
   EXPECT_FALSE(plc.registers.y[0]);
   out(plc, {0, 2});
-  EXPECT_TRUE(plc.registers.y[0]);
-  EXPECT_TRUE(plc.registers.y[1]);
-  EXPECT_TRUE(plc.registers.y[2]);
+  EXPECT_THAT(plc.values("Y0 Y1 Y2"), ElementsAre(1, 1, 1));
 }
 
 }  // namespace

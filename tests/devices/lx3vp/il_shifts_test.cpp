@@ -15,7 +15,6 @@ constexpr std::size_t carry = 8022;
 struct Once {
   explicit Once(const std::string& line, std::int32_t value = 0, bool wide = false)
       : plc("LD M8000\n" + line) {
-    plc.registers.m[8000] = true;
     if (wide)
       plc.registers.set_i32(0, value);
     else
@@ -42,9 +41,7 @@ TEST(IlShifts, RotationsTurnAllBitsRound) {
   EXPECT_EQ(Once("DROL D0 K8", 0x12345678, true).plc.registers.i32(0), 0x34567812);
   EXPECT_EQ(Once("DRORP D0 K32", 0x12345678, true).plc.registers.i32(0), 0x12345678);
   Once bits("MOV H8001 K4M0\nROL K4M0 K1");
-  EXPECT_TRUE(bits.plc.registers.m[0]);
-  EXPECT_TRUE(bits.plc.registers.m[1]);
-  EXPECT_FALSE(bits.plc.registers.m[15]);
+  EXPECT_THAT(bits.plc.values("M0 M1 M15"), ElementsAre(1, 1, 0));
 }
 
 TEST(IlShifts, RotationsRefuseWhatIsNotOneWord) {
@@ -60,7 +57,6 @@ TEST(IlShifts, BitsMoveUpAndDownInGroups) {
   // M0..M7 = 1011 0001 (M0 first), X0..X1 = 0, 1.
   const auto shifted = [](const std::string& line) {
     Plc plc("LD M8000\n" + line);
-    plc.registers.m[8000] = true;
     plc.registers.x[1] = true;
     for (const std::size_t bit : {0, 2, 3, 7}) plc.registers.m[bit] = true;
     plc.scan();
@@ -126,13 +122,9 @@ TEST(IlIndex, IsAddedToDevicesBitsAndNumbers) {
   Plc plc(
       "LD M8000\nMOV K3 Z0\nMOV K-2 V1\nMOV K9 D10Z0\nMOV D12V1 D0\nMOV K100Z0 D1\nMOV K1X0Z0 D2\n"
       "MOV K7 Z\nLD X5Z0\nOUT Y1V1");
-  plc.registers.m[8000] = true;
   plc.registers.x[4] = true;
   plc.registers.d[10] = 55;
-  plc.scan();
-  EXPECT_EQ(plc.registers.d[13], 9);
-  EXPECT_EQ(plc.registers.d[0], 55);
-  EXPECT_EQ(plc.registers.d[1], 103);
+  EXPECT_THAT(plc.scan().values("D13 D0 D1"), ElementsAre(9, 55, 103));
   EXPECT_EQ(plc.registers.d[2], 2) << "K1X3: X3 to X6";
   EXPECT_EQ(plc.registers.z[0], 7);
   EXPECT_THAT(
@@ -143,24 +135,17 @@ TEST(IlIndex, IsAddedToDevicesBitsAndNumbers) {
 
 TEST(IlIndex, OctalDevicesCountOn) {
   Plc plc("LD M8000\nMOV K2 Z0\nLD X7Z0\nOUT Y0");  // X7, X10, X11
-  plc.registers.m[8000] = true;
   plc.registers.x[9] = true;
-  plc.scan();
-  EXPECT_TRUE(plc.registers.y[0]);
+  EXPECT_TRUE(plc.scan().registers.y[0]);
 }
 
 TEST(IlIndex, A32BitInstructionTakesVWithZ) {
   Plc plc("LD M8000\nDMOV K-4 Z2\nDMOV D10Z2 D20\nDMOV Z2 D30\nDMOV K100000Z2 D40");
-  plc.registers.m[8000] = true;
   plc.registers.set_i32(6, 123456);
-  plc.scan();
-  EXPECT_EQ(plc.registers.v[2], 0xFFFF);
-  EXPECT_EQ(plc.registers.i32(20), 123456);
-  EXPECT_EQ(plc.registers.i32(30), -4);
-  EXPECT_EQ(plc.registers.i32(40), 99996);
+  EXPECT_EQ(plc.scan().registers.v[2], 0xFFFF);
+  EXPECT_THAT(plc.values("DD20 DD30 DD40"), ElementsAre(123456, -4, 99996));
   // What stood in V counts: a program has to write both.
   Plc stale("LD M8000\nMOV K1 V0\nMOV K0 Z0\nDMOV D10Z0 D20");
-  stale.registers.m[8000] = true;
   stale.scan();
   EXPECT_THAT(
       stale.notes.calls,
@@ -171,7 +156,6 @@ TEST(IlIndex, A32BitInstructionTakesVWithZ) {
 TEST(IlIndex, WhatItLeadsToFitsAllThatTheInstructionTakes) {
   const auto told = [](const std::string& line, int z) {
     Plc plc("LD M8000\n" + line);
-    plc.registers.m[8000] = true;
     plc.registers.z[0] = static_cast<std::uint16_t>(z);
     plc.scan();
     return plc.notes.calls.size();

@@ -3,6 +3,7 @@
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "tests/devices/lx3vp/bench.hpp"
 #include "tests/devices/lx3vp/covers.hpp"
+#include "tests/devices/lx3vp/ecamtbx_bench.hpp"
 
 namespace drycut::devices::lx3vp {
 namespace {
@@ -27,8 +28,7 @@ TEST(Lx3vpInitialValues, AreThoseOfWordsThatNothingHasWritten) {
       ElementsAre("the block D2000 has the initial values of its words that nothing has written: D2006 "
                   "200000, D2023 1, D2024 1, D2029 1, D2030 1, D2039 40"));
   EXPECT_EQ(bench.get_wide(word::max_frequency), 200'000);
-  bench.travel(2000);
-  EXPECT_EQ(bench.output(), 1000);
+  EXPECT_EQ(bench.travel(2000), 1000);
 }
 
 TEST(Lx3vpInitialValues, AreNotThoseOfA0ThatWasWritten) {
@@ -60,12 +60,7 @@ TEST(Lx3vpInitialValues, OneWordOfTheFrequencyIsEnoughToBeWritten) {
 TEST(Lx3vpInitialValues, ComeWithATable) {
   auto bench = untouched();
   auto& d = bench.registers;
-  d.set_i32(300, 1000);
-  d.set_i32(302, 1500);
-  d.set_i32(304, 300);
-  d.set_f32(306, 2);
-  d.set_f32(308, 8);
-  d.set_i16(310, 1);
+  ecams::put(d, 300, SawParameters{1000, 1500, 300, 2, 8, 1});
   run_ecamtbx(d, 300, 100, CamBench::block, 330);
   EXPECT_EQ(bench.get_wide(word::max_frequency), 200'000);
   EXPECT_EQ(bench.get(word::slave_numerator), 1);
@@ -106,8 +101,7 @@ TEST(Lx3vpRepeats, HFfffTurnsTheCamCyclic) {
   EXPECT_TRUE(bench.flag(status::non_cyclic)) << "until the start signal";
   EXPECT_FALSE(bench.flag(status::cyclic));
   bench.trigger();
-  EXPECT_TRUE(bench.flag(status::cyclic));
-  EXPECT_FALSE(bench.flag(status::non_cyclic));
+  EXPECT_TRUE(bench.flag(status::cyclic, status::non_cyclic));
   for (int i = 0; i < 25; ++i) bench.travel(100);
   EXPECT_EQ(bench.output(), 2500);
   EXPECT_TRUE(bench.flag(status::completed | status::initialised));

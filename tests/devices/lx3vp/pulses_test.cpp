@@ -15,17 +15,28 @@ constexpr std::array<int, 4> positions{8140, 8142, 8150, 8152};
 constexpr std::array<int, 4> stops{8145, 8146, 8152, 8153};
 constexpr std::array<int, 4> busy{8147, 8148, 8149, 8150};
 
+using Order = PulseOrder::Kind;
+
+void plsv(CamBench& bench, std::int32_t frequency, int output, bool powered = true, int step = 1) {
+  bench.unit.pulses(step, {Order::speed, output, 10 + output, frequency}, powered, bench.registers);
+}
+
 class Lx3vpPulses : public testing::Test {
  protected:
   void SetUp() override {
     bench.registers.set_i32(8146, 100'000);
     bench.registers.d[8148] = 100;
   }
-  void plsv(std::int32_t frequency, bool powered = true, int output = 0, int step = 1) {
-    bench.unit.plsv(step, frequency, output, 10 + output, powered);
+  void plsv(std::int32_t frequency, bool powered = true, int step = 1) {
+    lx3vp::plsv(bench, frequency, 0, powered, step);
   }
   void drive(bool absolute, std::int32_t pulses, std::int32_t frequency, bool powered = true) {
-    bench.unit.drive(2, absolute, pulses, frequency, 0, 10, powered, bench.registers);
+    bench.unit.pulses(2, {absolute ? Order::position : Order::distance, 0, 10, frequency, pulses}, powered,
+                      bench.registers);
+  }
+  void plsy(std::int32_t frequency, std::int32_t pulses, bool powered = true) {
+    bench.unit.pulses(3, {Order::train, 0, PulseOrder::no_direction, frequency, pulses}, powered,
+                      bench.registers);
   }
   // Executes the instruction every millisecond until M8029; the milliseconds that took.
   int drive_to_end(bool absolute, std::int32_t pulses, std::int32_t frequency) {
@@ -43,41 +54,35 @@ class Lx3vpPulses : public testing::Test {
 TEST_F(Lx3vpPulses, DplsvGivesItsFrequencyExactly) {
   for (const int frequency : {1, 777, 12'345, 200'000}) {
     CamBench fresh;
-    fresh.unit.plsv(1, frequency, 0, 10, true);
+    lx3vp::plsv(fresh, frequency, 0);
     fresh.tick();  // the direction first
-    fresh.tick(100'000);
-    EXPECT_EQ(fresh.output(), 10 * frequency);
+    EXPECT_EQ(fresh.tick(100'000), 10 * frequency);
     EXPECT_TRUE(fresh.level(10));
   }
 }
 
 TEST_F(Lx3vpPulses, DplsvFollowsItsRegisterAndTurnsRound) {
   plsv(10'000);
-  bench.tick(101);
-  EXPECT_EQ(bench.output(), 100);
+  EXPECT_EQ(bench.tick(101), 100);
   plsv(-20'000);
   bench.tick();
   EXPECT_FALSE(bench.level(10));
   EXPECT_EQ(bench.output(), 100) << "the direction first";
-  bench.tick(100);
-  EXPECT_EQ(bench.output(), -100);
+  EXPECT_EQ(bench.tick(100), -100);
   EXPECT_EQ(bench.unit.pulses(0), 300);
   plsv(0);
-  bench.tick(50);
-  EXPECT_EQ(bench.output(), -100);
+  EXPECT_EQ(bench.tick(50), -100);
   plsv(10'000'000);
-  bench.tick(101);
-  EXPECT_EQ(bench.output(), 1900) << "200 kHz at most";
+  EXPECT_EQ(bench.tick(101), 1900) << "200 kHz at most";
   plsv(0, false);
-  bench.tick(50);
-  EXPECT_EQ(bench.output(), 1900);
+  EXPECT_EQ(bench.tick(50), 1900);
 }
 
 TEST_F(Lx3vpPulses, EveryOutputHasItsFlags) {
   for (int output = 0; output < 4; ++output) {
     const auto i = static_cast<std::size_t>(output);
     CamBench fresh;
-    fresh.unit.plsv(1, 50'000, output, 10 + output, true);
+    lx3vp::plsv(fresh, 50'000, output);
     fresh.tick(11);
     for (std::size_t other = 0; other < 4; ++other) {
       EXPECT_EQ(fresh.registers.m[static_cast<std::size_t>(busy[other])], other == i);
@@ -89,7 +94,7 @@ TEST_F(Lx3vpPulses, EveryOutputHasItsFlags) {
     fresh.registers.m[static_cast<std::size_t>(stops[i])] = false;
     fresh.tick(10);
     EXPECT_EQ(fresh.registers.i32(positions[i]), 100);
-    fresh.unit.plsv(1, 50'000, output, 10 + output, false);
+    lx3vp::plsv(fresh, 50'000, output, false);
     fresh.tick();
     EXPECT_FALSE(fresh.registers.m[static_cast<std::size_t>(busy[i])]);
   }
@@ -111,10 +116,7 @@ TEST_F(Lx3vpPulses, TheStopFlagStopsACamUntilItIsStartedAgain) {
     fresh.registers.m[static_cast<std::size_t>(stops[i])] = false;
     for (int k = 0; k < 10; ++k) fresh.move(10);
     EXPECT_EQ(fresh.registers.i32(positions[i]), 10);
-    fresh.set(word::start, 0);
-    fresh.tick(2);
-    fresh.set(word::start, 1);
-    fresh.tick(3);
+    fresh.restart(1);
     fresh.move(10);
     EXPECT_EQ(fresh.registers.i32(positions[i]), 20);
   }
@@ -122,25 +124,20 @@ TEST_F(Lx3vpPulses, TheStopFlagStopsACamUntilItIsStartedAgain) {
 
 TEST_F(Lx3vpPulses, AnOutputHasOneInstructionAtATime) {
   plsv(10'000);
-  plsv(50'000, true, 0, 5);
-  plsv(50'000, true, 0, 5);
+  plsv(50'000, true, 5);
+  plsv(50'000, true, 5);
   EXPECT_THAT(bench.notes(),
               ElementsAre("Y0 is in use by another instruction; this instruction gives no pulses"));
-  bench.tick(11);
-  EXPECT_EQ(bench.output(), 10);
+  EXPECT_EQ(bench.tick(11), 10);
   plsv(10'000, false);
-  plsv(50'000, true, 0, 5);
-  bench.tick(2);
-  EXPECT_EQ(bench.output(), 20);
+  plsv(50'000, true, 5);
+  EXPECT_EQ(bench.tick(2), 20);
   // A cam that starts meanwhile has no output.
   bench.start(1);
   EXPECT_THAT(bench.notes(), ElementsAre("6781: another instruction gives pulses on Y0"));
-  plsv(50'000, false, 0, 5);
-  bench.set(word::start, 0);
-  bench.tick(2);
-  bench.set(word::start, 1);
-  bench.tick(3);
-  plsv(50'000, true, 0, 5);
+  plsv(50'000, false, 5);
+  bench.restart(1);
+  plsv(50'000, true, 5);
   EXPECT_THAT(bench.notes(), ElementsAre("Y0 is in use by a cam; this instruction gives no pulses"));
 }
 
@@ -152,8 +149,7 @@ TEST_F(Lx3vpPulses, DdrviMovesByItsPulsesOnARamp) {
   const double expected = 50 + (20'000 - 2 * 1250) / 50.0 + 50;
   EXPECT_NEAR(ms, expected, 3);
   EXPECT_FALSE(bench.registers.m[8147]);
-  bench.tick(1000);
-  EXPECT_EQ(bench.output(), 20'000);
+  EXPECT_EQ(bench.tick(1000), 20'000);
   drive(false, 20'000, 50'000, false);
   EXPECT_FALSE(bench.registers.m[8029]);
   EXPECT_GT(drive_to_end(false, -500, 50'000), 0);
@@ -198,13 +194,11 @@ TEST_F(Lx3vpPulses, AStoppedDriveIsGivenUp) {
   bench.tick(1000);
   bench.registers.m[8145] = false;
   drive(false, 10'000, 10'000);
-  bench.tick(1000);
-  EXPECT_EQ(bench.output(), given);
+  EXPECT_EQ(bench.tick(1000), given);
   EXPECT_FALSE(bench.registers.m[8029]);
   drive(false, 10'000, 10'000, false);
   drive(false, 100, 10'000);
-  bench.tick(1000);
-  EXPECT_EQ(bench.output(), given + 100);
+  EXPECT_EQ(bench.tick(1000), given + 100);
 }
 
 TEST(Lx3vpCounters, OneWayCountersCountEveryPulseAsTheirRelaySays) {
@@ -274,16 +268,11 @@ TEST(Lx3vpCounters, TheRegisterMayBeWrittenAndIsARing) {
 // PLSY and ZRN.
 
 TEST_F(Lx3vpPulses, PlsyGivesItsPulsesWithoutARamp) {
-  const auto plsy = [&](std::int32_t frequency, std::int32_t pulses, bool powered = true) {
-    bench.unit.pulse_train(3, frequency, pulses, 0, powered, bench.registers);
-  };
   plsy(10'000, 500);
-  bench.tick(100);
-  EXPECT_EQ(bench.output(), 100);
+  EXPECT_EQ(bench.tick(100), 100);
   EXPECT_TRUE(bench.registers.m[8147]);
   plsy(20'000, 7);  // the frequency at once, the number with the next power
-  bench.tick(100);
-  EXPECT_EQ(bench.output(), 300);
+  EXPECT_EQ(bench.tick(100), 300);
   EXPECT_FALSE(bench.registers.m[8029]);
   bench.tick(1000);
   plsy(20'000, 7);
@@ -291,51 +280,42 @@ TEST_F(Lx3vpPulses, PlsyGivesItsPulsesWithoutARamp) {
   EXPECT_TRUE(bench.registers.m[8029]);
   EXPECT_FALSE(bench.registers.m[8147]);
   plsy(20'000, 7);
-  bench.tick(100);
-  EXPECT_EQ(bench.output(), 500) << "once a rising edge";
+  EXPECT_EQ(bench.tick(100), 500) << "once a rising edge";
   plsy(20'000, 7, false);
   EXPECT_FALSE(bench.registers.m[8029]);
   plsy(20'000, 7);
-  bench.tick(100);
-  EXPECT_EQ(bench.output(), 507);
+  EXPECT_EQ(bench.tick(100), 507);
   EXPECT_FALSE(bench.unit.holds(10)) << "the direction is the program's";
 }
 
 TEST_F(Lx3vpPulses, PlsyWithoutNumberGoesOnUntilItLosesPower) {
-  const auto plsy = [&](bool powered) { bench.unit.pulse_train(3, 200'000, 0, 0, powered, bench.registers); };
-  plsy(true);
-  bench.tick(10'000);
-  EXPECT_EQ(bench.output(), 200'000);
-  plsy(false);
-  bench.tick(10);
-  EXPECT_EQ(bench.output(), 200'000);
-  plsy(true);
+  plsy(200'000, 0);
+  EXPECT_EQ(bench.tick(10'000), 200'000);
+  plsy(200'000, 0, false);
+  EXPECT_EQ(bench.tick(10), 200'000);
+  plsy(200'000, 0);
   bench.registers.m[8145] = true;
   bench.tick(10);
   bench.registers.m[8145] = false;
-  bench.tick(10);
-  EXPECT_EQ(bench.output(), 200'000) << "M8145 ends it until the next rising edge";
+  EXPECT_EQ(bench.tick(10), 200'000) << "M8145 ends it until the next rising edge";
 }
 
 TEST_F(Lx3vpPulses, ZrnSeeksTheEndOfTheDog) {
-  constexpr DogSignal dog{DogSignal::Kind::x, 5};
   const auto zrn = [&](bool powered = true) {
-    bench.unit.zero_return(4, 20'000, 1'000, dog, 0, powered, bench.registers);
+    const PulseOrder order{Order::zero, 0, PulseOrder::no_direction, 20'000, 0, 1'000, {'X', 5}};
+    bench.unit.pulses(4, order, powered, bench.registers);
   };
   bench.registers.set_i32(8140, 12'345);
   zrn();
   bench.tick(2'000);  // 100 ms of ramp at most
   const auto at_speed = bench.output();
-  bench.tick(100);
-  EXPECT_EQ(bench.output(), at_speed - 200) << "backwards at 20 kHz";
+  EXPECT_EQ(bench.tick(100), at_speed - 200) << "backwards at 20 kHz";
   bench.inputs[5] = true;
   bench.tick(2'000);
   const auto at_creep = bench.output();
-  bench.tick(1'000);
-  EXPECT_EQ(bench.output(), at_creep - 100) << "at 1 kHz";
+  EXPECT_EQ(bench.tick(1'000), at_creep - 100) << "at 1 kHz";
   bench.inputs[5] = false;
-  bench.tick();
-  EXPECT_EQ(bench.output(), 0) << "the position is 0 where the dog ends";
+  EXPECT_EQ(bench.tick(), 0) << "the position is 0 where the dog ends";
   const auto given = bench.unit.pulses(0);
   bench.tick(100);
   zrn();
@@ -345,13 +325,12 @@ TEST_F(Lx3vpPulses, ZrnSeeksTheEndOfTheDog) {
   zrn(false);
   bench.inputs[5] = true;
   zrn();
-  bench.tick(1'000);
-  EXPECT_EQ(bench.output(), -100);
+  EXPECT_EQ(bench.tick(1'000), -100);
 }
 
 TEST_F(Lx3vpPulses, AnOutputIsOneInstructionsAtATime) {
   plsv(1'000);
-  bench.unit.pulse_train(3, 1'000, 5, 0, true, bench.registers);
+  plsy(1'000, 5);
   EXPECT_THAT(bench.notes(),
               ElementsAre("Y0 is in use by another instruction; this instruction gives no pulses"));
 }
