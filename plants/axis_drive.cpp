@@ -136,6 +136,11 @@ void AxisDrive::offer_faults(std::vector<Fault>& faults) {
   if (data_.brake.torque > 0) brake_.offer_faults(faults);
 }
 
+std::optional<Event> AxisDrive::trip(const Shaft& rotor) const {
+  if (!just_tripped_) return {};
+  return Event{"trip", 0, {{"speed", rotor.speed_before * units::rpm, "rpm"}}};
+}
+
 EventType AxisDrive::trip_event() {
   return {"trip",
           {{"speed", "rpm"}},
@@ -143,23 +148,16 @@ EventType AxisDrive::trip_event() {
           "inverter, the fault trip; speed of the motor then"};
 }
 
-Parameters axis_drive_parameters(AxisDriveData& data) {
-  Parameters table = {{.name = "drive",
-                       .unit = "",
-                       .meaning = "what drives the axis: servo by voltage; inverter or contactors with plugs "
-                                  "drive.forward, drive.backward, drive.slow",
-                       .value = &data.kind,
-                       .choices = {"servo", "inverter", "contactors"},
-                       .source = "positioning by voltage"}};
-  const auto append = [&table](Parameters rows) {
-    for (Parameter& p : rows) table.push_back(std::move(p));
-  };
-  append(servo_parameters(data.servo, "servo."));
-  append(induction_motor_parameters(data.motor, "induction_motor."));
-  append(inverter_parameters(data.inverter, "inverter."));
-  append(contactor_parameters(data.contactors, "contactors."));
-  append(holding_brake_parameters(data.brake, "brake."));
-  return table;
+Parameters axis_drive_parameters(AxisDriveData& data, const AxisDriveSources& from) {
+  return joined({row("drive",
+                     "what drives the axis: servo by voltage; inverter or contactors with plugs "
+                     "drive.forward, drive.backward, drive.slow",
+                     data.kind, {"servo", "inverter", "contactors"}, from.kind)},
+                group("servo.", servo_parameters(data.servo, from.servo)),
+                group("induction_motor.", induction_motor_parameters(data.motor)),
+                group("inverter.", inverter_parameters(data.inverter)),
+                group("contactors.", contactor_parameters(data.contactors)),
+                group("brake.", holding_brake_parameters(data.brake, from.brake_torque)));
 }
 
 namespace {

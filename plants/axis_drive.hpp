@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,8 +25,14 @@ struct AxisDriveData {
   }
 };
 
+/// Where a machine's defaults are from.
+struct AxisDriveSources {
+  std::string_view kind = "positioning by voltage";
+  ServoSources servo = {};
+  std::string_view brake_torque = "none";
+};
 /// Rows for a parameter table: `drive`, `servo.`, `induction_motor.`, `inverter.`, `contactors.`, `brake.`.
-Parameters axis_drive_parameters(AxisDriveData& data);
+Parameters axis_drive_parameters(AxisDriveData& data, const AxisDriveSources& from = {});
 /// What is wrong with the data taken together; `inertia` turns with the motor [kg m2], steps of `h`
 /// seconds.
 std::vector<PlantDefinition::Objection> axis_drive_objections(const AxisDriveData& data, double inertia,
@@ -44,8 +51,8 @@ class AxisDrive {
   [[nodiscard]] const HoldingBrake& brake() const { return brake_; }
   /// Neither the drive moves the motor nor may the brake be open.
   [[nodiscard]] bool at_rest() const { return !moves_ && brake_.commanded_to_hold(); }
-  /// True once when the drive has tripped in the last step.
-  [[nodiscard]] bool just_tripped() const { return just_tripped_; }
+  /// The trip of the last step, if there was one.
+  [[nodiscard]] std::optional<Event> trip(const Shaft& rotor) const;
 
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);

@@ -44,16 +44,20 @@ void AxisObjections::contact(const std::string& group, const EndStopData& stop, 
        fmt::format("{} and {}", what_moves_, what));
 }
 
-void AxisObjections::travel(double travel_min, double travel_max, double start) {
-  if (travel_max <= travel_min)
-    object("travel_max", "it is not above travel_min", "leave room between the end stops");
-  else if (start < travel_min || start > travel_max)
-    object("start", fmt::format("the {} starts at {:g} mm, in an end stop", what_moves_, start * 1000),
-           fmt::format("between {:g} and {:g} mm", travel_min * 1000, travel_max * 1000));
+void AxisObjections::screw(const ScrewDriveData& data, double motor_inertia) {
+  gear(data.gear, motor_inertia, reflected_inertia(data));
+  contact("stop", data.stop, data.mass, "end stop");
 }
 
-void AxisObjections::limit_switches(double limit_min, double limit_max) {
-  if (limit_max <= limit_min)
+void AxisObjections::guided(std::string_view guides, const ScrewDriveData& data, double motor_inertia) {
+  viscous("motor_friction.viscous", data.motor_friction, motor_inertia, "motor");
+  viscous(guides, data.guide_friction, data.mass, what_moves_);
+  if (data.travel_max <= data.travel_min)
+    object("travel_max", "it is not above travel_min", "leave room between the end stops");
+  else if (data.start < data.travel_min || data.start > data.travel_max)
+    object("start", fmt::format("the {} starts at {:g} mm, in an end stop", what_moves_, data.start * 1000),
+           fmt::format("between {:g} and {:g} mm", data.travel_min * 1000, data.travel_max * 1000));
+  if (data.sensors.limit_max <= data.sensors.limit_min)
     object("limit_max", "it is not above limit_min", "leave room between the limit switches");
 }
 

@@ -4,11 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "plants/end_stop.hpp"
-#include "plants/friction.hpp"
 #include "plants/plant.hpp"
+#include "plants/screw_drive.hpp"
 #include "plants/stiff_pair.hpp"
-#include "plants/transmission.hpp"
 
 namespace drycut::plants {
 
@@ -36,10 +34,10 @@ class AxisObjections {
   void viscous(std::string_view parameter, const Friction& friction, double inertia, std::string_view part);
   /// A spring with a damper, of parameters `group`.stiffness and .damping, that throws `mass` [kg] back.
   void contact(const std::string& group, const EndStopData& stop, double mass, std::string_view what);
-  /// End stops and start [m].
-  void travel(double travel_min, double travel_max, double start);
-  /// Limit switches [m].
-  void limit_switches(double limit_min, double limit_max);
+  /// Of a part on a screw drive: gear and end stops; `motor_inertia` turns with the motor [kg m2].
+  void screw(const ScrewDriveData& data, double motor_inertia);
+  /// Of the same: friction (`guides`: the parameter of the part's), travel and limit switches.
+  void guided(std::string_view guides, const ScrewDriveData& data, double motor_inertia);
 
   void add(std::vector<PlantDefinition::Objection> more);
   [[nodiscard]] std::vector<PlantDefinition::Objection> take() { return std::move(found_); }

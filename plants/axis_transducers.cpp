@@ -52,11 +52,9 @@ void AxisTransducers::offer_channels(std::vector<Channel>& channels) const {
                       "count of the encoder (x4), after faults"});
   channels.push_back({"scale.count", "", [this] { return static_cast<double>(scale_.port.count); },
                       "count of the linear scale (x4), after faults"});
-  channels.push_back({"home", "", [this] { return home_.port.level ? 1.0 : 0.0; }, "home switch"});
-  channels.push_back(
-      {"limit_min", "", [this] { return limit_min_.port.level ? 1.0 : 0.0; }, "lower limit switch"});
-  channels.push_back(
-      {"limit_max", "", [this] { return limit_max_.port.level ? 1.0 : 0.0; }, "upper limit switch"});
+  channels.push_back(on_off("home", home_.port.level, "home switch"));
+  channels.push_back(on_off("limit_min", limit_min_.port.level, "lower limit switch"));
+  channels.push_back(on_off("limit_max", limit_max_.port.level, "upper limit switch"));
 }
 
 void AxisTransducers::offer_faults(std::vector<Fault>& faults) {
@@ -67,42 +65,27 @@ void AxisTransducers::offer_faults(std::vector<Fault>& faults) {
   limit_max_.offer_faults(faults, "limit_max");
 }
 
-Parameters axis_transducer_parameters(AxisTransducersData& data) {
-  const auto row = [](const char* name, std::string_view unit, std::string_view meaning, double& value,
-                      double min, double max, std::string_view source) {
-    return Parameter{name, unit, meaning, &value, min, max, {}, {}, source};
-  };
+Parameters axis_transducer_parameters(AxisTransducersData& data, const AxisTransducersSources& from) {
   return {
-      {"encoder.lines",
-       "",
-       "lines of the motor's encoder per turn; counted four times",
-       &data.encoder.lines,
-       1,
-       1000000,
-       {},
-       {},
-       "10000 counts a turn"},
-      {.name = "encoder.reverse",
-       .unit = "",
-       .meaning = "it counts down in positive direction",
-       .value = &data.encoder.reverse,
-       .max = 1,
-       .source = "wired the usual way"},
+      row("encoder.lines", "lines of the motor's encoder per turn; counted four times", data.encoder.lines, 1,
+          1000000, "10000 counts a turn"),
+      row("encoder.reverse", "it counts down in positive direction", data.encoder.reverse,
+          "wired the usual way"),
       row("scale.resolution", "mm", "travel for a count (x4) of the linear scale", data.scale_resolution,
-          1e-6, 1000, "a usual scale"),
+          1e-6, 1000, from.scale_resolution),
       row("scale.pitch", "mm", "travel between two of its reference marks", data.scale_pitch, 0.01, 1e5,
           "a usual scale"),
       row("home.position", "mm", "middle of the home switch's target", data.home.centre, -1e6, 1e6,
-          "position 0"),
+          from.home),
       row("home.width", "mm", "width of the target", data.home.width, 0.01, 1e6, "estimate"),
       row("home.hysteresis", "mm", "the home switch lets go this far behind the target", data.home.hysteresis,
           0, 100, "estimate: proximity switch"),
       row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
           "estimate: proximity switch of 1 kHz"),
       row("limit_min", "mm", "the lower limit switch is on below this", data.limit_min, -1e6, 1e6,
-          "20 mm before the stop"),
+          from.limits),
       row("limit_max", "mm", "the upper limit switch is on above this", data.limit_max, -1e6, 1e6,
-          "20 mm before the stop"),
+          from.limits),
       row("limit_delay", "ms", "delay of the limit switches", data.limit_delay, 0, 100,
           "estimate: proximity switch of 1 kHz"),
   };

@@ -17,8 +17,14 @@ struct AxisTransducersData {
   double limit_delay = 0.5e-3;  ///< of the limit switches' filter [s]
 };
 
+/// Where a machine's defaults are from.
+struct AxisTransducersSources {
+  std::string_view scale_resolution = "a usual scale";
+  std::string_view home = "position 0";
+  std::string_view limits = "20 mm before the stop";
+};
 /// Rows for a parameter table: `encoder.`, `scale.`, `home.`, `limit_`.
-Parameters axis_transducer_parameters(AxisTransducersData& data);
+Parameters axis_transducer_parameters(AxisTransducersData& data, const AxisTransducersSources& from = {});
 
 /// Encoder on the motor, linear scale and switches on the moving part. Both count 0 at the start.
 class AxisTransducers {

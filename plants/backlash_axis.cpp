@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/units.hpp"
+#include "plants/stiff_pair.hpp"
 
 namespace drycut::plants {
 
@@ -13,16 +14,6 @@ namespace {
 // Rows of the linear axis that the flanks replace, and the carrier: this axis stands on the floor.
 bool replaced(std::string_view name) {
   return name == "gear.stiffness" || name == "gear.damping" || name == "gear.backlash" || name == "carrier";
-}
-
-void name_sources(Parameters& table) {
-  for (Parameter& p : table) {
-    if (p.name == "mass") p.source = "a worn machine's heavy slide";
-    if (p.name == "carriage_friction.coulomb") p.source = "estimate: plain guides, 0.15 of the weight";
-    if (p.name == "carriage_friction.breakaway") p.source = "estimate: plain guides stick";
-    if (p.name == "servo.inertia_ratio") p.source = "the default screw and load on the motor";
-    if (p.name == "stop.damping") p.source = "estimate: 7 % of critical for 100 kg";
-  }
 }
 
 }  // namespace
@@ -51,7 +42,7 @@ double damping_ratio_for(double restitution) {
 
 BacklashAxisDefinition::BacklashAxisDefinition() {
   axis.data.mass = 100;
-  axis.data.carriage_friction = {150, 100, 50, 0.01};
+  axis.data.guide_friction = {150, 100, 50, 0.01};
   axis.data.drive.servo.inertia_ratio = 0.25;
   apply_flanks();
 }
@@ -61,30 +52,29 @@ void BacklashAxisDefinition::apply_flanks() {
   const double metre = axis.data.lead / units::turn;  // of travel for a radian of the screw
   const double screw = axis.data.drive.rotor_inertia() * gear.ratio * gear.ratio + axis.data.screw_inertia;
   const double motor_mass = screw / (metre * metre);
-  const double reduced = axis.data.mass * motor_mass / (axis.data.mass + motor_mass);
-  const double damping = 2 * damping_ratio_for(flanks.restitution) * std::sqrt(flanks.stiffness * reduced);
+  const double damping = 2 * damping_ratio_for(flanks.restitution) *
+                         std::sqrt(flanks.stiffness * reduced(axis.data.mass, motor_mass));
   gear.stiffness = flanks.stiffness * metre * metre;
   gear.damping = damping * metre * metre;
   gear.backlash = flanks.gap / metre;
 }
 
 Parameters BacklashAxisDefinition::parameters() {
-  Parameters table = axis.parameters();
-  std::erase_if(table, [](const Parameter& p) { return replaced(p.name); });
-  name_sources(table);
-  const auto row = [](const char* name, std::string_view unit, std::string_view meaning, double& value,
-                      double min, double max, std::string_view source) {
-    return Parameter{name, unit, meaning, &value, min, max, {}, {}, source};
-  };
-  table.insert(
-      table.begin(),
+  Parameters carried =
+      linear_axis_parameters(axis.data, {.mass = "a worn machine's heavy slide",
+                                         .stop_damping = "estimate: 7 % of critical for 100 kg",
+                                         .coulomb = "estimate: plain guides, 0.15 of the weight",
+                                         .breakaway = "estimate: plain guides stick",
+                                         .inertia_ratio = "the default screw and load on the motor"});
+  std::erase_if(carried, [](const Parameter& p) { return replaced(p.name); });
+  return joined(
       {row("gap", "mm", "whole play between motor and load, as travel of the load", flanks.gap, 1e-3, 100,
            "a worn nut; new ones have 0.05"),
        row("contact.stiffness", "N/m", "stiffness behind a flank: nut, screw and bearings", flanks.stiffness,
            1e3, 1e10, "estimate: ball screw 25 x 20"),
        row("contact.restitution", "", "speed of parting over speed of meeting at a flank, no drive acting",
-           flanks.restitution, 0.3, 1, "estimate: greased steel flanks")});
-  return table;
+           flanks.restitution, 0.3, 1, "estimate: greased steel flanks")},
+      std::move(carried));
 }
 
 std::vector<PlantDefinition::Objection> BacklashAxisDefinition::objections(double h) {

@@ -31,38 +31,22 @@ void ContactorDrive::drive(Shaft& rotor, double h) {
 void ContactorDrive::offer_faults(std::vector<Fault>& faults) {
   faults.push_back({"drive", "trip", "", [this](double v) { state_ = v != 0 ? State::tripped : State::off; },
                     "1: the motor's breaker trips, the motor coasts; 0 resets it"});
-  faults.push_back({"drive", "phase_lost", "", [this](double v) { phase_lost_ = v != 0; },
-                    "1: a phase is lost: less torque, none at standstill"});
+  faults.push_back(
+      fault_state("drive", "phase_lost", phase_lost_, "1: a phase is lost: less torque, none at standstill"));
   forward_contact_.offer_faults(faults, "drive.forward");
   backward_contact_.offer_faults(faults, "drive.backward");
   slow_contact_.offer_faults(faults, "drive.slow");
 }
 
-Parameters contactor_parameters(ContactorData& data, const std::string& prefix) {
-  Parameters table = {
-      {prefix + "close_delay",
-       "ms",
-       "from coil on to contacts closed",
-       &data.close_delay,
-       0,
-       1000,
-       {},
-       {},
-       "usual: contactors of the 2 kW class"},
-      {prefix + "open_delay",
-       "ms",
-       "from coil off to the end of the arc",
-       &data.open_delay,
-       0,
-       1000,
-       {},
-       {},
-       "usual: contactors of the 2 kW class"},
-  };
-  for (Parameter& row :
-       winding_parameters(data.slow, prefix + "slow.", "usual values: 4/16 poles, wound to brake well"))
-    table.push_back(std::move(row));
-  return table;
+Parameters contactor_parameters(ContactorData& data) {
+  return joined(
+      {
+          row("close_delay", "ms", "from coil on to contacts closed", data.close_delay, 0, 1000,
+              "usual: contactors of the 2 kW class"),
+          row("open_delay", "ms", "from coil off to the end of the arc", data.open_delay, 0, 1000,
+              "usual: contactors of the 2 kW class"),
+      },
+      group("slow.", winding_parameters(data.slow, "usual values: 4/16 poles, wound to brake well")));
 }
 
 }  // namespace drycut::plants

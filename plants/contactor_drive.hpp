@@ -15,8 +15,8 @@ struct ContactorData {
   WindingData slow = {375 * std::numbers::pi / 30, 330 * std::numbers::pi / 30, 14.8, 36};
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "contactors.".
-Parameters contactor_parameters(ContactorData& data, const std::string& prefix);
+/// Rows of the group `contactors.`.
+Parameters contactor_parameters(ContactorData& data);
 
 /// A motor with a fast and a slow winding on the mains, switched by contactors forward, backward and slow (a
 /// change-over). With both directions closed the mains are short-circuited and the breaker trips.

@@ -31,10 +31,10 @@ class DelayedContact {
 
   /// stuck_on and stuck_off under the component name `component`. 0 clears each.
   void offer_faults(std::vector<Fault>& faults, const std::string& component) {
-    faults.push_back({component, "stuck_on", "", [this](double v) { stuck_on_ = v != 0; },
-                      "1: the contact is welded, it stays closed"});
-    faults.push_back({component, "stuck_off", "", [this](double v) { stuck_off_ = v != 0; },
-                      "1: coil or wire broken, the contact stays open"});
+    faults.push_back(
+        fault_state(component, "stuck_on", stuck_on_, "1: the contact is welded, it stays closed"));
+    faults.push_back(
+        fault_state(component, "stuck_off", stuck_off_, "1: coil or wire broken, the contact stays open"));
   }
 
  private:

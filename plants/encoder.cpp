@@ -33,12 +33,8 @@ void PulseLine::offer_faults(std::vector<Fault>& faults, const std::string& comp
                       change_gain();
                     },
                     "1: the channels are exchanged, it counts the other way from now on"});
-  faults.push_back({component,
-                    "jitter",
-                    "",
-                    [this](double v) { jitter_ = v; },
-                    "noise of the edges, rms counts (x4)",
-                    {0, 1e6, false}});
+  faults.push_back(
+      fault_value(component, "jitter", "", jitter_, "noise of the edges, rms counts (x4)", {0, 1e6, false}));
 }
 
 void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,

@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
 
+#include "base/units.hpp"
+#include "plants/plant.hpp"
 #include "plants/world.hpp"
 
 namespace drycut::plants {
@@ -21,7 +23,7 @@ class EndStop {
 
   /// Pushes the slide back for the coming step of `h` seconds.
   void drive(Slide& slide, double h) {
-    const double depth = side_ * (slide.position - position_);
+    const double depth = this->depth(slide.position);
     const double speed = side_ * slide.speed;
     force_ = depth > 0 ? std::max(0.0, data_.stiffness * depth + data_.damping * speed) : 0;
     slide.add_force(-side_ * force_);
@@ -40,7 +42,7 @@ class EndStop {
     h_ = h;
     peak_ = std::max(peak_, force_);
   }
-  /// True once a hit: the last step stopped the slide, at `fraction()` of it.
+  /// True once a hit: the last step stopped the slide, at the fraction of it that hit() tells.
   bool stopped(const Slide& slide) {
     if (!touched_ || !compressing_ || side_ * slide.speed > standstill) return false;
     compressing_ = false;
@@ -50,11 +52,22 @@ class EndStop {
     return true;
   }
 
+  /// The last hit as an event: side, speed, impulse, force.
+  [[nodiscard]] Event hit(std::string_view name) const {
+    return {name,
+            fraction_,
+            {{"side", side_, ""},
+             {"speed", hit_speed_ * units::millimetres, "mm/s"},
+             {"impulse", impulse_, "N s"},
+             {"force", peak_, "N"}}};
+  }
+
   [[nodiscard]] double force() const { return force_; }          ///< on the slide in the last step, >= 0 [N]
   [[nodiscard]] double hit_speed() const { return hit_speed_; }  ///< towards the stop when it touched [m/s]
-  [[nodiscard]] double impulse() const { return impulse_; }      ///< of the last hit [N s]
   [[nodiscard]] double peak() const { return peak_; }            ///< largest force of the last hit [N]
-  [[nodiscard]] double fraction() const { return fraction_; }
+  [[nodiscard]] double side() const { return side_; }
+  /// How deep a slide at `position` is in it, < 0 outside [m].
+  [[nodiscard]] double depth(double position) const { return side_ * (position - position_); }
 
  private:
   // Dry friction that brings a slide to rest leaves a rounding of its speed [m/s].

@@ -1,36 +1,33 @@
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
-#include "plants/axis_transducers.hpp"
-#include "plants/end_stop.hpp"
 #include "plants/flying_saw_blade.hpp"
 #include "plants/flying_saw_clamp.hpp"
 #include "plants/flying_saw_head.hpp"
-#include "plants/friction.hpp"
 #include "plants/plant.hpp"
+#include "plants/screw_drive.hpp"
 #include "plants/servo_axis.hpp"
-#include "plants/transmission.hpp"
 #include "plants/web.hpp"
 
 namespace drycut::plants {
 
 /// Parameters of `type: flying_saw`. The defaults are a light saw on a rack.
-struct FlyingSawData {
-  std::string web = "web";       ///< the web, strip or tube, that it cuts, by name
-  double mass = 60;              ///< of the carriage with clamps and saw head [kg]
-  double lead = 0.2;             ///< travel for one turn of the pinion or the screw [m]
-  double pinion_inertia = 1e-3;  ///< of the pinion or the screw [kg m2]; turns with the motor
-  double start = 0;              ///< place of the blade on the line at the start [m]
-  double travel_min = -0.04;     ///< where the carriage touches the end stops [m]
-  double travel_max = 0.76;
-  EndStopData stop;
+struct FlyingSawData : ScrewDriveData {
+  FlyingSawData()
+      : ScrewDriveData{.mass = 60,
+                       .lead = 0.2,
+                       .screw_inertia = 1e-3,
+                       .travel_min = -0.04,
+                       .travel_max = 0.76,
+                       .gear = {4, 5000, 2, 0},
+                       .motor_friction = {0.1, 0.0005, 0, 0.01},
+                       .guide_friction = {40, 60, 0, 0.01},
+                       .sensors = {.limit_min = -0.03, .limit_max = 0.75}} {}
+
+  std::string web = "web";  ///< the web, strip or tube, that it cuts, by name
   ServoAxisData drive = {.servo = {.speed_at_10v = 100 * std::numbers::pi, .inertia_ratio = 0.85}};
-  /// Gear and pinion, or screw, up to the carriage: seen at the pinion or screw.
-  TransmissionData gear = {4, 5000, 2, 0};
-  Friction motor_friction = {0.1, 0.0005, 0, 0.01};
-  Friction carriage_friction = {40, 60, 0, 0.01};
-  AxisTransducersData sensors = {.limit_min = -0.03, .limit_max = 0.75};
   ClampData clamp;
   SawHeadData head;
   SawBladeData blade;
@@ -68,51 +65,34 @@ class FlyingSaw : public Plant {
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<Part> parts() override;
-  void poses(std::vector<PartPose>& out) override;
   void callouts(std::vector<Callout>& out) override;
 
-  [[nodiscard]] Slide& carriage() { return carriage_; }
-  [[nodiscard]] Shaft& rotor() { return rotor_; }
+  [[nodiscard]] Slide& carriage() const { return screw_.slide; }
+  [[nodiscard]] Shaft& rotor() const { return screw_.rotor; }
   [[nodiscard]] SawHead& head() { return head_; }
   [[nodiscard]] const Clamp& clamp() const { return clamp_; }
   /// Turn of the pinion or screw ahead of the carriage [rad].
-  [[nodiscard]] double twist() const { return twist_; }
+  [[nodiscard]] double twist() const { return screw_.twist(); }
 
  private:
-  /// An end stop with what it has taken since the carriage touched it.
-  struct Buffer {
-    EndStop stop;
-    double position;
-    double side;
+  /// What an end stop has taken since the carriage touched it.
+  struct Crash {
     double impulse = 0;  // [N s]
     double time = 0;     // [s]
     bool touched = false;
     bool reported = false;
   };
-  void push_back(Buffer& buffer, double h);
-  void watch(Buffer& buffer);
+  void watch(const EndStop& stop, Crash& crash);
   void report(const SawCut::Outcome& outcome);
-
-  // Pictures.
-  struct Item;
-  [[nodiscard]] std::vector<Item> items() const;
-  void add_bed(std::vector<Item>& all) const;
-  void add_drive(std::vector<Item>& all) const;
-  void add_carriage(std::vector<Item>& all) const;
-  void add_head(std::vector<Item>& all) const;
+  class Picture;
+  [[nodiscard]] double blade_axis() const;  // height over the line [m]
 
   FlyingSawData data_;
   Web& web_;
-  double pinion_per_metre_;  // turn of pinion or screw per travel [rad/m]
-  Shaft& rotor_;
-  Slide& carriage_;
+  ScrewDrive screw_;
   ServoAxis servo_;
-  double twist_ = 0;        // [rad], at the pinion
-  double drive_force_ = 0;  // of rack or screw on the carriage in the last step [N]
-  double outer_force_ = 0;  // set by the timeline [N]
-  Buffer lower_;
-  Buffer upper_;
-  AxisTransducers sensors_;
+  double outer_force_ = 0;        // set by the timeline [N]
+  std::array<Crash, 2> crashes_;  // at screw_.stops
   Clamp clamp_;
   SawHead head_;
   SawCut cut_;
@@ -120,7 +100,6 @@ class FlyingSaw : public Plant {
   double last_length_ = 0;  // [m]
   double last_slant_ = 0;   // [m]
   double last_pinch_ = 0;   // [N]
-  double blade_turn_ = 0;   // pictures: of the spinning blade [rad]
 };
 
 class FlyingSawDefinition : public PlantDefinition {

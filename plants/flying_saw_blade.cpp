@@ -81,20 +81,16 @@ SawCut::Outcome SawCut::sense(const Slide& head, const Slide& carriage, const Sl
   return outcome;
 }
 
-Parameters saw_blade_parameters(SawBladeData& data, const std::string& prefix) {
-  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                             double min, double max, std::string_view source) {
-    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
-  };
+Parameters saw_blade_parameters(SawBladeData& data) {
   return {
       row("resistance", "N s/m2", "cutting force for the width of the cut and the speed of the plunge",
-          &data.resistance, 0, 1e9, "estimate: 40 cm2/s of steel tube at 400 N"),
+          data.resistance, 0, 1e9, "estimate: 40 cm2/s of steel tube at 400 N"),
       row("stiffness", "N/m", "sideways force for the displacement of blade and material on each other",
-          &data.stiffness, 0, 1e8, "estimate: disc of 300 mm, 2.5 mm thick"),
-      row("damping", "N s/m", "sideways damping", &data.damping, 0, 1e5, "estimate: 3 % of critical"),
-      row("yield", "N", "largest sideways force: then blade or material give way", &data.yield, 1, 1e6,
+          data.stiffness, 0, 1e8, "estimate: disc of 300 mm, 2.5 mm thick"),
+      row("damping", "N s/m", "sideways damping", data.damping, 0, 1e5, "estimate: 3 % of critical"),
+      row("yield", "N", "largest sideways force: then blade or material give way", data.yield, 1, 1e6,
           "estimate"),
-      row("pinch_limit", "N", "sideways force that is reported as a pinch", &data.pinch_limit, 0, 1e6,
+      row("pinch_limit", "N", "sideways force that is reported as a pinch", data.pinch_limit, 0, 1e6,
           "estimate: the blade begins to burn"),
   };
 }

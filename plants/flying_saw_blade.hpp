@@ -16,8 +16,8 @@ struct SawBladeData {
   double pinch_limit = 150;  ///< sideways force that is reported as a pinch [N]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "blade.".
-Parameters saw_blade_parameters(SawBladeData& data, const std::string& prefix);
+/// Rows of the group `blade.`.
+Parameters saw_blade_parameters(SawBladeData& data);
 
 /// Time from the first touch until the blade is through when force balances resistance and throttle at every
 /// moment: (throttle * height + resistance * area) / force [s].

@@ -33,22 +33,19 @@ void Clamp::sense(const Slide& carriage, const Slide& material, double h) {
 }
 
 void Clamp::offer_faults(std::vector<Fault>& faults, const std::string& component) {
-  faults.push_back({component, "force_loss", "%", [this](double v) { lost_ = v; },
-                    "share of the clamping force that is missing: a leak, oil on the jaws", in_percent});
+  faults.push_back(fault_value(component, "force_loss", "%", lost_,
+                               "share of the clamping force that is missing: a leak, oil on the jaws",
+                               in_percent));
 }
 
-Parameters clamp_parameters(ClampData& data, const std::string& prefix) {
-  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                             double min, double max, std::string_view source) {
-    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
-  };
+Parameters clamp_parameters(ClampData& data) {
   return {
-      row("force", "N", "force of a jaw on the material", &data.force, 0, 1e6, "cylinder of 125 mm at 5 bar"),
-      row("friction", "", "Coulomb friction coefficient, jaw on material", &data.friction, 0, 2,
+      row("force", "N", "force of a jaw on the material", data.force, 0, 1e6, "cylinder of 125 mm at 5 bar"),
+      row("friction", "", "Coulomb friction coefficient, jaw on material", data.friction, 0, 2,
           "estimate: steel on steel, dry"),
-      row("close_time", "ms", "from the command until the jaws grip", &data.close_time, 0, 10000,
+      row("close_time", "ms", "from the command until the jaws grip", data.close_time, 0, 10000,
           "estimate: short stroke"),
-      row("open_time", "ms", "from the end of the command until they let go", &data.open_time, 0, 10000,
+      row("open_time", "ms", "from the end of the command until they let go", data.open_time, 0, 10000,
           "estimate: venting"),
   };
 }

@@ -16,8 +16,8 @@ struct ClampData {
   double open_time = 0.02;   ///< from the command's end until they let go [s]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "clamp.".
-Parameters clamp_parameters(ClampData& data, const std::string& prefix);
+/// Rows of the group `clamp.`.
+Parameters clamp_parameters(ClampData& data);
 
 class Clamp {
  public:

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 #include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/flying_saw.hpp"
@@ -10,24 +8,14 @@ namespace drycut::plants {
 
 namespace {
 
-Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
-              double max, std::string_view source) {
-  return Parameter{name, unit, meaning, &value, min, max, {}, {}, source};
-}
-
 Parameters mechanics(FlyingSawData& data) {
   return {
-      {.name = "web",
-       .unit = "",
-       .meaning = "the web, strip or tube, that it cuts",
-       .value = &data.web,
-       .reference = "web",
-       .sole = true},
+      row("web", "the web, strip or tube, that it cuts", data.web, "web", "", true),
       row("mass", "kg", "mass of the carriage with clamps and saw head", data.mass, 1, 1e5,
           "estimate: a light saw"),
       row("lead", "mm", "travel for one turn of the pinion, or of the screw", data.lead, 0.1, 5000,
           "pinion of 63.7 mm"),
-      row("pinion_inertia", "kg m2", "inertia of the pinion or the screw", data.pinion_inertia, 0, 100,
+      row("pinion_inertia", "kg m2", "inertia of the pinion or the screw", data.screw_inertia, 0, 100,
           "estimate: steel pinion with its shaft"),
       row("start", "mm", "place of the blade on the line at the start; encoder and scale count 0 there",
           data.start, -1e6, 1e6, "at home"),
@@ -43,26 +31,13 @@ Parameters mechanics(FlyingSawData& data) {
           1e4, "estimate: 1 % of rated torque"),
       row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor", data.motor_friction.viscous,
           0, 100, "estimate"),
-      row("carriage_friction.coulomb", "N", "dry friction of the guides", data.carriage_friction.coulomb, 0,
-          1e6, "estimate: four sealed guide carriages"),
-      row("carriage_friction.viscous", "N s/m", "viscous friction of the guides",
-          data.carriage_friction.viscous, 0, 1e6, "estimate"),
-      {.name = "stroke_check",
-       .unit = "",
-       .meaning = "refuse a line speed at which no program can cut within the travel",
-       .value = &data.stroke_check,
-       .max = 1,
-       .source = "off: see it crash"},
+      row("carriage_friction.coulomb", "N", "dry friction of the guides", data.guide_friction.coulomb, 0, 1e6,
+          "estimate: four sealed guide carriages"),
+      row("carriage_friction.viscous", "N s/m", "viscous friction of the guides", data.guide_friction.viscous,
+          0, 1e6, "estimate"),
+      row("stroke_check", "refuse a line speed at which no program can cut within the travel",
+          data.stroke_check, "off: see it crash"),
   };
-}
-
-double motor_inertia(const FlyingSawData& data) {
-  return data.drive.servo.rotor_inertia + data.pinion_inertia / (data.gear.ratio * data.gear.ratio);
-}
-
-double reflected_inertia(const FlyingSawData& data) {
-  const double metre_per_radian = data.lead / units::turn;
-  return data.mass * metre_per_radian * metre_per_radian;
 }
 
 using Objections = std::vector<PlantDefinition::Objection>;
@@ -98,39 +73,27 @@ Objections objections_to(const WebData& web, const FlyingSawData& saw) {
 }  // namespace
 
 Parameters FlyingSawDefinition::parameters() {
-  Parameters table = mechanics(data);
-  const auto append = [&table](Parameters rows) {
-    for (Parameter& p : rows) table.push_back(std::move(p));
-  };
-  append(clamp_parameters(data.clamp, "clamp."));
-  append(saw_head_parameters(data.head, "head."));
-  append(saw_blade_parameters(data.blade, "blade."));
-  append(axis_transducer_parameters(data.sensors));
-  append(servo_axis_parameters(data.drive));
-  append(transmission_parameters(data.gear, "gear."));
-  for (Parameter& p : table) {
-    if (p.name == "gear.stiffness") p.source = "estimate: gear, pinion and rack, 4.9 N/um at the carriage";
-    if (p.name == "servo.inertia_ratio") p.source = "the default carriage on the motor";
-    if (p.name == "servo.speed_at_10v") p.source = "setting: largest speed at 10 V";
-    if (p.name == "limit_max") p.source = "10 mm before the stop";
-    if (p.name == "limit_min") p.source = "10 mm before the stop";
-  }
-  return table;
+  return joined(
+      mechanics(data), group("clamp.", clamp_parameters(data.clamp)),
+      group("head.", saw_head_parameters(data.head)), group("blade.", saw_blade_parameters(data.blade)),
+      axis_transducer_parameters(data.sensors, {.limits = "10 mm before the stop"}),
+      servo_axis_parameters(data.drive, {.inertia_ratio = "the default carriage on the motor",
+                                         .speed_at_10v = "setting: largest speed at 10 V"}),
+      group("gear.",
+            transmission_parameters(
+                data.gear, {.stiffness = "estimate: gear, pinion and rack, 4.9 N/um at the carriage"})));
 }
 
 Objections FlyingSawDefinition::objections(double h) {
   AxisObjections found("carriage", h);
-  found.gear(data.gear, motor_inertia(data), reflected_inertia(data));
-  found.contact("stop", data.stop, data.mass, "end stop");
+  const double inertia = motor_inertia(data, data.drive.servo.rotor_inertia);
+  found.screw(data, inertia);
   found.pair("head.mass", "head.mass", head_cushion(data.head), "head and the end of its cylinder");
-  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "motor");
-  found.viscous("carriage_friction.viscous", data.carriage_friction, data.mass, "carriage");
-  found.travel(data.travel_min, data.travel_max, data.start);
-  found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
+  found.guided("carriage_friction.viscous", data, inertia);
   if (return_speed(data.head) <= 0)
     found.object("head.up_force", fmt::format("it does not lift the head of {:g} kg", data.head.mass),
-                 fmt::format("more than {:.0f} N", data.head.mass * 9.80665));
-  found.add(servo_axis_objections(data.drive, motor_inertia(data), h));
+                 fmt::format("more than {:.0f} N", data.head.mass * units::gravity));
+  found.add(servo_axis_objections(data.drive, inertia, h));
   return found.take();
 }
 
@@ -147,11 +110,7 @@ Objections FlyingSawDefinition::objections_with(const FindDefinition& find, doub
 
 std::unique_ptr<Plant> FlyingSawDefinition::build(World& world,
                                                   const std::function<Plant*(std::string_view)>& find) {
-  auto* web = dynamic_cast<Web*>(find(data.web));
-  if (web == nullptr)
-    throw std::invalid_argument(
-        fmt::format("web: '{}' is no plant of type web; name one that stands before this one", data.web));
-  return std::make_unique<FlyingSaw>(data, world, *web);
+  return std::make_unique<FlyingSaw>(data, world, referred<Web>(find, "web", data.web, "web"));
 }
 
 }  // namespace drycut::plants

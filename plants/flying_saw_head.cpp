@@ -11,6 +11,7 @@ namespace {
 
 constexpr double beyond = 10;  // a switch's target reaches past the end of the stroke [m]
 constexpr EndStopData cushion = {1e6, 4e3};
+constexpr double blade_speed = 2 * units::turn;  // slow enough to be seen to turn [rad/s]
 
 }  // namespace
 
@@ -63,6 +64,7 @@ void SawHead::drive(double h, double resistance) {
 void SawHead::sense(double h) {
   up_.sense(body_.position_before, body_.position, h);
   down_.sense(body_.position_before, body_.position, h);
+  blade_turn_ = std::fmod(blade_turn_ + blade_speed * h, units::turn);
 }
 
 void SawHead::offer_ports(std::vector<Port>& ports) {
@@ -77,47 +79,39 @@ void SawHead::offer_channels(std::vector<Channel>& channels) const {
   channels.push_back({"head.speed", "mm/s", [this] { return body_.speed * units::millimetres; },
                       "speed of the saw head, positive downwards"});
   channels.push_back({"head.force", "N", [this] { return force_; }, "force of its cylinder, downwards"});
-  channels.push_back(
-      {"head.up", "", [this] { return up_.port.level ? 1.0 : 0.0; }, "switch: the head is up"});
-  channels.push_back(
-      {"head.down", "", [this] { return down_.port.level ? 1.0 : 0.0; }, "switch: the head is down"});
-  channels.push_back({"head.plunge", "", [this] { return plunge.level ? 1.0 : 0.0; },
-                      "1 while the head is told to go down"});
+  channels.push_back(on_off("head.up", up_.port.level, "switch: the head is up"));
+  channels.push_back(on_off("head.down", down_.port.level, "switch: the head is down"));
+  channels.push_back(on_off("head.plunge", plunge.level, "1 while the head is told to go down"));
 }
 
 void SawHead::offer_faults(std::vector<Fault>& faults) {
-  faults.push_back({"head", "pressure_loss", "%", [this](double v) { pressure_loss_ = v; },
-                    "share of the cylinder's force that is missing, both ways", in_percent});
+  faults.push_back(fault_value("head", "pressure_loss", "%", pressure_loss_,
+                               "share of the cylinder's force that is missing, both ways", in_percent));
   up_.offer_faults(faults, "head.up");
   down_.offer_faults(faults, "head.down");
 }
 
-Parameters saw_head_parameters(SawHeadData& data, const std::string& prefix) {
-  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                             double min, double max, std::string_view source) {
-    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
-  };
+Parameters saw_head_parameters(SawHeadData& data) {
   return {
-      row("mass", "kg", "mass of the saw head with spindle and blade", &data.mass, 0.1, 1000, "estimate"),
-      row("stroke", "mm", "way of the head between the ends of its cylinder", &data.stroke, 1, 2000,
+      row("mass", "kg", "mass of the saw head with spindle and blade", data.mass, 0.1, 1000, "estimate"),
+      row("stroke", "mm", "way of the head between the ends of its cylinder", data.stroke, 1, 2000,
           "a tube of 50 mm with room above and below"),
-      row("clearance", "mm", "blade over the material with the head up", &data.clearance, 0, 1000,
-          "estimate"),
-      row("down_force", "N", "force of the cylinder downwards", &data.down_force, 1, 1e5,
+      row("clearance", "mm", "blade over the material with the head up", data.clearance, 0, 1000, "estimate"),
+      row("down_force", "N", "force of the cylinder downwards", data.down_force, 1, 1e5,
           "cylinder of 32 mm at 5 bar, less friction"),
-      row("up_force", "N", "force of the cylinder upwards", &data.up_force, 1, 1e5,
+      row("up_force", "N", "force of the cylinder upwards", data.up_force, 1, 1e5,
           "cylinder of 40 mm at 5 bar"),
-      row("down_throttle", "N s/m", "throttle of the exhaust downwards", &data.down_throttle, 1, 1e6,
+      row("down_throttle", "N s/m", "throttle of the exhaust downwards", data.down_throttle, 1, 1e6,
           "set for 0.8 m/s"),
-      row("up_throttle", "N s/m", "throttle of the exhaust upwards", &data.up_throttle, 1, 1e6,
+      row("up_throttle", "N s/m", "throttle of the exhaust upwards", data.up_throttle, 1, 1e6,
           "set for 1 m/s"),
-      row("valve_delay", "ms", "from the command until the force begins to change", &data.valve_delay, 0,
-          1000, "data sheet: fast valve of the class"),
-      row("fill_time", "ms", "time constant of the cylinder's force", &data.fill_time, 0, 1000,
+      row("valve_delay", "ms", "from the command until the force begins to change", data.valve_delay, 0, 1000,
+          "data sheet: fast valve of the class"),
+      row("fill_time", "ms", "time constant of the cylinder's force", data.fill_time, 0, 1000,
           "estimate: short hose"),
-      row("switch_margin", "mm", "the end switches are on so far before the ends", &data.switch_margin, 0.1,
+      row("switch_margin", "mm", "the end switches are on so far before the ends", data.switch_margin, 0.1,
           100, "estimate"),
-      row("switch_delay", "ms", "delay of the end switches", &data.switch_delay, 0, 100,
+      row("switch_delay", "ms", "delay of the end switches", data.switch_delay, 0, 100,
           "estimate: cylinder switch"),
   };
 }

@@ -26,8 +26,8 @@ struct SawHeadData {
   double switch_delay = 1e-3;   ///< of the end switches [s]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "head.".
-Parameters saw_head_parameters(SawHeadData& data, const std::string& prefix);
+/// Rows of the group `head.`.
+Parameters saw_head_parameters(SawHeadData& data);
 
 /// Speed at which the cylinder's force, the weight and the throttle balance with the blade in the air [m/s].
 [[nodiscard]] double plunge_speed(const SawHeadData& data);
@@ -51,6 +51,9 @@ class SawHead {
   [[nodiscard]] Slide& body() { return body_; }
   [[nodiscard]] double cylinder_force() const { return force_; }  ///< downwards [N]
 
+  /// Angle of the spinning blade as pictures show it [rad].
+  [[nodiscard]] double blade_turn() const { return blade_turn_; }
+
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);
   void offer_channels(std::vector<Channel>& channels) const;
@@ -69,6 +72,7 @@ class SawHead {
   double valve_waiting_ = 0;  // since the command differs from it [s]
   double force_;
   double pressure_loss_ = 0;  // share
+  double blade_turn_ = 0;
 };
 
 }  // namespace drycut::plants

@@ -14,8 +14,8 @@ struct HoldingBrakeData {
   std::string control = "drive";  ///< what releases it: drive, output
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "brake.".
-Parameters holding_brake_parameters(HoldingBrakeData& data, const std::string& prefix);
+/// Rows of the group `brake.`; `torque_from`: where a machine's default of the torque is from.
+Parameters holding_brake_parameters(HoldingBrakeData& data, std::string_view torque_from);
 
 /// The brake is released while its command is on and, under control of the drive, the drive moves the motor:
 /// a brake coil fed from the motor's terminals or by the drive's own brake relay. It acts as dry friction: it

@@ -8,8 +8,6 @@
 
 namespace drycut::plants {
 
-namespace {}
-
 IdealAxis::IdealAxis(const IdealAxisData& data, World& world)
     : data_(data),
       pulses_(world.random("ideal axis")),
@@ -65,31 +63,22 @@ std::vector<Fault> IdealAxis::faults() {
 }
 
 Parameters IdealAxisDefinition::parameters() {
-  const auto row = [](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                      double min, double max) {
-    return Parameter{name, unit, meaning, value, min, max, {}, {}, "a round number"};
+  static constexpr std::string_view round = "a round number";
+  const auto rows_of = [](PositionSwitchData& of, std::string_view position) {
+    return Parameters{
+        row("position", "mm", position, of.centre, -1e6, 1e6, round),
+        row("width", "mm", "width of its target", of.width, 0, 1e6, round),
+        row("hysteresis", "mm", "it lets go this far behind the target", of.hysteresis, 0, 1000, round),
+        row("delay", "ms", "delay of its filter", of.delay, 0, 1000, round)};
   };
-  return {
-      row("speed_at_10v", "mm/s", "speed at a reference of 10 V", &data.speed_at_10v, 0.001, 100000),
-      row("resolution", "mm", "travel per count (x4)", &data.resolution, 1e-6, 1000),
-      row("index_pitch", "mm", "travel between two index pulses", &data.index_pitch, 0.01, 100000),
-      row("start", "mm", "position at the start; the count is 0 there", &data.start, -1e6, 1e6),
-      {.name = "reverse",
-       .unit = "",
-       .meaning = "counts down in positive direction",
-       .value = &data.reverse,
-       .max = 1},
-      row("switch1.position", "mm", "middle of the target of switch 1", &data.switches[0].centre, -1e6, 1e6),
-      row("switch1.width", "mm", "width of its target", &data.switches[0].width, 0, 1e6),
-      row("switch1.hysteresis", "mm", "it lets go this far behind the target", &data.switches[0].hysteresis,
-          0, 1000),
-      row("switch1.delay", "ms", "delay of its filter", &data.switches[0].delay, 0, 1000),
-      row("switch2.position", "mm", "middle of the target of switch 2", &data.switches[1].centre, -1e6, 1e6),
-      row("switch2.width", "mm", "width of its target", &data.switches[1].width, 0, 1e6),
-      row("switch2.hysteresis", "mm", "it lets go this far behind the target", &data.switches[1].hysteresis,
-          0, 1000),
-      row("switch2.delay", "ms", "delay of its filter", &data.switches[1].delay, 0, 1000),
-  };
+  return joined(
+      {row("speed_at_10v", "mm/s", "speed at a reference of 10 V", data.speed_at_10v, 0.001, 100000, round),
+       row("resolution", "mm", "travel per count (x4)", data.resolution, 1e-6, 1000, round),
+       row("index_pitch", "mm", "travel between two index pulses", data.index_pitch, 0.01, 100000, round),
+       row("start", "mm", "position at the start; the count is 0 there", data.start, -1e6, 1e6, round),
+       row("reverse", "counts down in positive direction", data.reverse, "")},
+      group("switch1.", rows_of(data.switches[0], "middle of the target of switch 1")),
+      group("switch2.", rows_of(data.switches[1], "middle of the target of switch 2")));
 }
 
 std::vector<PlantDefinition::Objection> IdealAxisDefinition::objections(double h) {

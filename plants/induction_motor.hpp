@@ -21,9 +21,9 @@ struct InductionMotorData {
   WindingData winding;
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "induction_motor.".
-Parameters winding_parameters(WindingData& data, const std::string& prefix, std::string_view source);
-Parameters induction_motor_parameters(InductionMotorData& data, const std::string& prefix);
+/// Rows of the group `induction_motor.`, and those of one winding; `source` is that of its defaults.
+Parameters induction_motor_parameters(InductionMotorData& data);
+Parameters winding_parameters(WindingData& data, std::string_view source);
 
 /// The torque curve of a winding at full flux after Kloss: pull-out torque at the pull-out slip, which
 /// follows from the rated point. Slip is the speed of the field less that of the rotor [rad/s]. No electrical

@@ -103,18 +103,14 @@ void Inverter::offer_faults(std::vector<Fault>& faults) {
                     },
                     "the torque is limited to this; 0 takes the limit away",
                     {0, 1e5, false}});
-  faults.push_back({"drive", "phase_lost", "", [this](double v) { phase_lost_ = v != 0; },
-                    "1: a phase of the motor is interrupted: the drive trips when it runs"});
+  faults.push_back(fault_state("drive", "phase_lost", phase_lost_,
+                               "1: a phase of the motor is interrupted: the drive trips when it runs"));
   forward_filter_.offer_faults(faults, "drive.forward");
   backward_filter_.offer_faults(faults, "drive.backward");
   slow_filter_.offer_faults(faults, "drive.slow");
 }
 
-Parameters inverter_parameters(InverterData& data, const std::string& prefix) {
-  const auto row = [&](const char* name, std::string_view unit, std::string_view meaning, double& value,
-                       double min, double max, std::string_view source) {
-    return Parameter{prefix + name, unit, meaning, &value, min, max, {}, {}, source};
-  };
+Parameters inverter_parameters(InverterData& data) {
   return {
       row("fast", "Hz", "output frequency; at most the motor's rated frequency", data.fast, 0.1, 400,
           "rated frequency"),
@@ -125,12 +121,8 @@ Parameters inverter_parameters(InverterData& data, const std::string& prefix) {
           data.torque_limit, 1e-3, 1e5, "150 % of the default motor"),
       row("input_filter", "ms", "of the inputs forward, backward, slow", data.input_filter, 0, 1000,
           "usual: scan of the inputs"),
-      {.name = prefix + "stop",
-       .unit = "",
-       .meaning = "when neither direction is on: ramp to 0 and hold, coast, or DC brake",
-       .value = &data.stop,
-       .choices = {"ramp", "coast", "dc_brake"},
-       .source = "usual setting"},
+      row("stop", "when neither direction is on: ramp to 0 and hold, coast, or DC brake", data.stop,
+          {"ramp", "coast", "dc_brake"}, "usual setting"),
       row("hold_time", "ms", "at 0 Hz after a ramp, while the brake engages", data.hold_time, 0, 10000,
           "estimate: longer than the brake takes"),
       row("dc_brake_torque", "N m", "largest torque of the DC brake, at the motor's pull-out slip",

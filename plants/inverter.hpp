@@ -22,8 +22,8 @@ struct InverterData {
   double dc_brake_time = 0.5;   ///< [s]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "inverter.".
-Parameters inverter_parameters(InverterData& data, const std::string& prefix);
+/// Rows of the group `inverter.`.
+Parameters inverter_parameters(InverterData& data);
 
 /// Inverter with its motor. Its frequency reference is a ramp that knows nothing of the rotor; torque comes
 /// from slip at full flux, so that speed sinks under load. Where the slip would exceed the torque limit the

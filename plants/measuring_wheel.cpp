@@ -33,36 +33,16 @@ void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string&
   pulses.offer_faults(faults, component);
 }
 
-Parameters wheel_parameters(MeasuringWheelData& data, const std::string& prefix) {
+Parameters wheel_parameters(MeasuringWheelData& data) {
   return {
-      {.name = prefix + "circumference",
-       .unit = "mm",
-       .meaning = "nominal circumference of the measuring wheel",
-       .value = &data.circumference,
-       .min = 10,
-       .max = 10000,
-       .source = "usual wheel of 500 mm"},
-      {.name = prefix + "circumference_error",
-       .unit = "%",
-       .meaning = "true circumference over nominal, minus 1: wear, dirt",
-       .value = &data.circumference_error,
-       .min = -20,
-       .max = 20,
-       .source = "ideal: none"},
-      {.name = prefix + "slip",
-       .unit = "%",
-       .meaning = "share of the travel that the wheel does not follow",
-       .value = &data.slip,
-       .min = 0,
-       .max = 100,
-       .source = "ideal: none"},
-      {.name = prefix + "lines",
-       .unit = "",
-       .meaning = "lines of its encoder per turn; counted four times",
-       .value = &data.lines,
-       .min = 1,
-       .max = 1000000,
-       .source = "0.05 mm a count with 500 mm"},
+      row("circumference", "mm", "nominal circumference of the measuring wheel", data.circumference, 10,
+          10000, "usual wheel of 500 mm"),
+      row("circumference_error", "%", "true circumference over nominal, minus 1: wear, dirt",
+          data.circumference_error, -20, 20, "ideal: none"),
+      row("slip", "%", "share of the travel that the wheel does not follow", data.slip, 0, 100,
+          "ideal: none"),
+      row("lines", "lines of its encoder per turn; counted four times", data.lines, 1, 1000000,
+          "0.05 mm a count with 500 mm"),
   };
 }
 

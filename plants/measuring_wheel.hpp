@@ -15,8 +15,8 @@ struct MeasuringWheelData {
   int lines = 2500;                ///< of its encoder, per turn
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "wheel.".
-Parameters wheel_parameters(MeasuringWheelData& data, const std::string& prefix);
+/// Rows of the group `wheel.`.
+Parameters wheel_parameters(MeasuringWheelData& data);
 
 class MeasuringWheel {
  public:

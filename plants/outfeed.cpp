@@ -8,8 +8,6 @@
 
 namespace drycut::plants {
 
-namespace {}
-
 Outfeed::Outfeed(const OutfeedData& data, double mass_per_metre, World& world) : data_(data), world_(world) {
   int number = 1;
   for (Piece& piece : pieces_) {

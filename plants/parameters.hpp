@@ -1,6 +1,8 @@
 #pragma once
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -27,5 +29,41 @@ struct Parameter {
   bool sole = false;                      ///< of a reference: no other plant may refer to the same one so
 };
 using Parameters = std::vector<Parameter>;
+
+// The rows of a table: a quantity, a whole number, a switch, a word of `choices`, the name of a plant of
+// `type`. `source`: where the default is from.
+
+inline Parameter row(std::string name, std::string_view unit, std::string_view meaning, double& value,
+                     double min, double max, std::string_view source) {
+  return {std::move(name), unit, meaning, &value, min, max, {}, {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, int& value, double min, double max,
+                     std::string_view source) {
+  return {std::move(name), "", meaning, &value, min, max, {}, {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, bool& value, std::string_view source) {
+  return {std::move(name), "", meaning, &value, 0, 1, {}, {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, std::string& value,
+                     std::vector<std::string> choices, std::string_view source) {
+  return {std::move(name), "", meaning, &value, 0, 0, std::move(choices), {}, source};
+}
+inline Parameter row(std::string name, std::string_view meaning, std::string& value, std::string_view type,
+                     std::string_view source, bool sole) {
+  return {std::move(name), "", meaning, &value, 0, 0, {}, type, source, sole};
+}
+
+/// The rows of a group, "gear.": each name with the prefix.
+inline Parameters group(std::string_view prefix, Parameters rows) {
+  for (Parameter& row : rows) row.name.insert(0, prefix);
+  return rows;
+}
+/// One table after the other.
+template <class... Tables>
+Parameters joined(Parameters first, Tables... more) {
+  (first.insert(first.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end())),
+   ...);
+  return first;
+}
 
 }  // namespace drycut::plants

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,19 @@ struct Pose {
   std::array<double, 4> rotation = {0, 0, 0, 1};
 };
 
+/// Where a part is now. Parts that come and go (cut pieces) are of a fixed set and hidden while unused.
+struct PartPose {
+  PartPose(const Pose& where = {}, bool shown = true, const std::array<double, 3>& stretch = {1, 1, 1})
+      : pose(where), visible(shown), scale(stretch) {}
+  Pose pose;
+  bool visible;
+  std::array<double, 3> scale;  ///< of the part along its own axes
+};
+
+/// What parts are fastened to, a carriage or a drum: tells where it is now, and whether and how stretched its
+/// parts are seen. Empty: the floor, which is the world.
+using Frame = std::function<PartPose()>;
+
 /// What a machine part looks like: a primitive, or a model of scenes/meshes/ stretched to the same size. For
 /// pictures only, physics never reads it.
 struct Part {
@@ -24,15 +38,12 @@ struct Part {
   std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
   std::string material = "steel";  ///< "steel", "paint", "rubber", "web", "blade"
   std::string model = {};          ///< drawn in place of the shape: "servo_motor"; "" = none
+  Frame frame = {};
+  Pose offset = {};  ///< of its middle in the frame
   std::optional<std::array<double, 3>> tip =
       {};  ///< in its own coordinates [m]: what leaves a trail in pictures
-};
 
-/// Where a part is now. Parts that come and go (cut pieces) are of a fixed set and hidden while unused.
-struct PartPose {
-  Pose pose;
-  bool visible = true;
-  std::array<double, 3> scale = {1, 1, 1};
+  [[nodiscard]] PartPose now() const;
 };
 
 /// What a picture points out on the machine at this instant.

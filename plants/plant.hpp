@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -59,6 +60,27 @@ struct Fault {
   Range range = {};  ///< whoever acts keeps to it
 };
 
+// Rows of the lists above for what is kept in a member.
+
+/// 1 while `state` is on.
+inline Channel on_off(std::string name, const bool& state, std::string meaning) {
+  return {std::move(name), "", [&state] { return state ? 1.0 : 0.0; }, std::move(meaning)};
+}
+/// 1: `state` is on, 0: off again.
+inline Fault fault_state(std::string component, std::string name, bool& state, std::string meaning) {
+  return {std::move(component), std::move(name), "", [&state](double v) { state = v != 0; },
+          std::move(meaning)};
+}
+inline Fault fault_value(std::string component, std::string name, std::string_view unit, double& value,
+                         std::string meaning, Range range) {
+  return {std::move(component),
+          std::move(name),
+          unit,
+          [&value](double v) { value = v; },
+          std::move(meaning),
+          range};
+}
+
 /// Something that happened in the machine, at an exact time inside the step.
 struct Event {
   struct Value {
@@ -103,8 +125,6 @@ class Plant {
   virtual std::vector<Fault> faults() { return {}; }
   virtual std::vector<EventType> event_types() { return {}; }
   virtual std::vector<Part> parts() { return {}; }
-  /// Poses of parts(), same order; called only when a frame is taken.
-  virtual void poses(std::vector<PartPose>& out) { (void)out; }
   /// Adds what a picture points out now; called only when a frame is taken.
   virtual void callouts(std::vector<Callout>& out) { (void)out; }
 
@@ -146,6 +166,21 @@ class PlantDefinition {
   /// Builds the machine into `world`. `find` gives the already built plant that a reference parameter names.
   virtual std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) = 0;
 };
+
+/// The plant that a reference parameter names, already built: of class `Machine`, in a scenario `type`.
+/// Throws std::invalid_argument that tells how to name one; `or_none` where none may be named too.
+template <class Machine>
+Machine& referred(const std::function<Plant*(std::string_view)>& find, std::string_view parameter,
+                  const std::string& name, std::string_view type, std::string_view or_none = "") {
+  auto* machine = dynamic_cast<Machine*>(find(name));
+  if (machine == nullptr)
+    throw std::invalid_argument(std::string(parameter)
+                                    .append(": '" + name + "' is no plant of type ")
+                                    .append(type)
+                                    .append("; name one that stands before this one")
+                                    .append(or_none));
+  return *machine;
+}
 
 /// One type of plant: the registry behind `type:` in a scenario and `drycut plants`.
 struct PlantType {

@@ -1,35 +1,19 @@
 #pragma once
-#include <array>
-#include <cmath>
-
 #include "plants/part.hpp"
 
 namespace drycut::plants {
 
-using Quaternion = std::array<double, 4>;  ///< x y z w
+// Poses, as frames that stand in each other: `carriage * at(0, 0.1, 0) * about_z(angle)`.
 
-// Rotations by `angle` [rad].
-[[nodiscard]] inline Quaternion about_x(double angle) {
-  return {std::sin(angle / 2), 0, 0, std::cos(angle / 2)};
-}
-[[nodiscard]] inline Quaternion about_y(double angle) {
-  return {0, std::sin(angle / 2), 0, std::cos(angle / 2)};
-}
-[[nodiscard]] inline Quaternion about_z(double angle) {
-  return {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
-}
+[[nodiscard]] inline Pose at(double x, double y, double z) { return {{x, y, z}, {0, 0, 0, 1}}; }
+[[nodiscard]] inline Pose at(const std::array<double, 3>& place) { return {place, {0, 0, 0, 1}}; }
 
-/// First `b`, then `a`.
-[[nodiscard]] inline Quaternion product(const Quaternion& a, const Quaternion& b) {
-  return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
-          a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
-          a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
-          a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
-}
+// Turned by `angle` [rad].
+[[nodiscard]] Pose about_x(double angle);
+[[nodiscard]] Pose about_y(double angle);
+[[nodiscard]] Pose about_z(double angle);
 
-/// A pose turned by `angle` [rad] about z.
-[[nodiscard]] inline Pose turned(double x, double y, double z, double angle) {
-  return {{x, y, z}, about_z(angle)};
-}
+/// The pose in the world of what is at `inner` in the frame `outer`.
+[[nodiscard]] Pose operator*(const Pose& outer, const Pose& inner);
 
 }  // namespace drycut::plants

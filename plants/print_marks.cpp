@@ -15,26 +15,21 @@ PositionSwitchData reader(const PrintMarkData& data) { return {0, data.width, da
 
 }  // namespace
 
-Parameters print_mark_parameters(PrintMarkData& data, const std::string& prefix) {
-  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                             double min, double max, std::string_view source) {
-    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
-  };
+Parameters print_mark_parameters(PrintMarkData& data) {
   return {
-      row("pitch", "mm", "nominal distance of two printed marks; 0: nothing is printed", &data.pitch, 0, 1e5,
+      row("pitch", "mm", "nominal distance of two printed marks; 0: nothing is printed", data.pitch, 0, 1e5,
           "plain web"),
-      row("offset", "mm", "shifts all marks against the direction of travel", &data.offset, -1e5, 1e5,
+      row("offset", "mm", "shifts all marks against the direction of travel", data.offset, -1e5, 1e5,
           "the first mark is one pitch behind the start"),
-      row("stretch", "", "true pitch = pitch * (1 + stretch)", &data.stretch, -0.5, 0.5,
-          "printed as nominal"),
-      row("scatter", "mm", "standard deviation of each mark from its place", &data.scatter, 0, 1000,
+      row("stretch", "", "true pitch = pitch * (1 + stretch)", data.stretch, -0.5, 0.5, "printed as nominal"),
+      row("scatter", "mm", "standard deviation of each mark from its place", data.scatter, 0, 1000,
           "a perfect press"),
-      row("width", "mm", "of a mark along the web", &data.width, 0.1, 1000, "a usual register mark"),
-      row("photocell", "mm", "place of the photocell before the cut", &data.photocell, 0, 1e5,
+      row("width", "mm", "of a mark along the web", data.width, 0.1, 1000, "a usual register mark"),
+      row("photocell", "mm", "place of the photocell before the cut", data.photocell, 0, 1e5,
           "between measuring wheel and pull rolls"),
-      row("hysteresis", "mm", "the photocell lets go this far behind the edge of a mark", &data.hysteresis, 0,
+      row("hysteresis", "mm", "the photocell lets go this far behind the edge of a mark", data.hysteresis, 0,
           100, "estimate"),
-      row("delay", "ms", "delay of the photocell", &data.delay, 0, 100, "estimate: a fast contrast sensor"),
+      row("delay", "ms", "delay of the photocell", data.delay, 0, 100, "estimate: a fast contrast sensor"),
   };
 }
 
@@ -73,12 +68,9 @@ void PrintMarks::sense(double now, double h) {
 void PrintMarks::offer_faults(std::vector<Fault>& faults, const std::string& marks,
                               const std::string& photocell) {
   if (!printed()) return;
-  faults.push_back({marks,
-                    "shift",
-                    "mm",
-                    [this](double v) { shift_ = v; },
-                    "the marks after the next one lie this much further back: a splice",
-                    {-1e5, 1e5, false}});
+  faults.push_back(fault_value(marks, "shift", "mm", shift_,
+                               "the marks after the next one lie this much further back: a splice",
+                               {-1e5, 1e5, false}));
   photocell_.offer_faults(faults, photocell);
 }
 

@@ -23,8 +23,8 @@ struct PrintMarkData {
   double delay = 50e-6;      ///< of the photocell [s]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "marks.".
-Parameters print_mark_parameters(PrintMarkData& data, const std::string& prefix);
+/// Rows of the group `marks.`.
+Parameters print_mark_parameters(PrintMarkData& data);
 
 class PrintMarks {
  public:

@@ -82,36 +82,27 @@ void PulseServo::offer_faults(std::vector<Fault>& faults, const std::string& com
                       gear_.add(-lost);
                     },
                     "so many pulses are lost at once, negative: too many are counted", in_counts});
-  faults.push_back(
-      {component, "broken_cable", "", [this](double v) { cable_broken_ = v != 0; }, "1: no pulse arrives"});
+  faults.push_back(fault_state(component, "broken_cable", cable_broken_, "1: no pulse arrives"));
 }
 
-Parameters pulse_servo_parameters(PulseServoData& data, const std::string& prefix) {
+Parameters pulse_servo_parameters(PulseServoData& data) {
   constexpr std::string_view manual = "initial value of Mitsubishi MR-J4-A";
-  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                             double min, double max, std::string_view source) {
-    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
-  };
-  const auto whole = [&prefix](const char* name, std::string_view meaning, int* value, double max,
-                               std::string_view source) {
-    return Parameter{prefix + name, "", meaning, value, 1, max, {}, {}, source};
-  };
   return {
-      whole("gear_numerator", "electronic gear: encoder counts for gear_denominator pulses",
-            &data.gear_numerator, 16777215, "with the denominator: 10000 pulses a turn"),
-      whole("gear_denominator", "electronic gear: pulses for gear_numerator encoder counts",
-            &data.gear_denominator, 16777215, "with the numerator: 10000 pulses a turn"),
-      whole("resolution", "counts of the drive's own encoder per turn of the motor", &data.resolution,
-            16777216, "encoder of the class: 22 bits"),
-      row("position_gain", "rad/s", "gain of the position loop: speed for a deviation", &data.position_gain,
+      row("gear_numerator", "electronic gear: encoder counts for gear_denominator pulses",
+          data.gear_numerator, 1, 16777215, "with the denominator: 10000 pulses a turn"),
+      row("gear_denominator", "electronic gear: pulses for gear_numerator encoder counts",
+          data.gear_denominator, 1, 16777215, "with the numerator: 10000 pulses a turn"),
+      row("resolution", "counts of the drive's own encoder per turn of the motor", data.resolution, 1,
+          16777216, "encoder of the class: 22 bits"),
+      row("position_gain", "rad/s", "gain of the position loop: speed for a deviation", data.position_gain,
           0.1, 2000, "estimate: medium stiffness"),
       row("feed_forward", "%", "share of the reference speed given ahead of the position loop",
-          &data.feed_forward, 0, 100, manual),
+          data.feed_forward, 0, 100, manual),
       row("feed_forward_filter", "ms", "time constant of the feed-forward, 0 = none",
-          &data.feed_forward_filter, 0, 100, "estimate"),
+          data.feed_forward_filter, 0, 100, "estimate"),
       row("following_limit", "", "deviation that trips the drive, in turns of the motor",
-          &data.following_limit, 1e-3, 1e4, manual),
-      row("in_position", "", "deviation up to which the axis is in position, in pulses", &data.in_position, 0,
+          data.following_limit, 1e-3, 1e4, manual),
+      row("in_position", "", "deviation up to which the axis is in position, in pulses", data.in_position, 0,
           65535, manual),
   };
 }

@@ -20,8 +20,8 @@ struct PulseServoData {
   double in_position = 100;           ///< deviation up to which the axis is in position [pulses]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "servo.pulses.".
-Parameters pulse_servo_parameters(PulseServoData& data, const std::string& prefix);
+/// Rows of the group `servo.pulses.`.
+Parameters pulse_servo_parameters(PulseServoData& data);
 
 /// Counts = pulses * numerator / denominator in whole numbers: what a division leaves is kept for the next
 /// pulse, so that any number of pulses in any pieces ends on the same count.

@@ -6,8 +6,6 @@ namespace drycut::plants {
 
 namespace {
 
-constexpr double metres_a_minute = 60;  // m/s -> m/min
-
 CutterData cutter_data(const RotaryKnifeData& knife, const WebData& web, double radius) {
   return {.radius = radius,
           .blades = knife.blade_count,
@@ -99,7 +97,7 @@ std::vector<Channel> RotaryKnife::channels() {
        "drum angle within a turn, 0 = blade 1 at the cut"},
       {"angle.total", "deg", [this] { return drum_.revolutions() * 360; }, "drum angle over all turns"},
       {"speed", "rpm", [this] { return drum_.speed * units::rpm; }, "speed of the drum"},
-      {"blade.speed", "m/min", [blade_speed] { return blade_speed() * metres_a_minute; },
+      {"blade.speed", "m/min", [blade_speed] { return blade_speed() * units::metres_a_minute; },
        "speed of the blade tips"},
       {"blade.ratio", "",
        [this, blade_speed] {
@@ -120,7 +118,7 @@ std::vector<Channel> RotaryKnife::channels() {
        "twist between motor and drum, at the drum"},
       {"encoder.count", "", [this] { return static_cast<double>(encoder_.pulses.port.count); },
        "count of the encoder (x4), after faults"},
-      {"home", "", [this] { return home_.port.level ? 1.0 : 0.0; }, "home switch"},
+      on_off("home", home_.port.level, "home switch"),
   };
   servo_.offer_channels(channels);
   return channels;

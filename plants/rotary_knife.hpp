@@ -50,7 +50,6 @@ class RotaryKnife : public Plant {
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<Part> parts() override;
-  void poses(std::vector<PartPose>& out) override;
   void callouts(std::vector<Callout>& out) override;
 
   [[nodiscard]] Shaft& rotor() { return rotor_; }
@@ -61,10 +60,7 @@ class RotaryKnife : public Plant {
  private:
   void report(const Cutter::Outcome& outcome);
 
-  struct Item;  // of the pictures
-  [[nodiscard]] std::vector<Item> items() const;
-  void add_frame(std::vector<Item>& all, int side) const;
-  void add_drive(std::vector<Item>& all) const;
+  class Picture;
 
   RotaryKnifeData data_;
   Web& web_;

@@ -8,70 +8,47 @@
 namespace drycut::plants {
 
 Parameters RotaryKnifeDefinition::parameters() {
-  const auto row = [](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                      double min, double max, std::string_view source) {
-    return Parameter{name, unit, meaning, value, min, max, {}, {}, source};
-  };
-  Parameters table = {
-      {.name = "web",
-       .unit = "",
-       .meaning = "the web that it cuts",
-       .value = &data.web,
-       .reference = "web",
-       .sole = true},
-      row("circumference", "mm", "circumference of the circle of the blade tips", &data.circumference, 50,
-          10000, "a usual size: drum of 191 mm"),
-      {"blade_count", "", "blades, evenly on the drum", &data.blade_count, 1, 24, {}, {}, "one cut a turn"},
-      row("blade_width", "mm", "width of drum and blades across the line", &data.blade_width, 1, 10000,
-          "a narrow line"),
-      row("drum_inertia", "kg m2", "inertia of the drum with its blades", &data.drum_inertia, 1e-5, 1e4,
-          "estimate: solid steel drum, diameter 191 mm, 400 mm wide"),
-      row("initial_angle", "deg", "angle of blade 1 at the start, 0 = at the cut", &data.initial_angle, -360,
-          360, "blade up, away from the web"),
-      row("coupling", "N s/m", "horizontal force between blade and web for their speed mismatch",
-          &data.coupling, 0, 1e6, "estimate"),
-      row("grip", "N", "largest horizontal force between blade and web", &data.grip, 0, 1e6,
-          "estimate: then the web gives way"),
-      row("mismatch_limit", "mm/s", "speed mismatch at which the web tears or buckles", &data.mismatch_limit,
-          0.1, 1e5, "estimate: 10 % of 60 m/min"),
-      {.name = "encoder.lines",
-       .unit = "",
-       .meaning = "lines of the encoder per turn; counted four times",
-       .value = &data.encoder.lines,
-       .min = 1,
-       .max = 1000000,
-       .source = "8192 counts a turn"},
-      {.name = "encoder.on_drum",
-       .unit = "",
-       .meaning = "the encoder is on the drum, not on the motor",
-       .value = &data.encoder_on_drum,
-       .max = 1,
-       .source = "motor encoder"},
-      {.name = "encoder.reverse",
-       .unit = "",
-       .meaning = "it counts down when the blade moves with the web",
-       .value = &data.encoder.reverse,
-       .max = 1,
-       .source = "wired the usual way"},
-      row("home.angle", "deg", "drum angle of the middle of the home target", &data.home.centre, -360, 360,
-          "opposite to the cut"),
-      row("home.width", "deg", "width of the home target", &data.home.width, 0.1, 350, "estimate"),
-      row("home.hysteresis", "deg", "the home switch lets go this far behind the target",
-          &data.home.hysteresis, 0, 10, "estimate: proximity switch on 95 mm radius"),
-      row("home.delay", "ms", "delay of the home switch", &data.home.delay, 0, 100,
-          "estimate: proximity switch of 1 kHz"),
-      row("motor_friction.coulomb", "N m", "dry friction of the motor", &data.motor_friction.coulomb, 0, 1e4,
-          "estimate: 1 % of rated torque"),
-      row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
-          &data.motor_friction.viscous, 0, 100, "estimate"),
-      row("drum_friction.coulomb", "N m", "dry friction of the drum's bearings and seals",
-          &data.drum_friction.coulomb, 0, 1e5, "estimate"),
-      row("drum_friction.viscous", "N m s/rad", "viscous friction of the drum", &data.drum_friction.viscous,
-          0, 1e4, "estimate"),
-  };
-  for (Parameter& p : servo_axis_parameters(data.drive)) table.push_back(std::move(p));
-  for (Parameter& p : transmission_parameters(data.gear, "gear.")) table.push_back(std::move(p));
-  return table;
+  return joined(
+      {
+          row("web", "the web that it cuts", data.web, "web", "", true),
+          row("circumference", "mm", "circumference of the circle of the blade tips", data.circumference, 50,
+              10000, "a usual size: drum of 191 mm"),
+          row("blade_count", "blades, evenly on the drum", data.blade_count, 1, 24, "one cut a turn"),
+          row("blade_width", "mm", "width of drum and blades across the line", data.blade_width, 1, 10000,
+              "a narrow line"),
+          row("drum_inertia", "kg m2", "inertia of the drum with its blades", data.drum_inertia, 1e-5, 1e4,
+              "estimate: solid steel drum, diameter 191 mm, 400 mm wide"),
+          row("initial_angle", "deg", "angle of blade 1 at the start, 0 = at the cut", data.initial_angle,
+              -360, 360, "blade up, away from the web"),
+          row("coupling", "N s/m", "horizontal force between blade and web for their speed mismatch",
+              data.coupling, 0, 1e6, "estimate"),
+          row("grip", "N", "largest horizontal force between blade and web", data.grip, 0, 1e6,
+              "estimate: then the web gives way"),
+          row("mismatch_limit", "mm/s", "speed mismatch at which the web tears or buckles",
+              data.mismatch_limit, 0.1, 1e5, "estimate: 10 % of 60 m/min"),
+          row("encoder.lines", "lines of the encoder per turn; counted four times", data.encoder.lines, 1,
+              1000000, "8192 counts a turn"),
+          row("encoder.on_drum", "the encoder is on the drum, not on the motor", data.encoder_on_drum,
+              "motor encoder"),
+          row("encoder.reverse", "it counts down when the blade moves with the web", data.encoder.reverse,
+              "wired the usual way"),
+          row("home.angle", "deg", "drum angle of the middle of the home target", data.home.centre, -360, 360,
+              "opposite to the cut"),
+          row("home.width", "deg", "width of the home target", data.home.width, 0.1, 350, "estimate"),
+          row("home.hysteresis", "deg", "the home switch lets go this far behind the target",
+              data.home.hysteresis, 0, 10, "estimate: proximity switch on 95 mm radius"),
+          row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
+              "estimate: proximity switch of 1 kHz"),
+          row("motor_friction.coulomb", "N m", "dry friction of the motor", data.motor_friction.coulomb, 0,
+              1e4, "estimate: 1 % of rated torque"),
+          row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
+              data.motor_friction.viscous, 0, 100, "estimate"),
+          row("drum_friction.coulomb", "N m", "dry friction of the drum's bearings and seals",
+              data.drum_friction.coulomb, 0, 1e5, "estimate"),
+          row("drum_friction.viscous", "N m s/rad", "viscous friction of the drum",
+              data.drum_friction.viscous, 0, 1e4, "estimate"),
+      },
+      servo_axis_parameters(data.drive), group("gear.", transmission_parameters(data.gear)));
 }
 
 std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double h) {
@@ -126,13 +103,10 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections_with(c
 
 std::unique_ptr<Plant> RotaryKnifeDefinition::build(World& world,
                                                     const std::function<Plant*(std::string_view)>& find) {
-  auto* web = dynamic_cast<Web*>(find(data.web));
-  if (web == nullptr)
-    throw std::invalid_argument(
-        fmt::format("web: '{}' is no plant of type web; name one that stands before this one", data.web));
-  for (const Objection& o : objections_to(web->data(), data))
+  auto& web = referred<Web>(find, "web", data.web, "web");
+  for (const Objection& o : objections_to(web.data(), data))
     throw std::invalid_argument(fmt::format("{}: {}; {}", o.parameter, o.what, o.remedy));
-  return std::make_unique<RotaryKnife>(data, world, *web);
+  return std::make_unique<RotaryKnife>(data, world, web);
 }
 
 }  // namespace drycut::plants

@@ -5,8 +5,6 @@
 
 namespace drycut::plants {
 
-namespace {}  // namespace
-
 ServoAxis::ServoAxis(const ServoAxisData& data, const Shaft& rotor, Random noise)
     : amplifier_(data.servo, noise) {
   if (data.kind == "pulses") pulses_.emplace(data.pulses, amplifier_, rotor);
@@ -84,21 +82,14 @@ void ServoAxis::offer_faults(std::vector<Fault>& faults) {
   pulses_->offer_faults(faults, "servo");
 }
 
-Parameters servo_axis_parameters(ServoAxisData& data) {
-  Parameters table = {{.name = "drive",
-                       .unit = "",
-                       .meaning = "what the servo follows: servo = a speed reference by voltage; pulses = a "
-                                  "pulse train, with plugs servo.pulses, servo.direction (on = forward), "
-                                  "servo.reset, servo.in_position, servo.alarm",
-                       .value = &data.kind,
-                       .choices = {"servo", "pulses"},
-                       .source = "positioning by voltage"}};
-  const auto append = [&table](Parameters rows) {
-    for (Parameter& p : rows) table.push_back(std::move(p));
-  };
-  append(servo_parameters(data.servo, "servo."));
-  append(pulse_servo_parameters(data.pulses, "servo.pulses."));
-  return table;
+Parameters servo_axis_parameters(ServoAxisData& data, const ServoSources& from) {
+  return joined({row("drive",
+                     "what the servo follows: servo = a speed reference by voltage; pulses = a "
+                     "pulse train, with plugs servo.pulses, servo.direction (on = forward), "
+                     "servo.reset, servo.in_position, servo.alarm",
+                     data.kind, {"servo", "pulses"}, "positioning by voltage")},
+                group("servo.", servo_parameters(data.servo, from)),
+                group("servo.pulses.", pulse_servo_parameters(data.pulses)));
 }
 
 std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data, double inertia,

@@ -16,8 +16,8 @@ struct ServoAxisData {
   PulseServoData pulses = {};
 };
 
-/// Rows for a parameter table: `drive`, `servo.`, `servo.pulses.`.
-Parameters servo_axis_parameters(ServoAxisData& data);
+/// Rows for a parameter table: `drive`, `servo.`, `servo.pulses.`; `from` of a machine's defaults.
+Parameters servo_axis_parameters(ServoAxisData& data, const ServoSources& from = {});
 /// What is wrong with the data taken together, with `inertia` on the motor's shaft [kg m2] and steps of `h`
 /// seconds.
 std::vector<PlantDefinition::Objection> servo_axis_objections(const ServoAxisData& data, double inertia,

@@ -114,12 +114,8 @@ void ServoDrive::coast(Shaft& rotor, double h) {
 
 void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& component) {
   Faults& f = faults_;
-  faults.push_back({component,
-                    "offset",
-                    "V",
-                    [&f](double v) { f.offset = v; },
-                    "added to the analogue input",
-                    {-20, 20, false}});
+  faults.push_back(
+      fault_value(component, "offset", "V", f.offset, "added to the analogue input", {-20, 20, false}));
   faults.push_back({component,
                     "drift",
                     "V/s",
@@ -129,12 +125,8 @@ void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& com
                     },
                     "the analogue input drifts at this rate; 0 takes the drift away",
                     {-1e3, 1e3, false}});
-  faults.push_back({component,
-                    "noise",
-                    "V",
-                    [&f](double v) { f.noise = v; },
-                    "white noise on the analogue input, rms",
-                    {0, 20, false}});
+  faults.push_back(fault_value(component, "noise", "V", f.noise, "white noise on the analogue input, rms",
+                               {0, 20, false}));
   faults.push_back({component, "stuck", "",
                     [this](double v) {
                       if (v != 0 && !faults_.stuck) faults_.stuck_at = reference.volts;
@@ -146,55 +138,40 @@ void ServoDrive::offer_faults(std::vector<Fault>& faults, const std::string& com
 
 void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::string& component) {
   Faults& f = faults_;
-  faults.push_back({component, "disabled", "", [&f](double v) { f.disabled = v != 0; },
-                    "1: the amplifier trips, the motor coasts"});
-  faults.push_back({component,
-                    "torque_limit",
-                    "N m",
-                    [&f](double v) { f.torque_limit = v; },
-                    "the torque is limited to this; 0 takes the limit away",
-                    {0, 1e5, false}});
+  faults.push_back(
+      fault_state(component, "disabled", f.disabled, "1: the amplifier trips, the motor coasts"));
+  faults.push_back(fault_value(component, "torque_limit", "N m", f.torque_limit,
+                               "the torque is limited to this; 0 takes the limit away", {0, 1e5, false}));
 }
 
-Parameters servo_parameters(ServoData& data, const std::string& prefix) {
+Parameters servo_parameters(ServoData& data, const ServoSources& from) {
   constexpr std::string_view sheet = "data sheet: Mitsubishi HG-SR202";
-  const auto row = [&prefix](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                             double min, double max, std::string_view source) {
-    return Parameter{prefix + name, unit, meaning, value, min, max, {}, {}, source};
-  };
   return {
-      row("rotor_inertia", "kg m2", "inertia of the rotor, a body of its own", &data.rotor_inertia, 1e-7, 10,
+      row("rotor_inertia", "kg m2", "inertia of the rotor, a body of its own", data.rotor_inertia, 1e-7, 10,
           sheet),
-      row("rated_torque", "N m", "continuous torque; utilisation is measured against it", &data.rated_torque,
+      row("rated_torque", "N m", "continuous torque; utilisation is measured against it", data.rated_torque,
           1e-3, 1e4, sheet),
-      row("peak_torque", "N m", "largest torque up to rated speed", &data.peak_torque, 1e-3, 1e5, sheet),
-      row("torque_at_max_speed", "N m", "largest driving torque at max_speed", &data.torque_at_max_speed,
-          1e-3, 1e5, "estimate: typical fall of the class above rated speed"),
-      row("rated_speed", "rpm", "speed up to which the peak torque is available", &data.rated_speed, 1, 1e5,
+      row("peak_torque", "N m", "largest torque up to rated speed", data.peak_torque, 1e-3, 1e5, sheet),
+      row("torque_at_max_speed", "N m", "largest driving torque at max_speed", data.torque_at_max_speed, 1e-3,
+          1e5, "estimate: typical fall of the class above rated speed"),
+      row("rated_speed", "rpm", "speed up to which the peak torque is available", data.rated_speed, 1, 1e5,
           sheet),
-      row("max_speed", "rpm", "no driving torque is left 5 % above this speed", &data.max_speed, 1, 1e5,
+      row("max_speed", "rpm", "no driving torque is left 5 % above this speed", data.max_speed, 1, 1e5,
           sheet),
-      row("speed_at_10v", "rpm", "motor speed at a reference of 10 V", &data.speed_at_10v, 1, 1e5,
-          "usual setting: rated speed at 10 V"),
-      {prefix + "adc_bits",
-       "",
-       "resolution of the analogue input over -10 V .. +10 V",
-       &data.adc_bits,
-       8,
-       24,
-       {},
-       {},
-       "estimate: 14 bits are usual in the class"},
-      row("offset", "V", "offset of the analogue input", &data.offset, -1, 1, "ideal: none"),
-      row("filter", "ms", "time constant of the reference filter, 0 = none", &data.filter, 0, 1000,
+      row("speed_at_10v", "rpm", "motor speed at a reference of 10 V", data.speed_at_10v, 1, 1e5,
+          from.speed_at_10v),
+      row("adc_bits", "resolution of the analogue input over -10 V .. +10 V", data.adc_bits, 8, 24,
+          "estimate: 14 bits are usual in the class"),
+      row("offset", "V", "offset of the analogue input", data.offset, -1, 1, "ideal: none"),
+      row("filter", "ms", "time constant of the reference filter, 0 = none", data.filter, 0, 1000,
           "estimate"),
       row("speed_gain", "rad/s", "gain of the speed loop, Kp = (1 + inertia_ratio) rotor_inertia speed_gain",
-          &data.speed_gain, 0.1, 5000, "estimate: medium stiffness of an auto-tuned axis"),
-      row("integral_time", "ms", "integral time Ti of the speed loop", &data.integral_time, 0.1, 1e5,
+          data.speed_gain, 0.1, 5000, "estimate: medium stiffness of an auto-tuned axis"),
+      row("integral_time", "ms", "integral time Ti of the speed loop", data.integral_time, 0.1, 1e5,
           "estimate: as speed_gain"),
-      row("inertia_ratio", "", "load to motor inertia, as set in the amplifier", &data.inertia_ratio, 0, 300,
-          "the default drum behind gear 5: 0.41 / 25 / 0.00468"),
-      row("current_lag", "ms", "time constant of the current loop, 0 = none", &data.current_lag, 0, 100,
+      row("inertia_ratio", "", "load to motor inertia, as set in the amplifier", data.inertia_ratio, 0, 300,
+          from.inertia_ratio),
+      row("current_lag", "ms", "time constant of the current loop, 0 = none", data.current_lag, 0, 100,
           "estimate: bandwidth of 300 Hz"),
   };
 }

@@ -32,8 +32,13 @@ struct ServoData {
   double current_lag = 0.5e-3;   ///< time constant of the current loop, 0 = none [s]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "servo.".
-Parameters servo_parameters(ServoData& data, const std::string& prefix);
+/// Where a machine's defaults are from.
+struct ServoSources {
+  std::string_view inertia_ratio = "the default drum behind gear 5: 0.41 / 25 / 0.00468";
+  std::string_view speed_at_10v = "usual setting: rated speed at 10 V";
+};
+/// Rows of the group `servo.`.
+Parameters servo_parameters(ServoData& data, const ServoSources& from = {});
 
 /// What is wrong with the data taken together, with `inertia` on the motor's shaft [kg m2] and steps of `h`
 /// seconds.

@@ -31,30 +31,15 @@ double resonance(const TransmissionData& data, double motor_inertia, double load
   return std::sqrt(data.stiffness / reduced(motor_inertia * data.ratio * data.ratio, load_inertia));
 }
 
-Parameters transmission_parameters(TransmissionData& data, const std::string& prefix) {
+Parameters transmission_parameters(TransmissionData& data, const TransmissionSources& from) {
   return {
-      {prefix + "ratio", "", "turns of the motor for one of the load", &data.ratio, 0.01, 1000},
-      {.name = prefix + "stiffness",
-       .unit = "N m/rad",
-       .meaning = "torsional stiffness of gear, shaft and coupling, seen at the load",
-       .value = &data.stiffness,
-       .min = 1,
-       .max = 1e7,
-       .source = "estimate: planetary gear of the 2 kW class, 15 N m/arcmin"},
-      {.name = prefix + "damping",
-       .unit = "N m s/rad",
-       .meaning = "torsional damping, seen at the load",
-       .value = &data.damping,
-       .min = 0,
-       .max = 1e5,
-       .source = "estimate: 5 % of critical"},
-      {.name = prefix + "backlash",
-       .unit = "deg",
-       .meaning = "play between the flanks, seen at the load",
-       .value = &data.backlash,
-       .min = 0,
-       .max = 10,
-       .source = "none: set it to study its effect"},
+      row("ratio", "", "turns of the motor for one of the load", data.ratio, 0.01, 1000, from.ratio),
+      row("stiffness", "N m/rad", "torsional stiffness of gear, shaft and coupling, seen at the load",
+          data.stiffness, 1, 1e7, from.stiffness),
+      row("damping", "N m s/rad", "torsional damping, seen at the load", data.damping, 0, 1e5,
+          "estimate: 5 % of critical"),
+      row("backlash", "deg", "play between the flanks, seen at the load", data.backlash, 0, 10,
+          "none: set it to study its effect"),
   };
 }
 

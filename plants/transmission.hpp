@@ -1,6 +1,6 @@
 #pragma once
 #include <algorithm>
-#include <string>
+#include <string_view>
 
 #include "plants/parameters.hpp"
 #include "plants/world.hpp"
@@ -15,8 +15,13 @@ struct TransmissionData {
   double backlash = 0;      ///< whole play, seen at the load [rad]
 };
 
-/// Rows for a parameter table; `prefix` ends with a dot: "gear.".
-Parameters transmission_parameters(TransmissionData& data, const std::string& prefix);
+/// Where a machine's defaults are from.
+struct TransmissionSources {
+  std::string_view stiffness = "estimate: planetary gear of the 2 kW class, 15 N m/arcmin";
+  std::string_view ratio = "";
+};
+/// Rows of the group `gear.`.
+Parameters transmission_parameters(TransmissionData& data, const TransmissionSources& from = {});
 
 /// Torque that a spring with damper and play exerts for a twist [rad] and its rate [rad/s]. With play the
 /// flanks only push: damping neither pulls nor exceeds the spring (after Modelica's ElastoBacklash2).

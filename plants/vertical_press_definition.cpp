@@ -1,17 +1,9 @@
-#include <fmt/format.h>
-
-#include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/vertical_press.hpp"
 
 namespace drycut::plants {
 
 namespace {
-
-Parameter row(const char* name, std::string_view unit, std::string_view meaning, double& value, double min,
-              double max, std::string_view source) {
-  return Parameter{name, unit, meaning, &value, min, max, {}, {}, source};
-}
 
 Parameters mechanics(VerticalPressData& data) {
   return {
@@ -46,18 +38,18 @@ Parameters mechanics(VerticalPressData& data) {
           data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque"),
       row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor, its fan",
           data.motor_friction.viscous, 0, 100, "estimate"),
-      row("ram_friction.coulomb", "N", "dry friction of the ram's guides", data.ram_friction.coulomb, 0, 1e6,
-          "estimate: four guide bushes"),
-      row("ram_friction.viscous", "N s/m", "viscous friction of the guides", data.ram_friction.viscous, 0,
+      row("ram_friction.coulomb", "N", "dry friction of the ram's guides", data.guide_friction.coulomb, 0,
+          1e6, "estimate: four guide bushes"),
+      row("ram_friction.viscous", "N s/m", "viscous friction of the guides", data.guide_friction.viscous, 0,
           1e6, "estimate"),
       row("ram_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
-          data.ram_friction.breakaway, 0, 1e6, "none: set it to study stick-slip"),
+          data.guide_friction.breakaway, 0, 1e6, "none: set it to study stick-slip"),
       row("ram_friction.stribeck_speed", "mm/s", "speed at which 1/e of it is left",
-          data.ram_friction.stribeck_speed, 1e-3, 1e5, "estimate"),
+          data.guide_friction.stribeck_speed, 1e-3, 1e5, "estimate"),
   };
 }
 
-Parameters looks(VerticalPressData& data) {
+Parameters picture(VerticalPressData& data) {
   return {
       row("place.x", "mm", "picture: middle of the table along the line", data.place_x, -1e5, 1e5,
           "at the cut"),
@@ -68,46 +60,31 @@ Parameters looks(VerticalPressData& data) {
   };
 }
 
-double motor_inertia(const VerticalPressData& data) {
-  return data.drive.rotor_inertia() + data.screw_inertia / (data.gear.ratio * data.gear.ratio);
-}
-
 }  // namespace
 
 Parameters VerticalPressDefinition::parameters() {
-  Parameters table = mechanics(data);
-  const auto append = [&table](Parameters rows) {
-    for (Parameter& p : rows) table.push_back(std::move(p));
-  };
-  append(axis_drive_parameters(data.drive));
-  append(transmission_parameters(data.gear, "gear."));
-  append(axis_transducer_parameters(data.sensors));
-  append(looks(data));
-  for (Parameter& p : table) {
-    if (p.name == "drive") p.source = "a press that is positioned on/off";
-    if (p.name == "brake.torque") p.source = "1.7 times rated torque";
-    if (p.name == "gear.ratio") p.source = "motor on the screw";
-    if (p.name == "gear.stiffness") p.source = "estimate: 100 N/um of screw, nut and bearings, lead 10 mm";
-    if (p.name == "scale.resolution") p.source = "a usual scale of a press";
-    if (p.name == "home.position") p.source = "in the upper part of the stroke";
-    if (p.name == "limit_min" || p.name == "limit_max") p.source = "10 mm before the stop";
-  }
-  return table;
+  return joined(
+      mechanics(data),
+      axis_drive_parameters(data.drive, {.kind = "a press that is positioned on/off",
+                                         .brake_torque = "1.7 times rated torque"}),
+      group("gear.", transmission_parameters(
+                         data.gear, {.stiffness = "estimate: 100 N/um of screw, nut and bearings, lead 10 mm",
+                                     .ratio = "motor on the screw"})),
+      axis_transducer_parameters(data.sensors, {.scale_resolution = "a usual scale of a press",
+                                                .home = "in the upper part of the stroke",
+                                                .limits = "10 mm before the stop"}),
+      picture(data));
 }
 
 std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections(double h) {
-  const double metre = data.lead / units::turn;
   AxisObjections found("ram", h);
-  found.gear(data.gear, motor_inertia(data), data.mass * metre * metre);
-  found.contact("stop", data.stop, data.mass, "end stop");
+  const double inertia = motor_inertia(data, data.drive.rotor_inertia());
+  found.screw(data, inertia);
   found.contact("workpiece", data.workpiece, data.mass, "workpiece");
-  found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia(data), "motor");
-  found.viscous("ram_friction.viscous", data.ram_friction, data.mass, "ram");
-  found.travel(data.travel_min, data.travel_max, data.start);
-  found.limit_switches(data.sensors.limit_min, data.sensors.limit_max);
+  found.guided("ram_friction.viscous", data, inertia);
   if (data.workpiece.stiffness > 0 && data.start < data.workpiece_height)
     found.object("workpiece.height", "the ram starts in the workpiece", "below start");
-  found.add(axis_drive_objections(data.drive, motor_inertia(data), h));
+  found.add(axis_drive_objections(data.drive, inertia, h));
   return found.take();
 }
 

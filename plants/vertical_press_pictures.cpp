@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plants/colours.hpp"
-#include "plants/pose_math.hpp"
+#include "base/units.hpp"
+#include "plants/assembly.hpp"
 #include "plants/vertical_press.hpp"
 
 namespace drycut::plants {
@@ -12,10 +12,6 @@ namespace drycut::plants {
 
 namespace {
 
-using Shape = Part::Shape;
-using Colour = std::array<float, 3>;
-
-constexpr double floor_y = -0.9;
 constexpr double bed_height = 0.22;
 constexpr double foot_height = -floor_y - 0.05 - bed_height;
 constexpr double tool_height = 0.12;  // from the tool's face to the ram [m]
@@ -29,175 +25,149 @@ constexpr double motor_x = 0.30;
 constexpr double nut_radius = 0.09;
 constexpr double weight_plate = 1e-3;  // height of a stack of plates per kilogram [m/kg]
 
-// A cylinder stands along z; this stands it up.
-const Quaternion upright = about_x(-std::numbers::pi / 2);
-const Quaternion downward = about_x(std::numbers::pi / 2);
-const Quaternion level = {0, 0, 0, 1};
-
-Part rod(const char* name, double diameter, double length, Colour colour, const char* material,
-         const char* model = "") {
-  return {name, Shape::cylinder, {diameter, diameter, length}, colour, material, model};
-}
-Part box(const char* name, double x, double y, double z, Colour colour, const char* material = "paint",
-         const char* model = "") {
-  return {name, Shape::box, {x, y, z}, colour, material, model};
-}
-
-/// Lower side of the crown, over the table [m].
-double crown_of(const VerticalPressData& data) { return data.travel_max + ram_top + clearance; }
-
 }  // namespace
 
-/// A part and where its middle is [m]: from the middle of the table's top, or from the tool's face if it goes
-/// with the ram.
-struct VerticalPress::Item {
-  Part part;
-  double x = 0;
-  double y = 0;
-  double z = 0;
-  bool moves = false;
-  Quaternion turned = level;
-  double scale_y = 1;
-  bool visible = true;
+/// Its frames are at the middle of the table's top and at the tool's face.
+class VerticalPress::Picture : public Assembly {
+ public:
+  explicit Picture(const VerticalPress& press) : press_(press), data_(press.data_) {
+    add_frame();
+    add_drive();
+    if (data_.counterbalance > 0) add_counterbalance();
+    add_stops_and_switches();
+    add_load();
+  }
+
+ private:
+  void add_frame();
+  void add_drive();
+  void add_counterbalance();
+  void add_stops_and_switches();
+  void add_load();
+  /// A part that stands on both sides of the middle.
+  void pair(const char* name, double x, double diameter, double length, const looks::Look& look,
+            const Pose& offset, const char* model = "") {
+    for (const double side : {-1.0, 1.0})
+      rod(numbered(name, side), diameter, length, look, at(side * x, 0, 0) * offset, model);
+  }
+
+  const VerticalPress& press_;
+  const VerticalPressData& data_;
+  double crown = data_.travel_max + ram_top + clearance;  // its lower side over the table
+  Pose table = at(data_.place_x, data_.place_y, data_.place_z);
+  Frame table_ = [table = table] { return table; };
+  Frame ram_ = [table = table, &ram = press_.ram()] { return table * at(0, ram.position, 0); };
 };
 
-std::vector<VerticalPress::Item> VerticalPress::items() const {
-  std::vector<Item> all;
-  add_frame(all);
-  add_drive(all);
-  add_counterbalance(all);
-  add_stops_and_switches(all);
-  add_load(all);
-  return all;
+void VerticalPress::Picture::add_frame() {
+  on(table_);
+  box("bed", {1.04, bed_height, 0.56}, looks::bed, at(0, -0.05 - bed_height / 2, 0), "press_bed");
+  for (const double side : {-1.0, 1.0})
+    box(numbered("foot", side), {0.22, foot_height, 0.56}, looks::bed,
+        at(side * 0.41, floor_y + foot_height / 2, 0), "leg");
+  box("table", {0.84, 0.05, 0.52}, looks::steel, at(0, -0.025, 0), "press_table");
+  for (const double side : {-1.0, 1.0})
+    box(numbered("upright", side), {0.1, crown, 0.3}, looks::bed, at(side * upright_x, crown / 2, -0.1),
+        "press_upright");
+  box("crown", {1.04, crown_height, 0.44}, looks::bed, at(0, crown + crown_height / 2, -0.03), "press_crown");
+  pair("column", column_x, 0.06, crown, looks::steel, at(0, crown / 2, 0.04) * upright);
+  on(ram_);
+  const double ram_middle = tool_height + ram_height / 2;
+  box("ram", {0.8, ram_height, 0.3}, looks::moving, at(0, ram_middle, 0.02), "press_ram");
+  pair("bush", column_x, 0.11, ram_height + 0.06, looks::brass, at(0, ram_middle, 0.04) * upright, "bush");
+  box("tool", {0.22, tool_height, 0.22}, looks::dark.on("steel"), at(0, tool_height / 2, 0.04), "tool");
 }
 
-void VerticalPress::add_frame(std::vector<Item>& all) const {
-  const double crown = crown_of(data_);
-  all = {
-      {box("bed", 1.04, bed_height, 0.56, colours::bed, "paint", "press_bed"), 0, -0.05 - bed_height / 2, 0},
-      {box("foot 1", 0.22, foot_height, 0.56, colours::bed, "paint", "leg"), -0.41, floor_y + foot_height / 2,
-       0},
-      {box("foot 2", 0.22, foot_height, 0.56, colours::bed, "paint", "leg"), 0.41, floor_y + foot_height / 2,
-       0},
-      {box("table", 0.84, 0.05, 0.52, colours::steel, "steel", "press_table"), 0, -0.025, 0},
-      {box("upright 1", 0.1, crown, 0.3, colours::bed, "paint", "press_upright"), -upright_x, crown / 2,
-       -0.1},
-      {box("upright 2", 0.1, crown, 0.3, colours::bed, "paint", "press_upright"), upright_x, crown / 2, -0.1},
-      {box("crown", 1.04, crown_height, 0.44, colours::bed, "paint", "press_crown"), 0,
-       crown + crown_height / 2, -0.03},
-      {rod("column 1", 0.06, crown, colours::steel, "steel"), -column_x, crown / 2, 0.04, false, upright},
-      {rod("column 2", 0.06, crown, colours::steel, "steel"), column_x, crown / 2, 0.04, false, upright},
-      {box("ram", 0.8, ram_height, 0.3, colours::moving, "paint", "press_ram"), 0,
-       tool_height + ram_height / 2, 0.02, true},
-      {rod("bush 1", 0.11, ram_height + 0.06, colours::brass, "steel", "bush"), -column_x,
-       tool_height + ram_height / 2, 0.04, true, upright},
-      {rod("bush 2", 0.11, ram_height + 0.06, colours::brass, "steel", "bush"), column_x,
-       tool_height + ram_height / 2, 0.04, true, upright},
-      {box("tool", 0.22, tool_height, 0.22, colours::dark, "steel", "tool"), 0, tool_height / 2, 0.04, true},
-  };
-}
-
-void VerticalPress::add_drive(std::vector<Item>& all) const {
-  const double top = crown_of(data_) + crown_height;
+void VerticalPress::Picture::add_drive() {
+  const double top = crown + crown_height;
   // The screw reaches the nut at the lowest position.
   const double screw = top + 0.12 - (data_.travel_min + ram_top);
-  const double angle = 2 * std::numbers::pi * rotor_.part;
-  const double nut_angle = 2 * std::numbers::pi * std::fmod(rotor_.revolutions() / data_.gear.ratio, 1.0);
-  const std::vector<Item> driven = {
-      {rod("screw", 0.05, screw, colours::steel, "steel", "screw"), 0, ram_top + screw / 2, 0.02, true,
-       upright},
-      {rod("nut", 2 * nut_radius, 0.07, colours::brass, "steel", "pulley"), 0, top + 0.035, 0.02, false,
-       product(about_y(nut_angle), upright)},
-      {box("nut mark", 0.06, 0.074, 0.012, colours::red), 0.06 * std::cos(nut_angle), top + 0.037,
-       0.02 - 0.06 * std::sin(nut_angle), false, about_y(nut_angle)},
-      {box("belt", motor_x + nut_radius + 0.065, 0.03, 2 * nut_radius + 0.01, colours::dark, "rubber",
-           "drive_belt"),
-       (motor_x + 0.055 - nut_radius) / 2, top + 0.035, 0.02},
-      {rod("pulley", 0.11, 0.05, colours::steel, "steel", "pulley"), motor_x, top + 0.035, 0.02, false,
-       product(about_y(angle), upright)},
-      {rod("motor", 0.18, 0.26, colours::dark, "paint", "induction_motor"), motor_x, top + 0.2, 0.02, false,
-       downward},
-      {rod("fan", 0.19, 0.05, colours::grey, "paint"), motor_x, top + 0.355, 0.02, false, upright},
-      {rod("brake", 0.15, 0.06, colours::red, "paint"), motor_x, top + 0.41, 0.02, false, upright},
-      {rod("encoder", 0.08, 0.05, colours::steel, "steel", "encoder"), motor_x, top + 0.465, 0.02, false,
-       downward},
-      {box("encoder mark", 0.03, 0.006, 0.008, colours::red), motor_x + 0.018 * std::cos(angle), top + 0.493,
-       0.02 - 0.018 * std::sin(angle), false, about_y(angle)},
+  rod("screw", 0.05, screw, looks::steel, at(0, ram_top + screw / 2, 0.02) * upright, "screw");
+  on([table = table * at(0, top + 0.035, 0.02), &drive = press_.screw_] {
+    return table * about_y(drive.screw_turn());
+  });
+  rod("nut", 2 * nut_radius, 0.07, looks::brass, upright, "pulley");
+  box("nut mark", {0.06, 0.074, 0.012}, looks::red, at(0.06, 0.002, 0));
+  on(table_);
+  box("belt", {motor_x + nut_radius + 0.065, 0.03, 2 * nut_radius + 0.01}, looks::dark.on("rubber"),
+      at((motor_x + 0.055 - nut_radius) / 2, top + 0.035, 0.02), "drive_belt");
+  const Frame shaft = [table = table * at(motor_x, top, 0.02), &rotor = press_.rotor()] {
+    return table * about_y(units::turn * rotor.part);
   };
-  all.insert(all.end(), driven.begin(), driven.end());
+  on(shaft);
+  rod("pulley", 0.11, 0.05, looks::steel, at(0, 0.035, 0) * upright, "pulley");
+  const auto on_motor = [&](double y) { return at(motor_x, top + y, 0.02); };
+  on(table_);
+  rod("motor", 0.18, 0.26, looks::dark, on_motor(0.2) * downward, "induction_motor");
+  rod("fan", 0.19, 0.05, looks::grey.on("paint"), on_motor(0.355) * upright);
+  rod("brake", 0.15, 0.06, looks::red, on_motor(0.41) * upright);
+  rod("encoder", 0.08, 0.05, looks::steel, on_motor(0.465) * downward, "encoder");
+  on(shaft);
+  box("encoder mark", {0.03, 0.006, 0.008}, looks::red, at(0.018, 0.493, 0));
 
   // A lamp on the crown: red while the brake holds, else green.
-  const bool released = drive_.brake().released();
-  for (const bool lamp : {false, true})
-    all.push_back(
-        {box(lamp ? "lamp released" : "lamp brake", 0.06, 0.06, 0.02, lamp ? colours::green : colours::red),
-         -0.42, top - crown_height / 2, 0.2, false, level, 1, lamp == released});
+  for (const bool lamp : {false, true}) {
+    on([table = table, lamp, &drive = press_.drive_] {
+      return PartPose(table, lamp == drive.brake().released());
+    });
+    box(lamp ? "lamp released" : "lamp brake", {0.06, 0.06, 0.02}, lamp ? looks::green : looks::red,
+        at(-0.42, top - crown_height / 2, 0.2));
+  }
 }
 
 /// Its rods push the ram from below; their cylinders hang in the bed.
-void VerticalPress::add_counterbalance(std::vector<Item>& all) const {
-  if (data_.counterbalance <= 0) return;
+void VerticalPress::Picture::add_counterbalance() {
   const double reach = std::min(data_.travel_max + tool_height + 0.06, -floor_y + tool_height);
+  const double body = reach - tool_height + 0.04;
   for (const double side : {-1.0, 1.0}) {
-    all.push_back({rod(side < 0 ? "rod 1" : "rod 2", 0.04, reach, colours::steel, "steel"), side * 0.22,
-                   tool_height - reach / 2, -0.09, true, upright});
-    const double body = reach - tool_height + 0.04;
-    all.push_back({rod(side < 0 ? "cylinder 1" : "cylinder 2", 0.1, body, colours::grey, "steel"),
-                   side * 0.22, -0.05 - body / 2, -0.09, false, upright});
-    all.push_back({rod(side < 0 ? "gland 1" : "gland 2", 0.09, 0.05, colours::grey, "steel"), side * 0.22,
-                   0.025, -0.09, false, upright});
+    const double x = side * 0.22;
+    on(ram_);
+    rod(numbered("rod", side), 0.04, reach, looks::steel, at(x, tool_height - reach / 2, -0.09) * upright);
+    on(table_);
+    rod(numbered("cylinder", side), 0.1, body, looks::grey, at(x, -0.05 - body / 2, -0.09) * upright);
+    rod(numbered("gland", side), 0.09, 0.05, looks::grey, at(x, 0.025, -0.09) * upright);
   }
 }
 
-void VerticalPress::add_stops_and_switches(std::vector<Item>& all) const {
-  const double crown = crown_of(data_);
+void VerticalPress::Picture::add_stops_and_switches() {
+  const looks::Look rubber = looks::red.on("rubber");
+  const double low = data_.travel_min + tool_height;
+  on(table_);
   for (const double side : {-1.0, 1.0}) {
-    const double low = data_.travel_min + tool_height;
-    all.push_back({rod(side < 0 ? "stop 1" : "stop 2", 0.06, low, colours::red, "rubber", "bumper"),
-                   side * 0.2, low / 2, 0.13, false, upright});
-    all.push_back({rod(side < 0 ? "stop 3" : "stop 4", 0.06, clearance, colours::red, "rubber", "bumper"),
-                   side * 0.2, crown - clearance / 2, 0.13, false, downward});
+    const double x = side * 0.2;
+    rod(side < 0 ? "stop 1" : "stop 2", 0.06, low, rubber, at(x, low / 2, 0.13) * upright, "bumper");
+    rod(side < 0 ? "stop 3" : "stop 4", 0.06, clearance, rubber,
+        at(x, crown - clearance / 2, 0.13) * downward, "bumper");
   }
-  const double switch_x = upright_x - 0.07;
   const double flag_y = tool_height + ram_height / 2;
   const auto sensor = [&](const char* name, double height) {
-    all.push_back({box(name, 0.045, 0.03, 0.03, colours::white), switch_x, flag_y + height, 0.075});
+    box(name, {0.045, 0.03, 0.03}, looks::white, at(upright_x - 0.07, flag_y + height, 0.075));
   };
   sensor("home switch", data_.sensors.home.centre);
   sensor("limit switch 1", data_.sensors.limit_min);
   sensor("limit switch 2", data_.sensors.limit_max);
-  all.push_back(
-      {box("flag", 0.012, data_.sensors.home.width, 0.05, colours::white), 0.4, flag_y, 0.12, true});
-  all.push_back({box("scale", 0.02, crown - 0.1, 0.02, colours::white), -upright_x + 0.06, crown / 2, 0.06});
+  on(ram_);
+  box("flag", {0.012, data_.sensors.home.width, 0.05}, looks::white, at(0.4, flag_y, 0.12));
+  on(table_);
+  box("scale", {0.02, crown - 0.1, 0.02}, looks::white, at(-upright_x + 0.06, crown / 2, 0.06));
 }
 
-void VerticalPress::add_load(std::vector<Item>& all) const {
-  const double load = ram_.mass - data_.mass;
-  const double stack = std::max(load, 1e-6) * weight_plate;
+void VerticalPress::Picture::add_load() {
+  on([ram = ram_, &press = press_] {
+    const double load = press.ram().mass - press.data_.mass;
+    const double stack = std::max(load, 1e-6) * weight_plate;
+    return PartPose(ram().pose * at(0, ram_top + stack / 4, 0), load > 0, {1, stack / 2, 1});
+  });
   for (const double side : {-1.0, 1.0})
-    all.push_back({box(side < 0 ? "load 1" : "load 2", 0.2, 1, 0.2, colours::grey, "steel", "weight"),
-                   side * 0.19, ram_top + stack / 4, 0.06, true, level, stack / 2, load > 0});
-  if (data_.workpiece.stiffness > 0) {
-    const double height = std::min(data_.workpiece_height, ram_.position);
-    all.push_back({box("workpiece", 0.3, 1, 0.26, colours::brass, "steel", "workpiece"), 0, height / 2, 0.04,
-                   false, level, std::max(height, 1e-3)});
-  }
+    box(numbered("load", side), {0.2, 1, 0.2}, looks::grey, at(side * 0.19, 0, 0.06), "weight");
+  if (data_.workpiece.stiffness <= 0) return;
+  on([table = table, &press = press_] {
+    const double height = std::min(press.data_.workpiece_height, press.ram().position);
+    return PartPose(table * at(0, height / 2, 0), true, {1, std::max(height, 1e-3), 1});
+  });
+  box("workpiece", {0.3, 1, 0.26}, looks::brass, at(0, 0, 0.04), "workpiece");
 }
 
-std::vector<Part> VerticalPress::parts() {
-  std::vector<Part> list;
-  for (Item& item : items()) list.push_back(std::move(item.part));
-  return list;
-}
-
-void VerticalPress::poses(std::vector<PartPose>& out) {
-  out.clear();
-  for (const Item& item : items()) {
-    const double y = data_.place_y + item.y + (item.moves ? ram_.position : 0);
-    out.push_back({.pose = {{data_.place_x + item.x, y, data_.place_z + item.z}, item.turned},
-                   .visible = item.visible,
-                   .scale = {1, item.scale_y, 1}});
-  }
-}
+std::vector<Part> VerticalPress::parts() { return Picture(*this).take(); }
 
 }  // namespace drycut::plants

@@ -9,8 +9,7 @@ namespace drycut::plants {
 
 namespace {
 
-constexpr double metres_a_minute = 60;  // m/s -> m/min
-constexpr double fastest = 1000;        // [m/min]
+constexpr double fastest = 1000;  // [m/min]
 
 }  // namespace
 
@@ -58,10 +57,10 @@ std::vector<Port> Web::ports() {
 
 std::vector<Channel> Web::channels() {
   return {
-      {"speed", "m/min", [this] { return material_.speed * metres_a_minute; }, "speed of the web"},
+      {"speed", "m/min", [this] { return material_.speed * units::metres_a_minute; }, "speed of the web"},
       {"position", "mm", [this] { return material_.position * units::millimetres; },
        "travel of the web since the start"},
-      {"set_speed", "m/min", [this] { return drive_.roll_speed() * metres_a_minute; },
+      {"set_speed", "m/min", [this] { return drive_.roll_speed() * units::metres_a_minute; },
        "set speed of the line drive after its acceleration limit"},
       {"drive.force", "N", [this] { return drive_.force(); }, "force of the line drive on the web"},
       {"wheel.count", "", [this] { return static_cast<double>(wheel_.pulses.port.count); },
@@ -93,50 +92,41 @@ std::vector<Fault> Web::faults() {
 }
 
 Parameters WebDefinition::parameters() {
-  const auto row = [](const char* name, std::string_view unit, std::string_view meaning, double* value,
-                      double min, double max, std::string_view source) {
-    return Parameter{name, unit, meaning, value, min, max, {}, {}, source};
-  };
-  Parameters table = {
-      row("speed", "m/min", "line speed at the start; the web already runs at it", &data.drive.speed, 0,
-          fastest, "a usual speed of a cut-to-length line"),
-      {.name = "section",
-       .unit = "",
-       .meaning = "what the material is: a flat strip or a round tube",
-       .value = &data.section,
-       .choices = {"strip", "tube"},
-       .source = "solid board"},
-      row("thickness", "mm", "thickness of the strip, or of the tube's wall", &data.thickness, 0.01, 100,
-          "solid board"),
-      row("width", "mm", "width of the strip, or outer diameter of the tube", &data.width, 1, 10000,
-          "a narrow line"),
-      row("density", "kg/m3", "density of the material", &data.density, 1, 20000, "solid board"),
-      row("shear_strength", "MPa", "shear resistance of the material, mean over the length of the blade",
-          &data.shear_strength, 0, 2000, "estimate: solid board, blade with a slight helix"),
-      row("mass", "kg", "mass that moves with the web", &data.mass, 0.01, 1e5,
-          "estimate: 10 m of strip, 2 kg, and the rolls that it drives"),
-      row("lead", "mm", "web beyond the cut at the start; the first piece is longer by it", &data.lead, 0,
-          100000, "the lead end is at the cut"),
-      row("drive.acceleration", "m/s2", "largest acceleration of the line drive", &data.drive.acceleration,
-          1e-3, 1000, "estimate: a second to 120 m/min"),
-      row("drive.stiffness", "N/m", "stiffness of the web between line drive and cut", &data.drive.stiffness,
-          1, 1e9, "estimate: 16 Hz with 20 kg"),
-      row("drive.damping", "N s/m", "damping of the line drive's speed loop on the web", &data.drive.damping,
-          0, 1e7, "estimate: 70 % of critical"),
-      row("drive.max_force", "N", "largest force of the line drive before it slips", &data.drive.max_force,
-          0.1, 1e6, "estimate"),
-      row("outfeed.speed_factor", "", "speed of the outfeed belt over line speed", &data.outfeed.speed_factor,
-          1, 10, "usual 10 to 30 % faster"),
-      row("outfeed.friction", "", "Coulomb friction coefficient, piece on belt", &data.outfeed.friction, 0.01,
-          2, "estimate: board on rubber"),
-      row("outfeed.start", "mm", "where the outfeed belt begins behind the cut", &data.outfeed.start, 0,
-          10000, "estimate"),
-      row("outfeed.length", "mm", "length of the outfeed belt", &data.outfeed.length, 100, 100000,
-          "estimate"),
-  };
-  for (Parameter& p : wheel_parameters(data.wheel, "wheel.")) table.push_back(std::move(p));
-  for (Parameter& p : print_mark_parameters(data.marks, "marks.")) table.push_back(std::move(p));
-  return table;
+  return joined(
+      {
+          row("speed", "m/min", "line speed at the start; the web already runs at it", data.drive.speed, 0,
+              fastest, "a usual speed of a cut-to-length line"),
+          row("section", "what the material is: a flat strip or a round tube", data.section,
+              {"strip", "tube"}, "solid board"),
+          row("thickness", "mm", "thickness of the strip, or of the tube's wall", data.thickness, 0.01, 100,
+              "solid board"),
+          row("width", "mm", "width of the strip, or outer diameter of the tube", data.width, 1, 10000,
+              "a narrow line"),
+          row("density", "kg/m3", "density of the material", data.density, 1, 20000, "solid board"),
+          row("shear_strength", "MPa", "shear resistance of the material, mean over the length of the blade",
+              data.shear_strength, 0, 2000, "estimate: solid board, blade with a slight helix"),
+          row("mass", "kg", "mass that moves with the web", data.mass, 0.01, 1e5,
+              "estimate: 10 m of strip, 2 kg, and the rolls that it drives"),
+          row("lead", "mm", "web beyond the cut at the start; the first piece is longer by it", data.lead, 0,
+              100000, "the lead end is at the cut"),
+          row("drive.acceleration", "m/s2", "largest acceleration of the line drive", data.drive.acceleration,
+              1e-3, 1000, "estimate: a second to 120 m/min"),
+          row("drive.stiffness", "N/m", "stiffness of the web between line drive and cut",
+              data.drive.stiffness, 1, 1e9, "estimate: 16 Hz with 20 kg"),
+          row("drive.damping", "N s/m", "damping of the line drive's speed loop on the web",
+              data.drive.damping, 0, 1e7, "estimate: 70 % of critical"),
+          row("drive.max_force", "N", "largest force of the line drive before it slips", data.drive.max_force,
+              0.1, 1e6, "estimate"),
+          row("outfeed.speed_factor", "", "speed of the outfeed belt over line speed",
+              data.outfeed.speed_factor, 1, 10, "usual 10 to 30 % faster"),
+          row("outfeed.friction", "", "Coulomb friction coefficient, piece on belt", data.outfeed.friction,
+              0.01, 2, "estimate: board on rubber"),
+          row("outfeed.start", "mm", "where the outfeed belt begins behind the cut", data.outfeed.start, 0,
+              10000, "estimate"),
+          row("outfeed.length", "mm", "length of the outfeed belt", data.outfeed.length, 100, 100000,
+              "estimate"),
+      },
+      group("wheel.", wheel_parameters(data.wheel)), group("marks.", print_mark_parameters(data.marks)));
 }
 
 std::vector<PlantDefinition::Objection> WebDefinition::objections(double h) {
@@ -158,7 +148,7 @@ std::vector<PlantDefinition::Objection> WebDefinition::objections(double h) {
   if (marks.pitch > 0 && data.drive.speed * h > marks.width)
     found.object("marks.width",
                  fmt::format("at {:g} m/min a mark of {:g} mm is past the photocell within a step of {:g} us",
-                             data.drive.speed * metres_a_minute, marks.width * 1000, h * 1e6),
+                             data.drive.speed * units::metres_a_minute, marks.width * 1000, h * 1e6),
                  step_remedy(marks.width / data.drive.speed));
   return found.take();
 }

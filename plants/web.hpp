@@ -40,7 +40,6 @@ class Web : public Plant {
   std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;
   std::vector<Part> parts() override;
-  void poses(std::vector<PartPose>& out) override;
   void callouts(std::vector<Callout>& out) override;
 
   [[nodiscard]] const WebData& data() const { return data_; }
@@ -58,7 +57,10 @@ class Web : public Plant {
   [[nodiscard]] double register_error() const { return marks_.behind_mark(lead_end_); }
 
  private:
-  void pose_prints(std::vector<PartPose>& out) const;
+  class Picture;
+  // How far the web reaches beyond the cut, and where printed marks are on what is seen of it [m].
+  [[nodiscard]] double overhang() const;
+  [[nodiscard]] std::vector<double> prints_in_sight() const;
 
   WebData data_;
   Slide& material_;  // position: travel since the start

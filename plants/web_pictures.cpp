@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "plants/pose_math.hpp"
+#include "base/units.hpp"
+#include "plants/assembly.hpp"
 #include "plants/web.hpp"
 
 namespace drycut::plants {
@@ -11,7 +13,6 @@ namespace drycut::plants {
 
 namespace {
 
-constexpr double floor_y = -0.9;
 constexpr double upstream = 1.7;     // visible web before the cut [m]
 constexpr double least_look = 3e-3;  // thinner web would vanish in the picture [m]
 constexpr double pull_x = -1.25;     // line drive
@@ -19,36 +20,24 @@ constexpr double wheel_x = -0.7;
 constexpr double roll_diameter = 0.14;
 constexpr double stand_low = -0.24;  // foot of the pull rolls' stands
 constexpr double belt_height = 0.11;
+constexpr double infeed_leg = 0.75;
 constexpr double outfeed_leg = 0.795;
 constexpr int tube_rollers = 4;
-constexpr double tube_roller = 0.09;  // outer diameter [m]
-constexpr int cleats = 8;             // marks on the belt that show its motion
+constexpr double tube_roller = 0.09;       // outer diameter [m]
+constexpr double waist = tube_roller / 3;  // radius of a roller's waist, on which the tube lies
+constexpr int cleats = 8;                  // marks on the belt that show its motion
 
-constexpr std::array<float, 3> roll_colour = {0.62F, 0.64F, 0.67F};
-constexpr std::array<float, 3> paint = {0.16F, 0.30F, 0.42F};
-constexpr std::array<float, 3> rubber = {0.14F, 0.15F, 0.16F};
-constexpr std::array<float, 3> web_colour = {0.96F, 0.62F, 0.12F};
-constexpr std::array<float, 3> mark_colour = {0.85F, 0.87F, 0.88F};
-constexpr std::array<float, 3> print_colour = {0.10F, 0.09F, 0.09F};
-constexpr double print_look = 15e-3;  // a narrower mark would vanish in the picture [m]
+constexpr looks::Look roll_look = {{0.62F, 0.64F, 0.67F}, "steel"};
+constexpr looks::Look rubber_look = {{0.14F, 0.15F, 0.16F}, "rubber"};
+constexpr looks::Look web_look = {{0.96F, 0.62F, 0.12F}, "web"};
+constexpr looks::Look mark_look = {{0.85F, 0.87F, 0.88F}};
+constexpr looks::Look print_look = {{0.10F, 0.09F, 0.09F}, "web"};
+constexpr double least_print = 15e-3;  // a narrower mark would vanish in the picture [m]
 constexpr std::size_t most_prints = 40;
 constexpr double beyond_cut = 0.3;  // of the web before it is cut, where marks are shown [m]
 
-using Shape = Part::Shape;
-
 /// How high the material looks [m].
 double look_of(const WebData& data) { return std::max(section_height(data.cross_section()), least_look); }
-std::array<double, 3> stand_size(double look) { return {0.06, look + roll_diameter - stand_low, 0.024}; }
-/// Width of rolls, tables and belt [m]: a tube needs more than its own.
-double machine_width(const WebData& data) {
-  return data.cross_section().tube ? std::max(4 * data.width, 0.16) : data.width;
-}
-/// Where the measuring wheel's axle is, and the arm on the operator's side that carries it.
-double wheel_y_of(const WebData& data) {
-  return look_of(data) + data.wheel.circumference / (2 * std::numbers::pi);
-}
-double wheel_z_of(const WebData& data) { return data.cross_section().tube ? 0 : machine_width(data) * 0.4; }
-double wheel_arm_z(const WebData& data) { return machine_width(data) * 0.55 + 0.04; }
 
 /// So many marks can be in sight.
 std::size_t prints_of(const PrintMarkData& marks) {
@@ -58,164 +47,185 @@ std::size_t prints_of(const PrintMarkData& marks) {
 
 }  // namespace
 
-std::vector<Part> Web::parts() {
-  const double w = machine_width(data_);
-  const double look = look_of(data_);
-  const double belt = data_.outfeed.length;
-  const double wheel = data_.wheel.circumference / std::numbers::pi;
-  const bool tube = data_.cross_section().tube;
-  // Of a length of 1 m: poses scale it.
-  const auto material = [&](const std::string& name) {
-    return tube ? Part{name, Shape::cylinder, {look, look, 1}, web_colour, "web"}
-                : Part{name, Shape::box, {1, look, w}, web_colour, "web"};
-  };
-  std::vector<Part> parts = {
-      material("web"),
-      {"upper pull roll",
-       Shape::cylinder,
-       {roll_diameter, roll_diameter, w * 1.15},
-       rubber,
-       "rubber",
-       "roller"},
-      {"lower pull roll",
-       Shape::cylinder,
-       {roll_diameter, roll_diameter, w * 1.15},
-       roll_colour,
-       "steel",
-       "roller"},
-      {"pull roll mark", Shape::box, {0.012, 0.05, 0.006}, mark_colour, "paint"},
-      {"measuring wheel", Shape::cylinder, {wheel, wheel, 0.03}, rubber, "rubber", "measuring_wheel"},
-      {"measuring wheel mark", Shape::box, {0.012, wheel * 0.38, 0.006}, mark_colour, "paint"},
-      {"wheel arm", Shape::box, {0.26, 0.025, 0.02}, roll_colour, "steel", "wheel_arm"},
-      {"wheel axle",
-       Shape::cylinder,
-       {0.018, 0.018, wheel_arm_z(data_) - wheel_z_of(data_)},
-       roll_colour,
-       "steel"},
-      {"wheel post",
-       Shape::box,
-       {0.05, wheel_y_of(data_) + 0.035 - stand_low, 0.024},
-       paint,
-       "paint",
-       "frame_post"},
-      {"roll stand 1", Shape::box, stand_size(look), paint, "paint", "frame_post"},
-      {"roll stand 2", Shape::box, stand_size(look), paint, "paint", "frame_post"},
-      {"infeed frame", Shape::box, {upstream - 0.3, 0.22, w * 0.8}, paint, "paint", "hollow_frame"},
-      {"infeed leg 1", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint", "leg"},
-      {"infeed leg 2", Shape::box, {0.09, 0.75, w * 0.7}, paint, "paint", "leg"},
-      {"outfeed belt", Shape::box, {belt, belt_height, w * 1.15}, rubber, "rubber", "conveyor_belt"},
-      {"outfeed roll 1", Shape::cylinder, {0.1, 0.1, w * 1.16}, roll_colour, "steel", "roller"},
-      {"outfeed roll 2", Shape::cylinder, {0.1, 0.1, w * 1.16}, roll_colour, "steel", "roller"},
-      {"outfeed frame", Shape::box, {belt - 0.15, 0.1, w * 1.15 + 0.04}, paint, "paint", "hollow_frame"},
-      {"outfeed leg 1", Shape::box, {0.09, outfeed_leg, w}, paint, "paint", "leg"},
-      {"outfeed leg 2", Shape::box, {0.09, outfeed_leg, w}, paint, "paint", "leg"},
-  };
-  if (!tube)
-    parts.push_back({"table", Shape::box, {upstream - 0.25, 0.02, w * 1.1}, roll_colour, "steel", "table"});
-  if (tube)
-    for (int i = 0; i < tube_rollers; ++i)
-      parts.push_back({fmt::format("tube roller {}", i + 1),
-                       Shape::cylinder,
-                       {tube_roller, tube_roller, w},
-                       roll_colour,
-                       "steel",
-                       "tube_roller"});
-  for (int i = 0; i < cleats; ++i)
-    parts.push_back(
-        {fmt::format("belt mark {}", i + 1), Shape::box, {0.02, 0.004, w * 1.15}, mark_colour, "paint"});
-  for (int i = 0; i < Outfeed::pool_size; ++i) parts.push_back(material(fmt::format("piece {}", i + 1)));
-  for (std::size_t i = 0; i < prints_of(data_.marks); ++i)
-    parts.push_back({fmt::format("print mark {}", i + 1),
-                     Shape::box,
-                     {std::max(data_.marks.width, print_look), 1e-3, 0.3 * data_.width},
-                     print_colour,
-                     "web"});
-  return parts;
-}
-
-void Web::poses(std::vector<PartPose>& out) {
-  const double look = look_of(data_);
-  const bool tube = data_.cross_section().tube;
-  // A cylinder's axis is z: a tube is turned into the line.
-  const double half = std::sqrt(0.5);
-  const auto material = [&](double middle, double length) {
-    PartPose pose = {.pose = turned(middle, look / 2, 0, 0), .scale = {length, 1, 1}};
-    if (tube) pose = {.pose = {{middle, look / 2, 0}, {0, half, 0, half}}, .scale = {1, 1, length}};
-    return pose;
-  };
-  const double lead = std::max(0.0, material_.position - lead_end_);
-  const double belt = data_.outfeed.length;
-  const double belt_x = data_.outfeed.start;
-  const double wheel_radius = data_.wheel.circumference / (2 * std::numbers::pi);
-  const double wheel_angle = 2 * std::numbers::pi * (wheel_.revolutions() - std::floor(wheel_.revolutions()));
-  const double roll_angle = std::fmod(material_.position / (roll_diameter / 2), 2 * std::numbers::pi);
-  const double near_side = machine_width(data_) / 2;
-  const double leg_y = floor_y + 0.375;
-  const auto at = [](double x, double y, double z = 0) { return PartPose{.pose = turned(x, y, z, 0)}; };
-
-  out.clear();
-  out.push_back(material((lead - upstream) / 2, upstream + lead));
-  const double upper_y = look + roll_diameter / 2;
-  out.push_back({.pose = turned(pull_x, upper_y, 0, roll_angle)});
-  out.push_back({.pose = turned(pull_x, -roll_diameter / 2, 0, -roll_angle)});
-  out.push_back({.pose = turned(pull_x - 0.035 * std::sin(roll_angle), upper_y + 0.035 * std::cos(roll_angle),
-                                near_side * 1.15 + 0.003, roll_angle)});
-  const double wheel_y = wheel_y_of(data_);
-  const double wheel_z = wheel_z_of(data_);
-  out.push_back({.pose = turned(wheel_x, wheel_y, wheel_z, wheel_angle)});
-  out.push_back(
-      {.pose = turned(wheel_x - wheel_radius * 0.55 * std::sin(wheel_angle),
-                      wheel_y + wheel_radius * 0.55 * std::cos(wheel_angle), wheel_z + 0.018, wheel_angle)});
-  const double arm_z = wheel_arm_z(data_);
-  out.push_back(at(wheel_x - 0.118, wheel_y, arm_z));
-  out.push_back(at(wheel_x, wheel_y, (wheel_z + arm_z) / 2));
-  out.push_back(at(wheel_x - 0.236, (wheel_y + 0.035 + stand_low) / 2, arm_z - 0.02));
-  const double stand_y = stand_low + stand_size(look)[1] / 2;
-  for (const double side : {1.0, -1.0}) out.push_back(at(pull_x, stand_y, side * (near_side * 1.15 + 0.02)));
-  out.push_back(at(-(upstream + 0.3) / 2, -0.13));
-  out.push_back(at(-upstream + 0.25, leg_y));
-  out.push_back(at(-0.45, leg_y));
-  const double belt_y = -0.001 - belt_height / 2;
-  const double belt_angle = std::fmod(outfeed_.belt_travel() / 0.05, 2 * std::numbers::pi);
-  out.push_back(at(belt_x + belt / 2, belt_y));
-  out.push_back({.pose = turned(belt_x + belt_height / 2, belt_y, 0, -belt_angle)});
-  out.push_back({.pose = turned(belt_x + belt - belt_height / 2, belt_y, 0, -belt_angle)});
-  out.push_back(at(belt_x + belt / 2, belt_y - 0.01));
-  out.push_back(at(belt_x + 0.45, floor_y + outfeed_leg / 2));
-  out.push_back(at(belt_x + belt - 0.3, floor_y + outfeed_leg / 2));
-  if (!tube) out.push_back(at(-(upstream + 0.25) / 2, -0.011));
-  const double rest = tube_roller / 3;  // radius of a roller's waist, on which the tube lies
-  const double roller_angle = std::fmod(material_.position / rest, 2 * std::numbers::pi);
-  if (tube)
-    for (int i = 0; i < tube_rollers; ++i)
-      out.push_back({.pose = turned(-1.55 + 0.4 * i, -rest, 0, -roller_angle)});
-  for (int i = 0; i < cleats; ++i)
-    out.push_back(at(belt_x + std::fmod(outfeed_.belt_travel() + belt * i / cleats, belt), -0.002));
-  for (const Outfeed::Piece& piece : outfeed_.pieces()) {
-    out.push_back(material(piece.body->position, std::max(piece.length, 1e-3)));
-    out.back().visible = piece.body->awake;
+class Web::Picture : public Assembly {
+ public:
+  explicit Picture(const Web& web) : web_(web), data_(web.data_) {
+    add_material("web", [this_web = &web_] {
+      const double lead = this_web->overhang();
+      return std::pair((lead - upstream) / 2, upstream + lead);
+    });
+    add_pull_rolls();
+    add_wheel();
+    add_stands();
+    add_outfeed();
+    if (tube)
+      add_tube_rollers();
+    else
+      box("table", {upstream - 0.25, 0.02, wide * 1.1}, roll_look, at(-(upstream + 0.25) / 2, -0.011, 0),
+          "table");
+    add_cleats();
+    add_pieces();
+    add_prints();
   }
-  pose_prints(out);
+
+ private:
+  void add_pull_rolls();
+  void add_wheel();
+  void add_stands();
+  void add_outfeed();
+  void add_tube_rollers();
+  void add_cleats();
+  void add_pieces();
+  void add_prints();
+
+  /// A stretch of the material; `stretch` gives its middle and its length [m]. The part is 1 m long.
+  template <class Stretch>
+  void add_material(const std::string& name, Stretch stretch, const bool* shown = nullptr) {
+    on([stretch, shown, y = look / 2, along_z = tube] {
+      const auto [middle, length] = stretch();
+      return PartPose(at(middle, y, 0), shown == nullptr || *shown,
+                      {along_z ? 1 : length, 1, along_z ? length : 1});
+    });
+    if (tube)
+      rod(name, look, 1, web_look, along_line);
+    else
+      box(name, {1, look, wide}, web_look, {});
+    on_floor();
+  }
+  /// What turns about z at a place by an angle [rad].
+  template <class Angle>
+  [[nodiscard]] static Frame turning(const Pose& place, Angle angle) {
+    return [place, angle] { return place * about_z(angle()); };
+  }
+
+  const Web& web_;
+  const WebData& data_;
+  bool tube = data_.cross_section().tube;
+  double look = look_of(data_);
+  /// Width of rolls, tables and belt [m]: a tube needs more than its own.
+  double wide = tube ? std::max(4 * data_.width, 0.16) : data_.width;
+  double stands_z = wide / 2 * 1.15 + 0.02;
+};
+
+void Web::Picture::add_pull_rolls() {
+  const double upper_y = look + roll_diameter / 2;
+  const auto angle = [&web = web_.material_] {
+    return std::fmod(web.position / (roll_diameter / 2), units::turn);
+  };
+  const Frame upper = turning(at(pull_x, upper_y, 0), angle);
+  on(upper);
+  rod("upper pull roll", roll_diameter, wide * 1.15, rubber_look, {}, "roller");
+  on(turning(at(pull_x, -roll_diameter / 2, 0), [angle] { return -angle(); }));
+  rod("lower pull roll", roll_diameter, wide * 1.15, roll_look, {}, "roller");
+  on(upper);
+  box("pull roll mark", {0.012, 0.05, 0.006}, mark_look, at(0, 0.035, wide / 2 * 1.15 + 0.003));
 }
 
-/// The marks from where the web comes into sight to its end: before the photocell, where none is decided yet,
-/// at the true pitch.
-void Web::pose_prints(std::vector<PartPose>& out) const {
-  const std::size_t count = prints_of(data_.marks);
-  const double above = look_of(data_);
-  const double lead = std::max(0.0, material_.position - lead_end_);
+void Web::Picture::add_wheel() {
+  const double diameter = data_.wheel.circumference / std::numbers::pi;
+  const double axle_y = look + data_.wheel.circumference / units::turn;
+  const double z = tube ? 0 : wide * 0.4;
+  const double arm_z = wide * 0.55 + 0.04;  // on the operator's side
+  on(turning(at(wheel_x, axle_y, z), [&wheel = web_.wheel_] {
+    return units::turn * (wheel.revolutions() - std::floor(wheel.revolutions()));
+  }));
+  rod("measuring wheel", diameter, 0.03, rubber_look, {}, "measuring_wheel");
+  box("measuring wheel mark", {0.012, diameter * 0.38, 0.006}, mark_look, at(0, diameter / 2 * 0.55, 0.018));
+  on_floor();
+  box("wheel arm", {0.26, 0.025, 0.02}, roll_look, at(wheel_x - 0.118, axle_y, arm_z), "wheel_arm");
+  rod("wheel axle", 0.018, arm_z - z, roll_look, at(wheel_x, axle_y, (z + arm_z) / 2));
+  box("wheel post", {0.05, axle_y + 0.035 - stand_low, 0.024}, looks::bed,
+      at(wheel_x - 0.236, (axle_y + 0.035 + stand_low) / 2, arm_z - 0.02), "frame_post");
+}
+
+void Web::Picture::add_stands() {
+  const double stand = look + roll_diameter - stand_low;
+  for (const double side : {-1.0, 1.0})
+    box(numbered("roll stand", side), {0.06, stand, 0.024}, looks::bed,
+        at(pull_x, stand_low + stand / 2, -side * stands_z), "frame_post");
+  box("infeed frame", {upstream - 0.3, 0.22, wide * 0.8}, looks::bed, at(-(upstream + 0.3) / 2, -0.13, 0),
+      "hollow_frame");
+  const auto leg = [&](const char* name, double x) {
+    box(name, {0.09, infeed_leg, wide * 0.7}, looks::bed, at(x, floor_y + infeed_leg / 2, 0), "leg");
+  };
+  leg("infeed leg 1", -upstream + 0.25);
+  leg("infeed leg 2", -0.45);
+}
+
+void Web::Picture::add_outfeed() {
+  const double length = data_.outfeed.length;
+  const double x = data_.outfeed.start;
+  const double y = -0.001 - belt_height / 2;
+  box("outfeed belt", {length, belt_height, wide * 1.15}, rubber_look, at(x + length / 2, y, 0),
+      "conveyor_belt");
+  for (const double side : {-1.0, 1.0}) {
+    const double end = side < 0 ? x + belt_height / 2 : x + length - belt_height / 2;
+    on(turning(at(end, y, 0),
+               [&belt = web_.outfeed_] { return -std::fmod(belt.belt_travel() / 0.05, units::turn); }));
+    rod(numbered("outfeed roll", side), 0.1, wide * 1.16, roll_look, {}, "roller");
+  }
+  on_floor();
+  box("outfeed frame", {length - 0.15, 0.1, wide * 1.15 + 0.04}, looks::bed, at(x + length / 2, y - 0.01, 0),
+      "hollow_frame");
+  for (const double side : {-1.0, 1.0})
+    box(numbered("outfeed leg", side), {0.09, outfeed_leg, wide}, looks::bed,
+        at(side < 0 ? x + 0.45 : x + length - 0.3, floor_y + outfeed_leg / 2, 0), "leg");
+}
+
+void Web::Picture::add_tube_rollers() {
+  for (int i = 0; i < tube_rollers; ++i) {
+    on(turning(at(-1.55 + 0.4 * i, -waist, 0),
+               [&web = web_.material_] { return -std::fmod(web.position / waist, units::turn); }));
+    rod(fmt::format("tube roller {}", i + 1), tube_roller, wide, roll_look, {}, "tube_roller");
+  }
+}
+
+void Web::Picture::add_cleats() {
+  const double length = data_.outfeed.length;
+  for (int i = 0; i < cleats; ++i) {
+    on([start = data_.outfeed.start, length, i, &belt = web_.outfeed_] {
+      return at(start + std::fmod(belt.belt_travel() + length * i / cleats, length), -0.002, 0);
+    });
+    box(fmt::format("belt mark {}", i + 1), {0.02, 0.004, wide * 1.15}, mark_look, {});
+  }
+}
+
+void Web::Picture::add_pieces() {
+  int number = 0;
+  for (const Outfeed::Piece& piece : web_.outfeed_.pieces())
+    add_material(
+        fmt::format("piece {}", ++number),
+        [&piece] { return std::pair(piece.body->position, std::max(piece.length, 1e-3)); },
+        &piece.body->awake);
+}
+
+void Web::Picture::add_prints() {
+  for (std::size_t i = 0; i < prints_of(data_.marks); ++i) {
+    on([&web = web_, i, place = at(0, look, 0.33 * data_.width)] {
+      const std::vector<double> shown = web.prints_in_sight();
+      return i < shown.size() ? PartPose(at(shown[i], 0, 0) * place) : PartPose({}, false);
+    });
+    box(fmt::format("print mark {}", i + 1),
+        {std::max(data_.marks.width, least_print), 1e-3, 0.3 * data_.width}, print_look, {});
+  }
+}
+
+std::vector<Part> Web::parts() { return Picture(*this).take(); }
+
+double Web::overhang() const { return std::max(0.0, material_.position - lead_end_); }
+
+/// Before the photocell, where no mark is decided yet, they are at the true pitch.
+std::vector<double> Web::prints_in_sight() const {
   std::vector<double> places(marks_.places().begin(), marks_.places().end());
   const double pitch = data_.marks.pitch * (1 + data_.marks.stretch);
-  while (count > 0 && !places.empty() && material_.position - places.back() > -upstream)
+  while (!places.empty() && material_.position - places.back() > -upstream)
     places.push_back(places.back() + pitch);
-  std::size_t shown = 0;
+  std::vector<double> shown;
   for (const double place : places) {
     const double x = material_.position - place;
-    if (shown == count || x < -upstream || x > lead) continue;
-    out.push_back({.pose = turned(x, above, 0.33 * data_.width, 0)});
-    ++shown;
+    if (x >= -upstream && x <= overhang()) shown.push_back(x);
   }
-  for (; shown < count; ++shown) out.push_back({.pose = {}, .visible = false});
+  return shown;
 }
 
 void Web::callouts(std::vector<Callout>& out) {

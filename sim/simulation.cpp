@@ -294,13 +294,11 @@ void Simulation::snapshot() {
   if (shot == nullptr) return;
   watch_->update();
   shot->time = time_;
-  std::vector<plants::PartPose> poses;
-  for (auto& plant : plants_) {
-    poses.clear();
-    plant->poses(poses);
-    shot->poses.insert(shot->poses.end(), poses.begin(), poses.end());
-    plant->callouts(shot->callouts);
-  }
+  if (parts_.empty())
+    for (auto& plant : plants_)
+      for (auto& part : plant->parts()) parts_.push_back(std::move(part));
+  for (const auto& part : parts_) shot->poses.push_back(part.now());
+  for (auto& plant : plants_) plant->callouts(shot->callouts);
   for (const auto* slot : caption_) shot->caption.push_back(*slot);
 }
 

@@ -144,6 +144,7 @@ class Simulation {
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
   Shutter shutter_;
+  std::vector<plants::Part> parts_;  ///< of all plants, from the first shot on
   std::vector<const double*> caption_;
   std::vector<std::string> caption_units_;
   std::vector<KnownEvent> known_events_;  ///< of the plants

@@ -13,7 +13,7 @@ namespace {
 
 struct Coupled : Machine {
   explicit Coupled(BacklashAxisDefinition definition, bool enabled = false) : Machine(definition) {
-    plug<CommandPort>(*plant, "servo.enable").level = enabled;
+    command("servo.enable", enabled);
   }
   LinearAxis& axis() { return static_cast<LinearAxis&>(*plant); }
   Slide& load() { return axis().carriage(); }
@@ -27,7 +27,7 @@ struct Coupled : Machine {
 BacklashAxisDefinition frictionless_coupling() {
   BacklashAxisDefinition definition;
   definition.axis.data.motor_friction = {};
-  definition.axis.data.carriage_friction = {};
+  definition.axis.data.guide_friction = {};
   return definition;
 }
 
@@ -94,19 +94,19 @@ TEST(BacklashAxis, StictionHoldsUpToTheBreakawayForceAndMotionNeedsLess) {
   BacklashAxisDefinition definition;  // 150 N in motion, 50 N more from rest
   definition.flanks.gap = 0.1;        // the motor is far away
   Coupled unit(definition);
-  set(*unit.plant, "force", 199.9);
+  unit.set("force", 199.9);
   unit.run(0.2);
   EXPECT_EQ(unit.load().position, 0.1);
   EXPECT_EQ(unit.load().speed, 0);
-  set(*unit.plant, "force", 200.1);
+  unit.set("force", 200.1);
   unit.step();
   EXPECT_NEAR(unit.load().speed, 0.1 / 100 * h, 1e-15);
 
   unit.load().speed = 0.03;  // three times the Stribeck speed
-  set(*unit.plant, "force", 160);
+  unit.set("force", 160);
   unit.step();
   EXPECT_NEAR((unit.load().speed - 0.03) / h, (160 - 150 - 50 * std::exp(-9.0) - 100 * 0.03) / 100, 1e-9);
-  set(*unit.plant, "force", 0);
+  unit.set("force", 0);
   unit.run(0.1);
   EXPECT_EQ(unit.load().speed, 0);
 }
@@ -123,8 +123,8 @@ TEST(BacklashAxis, TheLoadCreepsThroughTheGapOnASlope) {
   EXPECT_NEAR(unit.load().speed, a * seconds, 1e-9);
   EXPECT_NEAR(unit.load().position - 0.1, a * seconds * (seconds + h) / 2, 1e-9);
   unit.run(2);  // then it lies on the lower flank, pressed by its weight
-  EXPECT_NEAR(channel(*unit.plant, "gear.force"), 100 * gravity / 2, 1);
-  EXPECT_NEAR(channel(*unit.plant, "motor.position") - channel(*unit.plant, "position"), 10, 0.01);
+  EXPECT_NEAR(unit.read("gear.force"), 100 * gravity / 2, 1);
+  EXPECT_NEAR(unit.read("motor.position") - unit.read("position"), 10, 0.01);
 }
 
 TEST(BacklashAxis, TheEndStopStopsTheLoadAndNotTheMotorAtOnce) {
@@ -156,7 +156,7 @@ TEST(BacklashAxis, TheEncoderOnTheMotorSeesTheGapTheScaleDoesNot) {
     BacklashAxisDefinition definition;
     definition.flanks.gap = gap;
     Coupled unit(definition, true);
-    auto& volts = plug<ReferencePort>(*unit.plant, "servo.reference").volts;
+    auto& volts = unit.plug<ReferencePort>("servo.reference").volts;
     // Epicycloidal ramps of 60 mm/s in 0.3 s: at most 0.4 m/s2, less than the friction's 1.5, so that the
     // load stays on its flank; a corner in the reference would let the motor swing back.
     const auto ramp = [](double p) { return p - std::sin(turn * p) / turn; };
@@ -165,13 +165,13 @@ TEST(BacklashAxis, TheEncoderOnTheMotorSeesTheGapTheScaleDoesNot) {
       for (int i = 0; i < 3000; ++i) volts = reference * ramp(1 - i / 3000.0), unit.step();
       volts = 0;
       unit.run(0.3);
-      return channel(*unit.plant, "encoder.count") * 0.002 - channel(*unit.plant, "scale.count") * 0.001;
+      return unit.read("encoder.count") * 0.002 - unit.read("scale.count") * 0.001;
     };
     const double upward = stop_after(0.9);
     const double downward = stop_after(-0.9);
     // The flanks give way by 1.5 um under the friction; a count of the encoder is 2 um.
     EXPECT_NEAR(upward - downward, gap * 1000, std::max(0.01 * gap * 1000, 0.006));
-    EXPECT_NEAR(channel(*unit.plant, "motor.position") - channel(*unit.plant, "position"), -gap * 500, 0.003);
+    EXPECT_NEAR(unit.read("motor.position") - unit.read("position"), -gap * 500, 0.003);
   }
 }
 
@@ -184,7 +184,7 @@ TEST(BacklashAxis, SwitchesSeeTheLoadAfterTheirDelay) {
     definition.axis.data.start = upward ? 1.0 : 0.04;
     Coupled unit(definition);
     unit.load().speed = upward ? 0.1 : -0.1;
-    const auto& signal = plug<SignalPort>(*unit.plant, upward ? "limit_max" : "home");
+    const auto& signal = unit.plug<SignalPort>(upward ? "limit_max" : "home");
     while (!signal.level && unit.steps < 10000) unit.step();
     // The upper limit at 1030 mm, the home switch's target up to 10 mm: 0.3 s on the way.
     EXPECT_NEAR(unit.steps * h, upward ? 0.31 : 0.32, 1.5 * h);

@@ -7,6 +7,7 @@
 
 #include "plants/rotary_knife.hpp"
 #include "tests/plants/flying_saw_line.hpp"
+#include "tests/plants/web_line.hpp"
 
 namespace drycut::plants {
 namespace {
@@ -26,28 +27,14 @@ std::vector<Callout> named(Plant& plant, const std::string& text) {
   return all;
 }
 
-/// A web of 1 m/s whose pieces are separated by hand.
-struct CutWeb {
-  World world;
-  Web web;
-  explicit CutWeb(const WebData& data = {}) : web(data, world) {}
-  void run(double seconds) {
-    for (int i = 0; i < std::lround(seconds / h); ++i) {
-      web.drive(h);
-      world.step(h);
-      web.sense(h);
-    }
-  }
-};
-
 TEST(Callouts, AWebWithoutPiecesPointsOutNothing) {
-  CutWeb line;
+  WebLine line;
   line.run(0.2);
   EXPECT_THAT(callouts_of(line.web, Callout::Kind::length), IsEmpty());
 }
 
 TEST(Callouts, EveryPieceOnTheBeltTellsItsLengthFromEndToEnd) {
-  CutWeb line;
+  WebLine line;
   line.run(0.8);
   line.web.separate(1, line.web.travel(1));
   line.run(0.5012);
@@ -65,21 +52,19 @@ TEST(Callouts, EveryPieceOnTheBeltTellsItsLengthFromEndToEnd) {
     EXPECT_GT(one.at[2], 0) << "on the operator's side";
   }
   // The piece is where its part is drawn.
-  std::vector<PartPose> poses;
-  line.web.poses(poses);
-  const auto parts = line.web.parts();
   int drawn = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!parts[i].name.starts_with("piece ") || !poses[i].visible) continue;
+  for (const Part& part : line.web.parts()) {
+    const PartPose pose = part.now();
+    if (!part.name.starts_with("piece ") || !pose.visible) continue;
     const auto& one = lengths.at(static_cast<std::size_t>(drawn++));
-    EXPECT_NEAR(poses[i].pose.position[0], (one.at[0] + one.to[0]) / 2, 1e-9);
-    EXPECT_NEAR(poses[i].scale[0], one.to[0] - one.at[0], 1e-9);
+    EXPECT_NEAR(pose.pose.position[0], (one.at[0] + one.to[0]) / 2, 1e-9);
+    EXPECT_NEAR(pose.scale[0], one.to[0] - one.at[0], 1e-9);
   }
   EXPECT_EQ(drawn, 2);
 }
 
 TEST(Callouts, APieceThatHasLeftTheBeltIsPointedOutNoMore) {
-  CutWeb line;
+  WebLine line;
   line.run(0.5);
   line.web.separate(1, line.web.travel(1));
   line.run(0.5);
@@ -89,23 +74,15 @@ TEST(Callouts, APieceThatHasLeftTheBeltIsPointedOutNoMore) {
 }
 
 TEST(Callouts, TheKnifesForceIsThatOfItsCutUpwardsAndThereOnlyDuringIt) {
-  World world;
-  WebDefinition web_definition;
-  const auto web = web_definition.build(world, nullptr);
   RotaryKnifeDefinition definition;
-  const auto knife = definition.build(world, [&](std::string_view) { return web.get(); });
-  plug<ReferencePort>(*knife, "servo.reference").volts = 2.5;
-  double largest = 0, cut = 0;
+  WebDefinition web;
+  Machine line(definition, &web);
+  line.reference(2.5);
+  double largest = 0;
   int with = 0, without = 0;
   for (int i = 0; i < 20'000; ++i) {
-    web->drive(h);
-    knife->drive(h);
-    world.step(h);
-    web->sense(h);
-    knife->sense(h);
-    for (const Event& event : knife->take_events())
-      if (event.name == "cut") cut = std::max(cut, value(event, "force"));
-    const auto forces = named(*knife, "cut");
+    line.step();
+    const auto forces = named(*line.plant, "cut");
     ASSERT_LE(forces.size(), 1U);
     ++(forces.empty() ? without : with);
     if (forces.empty()) continue;
@@ -115,6 +92,9 @@ TEST(Callouts, TheKnifesForceIsThatOfItsCutUpwardsAndThereOnlyDuringIt) {
     EXPECT_GT(forces[0].to[1], 0);
     largest = std::max(largest, forces[0].to[1]);
   }
+  double cut = 0;
+  for (const Event& event : line.events)
+    if (event.name == "cut") cut = std::max(cut, value(event, "force"));
   EXPECT_NEAR(largest, cut, 1e-9 * cut);
   EXPECT_GT(with, 0);
   EXPECT_GT(without, 10 * with) << "a cut is short";
@@ -123,10 +103,10 @@ TEST(Callouts, TheKnifesForceIsThatOfItsCutUpwardsAndThereOnlyDuringIt) {
 TEST(Callouts, TheSawsClampsPressDownOnBothSidesOfTheBladeWhileTheyAreClosed) {
   SawLine line(frictionless_saw(), tube(0));
   line.run(0.1);
-  EXPECT_THAT(named(*line.saw, "clamp"), IsEmpty());
-  plug<CommandPort>(*line.saw, "clamp").level = true;
+  EXPECT_THAT(named(*line.plant, "clamp"), IsEmpty());
+  line.command("clamp", true);
   line.run(0.5);
-  const auto clamps = named(*line.saw, "clamp");
+  const auto clamps = named(*line.plant, "clamp");
   ASSERT_THAT(clamps, SizeIs(2));
   const double x = line.carriage().position;
   EXPECT_NEAR(clamps[0].at[0] + clamps[1].at[0], 2 * x, 1e-12);
@@ -135,21 +115,21 @@ TEST(Callouts, TheSawsClampsPressDownOnBothSidesOfTheBladeWhileTheyAreClosed) {
     EXPECT_LT(one.to[1], 0) << "down";
     EXPECT_EQ(one.to, clamps[0].to) << "the same on both sides";
   }
-  plug<CommandPort>(*line.saw, "clamp").level = false;
+  line.command("clamp", false);
   line.run(0.5);
-  EXPECT_THAT(named(*line.saw, "clamp"), IsEmpty());
+  EXPECT_THAT(named(*line.plant, "clamp"), IsEmpty());
 }
 
 TEST(Callouts, TheSawsCutIsPointedOutAtTheBladeWhileItCuts) {
   SawLine line(frictionless_saw(), tube(0));
-  plug<CommandPort>(*line.saw, "clamp").level = true;
+  line.command("clamp", true);
   line.run(0.3);
-  EXPECT_THAT(named(*line.saw, "cut"), IsEmpty());
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  EXPECT_THAT(named(*line.plant, "cut"), IsEmpty());
+  line.command("head.plunge", true);
   double largest = 0;
   for (int i = 0; i < 20'000 && line.events.empty(); ++i) {
     line.step();
-    for (const auto& one : named(*line.saw, "cut")) {
+    for (const auto& one : named(*line.plant, "cut")) {
       EXPECT_EQ(one.at[0], line.carriage().position);
       EXPECT_EQ(one.to[0], 0);
       largest = std::max(largest, std::abs(one.to[1]));
@@ -167,14 +147,12 @@ struct Print {
   double y;
 };
 std::vector<Print> prints_on(Web& web) {
-  std::vector<PartPose> poses;
-  web.poses(poses);
-  const auto parts = web.parts();
-  EXPECT_EQ(parts.size(), poses.size());
   std::vector<Print> shown;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (parts[i].name.starts_with("print mark ") && poses[i].visible)
-      shown.push_back({poses[i].pose.position[0], poses[i].pose.position[1]});
+  for (const Part& part : web.parts()) {
+    const PartPose pose = part.now();
+    if (part.name.starts_with("print mark ") && pose.visible)
+      shown.push_back({pose.pose.position[0], pose.pose.position[1]});
+  }
   std::sort(shown.begin(), shown.end(), [](const Print& a, const Print& b) { return a.x < b.x; });
   return shown;
 }
@@ -186,12 +164,12 @@ WebData printed(double pitch) {
 }
 
 TEST(PrintMarksShown, APlainWebShowsNone) {
-  CutWeb line;
+  WebLine line;
   EXPECT_THAT(prints_on(line.web), IsEmpty());
 }
 
 TEST(PrintMarksShown, AreAPitchApartOnTheWebAndMoveWithIt) {
-  CutWeb line(printed(0.3));
+  WebLine line(printed(0.3));
   line.run(0.1);
   const auto before = prints_on(line.web);
   ASSERT_GE(before.size(), 5U) << "1.7 m of web in sight";
@@ -203,8 +181,8 @@ TEST(PrintMarksShown, AreAPitchApartOnTheWebAndMoveWithIt) {
 }
 
 TEST(PrintMarksShown, AMarkPassesUnderThePhotocellWhenThePhotocellSaysSo) {
-  CutWeb line(printed(0.3));
-  const auto& cell = plug<SignalPort>(line.web, "photocell");
+  WebLine line(printed(0.3));
+  const auto& cell = line.plug<SignalPort>("photocell");
   int edges = 0;
   for (int i = 0; i < 10'000; ++i) {
     line.run(h);
@@ -221,7 +199,7 @@ TEST(PrintMarksShown, AMarkPassesUnderThePhotocellWhenThePhotocellSaysSo) {
 }
 
 TEST(PrintMarksShown, NoneIsShownBeyondTheEndOfTheUncutWeb) {
-  CutWeb line(printed(0.1));
+  WebLine line(printed(0.1));
   line.run(1.03);
   EXPECT_LE(prints_on(line.web).back().x, 1.03 + 1e-9) << "the web's end";
   line.web.separate(1, line.web.travel(1));
@@ -230,7 +208,7 @@ TEST(PrintMarksShown, NoneIsShownBeyondTheEndOfTheUncutWeb) {
 }
 
 TEST(PrintMarksShown, MoreThanThereArePartsForAreLeftOut) {
-  CutWeb line(printed(0.02));
+  WebLine line(printed(0.02));
   line.run(0.5);
   EXPECT_THAT(prints_on(line.web), SizeIs(40));
 }

@@ -15,16 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-std::vector<std::string> names(const std::vector<PlantDefinition::Objection>& objections) {
-  std::vector<std::string> found;
-  for (const auto& o : objections) {
-    EXPECT_FALSE(o.what.empty());
-    EXPECT_FALSE(o.remedy.empty());
-    found.push_back(o.parameter);
-  }
-  return found;
-}
+using ::testing::StartsWith;
 
 TEST(Section, TheChordsOfATubeSumUpToItsArea) {
   for (const Section& s : {Section{0.04, 2e-3, true}, Section{0.06, 0.03, true}, Section{0.3, 5e-3, false}}) {
@@ -46,69 +37,61 @@ TEST(Section, ATubeHasRoomForItsWalls) {
   web.data.section = "tube";
   web.data.width = 0.02;
   web.data.thickness = 0.011;
-  ASSERT_THAT(names(web.objections(1e-4)), ElementsAre("thickness"));
-  EXPECT_THAT(web.objections(1e-4)[0].what, HasSubstr("a tube of 20 mm has no wall of 11 mm"));
+  EXPECT_THAT(objections_of(web), ElementsAre("thickness: a tube of 20 mm has no wall of 11 mm"));
   web.data.thickness = 0.01;  // a bar
-  EXPECT_THAT(names(web.objections(1e-4)), ElementsAre());
+  EXPECT_THAT(objections_of(web), ElementsAre());
 }
 
 TEST(Section, TheKnifeRefusesATube) {
   WebDefinition web = tube(1);
   RotaryKnifeDefinition knife;
-  const auto found = knife.objections_with([&](std::string_view) { return &web; }, 1e-4);
-  ASSERT_THAT(names(found), ElementsAre("web"));
-  EXPECT_THAT(found[0].what, HasSubstr("a rotary knife cuts no tube"));
+  const auto objections = [&] { return objections_of(knife, h, &web); };
+  EXPECT_THAT(objections(), ElementsAre(StartsWith("web: a rotary knife cuts no tube")));
   web.data.section = "strip";
   web.data.thickness = 0.2;
-  EXPECT_THAT(names(knife.objections_with([&](std::string_view) { return &web; }, 1e-4)),
-              ElementsAre("circumference"));
+  EXPECT_THAT(objections(), ElementsAre(StartsWith("circumference: ")));
   web.data.thickness = 0.02;
   knife.data.blade_count = 12;
-  EXPECT_THAT(names(knife.objections_with([&](std::string_view) { return &web; }, 1e-4)),
-              ElementsAre("blade_count"));
+  EXPECT_THAT(objections(), ElementsAre(StartsWith("blade_count: ")));
   web.data.thickness = 1e-3;
-  EXPECT_THAT(names(knife.objections_with([&](std::string_view) { return &web; }, 1e-4)), ElementsAre());
-  EXPECT_THAT(names(knife.objections_with([](std::string_view) { return nullptr; }, 1e-4)), ElementsAre());
+  EXPECT_THAT(objections(), ElementsAre());
+  EXPECT_THAT(objections_of(knife), ElementsAre());
 }
 
 TEST(FlyingSawDefinition, WhatCannotBeBuiltIsRefused) {
-  const auto objections = [](auto change) {
-    FlyingSawDefinition definition;
-    change(definition.data);
-    return names(definition.objections(1e-4));
-  };
-  using Data = FlyingSawData;
-  EXPECT_THAT(objections([](Data&) {}), ElementsAre());
-  EXPECT_THAT(objections([](Data& d) { d.gear.stiffness = 1e8; }), ElementsAre("gear.stiffness"));
-  EXPECT_THAT(objections([](Data& d) { d.stop.damping = 2e6; }), ElementsAre("stop.damping"));
-  EXPECT_THAT(objections([](Data& d) { d.head.mass = 1; }), ElementsAre("head.mass"));
-  EXPECT_THAT(objections([](Data& d) { d.motor_friction.viscous = 99; }),
-              ElementsAre("motor_friction.viscous"));
-  EXPECT_THAT(objections([](Data& d) { d.carriage_friction.viscous = 1e6; }),
-              ElementsAre("carriage_friction.viscous"));
-  EXPECT_THAT(objections([](Data& d) { d.travel_max = -1; }), ElementsAre("travel_max"));
-  EXPECT_THAT(objections([](Data& d) { d.start = 2; }), ElementsAre("start"));
-  EXPECT_THAT(objections([](Data& d) { d.sensors.limit_max = -1; }), ElementsAre("limit_max"));
-  EXPECT_THAT(objections([](Data& d) { d.head.up_force = 100; }), ElementsAre("head.up_force"));
-  EXPECT_THAT(objections([](Data& d) { d.drive.servo.max_speed = 1; }), ElementsAre("servo.max_speed"));
+  expect_refusals<FlyingSawDefinition>({
+      {[](auto& d) { d.gear.stiffness = 1e8; }, {"gear.stiffness: "}},
+      {[](auto& d) { d.stop.damping = 2e6; }, {"stop.damping: "}},
+      {[](auto& d) { d.head.mass = 1; }, {"head.mass: "}},
+      {[](auto& d) { d.motor_friction.viscous = 99; }, {"motor_friction.viscous: "}},
+      {[](auto& d) { d.guide_friction.viscous = 1e6; }, {"carriage_friction.viscous: "}},
+      {[](auto& d) { d.travel_max = -1; }, {"travel_max: "}},
+      {[](auto& d) { d.start = 2; }, {"start: "}},
+      {[](auto& d) { d.sensors.limit_max = -1; }, {"limit_max: "}},
+      {[](auto& d) { d.head.up_force = 100; }, {"head.up_force: "}},
+      {[](auto& d) { d.drive.servo.max_speed = 1; }, {"servo.max_speed: "}},
+  });
 }
 
 TEST(FlyingSawDefinition, AStrokeThatCannotFitIsPredicted) {
   WebDefinition web = tube(2);
   FlyingSawDefinition saw;
-  const auto found = [&] { return saw.objections_with([&](std::string_view) { return &web; }, 1e-4); };
-  EXPECT_THAT(names(found()), ElementsAre());
+  const auto objections = [&] { return objections_of(saw, h, &web); };
+  const auto remedy = [&] {
+    return saw.objections_with([&](std::string_view) { return &web; }, h).at(0).remedy;
+  };
+  EXPECT_THAT(objections(), ElementsAre());
   saw.data.travel_max = 0.3;
-  ASSERT_THAT(names(found()), ElementsAre("travel_max"));
-  EXPECT_THAT(found()[0].what, AllOf(HasSubstr("at 120 m/min a cut takes the carriage at least"),
-                                     HasSubstr("340 mm are there: it would crash into the end stop")));
-  EXPECT_THAT(found()[0].remedy, HasSubstr("stroke_check: off"));
+  EXPECT_THAT(objections(),
+              ElementsAre(AllOf(StartsWith("travel_max: at 120 m/min a cut takes the carriage at least"),
+                                HasSubstr("340 mm are there: it would crash into the end stop"))));
+  EXPECT_THAT(remedy(), HasSubstr("stroke_check: off"));
   saw.data.stroke_check = false;
-  EXPECT_THAT(names(found()), ElementsAre());
+  EXPECT_THAT(objections(), ElementsAre());
   saw.data.head.stroke = 0.05;
-  ASSERT_THAT(names(found()), ElementsAre("head.stroke"));
-  EXPECT_THAT(found()[0].what, HasSubstr("do not go through 40 mm of material"));
-  EXPECT_THAT(found()[0].remedy, HasSubstr("more than 57 mm"));
+  EXPECT_THAT(objections(), ElementsAre(AllOf(StartsWith("head.stroke: "),
+                                              HasSubstr("do not go through 40 mm of material"))));
+  EXPECT_THAT(remedy(), HasSubstr("more than 57 mm"));
 }
 
 TEST(FlyingSawDefinition, TheLeastStrokeIsNeverMoreThanACutTakes) {
@@ -118,15 +101,15 @@ TEST(FlyingSawDefinition, TheLeastStrokeIsNeverMoreThanACutTakes) {
   const Section section = {0.04, 2e-3, true};
   const LeastStroke least = least_stroke(definition.data, section, 0.5);
   SawLine line(definition, tube(0));
-  plug<CommandPort>(*line.saw, "clamp").level = true;
+  line.command("clamp", true);
   double open = 0;
   for (int i = 0; i < 10000 && open == 0; ++i) {
     line.step();
-    const bool grips = plug<SignalPort>(*line.saw, "clamp.closed").level;
-    if (grips && line.events.empty()) plug<CommandPort>(*line.saw, "head.plunge").level = true;
+    const bool grips = line.plug<SignalPort>("clamp.closed").level;
+    if (grips && line.events.empty()) line.command("head.plunge", true);
     if (line.events.empty()) continue;
-    plug<CommandPort>(*line.saw, "head.plunge").level = false;
-    if (channel(*line.saw, "blade.engaged") == 0) plug<CommandPort>(*line.saw, "clamp").level = false;
+    line.command("head.plunge", false);
+    if (line.read("blade.engaged") == 0) line.command("clamp", false);
     if (!grips) open = line.steps * h;
   }
   EXPECT_GT(open, least.cycle);
@@ -141,32 +124,19 @@ TEST(FlyingSawDefinition, TheWebMustBeOne) {
               ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr("'web' is no plant of type web")));
 }
 
-TEST(FlyingSawDefinition, EveryPartHasAPoseAndTheCarriageTakesItsPartsAlong) {
+TEST(FlyingSawDefinition, TheCarriageTakesItsPartsAlongAndTheBedStands) {
   for (const double lead : {0.2, 0.02}) {  // rack, screw
     FlyingSawDefinition definition;
     definition.data.lead = lead;
     definition.data.gear.ratio = lead > 0.1 ? 4 : 1;
     SawLine line(definition);
-    std::vector<PartPose> before;
-    std::vector<PartPose> after;
-    line.saw->poses(before);
-    const auto parts = line.saw->parts();
-    ASSERT_EQ(before.size(), parts.size());
-    line.carriage().position += 0.25;
-    line.saw->poses(after);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const double way = after[i].pose.position[0] - before[i].pose.position[0];
-      const bool bed = parts[i].name == "bed" || parts[i].name == "rail 1" || parts[i].name == "stop 2";
-      const bool carried = parts[i].name == "carriage" || parts[i].name == "saw blade";
-      if (bed) {
-        EXPECT_EQ(way, 0) << parts[i].name;
-      }
-      if (carried) {
-        EXPECT_NEAR(way, 0.25, 1e-12) << parts[i].name;
-      }
-    }
-    line.web->poses(after);
-    EXPECT_EQ(after.size(), line.web->parts().size());
+    const auto way = [&](const char* name) {
+      const double before = pose_of(*line.plant, name).pose.position[0];
+      line.carriage().position += 0.25;
+      return pose_of(*line.plant, name).pose.position[0] - before;
+    };
+    for (const char* name : {"bed", "rail 1", "stop 2"}) EXPECT_EQ(way(name), 0) << name;
+    for (const char* name : {"carriage", "saw blade"}) EXPECT_NEAR(way(name), 0.25, 1e-12) << name;
   }
 }
 
@@ -176,11 +146,11 @@ TEST(FlyingSawDefinition, APieceLeavesTheCutWhereItWasMade) {
   WebDefinition web = tube(0);
   web.data.lead = 1;
   SawLine line(definition, web);
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  line.command("head.plunge", true);
   line.run(0.5);
   ASSERT_EQ(line.events.size(), 1U);
   EXPECT_NEAR(value(line.events[0], "length"), 600, 1e-6);
-  const auto& outfeed = static_cast<Web&>(*line.web).outfeed();
+  const auto& outfeed = static_cast<Web&>(*line.supply).outfeed();
   EXPECT_NEAR(outfeed.pieces()[0].body->position, 0.7, 1e-6);
   EXPECT_NEAR(outfeed.pieces()[0].length, 0.6, 1e-9);
 }

@@ -1,8 +1,4 @@
 #pragma once
-#include <cmath>
-#include <memory>
-#include <vector>
-
 #include "plants/flying_saw.hpp"
 #include "tests/plants/plants_lookup.hpp"
 
@@ -12,7 +8,7 @@ namespace drycut::plants {
 inline FlyingSawDefinition frictionless_saw() {
   FlyingSawDefinition definition;
   definition.data.motor_friction = {};
-  definition.data.carriage_friction = {};
+  definition.data.guide_friction = {};
   return definition;
 }
 
@@ -36,36 +32,23 @@ inline WebDefinition tube(double speed) {
   return definition;
 }
 
+/// The same without what would move the carriage: the motor holds nothing.
+inline FlyingSawDefinition free_saw() {
+  FlyingSawDefinition definition = frictionless_saw();
+  definition.data.gear.stiffness = 1e-12;
+  definition.data.gear.damping = 0;
+  return definition;
+}
+
 /// Web and saw.
-struct SawLine {
-  World world;
-  std::unique_ptr<Plant> web;
-  std::unique_ptr<Plant> saw;
-  std::vector<Event> events;
-  int steps = 0;
-  explicit SawLine(FlyingSawDefinition saw_definition, WebDefinition web_definition = tube(0))
-      : web(web_definition.build(world, nullptr)) {
-    saw = saw_definition.build(world, [this](std::string_view) { return web.get(); });
-  }
-  Slide& carriage() { return static_cast<FlyingSaw&>(*saw).carriage(); }
-  Shaft& rotor() { return static_cast<FlyingSaw&>(*saw).rotor(); }
-  Slide& material() { return static_cast<Web&>(*web).material(); }
-  double depth() { return static_cast<FlyingSaw&>(*saw).head().body().position; }    // [m]
-  double head_speed() { return static_cast<FlyingSaw&>(*saw).head().body().speed; }  // [m/s]
-  void step() {
-    web->drive(h);
-    saw->drive(h);
-    world.step(h);
-    web->sense(h);
-    saw->sense(h);
-    for (Event& event : saw->take_events()) events.push_back(std::move(event));
-    ++steps;
-  }
-  void run(double seconds) {
-    const auto count = std::lround(seconds / h);
-    for (long i = 0; i < count; ++i) step();
-    ASSERT_EQ(world.failure(), "");
-  }
+struct SawLine : Machine {
+  explicit SawLine(FlyingSawDefinition saw, WebDefinition web = tube(0)) : Machine(saw, &web) {}
+  [[nodiscard]] FlyingSaw& saw() const { return static_cast<FlyingSaw&>(*plant); }
+  Slide& carriage() { return saw().carriage(); }
+  Shaft& rotor() { return saw().rotor(); }
+  Slide& material() { return static_cast<Web&>(*supply).material(); }
+  double depth() { return saw().head().body().position; }    // [m]
+  double head_speed() { return saw().head().body().speed; }  // [m/s]
 };
 
 }  // namespace drycut::plants

@@ -14,26 +14,24 @@ namespace {
 TEST(FlyingSaw, TheTrainOfPulsesOrTheVoltageDrivesTheSameCarriage) {
   SawLine volts(frictionless_saw());
   volts.run(0.1);
-  plug<ReferencePort>(*volts.saw, "servo.reference").volts = 3;
+  volts.reference(3);
   volts.run(0.5);
-  EXPECT_NEAR(channel(*volts.saw, "speed"), 0.3 * 3000 * 0.2 / 4, 0.05);
+  EXPECT_NEAR(volts.read("speed"), 0.3 * 3000 * 0.2 / 4, 0.05);
   auto definition = frictionless_saw();
   definition.data.drive.kind = "pulses";
   SawLine pulses(definition);
-  plug<CommandPort>(*pulses.saw, "servo.direction").level = true;
-  auto& train = plug<PulsePort>(*pulses.saw, "servo.pulses");
+  pulses.command("servo.direction", true);
+  auto& train = pulses.plug<PulsePort>("servo.pulses");
   for (int i = 0; i < 10000; ++i) {
     train.pulses += i < 5000 ? 10 : 0;
     pulses.step();
   }
-  EXPECT_NEAR(channel(*pulses.saw, "position"), 50000.0 / 10000 / 4 * 200, 0.01);
+  EXPECT_NEAR(pulses.read("position"), 50000.0 / 10000 / 4 * 200, 0.01);
 }
 
 TEST(FlyingSaw, CrashTakesMassTimesSpeedAndItsRebound) {
   for (const double side : {-1.0, 1.0}) {
-    auto definition = frictionless_saw();
-    definition.data.gear.stiffness = 1e-12;  // the motor holds nothing
-    definition.data.gear.damping = 0;
+    auto definition = free_saw();
     definition.data.stop = {2e6, 4e3};
     definition.data.start = side > 0 ? 0.7 : 0.0;
     SawLine line(definition);
@@ -58,31 +56,29 @@ TEST(FlyingSaw, CrashTakesMassTimesSpeedAndItsRebound) {
 
 TEST(FlyingSaw, ACarriageThatLeansOnItsStopIsReportedOnce) {
   SawLine line(frictionless_saw());
-  plug<ReferencePort>(*line.saw, "servo.reference").volts = -1;
+  line.reference(-1);
   line.run(2);
   ASSERT_GE(line.events.size(), 1U);
   const auto crashes = line.events.size();
   line.run(1);
   EXPECT_EQ(line.events.size(), crashes);
-  EXPECT_LT(channel(*line.saw, "position"), -40);
+  EXPECT_LT(line.read("position"), -40);
 }
 
 TEST(FlyingSaw, ClampsHoldUpToTheirFriction) {
   // 2 mu N = 2400 N; the material is held by its own mass and a weak line drive.
   for (const double pull : {2000.0, 3000.0}) {
-    auto definition = frictionless_saw();
+    auto definition = free_saw();
     definition.data.clamp = {.force = 6000, .friction = 0.2, .close_time = 0, .open_time = 0};
-    definition.data.gear.stiffness = 1e-12;
-    definition.data.gear.damping = 0;
     SawLine line(definition, free_web(0));
-    plug<CommandPort>(*line.saw, "clamp").level = true;
+    line.command("clamp", true);
     // On the carriage of 60 kg; to take 20 kg along the clamps need a quarter of the pull.
-    set(*line.saw, "force", pull * 4);
+    line.set("force", pull * 4);
     line.run(0.05);
     const double slipping = pull > 2400 ? (pull * 4 - 2400) / 60 - 2400.0 / 20 : 0;  // relative acceleration
     EXPECT_NEAR(line.carriage().speed - line.material().speed, slipping * 0.05, 1e-9);
-    EXPECT_NEAR(channel(*line.saw, "clamp.force"), pull > 2400 ? -2400 : -pull, 1e-6);
-    EXPECT_NEAR(channel(*line.saw, "clamp.slip"), 1000 * slipping * (0.05 * 0.05 + 0.05 * h) / 2, 1e-3);
+    EXPECT_NEAR(line.read("clamp.force"), pull > 2400 ? -2400 : -pull, 1e-6);
+    EXPECT_NEAR(line.read("clamp.slip"), 1000 * slipping * (0.05 * 0.05 + 0.05 * h) / 2, 1e-3);
     EXPECT_NEAR(line.carriage().speed * 60 + line.material().speed * 20, pull * 4 * 0.05, 1e-9);
   }
 }
@@ -90,21 +86,21 @@ TEST(FlyingSaw, ClampsHoldUpToTheirFriction) {
 TEST(FlyingSaw, ClampsTakeTheirTimeAndAFaultTakesTheirForce) {
   auto definition = frictionless_saw();
   SawLine line(definition, free_web(0));
-  auto& closed = plug<SignalPort>(*line.saw, "clamp.closed");
-  plug<CommandPort>(*line.saw, "clamp").level = true;
+  auto& closed = line.plug<SignalPort>("clamp.closed");
+  line.command("clamp", true);
   line.run(0.0299);
   EXPECT_FALSE(closed.level);
   line.run(0.0002);
   EXPECT_TRUE(closed.level);
-  EXPECT_EQ(static_cast<FlyingSaw&>(*line.saw).clamp().limit(), 2400);
-  fault(line.saw->faults(), "clamp", "force_loss", 0.75);
-  EXPECT_EQ(static_cast<FlyingSaw&>(*line.saw).clamp().limit(), 600);
-  plug<CommandPort>(*line.saw, "clamp").level = false;
+  EXPECT_EQ(line.saw().clamp().limit(), 2400);
+  line.fault("clamp", "force_loss", 0.75);
+  EXPECT_EQ(line.saw().clamp().limit(), 600);
+  line.command("clamp", false);
   line.run(0.0199);
   EXPECT_TRUE(closed.level);
   line.run(0.0002);
   EXPECT_FALSE(closed.level);
-  EXPECT_EQ(static_cast<FlyingSaw&>(*line.saw).clamp().limit(), 0);
+  EXPECT_EQ(line.saw().clamp().limit(), 0);
 }
 
 TEST(FlyingSaw, SawHeadMovesAtTheSpeedOfItsThrottles) {
@@ -114,7 +110,7 @@ TEST(FlyingSaw, SawHeadMovesAtTheSpeedOfItsThrottles) {
   head.clearance = 0.9;
   head.fill_time = 0;
   SawLine line(definition);
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  line.command("head.plunge", true);
   line.run(head.valve_delay);
   EXPECT_NEAR(line.depth(), 0, 1e-3);
   line.run(0.5);
@@ -122,14 +118,14 @@ TEST(FlyingSaw, SawHeadMovesAtTheSpeedOfItsThrottles) {
   EXPECT_NEAR(plunge_speed(head), (350 + 12 * 9.80665) / 600, 1e-12);
   // Way of a first-order run-up: v (t - m/b).
   EXPECT_NEAR(line.depth(), plunge_speed(head) * (0.5 - 12.0 / 600), 2e-3);
-  plug<CommandPort>(*line.saw, "head.plunge").level = false;
+  line.command("head.plunge", false);
   line.run(head.valve_delay + 0.2);
   EXPECT_NEAR(line.head_speed(), -return_speed(head), 1e-2);
   line.run(1);
-  EXPECT_TRUE(plug<SignalPort>(*line.saw, "head.up").level);
-  EXPECT_FALSE(plug<SignalPort>(*line.saw, "head.down").level);
-  fault(line.saw->faults(), "head", "pressure_loss", 0.5);
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  EXPECT_TRUE(line.plug<SignalPort>("head.up").level);
+  EXPECT_FALSE(line.plug<SignalPort>("head.down").level);
+  line.fault("head", "pressure_loss", 0.5);
+  line.command("head.plunge", true);
   line.run(0.5);
   EXPECT_NEAR(line.head_speed(), (175 + 12 * 9.80665) / 600, 2e-3);
 }
@@ -139,7 +135,7 @@ TEST(FlyingSaw, CutsTheTubeInTheTimeOfItsLaw) {
   definition.data.head.mass = 0.1;  // no inertia: the balance of forces at every moment
   definition.data.blade.resistance = 4e5;
   SawLine line(definition, tube(0.0));
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  line.command("head.plunge", true);
   line.run(1);
   ASSERT_EQ(line.events.size(), 1U);
   const Event& cut = line.events[0];
@@ -152,7 +148,7 @@ TEST(FlyingSaw, CutsTheTubeInTheTimeOfItsLaw) {
   EXPECT_LT(value(cut, "force"), force * 1.03);  // and a little of the head's momentum at the touch
   EXPECT_EQ(value(cut, "pinch"), 0);
   EXPECT_EQ(value(cut, "length"), 0);
-  EXPECT_TRUE(plug<SignalPort>(*line.saw, "head.down").level);
+  EXPECT_TRUE(line.plug<SignalPort>("head.down").level);
 }
 
 TEST(FlyingSaw, TheCutTakesTheEnergyOfItsForce) {
@@ -165,11 +161,11 @@ TEST(FlyingSaw, TheCutTakesTheEnergyOfItsForce) {
   WebDefinition web = free_web(0);
   web.data.thickness = 0.05;
   SawLine line(definition, web);
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  line.command("head.plunge", true);
   double work = 0;
   while (line.events.empty() && line.steps < 20000) {
     line.step();
-    work += channel(*line.saw, "cut.force") * line.head_speed() * h;
+    work += line.read("cut.force") * line.head_speed() * h;
   }
   ASSERT_EQ(line.events.size(), 1U);
   const double resistance = 1e4 * 0.3;
@@ -180,10 +176,8 @@ TEST(FlyingSaw, TheCutTakesTheEnergyOfItsForce) {
 
 TEST(FlyingSaw, PinchIsStiffnessTimesDisplacement) {
   // Carriage and material too heavy to be disturbed, the carriage 5 mm/s faster.
-  auto definition = frictionless_saw();
+  auto definition = free_saw();
   definition.data.mass = 1e5;
-  definition.data.gear.stiffness = 1e-12;
-  definition.data.gear.damping = 0;
   definition.data.blade.damping = 0;
   definition.data.blade.yield = 1000;
   definition.data.blade.resistance = 1e6;  // a slow cut
@@ -191,22 +185,22 @@ TEST(FlyingSaw, PinchIsStiffnessTimesDisplacement) {
   web.data.mass = 1e5;
   SawLine line(definition, web);
   line.carriage().speed = 0.505;
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  line.command("head.plunge", true);
   double slid = 0;
   double largest = 0;
-  while (line.steps < 20000 && channel(*line.saw, "cut.number") == 0) {
+  while (line.steps < 20000 && line.read("cut.number") == 0) {
     line.step();
-    const double displacement = channel(*line.saw, "blade.displacement");
-    if (channel(*line.saw, "blade.engaged") == 0) continue;
+    const double displacement = line.read("blade.displacement");
+    if (line.read("blade.engaged") == 0) continue;
     if (slid == 0)
       slid = displacement / 1000;  // of the step in which it touched
     else
       slid += (line.carriage().speed - line.material().speed) * h;
     // The force of a step is that of the displacement before it.
     const double expected = -std::min(1000.0, 2e5 * std::max(0.0, displacement / 1000 - 5e-3 * h));
-    EXPECT_NEAR(channel(*line.saw, "blade.pinch"), expected, 0.2);
+    EXPECT_NEAR(line.read("blade.pinch"), expected, 0.2);
     EXPECT_NEAR(displacement, 1000 * slid, 1e-9);
-    largest = std::max(largest, -channel(*line.saw, "blade.pinch"));
+    largest = std::max(largest, -line.read("blade.pinch"));
   }
   ASSERT_EQ(line.events.size(), 2U);
   EXPECT_EQ(line.events[0].name, "pinch");
@@ -220,18 +214,16 @@ TEST(FlyingSaw, PinchIsStiffnessTimesDisplacement) {
 }
 
 TEST(FlyingSaw, LengthIsTheDistanceOfTheCutsOnTheMaterial) {
-  auto definition = frictionless_saw();
+  auto definition = free_saw();
   definition.data.blade.stiffness = definition.data.blade.damping = 0;
-  definition.data.carriage_friction = {};
-  definition.data.gear.stiffness = 1e-12;
-  definition.data.gear.damping = 0;
+  definition.data.guide_friction = {};
   WebDefinition web = tube(0.4);
   web.data.lead = 0.1;
   SawLine line(definition, web);
   std::vector<double> marks;
   for (int cut = 0; cut < 3; ++cut) {
     line.carriage().speed = cut == 1 ? 0.39 : 0.1 * cut;
-    plug<CommandPort>(*line.saw, "head.plunge").level = true;
+    line.command("head.plunge", true);
     double touch = -1;
     for (int i = 0; i < 3000; ++i) {
       const double before = line.depth();
@@ -243,7 +235,7 @@ TEST(FlyingSaw, LengthIsTheDistanceOfTheCutsOnTheMaterial) {
       touch = travel + share * (line.material().position - line.carriage().position - travel);
     }
     marks.push_back(touch);
-    plug<CommandPort>(*line.saw, "head.plunge").level = false;
+    line.command("head.plunge", false);
     line.run(0.3);
   }
   ASSERT_EQ(line.events.size(), 3U);
@@ -251,37 +243,35 @@ TEST(FlyingSaw, LengthIsTheDistanceOfTheCutsOnTheMaterial) {
   EXPECT_NEAR(value(line.events[1], "length"), 1000 * (marks[1] - marks[0]), 1e-6);
   EXPECT_NEAR(value(line.events[2], "length"), 1000 * (marks[2] - marks[1]), 1e-6);
   EXPECT_NEAR(value(line.events[1], "slant"), -10 * value(line.events[1], "time") / 1000, 1e-6);
-  EXPECT_EQ(channel(*line.web, "pieces"), 3);
+  EXPECT_EQ(channel(*line.supply, "pieces"), 3);
 }
 
 TEST(FlyingSaw, ABladeDrawnBackBeforeItIsThroughHasCutNothing) {
   SawLine line(frictionless_saw(), tube(0));
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  line.command("head.plunge", true);
   while (line.depth() < 0.03) line.step();
-  plug<CommandPort>(*line.saw, "head.plunge").level = false;
+  line.command("head.plunge", false);
   line.run(0.5);
   EXPECT_TRUE(line.events.empty());
-  EXPECT_EQ(channel(*line.saw, "blade.engaged"), 0);
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  EXPECT_EQ(line.read("blade.engaged"), 0);
+  line.command("head.plunge", true);
   line.run(0.5);
   EXPECT_EQ(line.events.size(), 1U);
 }
 
 TEST(FlyingSaw, MaterialThatRunsUpAgainstTheBladePushesItAfterTheCut) {
-  auto definition = frictionless_saw();
-  definition.data.gear.stiffness = 1e-12;
-  definition.data.gear.damping = 0;
+  auto definition = free_saw();
   SawLine line(definition, tube(0));
-  plug<CommandPort>(*line.saw, "head.plunge").level = true;
+  line.command("head.plunge", true);
   line.run(0.5);
-  ASSERT_EQ(channel(*line.saw, "cut.number"), 1);
+  ASSERT_EQ(line.read("cut.number"), 1);
   line.material().speed = 0.2;  // the piece is off, the blade is still down
   line.step();
   line.step();
-  EXPECT_GT(channel(*line.saw, "blade.pinch"), 0);
+  EXPECT_GT(line.read("blade.pinch"), 0);
   line.material().speed = -0.2;
   line.run(0.01);
-  EXPECT_EQ(channel(*line.saw, "blade.pinch"), 0);
+  EXPECT_EQ(line.read("blade.pinch"), 0);
 }
 
 TEST(FlyingSaw, ConservesMomentumOfCarriageMotorAndMaterial) {
@@ -289,7 +279,7 @@ TEST(FlyingSaw, ConservesMomentumOfCarriageMotorAndMaterial) {
   auto definition = frictionless_saw();
   const auto& data = definition.data;
   SawLine line(definition, free_web(0));
-  plug<CommandPort>(*line.saw, "servo.enable").level = false;
+  line.command("servo.enable", false);
   line.carriage().speed = 0.4;  // the motor stands: the pinion is wound up
   const double per_metre = 2 * std::numbers::pi / data.lead * data.gear.ratio;
   const auto momentum = [&] {
@@ -298,7 +288,7 @@ TEST(FlyingSaw, ConservesMomentumOfCarriageMotorAndMaterial) {
   };
   const double before = momentum();
   line.run(0.1);
-  plug<CommandPort>(*line.saw, "clamp").level = true;
+  line.command("clamp", true);
   line.run(0.2);
   EXPECT_NEAR(momentum() / before, 1, 1e-10);
   const double total = 60 + 20 + line.rotor().inertia * per_metre * per_metre;

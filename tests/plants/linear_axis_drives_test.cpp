@@ -18,15 +18,15 @@ TEST(LinearAxisDrives, InverterAndContactorsMoveTheCarriageAtTheirSpeeds) {
       Machine unit(definition);
       unit.command(direction, true);
       unit.run(1);
-      const double field = channel(*unit.plant, "drive.field_speed");
+      const double field = unit.read("drive.field_speed");
       EXPECT_NEAR(std::abs(field), kind == std::string("inverter") ? 150 : 375, 1e-9);
-      const double expected = (field - channel(*unit.plant, "drive.slip")) / 60 * 20;
-      EXPECT_NEAR(channel(*unit.plant, "speed"), expected, 0.01);
+      const double expected = (field - unit.read("drive.slip")) / 60 * 20;
+      EXPECT_NEAR(unit.read("speed"), expected, 0.01);
       EXPECT_GT(expected * direction, 0);
       // Friction is all there is to carry.
       const double friction =
           0.1 + 0.0005 * std::abs(expected) / 20 * turn + (30 + 50 * std::abs(expected) / 1000) * 0.02 / turn;
-      EXPECT_NEAR(channel(*unit.plant, "motor.torque"), direction * friction, 1e-3);
+      EXPECT_NEAR(unit.read("motor.torque"), direction * friction, 1e-3);
     }
 }
 
@@ -34,20 +34,20 @@ TEST(LinearAxisDrives, WithoutABrakeItCoastsUntilFrictionHasTakenItsEnergy) {
   LinearAxisDefinition definition;
   auto& d = definition.data;
   d.drive.kind = "contactors";
-  d.motor_friction.viscous = d.carriage_friction.viscous = 0;
+  d.motor_friction.viscous = d.guide_friction.viscous = 0;
   Machine unit(definition);
   unit.command(1, true);
   unit.run(1);
   unit.command(0, true);
-  while (channel(*unit.plant, "drive.state") != 0) unit.run(h);
-  const double v = channel(*unit.plant, "speed") / 1000;
-  const double from = channel(*unit.plant, "position");
+  while (unit.read("drive.state") != 0) unit.run(h);
+  const double v = unit.read("speed") / 1000;
+  const double from = unit.read("position");
   unit.run(3);
   const double r = d.lead / turn;
   const double mass = d.mass + (d.drive.motor.rotor_inertia + d.screw_inertia) / (r * r);
   const double force = 30 + 0.1 / r;
-  EXPECT_NEAR((channel(*unit.plant, "position") - from) / 1000 / (mass * v * v / 2 / force), 1, 0.01);
-  EXPECT_NEAR(channel(*unit.plant, "speed"), 0, 1e-9);
+  EXPECT_NEAR((unit.read("position") - from) / 1000 / (mass * v * v / 2 / force), 1, 0.01);
+  EXPECT_NEAR(unit.read("speed"), 0, 1e-9);
 }
 
 TEST(LinearAxisDrives, ABrakeOnTheMotorShortensThat) {
@@ -56,22 +56,21 @@ TEST(LinearAxisDrives, ABrakeOnTheMotorShortensThat) {
   d.drive.kind = "contactors";
   d.drive.brake.torque = 20;
   d.drive.brake.engage_delay = 0;
-  d.motor_friction = d.carriage_friction = {};
+  d.motor_friction = d.guide_friction = {};
   Machine unit(definition);
   unit.command(1, true);
   unit.run(1);
   unit.command(0, true);
-  while (channel(*unit.plant, "drive.state") != 0) unit.run(h);
-  const double v = channel(*unit.plant, "motor.speed") / 60 * turn;
-  const double from = channel(*unit.plant, "motor.position");
+  while (unit.read("drive.state") != 0) unit.run(h);
+  const double v = unit.read("motor.speed") / 60 * turn;
+  const double from = unit.read("motor.position");
   unit.run(0.005);
   const double r = d.lead / turn;
   unit.run(3);
   const double inertia = d.drive.motor.rotor_inertia + d.screw_inertia + d.mass * r * r;
   // The last step before the test saw the drive open has been braked already; the play of the spring is
   // small.
-  EXPECT_NEAR((channel(*unit.plant, "motor.position") - from) / 1000 / (inertia * v * v / 2 / 20 * r), 1,
-              0.01);
+  EXPECT_NEAR((unit.read("motor.position") - from) / 1000 / (inertia * v * v / 2 / 20 * r), 1, 0.01);
 }
 
 TEST(LinearAxisDrives, TheBacklashAxisKeepsItsGapUnderContactors) {
@@ -83,7 +82,7 @@ TEST(LinearAxisDrives, TheBacklashAxisKeepsItsGapUnderContactors) {
   const auto ahead_after = [&](int direction) {
     unit.command(direction, true);
     unit.run(1);
-    return channel(*unit.plant, "gear.ahead");
+    return unit.read("gear.ahead");
   };
   // On its flank the load hangs back by half the gap and by the give of the flank under friction.
   const double forwards = ahead_after(1);
@@ -98,7 +97,7 @@ TEST(LinearAxisDrives, ATripIsAnEvent) {
   Machine unit(definition);
   unit.command(1, false);
   unit.run(0.3);
-  fault(unit.plant->faults(), "drive", "phase_lost", 1);
+  unit.fault("drive", "phase_lost", 1);
   unit.run(0.1);
   ASSERT_EQ(unit.events.size(), 1U);
   EXPECT_EQ(unit.events[0].name, "trip");

@@ -1,4 +1,5 @@
 #pragma once
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,24 +58,52 @@ inline double value(const Event& event, const std::string& name) {
   return 0;
 }
 
-/// A machine alone in its world, without a controller, stepped by hand.
+/// The pose of the part of that name, now.
+inline PartPose pose_of(Plant& plant, const std::string& name) {
+  for (const Part& part : plant.parts())
+    if (part.name == name) return part.now();
+  ADD_FAILURE() << "no part " << name;
+  throw std::out_of_range(name);
+}
+
+/// A machine without a controller, stepped by hand: alone in its world, or on the web that `supplied`
+/// defines.
 struct Machine {
   World world;
+  std::unique_ptr<Plant> supply;  ///< the web, null without one
   std::unique_ptr<Plant> plant;
-  std::vector<Event> events;
+  std::vector<Event> events;  ///< of the machine
   std::vector<double> times;  ///< of the events [s]
   int steps = 0;
-  explicit Machine(PlantDefinition&& definition) : plant(definition.build(world, nullptr)) {}
-  explicit Machine(PlantDefinition& definition) : plant(definition.build(world, nullptr)) {}
+  explicit Machine(PlantDefinition& definition, PlantDefinition* supplied = nullptr, std::uint64_t seed = 1)
+      : world(seed), supply(supplied != nullptr ? supplied->build(world, nullptr) : nullptr) {
+    plant = definition.build(world, [this](std::string_view) { return supply.get(); });
+  }
+  explicit Machine(PlantDefinition&& definition) : Machine(definition) {}
+
+  double read(const std::string& name) { return channel(*plant, name); }
+  template <class Plug>
+  Plug& plug(const std::string& name) {
+    return plants::plug<Plug>(*plant, name);
+  }
+  void set(const std::string& name, double value) { plants::set(*plant, name, value); }
+  void command(const std::string& name, bool level) { plug<CommandPort>(name).level = level; }
+  void reference(double volts) { plug<ReferencePort>("servo.reference").volts = volts; }
+  void fault(const std::string& component, const std::string& name, double value) {
+    plants::fault(plant->faults(), component, name, value);
+  }
   /// An inverter's or a contactor drive's commands: direction 1 up, -1 down, 0 neither.
   void command(int direction, bool slow) {
-    plug<CommandPort>(*plant, "drive.forward").level = direction > 0;
-    plug<CommandPort>(*plant, "drive.backward").level = direction < 0;
-    plug<CommandPort>(*plant, "drive.slow").level = slow;
+    command("drive.forward", direction > 0);
+    command("drive.backward", direction < 0);
+    command("drive.slow", slow);
   }
+
   void step(double dt = h) {
+    if (supply) supply->drive(dt);
     plant->drive(dt);
     world.step(dt);
+    if (supply) supply->sense(dt);
     plant->sense(dt);
     for (Event& event : plant->take_events()) {
       times.push_back((steps + event.fraction) * dt);
@@ -87,5 +116,41 @@ struct Machine {
     ASSERT_EQ(world.failure(), "");
   }
 };
+
+/// What a plant objects to in steps of `h` seconds, "parameter: what is wrong"; each objection has a remedy.
+inline std::vector<std::string> objections_of(PlantDefinition& definition, double dt = h,
+                                              PlantDefinition* supplied = nullptr) {
+  auto all = definition.objections(dt);
+  for (auto& more : definition.objections_with([&](std::string_view) { return supplied; }, dt))
+    all.push_back(std::move(more));
+  std::vector<std::string> told;
+  for (const auto& objection : all) {
+    EXPECT_FALSE(objection.what.empty());
+    EXPECT_FALSE(objection.remedy.empty());
+    told.push_back(objection.parameter + ": " + objection.what);
+  }
+  return told;
+}
+
+/// A change of a plant's data, and how each objection to it begins.
+template <class Data>
+struct Refusal {
+  void (*change)(Data&);
+  std::vector<std::string> objections;
+};
+/// Each change is made to the defaults, which nothing is wrong with.
+template <class Definition>
+void expect_refusals(const std::vector<Refusal<decltype(Definition::data)>>& refusals) {
+  Definition sound;
+  EXPECT_THAT(objections_of(sound), testing::IsEmpty());
+  for (std::size_t i = 0; i < refusals.size(); ++i) {
+    SCOPED_TRACE(i);
+    Definition changed;
+    refusals[i].change(changed.data);
+    std::vector<testing::Matcher<std::string>> wanted;
+    for (const auto& begin : refusals[i].objections) wanted.push_back(testing::StartsWith(begin));
+    EXPECT_THAT(objections_of(changed), testing::ElementsAreArray(wanted));
+  }
+}
 
 }  // namespace drycut::plants

@@ -2,48 +2,35 @@
 
 #include <cmath>
 
-#include "plants/web.hpp"
-#include "tests/plants/plants_lookup.hpp"
+#include "tests/plants/web_line.hpp"
 
 namespace drycut::plants {
 namespace {
 
-struct Line {
-  World world;
-  Web web;
-  explicit Line(const WebData& data = {}) : web(data, world) {}
-  void step() {
-    web.drive(h);
-    world.step(h);
-    web.sense(h);
-  }
-  void run(double seconds) {
-    for (int i = 0; i < std::lround(seconds / h); ++i) step();
-  }
-};
+using Line = WebLine;
 
 TEST(Web, RunsAtItsSpeedFromTheStart) {
   Line line;
   line.run(2);
-  EXPECT_EQ(channel(line.web, "speed"), 60);
-  EXPECT_NEAR(channel(line.web, "position"), 2000, 1e-8);
-  EXPECT_EQ(channel(line.web, "drive.force"), 0);
-  EXPECT_EQ(channel(line.web, "wheel.count"), 40000);
-  EXPECT_EQ(plug<EncoderPort>(line.web, "wheel").count, 40000);
+  EXPECT_EQ(line.read("speed"), 60);
+  EXPECT_NEAR(line.read("position"), 2000, 1e-8);
+  EXPECT_EQ(line.read("drive.force"), 0);
+  EXPECT_EQ(line.read("wheel.count"), 40000);
+  EXPECT_EQ(line.plug<EncoderPort>("wheel").count, 40000);
 }
 
 TEST(Web, FollowsTheSetSpeedWithItsAcceleration) {
   Line line;
-  set(line.web, "speed", 2);
+  line.set("speed", 2);
   line.run(0.25);  // 2 m/s2
-  EXPECT_NEAR(channel(line.web, "set_speed"), 90, 1e-6);
+  EXPECT_NEAR(line.read("set_speed"), 90, 1e-6);
   line.run(1);
-  EXPECT_NEAR(channel(line.web, "speed"), 120, 1e-3);
+  EXPECT_NEAR(line.read("speed"), 120, 1e-3);
   // Travel: 0.5 s from 1 to 2 m/s, the rest at 2 m/s; the elastic draw has died away.
-  EXPECT_NEAR(channel(line.web, "position"), 750 + 1500, 0.2);
-  set(line.web, "speed", 0);
+  EXPECT_NEAR(line.read("position"), 750 + 1500, 0.2);
+  line.set("speed", 0);
   line.run(2);
-  EXPECT_NEAR(channel(line.web, "speed"), 0, 1e-6);
+  EXPECT_NEAR(line.read("speed"), 0, 1e-6);
 }
 
 TEST(Web, LineDriveForceIsLimitedAndDoesNotWindUp) {
@@ -52,7 +39,7 @@ TEST(Web, LineDriveForceIsLimitedAndDoesNotWindUp) {
   for (int i = 0; i < 10000; ++i) {
     line.web.material().add_force(-3000);  // the web is held
     line.step();
-    largest = std::max(largest, channel(line.web, "drive.force"));
+    largest = std::max(largest, line.read("drive.force"));
   }
   EXPECT_EQ(largest, 1500);
   double fastest = 0;
@@ -73,8 +60,8 @@ TEST(Web, PieceLengthIsTheTravelBetweenTwoCuts) {
   EXPECT_NEAR(line.web.separate(0.25), 0.025 + 0.5 - 0.75 * h, 1e-12);
   line.run(0.3);
   EXPECT_NEAR(line.web.separate(1), 0.3 + 0.75 * h, 1e-12);
-  EXPECT_EQ(channel(line.web, "pieces"), 2);
-  EXPECT_NEAR(channel(line.web, "lead"), 0, 1e-9);
+  EXPECT_EQ(line.read("pieces"), 2);
+  EXPECT_NEAR(line.read("lead"), 0, 1e-9);
 }
 
 TEST(Web, PieceIsABodyThatTheBeltTakesToItsSpeedAndAway) {
@@ -89,10 +76,10 @@ TEST(Web, PieceIsABodyThatTheBeltTakesToItsSpeedAndAway) {
   // Belt 1.2 m/s, Coulomb friction 0.4 g from the web's 1 m/s: 50 ms, plus the part that lies on the belt.
   line.run(0.1);
   EXPECT_NEAR(piece.speed, 1.2, 1e-9);
-  EXPECT_EQ(channel(line.web, "outfeed.pieces"), 1);
+  EXPECT_EQ(line.read("outfeed.pieces"), 1);
   line.run(3);
   EXPECT_FALSE(piece.awake);
-  EXPECT_EQ(channel(line.web, "outfeed.pieces"), 0);
+  EXPECT_EQ(line.read("outfeed.pieces"), 0);
 }
 
 TEST(Web, PieceEndsWhereTheSlowStepExpectsItWhateverTheStepOfTheCut) {
@@ -111,29 +98,26 @@ TEST(Web, PieceEndsWhereTheSlowStepExpectsItWhateverTheStepOfTheCut) {
 
 TEST(Web, PoolOfPiecesIsReusedAndShown) {
   Line line;
-  const std::vector<Part> parts = line.web.parts();
-  std::vector<PartPose> poses;
   for (int i = 0; i < 2 * Outfeed::pool_size + 3; ++i) {
     line.run(0.05);
     line.web.separate(1);
-    line.web.poses(poses);
-    ASSERT_EQ(poses.size(), parts.size());
   }
   int shown = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (parts[i].name.starts_with("piece ") && poses[i].visible) {
-      ++shown;
-      EXPECT_NEAR(poses[i].scale[0], 0.05, 1e-9);
-    }
+  for (const Part& part : line.web.parts()) {
+    const PartPose pose = part.now();
+    if (!part.name.starts_with("piece ") || !pose.visible) continue;
+    ++shown;
+    EXPECT_NEAR(pose.scale[0], 0.05, 1e-9);
+  }
   EXPECT_EQ(shown, Outfeed::pool_size);
 }
 
 TEST(Web, WheelFaultsReachThePort) {
   Line line;
   line.run(0.5);
-  fault(line.web.faults(), "wheel", "slip", 0.1);
+  line.fault("wheel", "slip", 0.1);
   line.run(0.5);
-  EXPECT_NEAR(plug<EncoderPort>(line.web, "wheel").now, 10000 + 9000, 1e-6);
+  EXPECT_NEAR(line.plug<EncoderPort>("wheel").now, 10000 + 9000, 1e-6);
 }
 
 }  // namespace

@@ -4,32 +4,27 @@
 #include <cmath>
 
 #include "plants/rotary_knife.hpp"
-#include "plants/web.hpp"
-#include "tests/plants/plants_lookup.hpp"
+#include "tests/plants/web_line.hpp"
 
 namespace drycut::plants {
 namespace {
 
 /// A web of 1 m/s with marks of 5 mm each 300 mm, the photocell 900 mm before the cut, without delay.
-struct PrintedLine {
+struct PrintedLine : WebLine {
   static WebData printed() {
     WebData data;
     data.marks.pitch = 0.3;
     data.marks.delay = 0;
     return data;
   }
-  World world;
-  Web web;
-  explicit PrintedLine(const WebData& data = printed()) : web(data, world) {}
+  explicit PrintedLine(const WebData& data = printed()) : WebLine(data) {}
 
   /// Travel of the web at each rising edge of the photocell [m].
   std::vector<double> edges(double seconds) {
-    const auto& port = plug<SignalPort>(web, "photocell");
+    const auto& port = plug<SignalPort>("photocell");
     std::vector<double> found;
     for (int i = 0; i < std::lround(seconds / h); ++i) {
-      web.drive(h);
-      world.step(h);
-      web.sense(h);
+      step();
       for (const SignalPort::Edge& edge : port.edges)
         if (edge.rising) found.push_back(web.travel(edge.fraction));
     }
@@ -100,7 +95,7 @@ TEST(PrintMarks, TheNearestIsToldEvenWhereScatterBringsMarksOutOfOrder) {
 TEST(PrintMarks, ASpliceShiftsTheMarksThatAreStillToCome) {
   PrintedLine line;
   const auto before = line.edges(0.5);
-  fault(line.web.faults(), "marks", "shift", 0.007);
+  line.fault("marks", "shift", 0.007);
   const auto after = line.edges(1);
   ASSERT_EQ(before.size(), 1U);
   ASSERT_EQ(after.size(), 3U);
@@ -112,7 +107,7 @@ TEST(PrintMarks, ASpliceShiftsTheMarksThatAreStillToCome) {
 
 TEST(PrintMarks, APhotocellThatIsDeadSeesNothing) {
   PrintedLine line;
-  fault(line.web.faults(), "photocell", "dead", 1);
+  line.fault("photocell", "dead", 1);
   EXPECT_THAT(line.edges(1), testing::IsEmpty());
 }
 

@@ -190,26 +190,22 @@ TEST(PulseServo, FaultsOfTheCable) {
 }
 
 TEST(PulseServo, DrivesTheKnifeInsteadOfTheVoltage) {
-  World world;
-  WebDefinition web_definition;
-  const auto web = web_definition.build(world, nullptr);
   RotaryKnifeDefinition definition;
   definition.data.drive.kind = "pulses";
   definition.data.drive.pulses.feed_forward = 1;
-  const auto knife = definition.build(world, [&](std::string_view) { return web.get(); });
-  auto& train = plug<PulsePort>(*knife, "servo.pulses");
-  plug<CommandPort>(*knife, "servo.direction").level = true;
+  WebDefinition web;
+  Machine line(definition, &web);
+  auto& train = line.plug<PulsePort>("servo.pulses");
+  line.command("servo.direction", true);
   for (int i = 0; i < 30000; ++i) {  // 5 turns of the motor a turn of the drum, 50000 pulses
     if (i < 25000) train.pulses += 8;
-    for (Plant* p : {web.get(), knife.get()}) p->drive(h);
-    world.step(h);
-    for (Plant* p : {web.get(), knife.get()}) p->sense(h);
+    line.step();
   }
-  EXPECT_NEAR(channel(*knife, "angle.total"), 180 + 4 * 360, 0.01);
-  EXPECT_NEAR(channel(*knife, "servo.deviation"), 0, 2);
-  EXPECT_EQ(channel(*knife, "servo.alarm"), 0);
-  EXPECT_EQ(channel(*knife, "cut.number"), 4);
-  for (const Port& port : knife->ports()) EXPECT_NE(port.name, "servo.reference");
+  EXPECT_NEAR(line.read("angle.total"), 180 + 4 * 360, 0.01);
+  EXPECT_NEAR(line.read("servo.deviation"), 0, 2);
+  EXPECT_EQ(line.read("servo.alarm"), 0);
+  EXPECT_EQ(line.read("cut.number"), 4);
+  for (const Port& port : line.plant->ports()) EXPECT_NE(port.name, "servo.reference");
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ struct Model {
         down(d.back_efficiency),
         motor_dry(d.motor_friction.coulomb),
         motor_viscous(d.motor_friction.viscous),
-        guide_dry(d.ram_friction.coulomb),
-        guide_viscous(d.ram_friction.viscous) {}
+        guide_dry(d.guide_friction.coulomb),
+        guide_viscous(d.guide_friction.viscous) {}
 
   /// Acceleration in a motion in `direction` under a torque of the motor and a brake.
   [[nodiscard]] double acceleration(double v, double direction, double torque, double brake) const {
@@ -87,7 +87,7 @@ Coasting measure(const VerticalPressDefinition& definition, int direction, bool 
   press.command(direction, slow);
   press.run(run_up, dt);
   press.command(0, false);
-  while (channel(*press.plant, "drive.state") != 0) press.step(dt);
+  while (press.read("drive.state") != 0) press.step(dt);
   // The step that found the drive off has moved the ram already.
   const Coasting start = {press.ram().speed_before, press.ram().position_before};
   press.run(3, dt);
@@ -137,7 +137,7 @@ TEST(VerticalPressCoasting, UpAndDownDifferByWhatGravitySays) {
   // No losses, a brake at once: v^2 / 2a with a = (brake +- weight) / mass, all at the ram.
   auto definition = coasting_press("inverter");
   auto& d = definition.data;
-  d.motor_friction = d.ram_friction = {};
+  d.motor_friction = d.guide_friction = {};
   d.efficiency = d.back_efficiency = 1;
   d.drive.brake.engage_delay = 0;
   const double r = d.lead / turn;

@@ -18,7 +18,7 @@ struct Press : Machine {
 inline VerticalPressDefinition frictionless_press() {
   VerticalPressDefinition definition;
   definition.data.motor_friction = {};
-  definition.data.ram_friction = {};
+  definition.data.guide_friction = {};
   return definition;
 }
 
