@@ -113,26 +113,15 @@ ErrorId Axis::set_override(double factor) {
   return ErrorId::none;
 }
 
-Order Axis::halt(const Dynamics& dynamics) {
-  const Verdict verdict = judge(state_, Command::halt);
+Order Axis::slow_down(Command command, const Dynamics& dynamics) {
+  const Verdict verdict = judge(state_, command);
   if (verdict.error != ErrorId::none) return {verdict.error};
   JerkLimits limits;
   if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
   const MotionState now = plan_from(set_);
   const Order order = begin(verdict.to);
+  stop_held_ = command == Command::stop;
   limits_ = limits;
-  run(*to_velocity(now, 0, limits));
-  return order;
-}
-
-Order Axis::stop(const Dynamics& dynamics) {
-  const Verdict verdict = judge(state_, Command::stop);
-  if (verdict.error != ErrorId::none) return {verdict.error};
-  JerkLimits limits;
-  if (const ErrorId error = limits_of(dynamics, limits); error != ErrorId::none) return {error};
-  const MotionState now = plan_from(set_);
-  const Order order = begin(verdict.to);
-  stop_held_ = true;
   run(*to_velocity(now, 0, limits));
   return order;
 }

@@ -127,8 +127,8 @@ class Axis {
   Order move(const MoveRequest& request, std::uint64_t ticket = 0);
   /// MC_MoveSuperImposed: `distance` more than what is under way. In Standstill a movement of its own.
   Order superimpose(double distance, const Dynamics& dynamics);
-  Order halt(const Dynamics& dynamics);
-  Order stop(const Dynamics& dynamics);
+  Order halt(const Dynamics& dynamics) { return slow_down(Command::halt, dynamics); }
+  Order stop(const Dynamics& dynamics) { return slow_down(Command::stop, dynamics); }
   /// MC_Stop's Execute has become FALSE: Stopping ends as soon as the axis stands.
   void release_stop(std::uint64_t ticket);
   Order reset();
@@ -210,6 +210,7 @@ class Axis {
   [[nodiscard]] AxisMotion with_overlay(const AxisMotion& base) const;
   /// `way` more, without an end of what is under way.
   void shift(double way);
+  Order slow_down(Command command, const Dynamics& dynamics);
   Order begin(AxisState to, std::uint64_t ticket = 0);
   void run(const JerkProfile& profile);
   void run_profile(double dt);

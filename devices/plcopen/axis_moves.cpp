@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -168,23 +169,11 @@ double Axis::changeover_speed(const WaitingCommand& next) const {
   const auto* request = std::get_if<MoveRequest>(&next.request);
   JerkLimits limits;
   if (request == nullptr || check(*request, limits) != ErrorId::none) return 0;
-  double speed = 0;
-  switch (next.mode) {
-    case BufferMode::blending_low:
-      speed = std::min(limits_.velocity, limits.velocity);
-      break;
-    case BufferMode::blending_previous:
-      speed = limits_.velocity;
-      break;
-    case BufferMode::blending_next:
-      speed = limits.velocity;
-      break;
-    case BufferMode::blending_high:
-      speed = std::max(limits_.velocity, limits.velocity);
-      break;
-    default:
-      return 0;
-  }
+  if (next.mode < BufferMode::blending_low) return 0;
+  const std::array speeds{std::min(limits_.velocity, limits.velocity), limits_.velocity, limits.velocity,
+                          std::max(limits_.velocity, limits.velocity)};
+  double speed =
+      speeds.at(static_cast<std::size_t>(next.mode) - static_cast<std::size_t>(BufferMode::blending_low));
   // Where the next one turns back or has not the room to stop, no more speed than it can do with.
   const double sign = difference(*target_, base_.position, modulo()) < 0 ? -1 : 1;
   AxisMotion there{*target_, sign * speed, 0};

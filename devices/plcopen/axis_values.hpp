@@ -15,11 +15,11 @@ std::string_view unit_of(AxisQuantity quantity, Measure measure);
 struct AxisValue {
   std::string_view name;
   AxisQuantity quantity = AxisQuantity::number;
+  std::string_view meaning;
   double (*read)(const Axis& axis) = nullptr;
   void (*write)(Axis& axis, double value) = nullptr;  ///< nullptr: can only be read
   double min = 0;                                     ///< of one that can be written
   double max = 0;
-  std::string_view meaning;
 };
 std::span<const AxisValue> axis_value_table();
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "base/text.hpp"
@@ -29,15 +30,8 @@ std::string joined(const std::vector<std::string>& names, std::string_view none)
 }
 
 std::string_view kind_text(AxisKind kind) {
-  switch (kind) {
-    case AxisKind::drive:
-      return "a drive axis";
-    case AxisKind::virtual_axis:
-      return "a virtual axis";
-    case AxisKind::encoder:
-      return "an encoder axis";
-  }
-  return "an axis";
+  constexpr std::array<std::string_view, 3> texts{"a drive axis", "a virtual axis", "an encoder axis"};
+  return texts.at(static_cast<std::size_t>(kind));
 }
 
 AxisKind kind_of(const AxisConfiguration& axis) { return static_cast<AxisKind>(axis.parameters.kind); }

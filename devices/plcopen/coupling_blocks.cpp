@@ -43,30 +43,31 @@ void McGearIn::call(MotionKernel& kernel) {
   const plcopen::Axis* axis = kernel.axis(Slave);
   about = Slave;
   if (edge_.rising(Execute)) {
-    taken(kernel.give(
-        Slave,
-        GearInRequest{
-            Master, Slave, RatioNumerator, RatioDenominator, {0, Acceleration, Deceleration, Jerk}, Mode},
-        static_cast<plcopen::BufferMode>(BufferMode)));
+    taken(kernel.give(Slave,
+                      GearInRequest{Master, Slave, RatioNumerator, RatioDenominator, dynamics(0), Mode},
+                      static_cast<plcopen::BufferMode>(BufferMode)));
   }
   watch(axis, true);
   show();
   InGear = Done && axis != nullptr && axis->in_place();
 }
 
-void Uncoupling::call(MotionKernel& kernel) {
+template <Command command>
+void Uncoupling<command>::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Slave);
   about = Slave;
-  if (edge_.rising(Execute)) taken(axis == nullptr ? Order{ErrorId::no_such_axis} : axis->uncouple(command_));
+  if (edge_.rising(Execute)) taken(axis == nullptr ? Order{ErrorId::no_such_axis} : axis->uncouple(command));
   watch(axis);
   show();
 }
+template struct Uncoupling<Command::cam_out>;
+template struct Uncoupling<Command::gear_out>;
 
 void McPhasing::call(MotionKernel& kernel) {
   const plcopen::Axis* axis = kernel.axis(Slave);
   about = Slave;
   if (edge_.rising(Execute)) {
-    taken(kernel.phase(Master, Slave, PhaseShift, {Velocity, Acceleration, Deceleration, Jerk}));
+    taken(kernel.phase(Master, Slave, PhaseShift, dynamics(Velocity)));
     if (progress_ == Progress::active) shift_ = axis->coupling()->shifts();
   }
   if (progress_ == Progress::active && axis != nullptr) {

@@ -4,17 +4,19 @@
 // The blocks of cams and gears (004), in the units of the movement blocks.
 namespace drycut::devices::plcopen {
 
-struct McCamTableSelect final : ExecutedBlock {
+/// The axes of a coupling.
+struct CoupledPins {
   AxisRef Master;
   AxisRef Slave;
+};
+
+struct McCamTableSelect final : ExecutedBlock, CoupledPins {
   CamRef CamTable;
   std::uint16_t CamTableID = 0;
   void call(MotionKernel& kernel) override;
 };
 
-struct McCamIn final : ExecutedBlock {
-  AxisRef Master;
-  AxisRef Slave;
+struct McCamIn final : ExecutedBlock, CoupledPins {
   double MasterOffset = 0;
   double SlaveOffset = 0;
   double MasterScaling = 1;
@@ -31,14 +33,9 @@ struct McCamIn final : ExecutedBlock {
   std::int64_t ends_seen_ = 0;
 };
 
-struct McGearIn final : ExecutedBlock {
-  AxisRef Master;
-  AxisRef Slave;
+struct McGearIn final : ExecutedBlock, CoupledPins, SlopePins {
   std::int32_t RatioNumerator = 1;
   std::uint32_t RatioDenominator = 1;
-  double Acceleration = 0;
-  double Deceleration = 0;
-  double Jerk = 0;
   std::uint32_t Mode = 0;
   std::int16_t BufferMode = static_cast<std::int16_t>(plcopen::BufferMode::aborting);
   bool InGear = false;
@@ -46,31 +43,17 @@ struct McGearIn final : ExecutedBlock {
 };
 
 /// MC_CamOut and MC_GearOut: each lets go of its own kind of coupling.
-struct Uncoupling : ExecutedBlock {
-  explicit Uncoupling(Command command) : command_(command) {}
+template <Command command>
+struct Uncoupling final : ExecutedBlock {
   AxisRef Slave;
   void call(MotionKernel& kernel) override;
-
- private:
-  Command command_;
 };
+using McCamOut = Uncoupling<Command::cam_out>;
+using McGearOut = Uncoupling<Command::gear_out>;
 
-struct McCamOut final : Uncoupling {
-  McCamOut() : Uncoupling(Command::cam_out) {}
-};
-
-struct McGearOut final : Uncoupling {
-  McGearOut() : Uncoupling(Command::gear_out) {}
-};
-
-struct McPhasing final : ExecutedBlock {
-  AxisRef Master;
-  AxisRef Slave;
+struct McPhasing final : ExecutedBlock, CoupledPins, SlopePins {
   double PhaseShift = 0;
   double Velocity = 0;
-  double Acceleration = 0;
-  double Deceleration = 0;
-  double Jerk = 0;
   void call(MotionKernel& kernel) override;
 
  private:

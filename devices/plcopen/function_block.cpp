@@ -54,13 +54,22 @@ void AxisCommand::call(MotionKernel& kernel) {
   show();
 }
 
+void AxisAnswer::call(MotionKernel& kernel) {
+  about = Axis;
+  if (edge_.rising(Execute)) answered({answer(kernel, kernel.axis(Axis))});
+  show();
+}
+
+void EnabledBlock::show_error(ErrorId error) {
+  Error = error != ErrorId::none;
+  ErrorID = static_cast<std::uint32_t>(error);
+}
+
 void AxisReading::call(MotionKernel& kernel) {
   const plcopen::Axis* axis = kernel.axis(Axis);
   about = Axis;
-  ErrorId error = axis == nullptr ? ErrorId::no_such_axis : check();
-  if (!Enable) error = ErrorId::none;
-  Error = error != ErrorId::none;
-  ErrorID = static_cast<std::uint32_t>(error);
+  const ErrorId error = axis == nullptr ? ErrorId::no_such_axis : check();
+  show_error(Enable ? error : ErrorId::none);
   Valid = Busy = Enable && !Error;
   read(Valid ? axis : nullptr);
 }

@@ -20,6 +20,21 @@ class Edge {
   bool last_ = false;
 };
 
+/// Pins of blocks that slow down: deceleration in mm/s2 or deg/s2, jerk in mm/s3 or deg/s3; 0 takes the axis'
+/// own.
+struct BrakingPins {
+  double Deceleration = 0;
+  double Jerk = 0;
+};
+/// And of those that speed up too.
+struct SlopePins : BrakingPins {
+  double Acceleration = 0;
+
+  [[nodiscard]] Dynamics dynamics(double velocity) const {
+    return {velocity, Acceleration, Deceleration, Jerk};
+  }
+};
+
 /// What all blocks with Execute share: ticket, end, error, abortion. A block whose table has no pin for one
 /// of these outputs does not show it. By PLCopen's rules one of Busy, Done, CommandAborted and Error is TRUE
 /// once the command is given (MC_Stop: Done and Busy, for it holds the axis), and how a command ended is
@@ -65,14 +80,31 @@ struct AxisCommand : ExecutedBlock {
   [[nodiscard]] virtual bool goes_on() const { return false; }
 };
 
-/// A block with Enable that reads from its axis in every call.
-struct AxisReading : FunctionBlock {
+/// A block that is done in the call in which it is commanded, or refused.
+struct AxisAnswer : ExecutedBlock {
+  AxisRef Axis;
+  void call(MotionKernel& kernel) override;
+
+ protected:
+  /// `axis`: nullptr if there is none.
+  virtual ErrorId answer(MotionKernel& kernel, plcopen::Axis* axis) = 0;
+};
+
+/// A block that acts while Enable is TRUE.
+struct EnabledBlock : FunctionBlock {
   AxisRef Axis;
   bool Enable = false;
-  bool Valid = false;
-  bool Busy = false;
   bool Error = false;
   std::uint32_t ErrorID = 0;
+
+ protected:
+  void show_error(ErrorId error);
+};
+
+/// A block with Enable that reads from its axis in every call.
+struct AxisReading : EnabledBlock {
+  bool Valid = false;
+  bool Busy = false;
   void call(MotionKernel& kernel) override;
 
  protected:

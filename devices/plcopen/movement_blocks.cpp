@@ -5,17 +5,13 @@ namespace drycut::devices::plcopen {
 void McPower::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
   about = Axis;
-  Error = axis == nullptr;
-  ErrorID = Error ? static_cast<std::uint32_t>(ErrorId::no_such_axis) : 0;
+  show_error(axis == nullptr ? ErrorId::no_such_axis : ErrorId::none);
   Status = false;
   if (axis == nullptr) return;
   if (Enable != last_) axis->power(Enable);
   last_ = Enable;
   Status = axis->powered();
-  if (axis->state() == AxisState::errorstop) {
-    Error = true;
-    ErrorID = static_cast<std::uint32_t>(axis->error());
-  }
+  if (axis->state() == AxisState::errorstop) show_error(axis->error());
 }
 
 void McReset::call(MotionKernel& kernel) {
@@ -39,11 +35,8 @@ void McStop::call(MotionKernel& kernel) {
 }
 
 Order MoveCommand::order(MotionKernel& kernel, Command command, double way, std::int16_t direction) const {
-  return kernel.give(
-      Axis,
-      MoveRequest{
-          command, way, {Velocity, Acceleration, Deceleration, Jerk}, static_cast<Direction>(direction)},
-      static_cast<plcopen::BufferMode>(BufferMode));
+  return kernel.give(Axis, MoveRequest{command, way, dynamics(Velocity), static_cast<Direction>(direction)},
+                     static_cast<plcopen::BufferMode>(BufferMode));
 }
 
 void McMoveVelocity::call(MotionKernel& kernel) {
@@ -51,19 +44,12 @@ void McMoveVelocity::call(MotionKernel& kernel) {
   InVelocity = Done;
 }
 
-void McSetPosition::call(MotionKernel& kernel) {
-  about = Axis;
-  if (edge_.rising(Execute)) answered({kernel.set_position(Axis, Position, Relative)});
-  show();
-}
-
 void McSetOverride::call(MotionKernel& kernel) {
   plcopen::Axis* axis = kernel.axis(Axis);
   about = Axis;
   ErrorId error = ErrorId::none;
   if (Enable) error = axis == nullptr ? ErrorId::no_such_axis : axis->set_override(VelFactor);
-  Error = error != ErrorId::none;
-  ErrorID = static_cast<std::uint32_t>(error);
+  show_error(error);
   Enabled = Busy = Enable && !Error;
 }
 

@@ -5,12 +5,8 @@
 // accelerations in mm/s2 or deg/s2, jerks in mm/s3 or deg/s3.
 namespace drycut::devices::plcopen {
 
-struct McPower final : FunctionBlock {
-  AxisRef Axis;
-  bool Enable = false;
+struct McPower final : EnabledBlock {
   bool Status = false;
-  bool Error = false;
-  std::uint32_t ErrorID = 0;
   void call(MotionKernel& kernel) override;
 
  private:
@@ -29,9 +25,7 @@ struct McReset final : ExecutedBlock {
   void call(MotionKernel& kernel) override;
 };
 
-struct McStop final : AxisCommand {
-  double Deceleration = 0;
-  double Jerk = 0;
+struct McStop final : AxisCommand, BrakingPins {
   void call(MotionKernel& kernel) override;
 
  private:
@@ -42,10 +36,7 @@ struct McStop final : AxisCommand {
   [[nodiscard]] bool goes_on() const override { return Execute; }
 };
 
-struct McHalt final : AxisCommand {
-  double Deceleration = 0;
-  double Jerk = 0;
-
+struct McHalt final : AxisCommand, BrakingPins {
  private:
   Order give(MotionKernel&, plcopen::Axis& axis) override {
     return axis.halt({.deceleration = Deceleration, .jerk = Jerk});
@@ -53,11 +44,8 @@ struct McHalt final : AxisCommand {
 };
 
 /// What the blocks share that take the axis to a target or a speed.
-struct MoveCommand : AxisCommand {
+struct MoveCommand : AxisCommand, SlopePins {
   double Velocity = 0;
-  double Acceleration = 0;
-  double Deceleration = 0;
-  double Jerk = 0;
   std::int16_t BufferMode = static_cast<std::int16_t>(plcopen::BufferMode::aborting);
 
  protected:
@@ -89,16 +77,13 @@ using McMoveRelative = McMoveBy<Command::move_relative>;
 using McMoveAdditive = McMoveBy<Command::move_additive>;
 
 /// On top of the movement or coupling under way, which goes on.
-struct McMoveSuperImposed final : AxisCommand {
+struct McMoveSuperImposed final : AxisCommand, SlopePins {
   double Distance = 0;
   double VelocityDiff = 0;
-  double Acceleration = 0;
-  double Deceleration = 0;
-  double Jerk = 0;
 
  private:
   Order give(MotionKernel&, plcopen::Axis& axis) override {
-    return axis.superimpose(Distance, {VelocityDiff, Acceleration, Deceleration, Jerk});
+    return axis.superimpose(Distance, dynamics(VelocityDiff));
   }
 };
 
@@ -115,22 +100,21 @@ struct McMoveVelocity final : MoveCommand {
   [[nodiscard]] bool goes_on() const override { return true; }
 };
 
-struct McSetPosition final : ExecutedBlock {
-  AxisRef Axis;
+struct McSetPosition final : AxisAnswer {
   double Position = 0;
   bool Relative = false;
-  void call(MotionKernel& kernel) override;
+
+ private:
+  ErrorId answer(MotionKernel& kernel, plcopen::Axis*) override {
+    return kernel.set_position(Axis, Position, Relative);
+  }
 };
 
 /// Its factor stays in force when Enable goes FALSE. Factors of acceleration and jerk are not simulated.
-struct McSetOverride final : FunctionBlock {
-  AxisRef Axis;
-  bool Enable = false;
+struct McSetOverride final : EnabledBlock {
   double VelFactor = 1;
   bool Enabled = false;
   bool Busy = false;
-  bool Error = false;
-  std::uint32_t ErrorID = 0;
   void call(MotionKernel& kernel) override;
 };
 

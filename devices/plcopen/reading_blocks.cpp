@@ -20,14 +20,6 @@ double within_turn(double position, double modulo) {
 
 }  // namespace
 
-void McReadActualPosition::read(const plcopen::Axis* axis) {
-  Position = axis == nullptr ? 0 : axis->actual().part;
-}
-
-void McReadActualVelocity::read(const plcopen::Axis* axis) {
-  Velocity = axis == nullptr ? 0 : axis->actual_velocity() / increments_per_speed;
-}
-
 void McReadStatus::read(const plcopen::Axis* axis) {
   const auto is = [&](AxisState state) { return axis != nullptr && axis->state() == state; };
   Errorstop = is(AxisState::errorstop);
@@ -38,10 +30,6 @@ void McReadStatus::read(const plcopen::Axis* axis) {
   DiscreteMotion = is(AxisState::discrete_motion);
   ContinuousMotion = is(AxisState::continuous_motion);
   SynchronizedMotion = is(AxisState::synchronized_motion);
-}
-
-void McReadAxisError::read(const plcopen::Axis* axis) {
-  AxisErrorID = axis == nullptr ? 0 : static_cast<std::uint32_t>(axis->error());
 }
 
 void McReadAxisInfo::read(const plcopen::Axis* axis) {
@@ -83,13 +71,8 @@ void McReadParameter::read(const plcopen::Axis* axis) {
   Value = axis == nullptr ? 0 : find_numbered_parameter(ParameterNumber)->read(*axis);
 }
 
-void McWriteParameter::call(MotionKernel& kernel) {
-  plcopen::Axis* axis = kernel.axis(Axis);
-  about = Axis;
-  if (edge_.rising(Execute))
-    answered(
-        {axis == nullptr ? ErrorId::no_such_axis : write_numbered_parameter(*axis, ParameterNumber, Value)});
-  show();
+ErrorId McWriteParameter::answer(MotionKernel& /*kernel*/, plcopen::Axis* axis) {
+  return axis == nullptr ? ErrorId::no_such_axis : write_numbered_parameter(*axis, ParameterNumber, Value);
 }
 
 ErrorId McTouchProbe::check(const plcopen::Axis* axis) const {
@@ -130,14 +113,10 @@ void McTouchProbe::call(MotionKernel& kernel) {
   show();
 }
 
-void McAbortTrigger::call(MotionKernel& kernel) {
-  plcopen::Axis* axis = kernel.axis(Axis);
-  about = Axis;
-  if (edge_.rising(Execute)) {
-    answered({check_probe(axis, TriggerInput)});
-    if (!Error) axis->take_probe();
-  }
-  show();
+ErrorId McAbortTrigger::answer(MotionKernel& /*kernel*/, plcopen::Axis* axis) {
+  const ErrorId error = check_probe(axis, TriggerInput);
+  if (error == ErrorId::none) axis->take_probe();
+  return error;
 }
 
 }  // namespace drycut::devices::plcopen

@@ -8,14 +8,16 @@ struct McReadActualPosition final : AxisReading {
   double Position = 0;
 
  private:
-  void read(const plcopen::Axis* axis) override;
+  void read(const plcopen::Axis* axis) override { Position = axis == nullptr ? 0 : axis->actual().part; }
 };
 
 struct McReadActualVelocity final : AxisReading {
   double Velocity = 0;
 
  private:
-  void read(const plcopen::Axis* axis) override;
+  void read(const plcopen::Axis* axis) override {
+    Velocity = axis == nullptr ? 0 : axis->actual_velocity() / increments_per_speed;
+  }
 };
 
 /// One output for each state: one of them is TRUE while Valid is.
@@ -37,7 +39,9 @@ struct McReadAxisError final : AxisReading {
   std::uint32_t AxisErrorID = 0;
 
  private:
-  void read(const plcopen::Axis* axis) override;
+  void read(const plcopen::Axis* axis) override {
+    AxisErrorID = axis == nullptr ? 0 : static_cast<std::uint32_t>(axis->error());
+  }
 };
 
 /// The axis has no switches of its own at its ends and its zero.
@@ -85,11 +89,12 @@ struct McReadParameter final : AxisReading {
 };
 
 /// The value is in force at once, and the machine data keep it.
-struct McWriteParameter final : ExecutedBlock {
-  AxisRef Axis;
+struct McWriteParameter final : AxisAnswer {
   std::int16_t ParameterNumber = 0;
   double Value = 0;
-  void call(MotionKernel& kernel) override;
+
+ private:
+  ErrorId answer(MotionKernel& kernel, plcopen::Axis* axis) override;
 };
 
 /// Records where the axis was when its probe's signal rose: the exact count, not the one of the next cycle.
@@ -112,10 +117,11 @@ struct McTouchProbe final : ExecutedBlock {
 };
 
 /// Ends the order of an MC_TouchProbe that still waits.
-struct McAbortTrigger final : ExecutedBlock {
-  AxisRef Axis;
+struct McAbortTrigger final : AxisAnswer {
   std::uint16_t TriggerInput = 0;
-  void call(MotionKernel& kernel) override;
+
+ private:
+  ErrorId answer(MotionKernel& kernel, plcopen::Axis* axis) override;
 };
 
 }  // namespace drycut::devices::plcopen

@@ -3,27 +3,20 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-ErrorId refusal(AxisState state) {
-  switch (state) {
-    case AxisState::disabled:
-      return ErrorId::in_disabled;
-    case AxisState::standstill:
-      return ErrorId::in_standstill;
-    case AxisState::homing:
-      return ErrorId::in_homing;
-    case AxisState::stopping:
-      return ErrorId::in_stopping;
-    case AxisState::discrete_motion:
-      return ErrorId::in_discrete_motion;
-    case AxisState::continuous_motion:
-      return ErrorId::in_continuous_motion;
-    case AxisState::synchronized_motion:
-      return ErrorId::in_synchronized_motion;
-    case AxisState::errorstop:
-      return ErrorId::in_errorstop;
-  }
-  return ErrorId::none;
-}
+/// What each state is called, and the error of a command that it does not allow; in the order of AxisState.
+struct StateRow {
+  std::string_view name;
+  ErrorId refusal;
+};
+constexpr std::array state_rows{StateRow{"Disabled", ErrorId::in_disabled},
+                                StateRow{"Standstill", ErrorId::in_standstill},
+                                StateRow{"Homing", ErrorId::in_homing},
+                                StateRow{"Stopping", ErrorId::in_stopping},
+                                StateRow{"DiscreteMotion", ErrorId::in_discrete_motion},
+                                StateRow{"ContinuousMotion", ErrorId::in_continuous_motion},
+                                StateRow{"SynchronizedMotion", ErrorId::in_synchronized_motion},
+                                StateRow{"Errorstop", ErrorId::in_errorstop}};
+const StateRow& row_of(AxisState state) { return state_rows.at(static_cast<std::size_t>(state)); }
 
 bool moves_or_stands(AxisState state) {
   return state == AxisState::standstill || state == AxisState::discrete_motion ||
@@ -32,15 +25,10 @@ bool moves_or_stands(AxisState state) {
 
 }  // namespace
 
-std::string_view name_of(AxisState state) {
-  constexpr std::array<std::string_view, 8> names{"Disabled",           "Standstill",     "Homing",
-                                                  "Stopping",           "DiscreteMotion", "ContinuousMotion",
-                                                  "SynchronizedMotion", "Errorstop"};
-  return names[static_cast<std::size_t>(state)];
-}
+std::string_view name_of(AxisState state) { return row_of(state).name; }
 
 Verdict judge(AxisState from, Command command) {
-  const Verdict refused{from, refusal(from)};
+  const Verdict refused{from, row_of(from).refusal};
   const auto if_allowed = [&](bool allowed, AxisState to) { return allowed ? Verdict{to} : refused; };
   const bool synchronized = from == AxisState::synchronized_motion;
   const bool stopping = from == AxisState::stopping;

@@ -12,18 +12,34 @@ namespace drycut::devices::plcopen {
 namespace {
 
 constexpr std::array table{
-    AxisTerminal{"encoder", Kind::counter, 1, true, false, true, "actual position, counts x4"},
-    AxisTerminal{"reference", Kind::analogue, 1, true, false, false, "speed reference of the drive, +-10 V"},
-    AxisTerminal{"enable", Kind::output, 1, true, false, false, "on while the axis regulates"},
-    AxisTerminal{"ready", Kind::input, ready_input, true, false, false,
+    AxisTerminal{"encoder", Kind::counter, 1, {true, false, true}, "actual position, counts x4"},
+    AxisTerminal{
+        "reference", Kind::analogue, 1, {true, false, false}, "speed reference of the drive, +-10 V"},
+    AxisTerminal{"enable", Kind::output, 1, {true, false, false}, "on while the axis regulates"},
+    AxisTerminal{"ready",
+                 Kind::input,
+                 ready_input,
+                 {true, false, false},
                  "off: the drive no longer follows; not wired: on"},
-    AxisTerminal{"emergency_stop", Kind::input, emergency_stop_input, true, true, false,
+    AxisTerminal{"emergency_stop",
+                 Kind::input,
+                 emergency_stop_input,
+                 {true, true, false},
                  "on: the axis brakes into Errorstop; not wired: off"},
-    AxisTerminal{"feed_enable", Kind::input, feed_enable_input, true, true, false,
+    AxisTerminal{"feed_enable",
+                 Kind::input,
+                 feed_enable_input,
+                 {true, true, false},
                  "off: movements slow down to a stop, couplings let go; not wired: on"},
-    AxisTerminal{"feed_hold", Kind::input, feed_hold_input, true, true, false,
+    AxisTerminal{"feed_hold",
+                 Kind::input,
+                 feed_hold_input,
+                 {true, true, false},
                  "on: movements slow down to a stop; not wired: off"},
-    AxisTerminal{"probe", Kind::interrupt, 1, true, false, true,
+    AxisTerminal{"probe",
+                 Kind::interrupt,
+                 1,
+                 {true, false, true},
                  "a rising edge latches the exact count for MC_TouchProbe"},
 };
 
@@ -46,18 +62,6 @@ std::optional<Address> located_address(std::string_view text) {
   const auto second = std::from_chars(first.ptr + 1, end, bit);
   if (second.ec != std::errc() || second.ptr != end || bit >= bits_per_byte) return std::nullopt;
   return Address{letter == 'Q' ? Kind::output : Kind::input, 0, static_cast<int>(bits_per_byte * byte + bit)};
-}
-
-bool AxisTerminal::offered_by(AxisKind axis) const {
-  switch (axis) {
-    case AxisKind::drive:
-      return on_drive;
-    case AxisKind::virtual_axis:
-      return on_virtual;
-    case AxisKind::encoder:
-      return on_encoder;
-  }
-  return false;
 }
 
 Address AxisTerminal::address(int axis) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,13 +15,11 @@ namespace drycut::devices::plcopen {
 struct AxisTerminal {
   std::string_view name;
   Kind kind = Kind::input;
-  int number = 1;  ///< tells the inputs of an axis apart
-  bool on_drive = false;
-  bool on_virtual = false;
-  bool on_encoder = false;
+  int number = 1;            ///< tells the inputs of an axis apart
+  std::array<bool, 3> on{};  ///< an axis of each AxisKind
   std::string_view meaning;
 
-  [[nodiscard]] bool offered_by(AxisKind axis) const;
+  [[nodiscard]] bool offered_by(AxisKind axis) const { return on.at(static_cast<std::size_t>(axis)); }
   [[nodiscard]] Address address(int axis) const;
 };
 std::span<const AxisTerminal> axis_terminal_table();

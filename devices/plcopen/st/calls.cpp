@@ -2,20 +2,77 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/st/expressions.hpp"
+#include "devices/plcopen/st/functions.hpp"
 
-// Calls of function blocks and of a user's functions.
+// Assignments, and calls of functions and function blocks.
 namespace drycut::devices::plcopen::st {
+namespace {
 
-std::vector<Compiler::Argument> Compiler::arguments(const Tree& call) {
-  std::vector<Argument> result;
-  for (std::size_t i = 1; i < call.parts.size(); ++i)
-    result.push_back({call.names[i - 1].token, call.names[i - 1].output, &call.parts[i]});
-  return result;
+/// VAR_INPUT and VAR_IN_OUT.
+bool takes(const Variable& pin) { return pin.section == Section::input || pin.section == Section::in_out; }
+
+std::vector<const Variable*> inputs_of(const Type& type) {
+  std::vector<const Variable*> inputs;
+  for (const Variable& member : type.members)
+    if (takes(member)) inputs.push_back(&member);
+  return inputs;
+}
+
+}  // namespace
+
+int Expressions::assign(const Expression& target, const Expression& value) {
+  if (target.unknown()) return -1;
+  if (!target.locked.empty() || !target.address) {
+    complain(target.place,
+             target.locked.empty() ? "this is no variable"
+                                   : fmt::format("{} {}", in_quotes(target.name), target.locked),
+             target.locked.empty() ? "a variable stands before ':='"
+                                   : "only variables and input pins are assigned");
+    return -1;
+  }
+  const Type& type = *target.type;
+  if ((type.basic == Basic::axis && target.place.line > 0 &&
+       find_member(*globals_, target.name) != nullptr) ||
+      type.holds_block) {
+    complain(target.place, fmt::format("{} is {} and is not assigned", in_quotes(target.name), type.name),
+             type.basic == Basic::axis    ? "connect it in a call"
+             : type.basic == Basic::block ? "assign its inputs"
+                                          : "it holds function blocks: assign its other members");
+    return -1;
+  }
+  const Expression source = converted(value, type);
+  if (source.unknown() || target.node < 0) return -1;
+  return store(target, value_node(source));
+}
+
+int Expressions::store(const Expression& target, int value) {
+  const Type& type = *target.type;
+  if (target.bits)
+    return add_node(Op::store_bits, target.bits->of->basic, target.place, target.node, value,
+                    target.bits->width, target.bits->shift);
+  if (is_elementary(type.basic) || type.basic == Basic::axis) {
+    const Node address = node(target.node);
+    if (address.op == Op::address || address.op == Op::address_own)
+      return add_node(address.op == Op::address ? Op::store : Op::store_own, type.basic, target.place, value,
+                      -1, -1, address.imm);
+    return add_node(Op::store_at, type.basic, target.place, target.node, value);
+  }
+  if (type.basic == Basic::string)
+    return add_node(Op::copy_string, type.basic, target.place, target.node, value, -1,
+                    static_cast<std::int64_t>(type.length));
+  return add_node(Op::copy, type.basic, target.place, target.node, value, -1, type.cells);
+}
+
+void Expressions::cam_file(const Token& text) {
+  const auto known = std::any_of(code_->tables.begin(), code_->tables.end(),
+                                 [&](const Program::Name& table) { return table.name == text.string; });
+  if (text.kind == Token::Kind::string && !text.string.empty() && !known)
+    code_->tables.push_back({text.string, text.place.line, text.place.column});
 }
 
 /// Takes EN and ENO out of the arguments of what does not declare them itself.
-Compiler::Enable Compiler::take_enable(std::vector<Argument>& given, const Type* callee) {
+Expressions::Enable Expressions::take_enable(std::vector<Argument>& given, const Type* callee) {
   Enable enable;
   const auto is = [&](const Argument& argument, std::string_view name, bool output) {
     return argument.name != nullptr && argument.name->word(name) && argument.output == output &&
@@ -34,20 +91,20 @@ Compiler::Enable Compiler::take_enable(std::vector<Argument>& given, const Type*
   return enable;
 }
 
-int Compiler::enable_condition(const Enable& enable, Place place) {
+int Expressions::enable_condition(const Enable& enable, Place place) {
   if (enable.condition == nullptr) return value_node(constant(type_of(Basic::boolean), 1, place));
   const Expression condition = converted(typed(*enable.condition), *type_of(Basic::boolean));
   return condition.unknown() ? -1 : value_node(condition);
 }
 
-int Compiler::enable_store(const Enable& enable, bool on) {
+int Expressions::enable_store(const Enable& enable, bool on) {
   if (enable.result == nullptr) return -1;
   const Expression target = typed(*enable.result);
   return assign(target, constant(type_of(Basic::boolean), on ? 1 : 0, target.place));
 }
 
 /// A function that is not enabled gives its type's initial value (IEC 61131-3 leaves open which).
-Expression Compiler::enabled(const Enable& enable, Expression value, const Type* wanted) {
+Expression Expressions::enabled(const Enable& enable, Expression value, const Type* wanted) {
   if (value.unknown() || (enable.condition == nullptr && enable.result == nullptr)) return value;
   if (value.untyped && wanted != nullptr) value = literal_as(std::move(value), *base_of(wanted));
   const Basic basic = value.type->basic;
@@ -56,19 +113,16 @@ Expression Compiler::enabled(const Enable& enable, Expression value, const Type*
   if (is_elementary(basic))
     off = value_node(constant(value.type, value.type->initial.front(), value.place));
   else if (basic == Basic::string)
-    off = add_node(Op::address_pool, basic, value.place, -1, -1, -1, literal_string(""));
+    off = literal_string("", value.place);
   else if (enable.condition != nullptr)
     give_up(value.place, fmt::format("EN of a function that gives {}", value.type->name),
             "IF condition THEN");
   const int condition = enable_condition(enable, value.place);
   const int list = add_list({condition, on, off, enable_store(enable, true), enable_store(enable, false)});
-  Expression result{value.type, value.place};
-  result.depth = value.depth + 1;
-  result.node = add_node(Op::enabled, basic, value.place, list);
-  return result;
+  return {value.type, value.place, add_node(Op::enabled, basic, value.place, list), value.depth + 1};
 }
 
-Expression Compiler::call(const Tree& tree, const Type* wanted) {
+Expression Expressions::call(const Tree& tree, const Type* wanted) {
   const Tree& callee = tree.parts[0];
   const Token& name = *callee.token;
   // A FUNCTION's own name is its result, and with arguments a call of itself.
@@ -89,26 +143,47 @@ Expression Compiler::call(const Tree& tree, const Type* wanted) {
   return enabled(enable, function_call(name, given, wanted), wanted);
 }
 
-std::vector<std::string> Compiler::pins_of(const Type& type, bool output) {
+Expression Expressions::function_call(const Token& name, const std::vector<Argument>& given,
+                                      const Type* wanted) {
+  if (Unit* unit = find_unit(name.text); unit != nullptr && unit->kind == Unit::Kind::function)
+    return user_call(*unit, name, given);
+  const auto argument_of = [this](const Tree& tree, const Type* type) { return typed(tree, type); };
+  if (auto value = standard_call(*this, name, given, wanted, argument_of)) return std::move(*value);
+  for (const Argument& argument : given) typed(*argument.tree);
+  const bool block = find_block_type(name.text) != nullptr || find_unit(name.text) != nullptr;
+  const auto known = [&] {
+    std::vector<std::string> names = standard_function_names();
+    for (const auto& unit : units_)
+      if (unit->kind == Unit::Kind::function) names.emplace_back(unit->name.text);
+    for (const Variable& member : unit_->type != nullptr ? unit_->type->members : globals_->members)
+      if (member.type->basic == Basic::block) names.push_back(member.name);
+    return names;
+  };
+  if (told_.insert(lower(name.text)).second)
+    complain(name.place, fmt::format("there is no function {}", in_quotes(name.text)),
+             block ? "it is a kind of function block: declare an instance of it in VAR and call that"
+                   : suggested(name.text, known, "declare FUNCTION " + std::string(name.text) + " : type"));
+  return unknown_at(name.place);
+}
+
+std::vector<std::string> Expressions::pins_of(const Type& type, bool output) {
   std::vector<std::string> names;
-  for (const Variable& member : type.members) {
-    const bool input = member.section == Section::input || member.section == Section::in_out;
-    if (output ? member.section == Section::output : input) names.push_back(member.name);
-  }
+  for (const Variable& member : type.members)
+    if (output ? member.section == Section::output : takes(member)) names.push_back(member.name);
   return names;
 }
 
-const Variable* Compiler::pin_of(const Type& type, const Token& name, bool output) {
+const Variable* Expressions::pin_of(const Type& type, const Token& name, bool output) {
   const Variable* pin = find_member(type, name.text);
   const bool is_output = pin != nullptr && pin->section == Section::output;
-  const bool is_input = pin != nullptr && (pin->section == Section::input || pin->section == Section::in_out);
-  if (is_input && !output) return pin;
-  if (is_output && output) return pin;
+  const bool is_input = pin != nullptr && takes(*pin);
+  if (output ? is_output : is_input) return pin;
   if (is_input || is_output) {
-    complain(name.place,
-             fmt::format("{} is an {} of {}", in_quotes(pin->name), is_output ? "output" : "input", type.name),
-             is_output ? fmt::format("{} => variable reads it", pin->name)
-                       : fmt::format("{} := value gives it", pin->name));
+    complain(
+        name.place,
+        fmt::format("{} is an {} of {}", in_quotes(pin->name), is_output ? "output" : "input", type.name),
+        is_output ? fmt::format("{} => variable reads it", pin->name)
+                  : fmt::format("{} := value gives it", pin->name));
     return nullptr;
   }
   if (type.broken) return nullptr;
@@ -121,7 +196,7 @@ const Variable* Compiler::pin_of(const Type& type, const Token& name, bool outpu
   return nullptr;
 }
 
-int Compiler::in_out_store(const Type& type, const Variable& pin, const Expression& value, int place) {
+int Expressions::in_out_store(const Type& type, const Variable& pin, const Expression& value, int place) {
   if (value.unknown()) return -1;
   // A motion block takes its axes by value: they do not change.
   const bool by_value = type.motion != nullptr;
@@ -142,7 +217,7 @@ int Compiler::in_out_store(const Type& type, const Variable& pin, const Expressi
                   by_value ? value_node(value) : value.node);
 }
 
-int Compiler::output_store(const Type& owner, const Variable& pin, const Argument& argument, int place) {
+int Expressions::output_store(const Type& owner, const Variable& pin, const Argument& argument, int place) {
   const Expression target = typed(*argument.tree);
   if (target.unknown()) return -1;
   if (!target.address) {
@@ -150,14 +225,10 @@ int Compiler::output_store(const Type& owner, const Variable& pin, const Argumen
              fmt::format("{} => variable", pin.name));
     return -1;
   }
-  Expression value{pin.type, argument.name->place};
-  value.node = place;
-  value.address = true;
-  value.name = owner.name + "." + pin.name;
-  return assign(target, value);
+  return assign(target, variable_at(pin.type, place, owner.name + "." + pin.name, argument.name->place));
 }
 
-void Compiler::input_of(const Expression& instance, const Argument& argument, BlockCall& call) {
+void Expressions::input_of(const Expression& instance, const Argument& argument, BlockCall& call) {
   const Type& type = *instance.type;
   if (argument.name == nullptr) {
     const std::vector<std::string> inputs = pins_of(type, false);
@@ -185,17 +256,15 @@ void Compiler::input_of(const Expression& instance, const Argument& argument, Bl
   } else if (pin->section == Section::in_out) {
     call.before.push_back(in_out_store(type, *pin, typed(*argument.tree), place));
   } else {
-    Expression target{pin->type, argument.name->place};
-    target.address = true;
-    target.node = place;
-    target.name = instance.name + "." + pin->name;
+    const Expression target =
+        variable_at(pin->type, place, instance.name + "." + pin->name, argument.name->place);
     call.before.push_back(assign(target, typed(*argument.tree, pin->type)));
   }
 }
 
 /// The statements that give an instance's inputs and take its outputs.
-Compiler::BlockCall Compiler::block_arguments(const Expression& instance,
-                                              const std::vector<Argument>& given) {
+Expressions::BlockCall Expressions::block_arguments(const Expression& instance,
+                                                    const std::vector<Argument>& given) {
   const Type& type = *instance.type;
   BlockCall call;
   for (const Argument& argument : given) input_of(instance, argument, call);
@@ -211,7 +280,7 @@ Compiler::BlockCall Compiler::block_arguments(const Expression& instance,
   return call;
 }
 
-int Compiler::block_call(const Expression& instance, const Tree& tree) {
+int Expressions::block_call(const Expression& instance, const Tree& tree) {
   const Type& type = *instance.type;
   const Place place = instance.place;
   std::vector<Argument> given = arguments(tree);
@@ -230,20 +299,20 @@ int Compiler::block_call(const Expression& instance, const Tree& tree) {
                   sequence_node({enable_store(enable, false)}, place));
 }
 
-int Compiler::sequence_node(std::vector<int> statements, Place place) {
+int Expressions::sequence_node(std::vector<int> statements, Place place) {
   std::erase(statements, -1);
   const int first = add_list(statements);
   return add_node(Op::sequence, Basic::unknown, place, first, static_cast<int>(statements.size()));
 }
 
 /// What an argument of a FUNCTION gives: a node, a place, and how many cells (see Op::call_function).
-std::vector<int> Compiler::input_triple(const Type& function, const Variable& pin, const Argument& argument,
-                                        int frame, int& depth) {
+std::vector<int> Expressions::input_triple(const Type& function, const Variable& pin,
+                                           const Argument& argument, int frame, int& depth) {
   const int at = frame + pin.offset;
   const Expression given = typed(*argument.tree, pin.type);
   depth = std::max(depth, given.depth + 1);
   if (pin.section == Section::in_out) {
-    const int place = add_node(Op::address, pin.type->basic, given.place, -1, -1, -1, at);
+    const int place = leaf_node(Op::address, pin.type->basic, given.place, at);
     if (in_out_store(function, pin, given, place) < 0) return {};
     return {given.node, at, 1};
   }
@@ -255,8 +324,8 @@ std::vector<int> Compiler::input_triple(const Type& function, const Variable& pi
   return {value_node(value), at, cells};
 }
 
-Expression Compiler::user_call(Unit& unit, const Token& name, const std::vector<Argument>& given) {
-  const Expression unknown{type_of(Basic::unknown), name.place};
+Expression Expressions::user_call(Unit& unit, const Token& name, const std::vector<Argument>& given) {
+  const Expression unknown = unknown_at(name.place);
   const bool known = unit.state == Unit::State::done && unit.type != nullptr && unit.pou >= 0;
   if (!known || unit.type->broken) {
     for (const Argument& argument : given) typed(*argument.tree);
@@ -264,10 +333,8 @@ Expression Compiler::user_call(Unit& unit, const Token& name, const std::vector<
   }
   unit_->calls.insert(unit.pou);
   const std::size_t before = problems_.size();
-  const int frame = code_->pous[static_cast<std::size_t>(unit.pou)].frame;
-  std::vector<const Variable*> inputs;
-  for (const Variable& member : unit.type->members)
-    if (member.section == Section::input || member.section == Section::in_out) inputs.push_back(&member);
+  const int frame = pou(unit).frame;
+  const std::vector<const Variable*> inputs = inputs_of(*unit.type);
   std::set<const Variable*> connected;
   std::vector<int> list{0};
   std::vector<int> after;
@@ -290,8 +357,7 @@ Expression Compiler::user_call(Unit& unit, const Token& name, const std::vector<
       return unknown;
     }
     if (argument.output) {
-      const int place_of_pin =
-          add_node(Op::address, pin->type->basic, place, -1, -1, -1, frame + pin->offset);
+      const int place_of_pin = leaf_node(Op::address, pin->type->basic, place, frame + pin->offset);
       after.push_back(output_store(*unit.type, *pin, argument, place_of_pin));
       sound = sound && after.back() >= 0;
       continue;
@@ -309,19 +375,15 @@ Expression Compiler::user_call(Unit& unit, const Token& name, const std::vector<
   const int first = add_list(list);
   // A text or structure outlives the next call of the function.
   const bool whole = !is_elementary(unit.result->basic);
-  const int kept = whole ? add_node(Op::address_pool, unit.result->basic, name.place, -1, -1, -1,
-                                    scratch(unit.result->cells))
-                         : -1;
+  const int kept = whole ? scratch(*unit.result, name.place) : -1;
   result.node = add_node(Op::call_function, unit.result->basic, name.place, first, kept, unit.pou,
                          whole ? unit.result->cells : 0);
   return result;
 }
 
-bool Compiler::all_connected(const Unit& unit, const Token& name, const std::vector<Argument>& given,
-                             const std::set<const Variable*>& connected, std::size_t number) {
-  std::vector<const Variable*> inputs;
-  for (const Variable& member : unit.type->members)
-    if (member.section == Section::input || member.section == Section::in_out) inputs.push_back(&member);
+bool Expressions::all_connected(const Unit& unit, const Token& name, const std::vector<Argument>& given,
+                                const std::set<const Variable*>& connected, std::size_t number) {
+  const std::vector<const Variable*> inputs = inputs_of(*unit.type);
   for (const Variable* input : inputs)
     if (input->section == Section::in_out && !connected.contains(input)) {
       complain(name.place, fmt::format("{} is not connected in the call of {}", input->name, unit.name.text),

@@ -142,6 +142,11 @@ enum class TextOp : std::uint8_t {
   find,
   to_value,  ///< of the node's `basic`
 };
+/// How many of the inputs are texts; behind them stand numbers.
+constexpr std::size_t texts_of(TextOp op, std::size_t inputs) {
+  if (op == TextOp::concat) return inputs;
+  return op == TextOp::insert || op == TextOp::replace || op == TextOp::find ? 2 : 1;
+}
 
 struct Node {
   Op op = Op::nothing;

@@ -14,16 +14,10 @@ void Compiler::find_configuration() {
   if (configuration_first_ != 0)
     complain(opening.place, "a second CONFIGURATION", "one CONFIGURATION says what runs on the controller");
   while (at_ < stop_ && !peek().word("END_CONFIGURATION")) {
-    if (!peek().word("VAR_GLOBAL")) {
+    if (peek().word("VAR_GLOBAL"))
+      add_globals();
+    else
       take();
-      continue;
-    }
-    Unit unit;
-    unit.kind = Unit::Kind::globals;
-    unit.name = peek();
-    unit.first = at_;
-    unit.end = end_of_unit(at_, "END_VAR");
-    add_unit(std::move(unit));
   }
   configuration_first_ = first;
   configuration_end_ = at_;
@@ -54,8 +48,7 @@ void Compiler::read_configuration() {
       try {
         configuration_part(tasks, resources);
       } catch (const GiveUp&) {
-        while (at_ < stop_ && !take().is(";")) {
-        }
+        skip_past("");
         if (at_ == before) ++at_;
       }
     }
@@ -121,10 +114,10 @@ void Compiler::declare_task() {
     } else if (property.word("SINGLE")) {
       const Expression signal = expression();
       const bool plain = signal.address && signal.type->basic == Basic::boolean && !signal.bits &&
-                         code_->nodes[static_cast<std::size_t>(signal.node)].op == Op::address;
+                         node(signal.node).op == Op::address;
       if (!plain && !signal.unknown())
         give_up(place, "SINGLE is no BOOL of VAR_GLOBAL", "a task runs at the rising edge of one");
-      if (plain) single = static_cast<int>(code_->nodes[static_cast<std::size_t>(signal.node)].imm);
+      if (plain) single = static_cast<int>(node(signal.node).imm);
       runs = true;
     } else {
       give_up(property.place, fmt::format("a task has no {}", in_quotes(property.text)),
@@ -155,12 +148,10 @@ void Compiler::declare_instance() {
     const Token with = expect_name("the name of its task");
     for (std::size_t i = 0; i < code_->tasks.size(); ++i)
       if (with.word(code_->tasks[i].name)) task = static_cast<int>(i);
-    if (task < 0) {
-      std::vector<std::string> names;
-      for (const Program::Task& known : code_->tasks) names.push_back(known.name);
+    if (task < 0)
       complain(with.place, fmt::format("there is no task {}", in_quotes(with.text)),
-               suggestion(with.text, names, "TASK " + std::string(with.text) + "(INTERVAL := T#10ms);"));
-    }
+               suggestion(with.text, names_of(code_->tasks),
+                          "TASK " + std::string(with.text) + "(INTERVAL := T#10ms);"));
   }
   expect(":", "PROGRAM name WITH task : type;");
   const Token type = expect_name("the PROGRAM that it is");
@@ -176,16 +167,14 @@ void Compiler::declare_instance() {
             suggested(type.text, known, "PROGRAM " + std::string(type.text) + " ... END_PROGRAM"));
   }
   const std::size_t connections = peek().is("(") ? at_ : 0;
-  while (at_ < stop_ && !peek().is(";")) take();
+  skip_to([&] { return peek().is(";"); });
   expect(";", "ends a PROGRAM in the CONFIGURATION");
   add_instance(name, task, *unit, connections);
 }
 
 void Compiler::add_instance(const Token& name, int task, Unit& unit, std::size_t connections) {
   if (unit.pou < 0) return;
-  Compiled::Instance instance;
-  instance.pou = unit.pou;
-  code_->instances.push_back(instance);
+  code_->instances.push_back({.pou = unit.pou});
   code_->instance_names.push_back({std::string(name.text), name.place.line, name.place.column, task});
   connections_.push_back({&unit, name, connections});
 }
@@ -217,10 +206,8 @@ void Compiler::connect_instances() {
     const Connections& of = connections_[i];
     Compiled::Instance& instance = code_->instances[i];
     if (of.unit->state != Unit::State::done || of.unit->type == nullptr) continue;
-    Expression whole{of.unit->type, of.name.place};
-    whole.address = true;
-    whole.name = of.name.text;
-    whole.node = add_node(Op::address, Basic::block, of.name.place, -1, -1, -1, instance.cell);
+    const int node = leaf_node(Op::address, Basic::block, of.name.place, instance.cell);
+    const Expression whole = variable_at(of.unit->type, node, std::string(of.name.text), of.name.place);
     at_ = of.connections;
     stop_ = of.connections == 0 ? 0 : configuration_end_;
     try {

@@ -1,9 +1,11 @@
+#include "devices/plcopen/st/compiler.hpp"
+
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/compiler.hpp"
 #include "devices/plcopen/st/keywords.hpp"
 #include "devices/plcopen/terminals.hpp"
 
@@ -11,80 +13,25 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
+struct SectionName {
+  std::string_view name;
+  Section section;
+};
+constexpr std::array section_names{
+    SectionName{"VAR", Section::local},         SectionName{"VAR_INPUT", Section::input},
+    SectionName{"VAR_OUTPUT", Section::output}, SectionName{"VAR_IN_OUT", Section::in_out},
+    SectionName{"VAR_TEMP", Section::temp},     SectionName{"VAR_EXTERNAL", Section::local},
+    SectionName{"VAR_GLOBAL", Section::local}};
+
+/// Of those with this section the first: VAR.
 std::string_view name_of(Section section) {
-  switch (section) {
-    case Section::input:
-      return "VAR_INPUT";
-    case Section::output:
-      return "VAR_OUTPUT";
-    case Section::in_out:
-      return "VAR_IN_OUT";
-    case Section::temp:
-      return "VAR_TEMP";
-    default:
-      return "VAR";
-  }
-}
-
-}  // namespace
-
-void Compiler::declare_pou(Unit& unit) {
-  if (unit.kind == Unit::Kind::globals) {
-    unit.type = globals_;
-    while (variable_section(unit, *globals_)) {
-    }
-    return;
-  }
-  Type& type = new_type(Basic::block, std::string(unit.name.text));
-  type.cells = 0;
-  type.initial.clear();
-  type.standard = unit.standard;
-  unit.type = &type;
-  unit.pou = static_cast<int>(code_->pous.size());
-  type.pou = unit.pou;
-  code_->pous.emplace_back();
-  if (unit.kind == Unit::Kind::function) declare_function_result(unit, type);
-  while (variable_section(unit, type)) {
-  }
-  fill_empty(type);
-  name_standard_pins(type);
-  Pou& pou = code_->pous[static_cast<std::size_t>(unit.pou)];
-  pou.type = &type;
-  if (unit.kind == Unit::Kind::function) {
-    if (type.cells > 0) pou.resets.push_back({0, type.cells - 1});
-  } else {
-    for (const Variable& member : type.members)
-      if (member.section == Section::temp)
-        pou.resets.push_back({member.offset, member.offset + member.type->cells - 1});
-  }
-  unit.body = at_;
-}
-
-void Compiler::declare_function_result(Unit& unit, Type& type) {
-  Variable result;
-  result.name = unit.name.text;
-  result.place = unit.name.place;
-  result.type = type_of(Basic::unknown);
-  try {
-    expect(":", fmt::format("and a type are the result: FUNCTION {} : LREAL", unit.name.text));
-    const Place place = peek().place;
-    result.type = parse_type();
-    accept(";");
-    if (result.type->holds_block || result.type->holds_axis) {
-      complain(place, fmt::format("a FUNCTION does not return {}", result.type->name),
-               "it keeps its state: connect it as VAR_IN_OUT");
-      result.type = type_of(Basic::unknown);
-    }
-  } catch (const GiveUp&) {
-    while (at_ < stop_ && !upper(peek().text).starts_with("VAR") && !take().is(";")) {
-    }
-  }
-  unit.result = base_of(result.type);
-  append(type, std::move(result), unit.result->initial);
+  return std::find_if(section_names.begin(), section_names.end(),
+                      [&](const SectionName& known) { return known.section == section; })
+      ->name;
 }
 
 /// The pins of standard blocks have the names of CODESYS, and those of IEC 61131-3 as well.
-void Compiler::name_standard_pins(Type& type) {
+void name_standard_pins(Type& type) {
   struct Pin {
     std::string_view block;
     std::string_view name;
@@ -103,29 +50,81 @@ void Compiler::name_standard_pins(Type& type) {
       type.index.emplace(pin.standard, type.index.at(std::string(pin.name)));
 }
 
-/// Everything has a place: arrays of what has none would have no end.
-void Compiler::fill_empty(Type& type) {
-  if (type.cells > 0) return;
-  type.cells = 1;
-  type.initial.assign(1, 0);
+}  // namespace
+
+void Declarations::declare(Unit& unit) {
+  if (unit.state != Unit::State::untouched) return;
+  const auto saved = std::tuple(at_, stop_, unit_);
+  ++open_units_;
+  unit.state = Unit::State::open;
+  at_ = unit.first;
+  stop_ = unit.end;
+  unit_ = &unit;
+  if (unit.kind == Unit::Kind::type)
+    declare_type(unit);
+  else
+    declare_pou(unit);
+  unit.state = Unit::State::done;
+  --open_units_;
+  std::tie(at_, stop_, unit_) = saved;
 }
 
-std::optional<Compiler::VarSection> Compiler::section_header() {
+void Declarations::declare_pou(Unit& unit) {
+  if (unit.kind == Unit::Kind::globals) {
+    unit.type = globals_;
+    while (variable_section(unit, *globals_)) {
+    }
+    return;
+  }
+  Type& type = new_type(Basic::block, std::string(unit.name.text), true);
+  type.standard = unit.standard;
+  unit.type = &type;
+  unit.pou = static_cast<int>(code_->pous.size());
+  type.pou = unit.pou;
+  code_->pous.emplace_back();
+  if (unit.kind == Unit::Kind::function) declare_function_result(unit, type);
+  while (variable_section(unit, type)) {
+  }
+  fill_empty(type);
+  name_standard_pins(type);
+  Pou& own = pou(unit);
+  own.type = &type;
+  if (unit.kind == Unit::Kind::function) own.resets.push_back({0, type.cells - 1});
+  for (const Variable& member : type.members)
+    if (unit.kind != Unit::Kind::function && member.section == Section::temp)
+      own.resets.push_back({member.offset, member.offset + member.type->cells - 1});
+  unit.body = at_;
+}
+
+void Declarations::declare_function_result(Unit& unit, Type& type) {
+  Variable result{
+      .name = std::string(unit.name.text), .type = type_of(Basic::unknown), .place = unit.name.place};
+  try {
+    expect(":", fmt::format("and a type are the result: FUNCTION {} : LREAL", unit.name.text));
+    const Place place = peek().place;
+    result.type = parse_type();
+    accept(";");
+    if (result.type->holds_block || result.type->holds_axis) {
+      complain(place, fmt::format("a FUNCTION does not return {}", result.type->name),
+               "it keeps its state: connect it as VAR_IN_OUT");
+      result.type = type_of(Basic::unknown);
+    }
+  } catch (const GiveUp&) {
+    while (at_ < stop_ && !upper(peek().text).starts_with("VAR") && !take().is(";")) {
+    }
+  }
+  unit.result = base_of(result.type);
+  append(type, std::move(result), unit.result->initial);
+}
+
+std::optional<Declarations::VarSection> Declarations::section_header() {
+  const auto* const found = std::find_if(section_names.begin(), section_names.end(),
+                                         [&](const SectionName& known) { return peek().word(known.name); });
+  if (found == section_names.end()) return std::nullopt;
   VarSection section;
-  if (peek().word("VAR_INPUT"))
-    section.section = Section::input;
-  else if (peek().word("VAR_OUTPUT"))
-    section.section = Section::output;
-  else if (peek().word("VAR_IN_OUT"))
-    section.section = Section::in_out;
-  else if (peek().word("VAR_TEMP"))
-    section.section = Section::temp;
-  else if (peek().word("VAR_EXTERNAL"))
-    section.external = true;
-  else if (peek().word("VAR_GLOBAL"))
-    section.global = true;
-  else if (!peek().word("VAR"))
-    return std::nullopt;
+  section.section = found->section;
+  section.external = found->name == "VAR_EXTERNAL";
+  section.global = found->name == "VAR_GLOBAL";
   take();
   while (true) {
     if (accept_word("CONSTANT"))
@@ -137,21 +136,19 @@ std::optional<Compiler::VarSection> Compiler::section_header() {
   }
 }
 
-bool Compiler::variable_section(Unit& unit, Type& owner) {
+bool Declarations::variable_section(Unit& unit, Type& owner) {
   if (at_ >= stop_) return false;
   const Token opening = peek();
   const std::optional<VarSection> section = section_header();
   if (!section) return false;
   while (at_ < stop_ && !peek().word("END_VAR")) {
     // VAR without END_VAR runs into the next section or the statements.
-    if (peek().kind == Token::Kind::name && upper(peek().text).starts_with("VAR") && is_keyword(peek().text))
-      break;
+    if (at_word(is_keyword) && upper(peek().text).starts_with("VAR")) break;
     try {
       declare_variables(unit, owner, *section);
     } catch (const GiveUp&) {
       owner.broken = true;
-      while (at_ < stop_ && !peek().word("END_VAR") && !take().is(";")) {
-      }
+      skip_past("END_VAR");
     }
   }
   if (!accept_word("END_VAR") && unit.kind != Unit::Kind::globals)
@@ -160,7 +157,7 @@ bool Compiler::variable_section(Unit& unit, Type& owner) {
   return true;
 }
 
-void Compiler::declare_variables(Unit& unit, Type& owner, const VarSection& section) {
+void Declarations::declare_variables(Unit& unit, Type& owner, const VarSection& section) {
   std::vector<Token> names{expect_name("the name of a variable")};
   while (accept(",")) names.push_back(expect_name("the name of a variable"));
   try {
@@ -175,8 +172,8 @@ void Compiler::declare_variables(Unit& unit, Type& owner, const VarSection& sect
   }
 }
 
-void Compiler::declare_named(Unit& unit, Type& owner, const VarSection& section,
-                             const std::vector<Token>& names) {
+void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& section,
+                                 const std::vector<Token>& names) {
   std::optional<Address> place;
   if (accept_word("AT")) place = location();
   expect(":", "stands between a variable's name and its type");
@@ -202,8 +199,8 @@ void Compiler::declare_named(Unit& unit, Type& owner, const VarSection& section,
   for (const Token& name : names) add_variable(unit, owner, section, name, type, place, initial);
 }
 
-bool Compiler::check_section(const Unit& unit, const VarSection& section, const Token& name, const Type& type,
-                             const std::optional<Address>& located) {
+bool Declarations::check_section(const Unit& unit, const VarSection& section, const Token& name,
+                                 const Type& type, const std::optional<Address>& located) {
   const auto refuse = [&](std::string what, std::string remedy) {
     complain(name.place, std::move(what), std::move(remedy));
     return false;
@@ -227,14 +224,15 @@ bool Compiler::check_section(const Unit& unit, const VarSection& section, const 
                   "AT stands in VAR of a PROGRAM or in VAR_GLOBAL");
   const auto [other, fresh] = terminals_.emplace(*located, name.text);
   if (!fresh)
-    return refuse(fmt::format("{} and {} are at one terminal", in_quotes(name.text), in_quotes(other->second)),
-                  "each terminal has one variable");
+    return refuse(
+        fmt::format("{} and {} are at one terminal", in_quotes(name.text), in_quotes(other->second)),
+        "each terminal has one variable");
   return true;
 }
 
-void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name,
-                            const Type* type, const std::optional<Address>& located,
-                            std::span<const Cell> initial) {
+void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name,
+                                const Type* type, const std::optional<Address>& located,
+                                std::span<const Cell> initial) {
   if (!name_is_free(unit, owner, name) || !check_section(unit, section, name, *type, located)) {
     // Known, so that its uses are not told again.
     if (find_member(owner, name.text) == nullptr)
@@ -243,13 +241,12 @@ void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, 
       return;
     initial = type->initial;
   }
-  Variable variable;
-  variable.name = name.text;
-  variable.place = name.place;
-  variable.type = type;
-  variable.section = section.section;
-  variable.constant = section.constant;
-  variable.retain = section.retain;
+  Variable variable{.name = std::string(name.text),
+                    .type = type,
+                    .section = section.section,
+                    .constant = section.constant,
+                    .retain = section.retain,
+                    .place = name.place};
   if (section.constant && (is_elementary(type->basic))) variable.value = initial.front();
   check_size(name.place, type->cells, type->depth);
   if (owner.cells + type->cells > most_cells)
@@ -265,7 +262,7 @@ void Compiler::add_variable(Unit& unit, Type& owner, const VarSection& section, 
          section.section == Section::in_out ? std::span<const Cell>(pointer) : initial);
 }
 
-bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& name) {
+bool Declarations::name_is_free(const Unit& unit, const Type& owner, const Token& name) {
   const Variable* other = find_member(owner, name.text);
   if (other == nullptr) return true;
   const bool result = unit.kind == Unit::Kind::function && same_word(unit.name.text, name.text);
@@ -274,7 +271,7 @@ bool Compiler::name_is_free(const Unit& unit, const Type& owner, const Token& na
   return false;
 }
 
-void Compiler::external(const Token& name, const Type* type) {
+void Declarations::external(const Token& name, const Type* type) {
   const Variable* global = find_member(*globals_, name.text);
   if (type->basic == Basic::axis) {
     if (global != nullptr && global->type->basic == Basic::axis) return;
@@ -285,26 +282,22 @@ void Compiler::external(const Token& name, const Type* type) {
     }
     code_->externals.push_back({std::string(name.text), name.place.line, name.place.column});
     code_->external_cells.push_back(globals_->cells);
-    Variable axis;
-    axis.name = name.text;
-    axis.type = type;
-    axis.place = name.place;
-    append(*globals_, std::move(axis), type->initial);
+    append(*globals_, {.name = std::string(name.text), .type = type, .place = name.place}, type->initial);
     return;
   }
   if (type->basic == Basic::unknown || (global != nullptr && same_type(*global->type, *type))) return;
   if (global != nullptr) {
-    complain(
-        name.place,
-        fmt::format("{} is {} here and {} in VAR_GLOBAL", in_quotes(name.text), type->name, global->type->name),
-        "declare both alike");
+    complain(name.place,
+             fmt::format("{} is {} here and {} in VAR_GLOBAL", in_quotes(name.text), type->name,
+                         global->type->name),
+             "declare both alike");
     return;
   }
   complain(name.place, fmt::format("there is no VAR_GLOBAL {}", in_quotes(name.text)),
            "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
 }
 
-std::optional<Address> Compiler::location() {
+std::optional<Address> Declarations::location() {
   const Token token = take();
   const auto address =
       token.kind == Token::Kind::address ? located_address(token.text) : std::optional<Address>{};

@@ -1,26 +1,43 @@
+#include "devices/plcopen/st/expressions.hpp"
+
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/compiler.hpp"
+#include "devices/plcopen/kernel.hpp"
+#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/operators.hpp"
 
-// Operators: types and nodes from an expression's tree. AND and OR take both sides; AND_THEN and OR_ELSE do
-// not. What the context wants, `wanted`, decides only where the parts leave it open: for literals.
+// What the tree of an expression means: its literals, its names and what may follow them, .member and
+// [index].
 namespace drycut::devices::plcopen::st {
 namespace {
 
-constexpr std::array<std::string_view, 6> comparisons{"=", "<>", "<", "<=", ">", ">="};
+std::optional<Expression> predefined(const Token& name) {
+  for (const StartModeRow& row : start_mode_table)
+    if (name.word(row.name)) return constant(type_of(Basic::dword), row.bit, name.place, false);
+  for (const NamedNumber& named : named_numbers)
+    if (name.word(named.name)) return constant(type_of(Basic::lint), named.number, name.place, true);
+  return std::nullopt;
+}
 
-bool is_zero(const Expression& value) {
-  return value.constant && (is_real(value.type->basic) ? real_of(value.value) == 0 : value.value == 0);
+Expression variable_of(const Variable& variable, int node, const std::string& name, Place place) {
+  const bool known = variable.constant && variable.value;
+  Expression result =
+      known ? constant(variable.type, *variable.value, place) : variable_at(variable.type, node, name, place);
+  result.name = name;
+  if (variable.constant)
+    result.locked = "is a constant";
+  else if (variable.reads_terminal)
+    result.locked = "is an input terminal";
+  return result;
 }
 
 }  // namespace
 
-Expression Compiler::expression(const Type* wanted) { return typed(tree(), wanted); }
-
-Expression Compiler::typed(const Tree& tree, const Type* wanted) {
+Expression Expressions::typed(const Tree& tree, const Type* wanted) {
   switch (tree.kind) {
     case Tree::Kind::literal:
       return literal(*tree.token);
@@ -35,7 +52,7 @@ Expression Compiler::typed(const Tree& tree, const Type* wanted) {
     case Tree::Kind::call:
       return call(tree, wanted);
     case Tree::Kind::sign:
-      return signed_value(tree, wanted);
+      return signed_value(*this, *tree.token, typed(tree.parts[0], wanted), wanted);
     case Tree::Kind::chain:
       break;
     case Tree::Kind::parenthesised: {
@@ -51,267 +68,254 @@ Expression Compiler::typed(const Tree& tree, const Type* wanted) {
     // A name of two enumerations is one of the other side's.
     const Type* const other = result.type->basic == Basic::enumeration ? result.type : wanted;
     Expression right = typed(tree.parts[i + 1], other);
-    result = binary(sign.text, sign, std::move(result), std::move(right), wanted);
+    result = binary(*this, sign.text, sign, std::move(result), std::move(right), wanted);
   }
   return result;
 }
 
-Expression Compiler::literal(const Token& token) {
-  switch (token.kind) {
-    case Token::Kind::integer:
-      return constant(type_of(token.wide ? Basic::ulint : Basic::lint), token.number, token.place, true);
-    case Token::Kind::real:
-      return constant(type_of(Basic::lreal), cell_of(token.real), token.place, true);
-    case Token::Kind::time:
-      return constant(type_of(Basic::time), token.number, token.place);
-    case Token::Kind::tod:
-      return constant(type_of(Basic::tod), token.number, token.place);
-    case Token::Kind::date:
-      return constant(type_of(Basic::date), token.number, token.place);
-    case Token::Kind::dt:
-      return constant(type_of(Basic::dt), token.number, token.place);
-    default:
-      break;
-  }
-  Expression text{type_of(Basic::string), token.place};
-  text.node =
-      add_node(Op::address_pool, Basic::string, token.place, -1, -1, -1, literal_string(token.string));
+Expression Expressions::literal(const Token& token) {
+  if (token.kind == Token::Kind::literal)
+    return constant(type_of(token.basic), token.value, token.place, is_number(token.basic));
+  Expression text{type_of(Basic::string), token.place, literal_string(token.string, token.place)};
   text.string = token.string;
   return text;
 }
 
-Expression Compiler::signed_value(const Tree& tree, const Type* wanted) {
-  const Token& sign = *tree.token;
-  Expression operand = typed(tree.parts[0], wanted);
-  if (operand.unknown()) return operand;
-  const Basic basic = operand.type->basic;
-  if (sign.word("NOT")) return complement(sign, std::move(operand), wanted);
-  if (is_number(basic) || (is_clock(basic) && sign.is("+"))) {
-    if (sign.is("+")) return operand;
-    return apply_op(is_real(basic) ? Op::negate_real : Op::negate, operand.type, sign.place, operand);
+Unit* Expressions::find_unit(std::string_view name) const {
+  const auto found = unit_index_.find(lower(name));
+  return found == unit_index_.end() ? nullptr : found->second;
+}
+
+std::vector<std::string> Expressions::known_names() const {
+  std::vector<std::string> names;
+  if (unit_ != nullptr && unit_->type != nullptr) names = names_of(unit_->type->members);
+  for (const Variable& global : globals_->members) names.push_back(global.name);
+  for (const auto& [name, value] : enum_values_)
+    for (const EnumValue& known : value.first->values)
+      if (same_word(known.name, name)) names.push_back(known.name);
+  for (const StartModeRow& row : start_mode_table) names.emplace_back(row.name);
+  for (const NamedNumber& named : named_numbers) names.emplace_back(named.name);
+  for (const auto& unit : units_)
+    if (unit->kind == Unit::Kind::function) names.emplace_back(unit->name.text);
+  return names;
+}
+
+std::optional<Expression> Expressions::variable(const Token& name) {
+  const Variable* found = unit_->type == nullptr ? nullptr : find_member(*unit_->type, name.text);
+  const bool own = found != nullptr && unit_->type != globals_;
+  if (found == nullptr) found = find_member(*globals_, name.text);
+  if (found == nullptr) return std::nullopt;
+  const Basic basic = found->type->basic;
+  const bool function = unit_->kind == Unit::Kind::function;
+  const int frame = own && function ? pou(*unit_).frame : 0;
+  int node =
+      leaf_node(own && !function ? Op::address_own : Op::address, basic, name.place, frame + found->offset);
+  if (found->section == Section::in_out) node = add_node(Op::follow, basic, name.place, node);
+  Expression result = variable_of(*found, node, found->name, name.place);
+  // A FUNCTION's inputs are its own; a block's are kept for the next call.
+  if (own && found->section == Section::input && !function)
+    result.locked = fmt::format("is an input of {}", in_quotes(unit_->name.text));
+  return result;
+}
+
+Expression Expressions::name_expression(const Token& name, const Type* wanted) {
+  if (name.word("TRUE") || name.word("FALSE"))
+    return constant(type_of(Basic::boolean), name.word("TRUE") ? 1 : 0, name.place);
+  if (std::optional<Expression> found = variable(name)) return *found;
+  if (std::optional<Expression> found = enum_value(name, wanted)) return *found;
+  if (std::optional<Expression> found = predefined(name)) return *found;
+  // Told once a POU; what hangs on it is passed over.
+  if (told_.insert(lower(name.text)).second) {
+    const bool type = find_unit(name.text) != nullptr || elementary_type(name.text) != nullptr ||
+                      find_block_type(name.text) != nullptr;
+    complain(name.place, fmt::format("{} is {}", in_quotes(name.text), type ? "no variable" : "not declared"),
+             suggested(
+                 name.text, [&] { return known_names(); },
+                 type ? "declare an instance of it in VAR" : "declare it in VAR ... END_VAR"));
   }
-  complain(sign.place, fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name),
-           "it takes numbers");
-  return {type_of(Basic::unknown), sign.place};
+  return unknown_at(name.place);
 }
 
-Expression Compiler::complement(const Token& sign, Expression operand, const Type* wanted) {
-  operand = literal_for_bits(std::move(operand), wanted, sign);
-  if (operand.unknown()) return operand;
-  const Basic basic = operand.type->basic;
-  if (basic == Basic::boolean || is_integer(basic))
-    return apply_op(Op::bit_not, operand.type, sign.place, operand);
-  complain(sign.place, fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name),
-           "it takes BOOL and whole numbers");
-  return {type_of(Basic::unknown), sign.place};
+const Type* Expressions::enumeration(std::string_view name) {
+  // A constant may be needed before its type has been read.
+  Unit* const unit = find_unit(name);
+  constexpr int deepest = 100;
+  if (unit != nullptr && unit->kind == Unit::Kind::type && open_units_ <= deepest) declare(*unit);
+  const auto found = enumerations_.find(lower(name));
+  return found == enumerations_.end() ? nullptr : found->second;
 }
 
-/// How wide a literal is decides what NOT and the shifts make of it.
-Expression Compiler::literal_for_bits(Expression value, const Type* wanted, const Token& function) {
-  if (!value.untyped) return value;
-  if (wanted != nullptr && is_integer(wanted->basic)) return literal_as(std::move(value), *base_of(wanted));
-  const Place place = function.word("NOT") ? function.place : value.place;
-  complain(place, fmt::format("{} of a number without a type", upper(function.text)),
-           "give it one: WORD#16#FF");
-  return {type_of(Basic::unknown), function.place};
+Expression Expressions::qualified_enum(const Type& type, const Token& name) {
+  for (const EnumValue& value : type.values)
+    if (name.word(value.name)) return constant(&type, value.value, name.place);
+  const std::vector<std::string> names = names_of(type.values);
+  return refuse(name.place, fmt::format("{} has no value {}", type.name, in_quotes(name.text)),
+                suggestion(name.text, names, "it has " + listed(names)));
 }
 
-Expression Compiler::mismatch(const Token& sign, const Expression& a, const Expression& b,
-                              const std::string& remedy) {
-  const auto name = [](const Expression& e) {
-    if (!e.untyped) return e.type->name;
-    return std::string(is_real(e.type->basic) ? "a real number" : "a whole number");
-  };
-  complain(sign.place, fmt::format("{} does not go with {} and {}", in_quotes(sign.text), name(a), name(b)),
-           remedy);
-  return {type_of(Basic::unknown), sign.place};
+std::optional<Expression> Expressions::enum_value(const Token& name, const Type* wanted) {
+  const auto [first, last] = enum_values_.equal_range(lower(name.text));
+  if (first == last) return std::nullopt;
+  for (auto value = first; value != last; ++value)
+    if (value->second.first == wanted || std::next(first) == last)
+      return constant(value->second.first, value->second.second, name.place);
+  const Type& one = *first->second.first;
+  give_up(name.place,
+          fmt::format("{} is a value of {} and of {}", in_quotes(name.text), one.name,
+                      std::next(first)->second.first->name),
+          fmt::format("write {}#{}", std::next(first)->second.first->name, name.text));
 }
 
-Expression Compiler::binary(std::string_view sign, const Token& told, Expression a, Expression b,
-                            const Type* wanted) {
-  if (a.unknown() || b.unknown()) return {type_of(Basic::unknown), told.place};
-  if (sign == "**") return power(told, a, b, wanted);
-  if (std::find(comparisons.begin(), comparisons.end(), sign) != comparisons.end())
-    return comparison(sign, told, std::move(a), std::move(b));
-  if (sign == "+" || sign == "-" || sign == "*" || sign == "/" || same_word(sign, "MOD"))
-    return arithmetic(sign, told, std::move(a), std::move(b), wanted);
-  return logic(sign, told, std::move(a), std::move(b));
+Expression Expressions::typed_literal(const Tree& tree) {
+  const Token& name = *tree.token;
+  const Token& value = *tree.tokens[0];
+  if (const Type* type = enumeration(name.text)) return qualified_enum(*type, value);
+  const Type* type = elementary_type(name.text);
+  if (type == nullptr || !is_elementary(type->basic) || is_clock(type->basic))
+    give_up(name.place, fmt::format("{} is no type of a literal", in_quotes(name.text)),
+            "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
+  if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
+    return constant(type, value.word("TRUE") ? 1 : 0, name.place);
+  if (value.kind != Token::Kind::literal || !is_number(value.basic))
+    give_up(value.place, fmt::format("{}# has no number", upper(name.text)), "INT#5, WORD#16#FF, LREAL#1.5");
+  Expression number = literal(value);
+  if (tree.negative && is_real(number.type->basic))
+    number.value = cell_of(-real_of(number.value));
+  else if (tree.negative)
+    number.value = wrapped(Basic::lint, static_cast<Cell>(0 - static_cast<std::uint64_t>(number.value)));
+  number.place = name.place;
+  return literal_as(std::move(number), *type);
 }
 
-const Type* Compiler::common_literals(const Expression& a, const Expression& b, const Type* wanted) {
-  const Expression& literal = a.untyped ? a : b;
-  const Expression& other = a.untyped ? b : a;
-  const Basic basic = other.type->basic;
-  const bool real = is_real(literal.type->basic);
-  const bool wide = is_wide(literal.type->basic);
-  if (other.untyped) {
-    const Basic whole = wide || is_wide(basic) ? Basic::ulint : Basic::lint;
-    return type_of(real || is_real(basic) ? Basic::lreal : whole);
+/// Bits of a whole number: w.3, w.%X3, w.%B1.
+Expression Expressions::bits_of_number(const Tree& tree, const Expression& owner) {
+  const Token& token = *tree.token;
+  const Basic basic = owner.type->basic;
+  std::int64_t number = token.value;
+  Basic part = Basic::boolean;
+  if (token.kind == Token::Kind::address) {
+    constexpr std::array parts{Basic::boolean, Basic::byte, Basic::word, Basic::dword};
+    const std::string text = upper(token.text);
+    const std::size_t kind = text.size() > 2 ? std::string_view("XBWD").find(text[1]) : parts.size();
+    const auto* const end = text.data() + text.size();
+    if (kind >= parts.size() || std::from_chars(text.data() + 2, end, number).ptr != end)
+      give_up(token.place, in_quotes(token.text) + " is no part of a number", "%X3 is a bit, %B1 a byte");
+    part = parts.at(kind);
   }
-  if (is_real(basic)) return other.type;
-  if (real) {
-    // A literal does not make more of a REAL than the context asks for.
-    const bool single = wanted != nullptr && wanted->basic == Basic::real && widens(basic, Basic::real);
-    return widens(basic, Basic::lreal) && is_integer(basic) ? type_of(single ? Basic::real : Basic::lreal)
-                                                            : nullptr;
+  const int width = bits_of(part);
+  if (!is_integer(basic) || width > bits_of(basic))
+    give_up(token.place,
+            fmt::format("{} is {} and has no part {}", in_quotes(owner.name), owner.type->name,
+                        in_quotes(token.text)),
+            "whole numbers have bits, from 0");
+  const int count = bits_of(basic) / width;
+  if (number < 0 || number >= count)
+    give_up(token.place, fmt::format("{} has no part {}", owner.type->name, in_quotes(token.text)),
+            fmt::format("0 to {}", count - 1));
+  Expression result = owner;
+  result.bits = Bits{owner.type, static_cast<int>(number) * width, width};
+  result.type = type_of(part);
+  result.name += "." + std::string(token.text);
+  result.untyped = false;
+  if (!result.constant) return result;
+  result.value =
+      wrapped(part, static_cast<Cell>(static_cast<std::uint64_t>(owner.value) >> result.bits->shift));
+  result.bits.reset();
+  return result;
+}
+
+Expression Expressions::member_of(const Tree& tree) {
+  const Tree& before = tree.parts[0];
+  const Token& name = *tree.token;
+  if (before.kind == Tree::Kind::name && !variable(*before.token))
+    if (const Type* type = enumeration(before.token->text)) return qualified_enum(*type, name);
+  const Expression owner = typed(before);
+  if (owner.unknown()) return owner;
+  if (name.kind != Token::Kind::name) return bits_of_number(tree, owner);
+  const Type& type = *owner.type;
+  const Variable* member = find_member(type, name.text);
+  const bool inside = member != nullptr && type.basic == Basic::block &&
+                      (member->section == Section::local || member->section == Section::temp);
+  const bool connected =
+      member != nullptr && type.basic == Basic::block && member->section == Section::in_out;
+  if (connected || inside)
+    return refuse(
+        name.place,
+        fmt::format("{} of {} is {}", in_quotes(member->name), type.name,
+                    inside ? "a variable of its own" : "connected in a call"),
+        inside ? "only its pins are seen from outside" : "use the variable that is connected to it");
+  if (member == nullptr) return no_member(owner, name);
+  if (!owner.address)
+    give_up(name.place, fmt::format("a member of a {} that is no variable", type.name),
+            "assign it to a variable before");
+  Expression result = variable_of(*member, address_plus(owner.node, member->offset),
+                                  owner.name + "." + member->name, owner.place);
+  result.depth = owner.depth;
+  if (result.locked.empty()) result.locked = owner.locked;
+  if (type.basic == Basic::block && member->section == Section::output)
+    result.locked = fmt::format("is an output of {}", type.name);
+  result.cam_file = &type == cam_ref_ && member == type.members.data();
+  return result;
+}
+
+Expression Expressions::no_member(const Expression& owner, const Token& name) {
+  const Type& type = *owner.type;
+  if (type.broken) return unknown_at(name.place);
+  std::vector<std::string> names;
+  for (const Variable& known : type.members)
+    if (type.basic == Basic::structure || known.section == Section::input || known.section == Section::output)
+      names.push_back(known.name);
+  if (names.empty())
+    return refuse(name.place, fmt::format("{} is {} and has no members", in_quotes(owner.name), type.name),
+                  "use it without '.'");
+  return refuse(name.place,
+                fmt::format("{} has no {} {}", type.name, type.basic == Basic::block ? "pin" : "member",
+                            in_quotes(name.text)),
+                suggestion(name.text, names, "it has " + listed(names)));
+}
+
+Expression Expressions::element_of(const Tree& tree) {
+  Expression result = typed(tree.parts[0]);
+  for (std::size_t i = 1; i < tree.parts.size(); ++i) {
+    const Expression index = typed(tree.parts[i]);
+    if (result.unknown() || index.unknown())
+      result.type = type_of(Basic::unknown);
+    else
+      result = element_at(std::move(result), index);
   }
-  if (basic == Basic::boolean) return literal.value == 0 || literal.value == 1 ? other.type : nullptr;
-  if (!is_integer(basic) && basic != Basic::enumeration) return nullptr;
-  if (wide) return is_wide(basic) ? other.type : nullptr;
-  for (const Basic candidate : {basic, Basic::int_, Basic::dint, Basic::lint}) {
-    const Range range = range_of(candidate);
-    const bool holds = literal.value >= range.low && literal.value <= range.high;
-    if (holds && widens(basic, candidate) && candidate != Basic::enumeration) return type_of(candidate);
+  return result;
+}
+
+Expression Expressions::element_at(Expression owner, const Expression& index) {
+  const Type& type = *owner.type;
+  const Place place = index.place;
+  if (type.basic != Basic::array)
+    give_up(place, fmt::format("{} is {} and has no elements", in_quotes(owner.name), type.name),
+            "only an ARRAY has an index");
+  if (!owner.address)
+    give_up(place, fmt::format("an element of an {} that is no variable", type.name),
+            "assign it to a variable before");
+  const bool outside = index.constant && (index.value < type.low || index.value > type.high);
+  if (!is_integer(index.type->basic))
+    complain(place, fmt::format("the index is {}", index.type->name), "an index is a whole number");
+  else if (outside)
+    complain(place,
+             fmt::format("the index {} is out of the bounds of {}", index.value, in_quotes(owner.name)),
+             fmt::format("{} to {}", type.low, type.high));
+  if (!is_integer(index.type->basic) || outside) {
+    owner.type = type_of(Basic::unknown);
+    return owner;
   }
-  return nullptr;
-}
-
-const Type* Compiler::common_type(const Expression& a, const Expression& b, const Type* wanted) {
-  if (a.untyped || b.untyped) {
-    const Type* type = common_literals(a, b, wanted);
-    return type == nullptr ? nullptr : base_of(type);
+  if (index.constant) {
+    owner.node = address_plus(owner.node, (index.value - type.low) * type.element->cells);
+    owner.name += fmt::format("[{}]", index.value);
+  } else {
+    const int span = add_span({type.low, type.high, type.element->cells});
+    owner.node = add_node(Op::element, type.element->basic, place, owner.node, value_node(index), span);
+    owner.depth = std::max(owner.depth, index.depth) + 1;
   }
-  const Type& x = *base_of(a.type);
-  const Type& y = *base_of(b.type);
-  if (same_type(x, y)) return &x;
-  if (x.basic == Basic::enumeration && y.basic == Basic::enumeration) return nullptr;
-  if (widens(x.basic, y.basic) && y.basic != Basic::enumeration) return &y;
-  if (widens(y.basic, x.basic) && x.basic != Basic::enumeration) return &x;
-  for (const Basic wider : {Basic::int_, Basic::dint, Basic::lint, Basic::real, Basic::lreal})
-    if (widens(x.basic, wider) && widens(y.basic, wider)) return type_of(wider);
-  return nullptr;
-}
-
-Expression Compiler::power(const Token& told, const Expression& base, const Expression& exponent,
-                           const Type* wanted) {
-  if (!is_number(base.type->basic) || !is_number(exponent.type->basic))
-    return mismatch(told, base, exponent, "it takes numbers");
-  const Type* type = real_result(base, wanted);
-  return apply_op(Op::power, type, told.place, cast(base, type->basic, base.place),
-                  cast(exponent, Basic::lreal, exponent.place));
-}
-
-/// Of a REAL functions are REAL, of LREAL LREAL; of whole numbers LREAL unless the context wants a REAL.
-const Type* Compiler::real_result(const Expression& value, const Type* wanted) {
-  const Basic basic = value.type->basic;
-  const bool open = value.untyped || (is_integer(basic) && widens(basic, Basic::real));
-  const bool single = basic == Basic::real || (open && wanted != nullptr && wanted->basic == Basic::real);
-  return type_of(single ? Basic::real : Basic::lreal);
-}
-
-Expression Compiler::arithmetic(std::string_view sign, const Token& told, Expression a, Expression b,
-                                const Type* wanted) {
-  if (is_clock(a.type->basic) || is_clock(b.type->basic))
-    return time_arithmetic(sign, told, std::move(a), std::move(b));
-  const Type* type =
-      is_number(a.type->basic) && is_number(b.type->basic) ? common_type(a, b, wanted) : nullptr;
-  const bool modulo = same_word(sign, "MOD");
-  if (type == nullptr || (modulo && is_real(type->basic)))
-    return mismatch(told, a, b, modulo ? "it takes whole numbers" : "convert one: X_TO_Y(...)");
-  const bool untyped = a.untyped && b.untyped;
-  a = converted(std::move(a), *type);
-  b = converted(std::move(b), *type);
-  a.untyped = b.untyped = untyped;
-  if ((modulo || sign == "/") && is_zero(b)) return division_by_zero(told);
-  const bool real = is_real(type->basic);
-  const Op op = modulo        ? Op::modulo
-                : sign == "+" ? (real ? Op::add_real : Op::add)
-                : sign == "-" ? (real ? Op::subtract_real : Op::subtract)
-                : sign == "*" ? (real ? Op::multiply_real : Op::multiply)
-                              : (real ? Op::divide_real : Op::divide);
-  return apply_op(op, type, told.place, a, b);
-}
-
-Expression Compiler::division_by_zero(const Token& told) {
-  complain(told.place, "division by the constant 0", "divide by something else");
-  return {type_of(Basic::unknown), told.place};
-}
-
-Expression Compiler::time_arithmetic(std::string_view sign, const Token& told, Expression a, Expression b) {
-  const Type* time = type_of(Basic::time);
-  if (is_clock(a.type->basic) && is_clock(b.type->basic)) return clock_arithmetic(sign, told, a, b);
-  if (sign == "*" && b.type->basic == Basic::time) std::swap(a, b);
-  if ((sign != "*" && sign != "/") || !is_number(b.type->basic) || a.type->basic != Basic::time)
-    return mismatch(told, a, b, "TIME + TIME, TIME - TIME, TIME * number and TIME / number are times");
-  if (sign == "/" && is_zero(b)) return division_by_zero(told);
-  const bool real = is_real(b.type->basic);
-  if (real) b = cast(b, Basic::lreal, b.place);
-  const Op op = sign == "*" ? (real ? Op::scale_time : Op::multiply) : (real ? Op::divide_time : Op::divide);
-  return apply_op(op, time, told.place, a, b);
-}
-
-Expression Compiler::clock_arithmetic(std::string_view sign, const Token& told, Expression a, Expression b) {
-  const bool plus = sign == "+";
-  if (plus && a.type->basic == Basic::time) std::swap(a, b);
-  const Basic basic = a.type->basic;
-  const bool times = basic == Basic::time && b.type->basic == Basic::time;
-  const bool moved = (basic == Basic::tod || basic == Basic::dt) && b.type->basic == Basic::time;
-  const bool between = !plus && basic == b.type->basic;
-  if ((!plus && sign != "-") || (!times && !moved && !between))
-    return mismatch(told, a, b, "a TIME goes to a TOD or DT, and lies between two of a kind");
-  const Op op = plus ? Op::add : Op::subtract;
-  const Type* time = type_of(Basic::time);
-  const auto number = [&](std::int64_t value) { return constant(time, value, told.place); };
-  if (between || times) {
-    Expression way = apply_op(op, time, told.place, a, b);
-    return per_second(basic) == 1 ? apply_op(Op::multiply, time, told.place, way, number(1000)) : way;
-  }
-  if (basic == Basic::dt)
-    return apply_op(op, a.type, told.place, a, apply_op(Op::divide, time, told.place, b, number(1000)));
-  // The clock begins anew at midnight.
-  constexpr std::int64_t day = 86'400'000;
-  const Expression way = apply_op(Op::modulo, time, told.place, b, number(day));
-  const Expression later = apply_op(Op::add, time, told.place, a, number(day));
-  return apply_op(Op::modulo, a.type, told.place, apply_op(op, time, told.place, later, way), number(day));
-}
-
-Expression Compiler::logic(std::string_view sign, const Token& told, Expression a, Expression b) {
-  const auto takes = [](const Expression& e) {
-    return e.type->basic == Basic::boolean || is_integer(e.type->basic);
-  };
-  const bool lazy = same_word(sign, "AND_THEN") || same_word(sign, "OR_ELSE");
-  const Type* type = takes(a) && takes(b) ? common_type(a, b, nullptr) : nullptr;
-  const bool booleans = type != nullptr && type->basic == Basic::boolean;
-  if (type == nullptr || (lazy && !booleans))
-    return mismatch(told, a, b, lazy ? "it takes BOOL" : "it takes two BOOL or two whole numbers");
-  const bool untyped = a.untyped && b.untyped;
-  a = converted(std::move(a), *type);
-  b = converted(std::move(b), *type);
-  a.untyped = b.untyped = untyped;
-  const Op op = same_word(sign, "AND_THEN")  ? Op::and_then
-                : same_word(sign, "OR_ELSE") ? Op::or_else
-                : same_word(sign, "OR")      ? Op::bit_or
-                : same_word(sign, "XOR")     ? Op::bit_xor
-                                             : Op::bit_and;
-  return apply_op(op, type, told.place, a, b);
-}
-
-Expression Compiler::comparison(std::string_view sign, const Token& told, Expression a, Expression b) {
-  const auto number = std::find(comparisons.begin(), comparisons.end(), sign) - comparisons.begin();
-  const Op op = static_cast<Op>(static_cast<int>(Op::equal) + number);
-  const Op real_op = static_cast<Op>(static_cast<int>(Op::equal_real) + number);
-  const Type* boolean = type_of(Basic::boolean);
-  if (a.type->basic == Basic::string && b.type->basic == Basic::string)
-    return string_comparison(op, told, a, b);
-  const Type* type = common_type(a, b, nullptr);
-  if (type == nullptr || !is_elementary(type->basic)) return mismatch(told, a, b, "compare two of one type");
-  a = converted(std::move(a), *type);
-  b = converted(std::move(b), *type);
-  if (is_wide(type->basic)) {
-    // With the first bit turned over, the order of signed numbers is that of unsigned ones.
-    const Expression first = constant(type, std::numeric_limits<std::int64_t>::min(), told.place);
-    a = apply_op(Op::bit_xor, type, told.place, a, first);
-    b = apply_op(Op::bit_xor, type, told.place, b, first);
-  }
-  return apply_op(is_real(type->basic) ? real_op : op, boolean, told.place, a, b);
-}
-
-Expression Compiler::string_comparison(Op op, const Token& told, const Expression& a, const Expression& b) {
-  Expression order{type_of(Basic::int_), told.place};
-  order.depth = std::max(a.depth, b.depth) + 1;
-  order.node = add_node(Op::compare_strings, Basic::int_, told.place, a.node, b.node);
-  return apply_op(op, type_of(Basic::boolean), told.place, order,
-                  constant(type_of(Basic::int_), 0, told.place));
+  owner.type = type.element;
+  return owner;
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -8,13 +8,13 @@
 // What stands behind := in a declaration.
 namespace drycut::devices::plcopen::st {
 
-std::vector<Cell> Compiler::initial_value(const Type& type) {
+std::vector<Cell> Declarations::initial_value(const Type& type) {
   std::vector<Cell> cells = type.initial;
   initial_into(type, cells);
   return cells;
 }
 
-void Compiler::initial_into(const Type& type, std::span<Cell> cells) {
+void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
   switch (type.basic) {
     case Basic::array:
       initial_array(type, cells);
@@ -43,7 +43,7 @@ void Compiler::initial_into(const Type& type, std::span<Cell> cells) {
   std::memcpy(cells.data(), text.string.data(), text.string.size());
 }
 
-void Compiler::initial_array(const Type& type, std::span<Cell> cells) {
+void Declarations::initial_array(const Type& type, std::span<Cell> cells) {
   const Place opening = peek().place;
   expect("[", fmt::format("opens the values of an {}", type.name));
   const auto size = static_cast<std::size_t>(type.element->cells);
@@ -56,8 +56,8 @@ void Compiler::initial_array(const Type& type, std::span<Cell> cells) {
   do {
     const Place place = peek().place;
     // 4(0.5) is four times 0.5.
-    if (peek().kind == Token::Kind::integer && peek(1).is("(")) {
-      const std::int64_t times = take().number;
+    if (peek().whole() && peek(1).is("(")) {
+      const std::int64_t times = take().value;
       take();
       const std::size_t first = given;
       if (times < 1 || static_cast<std::uint64_t>(times) > count - given) too_many(place);
@@ -74,7 +74,7 @@ void Compiler::initial_array(const Type& type, std::span<Cell> cells) {
   expect("]", fmt::format("closes the values opened in line {}", opening.line));
 }
 
-void Compiler::initial_members(const Type& type, std::span<Cell> cells) {
+void Declarations::initial_members(const Type& type, std::span<Cell> cells) {
   expect("(", fmt::format("opens the values of a {}", type.name));
   do {
     const Token name = expect_name("the name of a member");
@@ -82,8 +82,7 @@ void Compiler::initial_members(const Type& type, std::span<Cell> cells) {
         type.basic == Basic::block ? pin_of(type, name, false) : find_member(type, name.text);
     if (member == nullptr && type.basic == Basic::block) throw GiveUp{};
     if (member == nullptr) {
-      std::vector<std::string> names;
-      for (const Variable& known : type.members) names.push_back(known.name);
+      const std::vector<std::string> names = names_of(type.members);
       give_up(name.place, fmt::format("{} has no member {}", type.name, in_quotes(name.text)),
               suggestion(name.text, names, "it has " + listed(names)));
     }
@@ -97,14 +96,7 @@ void Compiler::initial_members(const Type& type, std::span<Cell> cells) {
   expect(")", "ends the values");
 }
 
-void Compiler::cam_file(const Token& text) {
-  const auto known = std::any_of(code_->tables.begin(), code_->tables.end(),
-                                 [&](const Program::Name& table) { return table.name == text.string; });
-  if (text.kind == Token::Kind::string && !text.string.empty() && !known)
-    code_->tables.push_back({text.string, text.place.line, text.place.column});
-}
-
-Expression Compiler::constant_expression(const Type& wanted) {
+Expression Declarations::constant_expression(const Type& wanted) {
   const Token first = peek();
   Expression value = expression(&wanted);
   if (value.unknown()) throw GiveUp{};
@@ -116,16 +108,14 @@ Expression Compiler::constant_expression(const Type& wanted) {
   return value;
 }
 
-Expression Compiler::constant_value(std::string_view what, const Type* wanted) {
+std::int64_t Declarations::constant_integer(std::string_view what, const Type* wanted) {
   const Place place = peek().place;
   const Expression value = expression(wanted);
   if (value.unknown()) throw GiveUp{};
   if (!value.constant || !is_integer(value.type->basic))
     give_up(place, fmt::format("{} is not a constant whole number", what),
             "give a literal or a VAR CONSTANT of integers");
-  return value;
+  return wanted == nullptr ? value.value : literal_as(value, *wanted).value;
 }
-
-std::int64_t Compiler::constant_integer(std::string_view what) { return constant_value(what, nullptr).value; }
 
 }  // namespace drycut::devices::plcopen::st

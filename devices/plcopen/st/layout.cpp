@@ -7,6 +7,40 @@
 
 // Where everything is in the memory: VAR_GLOBAL, the FUNCTIONs, the PROGRAMs, literals; and the symbols.
 namespace drycut::devices::plcopen::st {
+namespace {
+
+Symbol symbol_of(const Type& type, const std::string& name, bool writable, bool retain) {
+  Symbol symbol;
+  symbol.name = name;
+  symbol.type = type.name;
+  symbol.writable = writable;
+  symbol.retain = retain;
+  if (type.basic == Basic::real || type.basic == Basic::lreal) {
+    symbol.max = type.basic == Basic::real ? static_cast<double>(std::numeric_limits<float>::max())
+                                           : std::numeric_limits<double>::max();
+    symbol.min = -symbol.max;
+  } else {
+    const Range range = range_of(type);
+    symbol.min = static_cast<double>(range.low);
+    symbol.max = static_cast<double>(range.high);
+  }
+  if (is_wide(type.basic) && !type.subrange)
+    symbol.max = static_cast<double>(std::numeric_limits<std::uint64_t>::max());
+  if (is_clock(type.basic)) {
+    symbol.unit = "s";
+    symbol.max /= per_second(type.basic);
+  }
+  if (type.basic == Basic::enumeration) {
+    const auto [low, high] =
+        std::minmax_element(type.values.begin(), type.values.end(),
+                            [](const EnumValue& a, const EnumValue& b) { return a.value < b.value; });
+    symbol.min = static_cast<double>(low->value);
+    symbol.max = static_cast<double>(high->value);
+  }
+  return symbol;
+}
+
+}  // namespace
 
 void Compiler::place_memory() {
   int next = globals_->cells;
@@ -19,8 +53,7 @@ void Compiler::place_memory() {
     return at;
   };
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind == Unit::Kind::function)
-      code_->pous[static_cast<std::size_t>(unit->pou)].frame = place(*unit->type);
+    if (unit->pou >= 0 && unit->kind == Unit::Kind::function) pou(*unit).frame = place(*unit->type);
   for (std::size_t i = 0; i < code_->instances.size(); ++i)
     code_->instances[i].cell = place(*connections_[i].unit->type);
   memory_ = next;
@@ -62,8 +95,7 @@ void Compiler::finish() {
   };
   fill(*globals_, 0);
   for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->kind == Unit::Kind::function)
-      fill(*unit->type, code.pous[static_cast<std::size_t>(unit->pou)].frame);
+    if (unit->pou >= 0 && unit->kind == Unit::Kind::function) fill(*unit->type, pou(*unit).frame);
   for (std::size_t i = 0; i < code.instances.size(); ++i)
     fill(*connections_[i].unit->type, code.instances[i].cell);
   code.image.insert(code.image.end(), pool_.begin(), pool_.end());
@@ -102,40 +134,9 @@ void Compiler::walk_value(const Type& type, int cell, const std::string& name, b
   } else if (type.basic == Basic::structure || type.basic == Basic::block) {
     walk(type, cell, name, retain, shown);
   } else if (shown && is_elementary(type.basic)) {
-    add_symbol(type, cell, name, writable, retain);
+    code_->symbols.push_back(symbol_of(type, name, writable, retain));
+    code_->places.push_back({cell, type.basic});
   }
-}
-
-void Compiler::add_symbol(const Type& type, int cell, const std::string& name, bool writable, bool retain) {
-  Symbol symbol;
-  symbol.name = name;
-  symbol.type = type.name;
-  symbol.writable = writable;
-  symbol.retain = retain;
-  if (type.basic == Basic::real || type.basic == Basic::lreal) {
-    symbol.max = type.basic == Basic::real ? static_cast<double>(std::numeric_limits<float>::max())
-                                           : std::numeric_limits<double>::max();
-    symbol.min = -symbol.max;
-  } else {
-    const Range range = range_of(type);
-    symbol.min = static_cast<double>(range.low);
-    symbol.max = static_cast<double>(range.high);
-  }
-  if (is_wide(type.basic) && !type.subrange)
-    symbol.max = static_cast<double>(std::numeric_limits<std::uint64_t>::max());
-  if (is_clock(type.basic)) {
-    symbol.unit = "s";
-    symbol.max /= per_second(type.basic);
-  }
-  if (type.basic == Basic::enumeration) {
-    const auto [low, high] =
-        std::minmax_element(type.values.begin(), type.values.end(),
-                            [](const EnumValue& a, const EnumValue& b) { return a.value < b.value; });
-    symbol.min = static_cast<double>(low->value);
-    symbol.max = static_cast<double>(high->value);
-  }
-  code_->symbols.push_back(std::move(symbol));
-  code_->places.push_back({cell, type.basic});
 }
 
 }  // namespace drycut::devices::plcopen::st

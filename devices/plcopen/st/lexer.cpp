@@ -76,6 +76,12 @@ class Lexer {
     return tokens_.back();
   }
 
+  Token& literal(Basic basic, std::size_t size) {
+    Token& token = add(Token::Kind::literal, size);
+    token.basic = basic;
+    return token;
+  }
+
   void complain(Place at, const std::string& what, const std::string& remedy) {
     problems_.push_back({file_, at.line, at.column, what, remedy});
   }
@@ -169,18 +175,21 @@ class Lexer {
   void word() {
     const std::size_t size = length(belongs_to_name);
     const std::string_view name = text_.substr(at_, size);
-    if (peek(size) != '#')
-      add(Token::Kind::name, size);
-    else if (same_word(name, "T") || same_word(name, "TIME"))
+    const Basic basic = peek(size) == '#' ? clock_type(name) : Basic::unknown;
+    if (basic == Basic::time)
       time_literal(size + 1);
-    else if (same_word(name, "TOD") || same_word(name, "TIME_OF_DAY"))
-      date_literal(Token::Kind::tod, size + 1);
-    else if (same_word(name, "D") || same_word(name, "DATE"))
-      date_literal(Token::Kind::date, size + 1);
-    else if (same_word(name, "DT") || same_word(name, "DATE_AND_TIME"))
-      date_literal(Token::Kind::dt, size + 1);
+    else if (basic != Basic::unknown)
+      date_literal(basic, size + 1);
     else
       add(Token::Kind::name, size);
+  }
+
+  /// TIME, TOD, DATE or DT before a '#', by their short names too.
+  static Basic clock_type(std::string_view name) {
+    if (same_word(name, "T")) return Basic::time;
+    if (same_word(name, "D")) return Basic::date;
+    const Type* type = elementary_type(name);
+    return type != nullptr && is_clock(type->basic) ? type->basic : Basic::unknown;
   }
 
   void number() {
@@ -203,7 +212,7 @@ class Lexer {
       }
     }
     const std::size_t whole = length(belongs_to_name, size);
-    Token& token = add(real ? Token::Kind::real : Token::Kind::integer, whole);
+    Token& token = literal(Basic::lreal, whole);
     if (whole != size) {
       complain(token, in_quotes(token.text) + " is neither a number nor a name",
                milliseconds(without_underscores(token.text))
@@ -213,7 +222,9 @@ class Lexer {
     }
     const std::string digits = without_underscores(token.text);
     if (real) {
-      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), token.real);
+      double value = 0;
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+      token.value = cell_of(value);
       if (error != std::errc{})
         complain(token, in_quotes(token.text) + " is out of range", "an LREAL goes to 1.8e308");
     } else {
@@ -223,7 +234,7 @@ class Lexer {
 
   void based(std::size_t base_size) {
     const std::string base = without_underscores(text_.substr(at_, base_size));
-    Token& token = add(Token::Kind::integer, length(belongs_to_name, base_size + 1));
+    Token& token = literal(Basic::lint, length(belongs_to_name, base_size + 1));
     if (base != "2" && base != "8" && base != "16") {
       complain(token, in_quotes(token.text) + " has no base that is known", "2#1010, 8#17 or 16#FF");
       return;
@@ -251,14 +262,14 @@ class Lexer {
       }
       number = number * static_cast<std::uint64_t>(base) + static_cast<std::uint64_t>(digit);
     }
-    token.number = static_cast<std::int64_t>(number);
-    token.wide = token.number < 0;
+    token.value = static_cast<Cell>(number);
+    token.basic = token.value < 0 ? Basic::ulint : Basic::lint;
   }
 
   void time_literal(std::size_t prefix) {
     const std::size_t size =
         length([](char x) { return belongs_to_name(x) || x == '.' || x == '-'; }, prefix);
-    Token& token = add(Token::Kind::time, size);
+    Token& token = literal(Basic::time, size);
     const std::optional<double> ms = milliseconds(without_underscores(token.text.substr(prefix)));
     if (!ms)
       complain(token, in_quotes(token.text) + " is no time",
@@ -268,38 +279,31 @@ class Lexer {
     else if (std::abs(*ms - std::round(*ms)) > 1e-6)
       complain(token, in_quotes(token.text) + " is finer than a TIME", "a TIME counts whole milliseconds");
     else
-      token.number = std::llround(*ms);
+      token.value = std::llround(*ms);
   }
 
   // D#1996-08-15, TOD#15:36:55.36, DT#1996-08-15-15:36:55.
-  void date_literal(Token::Kind kind, std::size_t prefix) {
+  void date_literal(Basic basic, std::size_t prefix) {
     const std::size_t size =
         length([](char x) { return belongs_to_name(x) || x == '.' || x == '-' || x == ':'; }, prefix);
-    Token& token = add(kind, size);
+    Token& token = literal(basic, size);
     const std::string text = without_underscores(token.text.substr(prefix));
-    const std::optional<std::int64_t> number = clock_number(kind, text);
-    if (number)
-      token.number = *number;
+    if (const std::optional<std::int64_t> number = clock_number(basic, text))
+      token.value = *number;
     else
-      complain(token, in_quotes(token.text) + " is no " + std::string(name_of(kind)), example_of(kind));
+      complain(token, in_quotes(token.text) + " is no " + type_of(basic)->name,
+               basic == Basic::tod    ? "TOD#00:00:00 to TOD#23:59:59.999"
+               : basic == Basic::date ? "D#1970-01-01 to D#2106-02-06"
+                                      : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15");
   }
 
-  static std::string_view name_of(Token::Kind kind) {
-    return kind == Token::Kind::tod ? "TOD" : kind == Token::Kind::date ? "DATE" : "DT";
-  }
-  static std::string example_of(Token::Kind kind) {
-    if (kind == Token::Kind::tod) return "TOD#00:00:00 to TOD#23:59:59.999";
-    return kind == Token::Kind::date ? "D#1970-01-01 to D#2106-02-06"
-                                     : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15";
-  }
-
-  static std::optional<std::int64_t> clock_number(Token::Kind kind, std::string_view text) {
+  static std::optional<std::int64_t> clock_number(Basic basic, std::string_view text) {
     constexpr std::int64_t day = 86400;
     std::int64_t seconds = 0;
-    if (kind != Token::Kind::tod) {
+    if (basic != Basic::tod) {
       const auto year = leading(text, '-');
       const auto month = leading(text, '-');
-      const auto days = leading(text, kind == Token::Kind::dt ? '-' : '\0');
+      const auto days = leading(text, basic == Basic::dt ? '-' : '\0');
       if (!year || !month || !days) return std::nullopt;
       const std::chrono::year_month_day date{std::chrono::year{static_cast<int>(*year)},
                                              std::chrono::month{static_cast<unsigned>(*month)},
@@ -308,7 +312,7 @@ class Lexer {
       seconds = std::chrono::sys_days(date).time_since_epoch().count() * day;
     }
     double clock = 0;
-    if (kind != Token::Kind::date) {
+    if (basic != Basic::date) {
       const auto hours = leading(text, ':');
       const auto minutes = leading(text, text.find(':') == std::string_view::npos ? '\0' : ':');
       if (!hours || !minutes || *hours > 23 || *minutes > 59) return std::nullopt;
@@ -319,7 +323,7 @@ class Lexer {
       if (!whole || rest < 0 || rest >= 60) return std::nullopt;
       clock = static_cast<double>(*hours * 3600 + *minutes * 60) + rest;
     }
-    if (kind == Token::Kind::tod) return std::llround(clock * 1000) % (day * 1000);
+    if (basic == Basic::tod) return std::llround(clock * 1000) % (day * 1000);
     seconds += static_cast<std::int64_t>(clock);
     const bool kept = seconds >= 0 && seconds <= std::numeric_limits<std::uint32_t>::max();
     return kept ? std::optional(seconds) : std::nullopt;

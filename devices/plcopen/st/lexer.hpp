@@ -6,6 +6,7 @@
 
 #include "base/problem.hpp"
 #include "base/text.hpp"
+#include "devices/plcopen/st/types.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -13,12 +14,7 @@ namespace drycut::devices::plcopen::st {
 struct Token {
   enum class Kind : std::uint8_t {
     name,     ///< identifier or keyword
-    integer,  ///< `number`, decimal or based
-    real,     ///< `real`
-    time,     ///< `number` in ms
-    tod,      ///< `number` in ms since midnight
-    date,     ///< `number` in s since 1970
-    dt,       ///< `number` in s since 1970
+    literal,  ///< a number, time or date: `value` of type `basic`
     string,   ///< `string`, without quotes and escapes
     address,  ///< %IX0.0
     sign,     ///< ( ) [ ] , ; : . + - * / < > = & # := => ** <= >= <> ..
@@ -28,12 +24,12 @@ struct Token {
   Kind kind = Kind::end;
   std::string_view text;
   Place place;
-  std::int64_t number = 0;
-  bool wide = false;  ///< of an integer: `number` is the bits of one above a LINT
-  double real = 0;
+  Basic basic = Basic::unknown;  ///< LINT, above it ULINT, LREAL, TIME, TOD, DATE or DT
+  Cell value = 0;
   std::string string;
 
   [[nodiscard]] bool is(std::string_view sign) const { return kind == Kind::sign && text == sign; }
+  [[nodiscard]] bool whole() const { return kind == Kind::literal && is_integer(basic); }
   /// The keyword or name, any case.
   [[nodiscard]] bool word(std::string_view keyword) const {
     return kind == Kind::name && same_word(text, keyword);

@@ -5,7 +5,7 @@
 // FOR, WHILE, REPEAT, EXIT, CONTINUE, RETURN.
 namespace drycut::devices::plcopen::st {
 
-int Compiler::for_statement() {
+int Statements::for_statement() {
   const Token opened = take();
   const Place place = opened.place;
   int start = -1;
@@ -21,7 +21,7 @@ int Compiler::for_statement() {
       complain(name.place,
                fmt::format("FOR counts {}, which is {}", in_quotes(counter.name), counter.type->name),
                "a variable of whole numbers");
-      counter = Expression{type_of(Basic::unknown), name.place};
+      counter = unknown_at(name.place);
     }
     expect(":=", "stands behind the variable of a FOR");
     const Expression from = expression(counter.type);
@@ -39,9 +39,8 @@ int Compiler::for_statement() {
       // The end and the step are computed once.
       const auto kept = [&](const Expression& value) {
         if (value.constant) return value;
-        Expression cell{counter.type, value.place};
-        cell.address = true;
-        cell.node = add_node(Op::address_pool, counter.type->basic, value.place, -1, -1, -1, scratch(1));
+        const Expression cell =
+            variable_at(counter.type, scratch(*counter.type, value.place), "", value.place);
         all.push_back(add_node(Op::store_at, counter.type->basic, value.place, cell.node, value_node(value)));
         return cell;
       };
@@ -53,33 +52,32 @@ int Compiler::for_statement() {
       step_on = assign(counter, apply_op(Op::add, counter.type, place, counter, step));
     }
   } catch (const GiveUp&) {
-    while (at_ < stop_ && !peek().word("DO") && !peek().is(";")) ++at_;
+    skip_to([&] { return peek().word("DO") || peek().is(";"); });
     accept_word("DO");
   }
-  ++loops_;
-  const int body = statements({"END_FOR"});
-  --loops_;
+  const int body = loop_body({"END_FOR"});
   close(opened, "END_FOR");
   all.insert(all.begin(), start);
   all.push_back(add_node(Op::loop, Basic::unknown, place, test, body, step_on));
   return sequence_node(std::move(all), place);
 }
 
-int Compiler::while_statement() {
+int Statements::loop_body(std::initializer_list<std::string_view> closing) {
+  const Nested nested(loops_);
+  return statements(closing);
+}
+
+int Statements::while_statement() {
   const Token opened = take();
   const int test = condition("DO");
-  ++loops_;
-  const int body = statements({"END_WHILE"});
-  --loops_;
+  const int body = loop_body({"END_WHILE"});
   close(opened, "END_WHILE");
   return add_node(Op::loop, Basic::unknown, opened.place, test, body);
 }
 
-int Compiler::repeat_statement() {
+int Statements::repeat_statement() {
   const Token opened = take();
-  ++loops_;
-  const int body = statements({"UNTIL", "END_REPEAT"});
-  --loops_;
+  const int body = loop_body({"UNTIL", "END_REPEAT"});
   int test = -1;
   if (accept_word("UNTIL")) {
     const Place place = peek().place;
@@ -97,7 +95,7 @@ int Compiler::repeat_statement() {
   return add_node(Op::repeat, Basic::unknown, opened.place, body, test);
 }
 
-int Compiler::jump(Op op) {
+int Statements::jump(Op op) {
   const Token word = take();
   if (op != Op::leave_pou && loops_ == 0)
     complain(word.place, fmt::format("{} stands in no loop", upper(word.text)),

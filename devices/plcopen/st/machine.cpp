@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
-#include "devices/plcopen/st/operations.hpp"
+#include "devices/plcopen/st/arithmetic.hpp"
 #include "devices/plcopen/st/texts.hpp"
 
 namespace drycut::devices::plcopen::st {
@@ -169,13 +169,12 @@ Cell Machine::text_value(const Node& n) {
     put_string(text_of(n.basic, value(*list)), target, longest_string_length);
     return target;
   }
-  const bool two = op == TextOp::insert || op == TextOp::replace || op == TextOp::find;
-  const auto texts = op == TextOp::concat ? end - list : two ? 2 : 1;
+  const std::size_t texts = texts_of(op, static_cast<std::size_t>(end - list));
   // A part may be computed where another one has been: each has a place of its own.
   std::vector<std::string_view> parts;
   std::vector<Cell> numbers;
   std::size_t size = 0;
-  for (std::ptrdiff_t i = 0; list != end; ++i, ++list) {
+  for (std::size_t i = 0; list != end; ++i, ++list) {
     const Cell given = value(*list);
     if (i >= texts) {
       numbers.push_back(given);

@@ -1,105 +1,181 @@
-#include <algorithm>
+#include "devices/plcopen/st/parser.hpp"
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/compiler.hpp"
 #include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/operators.hpp"
 
-// The compiler's hands: tokens, complaints, giving up and going on.
 namespace drycut::devices::plcopen::st {
-
 namespace {
 
-const Token no_more{};
+constexpr int deepest_tree = 60;
 
-}  // namespace
-
-const Token& Compiler::peek(std::size_t ahead) const {
-  if (at_ + ahead < stop_) return tokens_[at_ + ahead];
-  // The END_ keyword of the unit, or the end of the file.
-  return stop_ < tokens_.size() ? tokens_[stop_] : no_more;
+bool belongs(const Token& token, int level) {
+  const Operator* sign = find_operator(token);
+  return sign != nullptr && sign->level == level;
 }
 
-const Token& Compiler::take() {
-  const Token& token = peek();
-  if (at_ < stop_) ++at_;
-  return token;
+Tree leaf(Tree::Kind kind, const Token& token) {
+  Tree tree;
+  tree.kind = kind;
+  tree.token = &token;
+  return tree;
 }
 
-bool Compiler::accept(std::string_view sign) {
-  if (at_ >= stop_ || !peek().is(sign)) return false;
-  ++at_;
-  return true;
+Tree over(Tree::Kind kind, const Token& token, Tree part) {
+  Tree tree = leaf(kind, token);
+  tree.parts.push_back(std::move(part));
+  return tree;
 }
 
-bool Compiler::accept_word(std::string_view keyword) {
-  if (at_ >= stop_ || !peek().word(keyword)) return false;
-  ++at_;
-  return true;
-}
-
-Place Compiler::behind() const {
-  if (at_ == 0) return peek().place;
-  const Token& last = tokens_[at_ - 1];
-  return {last.place.line, last.place.column + static_cast<int>(last.text.size())};
-}
-
-std::string Compiler::suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
-                                const std::string& otherwise) const {
-  constexpr std::size_t enough = 50;
-  return problems_.size() - first_problem_ < enough ? suggestion(word, known(), otherwise) : otherwise;
-}
-
-void Compiler::complain(Place place, std::string what, std::string remedy) {
-  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
-}
-
-void Compiler::give_up(Place place, std::string what, std::string remedy) {
-  // What the lexer could not read has been told.
-  if (peek().kind != Token::Kind::bad) complain(place, std::move(what), std::move(remedy));
-  throw GiveUp{};
-}
-
-namespace {
-
-std::string found(const Token& token) {
-  return token.kind == Token::Kind::end ? "the end of the file" : in_quotes(token.text);
+/// AND(a, b): an operator as a function.
+bool is_operator_function(const Token& token) {
+  return token.word("AND") || token.word("OR") || token.word("XOR") || token.word("MOD");
 }
 
 }  // namespace
 
-void Compiler::expect(std::string_view sign, std::string_view where) {
-  if (accept(sign)) return;
-  if (peek().kind == Token::Kind::bad) throw GiveUp{};
-  if (sign == ":=" && peek().is("=")) give_up(peek().place, "'=' compares", "':=' assigns");
-  // A sign that is missing at a line's end is missing there, not where the next line begins.
-  const bool next_line = at_ > 0 && tokens_[at_ - 1].place.line != peek().place.line;
-  const std::string what = fmt::format("'{}' is missing before {}", sign, found(peek()));
-  const std::string remedy = fmt::format("'{}' {}", sign, where);
-  if (!next_line) give_up(peek().kind == Token::Kind::end ? behind() : peek().place, what, remedy);
-  complain(behind(), what, remedy);
-  // The next line is a statement of its own.
-  if (sign != ";") throw GiveUp{};
+std::vector<Argument> arguments(const Tree& call) {
+  std::vector<Argument> result;
+  for (std::size_t i = 1; i < call.parts.size(); ++i)
+    result.push_back({call.names[i - 1].token, call.names[i - 1].output, &call.parts[i]});
+  return result;
 }
 
-void Compiler::expect_word(std::string_view keyword, std::string_view where) {
-  if (accept_word(keyword)) return;
-  give_up(peek().place, fmt::format("{} is missing before {}", keyword, found(peek())), std::string(where));
+Tree Parser::tree() {
+  const Nested nested(nesting_);
+  if (nesting_ > deepest_tree)
+    give_up(peek().place, "the expression is nested too deeply", "split it up by a variable");
+  return tree(0);
 }
 
-Token Compiler::expect_name(const std::string& what) {
-  if (at_ < stop_ && peek().kind == Token::Kind::name && !is_keyword(peek().text)) return take();
-  const bool keyword = peek().kind == Token::Kind::name && is_keyword(peek().text);
-  give_up(peek().place, fmt::format("{} is missing before {}", what, found(peek())),
-          keyword ? fmt::format("{} is a word of the language, no name", upper(peek().text))
-                  : "a name begins with a letter");
-}
-
-void Compiler::skip_statement() {
-  while (at_ < stop_) {
-    if (peek().kind == Token::Kind::name && closes_block(peek().text)) return;
-    if (take().is(";")) return;
+Tree Parser::tree(int level) {
+  if (level > strongest_level) return unary_tree();
+  Tree first = tree(level + 1);
+  if (at_ >= stop_ || !belongs(peek(), level)) return first;
+  Tree chain = over(Tree::Kind::chain, *first.token, std::move(first));
+  while (at_ < stop_ && belongs(peek(), level)) {
+    chain.tokens.push_back(&take());
+    chain.parts.push_back(tree(level + 1));
   }
+  return chain;
+}
+
+Tree Parser::unary_tree() {
+  const Token& sign = peek();
+  // NOT(IN := a) is a call.
+  const bool call = sign.word("NOT") && peek(1).is("(") && peek(3).is(":=");
+  if (call || (!sign.is("-") && !sign.is("+") && !sign.word("NOT"))) return power_tree();
+  const Nested nested(nesting_);
+  if (nesting_ > deepest_tree)
+    give_up(sign.place, "the expression is nested too deeply", "split it up by a variable");
+  take();
+  return over(Tree::Kind::sign, sign, unary_tree());
+}
+
+Tree Parser::power_tree() {
+  Tree base = primary_tree();
+  if (at_ >= stop_ || !peek().is("**")) return base;
+  Tree chain = over(Tree::Kind::chain, *base.token, std::move(base));
+  while (at_ < stop_ && peek().is("**")) {
+    chain.tokens.push_back(&take());
+    chain.parts.push_back(peek().is("-") ? unary_tree() : primary_tree());
+  }
+  return chain;
+}
+
+Tree Parser::primary_tree() {
+  if (at_ >= stop_) give_up(behind(), "an expression is missing at the end", "a value stands here");
+  const Token& token = peek();
+  switch (token.kind) {
+    case Token::Kind::literal:
+    case Token::Kind::string:
+      take();
+      return leaf(Tree::Kind::literal, token);
+    case Token::Kind::name:
+      return name_tree();
+    case Token::Kind::address:
+      give_up(token.place, in_quotes(token.text) + " stands in an expression",
+              "declare a variable at it: start AT %IX0.0 : BOOL;");
+    default:
+      break;
+  }
+  if (!accept("("))
+    give_up(token.place, fmt::format("an expression is missing before {}", in_quotes(token.text)),
+            "a value stands here");
+  Tree inner = over(Tree::Kind::parenthesised, token, tree());
+  expect(")", fmt::format("closes the parenthesis of line {}", token.place.line));
+  return inner;
+}
+
+Tree Parser::name_tree() {
+  const Token& name = peek();
+  const bool value = name.word("TRUE") || name.word("FALSE");
+  const bool function =
+      peek(1).is("(") && (is_operator_function(name) || (name.word("NOT") && peek(3).is(":=")));
+  if (is_keyword(name.text) && !value && !function)
+    give_up(name.place, fmt::format("an expression is missing before {}", in_quotes(name.text)),
+            "a value stands here");
+  take();
+  if (accept("#")) {
+    Tree typed = leaf(Tree::Kind::typed, name);
+    typed.negative = accept("-");
+    typed.tokens.push_back(&take());
+    return typed;
+  }
+  Tree result = leaf(Tree::Kind::name, name);
+  constexpr int longest = 50;
+  for (int parts = 0; at_ < stop_; ++parts) {
+    if (parts > longest) give_up(peek().place, "the name is too long", "split it up");
+    if (accept("."))
+      result = member_tree(std::move(result));
+    else if (accept("["))
+      result = element_tree(std::move(result));
+    else if (peek().is("("))
+      result = call_tree(std::move(result));
+    else
+      break;
+  }
+  return result;
+}
+
+Tree Parser::member_tree(Tree owner) {
+  const bool bits = peek().whole() || peek().kind == Token::Kind::address;
+  if (!bits) expect_name("the name of a member");
+  const Token& name = bits ? take() : tokens_[at_ - 1];
+  return over(Tree::Kind::member, name, std::move(owner));
+}
+
+Tree Parser::element_tree(Tree owner) {
+  const Token& name = *owner.token;
+  Tree element = over(Tree::Kind::element, name, std::move(owner));
+  do {
+    element.parts.push_back(tree());
+  } while (accept(","));
+  expect("]", "closes the index");
+  return element;
+}
+
+Tree Parser::call_tree(Tree callee) {
+  const Token& name = *callee.token;
+  Tree call = over(Tree::Kind::call, name, std::move(callee));
+  const Token& opening = peek();
+  call.tokens.push_back(&opening);
+  expect("(", "opens the arguments");
+  if (accept(")")) return call;
+  do {
+    Tree::ArgumentName argument;
+    if (peek().kind == Token::Kind::name && (peek(1).is(":=") || peek(1).is("=>"))) {
+      argument.token = &take();
+      argument.output = take().is("=>");
+    }
+    // q => ; connects nothing.
+    if (argument.output && (peek().is(",") || peek().is(")"))) continue;
+    call.parts.push_back(tree());
+    call.names.push_back(argument);
+  } while (accept(","));
+  expect(")", fmt::format("closes the arguments opened in line {}", opening.place.line));
+  return call;
 }
 
 }  // namespace drycut::devices::plcopen::st

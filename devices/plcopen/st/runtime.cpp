@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/plcopen/st/arithmetic.hpp"
 #include "devices/plcopen/st/machine.hpp"
-#include "devices/plcopen/st/operations.hpp"
 
 namespace drycut::devices::plcopen::st {
 

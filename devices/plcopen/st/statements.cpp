@@ -8,7 +8,7 @@
 // Assignments, calls, IF and CASE.
 namespace drycut::devices::plcopen::st {
 
-void Compiler::compile_body(Unit& unit) {
+void Statements::compile_body(Unit& unit) {
   at_ = unit.body;
   stop_ = unit.end;
   unit_ = &unit;
@@ -23,21 +23,21 @@ void Compiler::compile_body(Unit& unit) {
              "what it belongs to does not stand before it, or has been closed");
     skip_statement();
   }
-  code_->pous[static_cast<std::size_t>(unit.pou)].body = sequence_node(std::move(all), unit.name.place);
+  pou(unit).body = sequence_node(std::move(all), unit.name.place);
 }
 
-int Compiler::statements(std::initializer_list<std::string_view> closing) {
+int Statements::statements(std::initializer_list<std::string_view> closing) {
   return statements_until([&] {
     return std::any_of(closing.begin(), closing.end(),
                        [&](std::string_view word) { return peek().word(word); });
   });
 }
 
-int Compiler::statements_until(const std::function<bool()>& closes) {
+int Statements::statements_until(const std::function<bool()>& closes) {
   std::vector<int> all;
   const Place place = peek().place;
   while (at_ < stop_ && !closes()) {
-    if (peek().kind == Token::Kind::name && closes_block(peek().text)) break;
+    if (at_word(closes_block)) break;
     const std::size_t before = at_;
     try {
       all.push_back(statement());
@@ -49,7 +49,7 @@ int Compiler::statements_until(const std::function<bool()>& closes) {
   return sequence_node(std::move(all), place);
 }
 
-int Compiler::statement() {
+int Statements::statement() {
   constexpr int deepest = 40;
   if (accept(";")) return -1;
   if (nesting_ > deepest) {
@@ -57,13 +57,7 @@ int Compiler::statement() {
     if (!told_.insert("#nesting").second) throw GiveUp{};
     give_up(peek().place, "statements are nested too deeply", "make a FUNCTION of the inner ones");
   }
-  ++nesting_;
-  // Also when the statement is given up.
-  struct Leave {
-    int& count;
-    int value;
-    ~Leave() { count = value; }
-  } const leave{nesting_, nesting_ - 1};
+  const Nested nested(nesting_);
   if (peek().word("IF")) return if_statement();
   if (peek().word("CASE")) return case_statement();
   if (peek().word("FOR")) return for_statement();
@@ -75,7 +69,7 @@ int Compiler::statement() {
   return assignment_or_call();
 }
 
-int Compiler::assignment_or_call() {
+int Statements::assignment_or_call() {
   const Token first = peek();
   if (first.kind != Token::Kind::name || is_keyword(first.text)) {
     const bool declares = first.kind == Token::Kind::name && upper(first.text).starts_with("VAR");
@@ -102,7 +96,7 @@ int Compiler::assignment_or_call() {
   return assignment;
 }
 
-int Compiler::call_statement(const Tree& call) {
+int Statements::call_statement(const Tree& call) {
   const Tree& callee = call.parts[0];
   const Token& name = *callee.token;
   const bool plain = callee.kind == Tree::Kind::name;
@@ -130,51 +124,7 @@ int Compiler::call_statement(const Tree& call) {
   return node;
 }
 
-int Compiler::assign(const Expression& target, const Expression& value) {
-  if (target.unknown()) return -1;
-  if (!target.locked.empty() || !target.address) {
-    complain(target.place,
-             target.locked.empty() ? "this is no variable"
-                                   : fmt::format("{} {}", in_quotes(target.name), target.locked),
-             target.locked.empty() ? "a variable stands before ':='"
-                                   : "only variables and input pins are assigned");
-    return -1;
-  }
-  const Type& type = *target.type;
-  if ((type.basic == Basic::axis && target.place.line > 0 &&
-       find_member(*globals_, target.name) != nullptr) ||
-      type.holds_block) {
-    complain(target.place, fmt::format("{} is {} and is not assigned", in_quotes(target.name), type.name),
-             type.basic == Basic::axis    ? "connect it in a call"
-             : type.basic == Basic::block ? "assign its inputs"
-                                          : "it holds function blocks: assign its other members");
-    return -1;
-  }
-  const Expression source = converted(value, type);
-  if (source.unknown() || target.node < 0) return -1;
-  return store(target, value_node(source));
-}
-
-int Compiler::store(const Expression& target, int value) {
-  const Type& type = *target.type;
-  if (target.bits)
-    return add_node(Op::store_bits, target.bits->of->basic, target.place, target.node, value,
-                    target.bits->width, target.bits->shift);
-  if (is_elementary(type.basic) || type.basic == Basic::axis) {
-    const Node address = code_->nodes[static_cast<std::size_t>(target.node)];
-    if (address.op == Op::address)
-      return add_node(Op::store, type.basic, target.place, value, -1, -1, address.imm);
-    if (address.op == Op::address_own)
-      return add_node(Op::store_own, type.basic, target.place, value, -1, -1, address.imm);
-    return add_node(Op::store_at, type.basic, target.place, target.node, value);
-  }
-  if (type.basic == Basic::string)
-    return add_node(Op::copy_string, type.basic, target.place, target.node, value, -1,
-                    static_cast<std::int64_t>(type.length));
-  return add_node(Op::copy, type.basic, target.place, target.node, value, -1, type.cells);
-}
-
-int Compiler::condition(std::string_view closing) {
+int Statements::condition(std::string_view closing) {
   const Place place = peek().place;
   int node = -1;
   try {
@@ -191,16 +141,16 @@ int Compiler::condition(std::string_view closing) {
       give_up(peek().place, "':=' assigns", "'=' compares");
     expect_word(closing, fmt::format("stands behind the condition of line {}", place.line));
   } catch (const GiveUp&) {
-    while (
-        at_ < stop_ && !peek().word(closing) && !peek().is(";") &&
-        !(peek().kind == Token::Kind::name && (closes_block(peek().text) || peek().place.line != place.line)))
-      ++at_;
+    skip_to([&] {
+      const bool next_line = peek().kind == Token::Kind::name && peek().place.line != place.line;
+      return peek().word(closing) || peek().is(";") || at_word(closes_block) || next_line;
+    });
     accept_word(closing);
   }
   return node;
 }
 
-void Compiler::close(const Token& opened, std::string_view closing) {
+void Statements::close(const Token& opened, std::string_view closing) {
   if (accept_word(closing)) {
     // Many write END_IF without ';'.
     accept(";");
@@ -212,26 +162,21 @@ void Compiler::close(const Token& opened, std::string_view closing) {
            fmt::format("it closes the {} of line {}", upper(opened.text), opened.place.line));
 }
 
-int Compiler::if_statement() {
+int Statements::if_statement() {
   const Token opened = take();
   std::vector<int> parts;
-  parts.push_back(condition("THEN"));
-  parts.push_back(statements({"ELSIF", "ELSE", "END_IF"}));
-  while (accept_word("ELSIF")) {
+  do {
     parts.push_back(condition("THEN"));
     parts.push_back(statements({"ELSIF", "ELSE", "END_IF"}));
-  }
-  int otherwise = -1;
-  if (accept_word("ELSE")) {
-    otherwise = statements({"END_IF"});
-  }
+  } while (accept_word("ELSIF"));
+  const int otherwise = accept_word("ELSE") ? statements({"END_IF"}) : -1;
   close(opened, "END_IF");
   const int first = add_list(parts);
   return add_node(Op::branch, Basic::unknown, opened.place, first, static_cast<int>(parts.size() / 2),
                   otherwise);
 }
 
-std::int64_t Compiler::case_label(const Type& selector) {
+std::int64_t Statements::case_label(const Type& selector) {
   const Place place = peek().place;
   const Expression value = expression(&selector);
   if (value.unknown()) throw GiveUp{};
@@ -244,7 +189,7 @@ std::int64_t Compiler::case_label(const Type& selector) {
   return same.value;
 }
 
-std::vector<Range> Compiler::case_labels(const Type& selector, Labels& labels) {
+std::vector<Range> Statements::case_labels(const Type& selector, Labels& labels) {
   std::vector<Range> ranges;
   do {
     const Place place = peek().place;
@@ -268,7 +213,7 @@ std::vector<Range> Compiler::case_labels(const Type& selector, Labels& labels) {
   return ranges;
 }
 
-int Compiler::case_statement() {
+int Statements::case_statement() {
   const Token opened = take();
   const Type* type = type_of(Basic::unknown);
   int selector = -1;
@@ -282,9 +227,7 @@ int Compiler::case_statement() {
     if (!value.unknown()) selector = value_node(value);
     expect_word("OF", fmt::format("stands behind the selector of the CASE of line {}", opened.place.line));
   } catch (const GiveUp&) {
-    while (at_ < stop_ && !peek().word("OF") && !peek().is(";") &&
-           !(peek().kind == Token::Kind::name && closes_block(peek().text)))
-      ++at_;
+    skip_to([&] { return peek().word("OF") || peek().is(";") || at_word(closes_block); });
     accept_word("OF");
   }
   Labels labels;
@@ -296,14 +239,12 @@ int Compiler::case_statement() {
       otherwise = statements({"END_CASE"});
       break;
     }
-    if (peek().kind == Token::Kind::name && closes_block(peek().text)) break;
+    if (at_word(closes_block)) break;
     std::vector<Range> ranges;
     try {
       ranges = case_labels(*type, labels);
     } catch (const GiveUp&) {
-      while (at_ < stop_ && !peek().is(":") && !peek().is(";") &&
-             !(peek().kind == Token::Kind::name && closes_block(peek().text)))
-        ++at_;
+      skip_to([&] { return peek().is(":") || peek().is(";") || at_word(closes_block); });
       if (!accept(":")) accept(";");
     }
     const int body = statements_until([&] { return at_label(); });
@@ -316,14 +257,13 @@ int Compiler::case_statement() {
                   otherwise);
 }
 
-bool Compiler::at_label() const {
+bool Statements::at_label() const {
   // A label is what has a ':' behind it before anything of a statement.
   for (std::size_t i = 0; at_ + i < stop_; ++i) {
     const Token& token = peek(i);
     if (token.is(":")) return true;
-    const bool part = token.kind == Token::Kind::integer || token.is(",") || token.is("..") ||
-                      token.is("-") || token.is(".") || token.is("#") ||
-                      (token.kind == Token::Kind::name && !is_keyword(token.text));
+    const bool part = token.whole() || token.is(",") || token.is("..") || token.is("-") || token.is(".") ||
+                      token.is("#") || (token.kind == Token::Kind::name && !is_keyword(token.text));
     if (!part) return false;
   }
   return false;

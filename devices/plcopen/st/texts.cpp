@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "devices/plcopen/st/lexer.hpp"
+
 namespace drycut::devices::plcopen::st {
 namespace {
 
@@ -43,11 +45,7 @@ std::string clock_text(Cell seconds) {
 Cell time_value(Basic basic, std::string_view text) {
   Problems problems;
   const std::vector<Token> tokens = tokens_of(text, "", problems);
-  const Token::Kind kind = basic == Basic::time   ? Token::Kind::time
-                           : basic == Basic::tod  ? Token::Kind::tod
-                           : basic == Basic::date ? Token::Kind::date
-                                                  : Token::Kind::dt;
-  return tokens[0].kind == kind ? tokens[0].number : 0;
+  return tokens[0].kind == Token::Kind::literal && tokens[0].basic == basic ? tokens[0].value : 0;
 }
 
 }  // namespace

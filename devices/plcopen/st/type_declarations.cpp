@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "devices/plcopen/st/compiler.hpp"
-#include "devices/plcopen/st/keywords.hpp"
 
 // TYPE sections, and what may stand behind a ':'.
 namespace drycut::devices::plcopen::st {
@@ -20,17 +19,7 @@ const Type* type_of_pin(const Pin& pin, const PinValue& value, const Type* cam_r
 
 }  // namespace
 
-Type& Compiler::new_type(Basic basic, std::string name) {
-  code_->types.push_back(std::make_unique<Type>());
-  Type& type = *code_->types.back();
-  type.basic = basic;
-  type.name = std::move(name);
-  type.initial.assign(1, 0);
-  type.holds_block = basic == Basic::block;
-  return type;
-}
-
-void Compiler::append(Type& owner, Variable variable, std::span<const Cell> initial) {
+void append(Type& owner, Variable variable, std::span<const Cell> initial) {
   variable.offset = owner.cells;
   owner.cells += static_cast<int>(initial.size());
   owner.initial.insert(owner.initial.end(), initial.begin(), initial.end());
@@ -43,7 +32,24 @@ void Compiler::append(Type& owner, Variable variable, std::span<const Cell> init
   owner.members.push_back(std::move(variable));
 }
 
-void Compiler::check_size(Place place, int cells, int depth) {
+void fill_empty(Type& type) {
+  if (type.cells > 0) return;
+  type.cells = 1;
+  type.initial.assign(1, 0);
+}
+
+Type& Declarations::new_type(Basic basic, std::string name, bool composed) {
+  code_->types.push_back(std::make_unique<Type>());
+  Type& type = *code_->types.back();
+  type.basic = basic;
+  type.name = std::move(name);
+  type.cells = composed ? 0 : 1;
+  type.initial.assign(static_cast<std::size_t>(type.cells), 0);
+  type.holds_block = basic == Basic::block;
+  return type;
+}
+
+void Declarations::check_size(Place place, int cells, int depth) {
   // 128 MB of initial values, and no more recursion over a type than this.
   constexpr std::int64_t most_in_all = 16'000'000;
   constexpr int deepest = 60;
@@ -54,13 +60,10 @@ void Compiler::check_size(Place place, int cells, int depth) {
     give_up(place, "the types are nested too deeply", fmt::format("{} within each other at most", deepest));
 }
 
-void Compiler::declare_type(Unit& unit) {
+void Declarations::declare_type(Unit& unit) {
   try {
-    if (peek().word("STRUCT")) {
-      take();
-      Type& type = new_type(Basic::structure, std::string(unit.name.text));
-      type.cells = 0;
-      type.initial.clear();
+    if (accept_word("STRUCT")) {
+      Type& type = new_type(Basic::structure, std::string(unit.name.text), true);
       unit.type = &type;
       declare_structure(type);
     } else if (peek().is("(")) {
@@ -80,21 +83,20 @@ void Compiler::declare_type(Unit& unit) {
   }
 }
 
-void Compiler::declare_structure(Type& type) {
+void Declarations::declare_structure(Type& type) {
   Unit* const unit = unit_;
   while (at_ < stop_ && !peek().word("END_STRUCT")) {
     try {
       declare_variables(*unit, type, {});
     } catch (const GiveUp&) {
-      while (at_ < stop_ && !peek().word("END_STRUCT") && !take().is(";")) {
-      }
+      skip_past("END_STRUCT");
     }
   }
   expect_word("END_STRUCT", "a STRUCT ends with END_STRUCT");
   fill_empty(type);
 }
 
-void Compiler::declare_enumeration(Type& type) {
+void Declarations::declare_enumeration(Type& type) {
   expect("(", "begins an enumeration");
   std::int64_t next = 0;
   std::set<std::string> names;
@@ -113,18 +115,13 @@ void Compiler::declare_enumeration(Type& type) {
   enumerations_.emplace(lower(type.name), &type);
 }
 
-const Type* Compiler::parse_type() {
+const Type* Declarations::parse_type() {
   if (peek().word("ARRAY")) {
     constexpr int deepest = 40;
     if (nesting_ > deepest)
       give_up(peek().place, "the type is nested too deeply", "give its inner types names");
     take();
-    ++nesting_;
-    // Also when the declaration is given up.
-    struct Leave {
-      int& count;
-      ~Leave() { --count; }
-    } const leave{nesting_};
+    const Nested nested(nesting_);
     return array_type();
   }
   if (peek().word("STRING")) return string_type();
@@ -136,7 +133,7 @@ const Type* Compiler::parse_type() {
   return named_type();
 }
 
-const Type* Compiler::array_type() {
+const Type* Declarations::array_type() {
   expect("[", "opens the bounds: ARRAY [0..7] OF LREAL");
   struct Bounds {
     std::int64_t low = 0;
@@ -182,7 +179,7 @@ const Type* Compiler::array_type() {
   return element;
 }
 
-const Type* Compiler::string_type() {
+const Type* Declarations::string_type() {
   take();
   const bool round = peek().is("(");
   if (!round && !peek().is("[")) return elementary_type("STRING");
@@ -199,7 +196,7 @@ const Type* Compiler::string_type() {
   return &type;
 }
 
-const Type* Compiler::named_type() {
+const Type* Declarations::named_type() {
   const Token name = expect_name("a type");
   if (const Type* type = elementary_type(name.text)) {
     return peek().is("(") ? subrange(*type) : type;
@@ -237,14 +234,14 @@ const Type* Compiler::named_type() {
 }
 
 /// INT (0..9): the values between, which begin at the lower one.
-const Type* Compiler::subrange(const Type& base) {
+const Type* Declarations::subrange(const Type& base) {
   const Place place = peek().place;
   if (!is_integer(base.basic))
     give_up(place, fmt::format("a range of {}", base.name), "whole numbers have ranges: INT (0..9)");
   take();
-  const std::int64_t low = literal_as(constant_value("a bound", &base), base).value;
+  const std::int64_t low = constant_integer("a bound", &base);
   expect("..", "stands between the bounds: INT (0..9)");
-  const std::int64_t high = literal_as(constant_value("a bound", &base), base).value;
+  const std::int64_t high = constant_integer("a bound", &base);
   expect(")", "closes the bounds");
   if (high < low)
     give_up(place, fmt::format("a range from {} to {} is empty", low, high), "the lower bound stands first");
@@ -256,21 +253,15 @@ const Type* Compiler::subrange(const Type& base) {
   return &type;
 }
 
-const Type* Compiler::cam_ref() {
+const Type* Declarations::cam_ref() {
   if (cam_ref_ != nullptr) return cam_ref_;
-  Type& type = new_type(Basic::structure, "MC_CAM_REF");
-  type.cells = 0;
-  type.initial.clear();
-  for (const auto& [name, basic] : {std::pair{"File", Basic::string}, std::pair{"ID", Basic::uint}}) {
-    Variable member;
-    member.name = name;
-    member.type = type_of(basic);
-    append(type, member, member.type->initial);
-  }
+  Type& type = new_type(Basic::structure, "MC_CAM_REF", true);
+  for (const auto& [name, basic] : {std::pair{"File", Basic::string}, std::pair{"ID", Basic::uint}})
+    append(type, {.name = name, .type = type_of(basic)}, type_of(basic)->initial);
   return cam_ref_ = &type;
 }
 
-const Type* Compiler::motion_type(const BlockType& block) {
+const Type* Declarations::motion_type(const BlockType& block) {
   if (const auto known = motions_.find(&block); known != motions_.end()) return known->second;
   Type& type = new_type(Basic::block, std::string(block.name));
   // The first cell is the number of the block at run time.
@@ -279,9 +270,7 @@ const Type* Compiler::motion_type(const BlockType& block) {
   for (std::size_t i = 0; i < block.pins.size(); ++i) {
     const Pin& pin = block.pins[i];
     const PinValue value = block.pin(*instance, i);
-    Variable member;
-    member.name = pin.name;
-    member.type = type_of_pin(pin, value, cam_ref());
+    Variable member{.name = std::string(pin.name), .type = type_of_pin(pin, value, cam_ref())};
     member.section = pin.direction == PinDirection::input    ? Section::input
                      : pin.direction == PinDirection::output ? Section::output
                                                              : Section::in_out;

@@ -85,32 +85,11 @@ Range range_of(const Type& type) { return type.subrange ? Range{type.low, type.h
 int per_second(Basic basic) { return basic == Basic::time || basic == Basic::tod ? 1000 : 1; }
 
 std::int64_t wrapped(Basic basic, std::int64_t value) {
-  switch (basic) {
-    case Basic::boolean:
-      return value & 1;
-    case Basic::sint:
-      return static_cast<std::int8_t>(value);
-    case Basic::int_:
-    case Basic::enumeration:
-      return static_cast<std::int16_t>(value);
-    case Basic::dint:
-      return static_cast<std::int32_t>(value);
-    case Basic::usint:
-    case Basic::byte:
-      return static_cast<std::uint8_t>(value);
-    case Basic::uint:
-    case Basic::word:
-      return static_cast<std::uint16_t>(value);
-    case Basic::udint:
-    case Basic::dword:
-    case Basic::time:
-    case Basic::tod:
-    case Basic::date:
-    case Basic::dt:
-      return static_cast<std::uint32_t>(value);
-    default:
-      return value;
-  }
+  if (!is_whole(basic)) return value;
+  const Row& row = row_of(basic);
+  const auto above = static_cast<unsigned>(64 - row.bits);
+  const std::uint64_t shifted = static_cast<std::uint64_t>(value) << above;
+  return row.sign ? static_cast<std::int64_t>(shifted) >> above : static_cast<std::int64_t>(shifted >> above);
 }
 
 double rounded(Basic basic, double value) {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/text.hpp"
 #include "devices/plcopen/pins.hpp"
-#include "devices/plcopen/st/lexer.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -68,9 +68,9 @@ struct Variable {
   int offset = 0;  ///< in cells from the beginning of its owner
   bool constant = false;
   bool retain = false;
-  bool reads_terminal = false;  ///< AT %IX
-  std::optional<Cell> value;    ///< of an elementary constant
-  Place place;
+  bool reads_terminal = false;     ///< AT %IX
+  std::optional<Cell> value = {};  ///< of an elementary constant
+  Place place = {};
 };
 
 struct EnumValue {

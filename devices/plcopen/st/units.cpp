@@ -10,7 +10,7 @@
 namespace drycut::devices::plcopen::st {
 
 Compiler::Compiler(std::string_view text, const std::string& file, Problems& problems)
-    : file_(file), problems_(problems), first_problem_(problems.size()) {
+    : Statements(file, problems) {
   tokens_ = tokens_of(standard_blocks(), file, problems);
   tokens_.pop_back();
   user_tokens_ = tokens_.size();
@@ -20,9 +20,7 @@ Compiler::Compiler(std::string_view text, const std::string& file, Problems& pro
 }
 
 std::shared_ptr<const Compiled> Compiler::run() {
-  globals_ = &new_type(Basic::block, "VAR_GLOBAL");
-  globals_->cells = 0;
-  globals_->initial.clear();
+  globals_ = &new_type(Basic::block, "VAR_GLOBAL", true);
   outside_.kind = Unit::Kind::globals;
   outside_.type = globals_;
   find_units(false);
@@ -52,24 +50,16 @@ void Compiler::find_units(bool standard) {
   stop_ = standard ? user_tokens_ : tokens_.size() - 1;
   while (at_ < stop_) {
     const Token& opening = peek();
-    Unit unit;
-    unit.standard = standard;
+    const std::size_t first = at_;
     if (opening.word("TYPE")) {
       find_types();
-      continue;
-    }
-    if (opening.word("CONFIGURATION")) {
+    } else if (opening.word("CONFIGURATION")) {
       find_configuration();
-      continue;
-    }
-    const std::size_t first = at_;
-    if (opening.word("VAR_GLOBAL")) {
-      unit.kind = Unit::Kind::globals;
-      unit.name = opening;
-      unit.first = at_;
-      unit.end = end_of_unit(first, "END_VAR");
-      add_unit(std::move(unit));
+    } else if (opening.word("VAR_GLOBAL")) {
+      add_globals();
     } else if (opening.word("PROGRAM") || opening.word("FUNCTION") || opening.word("FUNCTION_BLOCK")) {
+      Unit unit;
+      unit.standard = standard;
       unit.kind = opening.word("PROGRAM")    ? Unit::Kind::program
                   : opening.word("FUNCTION") ? Unit::Kind::function
                                              : Unit::Kind::function_block;
@@ -87,23 +77,26 @@ void Compiler::find_units(bool standard) {
       if (opening.kind != Token::Kind::bad && !opening.is(";"))
         complain(opening.place, in_quotes(opening.text) + " stands outside of all units",
                  "statements stand in PROGRAM ... END_PROGRAM, variables of all in VAR_GLOBAL ... END_VAR");
-      while (at_ < stop_ && !peek().is(";") && !(peek().kind == Token::Kind::name && opens_unit(peek().text)))
-        ++at_;
       // One complaint a stretch.
-      while (at_ < stop_ && !(peek().kind == Token::Kind::name && opens_unit(peek().text))) ++at_;
+      skip_to([&] { return at_word(opens_unit); });
       if (at_ == first) ++at_;
     }
   }
 }
 
+void Compiler::add_globals() {
+  Unit unit;
+  unit.kind = Unit::Kind::globals;
+  unit.name = peek();
+  unit.first = at_;
+  unit.end = end_of_unit(at_, "END_VAR");
+  add_unit(std::move(unit));
+}
+
 std::size_t Compiler::end_of_unit(std::size_t opening, std::string_view closing) {
   at_ = opening + 1;
-  while (at_ < stop_) {
-    if (peek().word(closing)) return at_++;
-    // Only a section of variables is looked through for the words that open one: VAR_GLOBAL is one itself.
-    if (peek().kind == Token::Kind::name && opens_unit(peek().text)) break;
-    ++at_;
-  }
+  skip_to([&] { return peek().word(closing) || at_word(opens_unit); });
+  if (at_ < stop_ && peek().word(closing)) return at_++;
   const Token& begin = tokens_[opening];
   complain(begin.place, fmt::format("{} has no {}", upper(begin.text), closing),
            at_ < stop_ ? fmt::format("write {} before the {} of line {}", closing, upper(peek().text),
@@ -171,28 +164,6 @@ void Compiler::add_unit(Unit unit) {
   units_.push_back(std::make_unique<Unit>(std::move(unit)));
   if (units_.back()->kind != Unit::Kind::globals)
     unit_index_.emplace(lower(units_.back()->name.text), units_.back().get());
-}
-
-Unit* Compiler::find_unit(std::string_view name) const {
-  const auto found = unit_index_.find(lower(name));
-  return found == unit_index_.end() ? nullptr : found->second;
-}
-
-void Compiler::declare(Unit& unit) {
-  if (unit.state != Unit::State::untouched) return;
-  const auto saved = std::tuple(at_, stop_, unit_);
-  ++open_units_;
-  unit.state = Unit::State::open;
-  at_ = unit.first;
-  stop_ = unit.end;
-  unit_ = &unit;
-  if (unit.kind == Unit::Kind::type)
-    declare_type(unit);
-  else
-    declare_pou(unit);
-  unit.state = Unit::State::done;
-  --open_units_;
-  std::tie(at_, stop_, unit_) = saved;
 }
 
 void Compiler::check_programs() {

@@ -1,3 +1,5 @@
+#include "devices/plcopen/st/values.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -5,10 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "devices/plcopen/st/compiler.hpp"
-#include "devices/plcopen/st/operations.hpp"
+#include "devices/plcopen/st/arithmetic.hpp"
 
-// Nodes, constants and conversions.
 namespace drycut::devices::plcopen::st {
 namespace {
 
@@ -20,44 +20,63 @@ bool is_scalar(Basic basic) { return is_elementary(basic) || basic == Basic::axi
 
 }  // namespace
 
-int Compiler::add_node(Op op, Basic basic, Place place, int a, int b, int c, std::int64_t imm) {
-  code_->nodes.push_back({op, basic, place.line, place.column, a, b, c, imm});
-  return static_cast<int>(code_->nodes.size()) - 1;
-}
-
-int Compiler::add_list(const std::vector<int>& items) {
-  const int first = static_cast<int>(code_->lists.size());
-  code_->lists.insert(code_->lists.end(), items.begin(), items.end());
-  return first;
-}
-
-Expression Compiler::constant(const Type* type, Cell value, Place place, bool untyped) {
-  Expression result;
-  result.type = type;
-  result.place = place;
+Expression constant(const Type* type, Cell value, Place place, bool untyped) {
+  Expression result{type, place};
   result.constant = true;
   result.untyped = untyped;
   result.value = value;
   return result;
 }
 
-int Compiler::value_node(const Expression& expression) {
+Expression variable_at(const Type* type, int node, const std::string& name, Place place) {
+  Expression result{type, place, node};
+  result.address = true;
+  result.name = name;
+  return result;
+}
+
+int depth_over(const std::vector<Expression>& values) {
+  int depth = 1;
+  for (const Expression& value : values) depth = std::max(depth, value.depth + 1);
+  return depth;
+}
+
+Expression Values::refuse(Place place, std::string what, std::string remedy, Place of) {
+  complain(place, std::move(what), std::move(remedy));
+  return unknown_at(of);
+}
+
+int Values::add_node(Op op, Basic basic, Place place, int a, int b, int c, std::int64_t imm) {
+  code_->nodes.push_back({op, basic, place.line, place.column, a, b, c, imm});
+  return static_cast<int>(code_->nodes.size()) - 1;
+}
+
+int Values::add_list(const std::vector<int>& items) {
+  const int first = static_cast<int>(code_->lists.size());
+  code_->lists.insert(code_->lists.end(), items.begin(), items.end());
+  return first;
+}
+
+int Values::add_span(const Span& span) {
+  code_->spans.push_back(span);
+  return static_cast<int>(code_->spans.size()) - 1;
+}
+
+int Values::value_node(const Expression& expression) {
   if (unit_ != nullptr)
     unit_->levels = std::max(unit_->levels, expression.depth + levels_of_a_statement * nesting_);
   if (expression.bits) return bits_node(expression);
   const Basic basic = expression.type->basic;
-  if (expression.constant)
-    return add_node(Op::constant, basic, expression.place, -1, -1, -1, expression.value);
+  if (expression.constant) return leaf_node(Op::constant, basic, expression.place, expression.value);
   if (!expression.address || !is_scalar(basic)) return expression.node;
   if (expression.node < 0) return -1;
-  const Node address = code_->nodes[static_cast<std::size_t>(expression.node)];
-  if (address.op == Op::address) return add_node(Op::load, basic, expression.place, -1, -1, -1, address.imm);
-  if (address.op == Op::address_own)
-    return add_node(Op::load_own, basic, expression.place, -1, -1, -1, address.imm);
+  const Node address = node(expression.node);
+  if (address.op == Op::address) return leaf_node(Op::load, basic, expression.place, address.imm);
+  if (address.op == Op::address_own) return leaf_node(Op::load_own, basic, expression.place, address.imm);
   return add_node(Op::load_at, basic, expression.place, expression.node);
 }
 
-int Compiler::bits_node(const Expression& expression) {
+int Values::bits_node(const Expression& expression) {
   Expression whole = expression;
   whole.type = base_of(expression.bits->of);
   whole.bits.reset();
@@ -66,7 +85,7 @@ int Compiler::bits_node(const Expression& expression) {
   return value_node(apply_op(Op::wrap, expression.type, expression.place, moved));
 }
 
-Expression Compiler::as_value(Expression expression) {
+Expression Values::as_value(Expression expression) {
   expression.node = value_node(expression);
   expression.type = base_of(expression.type);
   expression.bits.reset();
@@ -74,30 +93,34 @@ Expression Compiler::as_value(Expression expression) {
   return expression;
 }
 
-int Compiler::address_plus(int node, std::int64_t offset) {
-  if (offset == 0 || node < 0) return node;
-  Node address = code_->nodes[static_cast<std::size_t>(node)];
-  address.imm += offset;
-  code_->nodes.push_back(address);
+int Values::address_plus(int address, std::int64_t offset) {
+  if (offset == 0 || address < 0) return address;
+  Node moved = node(address);
+  moved.imm += offset;
+  code_->nodes.push_back(moved);
   return static_cast<int>(code_->nodes.size()) - 1;
 }
 
-int Compiler::literal_string(const std::string& text) {
-  auto [entry, fresh] = strings_.emplace(text, static_cast<int>(pool_.size()));
-  if (fresh) {
-    pool_.resize(pool_.size() + static_cast<std::size_t>(string_cells(text.size())), 0);
-    std::memcpy(pool_.data() + entry->second, text.data(), text.size());
-  }
-  return entry->second;
-}
-
-int Compiler::scratch(int cells) {
+int Values::in_pool(std::size_t cells) {
   const std::size_t first = pool_.size();
-  pool_.resize(first + static_cast<std::size_t>(cells), 0);
+  pool_.resize(first + cells, 0);
   return static_cast<int>(first);
 }
 
-Expression Compiler::literal_as(Expression literal, const Type& to) {
+int Values::literal_string(const std::string& text, Place place) {
+  auto [entry, fresh] = strings_.emplace(text, static_cast<int>(pool_.size()));
+  if (fresh) {
+    in_pool(static_cast<std::size_t>(string_cells(text.size())));
+    std::memcpy(pool_.data() + entry->second, text.data(), text.size());
+  }
+  return leaf_node(Op::address_pool, Basic::string, place, entry->second);
+}
+
+int Values::scratch(const Type& type, Place place) {
+  return leaf_node(Op::address_pool, type.basic, place, in_pool(static_cast<std::size_t>(type.cells)));
+}
+
+Expression Values::literal_as(Expression literal, const Type& to) {
   const Basic basic = to.basic;
   const bool real = is_real(literal.type->basic);
   const bool wide = is_wide(literal.type->basic);
@@ -144,7 +167,7 @@ Expression Compiler::literal_as(Expression literal, const Type& to) {
   return literal;
 }
 
-Expression Compiler::converted(Expression expression, const Type& to) {
+Expression Values::converted(Expression expression, const Type& to) {
   const Type& from = *expression.type;
   if (expression.unknown() || to.basic == Basic::unknown || (same_type(from, to) && !to.subrange)) {
     expression.untyped = false;
@@ -169,30 +192,24 @@ Expression Compiler::converted(Expression expression, const Type& to) {
   const bool casts = convertible(from) && convertible(to) && to.basic != Basic::enumeration;
   const std::string from_name =
       !casts || from.basic == Basic::enumeration ? "INT" : type_of(from.basic)->name;
-  const std::string what = expression.name.empty()
-                               ? fmt::format("a value of type {} does not", from.name)
-                               : fmt::format("{} is {}, which does not", in_quotes(expression.name), from.name);
-  complain(expression.place, fmt::format("{} go into {} by itself", what, to.name),
-           casts ? fmt::format("{}_TO_{}(...) converts", from_name, type_of(to.basic)->name)
-                 : fmt::format("a value of type {} is wanted", to.name));
-  Expression unknown = constant(type_of(Basic::unknown), 0, expression.place);
-  unknown.constant = false;
-  return unknown;
+  const std::string what = expression.name.empty() ? fmt::format("a value of type {} does not", from.name)
+                                                   : fmt::format("{} is {}, which does not",
+                                                                 in_quotes(expression.name), from.name);
+  return refuse(expression.place, fmt::format("{} go into {} by itself", what, to.name),
+                casts ? fmt::format("{}_TO_{}(...) converts", from_name, type_of(to.basic)->name)
+                      : fmt::format("a value of type {} is wanted", to.name));
 }
 
 /// A value of the base type, looked at when the program runs.
-Expression Compiler::in_subrange(const Expression& value, const Type& to) {
+Expression Values::in_subrange(const Expression& value, const Type& to) {
   if (value.unknown()) return value;
   if (value.constant) return literal_as(value, to);
-  code_->spans.push_back({to.low, to.high, 1});
-  Expression result{&to, value.place};
-  result.depth = value.depth + 1;
-  result.node = add_node(Op::in_range, to.basic, value.place, value_node(value), -1,
-                         static_cast<int>(code_->spans.size()) - 1);
-  return result;
+  const int span = add_span({to.low, to.high, 1});
+  return {&to, value.place, add_node(Op::in_range, to.basic, value.place, value_node(value), -1, span),
+          value.depth + 1};
 }
 
-Expression Compiler::cast(const Expression& expression, Basic to, Place place) {
+Expression Values::cast(const Expression& expression, Basic to, Place place) {
   const Basic from = expression.type->basic;
   const Type* type = type_of(to);
   if (from == to) return expression;
@@ -222,40 +239,31 @@ Expression Compiler::cast(const Expression& expression, Basic to, Place place) {
   return result;
 }
 
-Expression Compiler::folded(Op op, const Type* type, Place place, Cell a, Cell b, bool untyped) {
-  if (const auto none = no_result(op, type->basic, a, b)) {
-    complain(place, none->what, none->remedy);
-    return {type_of(Basic::unknown), place};
-  }
+Expression Values::folded(Op op, const Type* type, Place place, Cell a, Cell b, bool untyped) {
+  if (const auto none = no_result(op, type->basic, a, b)) return refuse(place, none->what, none->remedy);
   return constant(type, apply(op, type->basic, a, b), place, untyped);
 }
 
-Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expression& a,
-                              const Expression& b) {
+Expression Values::apply_op(Op op, const Type* type, Place place, const Expression& a, const Expression& b) {
   constexpr int deepest = 400;
-  if (a.unknown() || b.unknown()) return {type_of(Basic::unknown), place};
+  if (a.unknown() || b.unknown()) return unknown_at(place);
   type = base_of(type);
   if (a.constant && b.constant && is_pure(op)) {
     Expression result = folded(op, type, place, a.value, b.value, a.untyped && b.untyped);
     if (type->basic == Basic::boolean) result.untyped = false;
     return result;
   }
-  Expression result{type, place};
-  result.depth = std::max(a.depth, b.depth) + 1;
-  if (result.depth > deepest) give_up(place, "the expression is too long", "split it up by a variable");
+  const int depth = std::max(a.depth, b.depth) + 1;
+  if (depth > deepest) give_up(place, "the expression is too long", "split it up by a variable");
   const int first = value_node(a);
-  result.node = add_node(op, type->basic, place, first, value_node(b));
-  return result;
+  return {type, place, add_node(op, type->basic, place, first, value_node(b)), depth};
 }
 
-Expression Compiler::apply_op(Op op, const Type* type, Place place, const Expression& a) {
-  if (a.unknown()) return {type_of(Basic::unknown), place};
+Expression Values::apply_op(Op op, const Type* type, Place place, const Expression& a) {
+  if (a.unknown()) return unknown_at(place);
   type = base_of(type);
   if (a.constant) return folded(op, type, place, a.value, 0, a.untyped && op != Op::round_real);
-  Expression result{type, place};
-  result.depth = a.depth + 1;
-  result.node = add_node(op, type->basic, place, value_node(a));
-  return result;
+  return {type, place, add_node(op, type->basic, place, value_node(a)), a.depth + 1};
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "devices/plcopen/st/lexer.hpp"
+#include "devices/plcopen/st/reader.hpp"
 
 namespace drycut::devices::plcopen::st {
 
@@ -31,6 +31,37 @@ struct Tree {
   std::vector<const Token*> tokens;
   std::vector<Tree> parts;
   std::vector<ArgumentName> names;
+};
+
+/// One argument of a call.
+struct Argument {
+  const Token* name = nullptr;  ///< nullptr if there is none
+  bool output = false;
+  const Tree* tree = nullptr;
+};
+std::vector<Argument> arguments(const Tree& call);
+
+/// From tokens to the trees of expressions. Operators by their precedence (IEC 61131-3, as CODESYS reads it):
+/// parentheses and calls, **, - and NOT, then those of operators.hpp from the strongest on.
+class Parser : public Reader {
+ public:
+  using Reader::Reader;
+
+ protected:
+  Tree tree();
+  /// A name and what follows it: .member, [index] and (arguments).
+  Tree name_tree();
+  Tree call_tree(Tree callee);
+
+  int nesting_ = 0;  ///< of statements, types and expressions
+
+ private:
+  Tree tree(int level);
+  Tree unary_tree();
+  Tree power_tree();
+  Tree primary_tree();
+  Tree member_tree(Tree owner);
+  Tree element_tree(Tree owner);
 };
 
 }  // namespace drycut::devices::plcopen::st

@@ -1,4 +1,4 @@
-#include "devices/plcopen/st/operations.hpp"
+#include "devices/plcopen/st/arithmetic.hpp"
 
 #include <algorithm>
 #include <cmath>

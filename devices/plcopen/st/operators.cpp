@@ -1,0 +1,282 @@
+#include "devices/plcopen/st/operators.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+// What an operator makes of two values: the type that both have, conversions to it, a node. AND and OR take
+// both sides; AND_THEN and OR_ELSE do not.
+namespace drycut::devices::plcopen::st {
+namespace {
+
+using Kind = Operator::Kind;
+constexpr std::array operators{Operator{"OR", 0, Kind::logic, Op::bit_or},
+                               Operator{"OR_ELSE", 0, Kind::lazy, Op::or_else},
+                               Operator{"XOR", 1, Kind::logic, Op::bit_xor},
+                               Operator{"AND", 2, Kind::logic, Op::bit_and},
+                               Operator{"&", 2, Kind::logic, Op::bit_and},
+                               Operator{"AND_THEN", 2, Kind::lazy, Op::and_then},
+                               Operator{"=", 3, Kind::comparison, Op::equal, Op::equal_real},
+                               Operator{"<>", 3, Kind::comparison, Op::not_equal, Op::not_equal_real},
+                               Operator{"<", 4, Kind::comparison, Op::less, Op::less_real},
+                               Operator{">", 4, Kind::comparison, Op::greater, Op::greater_real},
+                               Operator{"<=", 4, Kind::comparison, Op::less_equal, Op::less_equal_real},
+                               Operator{">=", 4, Kind::comparison, Op::greater_equal, Op::greater_equal_real},
+                               Operator{"+", 5, Kind::arithmetic, Op::add, Op::add_real},
+                               Operator{"-", 5, Kind::arithmetic, Op::subtract, Op::subtract_real},
+                               Operator{"*", 6, Kind::arithmetic, Op::multiply, Op::multiply_real},
+                               Operator{"/", 6, Kind::arithmetic, Op::divide, Op::divide_real},
+                               Operator{"MOD", 6, Kind::modulo, Op::modulo},
+                               Operator{"**", 7, Kind::power, Op::power, Op::power}};
+
+bool is_zero(const Expression& value) {
+  return value.constant && (is_real(value.type->basic) ? real_of(value.value) == 0 : value.value == 0);
+}
+
+const Type* common_literals(const Expression& a, const Expression& b, const Type* wanted) {
+  const Expression& literal = a.untyped ? a : b;
+  const Expression& other = a.untyped ? b : a;
+  const Basic basic = other.type->basic;
+  const bool real = is_real(literal.type->basic);
+  const bool wide = is_wide(literal.type->basic);
+  if (other.untyped) {
+    const Basic whole = wide || is_wide(basic) ? Basic::ulint : Basic::lint;
+    return type_of(real || is_real(basic) ? Basic::lreal : whole);
+  }
+  if (is_real(basic)) return other.type;
+  if (real) {
+    // A literal does not make more of a REAL than the context asks for.
+    const bool single = wanted != nullptr && wanted->basic == Basic::real && widens(basic, Basic::real);
+    return widens(basic, Basic::lreal) && is_integer(basic) ? type_of(single ? Basic::real : Basic::lreal)
+                                                            : nullptr;
+  }
+  if (basic == Basic::boolean) return literal.value == 0 || literal.value == 1 ? other.type : nullptr;
+  if (!is_integer(basic) && basic != Basic::enumeration) return nullptr;
+  if (wide) return is_wide(basic) ? other.type : nullptr;
+  for (const Basic candidate : {basic, Basic::int_, Basic::dint, Basic::lint}) {
+    const Range range = range_of(candidate);
+    const bool holds = literal.value >= range.low && literal.value <= range.high;
+    if (holds && widens(basic, candidate) && candidate != Basic::enumeration) return type_of(candidate);
+  }
+  return nullptr;
+}
+
+/// One operator between two values.
+struct Operation {
+  Values& values;
+  const Operator& sign;
+  const Token& told;
+  Expression a;
+  Expression b;
+  const Type* wanted;
+
+  Expression result() {
+    switch (sign.kind) {
+      case Kind::power:
+        return power();
+      case Kind::comparison:
+        return comparison();
+      case Kind::arithmetic:
+      case Kind::modulo:
+        return arithmetic();
+      default:
+        return logic();
+    }
+  }
+
+ private:
+  Expression mismatch(const std::string& remedy) {
+    const auto name = [](const Expression& e) {
+      if (!e.untyped) return e.type->name;
+      return std::string(is_real(e.type->basic) ? "a real number" : "a whole number");
+    };
+    return values.refuse(told.place,
+                         fmt::format("{} does not go with {} and {}", in_quotes(told.text), name(a), name(b)),
+                         remedy);
+  }
+
+  Expression division_by_zero() {
+    return values.refuse(told.place, "division by the constant 0", "divide by something else");
+  }
+
+  /// Both as `type`; two literals stay literals.
+  void convert_both(const Type& type) {
+    const bool untyped = a.untyped && b.untyped;
+    a = values.converted(std::move(a), type);
+    b = values.converted(std::move(b), type);
+    a.untyped = b.untyped = untyped;
+  }
+
+  Expression apply(Op op, const Type* type, const Expression& x, const Expression& y) {
+    return values.apply_op(op, type, told.place, x, y);
+  }
+
+  Expression power() {
+    if (!is_number(a.type->basic) || !is_number(b.type->basic)) return mismatch("it takes numbers");
+    const Type* type = real_result(a, wanted);
+    return apply(Op::power, type, values.cast(a, type->basic, a.place),
+                 values.cast(b, Basic::lreal, b.place));
+  }
+
+  Expression arithmetic() {
+    const bool modulo = sign.kind == Kind::modulo;
+    if (is_clock(a.type->basic) || is_clock(b.type->basic)) return time_arithmetic();
+    const Type* type =
+        is_number(a.type->basic) && is_number(b.type->basic) ? common_type(a, b, wanted) : nullptr;
+    if (type == nullptr || (modulo && is_real(type->basic)))
+      return mismatch(modulo ? "it takes whole numbers" : "convert one: X_TO_Y(...)");
+    convert_both(*type);
+    if ((modulo || sign.op == Op::divide) && is_zero(b)) return division_by_zero();
+    return apply(is_real(type->basic) ? sign.real_op : sign.op, type, a, b);
+  }
+
+  Expression time_arithmetic() {
+    if (is_clock(a.type->basic) && is_clock(b.type->basic)) return clock_arithmetic();
+    const bool times = sign.op == Op::multiply;
+    if (times && b.type->basic == Basic::time) std::swap(a, b);
+    if ((!times && sign.op != Op::divide) || !is_number(b.type->basic) || a.type->basic != Basic::time)
+      return mismatch("TIME + TIME, TIME - TIME, TIME * number and TIME / number are times");
+    if (!times && is_zero(b)) return division_by_zero();
+    const bool real = is_real(b.type->basic);
+    if (real) b = values.cast(b, Basic::lreal, b.place);
+    const Op scaled = times ? Op::scale_time : Op::divide_time;
+    return apply(real ? scaled : sign.op, type_of(Basic::time), a, b);
+  }
+
+  Expression clock_arithmetic() {
+    const bool plus = sign.op == Op::add;
+    if (plus && a.type->basic == Basic::time) std::swap(a, b);
+    const Basic basic = a.type->basic;
+    const bool times = basic == Basic::time && b.type->basic == Basic::time;
+    const bool moved = (basic == Basic::tod || basic == Basic::dt) && b.type->basic == Basic::time;
+    const bool between = !plus && basic == b.type->basic;
+    if ((!plus && sign.op != Op::subtract) || (!times && !moved && !between))
+      return mismatch("a TIME goes to a TOD or DT, and lies between two of a kind");
+    const Type* time = type_of(Basic::time);
+    const auto number = [&](std::int64_t value) { return constant(time, value, told.place); };
+    if (between || times) {
+      Expression way = apply(sign.op, time, a, b);
+      return per_second(basic) == 1 ? apply(Op::multiply, time, way, number(1000)) : way;
+    }
+    if (basic == Basic::dt) return apply(sign.op, a.type, a, apply(Op::divide, time, b, number(1000)));
+    // The clock begins anew at midnight.
+    constexpr std::int64_t day = 86'400'000;
+    const Expression way = apply(Op::modulo, time, b, number(day));
+    const Expression later = apply(Op::add, time, a, number(day));
+    return apply(Op::modulo, a.type, apply(sign.op, time, later, way), number(day));
+  }
+
+  Expression logic() {
+    const auto takes = [](const Expression& e) {
+      return e.type->basic == Basic::boolean || is_integer(e.type->basic);
+    };
+    const bool lazy = sign.kind == Kind::lazy;
+    const Type* type = takes(a) && takes(b) ? common_type(a, b, nullptr) : nullptr;
+    const bool booleans = type != nullptr && type->basic == Basic::boolean;
+    if (type == nullptr || (lazy && !booleans))
+      return mismatch(lazy ? "it takes BOOL" : "it takes two BOOL or two whole numbers");
+    convert_both(*type);
+    return apply(sign.op, type, a, b);
+  }
+
+  Expression comparison() {
+    const Type* boolean = type_of(Basic::boolean);
+    if (a.type->basic == Basic::string && b.type->basic == Basic::string) {
+      const Type* whole = type_of(Basic::int_);
+      const Expression order{whole, told.place,
+                             values.add_node(Op::compare_strings, Basic::int_, told.place, a.node, b.node),
+                             std::max(a.depth, b.depth) + 1};
+      return apply(sign.op, boolean, order, constant(whole, 0, told.place));
+    }
+    const Type* type = common_type(a, b, nullptr);
+    if (type == nullptr || !is_elementary(type->basic)) return mismatch("compare two of one type");
+    a = values.converted(std::move(a), *type);
+    b = values.converted(std::move(b), *type);
+    if (is_wide(type->basic)) {
+      // With the first bit turned over, the order of signed numbers is that of unsigned ones.
+      const Expression first = constant(type, std::numeric_limits<std::int64_t>::min(), told.place);
+      a = apply(Op::bit_xor, type, a, first);
+      b = apply(Op::bit_xor, type, b, first);
+    }
+    return apply(is_real(type->basic) ? sign.real_op : sign.op, boolean, a, b);
+  }
+};
+
+Expression no_operand(Values& values, const Token& sign, const Expression& operand, const char* remedy) {
+  return values.refuse(
+      sign.place, fmt::format("{} does not go with {}", in_quotes(sign.text), operand.type->name), remedy);
+}
+
+}  // namespace
+
+const Operator* find_operator(std::string_view sign) {
+  const auto* const found = std::find_if(operators.begin(), operators.end(),
+                                         [&](const Operator& known) { return same_word(known.sign, sign); });
+  return found == operators.end() ? nullptr : found;
+}
+
+const Operator* find_operator(const Token& token) {
+  const bool may_be = token.kind == Token::Kind::name || token.kind == Token::Kind::sign;
+  return may_be ? find_operator(token.text) : nullptr;
+}
+
+Expression binary(Values& values, std::string_view sign, const Token& told, Expression a, Expression b,
+                  const Type* wanted) {
+  if (a.unknown() || b.unknown()) return unknown_at(told.place);
+  return Operation{values, *find_operator(sign), told, std::move(a), std::move(b), wanted}.result();
+}
+
+Expression signed_value(Values& values, const Token& sign, Expression operand, const Type* wanted) {
+  if (operand.unknown()) return operand;
+  const Basic basic = operand.type->basic;
+  if (sign.word("NOT")) return complement(values, sign, std::move(operand), wanted);
+  if (!is_number(basic) && !(is_clock(basic) && sign.is("+")))
+    return no_operand(values, sign, operand, "it takes numbers");
+  if (sign.is("+")) return operand;
+  return values.apply_op(is_real(basic) ? Op::negate_real : Op::negate, operand.type, sign.place, operand);
+}
+
+Expression complement(Values& values, const Token& sign, Expression operand, const Type* wanted) {
+  operand = literal_for_bits(values, std::move(operand), wanted, sign);
+  if (operand.unknown()) return operand;
+  const Basic basic = operand.type->basic;
+  if (basic == Basic::boolean || is_integer(basic))
+    return values.apply_op(Op::bit_not, operand.type, sign.place, operand);
+  return no_operand(values, sign, operand, "it takes BOOL and whole numbers");
+}
+
+Expression literal_for_bits(Values& values, Expression value, const Type* wanted, const Token& function) {
+  if (!value.untyped) return value;
+  if (wanted != nullptr && is_integer(wanted->basic))
+    return values.literal_as(std::move(value), *base_of(wanted));
+  return values.refuse(function.word("NOT") ? function.place : value.place,
+                       fmt::format("{} of a number without a type", upper(function.text)),
+                       "give it one: WORD#16#FF", function.place);
+}
+
+const Type* common_type(const Expression& a, const Expression& b, const Type* wanted) {
+  if (a.untyped || b.untyped) {
+    const Type* type = common_literals(a, b, wanted);
+    return type == nullptr ? nullptr : base_of(type);
+  }
+  const Type& x = *base_of(a.type);
+  const Type& y = *base_of(b.type);
+  if (same_type(x, y)) return &x;
+  if (x.basic == Basic::enumeration && y.basic == Basic::enumeration) return nullptr;
+  if (widens(x.basic, y.basic) && y.basic != Basic::enumeration) return &y;
+  if (widens(y.basic, x.basic) && x.basic != Basic::enumeration) return &x;
+  for (const Basic wider : {Basic::int_, Basic::dint, Basic::lint, Basic::real, Basic::lreal})
+    if (widens(x.basic, wider) && widens(y.basic, wider)) return type_of(wider);
+  return nullptr;
+}
+
+const Type* real_result(const Expression& value, const Type* wanted) {
+  const Basic basic = value.type->basic;
+  const bool open = value.untyped || (is_integer(basic) && widens(basic, Basic::real));
+  const bool single = basic == Basic::real || (open && wanted != nullptr && wanted->basic == Basic::real);
+  return type_of(single ? Basic::real : Basic::lreal);
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,107 @@
+#include "devices/plcopen/st/reader.hpp"
+
+#include <fmt/format.h>
+
+#include "devices/plcopen/st/keywords.hpp"
+
+namespace drycut::devices::plcopen::st {
+namespace {
+
+const Token no_more{};
+
+std::string found(const Token& token) {
+  return token.kind == Token::Kind::end ? "the end of the file" : in_quotes(token.text);
+}
+
+}  // namespace
+
+const Token& Reader::peek(std::size_t ahead) const {
+  if (at_ + ahead < stop_) return tokens_[at_ + ahead];
+  // The END_ keyword of the unit, or the end of the file.
+  return stop_ < tokens_.size() ? tokens_[stop_] : no_more;
+}
+
+const Token& Reader::take() {
+  const Token& token = peek();
+  if (at_ < stop_) ++at_;
+  return token;
+}
+
+bool Reader::accept(std::string_view sign) {
+  if (at_ >= stop_ || !peek().is(sign)) return false;
+  ++at_;
+  return true;
+}
+
+bool Reader::accept_word(std::string_view keyword) {
+  if (at_ >= stop_ || !peek().word(keyword)) return false;
+  ++at_;
+  return true;
+}
+
+Place Reader::behind() const {
+  if (at_ == 0) return peek().place;
+  const Token& last = tokens_[at_ - 1];
+  return {last.place.line, last.place.column + static_cast<int>(last.text.size())};
+}
+
+std::string Reader::suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
+                              const std::string& otherwise) const {
+  constexpr std::size_t enough = 50;
+  return problems_.size() - first_problem_ < enough ? suggestion(word, known(), otherwise) : otherwise;
+}
+
+void Reader::complain(Place place, std::string what, std::string remedy) {
+  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+}
+
+void Reader::give_up(Place place, std::string what, std::string remedy) {
+  // What the lexer could not read has been told.
+  if (peek().kind != Token::Kind::bad) complain(place, std::move(what), std::move(remedy));
+  throw GiveUp{};
+}
+
+void Reader::expect(std::string_view sign, std::string_view where) {
+  if (accept(sign)) return;
+  if (peek().kind == Token::Kind::bad) throw GiveUp{};
+  if (sign == ":=" && peek().is("=")) give_up(peek().place, "'=' compares", "':=' assigns");
+  // A sign that is missing at a line's end is missing there, not where the next line begins.
+  const bool next_line = at_ > 0 && tokens_[at_ - 1].place.line != peek().place.line;
+  const std::string what = fmt::format("'{}' is missing before {}", sign, found(peek()));
+  const std::string remedy = fmt::format("'{}' {}", sign, where);
+  if (!next_line) give_up(peek().kind == Token::Kind::end ? behind() : peek().place, what, remedy);
+  complain(behind(), what, remedy);
+  // The next line is a statement of its own.
+  if (sign != ";") throw GiveUp{};
+}
+
+void Reader::expect_word(std::string_view keyword, std::string_view where) {
+  if (accept_word(keyword)) return;
+  give_up(peek().place, fmt::format("{} is missing before {}", keyword, found(peek())), std::string(where));
+}
+
+Token Reader::expect_name(const std::string& what) {
+  const bool keyword = at_word(is_keyword);
+  if (at_ < stop_ && peek().kind == Token::Kind::name && !keyword) return take();
+  give_up(peek().place, fmt::format("{} is missing before {}", what, found(peek())),
+          keyword ? fmt::format("{} is a word of the language, no name", upper(peek().text))
+                  : "a name begins with a letter");
+}
+
+void Reader::skip_to(const std::function<bool()>& here) {
+  while (at_ < stop_ && !here()) ++at_;
+}
+
+void Reader::skip_past(std::string_view word) {
+  while (at_ < stop_ && !peek().word(word) && !take().is(";")) {
+  }
+}
+
+void Reader::skip_statement() {
+  while (at_ < stop_) {
+    if (at_word(closes_block)) return;
+    if (take().is(";")) return;
+  }
+}
+
+}  // namespace drycut::devices::plcopen::st

@@ -1,0 +1,124 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "devices/plcopen/st/code.hpp"
+#include "devices/plcopen/st/parser.hpp"
+
+namespace drycut::devices::plcopen::st {
+
+/// A part of the file that has a name: a POU, one type of a TYPE section, or a VAR_GLOBAL section.
+struct Unit {
+  enum class Kind : std::uint8_t { program, function_block, function, type, globals };
+  enum class State : std::uint8_t { untouched, open, done };
+  Kind kind = Kind::program;
+  State state = State::untouched;
+  Token name;
+  std::size_t first = 0;  ///< token where the declarations begin
+  std::size_t body = 0;   ///< where the statements begin, once declared
+  std::size_t end = 0;    ///< the END_ keyword
+  bool standard = false;  ///< TON and its like
+  const Type* type = nullptr;
+  const Type* result = nullptr;  ///< of a FUNCTION
+  int pou = -1;
+  std::set<int> calls;  ///< POUs that its body calls
+  int levels = 1;  ///< how deep the machine calls itself for its body; with those that it calls at the end
+  int levels_below = 0;  ///< of what it calls
+};
+
+/// A part of a whole number: w.3.
+struct Bits {
+  const Type* of = nullptr;
+  int shift = 0;
+  int width = 1;
+};
+
+/// An expression while it is compiled.
+struct Expression {
+  Expression() = default;
+  /// A value that `node` computes; without a node nothing is known of it.
+  Expression(const Type* of, Place at, int computed_by = -1, int deep = 1)
+      : type(of), place(at), node(computed_by), depth(deep) {}
+
+  const Type* type = type_of(Basic::unknown);
+  Place place;
+  int node = -1;          ///< its value, or its address
+  bool address = false;   ///< it is a variable: `node` is its address
+  bool constant = false;  ///< `value` is known; no node yet
+  bool untyped = false;   ///< a literal without a type: it takes the type that is asked for
+  Cell value = 0;
+  int depth = 1;                      ///< of the tree
+  std::string name;                   ///< of a variable, for messages
+  std::string locked;                 ///< why it is not to be assigned
+  std::optional<std::string> string;  ///< a literal
+  bool cam_file = false;              ///< MC_CAM_REF.File
+  std::optional<Bits> bits;           ///< it is a part of the variable at `node`
+
+  [[nodiscard]] bool unknown() const { return type->basic == Basic::unknown; }
+};
+
+inline Expression unknown_at(Place place) { return {type_of(Basic::unknown), place}; }
+Expression constant(const Type* type, Cell value, Place place, bool untyped = false);
+/// The variable at the address that `node` computes.
+Expression variable_at(const Type* type, int node, const std::string& name, Place place);
+/// One more than the deepest of them.
+int depth_over(const std::vector<Expression>& values);
+
+/// Values and the code that computes them: constants, nodes, conversions.
+class Values : public Parser {
+ public:
+  using Parser::Parser;
+
+  /// Tells a problem; what it is about is unknown from then on.
+  Expression refuse(Place place, std::string what, std::string remedy, Place of);
+  Expression refuse(Place place, std::string what, std::string remedy) {
+    return refuse(place, std::move(what), std::move(remedy), place);
+  }
+
+  /// As a value of type `to`, by the conversions that IEC 61131-3 makes by itself.
+  Expression converted(Expression expression, const Type& to);
+  Expression literal_as(Expression literal, const Type& to);
+  /// By a conversion function.
+  Expression cast(const Expression& expression, Basic to, Place place);
+  /// What can no longer be assigned to.
+  Expression as_value(Expression expression);
+  /// An operation without effects; of constants its result.
+  Expression apply_op(Op op, const Type* type, Place place, const Expression& a, const Expression& b);
+  Expression apply_op(Op op, const Type* type, Place place, const Expression& a);
+
+  int value_node(const Expression& expression);
+  int address_plus(int node, std::int64_t offset);
+  int add_node(Op op, Basic basic, Place place, int a = -1, int b = -1, int c = -1, std::int64_t imm = 0);
+  /// A node that has no other nodes.
+  int leaf_node(Op op, Basic basic, Place place, std::int64_t imm) {
+    return add_node(op, basic, place, -1, -1, -1, imm);
+  }
+  int add_list(const std::vector<int>& items);
+  int add_span(const Span& span);
+  int literal_string(const std::string& text, Place place);
+  /// The address of cells for a value on its way.
+  int scratch(const Type& type, Place place);
+
+ protected:
+  [[nodiscard]] const Node& node(int number) const { return code_->nodes[static_cast<std::size_t>(number)]; }
+  [[nodiscard]] Pou& pou(const Unit& unit) { return code_->pous[static_cast<std::size_t>(unit.pou)]; }
+
+  std::shared_ptr<Compiled> code_ = std::make_shared<Compiled>();
+  std::vector<Cell> pool_;  ///< literals and scratch, placed last
+  Unit* unit_ = nullptr;    ///< whose text is being read
+
+ private:
+  Expression in_subrange(const Expression& value, const Type& to);
+  Expression folded(Op op, const Type* type, Place place, Cell a, Cell b, bool untyped);
+  int bits_node(const Expression& expression);
+  int in_pool(std::size_t cells);
+
+  std::unordered_map<std::string, int> strings_;
+};
+
+}  // namespace drycut::devices::plcopen::st
