@@ -37,6 +37,13 @@ struct One {
     execute(block);
     for (int i = 0; i < 10'000 && !block.Done && !block.Error; ++i) cycle(block);
   }
+  /// Until `reached` is TRUE; the peaks of the way.
+  template <typename Block>
+  Peaks run(Block& block, const bool& reached) {
+    Peaks peaks;
+    for (execute(block); !reached; peaks.take(axis().set())) cycle(block);
+    return peaks;
+  }
   template <typename Block>
   void cycle(Block& block) {
     drive();
@@ -65,20 +72,14 @@ TEST(PlcopenAxis, MoveAbsoluteKeepsItsDynamicsAndEndsExactly) {
   one.to.Acceleration = 2'000;
   one.to.Deceleration = 1'000;
   one.to.Jerk = 50'000;
-  one.execute(one.to);
-  Peaks peaks;
-  while (!one.to.Done) {
-    one.cycle(one.to);
-    peaks.take(one.axis().set());
-  }
+  const Peaks peaks = one.run(one.to, one.to.Done);
   EXPECT_EQ(one.part(), 1'500'000.25);
   EXPECT_EQ(one.axis().state(), AxisState::standstill);
   EXPECT_NEAR(peaks.v, 1e6, 1);
   EXPECT_NEAR(peaks.a, 2e7, 1);
   EXPECT_NEAR(peaks.d, 1e7, 1);
   EXPECT_NEAR(peaks.j, 5e8, 1e3);
-  covers({"MC_MoveAbsolute.Position", "MC_MoveAbsolute.Velocity", "MC_MoveAbsolute.Acceleration",
-          "MC_MoveAbsolute.Deceleration", "MC_MoveAbsolute.Jerk", "MC_MoveAbsolute.Done"});
+  covers("MC_MoveAbsolute", {"Position", "Velocity", "Acceleration", "Deceleration", "Jerk", "Done"});
 }
 
 TEST(PlcopenAxis, WithoutItsOwnDynamicsACommandTakesTheAxis) {
@@ -89,12 +90,7 @@ TEST(PlcopenAxis, WithoutItsOwnDynamicsACommandTakesTheAxis) {
   One one(parameters);
   one.to.Position = 1'700'000;
   one.to.Velocity = 2e9;
-  one.execute(one.to);
-  Peaks peaks;
-  while (!one.to.Done) {
-    one.cycle(one.to);
-    peaks.take(one.axis().set());
-  }
+  const Peaks peaks = one.run(one.to, one.to.Done);
   EXPECT_NEAR(peaks.v, 1.5e6, 1);
   EXPECT_NEAR(peaks.a, 1.5e7, 1);
   EXPECT_NEAR(peaks.j, 1.5e8, 1e3);
@@ -135,36 +131,21 @@ TEST(PlcopenAxis, MoveVelocityHaltAndStopKeepTheirDynamics) {
   One one;
   one.turn_on.Acceleration = 2'000;
   one.turn_on.Jerk = 40'000;
-  one.execute(one.turn_on);
-  Peaks up;
-  while (!one.turn_on.InVelocity) {
-    one.cycle(one.turn_on);
-    up.take(one.axis().set());
-  }
+  const Peaks up = one.run(one.turn_on, one.turn_on.InVelocity);
   EXPECT_NEAR(up.a, 2e7, 1);
   EXPECT_NEAR(up.j, 4e8, 1e3);
   EXPECT_EQ(one.axis().set().velocity, 1e6);
   // Slower: the deceleration of its own.
   one.turn_on.Velocity = 20'000;
   one.turn_on.Deceleration = 700;
-  one.execute(one.turn_on);
-  Peaks slower;
-  while (!one.turn_on.InVelocity) {
-    one.cycle(one.turn_on);
-    slower.take(one.axis().set());
-  }
+  const Peaks slower = one.run(one.turn_on, one.turn_on.InVelocity);
   EXPECT_NEAR(slower.d, 7e6, 1);
   one.turn_on.Velocity = 100'000;
   one.execute(one.turn_on);
   for (int i = 0; i < 500; ++i) one.cycle(one.turn_on);
   one.halt.Deceleration = 900;
   one.halt.Jerk = 30'000;
-  one.execute(one.halt);
-  Peaks down;
-  while (!one.halt.Done) {
-    one.cycle(one.halt);
-    down.take(one.axis().set());
-  }
+  const Peaks down = one.run(one.halt, one.halt.Done);
   EXPECT_NEAR(down.d, 9e6, 1);
   EXPECT_NEAR(down.j, 3e8, 1e3);
   EXPECT_EQ(one.axis().set().velocity, 0);
@@ -173,16 +154,12 @@ TEST(PlcopenAxis, MoveVelocityHaltAndStopKeepTheirDynamics) {
   for (int i = 0; i < 500; ++i) one.cycle(one.turn_on);
   one.stop.Deceleration = 1'100;
   one.stop.Jerk = 60'000;
-  one.execute(one.stop);
-  Peaks stopping;
-  while (!one.stop.Done) {
-    one.cycle(one.stop);
-    stopping.take(one.axis().set());
-  }
+  const Peaks stopping = one.run(one.stop, one.stop.Done);
   EXPECT_NEAR(stopping.d, 1.1e7, 1);
   EXPECT_NEAR(stopping.j, 6e8, 1e3);
-  covers({"MC_MoveVelocity.Acceleration", "MC_MoveVelocity.Deceleration", "MC_MoveVelocity.Jerk",
-          "MC_Halt.Deceleration", "MC_Halt.Jerk", "MC_Halt.Done", "MC_Stop.Deceleration", "MC_Stop.Jerk"});
+  covers("MC_MoveVelocity", {"Acceleration", "Deceleration", "Jerk"});
+  covers("MC_Halt", {"Deceleration", "Jerk", "Done"});
+  covers({"MC_Stop.Deceleration", "MC_Stop.Jerk"});
 }
 
 TEST(PlcopenAxis, InputsOutOfRangeAreRefusedByTheirNumbers) {
@@ -343,10 +320,7 @@ TEST(PlcopenAxis, OverrideAndFeedHoldSlowAnUncoupledAxisWithoutALeap) {
 }
 
 TEST(PlcopenAxis, SoftwareLimitsRefuseATargetAndStopARunningAxisInFrontOfThem) {
-  AxisParameters linear = Bench::virtual_axis();
-  linear.modulo = 0;
-  linear.swe_neg = -500'000;
-  linear.swe_pos = 2'000'000;
+  AxisParameters linear = Bench::linear_axis(-500'000, 2'000'000);
   One one(linear);
   one.to.Position = 2'000'001;
   one.execute(one.to);
@@ -386,9 +360,7 @@ TEST(PlcopenAxis, ParametersKeepTheirRangesAndWhatTheAxisIsMadeOfIsFixedWhileItR
 TEST(PlcopenAxis, CamTableSelectFindsByFileWhichWinsOrById) {
   Bench b;
   b.table({1}, 3, Interpolation::linear, 5);
-  McCamTableSelect select;
-  select.Master = b.master;
-  select.Slave = b.slave;
+  auto select = b.make<McCamTableSelect>();
   const auto ask = [&](const char* file, std::uint16_t number) {
     select.CamTable = {file, number};
     select.Execute = false;
@@ -411,9 +383,9 @@ TEST(PlcopenAxis, CamTableSelectFindsByFileWhichWinsOrById) {
   select.Slave = b.slave;
   select.Master = {};
   EXPECT_EQ(ask("", 5), 0);
-  covers({"60265", "MC_CamTableSelect.Master", "MC_CamTableSelect.Slave", "MC_CamTableSelect.Execute",
-          "MC_CamTableSelect.CamTable", "MC_CamTableSelect.Done", "MC_CamTableSelect.Error",
-          "MC_CamTableSelect.ErrorID", "MC_CamTableSelect.CamTableID"});
+  covers("MC_CamTableSelect",
+         {"Master", "Slave", "Execute", "CamTable", "Done", "Error", "ErrorID", "CamTableID"});
+  covers({"60265"});
 }
 
 }  // namespace

@@ -18,6 +18,19 @@ inline constexpr double cycle_s = 0.002;
 /// As the blocks' ErrorID pins have it.
 inline unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
 
+inline AxisParameters axis_of(AxisKind kind) {
+  AxisParameters parameters;
+  parameters.kind = static_cast<int>(kind);
+  return parameters;
+}
+
+/// The pin of this name; nullptr if there is none.
+template <typename T>
+T* pin_of(const BlockType& type, FunctionBlock& block, const char* name) {
+  const int number = find_pin(type, name);
+  return number < 0 ? nullptr : std::get<T*>(type.pin(block, static_cast<std::size_t>(number)));
+}
+
 /// Gives a block a rising edge of Execute.
 template <typename Block>
 void execute(Block& block, MotionKernel& kernel) {
@@ -49,6 +62,15 @@ struct Bench {
     return parameters;
   }
 
+  /// Without turns; between its software limits, if they differ.
+  static AxisParameters linear_axis(double swe_neg = 0, double swe_pos = 0) {
+    AxisParameters parameters = virtual_axis();
+    parameters.modulo = 0;
+    parameters.swe_neg = swe_neg;
+    parameters.swe_pos = swe_pos;
+    return parameters;
+  }
+
   explicit Bench(const AxisParameters& slave_parameters = virtual_axis()) {
     master = kernel.add_axis("Master", virtual_axis());
     slave = kernel.add_axis("Slave", slave_parameters);
@@ -58,6 +80,32 @@ struct Bench {
     power_master.call(kernel);
     power_slave.call(kernel);
     run.Velocity = 360'000;  // one turn a second
+  }
+
+  /// A block for the slave, and of a coupling behind the master.
+  template <typename Block>
+  Block make(double velocity = 0) {
+    Block block;
+    if constexpr (requires { block.Axis; }) block.Axis = slave;
+    if constexpr (requires { block.Slave; }) block.Slave = slave;
+    if constexpr (requires { block.Master; }) block.Master = master;
+    if constexpr (requires { block.Velocity; }) block.Velocity = velocity;
+    return block;
+  }
+  /// Cycles of the kernel, after each of which the blocks are called.
+  template <typename... Blocks>
+  void cycles(int times, Blocks&... blocks) {
+    for (int i = 0; i < times; ++i) {
+      kernel.cycle();
+      (blocks.call(kernel), ...);
+    }
+  }
+  /// Cycles until the block is done or fails; their number.
+  template <typename Block>
+  int finish(Block& block, int most = 20'000) {
+    int times = 0;
+    for (; times < most && !block.Done && !block.Error; ++times) cycles(1, block);
+    return times;
   }
 
   Axis& m() { return *kernel.axis(master); }
@@ -112,6 +160,11 @@ struct Bench {
     cam.call(kernel);
     cam.Execute = true;
     step();
+  }
+  /// The same, and until it is in place.
+  void engage(std::uint32_t mode = hli_ci_f_periodic) {
+    couple(mode);
+    ASSERT_GE(until([&] { return cam.InSync; }), 0);
   }
   CouplingPhase phase() { return s().coupling()->phase(); }
 };

@@ -11,20 +11,12 @@ namespace {
 template <typename Block>
 int finish(Block& block, Bench& b) {
   execute(block, b.kernel);
-  int cycles = 0;
-  while (!block.Done && !block.Error && cycles < 20'000) {
-    b.kernel.cycle();
-    block.call(b.kernel);
-    ++cycles;
-  }
-  return cycles;
+  return b.finish(block);
 }
 
 TEST(PlcopenMoveRelative, MovesByTheDistanceWhereverTheAxisIs) {
   Bench b;
-  McMoveRelative by;
-  by.Axis = b.slave;
-  by.Velocity = 200'000;
+  auto by = b.make<McMoveRelative>(200'000);
   double expected = 0;
   // Over the turn's end, back below 0, and by several turns.
   for (const double distance : {3'000'000.0, 900'000.5, -4'100'000.0, 9'000'000.0, -0.25, 0.0}) {
@@ -35,14 +27,12 @@ TEST(PlcopenMoveRelative, MovesByTheDistanceWhereverTheAxisIs) {
     EXPECT_DOUBLE_EQ(b.at(b.s()), expected);
     EXPECT_EQ(b.s().state(), AxisState::standstill);
   }
-  covers({"MC_MoveRelative.Axis", "MC_MoveRelative.Execute", "MC_MoveRelative.Distance",
-          "MC_MoveRelative.Done"});
+  covers("MC_MoveRelative", {"Axis", "Execute", "Distance", "Done"});
 }
 
 TEST(PlcopenMoveRelative, KeepsItsSpeedAndSlopes) {
   Bench b;
-  McMoveRelative by;
-  by.Axis = b.slave;
+  auto by = b.make<McMoveRelative>();
   by.Distance = 2'000'000;
   by.Velocity = 60'000;
   by.Acceleration = 400;
@@ -61,36 +51,26 @@ TEST(PlcopenMoveRelative, KeepsItsSpeedAndSlopes) {
   EXPECT_NEAR(peaks.d, 200 * increments_per_acceleration, 1e-3);
   EXPECT_LE(peaks.j, 8'000 * increments_per_acceleration * (1 + 1e-6));
   EXPECT_GT(peaks.j, 7'900 * increments_per_acceleration);
-  covers({"MC_MoveRelative.Velocity", "MC_MoveRelative.Acceleration", "MC_MoveRelative.Deceleration",
-          "MC_MoveRelative.Jerk"});
+  covers("MC_MoveRelative", {"Velocity", "Acceleration", "Deceleration", "Jerk"});
 }
 
 TEST(PlcopenMoveRelative, CountsFromTheCommandedPositionOfAMovingAxis) {
   Bench b;
-  McMoveVelocity on;
-  on.Axis = b.slave;
-  on.Velocity = 100'000;
+  auto on = b.make<McMoveVelocity>(100'000);
   execute(on, b.kernel);
-  for (int i = 0; i < 500; ++i) b.kernel.cycle();
+  b.cycles(500);
   const double from = b.at(b.s());
   EXPECT_GT(b.s().set().velocity, 0);
-  McMoveRelative by;
-  by.Axis = b.slave;
-  by.Velocity = 100'000;
+  auto by = b.make<McMoveRelative>(100'000);
   by.Distance = -500'000;
   finish(by, b);
   EXPECT_NEAR(b.at(b.s()), from - 500'000, 1e-6);
 }
 
 TEST(PlcopenMoveRelative, RefusesWhatIsOutOfRange) {
-  AxisParameters linear = Bench::virtual_axis();
-  linear.modulo = 0;
-  linear.swe_neg = -1'000'000;
-  linear.swe_pos = 2'000'000;
+  AxisParameters linear = Bench::linear_axis(-1'000'000, 2'000'000);
   Bench b(linear);
-  McMoveRelative by;
-  by.Axis = b.slave;
-  by.Velocity = 100'000;
+  auto by = b.make<McMoveRelative>(100'000);
   const auto error_of = [&](double distance, double velocity) {
     by.Distance = distance;
     by.Velocity = velocity;
@@ -116,10 +96,8 @@ TEST(PlcopenMoveRelative, RefusesWhatIsOutOfRange) {
 
 TEST(PlcopenMoveRelative, WhatHasEndedIsNotAbortedByWhatComesLater) {
   Bench b;
-  McMoveRelative refused;
-  McMoveRelative done;
-  refused.Axis = done.Axis = b.slave;
-  done.Velocity = 100'000;
+  auto refused = b.make<McMoveRelative>();
+  auto done = b.make<McMoveRelative>(100'000);
   done.Distance = 1'000;
   execute(refused, b.kernel);  // without a velocity
   finish(done, b);
@@ -136,14 +114,12 @@ TEST(PlcopenMoveRelative, WhatHasEndedIsNotAbortedByWhatComesLater) {
 }
 
 TEST(PlcopenSetPosition, GivesTheAxisAnotherValueWithoutMovingOrHomingIt) {
-  AxisParameters parameters;
-  parameters.kind = static_cast<int>(AxisKind::encoder);
+  AxisParameters parameters = axis_of(AxisKind::encoder);
   Bench b(parameters);
   b.s().drive.counts = 2'500;
   b.kernel.cycle();
   EXPECT_DOUBLE_EQ(b.s().actual().part, 900'000);
-  McSetPosition set;
-  set.Axis = b.slave;
+  auto set = b.make<McSetPosition>();
   set.Position = 100'000;
   execute(set, b.kernel);
   EXPECT_TRUE(set.Done);
@@ -162,8 +138,7 @@ TEST(PlcopenSetPosition, GivesTheAxisAnotherValueWithoutMovingOrHomingIt) {
   set.Execute = false;
   set.call(b.kernel);
   EXPECT_FALSE(set.Done);
-  covers({"MC_SetPosition.Axis", "MC_SetPosition.Execute", "MC_SetPosition.Position",
-          "MC_SetPosition.Relative", "MC_SetPosition.Done"});
+  covers("MC_SetPosition", {"Axis", "Execute", "Position", "Relative", "Done"});
 }
 
 TEST(PlcopenSetPosition, TheDriveDoesNotFeelIt) {
@@ -171,8 +146,7 @@ TEST(PlcopenSetPosition, TheDriveDoesNotFeelIt) {
   parameters.homed_at_start = 1;
   Bench b(parameters);
   b.kernel.cycle();
-  McSetPosition set;
-  set.Axis = b.slave;
+  auto set = b.make<McSetPosition>();
   set.Position = 1'234'567;
   execute(set, b.kernel);
   b.kernel.cycle();
@@ -230,14 +204,12 @@ TEST(PlcopenSetOverride, ScalesTheSpeedOfMovementsTogetherWithTheOperators) {
   override.VelFactor = 0;
   EXPECT_EQ(speed(), 0);
   EXPECT_EQ(b.m().state(), AxisState::continuous_motion);
-  covers(
-      {"MC_SetOverride.Axis", "MC_SetOverride.Enable", "MC_SetOverride.VelFactor", "MC_SetOverride.Enabled"});
+  covers("MC_SetOverride", {"Axis", "Enable", "VelFactor", "Enabled"});
 }
 
 TEST(PlcopenSetOverride, RefusesAFactorBeyondOne) {
   Bench b;
-  McSetOverride override;
-  override.Axis = b.slave;
+  auto override = b.make<McSetOverride>();
   override.Enable = true;
   for (const double factor : {1.001, -0.001, std::nan("")}) {
     override.VelFactor = factor;

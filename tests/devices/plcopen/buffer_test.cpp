@@ -17,8 +17,7 @@ struct Queue : Bench {
   Peaks peaks;
 
   explicit Queue(BufferMode mode, double v1 = 100'000, double v2 = 150'000, double target = 3'000'000) {
-    AxisParameters linear = virtual_axis();
-    linear.modulo = 0;
+    AxisParameters linear = Bench::linear_axis();
     slave = kernel.add_axis("Linear", linear);
     power_slave = {};
     power_slave.Axis = slave;
@@ -32,9 +31,7 @@ struct Queue : Bench {
     second.BufferMode = number(mode);
   }
   void cycle() {
-    kernel.cycle();
-    first.call(kernel);
-    second.call(kernel);
+    cycles(1, first, second);
     peaks.take(s().set());
   }
   /// Both given at once, then cycles until the second one has control.
@@ -75,7 +72,7 @@ TEST(PlcopenBuffer, TheSecondStartsInTheCycleInWhichTheFirstIsDone) {
   EXPECT_LT(b.s().set().position.part, 1'000'000) << "it moves from the next cycle on";
   EXPECT_TRUE(b.first.Done);
   b.to_end();
-  covers({"MC_MoveAbsolute.BufferMode", "MC_MoveAbsolute.Busy", "MC_MoveAbsolute.Active"});
+  covers("MC_MoveAbsolute", {"BufferMode", "Busy", "Active"});
 }
 
 TEST(PlcopenBuffer, WithNothingUnderWayEveryModeStartsAtOnce) {
@@ -139,8 +136,7 @@ TEST(PlcopenBuffer, AtOneSpeedBlendedWaysAreOneWay) {
   const int whole = cycles({5'000'000});
   EXPECT_EQ(cycles({2'000'000, 3'000'000}), whole);
   EXPECT_EQ(cycles({1'500'000, 1'500'000, 2'000'000}), whole);
-  covers({"MC_MoveRelative.BufferMode", "MC_MoveRelative.Busy", "MC_MoveRelative.Active",
-          "MC_MoveRelative.CommandAborted"});
+  covers("MC_MoveRelative", {"BufferMode", "Busy", "Active", "CommandAborted"});
 }
 
 TEST(PlcopenBuffer, WhereTheSecondTurnsBackTheFirstStops) {
@@ -179,7 +175,7 @@ TEST(PlcopenBuffer, BlendingThatComesLateTakesTheSpeedThatIsStillThere) {
 TEST(PlcopenBuffer, BlendingUnderAnOverrideKeepsItsShare) {
   Queue b(BufferMode::blending_next);
   b.s().control.override_percent = 50;
-  for (int i = 0; i < 200; ++i) b.kernel.cycle();
+  b.cycles(200);
   b.to_changeover();
   EXPECT_NEAR(b.s().set().velocity, 0.5 * 150'000 * increments_per_speed, 3'000);
   for (int i = 0; i < 20'000 && !b.second.Done; ++i) b.cycle();
@@ -188,10 +184,8 @@ TEST(PlcopenBuffer, BlendingUnderAnOverrideKeepsItsShare) {
 
 TEST(PlcopenBuffer, ASpeedIsDoneWhenItIsReachedAndThenAborted) {
   Bench b;
-  McMoveVelocity on;
-  McMoveAdditive then;
-  on.Axis = then.Axis = b.slave;
-  on.Velocity = then.Velocity = 100'000;
+  auto on = b.make<McMoveVelocity>(100'000);
+  auto then = b.make<McMoveAdditive>(100'000);
   then.Distance = 4'000'000;
   then.BufferMode = number(BufferMode::buffered);
   execute(on, b.kernel);
@@ -200,34 +194,25 @@ TEST(PlcopenBuffer, ASpeedIsDoneWhenItIsReachedAndThenAborted) {
   while (!then.Active) {
     EXPECT_TRUE(on.Busy && on.Active);
     EXPECT_LT(b.s().set().velocity, 1'000'000);
-    b.kernel.cycle();
-    on.call(b.kernel);
-    then.call(b.kernel);
+    b.cycles(1, on, then);
     ASSERT_LT(++cycles, 1'000);
   }
   EXPECT_DOUBLE_EQ(b.s().set().velocity, 1'000'000);
   EXPECT_TRUE(on.CommandAborted);
   EXPECT_FALSE(on.InVelocity || on.Busy || on.Active);
   const double from = b.at(b.s());
-  while (!then.Done) {
-    b.kernel.cycle();
-    then.call(b.kernel);
-    ASSERT_LT(++cycles, 20'000);
-  }
+  ASSERT_LT(b.finish(then), 20'000);
   EXPECT_NEAR(b.at(b.s()), from + 4'000'000, 1e-6) << "from where it was, for it led nowhere";
-  covers({"MC_MoveVelocity.BufferMode", "MC_MoveVelocity.Busy", "MC_MoveVelocity.Active",
-          "MC_MoveVelocity.CommandAborted", "MC_MoveAdditive.BufferMode", "MC_MoveAdditive.Busy",
-          "MC_MoveAdditive.Active", "MC_MoveAdditive.Done"});
+  covers("MC_MoveVelocity", {"BufferMode", "Busy", "Active", "CommandAborted"});
+  covers("MC_MoveAdditive", {"BufferMode", "Busy", "Active", "Done"});
 }
 
 TEST(PlcopenBuffer, ACamBehindAMoveEngagesAtItsEndAndAMoveBehindACamAtItsProfilesEnd) {
   Bench b;
   b.table(one_to_one());
   b.start_master();
-  McMoveAbsolute before;
-  McMoveRelative after;
-  before.Axis = after.Axis = b.slave;
-  before.Velocity = after.Velocity = 300'000;
+  auto before = b.make<McMoveAbsolute>(300'000);
+  auto after = b.make<McMoveRelative>(300'000);
   before.Position = 900'000;
   after.Distance = 500'000;
   after.BufferMode = b.cam.BufferMode = number(BufferMode::buffered);
@@ -236,13 +221,7 @@ TEST(PlcopenBuffer, ACamBehindAMoveEngagesAtItsEndAndAMoveBehindACamAtItsProfile
   execute(b.cam, b.kernel);
   EXPECT_TRUE(b.cam.Busy);
   EXPECT_FALSE(b.cam.Active);
-  const auto step = [&] {
-    b.kernel.cycle();
-    b.run.call(b.kernel);
-    before.call(b.kernel);
-    b.cam.call(b.kernel);
-    after.call(b.kernel);
-  };
+  const auto step = [&] { b.cycles(1, b.run, before, b.cam, after); };
   int cycles = 0;
   while (!before.Done && ++cycles < 5'000) step();
   EXPECT_TRUE(b.cam.Active);
@@ -261,18 +240,15 @@ TEST(PlcopenBuffer, ACamBehindAMoveEngagesAtItsEndAndAMoveBehindACamAtItsProfile
   EXPECT_EQ(b.s().state(), AxisState::discrete_motion);
   while (!after.Done && ++cycles < 20'000) step();
   EXPECT_TRUE(after.Done);
-  covers({"MC_CamIn.BufferMode", "MC_CamIn.Busy", "MC_CamIn.Active", "MC_CamIn.CommandAborted"});
+  covers("MC_CamIn", {"BufferMode", "Busy", "Active", "CommandAborted"});
 }
 
 TEST(PlcopenBuffer, AGearBehindAMoveAndAMoveBehindAGear) {
   Bench b;
   b.start_master();
-  McMoveAbsolute before;
-  McGearIn gear;
-  McMoveRelative after;
-  before.Axis = after.Axis = gear.Slave = b.slave;
-  gear.Master = b.master;
-  before.Velocity = after.Velocity = 300'000;
+  auto before = b.make<McMoveAbsolute>(300'000);
+  auto gear = b.make<McGearIn>();
+  auto after = b.make<McMoveRelative>(300'000);
   before.Position = 900'000;
   after.Distance = 500'000;
   gear.RatioNumerator = 1;
@@ -281,13 +257,7 @@ TEST(PlcopenBuffer, AGearBehindAMoveAndAMoveBehindAGear) {
   execute(before, b.kernel);
   execute(gear, b.kernel);
   execute(after, b.kernel);
-  const auto step = [&] {
-    b.kernel.cycle();
-    b.run.call(b.kernel);
-    before.call(b.kernel);
-    gear.call(b.kernel);
-    after.call(b.kernel);
-  };
+  const auto step = [&] { b.cycles(1, b.run, before, gear, after); };
   int cycles = 0;
   while (!before.Done && ++cycles < 5'000) {
     EXPECT_TRUE(gear.Busy && after.Busy);
@@ -298,7 +268,7 @@ TEST(PlcopenBuffer, AGearBehindAMoveAndAMoveBehindAGear) {
   while (!after.Active && ++cycles < 20'000) step();
   EXPECT_TRUE(gear.CommandAborted);
   EXPECT_NEAR(b.s().set().velocity, b.m().set().velocity / 2, 1) << "InGear";
-  covers({"MC_GearIn.BufferMode", "MC_GearIn.Busy", "MC_GearIn.Active", "MC_GearIn.CommandAborted"});
+  covers("MC_GearIn", {"BufferMode", "Busy", "Active", "CommandAborted"});
 }
 
 TEST(PlcopenBuffer, AnAbortingCommandEmptiesTheQueueAndAnErrorEndsIt) {
@@ -307,8 +277,7 @@ TEST(PlcopenBuffer, AnAbortingCommandEmptiesTheQueueAndAnErrorEndsIt) {
     execute(b.first, b.kernel);
     execute(b.second, b.kernel);
     b.cycle();
-    McHalt halt;
-    halt.Axis = b.slave;
+    auto halt = b.make<McHalt>();
     if (fault)
       b.s().fault(ErrorId::drive_error);
     else
@@ -326,19 +295,14 @@ TEST(PlcopenBuffer, AnAbortingCommandEmptiesTheQueueAndAnErrorEndsIt) {
 
 TEST(PlcopenBuffer, AWaitingCommandThatCannotStartFailsAndThoseBehindItAreAborted) {
   Queue b(BufferMode::buffered);
-  McCamIn cam;
-  cam.Master = b.master;
-  cam.Slave = b.slave;
+  auto cam = b.make<McCamIn>();
   cam.CamTableID = 77;
   cam.BufferMode = number(BufferMode::buffered);
   execute(b.first, b.kernel);
   execute(cam, b.kernel);
   execute(b.second, b.kernel);
   EXPECT_FALSE(cam.Error) << "the table may come before its turn";
-  for (int i = 0; i < 2'000; ++i) {
-    b.cycle();
-    cam.call(b.kernel);
-  }
+  b.cycles(2'000, b.first, b.second, cam);
   EXPECT_TRUE(b.first.Done);
   EXPECT_EQ(cam.ErrorID, id(ErrorId::no_such_table));
   EXPECT_TRUE(b.second.CommandAborted);

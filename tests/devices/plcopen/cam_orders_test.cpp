@@ -15,8 +15,7 @@ TEST(PlcopenCamOrders, EmergencyStopReleasesTheCouplingUnlessItIsKept) {
     b.set("cam_gear.keep_coupling_on_lr_error", keep);
     b.set("getriebe[0].lslope_profil.a_grenz_stufe_1", 4'000);
     b.start_master();
-    b.couple(turning);
-    ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+    b.engage(turning);
     b.s().drive.emergency_stop = true;
     const double speed = b.s().set().velocity;
     b.step();
@@ -40,8 +39,7 @@ TEST(PlcopenCamOrders, AFeedEnableDropStopsACoupledSlaveUnlessTheCouplingIsKept)
     b.table(one_to_one());
     b.set("cam_gear.keep_coupling_on_fe_drop", keep);
     b.start_master();
-    b.couple(turning);
-    ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+    b.engage(turning);
     b.s().control.feed_enable = false;
     b.step(3);
     EXPECT_EQ(b.s().state(), keep != 0 ? AxisState::synchronized_motion : AxisState::errorstop);
@@ -55,10 +53,8 @@ TEST(PlcopenCamOrders, CamOutKeepsTheSpeed) {
   Bench b;
   b.table(one_to_one());
   b.start_master();
-  b.couple(turning);
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
-  McCamOut out;
-  out.Slave = b.slave;
+  b.engage(turning);
+  auto out = b.make<McCamOut>();
   out.Execute = true;
   const double speed = b.s().set().velocity;
   for (int i = 0; i < 5; ++i) {
@@ -78,9 +74,7 @@ TEST(PlcopenCamOrders, PhasingShiftsTheApparentMasterJerkLimited) {
   b.table(one_to_one());
   b.start_master();
   b.couple(turning);
-  McPhasing phasing;
-  phasing.Master = b.master;
-  phasing.Slave = b.slave;
+  auto phasing = b.make<McPhasing>();
   phasing.PhaseShift = 250'000;
   phasing.Velocity = 50'000;
   phasing.Acceleration = 1'000;
@@ -93,41 +87,26 @@ TEST(PlcopenCamOrders, PhasingShiftsTheApparentMasterJerkLimited) {
   phasing.Execute = false;
   phasing.call(b.kernel);
   phasing.Execute = true;
-  double v = 0;
-  double a = 0;
-  double d = 0;
-  double j = 0;
-  double last = 0;
+  Peaks peaks;
   int cycles = 0;
   while (!phasing.Done) {
     phasing.call(b.kernel);
     b.step();
-    const double now = b.s().set().acceleration;
-    v = std::max(v, b.s().set().velocity - b.m().set().velocity);
-    a = std::max(a, now);
-    d = std::max(d, -now);
-    j = std::max(j, std::abs(now - last) / cycle_s);
-    last = now;
+    peaks.take({{}, b.s().set().velocity - b.m().set().velocity, b.s().set().acceleration});
     ASSERT_LT(++cycles, 2'000);
   }
   EXPECT_NEAR(shortest(b.s().set().position, b.m().set().position, turn), 250'000, 1e-5);
-  EXPECT_NEAR(v, 50'000 * increments_per_speed, 1);
-  EXPECT_NEAR(a, 1'000 * increments_per_acceleration, 100);
-  EXPECT_NEAR(d, 500 * increments_per_acceleration, 100);
-  EXPECT_NEAR(j, 20'000 * increments_per_acceleration, 1e5);
+  EXPECT_NEAR(peaks.v, 50'000 * increments_per_speed, 1);
+  EXPECT_NEAR(peaks.a, 1'000 * increments_per_acceleration, 100);
+  EXPECT_NEAR(peaks.d, 500 * increments_per_acceleration, 100);
+  EXPECT_NEAR(peaks.j, 20'000 * increments_per_acceleration, 1e5);
   EXPECT_TRUE(b.cam.InSync);
   // A newer shift takes over from an older one; shifts add up.
-  phasing.Execute = false;
-  phasing.call(b.kernel);
-  phasing.Execute = true;
-  phasing.call(b.kernel);
+  execute(phasing, b.kernel);
   b.step();
   McPhasing second = phasing;
   second.PhaseShift = -250'000;
-  second.Execute = false;
-  second.call(b.kernel);
-  second.Execute = true;
-  second.call(b.kernel);
+  execute(second, b.kernel);
   phasing.call(b.kernel);
   EXPECT_TRUE(phasing.CommandAborted);
   while (!second.Done) {
@@ -135,143 +114,79 @@ TEST(PlcopenCamOrders, PhasingShiftsTheApparentMasterJerkLimited) {
     b.step();
     ASSERT_LT(++cycles, 4'000);
   }
-  covers({"60175", "MC_Phasing.Master", "MC_Phasing.Slave", "MC_Phasing.PhaseShift", "MC_Phasing.Velocity",
-          "MC_Phasing.Acceleration", "MC_Phasing.Deceleration", "MC_Phasing.Jerk", "MC_Phasing.Done",
-          "MC_Phasing.CommandAborted"});
+  covers("MC_Phasing", {"Master", "Slave", "PhaseShift", "Velocity", "Acceleration", "Deceleration", "Jerk",
+                        "Done", "CommandAborted"});
+  covers({"60175"});
 }
 
 TEST(PlcopenCamOrders, WhatIsWrongWithAnOrderIsToldByItsNumber) {
-  AxisParameters linear = Bench::virtual_axis();
+  const AxisParameters usual = Bench::virtual_axis();
+  AxisParameters linear = usual;
   linear.modulo = 0;
-  const auto error = [](Bench& b, std::uint32_t mode = hli_ci_f_periodic) {
-    b.couple(mode);
-    EXPECT_EQ(b.cam.Error, b.cam.ErrorID != 0);
-    EXPECT_FALSE(b.cam.InSync);
-    return static_cast<ErrorId>(b.cam.ErrorID);
+  AxisParameters homed = usual;
+  homed.kind = static_cast<int>(AxisKind::drive);
+  AxisParameters unhomed = homed;
+  unhomed.homed_at_start = 0;
+  // What is changed on the bench before each order, and what the order says then.
+  struct Step {
+    std::function<void(Bench&)> change;
+    ErrorId error = ErrorId::none;
+    std::uint32_t mode = hli_ci_f_periodic;
   };
-  const auto bench = [](Bench& b) -> Bench& {
+  struct Row {
+    AxisParameters slave;
+    std::vector<Step> steps;
+  };
+  const auto nothing = [](Bench&) {};
+  const auto pairs = [](std::vector<double> values) {
+    return [values](Bench& b) { b.table(values, 7, Interpolation::poly5_line); };
+  };
+  const std::vector<Row> rows{
+      {usual, {{nothing}, {[](Bench& b) { b.cam.CamTableID = 78; }, ErrorId::no_such_table}}},
+      {usual, {{[](Bench& b) { b.cam.TableFctType = 7; }, ErrorId::unknown_interpolation}}},
+      {usual,
+       {{[](Bench& b) { b.table({1}, 3, Interpolation::table_defined); }, ErrorId::unknown_interpolation},
+        {[](Bench& b) { b.cam.TableFctType = 1; }}}},
+      {usual, {{[](Bench& b) { b.cam.TableFctType = 3; }, ErrorId::table_type_mismatch}}},
+      {usual, {{[](Bench& b) { b.table({}, 3); }, ErrorId::too_few_lines}}},
+      {usual, {{pairs({0, 0, 999, 0}), ErrorId::table_master_order}}},
+      {usual, {{pairs({0, 0, 9999, 0, 99'999, 0}), ErrorId::table_line_count}}},
+      {usual,
+       {{[](Bench& b) { EXPECT_EQ(b.kernel.begin_table_change(1), ErrorId::none); }, ErrorId::table_busy},
+        {[](Bench& b) { b.kernel.end_table_change(1); }}}},
+      {unhomed, {{nothing, ErrorId::not_homed}}},
+      {homed, {{nothing}}},
+      {usual, {{[](Bench& b) { b.s().control.feed_enable = false; }, ErrorId::feed_enable_missing}}},
+      {linear, {{nothing, ErrorId::not_modulo, turning}, {nothing}}},
+      {linear, {{pairs(swing()), ErrorId::not_modulo}}},
+      {usual, {{nothing, ErrorId::start_mode, 0x80}, {nothing, ErrorId::start_mode, 0x60}}},
+      {usual,
+       {{[](Bench& b) { b.cam.MasterScaling = 0; }, ErrorId::master_scaling},
+        {[](Bench& b) { b.cam.MasterScaling = 1.5; }, ErrorId::master_scaling}}},
+      {usual, {{[](Bench& b) { b.cam.SlaveScaling = 0.5; }}, {nothing, ErrorId::slave_scaling, turning}}},
+      {usual, {{[](Bench& b) { b.cam.MasterOffset = 3e9; }, ErrorId::offset_range}}},
+      {usual, {{[](Bench& b) { b.cam.SlaveOffset = std::nan(""); }, ErrorId::offset_range}}},
+      {usual,
+       {{[](Bench& b) { EXPECT_TRUE(b.m().set_parameter(*find_axis_parameter("cam_gear.is_master"), 0)); },
+         ErrorId::not_a_master}}},
+      {usual,
+       {{[](Bench& b) { b.cam.Master = {}; }, ErrorId::no_such_axis},
+        {[](Bench& b) { b.cam.Master = {9}; }, ErrorId::no_such_axis}}},
+      {usual,
+       {{[](Bench& b) { b.cam.Master = b.slave; }, ErrorId::own_master},
+        {[](Bench& b) { b.cam.Master = b.master; }},
+        {[](Bench& b) { std::swap(b.cam.Master, b.cam.Slave); }, ErrorId::own_master}}}};
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    Bench b(rows[row].slave);
     b.table(one_to_one());
-    return b;
-  };
-  {
-    Bench b;
-    EXPECT_EQ(error(bench(b)), ErrorId::none);
-    b.cam.CamTableID = 78;
-    EXPECT_EQ(error(b), ErrorId::no_such_table);
-  }
-  {
-    Bench b;
-    bench(b);
-    b.cam.TableFctType = 7;
-    EXPECT_EQ(error(b), ErrorId::unknown_interpolation);
-  }
-  {
-    Bench b;
-    b.table({1}, 3, Interpolation::table_defined);
-    EXPECT_EQ(error(b), ErrorId::unknown_interpolation);
-    b.cam.TableFctType = 1;
-    EXPECT_EQ(error(b), ErrorId::none);
-  }
-  {
-    Bench b;
-    bench(b);
-    b.cam.TableFctType = 3;
-    EXPECT_EQ(error(b), ErrorId::table_type_mismatch);
-  }
-  {
-    Bench b;
-    b.table({}, 3);
-    EXPECT_EQ(error(b), ErrorId::too_few_lines);
-  }
-  {
-    Bench b;
-    b.table({0, 0, 999, 0}, 7, Interpolation::poly5_line);
-    EXPECT_EQ(error(b), ErrorId::table_master_order);
-  }
-  {
-    Bench b;
-    b.table({0, 0, 9999, 0, 99'999, 0}, 7, Interpolation::poly5_line);
-    EXPECT_EQ(error(b), ErrorId::table_line_count);
-  }
-  {
-    Bench b;
-    bench(b);
-    EXPECT_EQ(b.kernel.begin_table_change(1), ErrorId::none);
-    EXPECT_EQ(error(b), ErrorId::table_busy);
-    b.kernel.end_table_change(1);
-    EXPECT_EQ(error(b), ErrorId::none);
-  }
-  {
-    AxisParameters p = Bench::virtual_axis();
-    p.kind = 0;
-    p.homed_at_start = 0;
-    Bench b(p);
-    EXPECT_EQ(error(bench(b)), ErrorId::not_homed);
-    p.homed_at_start = 1;
-    Bench c(p);
-    EXPECT_EQ(error(bench(c)), ErrorId::none);
-  }
-  {
-    Bench b;
-    b.s().control.feed_enable = false;
-    EXPECT_EQ(error(bench(b)), ErrorId::feed_enable_missing);
-  }
-  {
-    Bench b(linear);
-    EXPECT_EQ(error(bench(b), hli_ci_f_periodic | hli_ci_endless_positive), ErrorId::not_modulo);
-    EXPECT_EQ(error(b), ErrorId::none);
-  }
-  {
-    Bench b(linear);
-    b.table(swing(), 7, Interpolation::poly5_line);
-    EXPECT_EQ(error(b), ErrorId::not_modulo);
-  }
-  {
-    Bench b;
-    EXPECT_EQ(error(bench(b), 0x80), ErrorId::start_mode);
-    EXPECT_EQ(error(b, 0x60), ErrorId::start_mode);
-  }
-  {
-    Bench b;
-    b.cam.MasterScaling = 0;
-    EXPECT_EQ(error(bench(b)), ErrorId::master_scaling);
-    b.cam.MasterScaling = 1.5;
-    EXPECT_EQ(error(b), ErrorId::master_scaling);
-  }
-  {
-    Bench b;
-    b.cam.SlaveScaling = 0.5;
-    EXPECT_EQ(error(bench(b)), ErrorId::none);
-    EXPECT_EQ(error(b, hli_ci_f_periodic | hli_ci_endless_positive), ErrorId::slave_scaling);
-  }
-  {
-    Bench b;
-    b.cam.MasterOffset = 3e9;
-    EXPECT_EQ(error(bench(b)), ErrorId::offset_range);
-    b.cam.MasterOffset = 0;
-    b.cam.SlaveOffset = std::nan("");
-    EXPECT_EQ(error(b), ErrorId::offset_range);
-  }
-  {
-    Bench b;
-    EXPECT_TRUE(b.m().set_parameter(*find_axis_parameter("cam_gear.is_master"), 0));
-    EXPECT_EQ(error(bench(b)), ErrorId::not_a_master);
-  }
-  {
-    Bench b;
-    b.cam.Master = {};
-    EXPECT_EQ(error(bench(b)), ErrorId::no_such_axis);
-    b.cam.Master = {9};
-    EXPECT_EQ(error(b), ErrorId::no_such_axis);
-  }
-  {
-    Bench b;
-    b.cam.Master = b.slave;
-    EXPECT_EQ(error(bench(b)), ErrorId::own_master);
-    b.cam.Master = b.master;
-    EXPECT_EQ(error(b), ErrorId::none);
-    std::swap(b.cam.Master, b.cam.Slave);
-    EXPECT_EQ(error(b), ErrorId::own_master);
+    for (const Step& step : rows[row].steps) {
+      SCOPED_TRACE(row);
+      step.change(b);
+      b.couple(step.mode);
+      EXPECT_EQ(static_cast<ErrorId>(b.cam.ErrorID), step.error);
+      EXPECT_EQ(b.cam.Error, b.cam.ErrorID != 0);
+      EXPECT_FALSE(b.cam.InSync);
+    }
   }
   covers({"42003",         "42006",          "42007",
           "60172",         "60260",          "60261",

@@ -16,8 +16,7 @@ TEST(PlcopenCam, OffsetsAndScalingsAreThoseOfTheTransform) {
   b.cam.SlaveOffset = -50'000;
   b.run.Velocity = 90'000;
   b.start_master();
-  b.couple();
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage();
   const CamCurve& curve = b.s().coupling()->cam()->curve;
   for (int i = 0; i < 500; ++i) {
     b.step();
@@ -27,8 +26,7 @@ TEST(PlcopenCam, OffsetsAndScalingsAreThoseOfTheTransform) {
     EXPECT_NEAR(shortest(b.s().set().position, {0, 0.75 * cam.position - 50'000}, turn), 0, 1e-6);
     EXPECT_NEAR(b.s().set().velocity, 0.75 * cam.velocity * -2 * b.m().set().velocity, 1e-3);
   }
-  covers(
-      {"MC_CamIn.MasterOffset", "MC_CamIn.MasterScaling", "MC_CamIn.SlaveScaling", "MC_CamIn.SlaveOffset"});
+  covers("MC_CamIn", {"MasterOffset", "MasterScaling", "SlaveScaling", "SlaveOffset"});
 }
 
 TEST(PlcopenCam, ThePositionIsExactHoweverManyTurnsThereWere) {
@@ -93,8 +91,7 @@ TEST(PlcopenCam, AnotherExecuteDuringThePassAddsOnePassAndNoMore) {
   Bench b;
   b.table(one_to_one());
   b.start_master();
-  b.couple(hli_ci_endless_positive);
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage(hli_ci_endless_positive);
   const std::int64_t turns = b.s().set().position.turns;
   for (int i = 0; i < 3; ++i) {
     b.couple(hli_ci_endless_positive);
@@ -121,8 +118,7 @@ TEST(PlcopenCam, BackwardsTheOnePassIsTheTableBackwards) {
   b.table(one_to_one());
   b.run.Direction = 3;
   b.start_master();
-  b.couple(hli_ci_endless_positive);
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage(hli_ci_endless_positive);
   const std::int64_t turns = b.s().set().position.turns;
   b.step(100);
   EXPECT_NEAR(shortest(b.s().set().position, b.m().set().position, turn), 0, 1e-6);
@@ -148,8 +144,7 @@ TEST(PlcopenCam, PeriodicallyTheEndIsToldAtEveryTurn) {
   Bench b;
   b.table(one_to_one());
   b.start_master();
-  b.couple(hli_ci_f_periodic | hli_ci_endless_positive);
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage(hli_ci_f_periodic | hli_ci_endless_positive);
   int ends = 0;
   for (int i = 0; i < 2'500; ++i) {
     b.step();
@@ -163,8 +158,7 @@ TEST(PlcopenCam, EndlessNegativeTurnsTheSlaveBackwards) {
   Bench b;
   b.table({0, 2'700'000, 1'800'000, 900'000});
   b.start_master();
-  b.couple(hli_ci_f_periodic | hli_ci_endless_negative);
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage(hli_ci_f_periodic | hli_ci_endless_negative);
   const std::int64_t slave = b.s().set().position.turns;
   const std::int64_t master = b.m().set().position.turns;
   b.step(5'000);
@@ -191,8 +185,7 @@ TEST(PlcopenCam, RampInAbsoluteAndRelativeBitsChangeNothing) {
 TEST(PlcopenCam, AWriteReachesARunningSlaveUnlessTheTableIsLocked) {
   Bench b;
   b.table({0, 100'000, 200'000, 100'000});
-  b.couple();
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage();
   EXPECT_EQ(b.kernel.write_table(1, 0, 0, 70'000), ErrorId::none);
   b.step(4);  // no faster than vb_max
   EXPECT_EQ(b.s().set().position.part, 70'000);
@@ -203,8 +196,7 @@ TEST(PlcopenCam, AWriteReachesARunningSlaveUnlessTheTableIsLocked) {
   EXPECT_EQ(c.kernel.begin_table_change(1), ErrorId::table_locked);
   EXPECT_EQ(c.kernel.add_table(CamTable{.file = {}, .name = {}, .id = 1, .type = 3, .values = {5}}),
             ErrorId::table_locked);
-  McCamOut out;
-  out.Slave = c.slave;
+  auto out = c.make<McCamOut>();
   out.Execute = true;
   out.call(c.kernel);
   EXPECT_EQ(c.kernel.write_table(1, 0, 0, 70'000), ErrorId::none);
@@ -215,8 +207,7 @@ TEST(PlcopenCam, LinesAndQuinticsRunOnACopyUntilTheNextExecute) {
   Bench b;
   b.table(swing(), 7, Interpolation::poly5_line);
   b.cam.MasterOffset = 300'000;  // on the line of slope 0 between P0 and P1
-  b.couple();
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage();
   EXPECT_EQ(b.kernel.write_table(1, 3, 1, 900'000), ErrorId::none);
   EXPECT_EQ(b.kernel.write_table(1, 2, 1, 900'000), ErrorId::none);
   b.step(5);
@@ -235,8 +226,7 @@ TEST(PlcopenCam, AnotherTableElsewhereIsEngagedAnew) {
   b.table({0, 100'000}, 3);
   b.table({900'000, 500'000}, 3, Interpolation::linear, 2);
   b.cam.CamTableID = 1;
-  b.couple();
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage();
   b.cam.CamTableID = 2;
   b.couple();
   EXPECT_NE(b.phase(), CouplingPhase::coupled);

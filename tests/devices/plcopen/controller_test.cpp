@@ -98,6 +98,9 @@ struct Rig {
     if (!value) ADD_FAILURE() << name;
     return value ? value->read() : 0;
   }
+  void expect(const std::vector<std::pair<std::string, double>>& values) {
+    for (const auto& [name, value] : values) EXPECT_EQ(read(name), value) << name;
+  }
   void write(const std::string& name, double number) {
     const auto value = controller.find(name);
     ASSERT_TRUE(value && value->write) << name;
@@ -160,8 +163,7 @@ TEST(PlcopenController, ACommandOfTheProgramMovesTheAxisFromTheNextCycleOn) {
   rig.address("Knife.enable");
   rig.input("IX0.0") = true;
   rig.run(2);  // one cycle: the program has switched the axis on
-  EXPECT_EQ(rig.read("Knife.state"), 5);
-  EXPECT_EQ(rig.read("Knife.set_velocity"), 0);
+  rig.expect({{"Knife.state", 5}, {"Knife.set_velocity", 0}});
   EXPECT_FALSE(rig.output("Knife.enable")) << "the axis' own cycle was before";
   EXPECT_TRUE(rig.output("QX1.2"));
   rig.run(2);
@@ -463,11 +465,8 @@ TEST(PlcopenController, WithoutPowerItsOutputsAreOffAndOnlyRetainVariablesAndMac
   rig.input("IX0.0") = false;
   rig.controller.power(true);
   rig.run(2);
-  EXPECT_EQ(rig.read("pieces"), 77);
-  EXPECT_EQ(rig.read("speed"), 10'000);
-  EXPECT_EQ(rig.read("Knife.kv"), 1500);
-  EXPECT_EQ(rig.read("Knife.override"), 50);
-  EXPECT_EQ(rig.read("Knife.state"), 0);
+  rig.expect(
+      {{"pieces", 77}, {"speed", 10'000}, {"Knife.kv", 1500}, {"Knife.override", 50}, {"Knife.state", 0}});
   EXPECT_EQ(rig.read("Knife.actual_position"), 0) << "counted from power-up";
 }
 
@@ -478,10 +477,7 @@ TEST(PlcopenController, WithoutPowerItsVariablesAndAxesReadZero) {
   rig.input("IX0.0") = true;
   rig.run(1000);
   rig.write("Knife.override", 50);
-  EXPECT_EQ(rig.read("Power.Status"), 1);
-  EXPECT_EQ(rig.read("Move.InVelocity"), 1);
-  EXPECT_EQ(rig.read("Knife.state"), 5);
-  EXPECT_EQ(rig.read("Knife.homed"), 1);
+  rig.expect({{"Power.Status", 1}, {"Move.InVelocity", 1}, {"Knife.state", 5}, {"Knife.homed", 1}});
   rig.controller.power(false);
   for (int once = 0; once < 2; ++once, rig.run(10))
     for (const std::string name :

@@ -29,4 +29,9 @@ inline void covers(std::initializer_list<std::string> names) {
   coverage::cover(known, names);
 }
 
+/// Pins of one block.
+inline void covers(const std::string& block, std::initializer_list<const char*> pins) {
+  for (const char* pin : pins) covers({block + "." + pin});
+}
+
 }  // namespace drycut::devices::plcopen

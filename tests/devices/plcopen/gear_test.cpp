@@ -44,16 +44,15 @@ TEST(PlcopenGear, AGearKeepsItsRatioExactlyOverAnyNumberOfTurns) {
   const double way = difference(b.m().set().position, master, turn);
   EXPECT_NEAR(difference(b.s().set().position, slave, turn), way * -7 / 3, 1e-5);
   EXPECT_GT(way, 39 * turn);
-  McGearOut out;
-  out.Slave = b.slave;
+  auto out = b.make<McGearOut>();
   out.Execute = true;
   out.call(b.kernel);
   EXPECT_TRUE(out.Done);
   b.turn_over(2);
   EXPECT_TRUE(b.gear.CommandAborted);
   EXPECT_NEAR(b.s().set().velocity, -7.0 / 3 * b.m().set().velocity, 1e-3);
-  covers({"MC_GearIn.Master", "MC_GearIn.RatioNumerator", "MC_GearIn.RatioDenominator", "MC_GearIn.InGear",
-          "MC_GearOut.Done", "MC_GearOut.Slave"});
+  covers("MC_GearIn", {"Master", "RatioNumerator", "RatioDenominator", "InGear"});
+  covers({"MC_GearOut.Done", "MC_GearOut.Slave"});
 }
 
 TEST(PlcopenGear, AGearEngagesWithItsOwnDynamics) {
@@ -81,16 +80,13 @@ TEST(PlcopenGear, AGearEngagesWithItsOwnDynamics) {
     down.take(b.s().set());
   }
   EXPECT_NEAR(down.d, 6e6, 1);
-  covers({"MC_GearIn.Acceleration", "MC_GearIn.Deceleration", "MC_GearIn.Jerk"});
+  covers("MC_GearIn", {"Acceleration", "Deceleration", "Jerk"});
 }
 
 TEST(PlcopenGear, AGearsRefusalsHaveTheirNumbers) {
   Geared b;
   const auto error = [&] {
-    b.gear.Execute = false;
-    b.gear.call(b.kernel);
-    b.gear.Execute = true;
-    b.gear.call(b.kernel);
+    execute(b.gear, b.kernel);
     return static_cast<ErrorId>(b.gear.ErrorID);
   };
   b.gear.Mode = 0x100;
@@ -110,10 +106,7 @@ TEST(PlcopenGear, AGearsRefusalsHaveTheirNumbers) {
   b.s().control.feed_enable = true;
   EXPECT_EQ(error(), ErrorId::none);
   // Phasing before it is engaged, and with a master that is not the slave's.
-  McPhasing phasing;
-  phasing.Master = b.master;
-  phasing.Slave = b.slave;
-  phasing.Velocity = 100;
+  auto phasing = b.make<McPhasing>(100);
   phasing.Execute = true;
   phasing.call(b.kernel);
   EXPECT_EQ(phasing.ErrorID, id(ErrorId::phasing_slave_not_reached));
@@ -142,8 +135,7 @@ TEST(PlcopenGear, AGearedSlavesAccelerationIsLimitedAndTheWayCaughtUp) {
 }
 
 TEST(PlcopenGear, AnEncoderLeadsWithItsActualValues) {
-  AxisParameters wheel;
-  wheel.kind = static_cast<int>(AxisKind::encoder);
+  AxisParameters wheel = axis_of(AxisKind::encoder);
   wheel.is_master = 1;
   wheel.average_filter = 1;
   wheel.filter_cycles = 25;

@@ -12,12 +12,6 @@
 namespace drycut::devices::plcopen {
 namespace {
 
-template <typename T>
-T* pin_of(const BlockType& type, FunctionBlock& block, const char* name) {
-  const int number = find_pin(type, name);
-  return number < 0 ? nullptr : std::get<T*>(type.pin(block, static_cast<std::size_t>(number)));
-}
-
 /// An order for the slave of `b` that is in range.
 void fill(const BlockType& type, FunctionBlock& block, Bench& b) {
   const auto set = [&](const char* name, auto value) {
@@ -59,7 +53,7 @@ TEST(PlcopenOutputs, OneOfBusyDoneAbortedAndErrorIsTrueAndDoneIsShownOnceWithout
               ? Request{GearInRequest{b.master, b.slave, 1, 1, {}, 0}}
               : Request{CamInRequest{
                     .master = b.master, .slave = b.slave, .start_mode = hli_ci_f_periodic, .table = 1}});
-      for (int i = 0; i < 100; ++i) b.kernel.cycle();
+      b.cycles(100);
     }
     const auto is = [&](const char* name) {
       const auto* pin = pin_of<bool>(type, *block, name);
@@ -108,17 +102,12 @@ TEST(PlcopenOutputs, OneOfBusyDoneAbortedAndErrorIsTrueAndDoneIsShownOnceWithout
 
 TEST(PlcopenOutputs, StopIsBusyWhileItHoldsTheAxisAndAbortedByAMovement) {
   Bench b;
-  McStop stop;
-  McMoveVelocity on;
-  stop.Axis = on.Axis = b.slave;
-  on.Velocity = 50'000;
+  auto stop = b.make<McStop>();
+  auto on = b.make<McMoveVelocity>(50'000);
   execute(on, b.kernel);
-  for (int i = 0; i < 200; ++i) b.kernel.cycle();
+  b.cycles(200);
   execute(stop, b.kernel);
-  for (int i = 0; i < 1'000; ++i) {
-    b.kernel.cycle();
-    stop.call(b.kernel);
-  }
+  b.cycles(1'000, stop);
   EXPECT_TRUE(stop.Done && stop.Busy && stop.Active) << "PLCopen's exception";
   execute(on, b.kernel);  // of ISG alone
   stop.call(b.kernel);
@@ -128,7 +117,7 @@ TEST(PlcopenOutputs, StopIsBusyWhileItHoldsTheAxisAndAbortedByAMovement) {
   stop = {};
   stop.Axis = on.Axis = c.slave;
   execute(on, c.kernel);
-  for (int i = 0; i < 200; ++i) c.kernel.cycle();
+  c.cycles(200);
   execute(stop, c.kernel);
   c.kernel.cycle();
   c.power_slave.Enable = false;
@@ -140,10 +129,8 @@ TEST(PlcopenOutputs, StopIsBusyWhileItHoldsTheAxisAndAbortedByAMovement) {
 
 TEST(PlcopenOutputs, ACommandThatWasDoneBeforeTheNextOneIsDoneAndNotAborted) {
   Bench b;
-  McMoveRelative first;
-  McMoveRelative second;
-  first.Axis = second.Axis = b.slave;
-  first.Velocity = second.Velocity = 100'000;
+  auto first = b.make<McMoveRelative>(100'000);
+  auto second = b.make<McMoveRelative>(100'000);
   first.Distance = 50'000;
   execute(first, b.kernel);
   while (b.s().state() != AxisState::standstill) b.kernel.cycle();
@@ -170,8 +157,7 @@ TEST(PlcopenRanges, NoNumberOnAPinDoesHarm) {
         b.run.Execute = true;
         b.step(20);
         if (type.name == "MC_Phasing") {
-          b.couple(hli_ci_f_periodic);
-          ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+          b.engage(hli_ci_f_periodic);
         }
         if (type.name == "MC_MoveSuperImposed") {
           b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
@@ -224,9 +210,7 @@ TEST(PlcopenRanges, TheLargestGearAndTheLargestCamDoNoHarm) {
   Bench b(wide);
   b.run.Velocity = 1'000'000;
   b.start_master();
-  McGearIn gear;
-  gear.Master = b.master;
-  gear.Slave = b.slave;
+  auto gear = b.make<McGearIn>();
   gear.RatioNumerator = std::numeric_limits<std::int32_t>::max();
   gear.RatioDenominator = 1;
   execute(gear, b.kernel);
@@ -251,9 +235,8 @@ TEST(PlcopenRanges, TheLargestGearAndTheLargestCamDoNoHarm) {
 TEST(PlcopenLimits, ASpeedBeyondTheAxisIsToldAndTheAxisWarns) {
   Bench b;
   b.set("dynamik.vb_max", 300'000);
-  McReadAxisInfo info;
-  McMoveVelocity on;
-  info.Axis = on.Axis = b.slave;
+  auto info = b.make<McReadAxisInfo>();
+  auto on = b.make<McMoveVelocity>();
   info.Enable = true;
   on.Velocity = 300'000;
   execute(on, b.kernel);
@@ -267,7 +250,7 @@ TEST(PlcopenLimits, ASpeedBeyondTheAxisIsToldAndTheAxisWarns) {
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_EQ(remarks[0].event, "warning");
   EXPECT_EQ(remarks[0].text, "Velocity 300001 is above dynamik.vb_max: it goes at 300000");
-  for (int i = 0; i < 1'000; ++i) b.kernel.cycle();
+  b.cycles(1'000);
   EXPECT_DOUBLE_EQ(b.s().set().velocity, 3'000'000);
   covers({"MC_ReadAxisInfo.AxisWarning"});
 }
@@ -276,9 +259,7 @@ TEST(PlcopenLimits, ASlaveThatCannotFollowIsNotInSync) {
   for (const bool cam : {true, false}) {
     Bench b;
     b.table(one_to_one());
-    McGearIn gear;
-    gear.Master = b.master;
-    gear.Slave = b.slave;
+    auto gear = b.make<McGearIn>();
     b.run.Velocity = 100'000;
     b.start_master();
     if (cam)
@@ -316,19 +297,15 @@ TEST(PlcopenLimits, ASlaveThatCannotFollowIsNotInSync) {
 }
 
 TEST(PlcopenParameters, AreReadByPlcopensNumbers) {
-  AxisParameters linear = Bench::virtual_axis();
-  linear.modulo = 0;
-  linear.swe_neg = -5'000'000;
-  linear.swe_pos = 6'000'000;
+  AxisParameters linear = Bench::linear_axis(-5'000'000, 6'000'000);
   linear.following_error_max = 1'234;
   Bench b(linear);
-  McMoveVelocity on;
-  McReadParameter read;
-  on.Axis = read.Axis = b.slave;
+  auto on = b.make<McMoveVelocity>();
+  auto read = b.make<McReadParameter>();
   on.Velocity = 40'000;
   on.Direction = 3;
   execute(on, b.kernel);
-  for (int i = 0; i < 500; ++i) b.kernel.cycle();
+  b.cycles(500);
   read.Enable = true;
   const std::map<int, double> expected{{1, b.s().set().position.part},
                                        {2, 6'000'000},
@@ -355,15 +332,13 @@ TEST(PlcopenParameters, AreReadByPlcopensNumbers) {
   read.Axis = {};
   read.call(b.kernel);
   EXPECT_EQ(read.ErrorID, id(ErrorId::no_such_axis));
-  covers({"MC_ReadParameter.Axis", "MC_ReadParameter.Enable", "MC_ReadParameter.ParameterNumber",
-          "MC_ReadParameter.Valid", "MC_ReadParameter.Error", "MC_ReadParameter.ErrorID",
-          "MC_ReadParameter.Value", "65020"});
+  covers("MC_ReadParameter", {"Axis", "Enable", "ParameterNumber", "Valid", "Error", "ErrorID", "Value"});
+  covers({"65020"});
 }
 
 TEST(PlcopenParameters, AreWrittenInStandstillAndInTheirRange) {
   Bench b;
-  McWriteParameter write;
-  write.Axis = b.slave;
+  auto write = b.make<McWriteParameter>();
   const auto error_of = [&](std::int16_t number, double value) {
     write.ParameterNumber = number;
     write.Value = value;
@@ -388,16 +363,14 @@ TEST(PlcopenParameters, AreWrittenInStandstillAndInTheirRange) {
   EXPECT_EQ(b.s().parameters().vb_max, 250'000);
   write.Axis = {};
   EXPECT_EQ(error_of(9, 1), id(ErrorId::no_such_axis));
-  covers({"MC_WriteParameter.Axis", "MC_WriteParameter.Execute", "MC_WriteParameter.ParameterNumber",
-          "MC_WriteParameter.Value", "MC_WriteParameter.Done", "MC_WriteParameter.Error",
-          "MC_WriteParameter.ErrorID", "65021"});
+  covers("MC_WriteParameter", {"Axis", "Execute", "ParameterNumber", "Value", "Done", "Error", "ErrorID"});
+  covers({"65021"});
 }
 
 TEST(PlcopenReadings, MotionStateSaysHowTheAxisMoves) {
   Bench b;
-  McReadMotionState read;
-  McMoveAbsolute to;
-  read.Axis = to.Axis = b.slave;
+  auto read = b.make<McReadMotionState>();
+  auto to = b.make<McMoveAbsolute>();
   read.Enable = true;
   to.Position = 3'000'000;
   to.Direction = 3;  // down to it, over 0
@@ -435,11 +408,10 @@ TEST(PlcopenReadings, MotionStateSaysHowTheAxisMoves) {
   EXPECT_GT(constant, 200);
   EXPECT_GT(decelerating, 30);
   EXPECT_TRUE(read.InPosition && read.InWindow);
-  for (const char* pin :
-       {"Axis", "Enable", "Valid", "ConstantVelocity", "Accelerating", "Decelerating", "DirectionPositive",
-        "DirectionNegative", "RevZero", "InWindow", "InPosition", "IsMoving", "LrCommandedPos", "LrActualPos",
-        "LrSetPos", "LrActualRev", "LrSetRev", "LrSetAccel"})
-    covers({"MC_ReadMotionState." + std::string(pin)});
+  covers("MC_ReadMotionState",
+         {"Axis", "Enable", "Valid", "ConstantVelocity", "Accelerating", "Decelerating", "DirectionPositive",
+          "DirectionNegative", "RevZero", "InWindow", "InPosition", "IsMoving", "LrCommandedPos",
+          "LrActualPos", "LrSetPos", "LrActualRev", "LrSetRev", "LrSetAccel"});
 }
 
 TEST(PlcopenReadings, AxisInfoSaysWhatTheAxisIsReadyFor) {
@@ -467,9 +439,8 @@ TEST(PlcopenReadings, AxisInfoSaysWhatTheAxisIsReadyFor) {
   EXPECT_EQ(read.ErrorID, id(ErrorId::no_such_axis));
   EXPECT_EQ(motion.ErrorID, id(ErrorId::no_such_axis));
   EXPECT_FALSE(read.CommunicationReady || read.Valid);
-  for (const char* pin : {"Axis", "Enable", "Valid", "Error", "ErrorID", "Simulation", "CommunicationReady",
-                          "ReadyForPowerOn", "PowerOn", "IsHomed"})
-    covers({"MC_ReadAxisInfo." + std::string(pin)});
+  covers("MC_ReadAxisInfo", {"Axis", "Enable", "Valid", "Error", "ErrorID", "Simulation",
+                             "CommunicationReady", "ReadyForPowerOn", "PowerOn", "IsHomed"});
   covers({"MC_ReadMotionState.Error", "MC_ReadMotionState.ErrorID"});
 }
 
@@ -480,8 +451,7 @@ TEST(PlcopenReadings, AVirtualAxisThatIsNotHomedAtStartWaitsForMcHome) {
   b.table(one_to_one());
   b.couple();
   EXPECT_EQ(b.cam.ErrorID, id(ErrorId::not_homed));
-  McHome home;
-  home.Axis = b.slave;
+  auto home = b.make<McHome>();
   execute(home, b.kernel);
   b.kernel.cycle();
   home.call(b.kernel);

@@ -14,8 +14,7 @@ struct Probe : Bench {
 
   explicit Probe(double modulo = turn) : Bench(encoder(modulo)) { touch.Axis = abort.Axis = slave; }
   static AxisParameters encoder(double modulo) {
-    AxisParameters parameters;
-    parameters.kind = static_cast<int>(AxisKind::encoder);
+    AxisParameters parameters = axis_of(AxisKind::encoder);
     parameters.modulo = modulo;
     return parameters;
   }
@@ -50,8 +49,7 @@ TEST(PlcopenProbe, RecordsTheCountOfTheEdgeNotOfTheCycle) {
   EXPECT_FALSE(b.touch.Done);
   b.rise(14'000, 14'020);
   EXPECT_DOUBLE_EQ(b.touch.RecordedPosition, 4'000 * 360.0);
-  covers({"MC_TouchProbe.Axis", "MC_TouchProbe.Execute", "MC_TouchProbe.Done",
-          "MC_TouchProbe.RecordedPosition"});
+  covers("MC_TouchProbe", {"Axis", "Execute", "Done", "RecordedPosition"});
 }
 
 TEST(PlcopenProbe, AnEdgeBeforeTheOrderDoesNotCount) {
@@ -67,8 +65,7 @@ TEST(PlcopenProbe, AnEdgeBeforeTheOrderDoesNotCount) {
 
 TEST(PlcopenProbe, TheZeroIsThatOfTheAxis) {
   Probe b;
-  McSetPosition zero;
-  zero.Axis = b.slave;
+  auto zero = b.make<McSetPosition>();
   b.s().drive.counts = 1'000;
   b.kernel.cycle();
   b.execute(zero);
@@ -105,7 +102,7 @@ TEST(PlcopenProbe, AWindowLetsEdgesOutsideItPass) {
     b.rise(c.counts, c.counts + 5);
     EXPECT_TRUE(b.touch.Done);
   }
-  covers({"MC_TouchProbe.WindowOnly", "MC_TouchProbe.FirstPosition", "MC_TouchProbe.LastPosition"});
+  covers("MC_TouchProbe", {"WindowOnly", "FirstPosition", "LastPosition"});
 }
 
 TEST(PlcopenProbe, OfALinearAxisTheWindowIsWhatItSays) {
@@ -139,8 +136,7 @@ TEST(PlcopenProbe, AnAbortionOrAnotherOrderEndsTheWaiting) {
   b.touch.call(b.kernel);
   EXPECT_FALSE(b.touch.CommandAborted);
   b.execute(b.touch);
-  McTouchProbe other;
-  other.Axis = b.slave;
+  auto other = b.make<McTouchProbe>();
   b.execute(other);
   b.rise(200, 200);
   other.call(b.kernel);
@@ -151,16 +147,15 @@ TEST(PlcopenProbe, AnAbortionOrAnotherOrderEndsTheWaiting) {
   other.call(b.kernel);
   EXPECT_TRUE(other.Done);
   EXPECT_FALSE(other.CommandAborted);
-  covers({"MC_TouchProbe.CommandAborted", "MC_AbortTrigger.Axis", "MC_AbortTrigger.Execute",
-          "MC_AbortTrigger.Done"});
+  covers("MC_AbortTrigger", {"Axis", "Execute", "Done"});
+  covers({"MC_TouchProbe.CommandAborted"});
 }
 
 TEST(PlcopenProbe, MovementsDoNotTouchIt) {
   AxisParameters servo;
   servo.homed_at_start = 1;
   Bench b(servo);
-  McTouchProbe touch;
-  touch.Axis = b.slave;
+  auto touch = b.make<McTouchProbe>();
   touch.Execute = true;
   touch.call(b.kernel);
   b.s().move({Command::move_velocity, 0, {.velocity = 1'000}, Direction::positive});
@@ -202,8 +197,9 @@ TEST(PlcopenProbe, RefusesAProbeThatIsNotThere) {
     b.execute(b.touch);
     EXPECT_EQ(b.touch.ErrorID, id(ErrorId::position_range));
   }
-  covers({"65018", "MC_TouchProbe.TriggerInput", "MC_TouchProbe.Error", "MC_TouchProbe.ErrorID",
-          "MC_AbortTrigger.TriggerInput", "MC_AbortTrigger.Error", "MC_AbortTrigger.ErrorID"});
+  covers("MC_TouchProbe", {"TriggerInput", "Error", "ErrorID"});
+  covers("MC_AbortTrigger", {"TriggerInput", "Error", "ErrorID"});
+  covers({"65018"});
 }
 
 }  // namespace

@@ -37,9 +37,9 @@ TEST(PlcopenRampIn, OnARunningMasterTheSlavePassesItsThreePhasesInTheirTimes) {
     EXPECT_NEAR(shortest(b.s().set().position, b.m().set().position, turn), 0, 1e-6);
     EXPECT_NEAR(b.s().set().velocity, speed, 1e-3);
   }
-  covers({"MC_CamIn.Master", "MC_CamIn.InSync", "MC_CamIn.StartMode", "cam_gear.time_in_window",
-          "cam_gear.j_vel_sync", "HLI_CI_ENDLESS_POSITIVE", "HLI_CI_F_PERIODIC", "type 3", "dynamik.a_max",
-          "MC_MoveVelocity.Velocity", "MC_MoveVelocity.InVelocity", "MC_CamIn.CamTableID"});
+  covers("MC_CamIn", {"Master", "InSync", "StartMode", "CamTableID"});
+  covers({"cam_gear.time_in_window", "cam_gear.j_vel_sync", "HLI_CI_ENDLESS_POSITIVE", "HLI_CI_F_PERIODIC",
+          "type 3", "dynamik.a_max", "MC_MoveVelocity.Velocity", "MC_MoveVelocity.InVelocity"});
 }
 
 TEST(PlcopenRampIn, JerkAndAccelerationKeepTheirLimitsWhateverTheCamDoes) {
@@ -110,8 +110,7 @@ TEST(PlcopenRampIn, PhasingTakesTheShortestWayRoundTheTurn) {
   Bench b;
   b.table({0});
   b.cam.SlaveOffset = 3'000'000;
-  b.couple();
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage();
   EXPECT_EQ(b.s().set().position.turns, -1);
   EXPECT_EQ(b.s().set().position.part, 3'000'000);
 }
@@ -144,8 +143,7 @@ TEST(PlcopenRampIn, ATimeOutInTheWindowAbortsWithItsErrorAndStops) {
   EXPECT_FALSE(b.cam.InSync);
   ASSERT_GE(b.until([&] { return b.s().set().velocity == 0; }), 0);
   // Counted from the command, the slip of 90 ms takes most of the time.
-  McReset reset;
-  reset.Axis = b.slave;
+  auto reset = b.make<McReset>();
   reset.Execute = true;
   for (int i = 0; i < 3; ++i) {
     reset.call(b.kernel);
@@ -210,8 +208,7 @@ TEST(PlcopenRampIn, TheSlavesSpeedLimitHoldsInTheCouplingToo) {
   b.table({0, 1'000'000}, 3, Interpolation::step_direct);
   b.set("cam_gear.v_max_slave", 200'000);
   b.start_master();
-  b.couple(hli_ci_f_periodic);
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage(hli_ci_f_periodic);
   double most = 0;
   double furthest = 0;
   double last = b.at(b.s());
@@ -229,8 +226,7 @@ TEST(PlcopenRampIn, CoupledNeitherOverrideNorFeedHoldActOnTheSlave) {
   Bench b;
   b.table(one_to_one());
   b.start_master();
-  b.couple(turning);
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage(turning);
   b.s().control.override_percent = 10;
   b.s().control.feed_hold = true;
   b.step(100);
@@ -238,10 +234,7 @@ TEST(PlcopenRampIn, CoupledNeitherOverrideNorFeedHoldActOnTheSlave) {
 }
 
 TEST(PlcopenRampIn, ALinearSlaveStopsBeforeItsSoftwareLimitWhileEngaging) {
-  AxisParameters linear = Bench::virtual_axis();
-  linear.modulo = 0;
-  linear.swe_neg = -10'000;
-  linear.swe_pos = 2'000'000;
+  AxisParameters linear = Bench::linear_axis(-10'000, 2'000'000);
   Bench b(linear);
   // The cam stays inside, but its speed carries the slave out before it is in phase.
   b.table({100'000, 1'900'000});

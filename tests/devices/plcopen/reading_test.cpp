@@ -6,12 +6,10 @@ namespace drycut::devices::plcopen {
 namespace {
 
 TEST(PlcopenReading, PositionAndSpeedAreThoseOfTheEncoder) {
-  AxisParameters parameters;
-  parameters.kind = static_cast<int>(AxisKind::encoder);
+  AxisParameters parameters = axis_of(AxisKind::encoder);
   Bench b(parameters);
-  McReadActualPosition position;
-  McReadActualVelocity velocity;
-  position.Axis = velocity.Axis = b.slave;
+  auto position = b.make<McReadActualPosition>();
+  auto velocity = b.make<McReadActualVelocity>();
   position.Enable = velocity.Enable = true;
   for (const std::int64_t counts : {0, 10, 20, -30}) {
     b.s().drive.counts = counts;
@@ -24,16 +22,14 @@ TEST(PlcopenReading, PositionAndSpeedAreThoseOfTheEncoder) {
   }
   // 50 counts back in 2 ms, 0.036 deg each.
   EXPECT_NEAR(velocity.Velocity, -50 * 360 / cycle_s / increments_per_speed, 1e-6);
-  covers({"MC_ReadActualPosition.Axis", "MC_ReadActualPosition.Enable", "MC_ReadActualPosition.Valid",
-          "MC_ReadActualPosition.Position", "MC_ReadActualVelocity.Axis", "MC_ReadActualVelocity.Enable",
-          "MC_ReadActualVelocity.Valid", "MC_ReadActualVelocity.Velocity"});
+  covers("MC_ReadActualPosition", {"Axis", "Enable", "Valid", "Position"});
+  covers("MC_ReadActualVelocity", {"Axis", "Enable", "Valid", "Velocity"});
 }
 
 TEST(PlcopenReading, StatusShowsTheOneStateThatTheAxisHas) {
   Bench b;
   b.table({0, 100'000});
-  McReadStatus status;
-  status.Axis = b.slave;
+  auto status = b.make<McReadStatus>();
   status.Enable = true;
   const auto shows = [&](AxisState state, bool McReadStatus::*output) {
     status.call(b.kernel);
@@ -67,16 +63,13 @@ TEST(PlcopenReading, StatusShowsTheOneStateThatTheAxisHas) {
   status.call(off.kernel);
   EXPECT_TRUE(status.Disabled);
   EXPECT_FALSE(status.Errorstop);
-  covers({"MC_ReadStatus.Axis", "MC_ReadStatus.Enable", "MC_ReadStatus.Valid", "MC_ReadStatus.Errorstop",
-          "MC_ReadStatus.Disabled", "MC_ReadStatus.Stopping", "MC_ReadStatus.Homing",
-          "MC_ReadStatus.Standstill", "MC_ReadStatus.DiscreteMotion", "MC_ReadStatus.ContinuousMotion",
-          "MC_ReadStatus.SynchronizedMotion"});
+  covers("MC_ReadStatus", {"Axis", "Enable", "Valid", "Errorstop", "Disabled", "Stopping", "Homing",
+                           "Standstill", "DiscreteMotion", "ContinuousMotion", "SynchronizedMotion"});
 }
 
 TEST(PlcopenReading, AxisErrorIsTheAxisOwnUntilItIsReset) {
   Bench b;
-  McReadAxisError error;
-  error.Axis = b.slave;
+  auto error = b.make<McReadAxisError>();
   error.Enable = true;
   error.call(b.kernel);
   EXPECT_TRUE(error.Valid);
@@ -90,8 +83,7 @@ TEST(PlcopenReading, AxisErrorIsTheAxisOwnUntilItIsReset) {
   b.kernel.cycle();
   error.call(b.kernel);
   EXPECT_EQ(error.AxisErrorID, 0u);
-  covers({"MC_ReadAxisError.Axis", "MC_ReadAxisError.Enable", "MC_ReadAxisError.Valid",
-          "MC_ReadAxisError.AxisErrorID"});
+  covers("MC_ReadAxisError", {"Axis", "Enable", "Valid", "AxisErrorID"});
 }
 
 TEST(PlcopenReading, NothingIsValidWithoutAnAxisOrEnable) {
@@ -129,8 +121,7 @@ TEST(PlcopenReading, NothingIsValidWithoutAnAxisOrEnable) {
 TEST(PlcopenTableWrite, WritesOneElementThatTheRunningCamTakesUp) {
   Bench b;
   b.table({0, 100'000, 200'000, 100'000});
-  b.couple();
-  ASSERT_GE(b.until([&] { return b.cam.InSync; }), 0);
+  b.engage();
   CamTableWrite write;
   write.CamTableID = 1;
   write.Value = 300;
@@ -149,8 +140,7 @@ TEST(PlcopenTableWrite, WritesOneElementThatTheRunningCamTakesUp) {
   write.Column = 3;
   execute(write, b.kernel);
   EXPECT_EQ(b.kernel.tables().find(2)->value(1, 2), 500);
-  covers({"CAM_TABLE_WRITE.CamTableID", "CAM_TABLE_WRITE.Execute", "CAM_TABLE_WRITE.Line",
-          "CAM_TABLE_WRITE.Column", "CAM_TABLE_WRITE.Value", "CAM_TABLE_WRITE.Done"});
+  covers("CAM_TABLE_WRITE", {"CamTableID", "Execute", "Line", "Column", "Value", "Done"});
 }
 
 TEST(PlcopenTableWrite, AChangeKeepsTheTableFromMcCamInUntilItsEnd) {

@@ -28,12 +28,7 @@ struct Twins : Bench {
     execute(masters, kernel);
     execute(slaves, kernel);
   }
-  void cycle() {
-    kernel.cycle();
-    masters.call(kernel);
-    slaves.call(kernel);
-    more.call(kernel);
-  }
+  void cycle() { cycles(1, masters, slaves, more); }
   double apart() { return at(s()) - at(m()); }
 };
 
@@ -60,9 +55,8 @@ TEST(PlcopenSuperImposed, PositionsSpeedsAndAccelerationsAddExactly) {
   EXPECT_TRUE(b.slaves.Done && b.masters.Done);
   EXPECT_DOUBLE_EQ(b.at(b.s()), 3'120'000);
   EXPECT_EQ(b.s().state(), AxisState::standstill);
-  covers({"MC_MoveSuperImposed.Distance", "MC_MoveSuperImposed.VelocityDiff",
-          "MC_MoveSuperImposed.Acceleration", "MC_MoveSuperImposed.Deceleration", "MC_MoveSuperImposed.Jerk",
-          "MC_MoveSuperImposed.Busy", "MC_MoveSuperImposed.Done"});
+  covers("MC_MoveSuperImposed",
+         {"Distance", "VelocityDiff", "Acceleration", "Deceleration", "Jerk", "Busy", "Done"});
 }
 
 TEST(PlcopenSuperImposed, ItMayLastLongerThanTheMovementBelow) {
@@ -80,16 +74,12 @@ TEST(PlcopenSuperImposed, ItMayLastLongerThanTheMovementBelow) {
 
 TEST(PlcopenSuperImposed, InStandstillItIsARelativeMovement) {
   Bench b;
-  McMoveSuperImposed more;
-  more.Axis = b.slave;
+  auto more = b.make<McMoveSuperImposed>();
   more.Distance = -400'000;
   more.VelocityDiff = 100'000;
   execute(more, b.kernel);
   EXPECT_EQ(b.s().state(), AxisState::discrete_motion);
-  for (int i = 0; i < 5'000 && !more.Done; ++i) {
-    b.kernel.cycle();
-    more.call(b.kernel);
-  }
+  b.finish(more, 5'000);
   EXPECT_TRUE(more.Done);
   EXPECT_DOUBLE_EQ(b.at(b.s()), -400'000);
 }
@@ -99,9 +89,7 @@ TEST(PlcopenSuperImposed, OnACamAndAGearItShiftsTheSlaveAndNothingElse) {
     Bench b;
     b.table(one_to_one());
     b.start_master();
-    McGearIn gear;
-    gear.Master = b.master;
-    gear.Slave = b.slave;
+    auto gear = b.make<McGearIn>();
     if (cam)
       b.couple(hli_ci_f_periodic | hli_ci_endless_positive);
     else
@@ -112,8 +100,7 @@ TEST(PlcopenSuperImposed, OnACamAndAGearItShiftsTheSlaveAndNothingElse) {
     }),
               0);
     const double before = b.at(b.s()) - b.at(b.m());
-    McMoveSuperImposed more;
-    more.Axis = b.slave;
+    auto more = b.make<McMoveSuperImposed>();
     more.Distance = -70'000;
     more.VelocityDiff = 30'000;
     execute(more, b.kernel);
@@ -143,8 +130,7 @@ TEST(PlcopenSuperImposed, AnotherOneTakesOverFromItAndAnAbortingCommandFromBoth)
   for (int i = 0; i < 100; ++i) b.cycle();
   execute(b.more, b.kernel);
   for (int i = 0; i < 50; ++i) b.cycle();
-  McMoveSuperImposed other;
-  other.Axis = b.slave;
+  auto other = b.make<McMoveSuperImposed>();
   other.Distance = 10'000;
   other.VelocityDiff = 50'000;
   const double gone = b.apart();
@@ -162,8 +148,7 @@ TEST(PlcopenSuperImposed, AnotherOneTakesOverFromItAndAnAbortingCommandFromBoth)
   execute(b.more, b.kernel);
   for (int i = 0; i < 20; ++i) b.cycle();
   const double before = b.s().set().velocity;
-  McHalt halt;
-  halt.Axis = b.slave;
+  auto halt = b.make<McHalt>();
   execute(halt, b.kernel);
   b.cycle();
   EXPECT_TRUE(b.more.CommandAborted && b.slaves.CommandAborted);
@@ -199,14 +184,10 @@ TEST(PlcopenSuperImposed, ItGoesOnOverABufferedChange) {
 }
 
 TEST(PlcopenSuperImposed, ItKeepsTheSoftwareLimits) {
-  AxisParameters linear = Bench::virtual_axis();
-  linear.modulo = 0;
-  linear.swe_neg = -100'000;
-  linear.swe_pos = 1'000'000;
+  AxisParameters linear = Bench::linear_axis(-100'000, 1'000'000);
   Bench b(linear);
-  McMoveAbsolute to;
-  McMoveSuperImposed more;
-  to.Axis = more.Axis = b.slave;
+  auto to = b.make<McMoveAbsolute>();
+  auto more = b.make<McMoveSuperImposed>();
   to.Position = 950'000;
   to.Velocity = 100'000;
   more.Distance = 80'000;
@@ -225,14 +206,13 @@ TEST(PlcopenSuperImposed, ItKeepsTheSoftwareLimits) {
 
 TEST(PlcopenAdditive, AddsToTheTargetOfTheMovementUnderWay) {
   Bench b;
-  McMoveAbsolute to;
-  McMoveAdditive by;
-  to.Axis = by.Axis = b.slave;
+  auto to = b.make<McMoveAbsolute>();
+  auto by = b.make<McMoveAdditive>();
   to.Position = 600'000;
   to.Velocity = by.Velocity = 100'000;
   by.Distance = 400'000;
   execute(to, b.kernel);
-  for (int i = 0; i < 100; ++i) b.kernel.cycle();
+  b.cycles(100);
   execute(by, b.kernel);
   to.call(b.kernel);
   EXPECT_TRUE(to.CommandAborted);
@@ -240,20 +220,14 @@ TEST(PlcopenAdditive, AddsToTheTargetOfTheMovementUnderWay) {
   McMoveAdditive again = by;
   again.Distance = 50'000.25;
   execute(again, b.kernel);
-  for (int i = 0; i < 5'000 && !again.Done; ++i) {
-    b.kernel.cycle();
-    again.call(b.kernel);
-  }
+  b.finish(again, 5'000);
   EXPECT_DOUBLE_EQ(b.at(b.s()), 1'050'000.25);
   // In Standstill it is a relative movement; an axis with a speed adds to where it is.
   execute(by, b.kernel);
-  for (int i = 0; i < 5'000 && !by.Done; ++i) {
-    b.kernel.cycle();
-    by.call(b.kernel);
-  }
+  b.finish(by, 5'000);
   EXPECT_DOUBLE_EQ(b.at(b.s()), 1'450'000.25);
-  covers({"MC_MoveAdditive.Distance", "MC_MoveAdditive.Velocity", "MC_MoveAdditive.Acceleration",
-          "MC_MoveAdditive.Deceleration", "MC_MoveAdditive.Jerk", "MC_MoveAdditive.CommandAborted"});
+  covers("MC_MoveAdditive",
+         {"Distance", "Velocity", "Acceleration", "Deceleration", "Jerk", "CommandAborted"});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cstdint>
 #include <memory>
@@ -43,6 +43,9 @@ class Bench {
     if (symbol < 0) ADD_FAILURE() << "no symbol " << name;
     return symbol < 0 ? -1e99 : runtime->read(static_cast<std::size_t>(symbol));
   }
+  void expect(const std::vector<std::pair<std::string, double>>& values) const {
+    for (const auto& [name, value] : values) EXPECT_EQ((*this)[name], value) << name;
+  }
   void set(const std::string& name, double value) {
     const int symbol = find(name);
     ASSERT_GE(symbol, 0) << "no symbol " << name;
@@ -64,11 +67,26 @@ inline std::vector<std::string> problems_of(const std::string& text) {
   return lines;
 }
 
+/// The problems of a text begin so, in this order, and there are no others.
+inline void expect_problems(const std::string& text, const std::vector<std::string>& beginnings) {
+  std::vector<testing::Matcher<std::string>> matchers;
+  for (const std::string& beginning : beginnings) matchers.emplace_back(testing::StartsWith(beginning));
+  EXPECT_THAT(problems_of(text), testing::ElementsAreArray(matchers)) << text;
+}
+
 /// The value of an expression in a variable of type `type`; `vars` are further declarations.
 inline double value_of(const std::string& type, const std::string& expression, const std::string& vars = "") {
   Bench bench("PROGRAM main VAR x : " + type + "; " + vars + " END_VAR x := " + expression + "; END_PROGRAM");
   bench.scan();
   return bench["x"];
+}
+
+/// The values of expressions.
+inline void expect_values(const std::string& type,
+                          const std::vector<std::pair<std::string, double>>& expressions,
+                          const std::string& vars = "") {
+  for (const auto& [expression, value] : expressions)
+    EXPECT_EQ(value_of(type, expression, vars), value) << expression;
 }
 
 /// Statements after declarations, run once; the value of `x`.

@@ -84,9 +84,7 @@ TEST(StRun, BlocksKeepTheirStateAndHaveInstances) {
       "a(); a(step := 2, n => x); b(); FOR i := 0 TO 2 DO many[i](step := i); END_FOR END_PROGRAM");
   bench.scan(2);
   EXPECT_EQ(bench["a.n"], 1 + 2 + 2 + 2);  // step keeps the value of the last call
-  EXPECT_EQ(bench["x"], 7);
-  EXPECT_EQ(bench["b.n"], 20);
-  EXPECT_EQ(bench["many[2].n"], 4);
+  bench.expect({{"x", 7}, {"b.n", 20}, {"many[2].n", 4}});
 }
 
 TEST(StRun, BlocksWriteThroughVarInOut) {
@@ -98,9 +96,7 @@ TEST(StRun, BlocksWriteThroughVarInOut) {
       units +
       "PROGRAM main VAR s : ARRAY [0..2] OF P; k : INT := 2; f : Outer; END_VAR f(o := s[k]); END_PROGRAM");
   bench.scan(3);
-  EXPECT_EQ(bench["s[2].u"], 3);
-  EXPECT_EQ(bench["s[2].v[1]"], 2.5);
-  EXPECT_EQ(bench["s[0].u"], 0);
+  bench.expect({{"s[2].u", 3}, {"s[2].v[1]", 2.5}, {"s[0].u", 0}});
 }
 
 TEST(StRun, StructuresAndArraysAreCopiedAndBegun) {
@@ -148,8 +144,7 @@ TEST(StRun, RetainOutlivesAColdStart) {
       "lost + 1; END_PROGRAM");
   bench.scan(2);
   bench.runtime->cold_start();
-  EXPECT_EQ(bench["kept"], 7);
-  EXPECT_EQ(bench["lost"], 5);
+  bench.expect({{"kept", 7}, {"lost", 5}});
   bench.runtime->cold_start(true);
   EXPECT_EQ(bench["kept"], 5);
 }

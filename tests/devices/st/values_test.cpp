@@ -39,13 +39,15 @@ TEST(StValues, TruthTablesOfLogic) {
     for (int b = 0; b < 2; ++b) {
       const std::string vars =
           "a : BOOL := " + std::to_string(a) + "; b : BOOL := " + std::to_string(b) + ";";
-      EXPECT_EQ(value_of("BOOL", "a AND b", vars), a & b);
-      EXPECT_EQ(value_of("BOOL", "a & b", vars), a & b);
-      EXPECT_EQ(value_of("BOOL", "a OR b", vars), a | b);
-      EXPECT_EQ(value_of("BOOL", "a XOR b", vars), a ^ b);
-      EXPECT_EQ(value_of("BOOL", "a AND_THEN b", vars), a & b);
-      EXPECT_EQ(value_of("BOOL", "a OR_ELSE b", vars), a | b);
-      EXPECT_EQ(value_of("BOOL", "NOT a", vars), 1 - a);
+      expect_values("BOOL",
+                    {{"a AND b", a & b},
+                     {"a & b", a & b},
+                     {"a OR b", a | b},
+                     {"a XOR b", a ^ b},
+                     {"a AND_THEN b", a & b},
+                     {"a OR_ELSE b", a | b},
+                     {"NOT a", 1 - a}},
+                    vars);
     }
   EXPECT_EQ(value_of("WORD", "NOT w", "w : WORD := 16#00F0;"), 0xFF0F);
   EXPECT_EQ(value_of("BYTE", "w AND 2#1010_1010 OR 1", "w : BYTE := 16#F0;"), 0xA1);
@@ -59,15 +61,12 @@ TEST(StValues, OnlyAndThenAndOrElseLeaveTheirRightSideOut) {
 }
 
 TEST(StValues, PrecedenceIsThatOfIec) {
-  EXPECT_EQ(value_of("DINT", "2 + 3 * 4 - 6 / 2"), 11);
-  EXPECT_EQ(value_of("DINT", "20 / 2 / 5 * 3 MOD 4"), 2);
-  EXPECT_EQ(value_of("LREAL", "-2 ** 2"), -4);
-  EXPECT_EQ(value_of("LREAL", "2 ** 3 ** 2"), 64);
-  EXPECT_EQ(value_of("LREAL", "2 ** -1"), 0.5);
-  EXPECT_EQ(value_of("BOOL", "TRUE OR TRUE AND FALSE"), 1);
-  EXPECT_EQ(value_of("BOOL", "TRUE XOR TRUE AND FALSE"), 1);
-  EXPECT_EQ(value_of("BOOL", "1 + 1 < 3 = TRUE"), 1);
-  EXPECT_EQ(value_of("BOOL", "NOT FALSE AND FALSE"), 0);
+  expect_values("DINT", {{"2 + 3 * 4 - 6 / 2", 11}, {"20 / 2 / 5 * 3 MOD 4", 2}});
+  expect_values("LREAL", {{"-2 ** 2", -4}, {"2 ** 3 ** 2", 64}, {"2 ** -1", 0.5}});
+  expect_values("BOOL", {{"TRUE OR TRUE AND FALSE", 1},
+                         {"TRUE XOR TRUE AND FALSE", 1},
+                         {"1 + 1 < 3 = TRUE", 1},
+                         {"NOT FALSE AND FALSE", 0}});
   EXPECT_EQ(value_of("INT", "(2 + 3) * 4"), 20);
 }
 
@@ -118,8 +117,7 @@ TEST(StValues, WideningIsImplicit) {
 TEST(StValues, LiteralsOfAllForms) {
   EXPECT_EQ(value_of("DINT", "16#FF + 2#1010_0001 + 8#17 + 1_000"), 255 + 161 + 15 + 1000);
   EXPECT_EQ(value_of("LREAL", "1.5E-3 + LREAL#2 + INT#-5"), 1.5e-3 + 2 - 5);
-  EXPECT_EQ(value_of("TIME", "T#1d2h3m4s5ms"), 86400 + 7200 + 180 + 4.005);
-  EXPECT_EQ(value_of("TIME", "time#1.5s"), 1.5);
+  expect_values("TIME", {{"T#1d2h3m4s5ms", 86400 + 7200 + 180 + 4.005}, {"time#1.5s", 1.5}});
   EXPECT_EQ(value_of("BOOL", "BOOL#TRUE"), 1);
   EXPECT_EQ(value_of("DWORD", "HLI_CI_F_PERIODIC OR HLI_CI_ENDLESS_POSITIVE"), 0x30);
   EXPECT_EQ(value_of("UDINT", "POLY5_LINE"), 5);
@@ -182,10 +180,7 @@ TEST(StBlocks, EdgesAndFlipFlops) {
     bench.set("in", in);
     bench.set("r", r);
     bench.scan();
-    EXPECT_EQ(bench["rise"], rise);
-    EXPECT_EQ(bench["fall"], fall);
-    EXPECT_EQ(bench["q"], q);
-    EXPECT_EQ(bench["q2"], q2);
+    bench.expect({{"rise", rise}, {"fall", fall}, {"q", q}, {"q2", q2}});
   };
   expect(0, 0, 0, 0, 0, 0);
   expect(1, 0, 1, 0, 1, 1);
@@ -206,22 +201,13 @@ TEST(StBlocks, TimersKeepTheirDiagramsToTheScan) {
   run_for(0, 2);
   EXPECT_EQ(bench["f.Q"], 0);
   run_for(1, 5);  // 8 ms since the edge
-  EXPECT_EQ(bench["n.Q"], 0);
-  EXPECT_EQ(bench["n.ET"], 0.008);
-  EXPECT_EQ(bench["t.Q"], 1);
-  EXPECT_EQ(bench["f.Q"], 1);
+  bench.expect({{"n.Q", 0}, {"n.ET", 0.008}, {"t.Q", 1}, {"f.Q", 1}});
   run_for(1, 1);
-  EXPECT_EQ(bench["n.Q"], 1);
-  EXPECT_EQ(bench["t.Q"], 0);
-  EXPECT_EQ(bench["t.ET"], 0.01);
+  bench.expect({{"n.Q", 1}, {"t.Q", 0}, {"t.ET", 0.01}});
   run_for(0, 5);
-  EXPECT_EQ(bench["n.Q"], 0);
-  EXPECT_EQ(bench["n.ET"], 0);
-  EXPECT_EQ(bench["t.ET"], 0);
-  EXPECT_EQ(bench["f.Q"], 1);
+  bench.expect({{"n.Q", 0}, {"n.ET", 0}, {"t.ET", 0}, {"f.Q", 1}});
   run_for(0, 1);
-  EXPECT_EQ(bench["f.Q"], 0);
-  EXPECT_EQ(bench["f.ET"], 0.01);
+  bench.expect({{"f.Q", 0}, {"f.ET", 0.01}});
   run_for(1, 1);
   run_for(0, 4);  // a pulse goes on without its input
   EXPECT_EQ(bench["t.Q"], 1);
@@ -244,19 +230,14 @@ TEST(StBlocks, CountersCountEdges) {
   pulse("up");
   EXPECT_EQ(bench["a.Q"], 0);
   pulse("up");
-  EXPECT_EQ(bench["a.CV"], 2);
-  EXPECT_EQ(bench["a.Q"], 1);
-  EXPECT_EQ(bench["c.QU"], 1);
+  bench.expect({{"a.CV", 2}, {"a.Q", 1}, {"c.QU", 1}});
   pulse("reset");
-  EXPECT_EQ(bench["a.CV"], 0);
-  EXPECT_EQ(bench["c.QD"], 1);
+  bench.expect({{"a.CV", 0}, {"c.QD", 1}});
   pulse("load");
-  EXPECT_EQ(bench["b.CV"], 2);
-  EXPECT_EQ(bench["b.Q"], 0);
+  bench.expect({{"b.CV", 2}, {"b.Q", 0}});
   pulse("down");
   pulse("down");
-  EXPECT_EQ(bench["b.Q"], 1);
-  EXPECT_EQ(bench["c.CV"], 0);
+  bench.expect({{"b.Q", 1}, {"c.CV", 0}});
   pulse("down");
   EXPECT_EQ(bench["b.CV"], 0) << "not below 0";
 }
@@ -299,8 +280,7 @@ TEST(StBlocks, PowerSwitchesTheAxisOnAndRefusalsAreSeen) {
       "Status => on); "
       "sel(Master := Web, Slave := knife, CamTable := ref, Execute := TRUE, ErrorID => id); END_PROGRAM");
   bench.scan(5);
-  EXPECT_EQ(bench["on"], 1);
-  EXPECT_EQ(bench["sel.Error"], 1);
+  bench.expect({{"on", 1}, {"sel.Error", 1}});
   EXPECT_NE(bench["id"], 0);
 }
 
