@@ -12,9 +12,10 @@
 
 #include "devices/device.hpp"
 
-// What the tests of a device must show, by name. A test says covers({"st_toll", "START refused"}) beside the
-// expectations that would fail if the thing did not work; the device's coverage test runs them all and asks
-// for every name. A name counts only when its line was reached in a test that passed.
+// What the tests of a device must show, by name. A bench (bench.hpp) says it of the states and values that a
+// test looks at and of the commands that it sees taken or refused; a test says covers({"toll", "sector 150"})
+// of the rest, beside the expectations that would fail if the thing did not work. The device's coverage test
+// runs them all and asks for every name. A name counts only when its line was reached in a test that passed.
 namespace drycut::devices::coverage {
 
 using Marks = std::set<std::string>;
@@ -30,11 +31,16 @@ inline void add_table(const DeviceType& type, Marks& marks) {
   }
 }
 
-/// Says that the running test shows these things; a name that is not `known` fails it.
+/// Says that the running test shows this thing.
+inline void show(const std::string& name) {
+  if (std::getenv("DRYCUT_COVERS") != nullptr) std::printf("[  COVERS  ] %s\n", name.c_str());
+}
+
+/// The same of several; a name that is not `known` fails the test.
 inline void cover(const Marks& known, std::initializer_list<std::string> names) {
   for (const std::string& name : names) {
     if (!known.contains(name)) ADD_FAILURE() << "no such thing to cover: " << name;
-    if (std::getenv("DRYCUT_COVERS") != nullptr) std::printf("[  COVERS  ] %s\n", name.c_str());
+    show(name);
   }
 }
 

@@ -8,13 +8,11 @@
 namespace drycut::devices::camming4 {
 namespace {
 
-using testing::IsEmpty;
-
 /// The commands that change what drives the output and how the axes count.
 using Camming4Commands = Camming4Test;
 
 TEST_F(Camming4Commands, CommandsSetTheirStates) {
-  start();
+  does("INIT LOOPON");
   const struct {
     const char* command;
     const char* state;
@@ -32,33 +30,31 @@ TEST_F(Camming4Commands, CommandsSetTheirStates) {
     EXPECT_EQ(get(state), value) << name;
     covers({std::string(name) + " accepted", state});
   }
-  EXPECT_THAT(diagnostics(), IsEmpty());
-  EXPECT_EQ(get("st_warning"), 0);
+  shows("silent !warning");
 }
 
 // What the locks and directions do to the counts is in camming4_regulation_test.cpp; here each on its own.
 TEST_F(Camming4Commands, EachCountHasItsLockAndItsDirection) {
-  command("INIT");
+  does("INIT");
   const auto moved = [&] {
     const int slave_before = get("posit");
     const int master_before = get("positm");
-    slave().count += 10;
-    tick(100);
+    does("count+=10 +1*100");
     return std::pair(get("posit") - slave_before, get("positm") - master_before);
   };
-  slave_blocked = true;
+  does("blocked=1");
   EXPECT_EQ(moved(), std::pair(10, 100));
-  command("CNTREV");
+  does("CNTREV");
   EXPECT_EQ(moved(), std::pair(-10, 100));
-  command("CNTREVM");
+  does("CNTREVM");
   EXPECT_EQ(moved(), std::pair(-10, -100));
-  command("CNTLOCK");
+  does("CNTLOCK");
   EXPECT_EQ(moved(), std::pair(0, -100));
-  command("CNTLOCKM");
+  does("CNTLOCKM");
   EXPECT_EQ(moved(), std::pair(0, 0));
-  command("CNTUNLOCKM");
+  does("CNTUNLOCKM");
   EXPECT_EQ(moved(), std::pair(0, -100));
-  for (const char* name : {"CNTUNLOCK", "CNTDIR", "CNTDIRM"}) command(name);
+  does("CNTUNLOCK CNTDIR CNTDIRM");
   EXPECT_EQ(moved(), std::pair(10, 100));
   covers({"st_cntlock", "st_cntrev", "st_cntlockm", "st_cntrevm"});
 }
@@ -66,133 +62,66 @@ TEST_F(Camming4Commands, EachCountHasItsLockAndItsDirection) {
 TEST_F(Camming4Commands, AnEmergencyInCalibrationDoesNotBringTheVoltageBack) {
   for (const bool same_sample : {false, true}) {
     SCOPED_TRACE(same_sample);
-    device.power_up();
-    start();
-    slave_blocked = true;
-    command("CALON");
-    write("vout", 50);
-    sample();
-    EXPECT_EQ(word(), 16384);
-    order("EMRG");
+    after("power INIT LOOPON blocked=1 CALON vout=50 sample", "DAC=16384");
+    does("EMRG!");
     if (!same_sample) {
-      sample();
-      EXPECT_EQ(word(), 0);
-      EXPECT_EQ(get("vout"), 0);
-      ticks(10);
+      after("sample", "DAC=0 vout=0");
+      does("+10");
     }
-    command("RESUME");
-    EXPECT_EQ(get("st_cal"), 1);
-    EXPECT_EQ(get("vout"), 0);
-    EXPECT_EQ(word(), 0);
-    ticks(10);
-    EXPECT_EQ(word(), 0);
+    after("RESUME", "cal vout=0 DAC=0");
+    after("+10", "DAC=0");
   }
-  covers({"vout", "EMRG accepted", "RESUME accepted", "CALON accepted"});
+  covers({"EMRG accepted"});
 }
 
 TEST_F(Camming4Commands, RegulationOffInCalibrationGoesOnWithItsVoltage) {
-  write("offset", 500);
-  start();
-  slave_blocked = true;
-  command("CALON");
-  write("vout", 20);
-  sample();
+  does("offset=500 INIT LOOPON blocked=1 CALON vout=20 sample");
   EXPECT_EQ(word(), 6553 + 500);
-  command("REGOFF");
-  write("vout", 30);
-  sample();
+  does("REGOFF vout=30 sample");
   EXPECT_EQ(word(), 6553 + 500);
-  write("vout", 20);
-  sample();
-  command("REGON");
+  does("vout=20 sample REGON");
   EXPECT_EQ(word(), 6553 + 500);
   covers({"offset", "REGOFF accepted", "REGON accepted"});
 }
 
 TEST_F(Camming4Commands, AfterCalibrationTheRegulatorBeginsAnew) {
-  set({{"pgain", 0}, {"feedfw", 0}, {"integt", 20}});
-  start();
-  slave_blocked = true;
-  slave().count -= 10;
-  ticks(20);
-  EXPECT_GT(get("intreg"), 6000);
+  after("pgain=0 feedfw=0 integt=20 INIT LOOPON blocked=1 count+=-10 +20", "intreg>6000");
   for (const auto& [off, on] : {std::pair{"CALON", "CALOFF"}, {"REGOFF", "REGON"}, {"EMRG", "RESUME"}}) {
     SCOPED_TRACE(on);
     command(off);
-    slave().count -= 40;
+    does("count+=-40");
     command(on);
-    EXPECT_EQ(get("follerr"), 0);
-    EXPECT_EQ(get("intreg"), 0);
-    slave().count -= 10;
-    ticks(20);
+    shows("follerr=0 intreg=0");
+    does("count+=-10 +20");
   }
 }
 
 TEST_F(Camming4Commands, TheVoltageOfCalibrationStaysAsItWasWritten) {
-  write("offset", 500);
-  start();
-  slave_blocked = true;
-  command("CALON");
-  write("vout", 20);
-  ticks(5);
-  EXPECT_EQ(get("vout"), 20);
+  after("offset=500 INIT LOOPON blocked=1 CALON vout=20 +5", "vout=20");
   EXPECT_EQ(word(), 6553 + 500);
-  write("vout", 100);
-  ticks(5);
-  EXPECT_EQ(word(), 32767);
-  EXPECT_EQ(get("st_warning"), 0);  // nobody regulates
-  covers({"vout", "st_cal"});
+  after("vout=100 +5", "DAC=32767 !warning");  // nobody regulates
+  covers({"st_cal"});
 }
 
 TEST_F(Camming4Commands, SaturationBelowIsWarningFour) {
-  write("pgain", 1000);
-  start();
-  slave_blocked = true;
-  slave().count = 100;
-  sample();
-  EXPECT_EQ(word(), -32767);
-  EXPECT_EQ(get("st_warning"), 0);
-  slave().count = 101;
-  sample();
-  EXPECT_EQ(get("wrncode"), 4);
-  slave().count = 0;
-  ticks(5);
-  EXPECT_EQ(get("wrncode"), 4);  // latched
-  command("RSWRN");
-  EXPECT_EQ(get("st_warning"), 0);
-  slave().count = -101;
-  sample();
-  EXPECT_EQ(get("wrncode"), 3);
-  covers({"warning 3", "warning 4", "st_warning", "wrncode", "RSWRN accepted"});
+  after("pgain=1000 INIT LOOPON blocked=1 count=100 sample", "DAC=-32767 !warning");
+  after("count=101 sample", "wrncode=4");
+  after("count=0 +5", "wrncode=4");  // latched
+  after("RSWRN", "!warning");
+  after("count=-101 sample", "wrncode=3");
+  covers({"warning 3", "warning 4"});
 }
 
 TEST_F(Camming4Commands, AFrozenOutputDoesNotSaturateAgain) {
-  write("pgain", 1000);
-  start();
-  slave_blocked = true;
-  slave().count = -200;
-  sample();
-  command("REGOFF");
-  command("RSWRN");
-  ticks(5);
-  EXPECT_EQ(word(), 32767);
-  EXPECT_EQ(get("st_warning"), 0);
+  after("pgain=1000 INIT LOOPON blocked=1 count=-200 sample REGOFF RSWRN +5", "DAC=32767 !warning");
 }
 
 TEST_F(Camming4Commands, LoopOnInAPlacementStillArrives) {
-  set({{"setpos", 3000}, {"feedfw", 900}});
-  command("INIT");
-  command("START");
-  ticks(100);
-  EXPECT_GT(get("follerr"), 50);
-  command("LOOPON");
-  EXPECT_LT(get("follerr"), 15);
-  ASSERT_TRUE(wait("st_still", 1));
-  EXPECT_NEAR(get("posit"), 3000, 30);  // the profile itself ends there
-  ticks(200);
-  EXPECT_NEAR(get("posit"), 3000, 1);
-  EXPECT_EQ(get("st_toll"), 1);
-  covers({"LOOPON accepted", "st_loopon"});
+  after("setpos=3000 feedfw=900 INIT START +100", "follerr>50");
+  after("LOOPON", "follerr<15");
+  after("until:still", "posit=3000~30");  // the profile itself ends there
+  after("+200", "posit=3000~1 toll");
+  covers({"st_loopon"});
 }
 
 }  // namespace

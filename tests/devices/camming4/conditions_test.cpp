@@ -69,12 +69,12 @@ TEST(Camming4Conditions, ACommandRunsOnlyIfAllItsConditionsHold) {
   for (const CommandRule& rule : command_rules) {
     bool refused = false;
     bool accepted = false;
-    for (const Situation& situation : situations()) {
+    for (const Situation& situation : situations) {
       SCOPED_TRACE(std::string(rule.name) + " when " + situation.name);
       Machine machine;
       Machine control;
       for (Machine* each : {&machine, &control}) {
-        situation.bring(*each);
+        each->does(situation.script);
         each->set({{"inpcapt", 2}, {"intcapt", 2}, {"delta1", 30}, {"delta2", 40}});
         each->tick();
         each->command("RSWRN");
@@ -85,7 +85,7 @@ TEST(Camming4Conditions, ACommandRunsOnlyIfAllItsConditionsHold) {
       if (std::string(rule.name) == "PRESET")
         runs = runs && (machine.holds("still") || machine.holds("prson"));
       machine.command(rule.name);
-      control.device.sample();
+      control.device->sample();
       const auto said = machine.diagnostics();
       if (runs) {
         accepted = true;

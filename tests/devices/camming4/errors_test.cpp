@@ -8,151 +8,73 @@ namespace drycut::devices::camming4 {
 namespace {
 
 using testing::Contains;
-using testing::ElementsAre;
 
 class Camming4Errors : public Camming4Test {
  protected:
-  void load_constant() {
-    row(1, {132, 100, 50});
-    row(2, {133, 1000, 1000});
-    row(3, {137, 2});
-  }
+  void load_constant() { rows({{132, 100, 50}, {133, 1000, 1000}, {137, 2}}); }
 };
 
 TEST_F(Camming4Errors, AnErrorBlocksTheAxisUntilRserrAndResume) {
-  row(1, {132, 100, 50});
-  row(2, {77, 100, 100});
-  start();
-  diagnostics();
-  command("STARTCAM");
-  ticks(11, 10);
-  EXPECT_EQ(get("st_error"), 1);
-  EXPECT_EQ(get("errcode"), 3);
-  EXPECT_EQ(get("errvalue"), 2);
-  EXPECT_EQ(get("st_emrg"), 1);
-  EXPECT_EQ(get("st_camex"), 0);
-  EXPECT_EQ(word(), 0);
-  EXPECT_THAT(diagnostics(), ElementsAre("st_error: error 3 in row 2: no such G code"));
+  rows({{132, 100, 50}, {77, 100, 100}});
+  after("INIT LOOPON forget STARTCAM +11*10", "error errcode=3 errvalue=2 emrg !camex DAC=0");
+  says({"st_error: error 3 in row 2: no such G code"});
   row(2, {136});
-  command("RESUME");
-  command("STARTCAM");
-  EXPECT_EQ(get("st_camex"), 0);
+  after("RESUME STARTCAM", "!camex");
   EXPECT_THAT(diagnostics(), Contains("STARTCAM: st_error is 1, must be 0"));
-  command("RSERR");
-  EXPECT_EQ(get("errcode"), 0);
-  EXPECT_EQ(get("errvalue"), 0);
-  command("STARTCAM");
-  EXPECT_EQ(get("st_camex"), 1);
-  covers({"error 3", "errcode", "errvalue", "st_error", "RSERR accepted", "STARTCAM accepted"});
+  after("RSERR", "errcode=0 errvalue=0");
+  after("STARTCAM", "camex");
+  covers({"error 3"});
 }
 
 TEST_F(Camming4Errors, RserrLeavesTheEmergency) {
   row(1, {77});
-  start();
-  command("STARTCAM");
-  EXPECT_EQ(get("errcode"), 3);
-  command("RSERR");
-  EXPECT_EQ(get("st_error"), 0);
-  EXPECT_EQ(get("st_emrg"), 1);
-  command("STARTCAM");
-  EXPECT_EQ(get("st_camex"), 0);
-  command("RESUME");
-  EXPECT_EQ(get("st_emrg"), 0);
+  after("INIT LOOPON STARTCAM", "errcode=3");
+  after("RSERR", "!error emrg");
+  after("STARTCAM", "!camex");
+  after("RESUME", "!emrg");
 }
 
 TEST_F(Camming4Errors, AWriteIntoTheRunningRowIsErrorFive) {
   load_constant();
-  start();
-  command("STARTCAM");
-  ticks(5, 10);
-  write("codeQs2", 1000);
-  tick(10);
-  EXPECT_EQ(get("st_error"), 0);
-  diagnostics();
-  write("codeQs1", 60);
-  tick(10);
-  EXPECT_EQ(get("errcode"), 5);
-  EXPECT_EQ(get("errvalue"), 1);
-  EXPECT_EQ(get("codeQs1"), 50);
+  after("INIT LOOPON STARTCAM +5*10 codeQs2=1000 +1*10", "!error");
+  after("forget codeQs1=60 +1*10", "errcode=5 errvalue=1 codeQs1=50");
   EXPECT_THAT(diagnostics(), Contains("codeQs1: needs rowex != n, or gearing"));
   covers({"error 5"});
 }
 
 TEST_F(Camming4Errors, LeavingTheSyncRangeIsWarningTwelve) {
   load_constant();
-  set({{"syncrange", 20}});
-  start();
-  command("STARTCAM");
-  EXPECT_EQ(get("st_sync"), 1);
-  slave_blocked = true;
+  after("syncrange=20 INIT LOOPON STARTCAM", "sync");
+  does("blocked=1");
   while (get("follerr") < 20) {
-    EXPECT_EQ(get("st_sync"), 1);
-    EXPECT_EQ(get("st_warning"), 0);
-    tick(2);
+    shows("sync !warning");
+    does("+1*2");
   }
-  ticks(2, 2);
-  EXPECT_EQ(get("st_sync"), 0);
-  EXPECT_EQ(get("wrncode"), 12);
-  EXPECT_EQ(get("wrnvalue"), 1);
-  covers({"warning 12", "syncrange", "st_sync"});
+  after("+2*2", "!sync wrncode=12 wrnvalue=1");
+  covers({"warning 12", "syncrange"});
 }
 
 TEST_F(Camming4Errors, WarningsKeepTheHighestPriority) {
-  start();
-  command("STOP");
-  EXPECT_EQ(get("wrncode"), 11);
+  after("INIT LOOPON STOP", "wrncode=11");
   // Warning 6 (priority 2) replaces 11, then 5 (priority 9) does not replace 6 [D33].
-  row(1, {132, 100, 50});
-  row(2, {132, 100, 50});
-  row(3, {133, 100, -100});
-  row(4, {136});
-  command("STARTCAM");
-  ticks(25, 5);
-  EXPECT_EQ(get("wrncode"), 6);
-  EXPECT_EQ(get("wrnvalue"), 2);
-  ticks(20, 5);
-  EXPECT_EQ(get("rowex"), 3);
-  EXPECT_EQ(get("wrncode"), 6);
-  command("RSWRN");
-  EXPECT_EQ(get("st_warning"), 0);
-  EXPECT_EQ(get("wrncode"), 0);
-  EXPECT_EQ(get("wrnvalue"), 0);
-  covers({"RSWRN accepted", "wrncode", "wrnvalue", "st_warning", "warning 6"});
+  rows({{132, 100, 50}, {132, 100, 50}, {133, 100, -100}, {136}});
+  after("STARTCAM +25*5", "wrncode=6 wrnvalue=2");
+  after("+20*5", "rowex=3 wrncode=6");
+  after("RSWRN", "!warning wrncode=0 wrnvalue=0");
+  covers({"warning 6"});
 }
 
 TEST_F(Camming4Errors, TheSameWarningOfAnotherRowIsTheNewOne) {
-  row(1, {154, 100, 100});
-  row(2, {133, 100, 40});
-  row(3, {154, 100, 100});
-  row(4, {133, 100, 40});
-  row(5, {136});
-  start();
-  command("STARTCAM");
-  ticks(30, 5);
-  EXPECT_EQ(get("wrncode"), 5);
-  EXPECT_EQ(get("wrnvalue"), 2);
-  ticks(40, 5);
-  EXPECT_EQ(get("wrncode"), 5);
-  EXPECT_EQ(get("wrnvalue"), 4);
+  rows({{154, 100, 100}, {133, 100, 40}, {154, 100, 100}, {133, 100, 40}, {136}});
+  after("INIT LOOPON STARTCAM +30*5", "wrncode=5 wrnvalue=2");
+  after("+40*5", "wrncode=5 wrnvalue=4");
 }
 
 TEST_F(Camming4Errors, WatchesTheGradientLimits) {
   // 0 to 1 over 100 Um at 5000 Um/s: 250000 Um/s2. From rest to maxvel in 0.2 s.
   load_constant();
-  set({{"taccmax", 20}});
-  start();
-  ticks(20, 10);
-  order("STARTCAM");
-  tick(10);
-  EXPECT_EQ(get("st_warning"), 0);
-  command("EMRG");
-  command("RESUME");
-  write("taccmax", 21);
-  ticks(20, 10);
-  order("STARTCAM");
-  tick(10);
-  EXPECT_EQ(get("wrncode"), 1);
-  EXPECT_EQ(get("wrnvalue"), 1);
+  after("taccmax=20 INIT LOOPON +20*10 STARTCAM! +1*10", "!warning");
+  after("EMRG RESUME taccmax=21 +20*10 STARTCAM! +1*10", "wrncode=1 wrnvalue=1");
   covers({"warning 1", "taccmax"});
 }
 
@@ -172,15 +94,10 @@ TEST_P(Camming4TableErrors, BlockTheAxis) {
     for (std::size_t i = 0; i < values.size(); ++i) write(columns[i] + std::to_string(number), values[i]);
     ++number;
   }
-  start();
-  command("STARTCAM");
-  ticks(60, 10);
-  EXPECT_EQ(get("st_error"), 1);
+  after("INIT LOOPON STARTCAM +60*10", "error");
   EXPECT_EQ(get("errcode"), GetParam().code);
   EXPECT_EQ(get("errvalue"), GetParam().row);
-  EXPECT_EQ(get("st_emrg"), 1);
-  EXPECT_EQ(get("st_camex"), 0);
-  EXPECT_EQ(word(), 0);
+  shows("emrg !camex DAC=0");
   covers({"error " + std::to_string(GetParam().code), "errcode", "errvalue", "st_error"});
 }
 
@@ -199,15 +116,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_F(Camming4Errors, NamesRowOneHundredTwentyEight) {
-  row(1, {132, 100, 50});
-  row(2, {137, 128});
+  rows({{132, 100, 50}, {137, 128}});
   row(128, {77});
-  start();
-  command("STARTCAM");
-  ticks(20, 10);
-  EXPECT_EQ(get("errcode"), 3);
-  EXPECT_EQ(get("errvalue"), 128);
-  covers({"errvalue"});
+  after("INIT LOOPON STARTCAM +20*10", "errcode=3 errvalue=128");
 }
 
 TEST(Camming4Messages, HaveThePrioritiesOfTheManual) {

@@ -10,207 +10,88 @@ using testing::Contains;
 using testing::HasSubstr;
 
 class Camming4Inputs : public Camming4Test {
- protected:
-  static constexpr const char* normal = "2.INP03";
-  static constexpr int function_line = 5;
-
-  void load_cam() {
-    row(1, {132, 100, 50});
-    row(2, {133, 1000, 1000});
-    row(3, {137, 2});
-  }
-  void arm_input(int function, int mode = 2) {
-    set({{"funInp", function}, {"inpcapt", mode}});
-    command("ENBL");
-  }
-  void arm_interrupt(int function, int mode = 2) {
-    set({{"funInt", function}, {"intcapt", mode}});
-    command("INTENBL");
-    ticks(2);
-  }
-  void pulse_input(std::int64_t bits = 0) {
-    input(normal) = true;
-    tick(bits);
-    input(normal) = false;
-  }
+ public:
+  void load_cam() { rows({{132, 100, 50}, {133, 1000, 1000}, {137, 2}}); }
 };
 
 TEST_F(Camming4Inputs, ShowsTheInterruptLine) {
-  command("INIT");
-  edge(function_line, true);
-  tick();
-  EXPECT_EQ(get("st_int"), 1);
-  edge(function_line, false);
-  tick();
-  EXPECT_EQ(get("st_int"), 0);
-  covers({"st_int"});
+  after("INIT rise:5 +1", "int");
+  after("fall:5 +1", "!int");
 }
 
 TEST_F(Camming4Inputs, CapturesOnceOnTheArmedEdge) {
-  command("INIT");
-  slave().count = 42;
-  arm_input(3, 2);
-  EXPECT_EQ(get("st_enbl"), 1);
-  pulse_input();
-  EXPECT_EQ(get("delta1"), 42);
-  EXPECT_EQ(get("st_enbl"), 0);
-  EXPECT_EQ(get("st_capt"), 1);
-  slave().count = 50;
-  tick();
-  pulse_input();
-  EXPECT_EQ(get("delta1"), 42);
-  command("RSCAPT");
-  EXPECT_EQ(get("st_capt"), 0);
-  covers({"ENBL accepted", "RSCAPT accepted", "st_enbl", "st_capt", "normal input 3", "funInp"});
+  after("INIT count=42 funInp=3 inpcapt=2 ENBL", "enbl");
+  after("2.INP03=1 +1 2.INP03=0", "delta1=42 !enbl capt");
+  after("count=50 +1 2.INP03=1 +1 2.INP03=0", "delta1=42");
+  after("RSCAPT", "!capt");
+  covers({"normal input 3", "funInp"});
 }
 
 TEST_F(Camming4Inputs, TakesTheFallingEdgeToo) {
-  command("INIT");
-  arm_input(5, 1);
-  input(normal) = true;
-  tick();
-  EXPECT_EQ(get("delta1"), 0);
-  input(normal) = false;
-  tick();
-  EXPECT_EQ(get("delta1"), 1);
+  after("INIT funInp=5 inpcapt=1 ENBL 2.INP03=1 +1", "delta1=0");
+  after("2.INP03=0 +1", "delta1=1");
   covers({"inpcapt"});
 }
 
 TEST_F(Camming4Inputs, MayBeArmedBeforeTheEdgeIsChosen) {
   // 000 1.9.5 asks ENBL and INTENBL for st_init alone; INTDSBL for an edge too.
-  command("INIT");
-  set({{"funInp", 5}, {"funInt", 6}});
-  diagnostics();
-  command("ENBL");
-  command("INTENBL");
-  EXPECT_THAT(diagnostics(), testing::IsEmpty());
-  EXPECT_EQ(get("st_enbl"), 1);
-  EXPECT_EQ(get("st_intenbl"), 1);
-  pulse_input();
-  edge(function_line, true);
-  tick();
-  EXPECT_EQ(get("st_capt"), 0);  // no edge is chosen yet
-  EXPECT_EQ(get("st_intcapt"), 0);
-  command("INTDSBL");
-  EXPECT_EQ(get("st_intenbl"), 1);
+  after("INIT funInp=5 funInt=6 forget ENBL INTENBL", "silent enbl intenbl");
+  after("2.INP03=1 +1 2.INP03=0 rise:5 +1", "!capt");  // no edge is chosen yet
+  shows("!intcapt");
+  after("INTDSBL", "intenbl");
   EXPECT_THAT(diagnostics(), Contains("INTDSBL: needs intcapt > 0"));
-  set({{"inpcapt", 2}, {"intcapt", 2}});
-  tick();
-  pulse_input();
-  edge(function_line, true);
-  tick();
-  EXPECT_EQ(get("delta1"), 1);
-  EXPECT_EQ(get("delta2"), 1);
-  EXPECT_EQ(get("st_enbl"), 0);
-  EXPECT_EQ(get("st_intenbl"), 0);
-  covers({"ENBL accepted", "INTENBL accepted", "INTDSBL refused", "inpcapt", "intcapt"});
+  after("inpcapt=2 intcapt=2 +1 2.INP03=1 +1 2.INP03=0 rise:5 +1", "delta1=1 delta2=1 !enbl !intenbl");
+  covers({"INTDSBL refused", "inpcapt"});
 }
 
 TEST_F(Camming4Inputs, ADisarmedInputDoesNothing) {
-  command("INIT");
-  arm_input(5);
-  command("DSBL");
-  pulse_input();
-  EXPECT_EQ(get("delta1"), 0);
-  EXPECT_EQ(get("st_capt"), 0);
-  arm_interrupt(5);
-  command("INTDSBL");
-  edge(function_line, true);
-  tick();
-  EXPECT_EQ(get("delta1"), 0);
-  arm_interrupt(0);
-  edge(function_line, true);
-  tick();
-  EXPECT_EQ(get("st_intcapt"), 0);
-  covers({"DSBL accepted", "INTDSBL accepted", "interrupt input 0"});
+  after("INIT funInp=5 inpcapt=2 ENBL DSBL 2.INP03=1 +1 2.INP03=0", "delta1=0 !capt");
+  after("funInt=5 intcapt=2 INTENBL +2 INTDSBL rise:5 +1", "delta1=0");
+  after("funInt=0 intcapt=2 INTENBL +2 rise:5 +1", "!intcapt");
+  covers({"interrupt input 0"});
 }
 
 TEST_F(Camming4Inputs, LatchesTheExactCountAtTheEdge) {
-  command("INIT");
-  arm_interrupt(3);
-  slave().count = 1003;
-  edge(function_line, true);
-  slave().count = 1010;
-  tick();
-  EXPECT_EQ(get("delta1"), 1003);
-  EXPECT_EQ(get("encoder"), 1010);
-  EXPECT_EQ(get("st_intenbl"), 0);
-  EXPECT_EQ(get("st_intcapt"), 1);
-  command("RSINTCAPT");
-  EXPECT_EQ(get("st_intcapt"), 0);
-  command("CNTREVM");
-  arm_interrupt(4, 1);
-  master().count = 7;
-  edge(function_line, false);
-  master().count = 20;
-  tick();
-  EXPECT_EQ(get("delta2"), -7);
-  covers({"INTENBL accepted", "RSINTCAPT accepted", "st_intenbl", "st_intcapt", "intcapt", "funInt",
-          "interrupt input 3", "interrupt input 4"});
+  after("INIT funInt=3 intcapt=2 INTENBL +2 count=1003 rise:5 count=1010 +1",
+        "delta1=1003 encoder=1010 !intenbl intcapt");
+  after("RSINTCAPT", "!intcapt");
+  after("CNTREVM funInt=4 intcapt=1 INTENBL +2 master=7 fall:5 master=20 +1", "delta2=-7");
+  covers({"funInt", "intcapt", "interrupt input 3", "interrupt input 4"});
 }
 
 TEST_F(Camming4Inputs, LoadsCountsAtTheEdge) {
-  command("INIT");
-  set({{"delta1", 500}, {"delta2", -30}});
-  arm_interrupt(7);
-  slave().count = 100;
-  edge(function_line, true);
-  slave().count = 104;
-  tick();
-  EXPECT_EQ(get("posit"), 504);
-  arm_input(8);
-  pulse_input();
-  EXPECT_EQ(get("positm"), -30);
+  after("INIT delta1=500 delta2=-30 funInt=7 intcapt=2 INTENBL +2 count=100 rise:5 count=104 +1",
+        "posit=504");
+  after("funInp=8 inpcapt=2 ENBL 2.INP03=1 +1 2.INP03=0", "positm=-30");
   covers({"interrupt input 7", "normal input 8"});
 }
 
 TEST_F(Camming4Inputs, CountsEvents) {
-  command("INIT");
-  write("delta2", 2147483647);
-  for (int i = 0; i < 3; ++i) {
-    arm_input(5);
-    pulse_input();
-    tick();
-  }
-  EXPECT_EQ(get("delta1"), 3);
-  arm_input(6);
-  pulse_input();
+  does("INIT delta2=2147483647");
+  for (int i = 0; i < 3; ++i) does("funInp=5 inpcapt=2 ENBL 2.INP03=1 +1 2.INP03=0 +1");
+  shows("delta1=3");
+  does("funInp=6 inpcapt=2 ENBL 2.INP03=1 +1 2.INP03=0");
   EXPECT_EQ(get("delta2"), -2147483647 - 1);
 }
 
 TEST_F(Camming4Inputs, StartsTheCamFromTheLatchedCount) {
   load_cam();
-  start();
-  arm_interrupt(10);
-  master().count = 1000;
-  edge(function_line, true);
-  tick(30);  // the master is 30 Um on at the sample
-  EXPECT_EQ(get("delta2"), 1000);
-  EXPECT_EQ(get("st_camex"), 1);
-  slave_blocked = true;
-  ticks(17, 10);  // 200 Um in all: 50 + 100
+  // The master is 30 Um on at the sample.
+  after("INIT LOOPON funInt=10 intcapt=2 INTENBL +2 master=1000 rise:5 +1*30", "delta2=1000 camex");
+  does("blocked=1 +17*10");  // 200 Um in all: 50 + 100
   EXPECT_EQ(get("follerr") + get("posit"), 150);
   covers({"interrupt input 10"});
 }
 
 TEST_F(Camming4Inputs, ARecalculationDelaysTheEvent) {
   load_cam();
-  start();
-  arm_interrupt(2);
-  write("maxvel", 40000);  // 5 samples
-  edge(function_line, true);
-  tick(10);
-  EXPECT_EQ(get("st_camex"), 0);
-  EXPECT_EQ(get("wrncode"), 8);
-  ticks(4, 10);
-  EXPECT_EQ(get("st_camex"), 0);
-  tick(10);
-  EXPECT_EQ(get("st_camex"), 1);
+  does("INIT LOOPON funInt=2 intcapt=2 INTENBL +2 maxvel=40000");  // 5 samples
+  after("rise:5 +1*10", "!camex wrncode=8");
+  after("+4*10", "!camex");
+  after("+1*10", "camex");
   // Its origin is the present count, not the latched one: row 1 ends 100 Um from here.
-  ticks(9, 10);
-  EXPECT_EQ(get("rowex"), 1);
-  tick(10);
-  EXPECT_EQ(get("rowex"), 2);
+  after("+9*10", "rowex=1");
+  after("+1*10", "rowex=2");
   covers({"warning 8", "interrupt input 2"});
 }
 
@@ -219,15 +100,15 @@ TEST_F(Camming4Inputs, EachParameterHasItsRecalculationTime) {
     const char* name;
     int samples;
   };
-  command("INIT");
+  does("INIT");
   for (const auto& [name, count] :
        {Delay{"codeQm1", 1}, Delay{"toll", 1}, Delay{"tbfm", 2}, Delay{"tbf", 3}, Delay{"decpt", 6},
         Delay{"pulsem", 130}, Delay{"measure", 139}, Delay{"offset", 0}, Delay{"setpos", 0}}) {
-    arm_interrupt(5);
+    does("funInt=5 intcapt=2 INTENBL +2");
     while (get("st_intcapt") == 1) command("RSINTCAPT");
     const int before = get("delta1");
     write(name, 1);
-    edge(function_line, true);
+    does("rise:5");
     int waited = 0;
     for (tick(); get("delta1") == before && waited < 1000; ++waited) tick();
     EXPECT_EQ(waited, count) << name;
@@ -236,49 +117,26 @@ TEST_F(Camming4Inputs, EachParameterHasItsRecalculationTime) {
 
 TEST_F(Camming4Inputs, StopCamIsInhibitedAfterFunctionEleven) {
   load_cam();
-  start();
-  arm_input(11);
-  pulse_input();
-  EXPECT_EQ(get("st_camex"), 1);
+  after("INIT LOOPON funInp=11 inpcapt=2 ENBL 2.INP03=1 +1 2.INP03=0", "camex");
   for (int ms = 2; ms < 24; ms += 2) {
-    command("STOPCAM");
+    does("STOPCAM");
     ASSERT_EQ(get("st_camex"), 1) << ms;
   }
   EXPECT_THAT(diagnostics(), Contains(HasSubstr("STOPCAM: needs 25 ms")));
-  ticks(2);
-  command("STOPCAM");
-  EXPECT_EQ(get("st_camex"), 0);
+  after("+2 STOPCAM", "!camex");
 }
 
 TEST_F(Camming4Inputs, AnInputStopsTheCam) {
   load_cam();
-  start();
-  arm_input(1);
-  pulse_input();
-  EXPECT_EQ(get("st_still"), 1);
-  command("STARTCAM");
-  ticks(20, 10);
-  order("ENBL");
-  tick(10);
-  pulse_input(10);
-  EXPECT_EQ(get("st_camex"), 0);
-  EXPECT_EQ(get("st_still"), 0);
+  after("INIT LOOPON funInp=1 inpcapt=2 ENBL 2.INP03=1 +1 2.INP03=0", "still");
+  after("STARTCAM +20*10 ENBL! +1*10 2.INP03=1 +1*10 2.INP03=0", "!camex !still");
 }
 
 TEST_F(Camming4Inputs, AStartWhoseConditionsFailIsReported) {
   load_cam();
-  start();
-  command("EMRG");
-  arm_input(9);
-  slave().count = 5;
-  diagnostics();
-  pulse_input();
-  EXPECT_EQ(get("st_camex"), 0);
-  EXPECT_EQ(get("delta1"), 5);
+  after("INIT LOOPON EMRG funInp=9 inpcapt=2 ENBL count=5 forget 2.INP03=1 +1 2.INP03=0", "!camex delta1=5");
   EXPECT_THAT(diagnostics(), Contains("STARTCAM: by funInp: its conditions do not hold"));
-  write("funInp", 44);
-  command("ENBL");
-  pulse_input();
+  does("funInp=44 ENBL 2.INP03=1 +1 2.INP03=0");
   EXPECT_THAT(diagnostics(), Contains("funInp: function 44 does nothing"));
 }
 

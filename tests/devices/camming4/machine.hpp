@@ -1,7 +1,5 @@
 #pragma once
-#include <functional>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,20 +10,6 @@ namespace drycut::devices::camming4 {
 /// A device of its own for each command and each write, brought into one of the situations of a machine.
 class Machine : public Camming4Test {
  public:
-  void TestBody() override {}
-  using Camming4Test::command;
-  using Camming4Test::device;
-  using Camming4Test::diagnostics;
-  using Camming4Test::get;
-  using Camming4Test::order;
-  using Camming4Test::row;
-  using Camming4Test::set;
-  using Camming4Test::start;
-  using Camming4Test::tick;
-  using Camming4Test::ticks;
-  using Camming4Test::word;
-  using Camming4Test::write;
-
   /// "init !emrg still": the states as the manual abbreviates them.
   bool holds(const std::string& conditions) {
     std::istringstream words(conditions);
@@ -38,7 +22,7 @@ class Machine : public Camming4Test {
   /// Every value and state of the device but the report of a refused command.
   std::map<std::string, std::int32_t> everything() {
     std::map<std::string, std::int32_t> all;
-    for (const std::string& name : symbol_names(device.type()))
+    for (const std::string& name : symbol_names(device->type()))
       if (name != "st_warning" && name != "wrncode" && name != "wrnvalue") all[name] = get(name);
     all["DAC"] = word();
     return all;
@@ -47,62 +31,21 @@ class Machine : public Camming4Test {
 
 struct Situation {
   const char* name;
-  std::function<void(Machine&)> bring;
+  const char* script;
 };
 
-inline const std::vector<Situation>& situations() {
-  static const std::vector<Situation> all = {
-      {"not initialised", [](Machine&) {}},
-      {"at rest", [](Machine& m) { m.start(); }},
-      {"loop open", [](Machine& m) { m.command("INIT"); }},
-      {"emergency",
-       [](Machine& m) {
-         m.start();
-         m.command("EMRG");
-       }},
-      {"regulation off",
-       [](Machine& m) {
-         m.start();
-         m.command("REGOFF");
-       }},
-      {"calibration",
-       [](Machine& m) {
-         m.start();
-         m.command("CALON");
-       }},
-      {"moving",
-       [](Machine& m) {
-         m.start();
-         m.command("MANFW");
-         m.ticks(60);
-       }},
-      {"in a cam",
-       [](Machine& m) {
-         m.row(1, {154, 1000, 1000});
-         m.row(2, {137, 1});
-         m.start();
-         m.command("STARTCAM");
-         m.ticks(30, 10);
-       }},
-      {"preset search",
-       [](Machine& m) {
-         m.start();
-         m.command("PRESET");
-         m.ticks(60);
-       }},
-      {"master's preset search",
-       [](Machine& m) {
-         m.start();
-         m.command("PRESETM");
-       }},
-      {"error",
-       [](Machine& m) {
-         m.start();
-         m.command("STARTCAM");
-         m.command("RESUME");
-       }},
-  };
-  return all;
-}
+inline constexpr Situation situations[] = {
+    {"not initialised", ""},
+    {"at rest", "INIT LOOPON"},
+    {"loop open", "INIT"},
+    {"emergency", "INIT LOOPON EMRG"},
+    {"regulation off", "INIT LOOPON REGOFF"},
+    {"calibration", "INIT LOOPON CALON"},
+    {"moving", "INIT LOOPON MANFW +60"},
+    {"in a cam", "codeG1=154 codeQm1=1000 codeQs1=1000 codeG2=137 codeQm2=1 INIT LOOPON STARTCAM +30*10"},
+    {"preset search", "INIT LOOPON PRESET +60"},
+    {"master's preset search", "INIT LOOPON PRESETM"},
+    {"error", "INIT LOOPON STARTCAM RESUME"},
+};
 
 }  // namespace drycut::devices::camming4

@@ -6,230 +6,102 @@
 namespace drycut::devices::camming4 {
 namespace {
 
-using testing::ElementsAre;
-
 using Camming4Regulation = Camming4Test;
 
 TEST_F(Camming4Regulation, OpenLoopMovesOnFeedForwardOnly) {
-  command("INIT");
-  write("setpos", 1000);
-  command("START");
-  ASSERT_TRUE(wait("st_still", 1));
-  EXPECT_EQ(get("propreg"), 0);
-  EXPECT_EQ(word(), 0);
-  EXPECT_NEAR(get("posit"), 1000, 30);
-  command("LOOPON");
-  EXPECT_EQ(get("follerr"), 0);
+  after("INIT setpos=1000 START until:still", "propreg=0 DAC=0 posit=1000~30");
+  after("LOOPON", "follerr=0");
 }
 
 TEST_F(Camming4Regulation, EmergencyStopsWithoutRampAndResumeReactsOnTheSpot) {
-  start();
-  command("MANFW");
-  ticks(60);
-  command("EMRG");
-  EXPECT_EQ(word(), 0);
-  EXPECT_EQ(get("st_emrg"), 1);
-  EXPECT_EQ(get("st_still"), 1);
-  EXPECT_EQ(get("st_loopon"), 1);
-  slave().count += 777;
-  sample();
-  EXPECT_EQ(word(), 0);
-  for (const char* name : {"START", "MANFW", "STARTCAM", "PRESET"}) command(name);
-  EXPECT_EQ(get("st_still"), 1);
-  EXPECT_EQ(get("wrncode"), 11);
-  command("RESUME");
-  EXPECT_EQ(get("st_emrg"), 0);
-  EXPECT_EQ(get("follerr"), 0);
-  EXPECT_EQ(word(), 0);
-  slave().count += 10;
-  sample();
-  EXPECT_EQ(get("propreg"), -655);  // pgain 200: 0.2 * 10/100 of 32767
-  covers({"EMRG accepted", "RESUME accepted", "st_emrg"});
+  after("INIT LOOPON MANFW +60 EMRG", "DAC=0 emrg still loopon");
+  after("count+=777 sample", "DAC=0");
+  after("START MANFW STARTCAM PRESET", "still wrncode=11");
+  after("RESUME", "!emrg follerr=0 DAC=0");
+  after("count+=10 sample", "propreg=-655");  // pgain 200: 0.2 * 10/100 of 32767
 }
 
 TEST_F(Camming4Regulation, CalibrationIsAVoltageSource) {
-  start();
-  write("offset", 7);
-  write("vout", 50);
-  sample();
-  EXPECT_THAT(diagnostics(), ElementsAre("vout: st_cal is 0, must be 1"));
-  command("CALON");
-  EXPECT_EQ(word(), 7);
-  write("vout", -25);
-  sample();
+  says("INIT LOOPON offset=7 vout=50 sample", {"vout: st_cal is 0, must be 1"});
+  after("CALON", "DAC=7");
+  does("vout=-25 sample");
   EXPECT_EQ(word(), -8192 + 7);
-  EXPECT_EQ(get("vout"), -25);
-  slave().count -= 4000;
-  sample();
-  command("CALOFF");
-  EXPECT_EQ(get("follerr"), 0);
-  EXPECT_EQ(word(), 7);
-  covers({"CALON accepted", "CALOFF accepted", "st_cal", "vout", "offset"});
+  shows("vout=-25");
+  after("count+=-4000 sample CALOFF", "follerr=0 DAC=7");
+  covers({"st_cal", "offset"});
 }
 
 TEST_F(Camming4Regulation, RegulationOffFreezesTheOutput) {
-  start();
-  slave_blocked = true;
-  slave().count = -20;
-  sample();
+  does("INIT LOOPON blocked=1 count=-20 sample");
   const int before = word();
   EXPECT_EQ(before, 1311);  // 0.2 * 20/100 of 32767
-  command("REGOFF");
-  slave().count = 300;
-  sample();
+  does("REGOFF count=300 sample");
   EXPECT_EQ(word(), before);
-  EXPECT_EQ(get("posit"), 300);
-  command("START");
-  EXPECT_EQ(get("wrncode"), 11);
-  command("REGON");
-  EXPECT_EQ(word(), 0);
-  covers({"REGOFF accepted", "REGON accepted", "st_regoff"});
+  shows("posit=300");
+  after("START", "wrncode=11");
+  after("REGON", "DAC=0");
+  covers({"REGOFF accepted", "st_regoff"});
 }
 
 TEST_F(Camming4Regulation, RegulatesByItsClosedForms) {
-  set({{"pgain", 1000}, {"feedfw", 0}});
-  start();
-  slave_blocked = true;
-  slave().count = -100;  // the way of one period at maxvel
-  sample();
-  EXPECT_EQ(word(), 32767);
-  EXPECT_EQ(get("propreg"), 32767);
-  EXPECT_EQ(get("follerr"), 100);
-  EXPECT_EQ(get("st_warning"), 0);
-  slave().count = 50;
-  set({{"offset", -100}});
-  sample();
+  does("pgain=1000 feedfw=0 INIT LOOPON blocked=1 count=-100");  // the way of one period at maxvel
+  after("sample", "DAC=32767 propreg=32767 follerr=100 !warning");
+  does("count=50 offset=-100 sample");
   EXPECT_EQ(word(), -16384 - 100);
-  covers({"pgain", "propreg", "follerr"});
+  covers({"pgain"});
 }
 
 TEST_F(Camming4Regulation, SaturationIsAWarning) {
-  write("pgain", 1000);
-  start();
-  slave_blocked = true;
-  slave().count = -101;
-  sample();
-  EXPECT_EQ(word(), 32767);
-  EXPECT_EQ(get("wrncode"), 3);
-  slave().count = 101;
-  sample();
-  EXPECT_EQ(word(), -32767);
-  EXPECT_EQ(get("wrncode"), 3);  // 4 is of lower priority
-  command("RSWRN");
-  EXPECT_EQ(get("wrncode"), 4);  // and comes back at once
+  after("pgain=1000 INIT LOOPON blocked=1 count=-101 sample", "DAC=32767 wrncode=3");
+  after("count=101 sample", "DAC=-32767 wrncode=3");  // 4 is of lower priority
+  after("RSWRN", "wrncode=4");                        // and comes back at once
 }
 
 TEST_F(Camming4Regulation, FollowingErrorIsHeldForHalfASecond) {
-  write("maxfollerr", 40);
-  start();
-  slave_blocked = true;
-  slave().count = 41;
-  sample();
-  EXPECT_EQ(get("st_foller"), 1);
-  slave().count = 40;
+  after("maxfollerr=40 INIT LOOPON blocked=1 count=41 sample", "foller");
+  does("count=40");
   for (int ms = period; ms < 500; ms += period) {
-    sample();
+    does("sample");
     ASSERT_EQ(get("st_foller"), 1) << ms;
   }
-  sample();
-  EXPECT_EQ(get("st_foller"), 0);
+  after("sample", "!foller");
 }
 
 TEST_F(Camming4Regulation, MeasuresFrequencyAndSpeed) {
-  set({{"tbf", 2}, {"tbfm", 2}});
-  command("INIT");
-  for (int i = 0; i < 12; ++i) {
-    slave().count -= 8;
-    tick(20);
-  }
-  EXPECT_EQ(get("frq"), 1000);
-  EXPECT_EQ(get("vel"), 4000);
-  EXPECT_EQ(get("frqm"), 2500);
+  does("tbf=2 tbfm=2 INIT");
+  for (int i = 0; i < 12; ++i) does("count+=-8 +1*20");
+  shows("frq=1000 vel=4000 frqm=2500");
 }
 
 TEST_F(Camming4Regulation, LocksAndReversesItsCounts) {
-  command("INIT");
-  command("CNTREV");
-  slave().count += 10;
-  sample();
-  EXPECT_EQ(get("posit"), -10);
-  command("CNTLOCK");
-  slave().count += 10;
-  sample();
-  EXPECT_EQ(get("posit"), -10);
-  command("CNTUNLOCK");
-  command("CNTDIR");
-  slave().count += 3;
-  tick(4);
-  EXPECT_EQ(get("posit"), -7);
-  command("CNTREVM");
-  tick(1);
-  EXPECT_EQ(get("positm"), 3);
-  command("CNTLOCKM");
-  tick(100);
-  EXPECT_EQ(get("encoderm"), 3);
+  after("INIT CNTREV count+=10 sample", "posit=-10");
+  after("CNTLOCK count+=10 sample", "posit=-10");
+  after("CNTUNLOCK CNTDIR count+=3 +1*4", "posit=-7");
+  after("CNTREVM +1*1", "positm=3");
+  after("CNTLOCKM +1*100", "encoderm=3");
 }
 
 TEST_F(Camming4Regulation, DelCntKeepsTheRemainder) {
-  set({{"measure", 1}, {"pulse", 10}});
-  command("INIT");
-  slave().count = 23;
-  sample();
-  EXPECT_EQ(get("posit"), 2);
-  write("delta1", 2);
-  command("DELCNT");
-  slave().count += 7;
-  sample();
-  EXPECT_EQ(get("posit"), 5);  // 4.3 + 0.7
-  slave().count += 3;
-  sample();
-  write("posit", 5);
-  sample();
-  slave().count += 9;
-  sample();
-  EXPECT_EQ(get("posit"), 5);
-  covers({"DELCNT accepted", "delta1"});
+  after("measure=1 pulse=10 INIT count=23 sample", "posit=2");
+  after("delta1=2 DELCNT count+=7 sample", "posit=5");  // 4.3 + 0.7
+  after("count+=3 sample posit=5 sample count+=9 sample", "posit=5");
+  covers({"delta1"});
 }
 
 TEST_F(Camming4Regulation, TwoDelCntBetweenSamplesAreOne) {
-  command("INIT");
-  set({{"posit", 1000}, {"delta1", -100}});
-  order("DELCNT");
-  order("DELCNT");
-  sample();
-  EXPECT_EQ(get("posit"), 900);
-  command("DELCNT");
-  EXPECT_EQ(get("posit"), 800);
+  after("INIT posit=1000 delta1=-100 DELCNT! DELCNT! sample", "posit=900");
+  after("DELCNT", "posit=800");
 }
 
 TEST_F(Camming4Regulation, ConvertsByTheRatioOfMeasureAndPulse) {
-  set({{"measure", 220}, {"pulse", 4096}});
-  command("INIT");
-  slave().count = 62296;
-  sample();
-  EXPECT_EQ(get("posit"), 3345);
-  write("encoder", -4096);
-  sample();
-  EXPECT_EQ(get("posit"), -220);
+  after("measure=220 pulse=4096 INIT count=62296 sample", "posit=3345");
+  after("encoder=-4096 sample", "posit=-220");
 }
 
 TEST_F(Camming4Regulation, ChangesTheMasterWithoutAJump) {
-  command("INIT");
-  master().count = 100;
-  master_b().count = 5000;
-  sample();
-  write("mtype", 1);
-  sample();
-  EXPECT_EQ(get("positm"), 100);
-  master().count = 300;
-  master_b().count = 5007;
-  sample();
-  EXPECT_EQ(get("positm"), 107);
-  write("mtype", 0);
-  sample();
-  master().count = 301;
-  sample();
-  EXPECT_EQ(get("positm"), 108);
+  after("INIT master=100 master_b=5000 sample mtype=1 sample", "positm=100");
+  after("master=300 master_b=5007 sample", "positm=107");
+  after("mtype=0 sample master=301 sample", "positm=108");
   covers({"mtype"});
 }
 

@@ -16,12 +16,12 @@ using testing::ElementsAre;
 constexpr int slave_bits = 1000;  ///< a Um
 constexpr int master_bits = 100;  ///< a Um
 
-/// Runs tables through the whole device. The slave does not move and nothing regulates, so the following
+/// Runs tables through the whole device-> The slave does not move and nothing regulates, so the following
 /// error is the theoretical way, to a thousandth of a Um.
 class Camming4Sectors : public Camming4Test {
  protected:
   void prepare() {
-    device.power_up();
+    does("power");
     set({{"measure", 1},
          {"pulse", slave_bits},
          {"measurem", 1},
@@ -30,10 +30,7 @@ class Camming4Sectors : public Camming4Test {
          {"pgain", 0},
          {"feedfw", 0},
          {"syncrange", 999999}});
-    slave_blocked = true;
-    command("INIT");
-    set({{"posit", 0}, {"positm", 0}});
-    sample();
+    does("blocked=1 INIT posit=0 positm=0 sample");
     master_at_ = 0;
   }
   /// The master runs on to `um` after the cam's start, at most a Um a sample.
@@ -125,19 +122,18 @@ TEST_F(Camming4Sectors, MovementsFollowTheirClosedForms) {
     row(1, {154, 100, expected.entry, 0, 0});
     row(2, expected.row);
     row(3, {136, 0, 0, 0, 0});
-    command("STARTCAM");
+    does("STARTCAM");
     for (const double u : {0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 0.9, 0.99}) {
       const double m = std::round(u * expected.master * master_bits) / master_bits;
       master_to(100 + m);
-      EXPECT_EQ(get("rowex"), 2);
+      shows("rowex=2");
       EXPECT_NEAR(slave_um(), expected.entry + expected.slave(m), 0.00051) << m;
     }
     if (code >= 170 && code <= 175) {
       EXPECT_EQ(get("codeQma2"), static_cast<int>(expected.master * 0.99));
     }
     master_to(101 + expected.master);
-    EXPECT_EQ(get("st_camex"), 0);
-    EXPECT_EQ(get("st_error"), 0);
+    shows("!camex !error");
     EXPECT_NEAR(slave_um(), expected.entry + expected.slave(expected.master), 0.00051);
     covers(
         {"sector " + std::to_string(code), "sector 136", "codeG", "codeQm", "codeQs", "codeQma", "codeQsa"});
@@ -146,10 +142,8 @@ TEST_F(Camming4Sectors, MovementsFollowTheirClosedForms) {
 
 TEST_F(Camming4Sectors, TheClockwiseTangentTurnsBackward) {
   prepare();
-  row(1, {154, 100, 1000});
-  row(2, {174, 100, 100, 0, 100});
-  row(3, {136});
-  command("STARTCAM");
+  rows({{154, 100, 1000}, {174, 100, 100, 0, 100}, {136}});
+  does("STARTCAM");
   master_to(150);
   EXPECT_NEAR(slave_um(), 1000 - 900 * 50 / (50 * pi), 0.00051);
   master_to(300);
@@ -168,13 +162,10 @@ TEST_F(Camming4Sectors, UpdatesChangeTheCountsAndNothingElse) {
         Case{143, 300 - 1.2, 60 - 0.04}, Case{144, 1.2, 60}, Case{145, 300, 0.04}, Case{146, 1.2, 0.04}}) {
     SCOPED_TRACE(expected.code);
     prepare();
-    row(1, {154, 300, 60});
-    row(2, {expected.code, 120, 40});
-    row(3, {154, 300, 60});
-    row(4, {136});
-    command("STARTCAM");
+    rows({{154, 300, 60}, {expected.code, 120, 40}, {154, 300, 60}, {136}});
+    does("STARTCAM");
     master_to(310.5);
-    EXPECT_EQ(get("rowex"), 3);
+    shows("rowex=3");
     EXPECT_NEAR(slave_um(), 62.1, 0.00051);  // the axis has not noticed
     EXPECT_EQ(get("encoderm"), std::lround((expected.master + 10.5) * master_bits));
     EXPECT_EQ(get("positm"), static_cast<int>(expected.master + 10.5));
@@ -186,13 +177,8 @@ TEST_F(Camming4Sectors, UpdatesChangeTheCountsAndNothingElse) {
 
 TEST_F(Camming4Sectors, JumpsGoWhereTheySay) {
   prepare();
-  row(1, {154, 10, 10});
-  row(2, {190, 1, 2});
-  row(3, {137, 5});
-  row(4, {77});
-  row(5, {154, 10, 20});
-  row(6, {138});
-  command("STARTCAM");
+  rows({{154, 10, 10}, {190, 1, 2}, {137, 5}, {77}, {154, 10, 20}, {138}});
+  does("STARTCAM");
   std::vector<int> rows;
   std::vector<int> jumps;
   for (int m = 5; m <= 85; m += 10) {
@@ -202,64 +188,50 @@ TEST_F(Camming4Sectors, JumpsGoWhereTheySay) {
   }
   EXPECT_THAT(rows, ElementsAre(1, 1, 1, 5, 1, 1, 1, 5, 1));
   EXPECT_THAT(jumps, ElementsAre(0, 1, 2, 0, 0, 1, 2, 0, 0));
-  EXPECT_EQ(get("positm"), 5);  // each loop takes 40 Um off
+  shows("positm=5");  // each loop takes 40 Um off
   EXPECT_NEAR(slave_um(), 2 * 50 + 5, 0.00051);
-  EXPECT_EQ(get("posit"), -100);
+  shows("posit=-100");
   covers({"sector 137", "sector 138", "sector 190", "rowex"});
 }
 
 TEST_F(Camming4Sectors, AStartClearsTheJumpCountersForTheProgramToo) {
   prepare();
-  row(1, {154, 10, 10});
-  row(2, {190, 1, 5});
-  row(3, {136});
-  command("STARTCAM");
+  rows({{154, 10, 10}, {190, 1, 5}, {136}});
+  does("STARTCAM");
   master_to(25);
-  EXPECT_EQ(get("codeQma2"), 2);
-  command("STOPCAM");
-  ASSERT_TRUE(wait("st_still", 1));
-  EXPECT_EQ(get("codeQma2"), 2);
-  command("STARTCAM");
-  EXPECT_EQ(get("codeQma2"), 0);
+  shows("codeQma2=2");
+  after("STOPCAM until:still", "codeQma2=2");
+  after("STARTCAM", "codeQma2=0");
   covers({"codeQma", "sector 190"});
 }
 
 TEST_F(Camming4Sectors, TheStartSyncWaitsForItsQuota) {
   prepare();
-  row(1, {160, 50, 0, 0, 0, 9});
-  row(2, {154, 100, 100, 0, 0, 10});
-  row(3, {136});
-  command("STARTCAM");
+  rows({{160, 50, 0, 0, 0, 9}, {154, 100, 100, 0, 0, 10}, {136}});
+  does("STARTCAM");
   master_to(49.5);
-  EXPECT_EQ(get("rowex"), 1);
-  EXPECT_EQ(get("codeMex"), 9);
-  EXPECT_EQ(get("st_camex"), 1);
+  shows("rowex=1 codeMex=9 camex");
   EXPECT_EQ(slave_um(), 0);
   master_to(60);
-  EXPECT_EQ(get("rowex"), 2);
-  EXPECT_EQ(get("codeMex"), 10);
+  shows("rowex=2 codeMex=10");
   EXPECT_NEAR(slave_um(), 10, 0.00051);
-  EXPECT_EQ(get("st_warning"), 0);
-  covers({"sector 160", "codeMex", "codeM"});
+  shows("!warning");
+  covers({"sector 160", "codeM"});
 }
 
 TEST_F(Camming4Sectors, AStartBeyondTheQuotaIsWarningNine) {
   prepare();
   master_to(51);
-  row(1, {160, 50});
-  row(2, {154, 100, 100});
-  command("STARTCAM");
-  EXPECT_EQ(get("wrncode"), 9);
-  EXPECT_EQ(get("wrnvalue"), 1);
-  EXPECT_EQ(get("st_camex"), 1);
+  rows({{160, 50}, {154, 100, 100}});
+  after("STARTCAM", "wrncode=9 wrnvalue=1 camex");
   master_to(80);
-  EXPECT_EQ(get("rowex"), 1);
+  shows("rowex=1");
   for (int i = 0; i < 40; ++i) tick(-master_bits);
-  EXPECT_EQ(get("positm"), 40);
+  shows("positm=40");
   for (int i = 0; i < 20; ++i) tick(master_bits);
-  EXPECT_EQ(get("rowex"), 2);
+  shows("rowex=2");
   EXPECT_NEAR(slave_um(), 10, 0.00051);
-  covers({"warning 9", "wrnvalue"});
+  covers({"warning 9"});
 }
 
 /// Each warning of the cam, alone in its table.
@@ -283,13 +255,12 @@ TEST_F(Camming4Sectors, TablesThatWarnGoOn) {
       row(number, {0, 0, 0, 0, 0});
       row(number++, values);
     }
-    command("STARTCAM");
+    does("STARTCAM");
     master_to(150);
-    EXPECT_EQ(get("st_warning"), 1);
+    shows("warning");
     EXPECT_EQ(get("wrncode"), expected.warning);
     EXPECT_EQ(get("wrnvalue"), expected.row);
-    EXPECT_EQ(get("st_error"), 0);
-    EXPECT_EQ(get("st_camex"), 1);
+    shows("!error camex");
     covers({"warning " + std::to_string(expected.warning), "st_warning", "wrncode", "wrnvalue"});
   }
 }
@@ -297,21 +268,19 @@ TEST_F(Camming4Sectors, TablesThatWarnGoOn) {
 TEST_F(Camming4Sectors, TheDecelerationLimitIsWarningTwo) {
   // 1 to 0 over 100 Um at 500 Um/s: 2500 Um/s2.
   prepare();
-  set({{"unitvel", 1}, {"decpt", 0}, {"taccmax", 999}, {"tdecmax", 999}});
-  row(1, {154, 100, 100});
-  row(2, {135, 100, 50});
-  row(3, {136});
+  does("unitvel=1 decpt=0 taccmax=999 tdecmax=999");
+  rows({{154, 100, 100}, {135, 100, 50}, {136}});
   const auto run = [&](int maxvel) {
     write("maxvel", maxvel);
-    command("RSWRN");
+    does("RSWRN");
     for (int i = 0; i < 20; ++i) tick(master_bits);
-    order("STARTCAM");
+    does("STARTCAM!");
     for (int i = 0; i < 150; ++i) tick(master_bits);
-    EXPECT_EQ(get("rowex"), 2);
+    shows("rowex=2");
     const int warning = get("wrncode");
     EXPECT_EQ(get("wrnvalue"), warning == 0 ? 0 : 2);
     for (int i = 0; i < 60; ++i) tick(master_bits);
-    EXPECT_EQ(get("st_camex"), 0);
+    shows("!camex");
     return warning;
   };
   EXPECT_EQ(run(24975), 0);  // over 9.99 s

@@ -124,12 +124,12 @@ bool is_live(const std::string& name) {
 
 TEST(Camming4Conditions, AWriteIsTakenOnlyIfItsConditionsHold) {
   for (const VariableRule& rule : variable_rules) {
-    for (const Situation& situation : situations()) {
+    for (const Situation& situation : situations) {
       SCOPED_TRACE(std::string(rule.name) + " when " + situation.name);
       Machine machine;
       Machine control;
       for (Machine* each : {&machine, &control}) {
-        situation.bring(*each);
+        each->does(situation.script);
         each->diagnostics();
       }
       // Row 3 of the cam table neither runs nor follows the running one.
@@ -140,8 +140,8 @@ TEST(Camming4Conditions, AWriteIsTakenOnlyIfItsConditionsHold) {
       const bool writable = std::string(rule.access) == "RW" && machine.holds(rule.conditions);
       const std::int32_t value = machine.get(name) == 1 ? 2 : 1;
       machine.write(name, value);
-      machine.device.sample();
-      control.device.sample();
+      machine.device->sample();
+      control.device->sample();
       if (writable) {
         EXPECT_THAT(machine.diagnostics(), Not(Contains(HasSubstr("must be"))));
         if (!is_live(rule.name)) {
@@ -171,12 +171,12 @@ TEST(Camming4Conditions, PowerLossAndInitKeepWhatIsRetentive) {
   machine.write("codeM1", 3);  // error 5
   machine.order("CNTLOCKM");
   auto before = machine.everything();
-  machine.device.sample();
+  machine.device->sample();
   EXPECT_EQ(machine.get("errcode"), 5);
   EXPECT_NE(before["rowex"], 0);
   EXPECT_NE(before["intreg"], 0);
   before = machine.everything();
-  machine.device.power_up();
+  machine.device->power_up();
   auto after = machine.everything();
   for (const VariableRule& rule : variable_rules) {
     const std::string name = after.contains(rule.name) ? rule.name : std::string(rule.name) + "1";

@@ -16,9 +16,9 @@ class WatchedCam : public Camming4Test {
  public:
   void TestBody() override {}
   explicit WatchedCam(std::int64_t tenths) : tenths_(tenths) {
-    start();
+    does("INIT LOOPON");
     run(40);
-    diagnostics();
+    does("forget");
   }
   using Camming4Test::get;
   using Camming4Test::order;
@@ -117,12 +117,9 @@ class GradientCam : public WatchedCam {
  public:
   GradientCam(std::int64_t tenths, int hundredths) : WatchedCam(tenths) {
     set({{"taccmax", hundredths}, {"tdecmax", hundredths}});
-    row(1, {131, 1000, 500});
-    row(2, {135, 1000, 500});
-    row(3, {136});
+    rows({{131, 1000, 500}, {135, 1000, 500}, {136}});
     run(1);
-    diagnostics();
-    order("STARTCAM");
+    does("forget STARTCAM!");
   }
   using Camming4Test::command;
   using Camming4Test::diagnostics;

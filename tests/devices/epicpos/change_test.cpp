@@ -5,17 +5,14 @@
 namespace drycut::devices::epicpos {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-
 // Changes of quota, count, speed and ramp times in motion (002 1.3.2, 1.3.3, 1.5; spec 5.7, D13). A placement
 // to 4000 Um at 5000 Um/s: 0.1 s up, 0.7 s at speed, 0.1 s down.
 class EpicposChange : public PositionerTest {
  protected:
   void begin(int periods, int quota = 4000) {
-    start();
+    does("INIT LOOPON");
     write("setpos", quota);
-    command("START");
+    does("START");
     ticks(periods - 1);
   }
   static constexpr const char* quota_refused =
@@ -26,92 +23,53 @@ class EpicposChange : public PositionerTest {
 
 TEST_F(EpicposChange, ANewSpeedAtConstantSpeedActsWithoutMovingTheQuota) {
   begin(100);
-  write("setvel", 10000);
-  ticks(25);
-  EXPECT_NEAR(speed(), 7500, 10);  // in the middle of its own ramp of 0.1 s
-  ticks(30);
-  EXPECT_NEAR(speed(), 10000, 1);
-  write("setvel", 2500);
-  ticks(80);
-  EXPECT_NEAR(speed(), 2500, 1);
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 4000, 1);
-  EXPECT_EQ(get("st_toll"), 1);
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  after("setvel=10000 +25", "speed=7500~10");  // in the middle of its own ramp of 0.1 s
+  after("+30", "speed=10000~1");
+  after("setvel=2500 +80", "speed=2500~1");
+  after("until:still +300", "posit=4000~1 toll silent");
 }
 
 TEST_F(EpicposChange, ANewSpeedInARampWaitsForItsEnd) {
   begin(25);
-  write("setvel", 2500);
-  ticks(24);
-  EXPECT_NEAR(speed(), 5000, 10);  // the ramp is the one that was begun
-  ticks(60);
-  EXPECT_NEAR(speed(), 2500, 1);
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 4000, 1);
+  after("setvel=2500 +24", "speed=5000~10");  // the ramp is the one that was begun
+  after("+60", "speed=2500~1");
+  after("until:still +300", "posit=4000~1");
 }
 
 TEST_F(EpicposChange, NewRampTimesWaitForTheNextRamp) {
   begin(25);
-  write("taccdec", 200);
-  ticks(25);
-  EXPECT_NEAR(speed(), 5000, 1);  // this one took its 0.1 s
-  ticks(10);
-  write("setvel", 10000);
-  ticks(100);
-  EXPECT_NEAR(speed(), 10000, 1);  // 0.2 s for 5000 Um/s more
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 4000, 1);
+  after("taccdec=200 +25", "speed=5000~1");         // this one took its 0.1 s
+  after("+10 setvel=10000 +100", "speed=10000~1");  // 0.2 s for 5000 Um/s more
+  after("until:still +300", "posit=4000~1");
 }
 
 TEST_F(EpicposChange, RampTimesThatLoseTheQuotaAreKeptForLater) {
-  set({{"rampmode", 1}, {"tacc", 100}, {"tdec", 100}});
-  begin(300);          // about 2750 Um
-  write("tdec", 999);  // 2500 Um to stop
-  sample();
-  EXPECT_THAT(diagnostics(),
-              ElementsAre("tdec: kept for the next movement, the running one cannot take it any more"));
-  EXPECT_EQ(get("tdec"), 999);
-  ASSERT_TRUE(wait("st_still", 1, 200));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 4000, 1);
+  does("rampmode=1 tacc=100 tdec=100");
+  begin(300);        // about 2750 Um
+  does("tdec=999");  // 2500 Um to stop
+  says("sample", {"tdec: kept for the next movement, the running one cannot take it any more"});
+  shows("tdec=999");
+  after("until:still:200 +300", "posit=4000~1");
 }
 
 TEST_F(EpicposChange, ParametersThatDoNotCountChangeNothing) {
   begin(300);
-  write("tdec", 999);  // rampmode 0
-  write("tacc", 999);
-  sample();
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  does("tdec=999");  // rampmode 0
+  after("tacc=999 sample", "silent");
 }
 
 TEST_F(EpicposChange, NothingIsTakenInTheFinalDeceleration) {
   begin(410);
-  write("setvel", 8000);
-  write("setpos", 6000);
-  write("posit", 0);
-  sample();
-  EXPECT_THAT(diagnostics(),
-              ElementsAre("setvel: kept for the next movement, the running one cannot take it any more",
-                          quota_refused, posit_refused));
-  EXPECT_EQ(get("setvel"), 8000);
-  EXPECT_EQ(get("setpos"), 4000);
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 4000, 1);
+  says("setvel=8000 setpos=6000 posit=0 sample",
+       {"setvel: kept for the next movement, the running one cannot take it any more", quota_refused,
+        posit_refused});
+  shows("setvel=8000 setpos=4000");
+  after("until:still +300", "posit=4000~1");
 }
 
 TEST_F(EpicposChange, ANewQuotaAheadIsTaken) {
   begin(100);
-  write("setpos", 6000);
-  sample();
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 6000, 1);
-  EXPECT_EQ(get("st_toll"), 1);
+  after("setpos=6000 sample until:still +300", "posit=6000~1 toll");
 }
 
 TEST_F(EpicposChange, AQuotaBehindIsNot) {
@@ -119,64 +77,43 @@ TEST_F(EpicposChange, AQuotaBehindIsNot) {
   const int here = get("posit");
   write("setpos", here - 100);
   write("setpos", here + 200);  // it needs 250 Um to stop
-  write("setpos", -500);
-  sample();
-  EXPECT_THAT(diagnostics(), ElementsAre(quota_refused, quota_refused, quota_refused));
+  says("setpos=-500 sample", {quota_refused, quota_refused, quota_refused});
   write("setpos", here + 350);
-  sample();
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  after("sample", "silent");
   EXPECT_EQ(get("setpos"), here + 350);
-  ASSERT_TRUE(wait("st_still", 1, 100));
+  does("until:still:100");
 }
 
 TEST_F(EpicposChange, ANewCountKeepsTheQuota) {
   begin(200);
   const int here = get("posit");
   write("posit", here - 1000);  // 1000 Um more to go
-  sample();
+  does("sample");
   EXPECT_NEAR(get("posit"), here - 1000, 1);
-  EXPECT_EQ(get("setpos"), 4000);
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 4000, 1);
-  EXPECT_NEAR(static_cast<double>(count()), 5000, 2);
+  shows("setpos=4000");
+  after("until:still +300", "posit=4000~1 count=5000~2");
 }
 
 TEST_F(EpicposChange, ACountBeyondTheQuotaIsNotTaken) {
   begin(200);
   const int here = get("posit");
-  write("posit", 4001);
-  sample();
-  EXPECT_THAT(diagnostics(), ElementsAre(posit_refused));
+  says("posit=4001 sample", {posit_refused});
   EXPECT_NEAR(get("posit"), here, 20);
-  ASSERT_TRUE(wait("st_still", 1));
+  does("until:still");
 }
 
 TEST_F(EpicposChange, AManualMovementNeverEndsWhenItsCountIsSetBack) {
-  write("maxpos", 3000);
-  start();
-  command("MANFW");
+  does("maxpos=3000 INIT LOOPON MANFW");
   for (int i = 0; i < 5000; ++i) {
-    tick();
-    ASSERT_EQ(get("st_still"), 0);
+    after("+1", "!still");
     if (get("posit") > 2000) write("posit", 0);
   }
-  EXPECT_NEAR(speed(), 5000, 1);
-  EXPECT_GT(count(), 40000);
+  shows("speed=5000~1 count>40000");
 }
 
 TEST_F(EpicposChange, SetposIsFreeWhileNoPlacementRuns) {
-  start();
-  command("MANFW");
-  ticks(100);
-  write("setpos", -700);
-  sample();
-  EXPECT_EQ(get("setpos"), -700);
-  command("STOP");
-  write("setpos", -800);
-  sample();
-  EXPECT_EQ(get("setpos"), -800);
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  after("INIT LOOPON MANFW +100 setpos=-700 sample", "setpos=-700");
+  after("STOP setpos=-800 sample", "setpos=-800 silent");
 }
 
 TEST_F(EpicposChange, WhatNeedsAStillAxisIsRefusedInMotion) {
@@ -185,20 +122,17 @@ TEST_F(EpicposChange, WhatNeedsAStillAxisIsRefusedInMotion) {
                            "unitvel", "decpt"}) {
     const int before = get(name);
     write(name, before + 1);
-    sample();
+    does("sample");
     EXPECT_EQ(get(name), before) << name;
-    EXPECT_THAT(diagnostics(), ElementsAre(std::string(name) + ": st_still is 0, must be 1"));
+    says({std::string(name) + ": st_still is 0, must be 1"});
   }
-  command("EMRG");
-  write("cntratio", 5000);
-  sample();
-  EXPECT_EQ(get("cntratio"), 5000);
+  after("EMRG cntratio=5000 sample", "cntratio=5000");
 }
 
 TEST_F(EpicposChange, ReadOnlyValuesAreNotWritten) {
   for (const char* name : {"vel", "frq", "follerr", "ffwdreg", "propreg", "integ", "derreg", "st_still"}) {
     write(name, 7);
-    EXPECT_THAT(diagnostics(), ElementsAre(std::string(name) + ": read only"));
+    says({std::string(name) + ": read only"});
   }
 }
 

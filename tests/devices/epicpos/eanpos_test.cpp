@@ -8,9 +8,6 @@
 namespace drycut::devices::epicpos {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-
 // EANPOS: what differs from EPICPOS (spec 7, D17).
 class Eanpos : public PositionerTest {
  protected:
@@ -20,7 +17,7 @@ class Eanpos : public PositionerTest {
     double peak = 0;
     double last = 0;
     do {
-      tick();
+      does("+1");
       peak = std::max(peak, std::abs(speed() - last) * 1000 / period);
       last = speed();
     } while (get("st_still") == 0);
@@ -29,38 +26,32 @@ class Eanpos : public PositionerTest {
 };
 
 TEST_F(Eanpos, RampsAreLinear) {
-  start();
-  write("setpos", 4000);
-  command("START");
+  does("INIT LOOPON setpos=4000 START");
   for (int i = 2; i <= 50; ++i) {
-    tick();
+    does("+1");
     EXPECT_NEAR(speed(), 100 * i, 1);
   }
-  EXPECT_EQ(get("st_still"), 0);
+  shows("!still");
 }
 
 TEST_F(Eanpos, BothRampsTakeTheSameTimeAndOneTwiceTheAcceleration) {
   covers({"ramptype"});
-  start();
-  write("setpos", 1000);
+  does("INIT LOOPON setpos=1000");
   EXPECT_EQ(duration("START"), 150);
-  write("setpos", 2000);
+  does("setpos=2000");
   EXPECT_NEAR(peak_acceleration("START"), 5000 / 0.1, 500);
-  write("ramptype", 1);
-  write("setpos", 1000);
+  does("ramptype=1 setpos=1000");
   EXPECT_EQ(duration("START"), 150);
-  write("setpos", 0);
+  does("setpos=0");
   EXPECT_NEAR(peak_acceleration("START"), 2 * 5000 / 0.1, 500);
 }
 
 TEST_F(Eanpos, AShortMoveIsATriangle) {
-  write("setpos", 125);
-  start();
-  order("START");
+  does("setpos=125 INIT LOOPON START!");
   double peak = 0;
   long periods = 0;
   do {
-    tick();
+    does("+1");
     ++periods;
     peak = std::max(peak, speed());
   } while (get("st_still") == 0);
@@ -71,33 +62,21 @@ TEST_F(Eanpos, AShortMoveIsATriangle) {
 
 TEST_F(Eanpos, StopDeceleratesAtOnce) {
   for (const int ramptype : {0, 1}) {
-    device->power_up();
+    does("power");
     write("ramptype", ramptype);
-    start();
-    command("MANFW");
-    ticks(24);
-    EXPECT_NEAR(speed(), 2500, 1);
+    after("INIT LOOPON MANFW +24", "speed=2500~1");
     EXPECT_EQ(duration("STOP"), 25);
   }
 }
 
 TEST_F(Eanpos, ChangesActInsideALinearRamp) {
-  set({{"rampmode", 1}, {"tacc", 100}, {"tdec", 100}});
-  start();
-  write("setpos", 10000);
-  command("START");
-  ticks(24);
-  write("tacc", 50);  // twice as steep, at once (002 1.3.3)
+  // Twice as steep, at once (002 1.3.3).
+  does("rampmode=1 tacc=100 tdec=100 INIT LOOPON setpos=10000 START +24 tacc=50");
   const double before = speed();
-  ticks(10);
+  does("+10");
   EXPECT_NEAR(speed() - before, 2000, 5);
-  write("setvel", 4000);
-  ticks(20);
-  EXPECT_NEAR(speed(), 4000, 1);
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 10000, 1);
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  after("setvel=4000 +20", "speed=4000~1");
+  after("until:still +300", "posit=10000~1 silent");
 }
 
 // The simulated master (000 1.5): the counter is on slot 1 and only the device moves it. cntratio 100000: 1
@@ -105,54 +84,41 @@ TEST_F(Eanpos, ChangesActInsideALinearRamp) {
 class EanposSimulated : public PositionerTest {
  protected:
   EanposSimulated() : PositionerTest(eanpos::make_eanpos, "1.CNT01") {
-    blocked = true;
-    set({{"cntratio", 100000}, {"setvel", 1000}, {"maxvel", 100000}});
-    command("INIT");
+    does("blocked=1 cntratio=100000 setvel=1000 maxvel=100000 INIT");
   }
 };
 
 TEST_F(EanposSimulated, CountsFourBitsAHertz) {
-  command("MANFW");
-  ticks(20);
+  does("MANFW +20");
   for (const int hertz : {1000, 333, 77777, 1}) {
     write("setvel", hertz);
-    ticks(600);  // through the ramp
+    does("+600");  // through the ramp
     const std::int64_t before = count();
-    ticks(500);  // 1 s
+    does("+500");  // 1 s
     EXPECT_NEAR(static_cast<double>(count() - before), 4.0 * hertz, 1) << hertz;
   }
-  command("STOP");
-  EXPECT_TRUE(wait("st_still", 1));
+  does("STOP until:still");
   const std::int64_t stopped = count();
-  ticks(100);
+  does("+100");
   EXPECT_EQ(count(), stopped);
 }
 
 TEST_F(EanposSimulated, KeepsThePartOfABit) {
   // 1 Hz is 0.008 bits a sample: nothing but the kept part moves the counter.
-  set({{"setvel", 1}, {"taccdec", 0}});
-  command("MANFW");
+  does("setvel=1 taccdec=0 MANFW");
   ticks(500 * 100 - 1);  // 100 s
-  EXPECT_EQ(count(), 400);
+  shows("count=400");
 }
 
 TEST_F(EanposSimulated, ReadsItsOwnCounter) {
-  command("MANFW");
-  ticks(1000);
+  does("MANFW +1000");
   EXPECT_NEAR(get("posit"), static_cast<double>(count()) / 4, 3);
-  EXPECT_EQ(get("st_loopon"), 0);
-  command("STOP");
-  EXPECT_TRUE(wait("st_still", 1));
-  tick();
+  shows("!loopon");
+  does("STOP until:still +1");
   EXPECT_EQ(get("posit"), count() / 4);
-  command("CNTREV");
-  write("posit", 0);
+  does("CNTREV posit=0");
   const std::int64_t before = count();
-  command("MANFW");
-  ticks(100);
-  command("STOP");
-  ASSERT_TRUE(wait("st_still", 1));
-  tick();
+  does("MANFW +100 STOP until:still +1");
   EXPECT_EQ(get("posit"), (before - count()) / 4);
 }
 
@@ -161,54 +127,44 @@ TEST_F(EanposSimulated, PlacesItself) {
     ASSERT_TRUE(place(quota));
     EXPECT_EQ(get("posit"), quota);
     EXPECT_EQ(count(), 4 * quota);
-    EXPECT_EQ(get("st_toll"), 1);
+    shows("toll");
   }
 }
 
 TEST_F(EanposSimulated, RunsWithoutEndOrDrift) {
-  write("setvel", 100000);
-  command("MANFW");
-  ticks(1000);
+  does("setvel=100000 MANFW +1000");
   for (int i = 0; i < 100; ++i) {
     const std::int64_t before = count();
     for (int n = 0; n < 5000; ++n) {  // 10 s
-      tick();
+      does("+1");
       if (get("posit") >= 500000) write("posit", 0);
     }
     ASSERT_EQ(count() - before, 4000000);
-    ASSERT_EQ(get("st_still"), 0);
+    shows("!still");
   }
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  shows("silent");
 }
 
 TEST_F(EanposSimulated, EmergencyStopsIt) {
-  command("MANFW");
-  ticks(100);
-  command("EMRG");
+  does("MANFW +100 EMRG");
   const std::int64_t stopped = count();
-  ticks(10);
+  does("+10");
   EXPECT_EQ(count(), stopped);
 }
 
 TEST_F(EanposSimulated, PowerLossClearsTheCounterAndKeepsThePosition) {
-  command("MANFW");
-  ticks(500);
-  command("STOP");
-  wait("st_still", 1);
-  tick();
+  does("MANFW +500 STOP until:still +1");
   const int posit = get("posit");
   ASSERT_GT(posit, 500);
-  device->power_up();
-  EXPECT_EQ(count(), 0);
-  command("INIT");
-  tick();
+  after("power", "count=0");
+  does("INIT +1");
   EXPECT_EQ(get("posit"), posit);
 }
 
 TEST_F(EanposSimulated, EpicposIsAnotherDeviceOfMovement) {
   Cards other;
   const Address counter = *parse_address("1.CNT02");
-  const auto epicpos = make_epicpos({{2, {}}, {0, counter}, {0, {}}, {0, {}}, {0, {}}}, other);
+  const auto epicpos = make_epicpos(terminals_of("2 1.CNT02 X X X"), other);
   const auto write_to = [&](const char* name, int value) {
     epicpos->write(*find_symbol(epicpos->type(), name), value);
   };
@@ -227,7 +183,7 @@ TEST_F(EanposSimulated, EpicposIsAnotherDeviceOfMovement) {
 }
 
 TEST_F(EanposSimulated, TwoOnOneCounterAreReported) {
-  const auto second = eanpos::make_eanpos({{2, {}}, {0, address}, {0, {}}, {0, {}}, {0, {}}}, cards);
+  const auto second = eanpos::make_eanpos(terminals_of("2 1.CNT01 X X X"), cards);
   second->write(*find_symbol(second->type(), "cntratio"), 100000);
   second->command(*find_command(second->type(), "INIT"));
   second->sample();
@@ -270,9 +226,9 @@ TEST_F(EanposSimulated, IsAMasterOfCamming4) {
   give_cam("STARTCAM");
   cam->sample();
   ASSERT_EQ(cam_value("st_camex"), 1);
-  command("MANFW");
+  does("MANFW");
   for (int i = 0; i < 1000; ++i) {
-    tick();
+    does("+1");
     cam->sample();
     ASSERT_EQ(cam_value("encoderm"), count());
   }
@@ -284,7 +240,7 @@ TEST_F(EanposSimulated, IsAMasterOfCamming4) {
   cam->sample();
   EXPECT_NEAR(cam_value("positm"), before, 2);
   cards.counters.at(*parse_address("2.CNT02")).count += 40;
-  tick();
+  does("+1");
   cam->sample();
   EXPECT_NEAR(cam_value("positm"), before + 10, 2);
 }
@@ -306,15 +262,15 @@ TEST_F(EanposSimulated, IsCapturedByInterrupts) {
   set_cam("intcapt", 2);
   cam->sample();
   cam->command(*find_command(cam->type(), "INTENBL"));
-  command("MANFW");
+  does("MANFW");
   for (int i = 0; i < 300; ++i) {
-    tick();
+    does("+1");
     cam->sample();
   }
-  ASSERT_GT(count(), 1000);
+  shows("count>1000");
   cam->interrupt(5, true);
   const std::int64_t at_edge = count();
-  tick();
+  does("+1");
   cam->sample();
   EXPECT_EQ(cam->read(*find_symbol(cam->type(), "delta2")), at_edge);
 }

@@ -7,9 +7,6 @@
 namespace drycut::devices::epicpos {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-
 // Placements and ramps (002 1.2.3, 1.4.3; spec 5.3-5.10). At maxvel 50000 Um/s and taccdec 1 s a ramp to
 // 5000 Um/s takes 0.1 s = 50 periods and 250 Um.
 class EpicposMotion : public PositionerTest {
@@ -19,7 +16,7 @@ class EpicposMotion : public PositionerTest {
     double peak = 0;
     double last = speed();
     while (get("st_still") == 0) {
-      tick();
+      does("+1");
       peak = std::max(peak, std::abs(speed() - last) * 1000 / period);
       last = speed();
     }
@@ -28,37 +25,32 @@ class EpicposMotion : public PositionerTest {
 };
 
 TEST_F(EpicposMotion, PlacesTheAxisExactly) {
-  covers({"setpos", "st_still", "START accepted"});
-  start();
-  EXPECT_EQ(get("st_still"), 1);
+  covers({"setpos"});
+  after("INIT LOOPON", "still");
   for (const int target : {1000, -2000, -1999, 0}) {
     write("setpos", target);
-    command("START");
-    EXPECT_EQ(get("st_still"), 0);
-    ASSERT_TRUE(wait("st_still", 1));
-    ticks(300);
+    after("START", "!still");
+    does("until:still +300");
     EXPECT_NEAR(get("posit"), target, 1);
   }
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  shows("silent");
 }
 
 TEST_F(EpicposMotion, ARampTakesItsTimeFromRestToMaxvel) {
   covers({"taccdec", "setvel", "maxvel"});
-  start();
+  does("INIT LOOPON");
   // 0.1 s each ramp, 500 Um in ramps, 500 Um at speed: 0.3 s, as a trapezoid of the same times needs.
-  write("setpos", 1000);
+  does("setpos=1000");
   EXPECT_EQ(duration("START"), 150);
   // A tenth of the speed: 0.01 s ramps and 5 Um, 990 Um at 500 Um/s.
-  set({{"setpos", 0}, {"setvel", 500}});
+  does("setpos=0 setvel=500");
   EXPECT_EQ(duration("START"), 5 + 995 + 5);
 }
 
 TEST_F(EpicposMotion, TheRampIsEpicycloidalWithTwiceTheLinearPeak) {
-  start();
-  write("setpos", 4000);
-  command("START");
+  does("INIT LOOPON setpos=4000 START");
   for (int i = 2; i <= 50; ++i) {
-    tick();
+    does("+1");
     const double p = i / 50.0;
     const double expected = 5000 * (p - std::sin(2 * M_PI * p) / (2 * M_PI));
     EXPECT_NEAR(speed(), expected, 1) << i;
@@ -68,28 +60,25 @@ TEST_F(EpicposMotion, TheRampIsEpicycloidalWithTwiceTheLinearPeak) {
 
 TEST_F(EpicposMotion, TwoRampTimes) {
   covers({"rampmode", "tacc", "tdec"});
-  set({{"tacc", 200}, {"tdec", 50}, {"setpos", 1000}});
-  start();
+  does("tacc=200 tdec=50 setpos=1000 INIT LOOPON");
   EXPECT_EQ(duration("START"), 150);  // rampmode 0: taccdec counts
-  set({{"rampmode", 1}, {"setpos", 0}});
+  does("rampmode=1 setpos=0");
   // 0.2 s and 500 Um, 0.05 s and 125 Um, 375 Um at speed in 0.075 s
   EXPECT_EQ(duration("START"), 100 + 38 + 25);
 }
 
 TEST_F(EpicposMotion, ReductionKeepsTimesOrGradients) {
   covers({"rtype"});
-  set({{"rampmode", 1}, {"tacc", 100}, {"tdec", 200}, {"setpos", 75}});
-  start();
+  does("rampmode=1 tacc=100 tdec=200 setpos=75 INIT LOOPON");
   // Ramps of 0.1 s and 0.2 s; 75 Um in them is a peak of 2 * 75 / 0.3 = 500 Um/s.
-  write("rtype", 0);
+  does("rtype=0");
   EXPECT_EQ(duration("START"), 150);
   // a = 50000, d = 25000: vp = sqrt(2 D a d / (a + d)) = 1581 Um/s, 0.0316 s and 0.0632 s.
-  set({{"rtype", 1}, {"setpos", 0}});
-  order("START");
+  does("rtype=1 setpos=0 START!");
   double peak = 0;
   const long before = samples;
   do {
-    tick();
+    does("+1");
     peak = std::max(peak, std::abs(speed()));
   } while (get("st_still") == 0);
   EXPECT_NEAR(static_cast<double>(samples - before), 0.0949 / 0.002, 1);
@@ -98,18 +87,16 @@ TEST_F(EpicposMotion, ReductionKeepsTimesOrGradients) {
 
 TEST_F(EpicposMotion, StopFinishesTheAccelerationOrNot) {
   covers({"stopt", "STOP accepted"});
-  set({{"setpos", 100000}});
-  start();
+  does("setpos=100000 INIT LOOPON");
   for (const int stopt : {0, 1}) {
     write("stopt", stopt);
-    command("START");
-    ticks(24);  // mid ramp: half the speed
-    EXPECT_NEAR(speed(), 2500, 1);
-    order("STOP");
+    does("START +24");  // mid ramp: half the speed
+    shows("speed=2500~1");
+    does("STOP!");
     double peak = 0;
     long periods = 0;
     do {
-      tick();
+      does("+1");
       ++periods;
       peak = std::max(peak, speed());
     } while (get("st_still") == 0);
@@ -120,158 +107,91 @@ TEST_F(EpicposMotion, StopFinishesTheAccelerationOrNot) {
       EXPECT_LE(peak, 2500);  // at once: half the speed in half the time
       EXPECT_EQ(periods, 25);
     }
-    EXPECT_EQ(get("st_toll"), 0);
+    shows("!toll");
   }
 }
 
 TEST_F(EpicposMotion, ManualMovementsRunUntilStopOrTheLimit) {
-  covers({"MANFW accepted", "MANBW accepted", "st_movdir", "minpos", "maxpos"});
-  set({{"minpos", -3000}, {"maxpos", 3000}});
-  start();
-  command("MANFW");
-  ticks(100);
-  EXPECT_NEAR(speed(), 5000, 1);
-  EXPECT_EQ(get("st_movdir"), 0);
-  command("STOP");
-  EXPECT_TRUE(wait("st_still", 1, 60));
-  EXPECT_LT(get("posit"), 1500);
-  command("MANBW");
-  tick();
-  EXPECT_EQ(get("st_movdir"), 1);
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), -3000, 1);
-  write("posit", -3000);
-  sample();
-  command("MANBW");
-  EXPECT_EQ(get("st_still"), 1);
-  EXPECT_THAT(diagnostics(), ElementsAre("MANBW: posit -3000 is already at minpos -3000"));
-  write("posit", 3000);
-  sample();
-  command("MANFW");
-  EXPECT_THAT(diagnostics(), ElementsAre("MANFW: posit 3000 is already at maxpos 3000"));
+  covers({"minpos", "maxpos"});
+  after("minpos=-3000 maxpos=3000 INIT LOOPON MANFW +100", "speed=5000~1 !movdir");
+  after("STOP until:still:60", "posit<1500");
+  after("MANBW +1", "movdir");
+  after("until:still +300", "posit=-3000~1");
+  after("posit=-3000 sample MANBW", "still");
+  says({"MANBW: posit -3000 is already at minpos -3000"});
+  says("posit=3000 sample MANFW", {"MANFW: posit 3000 is already at maxpos 3000"});
 }
 
 TEST_F(EpicposMotion, APlacementEndsAtTheLimit) {
-  set({{"minpos", -300}, {"maxpos", 500}});
-  start();
-  write("setpos", 900);
-  sample();
-  diagnostics();
-  command("START");
-  EXPECT_THAT(diagnostics(),
-              ElementsAre("START: setpos 900 is outside minpos..maxpos, the axis goes to 500"));
-  ASSERT_TRUE(wait("st_still", 1));
-  ticks(300);
-  EXPECT_NEAR(get("posit"), 500, 1);
+  says("minpos=-300 maxpos=500 INIT LOOPON setpos=900 sample forget START",
+       {"START: setpos 900 is outside minpos..maxpos, the axis goes to 500"});
+  after("until:still +300", "posit=500~1");
 }
 
 TEST_F(EpicposMotion, PausesBeforeTurning) {
   covers({"tinvt"});
-  write("tinvt", 20);  // 0.2 s = 100 periods
-  start();
-  write("setpos", 1000);
+  does("tinvt=20");  // 0.2 s = 100 periods
+  does("INIT LOOPON setpos=1000");
   EXPECT_EQ(duration("START"), 150);
-  write("setpos", 2000);
+  does("setpos=2000");
   EXPECT_EQ(duration("START"), 150);  // the same way on: no pause
-  write("setpos", 1000);
+  does("setpos=1000");
   EXPECT_EQ(duration("START"), 100 + 150);
-  ticks(60);  // it has rested for 0.12 s already
-  write("setpos", 2000);
+  does("+60");  // it has rested for 0.12 s already
+  does("setpos=2000");
   EXPECT_EQ(duration("START"), 40 + 150);
-  ticks(200);
-  write("setpos", 1000);
+  does("+200 setpos=1000");
   EXPECT_EQ(duration("START"), 150);
 }
 
 TEST_F(EpicposMotion, TheFirstMovementNeverPauses) {
-  set({{"tinvt", 999}, {"setpos", -1000}});
-  start();
+  does("tinvt=999 setpos=-1000 INIT LOOPON");
   EXPECT_EQ(duration("START"), 150);
 }
 
 TEST_F(EpicposMotion, StopEndsThePauseBeforeTurning) {
-  set({{"tinvt", 100}, {"stopt", 0}});
-  start();
+  does("tinvt=100 stopt=0 INIT LOOPON");
   ASSERT_TRUE(place(1000));
-  write("setpos", 0);
-  write("tinvt", 999);
-  command("START");
-  ticks(10);
-  EXPECT_EQ(get("st_still"), 0);
-  EXPECT_EQ(get("ffwdreg"), 0);
+  after("setpos=0 tinvt=999 START +10", "!still ffwdreg=0");
   EXPECT_EQ(duration("STOP"), 1);
-  EXPECT_NEAR(get("posit"), 1000, 1);
+  shows("posit=1000~1");
 }
 
 TEST_F(EpicposMotion, ToleranceIsReportedAfterItsDelay) {
-  covers({"toll", "toldly", "st_toll"});
-  set({{"toldly", 10}, {"pgain", 500}});
-  start();
-  EXPECT_EQ(get("st_toll"), 0);
-  write("setpos", 1000);
+  covers({"toll", "toldly"});
+  after("toldly=10 pgain=500 INIT LOOPON", "!toll");
+  does("setpos=1000");
   duration("START");
-  EXPECT_TRUE(wait("st_toll", 1));
-  write("setpos", 2000);
-  command("START");
-  EXPECT_EQ(get("st_toll"), 0);
-  ASSERT_TRUE(wait("st_still", 1));
+  after("until:toll setpos=2000 START", "!toll");
+  does("until:still");
   while (std::abs(get("posit") - 2000) > 2) tick();
   int periods = 0;
   for (; get("st_toll") == 0 && periods < 1000; ++periods) tick();
   EXPECT_EQ(periods, 50);  // 0.1 s
-  blocked = true;
-  count() += 3;
-  sample();
-  EXPECT_EQ(get("st_toll"), 0);
-  count() -= 3;
-  sample();
-  EXPECT_EQ(get("st_toll"), 0);  // the delay begins again
-  ticks(49);
-  EXPECT_EQ(get("st_toll"), 0);
-  tick();
-  EXPECT_EQ(get("st_toll"), 1);
+  after("blocked=1 count+=3 sample", "!toll");
+  after("count+=-3 sample", "!toll");  // the delay begins again
+  after("+49", "!toll");
+  after("+1", "toll");
 }
 
 TEST_F(EpicposMotion, ToleranceConcernsTheStartedQuota) {
-  start();
+  does("INIT LOOPON");
   ASSERT_TRUE(place(1000));
-  EXPECT_EQ(get("st_toll"), 1);
-  write("setpos", 5000);
-  ticks(5);
-  EXPECT_EQ(get("st_toll"), 1);
-  command("MANFW");
-  ticks(5);
-  command("STOP");
-  wait("st_still", 1);
-  EXPECT_EQ(get("st_toll"), 0);
+  shows("toll");
+  after("setpos=5000 +5", "toll");
+  after("MANFW +5 STOP until:still", "!toll");
 }
 
 TEST_F(EpicposMotion, SpeedsAreInWholeUnits) {
   covers({"decpt", "unitvel"});
   // 002 1.2.1.3: cm with one decimal, 10 cm/s are 100 Um/s.
-  set({{"decpt", 1}, {"unitvel", 1}, {"maxvel", 5000}, {"setvel", 10}});
-  start();
-  command("MANFW");
-  ticks(100);
-  EXPECT_NEAR(speed(), 100, 1);
-  EXPECT_EQ(get("ffwdreg"), 66);  // a five hundredth of 10 V
-  command("STOP");
-  ASSERT_TRUE(wait("st_still", 1));
-  set({{"unitvel", 0}, {"decpt", 0}, {"maxvel", 3000000}, {"setvel", 60000}});
-  command("MANFW");
-  ticks(100);
-  EXPECT_NEAR(speed(), 1000, 2);
+  after("decpt=1 unitvel=1 maxvel=5000 setvel=10 INIT LOOPON MANFW +100",
+        "speed=100~1 ffwdreg=66");  // a five hundredth of 10 V
+  after("STOP until:still unitvel=0 decpt=0 maxvel=3000000 setvel=60000 MANFW +100", "speed=1000~2");
 }
 
 TEST_F(EpicposMotion, StartAndStopInOneSampleStop) {
-  start();
-  set({{"setpos", 1000}, {"stopt", 1}});
-  order("START");
-  order("STOP");
-  ticks(3);
-  EXPECT_EQ(get("st_still"), 1);
-  EXPECT_EQ(get("posit"), 0);
+  after("INIT LOOPON setpos=1000 stopt=1 START! STOP! +3", "still posit=0");
 }
 
 }  // namespace

@@ -15,186 +15,119 @@ class EpicposRegulation : public PositionerTest {
  protected:
   /// Closes the loop on a blocked axis and turns it `bits` away.
   void disturb(std::int64_t bits) {
-    blocked = true;
-    start();
+    does("blocked=1 INIT LOOPON");
     count() += bits;
-    sample();
+    does("sample");
   }
 };
 
 TEST_F(EpicposRegulation, ProportionalGainOf1000GivesTenVoltsAtTheUnitOfError) {
-  covers({"pgain", "propreg", "follerr"});
-  write("pgain", 1000);
+  covers({"pgain"});
+  does("pgain=1000");
   disturb(-100);
-  EXPECT_EQ(get("follerr"), 100);
-  EXPECT_EQ(get("propreg"), 32767);
-  EXPECT_EQ(word(), 32767);
-  count() += 150;
-  sample();
-  EXPECT_EQ(get("follerr"), -50);
-  EXPECT_EQ(word(), -16384);
-  write("pgain", 10);
-  sample();
-  EXPECT_EQ(word(), -164);  // 1 %
+  shows("follerr=100 propreg=32767 DAC=32767");
+  after("count+=150 sample", "follerr=-50 DAC=-16384");
+  after("pgain=10 sample", "DAC=-164");  // 1 %
 }
 
 TEST_F(EpicposRegulation, FeedForwardOf1000GivesTenVoltsAtMaxvel) {
-  covers({"feedfw", "ffwdreg"});
-  set({{"pgain", 0}, {"setvel", 50000}, {"taccdec", 10}});
-  start();
-  command("MANFW");
-  ticks(100);
-  EXPECT_EQ(get("ffwdreg"), 32767);
-  EXPECT_EQ(word(), 32767);
-  write("feedfw", 985);
-  tick();
-  EXPECT_EQ(get("ffwdreg"), 32275);  // 98.5 %
-  write("feedfw", 2000);
-  tick();
-  EXPECT_EQ(word(), 32767);  // the DAC ends at 10 V
+  covers({"feedfw"});
+  after("pgain=0 setvel=50000 taccdec=10 INIT LOOPON MANFW +100", "ffwdreg=32767 DAC=32767");
+  after("feedfw=985 +1", "ffwdreg=32275");  // 98.5 %
+  after("feedfw=2000 +1", "DAC=32767");     // the DAC ends at 10 V
 }
 
 TEST_F(EpicposRegulation, TheIntegralGrowsToItsRangeOf1024) {
-  covers({"integt", "integ"});
-  set({{"pgain", 0}, {"integt", 1000}});
+  covers({"integt"});
+  does("pgain=0 integt=1000");
   disturb(-10);
   // Each 2 ms sample of 1000 ms adds 0.1 * 32767 * 2 / 1000 bits.
-  EXPECT_EQ(get("integ"), 7);
-  ticks(9);
-  EXPECT_EQ(get("integ"), 66);
-  ticks(1000);
-  EXPECT_EQ(get("integ"), 1024);
-  EXPECT_EQ(word(), 1024);
-  count() += 20;
-  ticks(2000);
-  EXPECT_EQ(get("integ"), -1024);
-  command("LOOPON");
-  EXPECT_EQ(get("integ"), 0);
+  shows("integ=7");
+  after("+9", "integ=66");
+  after("+1000", "integ=1024 DAC=1024");
+  after("count+=20 +2000", "integ=-1024");
+  after("LOOPON", "integ=0");
 }
 
 TEST_F(EpicposRegulation, TheDerivativeActsOnAChangeOnlyUpTo1024) {
-  covers({"derivt", "derreg"});
-  set({{"pgain", 0}, {"derivt", 2}});
+  covers({"derivt"});
+  does("pgain=0 derivt=2");
   disturb(0);
-  count() -= 1;
-  sample();
-  EXPECT_EQ(get("derreg"), 328);  // one bit in one TCamp
-  sample();
-  EXPECT_EQ(get("derreg"), 0);
-  count() -= 50;
-  sample();
-  EXPECT_EQ(get("derreg"), 1024);
-  EXPECT_EQ(word(), 1024);
-  count() += 70;
-  sample();
-  EXPECT_EQ(get("derreg"), -1024);
+  after("count+=-1 sample", "derreg=328");  // one bit in one TCamp
+  after("sample", "derreg=0");
+  after("count+=-50 sample", "derreg=1024 DAC=1024");
+  after("count+=70 sample", "derreg=-1024");
 }
 
 TEST_F(EpicposRegulation, OffsetIsAlwaysAdded) {
   covers({"offset"});
-  write("offset", -150);
-  start();
-  EXPECT_EQ(word(), -150);
-  command("LOOPOFF");
-  EXPECT_EQ(word(), -150);
-  command("CALON");
-  EXPECT_EQ(word(), -150);
-  write("offset", -32768);
-  sample();
-  EXPECT_EQ(word(), -32767);
+  after("offset=-150 INIT LOOPON", "DAC=-150");
+  after("LOOPOFF", "DAC=-150");
+  after("CALON", "DAC=-150");
+  after("offset=-32768 sample", "DAC=-32767");
 }
 
 TEST_F(EpicposRegulation, AnOpenLoopDoesNotReact) {
-  covers({"st_loopon", "LOOPON accepted", "LOOPOFF accepted"});
   disturb(-40);
-  ASSERT_NE(word(), 0);
-  command("LOOPOFF");
-  EXPECT_EQ(get("st_loopon"), 0);
-  EXPECT_EQ(word(), 0);
-  command("LOOPON");
-  EXPECT_EQ(get("st_loopon"), 1);
-  EXPECT_EQ(get("follerr"), 0);
-  EXPECT_EQ(word(), 0);
-  count() -= 40;
-  sample();
-  ASSERT_NE(word(), 0);
-  command("LOOPON");  // again: the error is forgotten again
-  EXPECT_EQ(get("follerr"), 0);
+  shows("DAC!=0");
+  after("LOOPOFF", "!loopon DAC=0");
+  after("LOOPON", "loopon follerr=0 DAC=0");
+  after("count+=-40 sample", "DAC!=0");
+  does("LOOPON");  // again: the error is forgotten again
+  shows("follerr=0");
 }
 
 TEST_F(EpicposRegulation, OpenLoopMovementsBeginWhereTheAxisStands) {
-  command("INIT");
-  count() += 700;  // by hand
-  ticks(2);
+  does("INIT count+=700");  // by hand
+  does("+2");
   ASSERT_TRUE(place(1000));
-  EXPECT_NEAR(get("posit"), 1000, 2);  // the ideal axis does what the feed-forward says
-  command("MANFW");
-  ticks(100);
-  command("STOP");
-  EXPECT_TRUE(wait("st_still", 1));
+  shows("posit=1000~2");  // the ideal axis does what the feed-forward says
+  does("MANFW +100 STOP until:still");
 }
 
 TEST_F(EpicposRegulation, FollowingErrorIsHeldFor500Milliseconds) {
-  covers({"maxfollerr", "st_foller"});
-  write("maxfollerr", 30);
+  covers({"maxfollerr"});
+  does("maxfollerr=30");
   disturb(-30);
-  EXPECT_EQ(get("st_foller"), 0);
-  count() -= 1;
-  sample();
-  EXPECT_EQ(get("st_foller"), 1);
-  count() += 1;
+  shows("!foller");
+  after("count+=-1 sample", "foller");
+  does("count+=1");
   for (int i = 0; i < 249; ++i) {
-    sample();
+    does("sample");
     ASSERT_EQ(get("st_foller"), 1) << i;
   }
-  sample();
-  EXPECT_EQ(get("st_foller"), 0);
-  EXPECT_EQ(get("st_still"), 1);
+  after("sample", "!foller still");
 }
 
 TEST_F(EpicposRegulation, CalibrationIsAVoltageSource) {
-  covers({"vout", "st_cal", "CALON accepted", "CALOFF accepted"});
-  start();
-  write("vout", 50);
-  sample();
-  EXPECT_THAT(diagnostics(), ElementsAre("vout: st_cal is 0, must be 1"));
-  command("CALON");
-  EXPECT_EQ(get("st_cal"), 1);
-  EXPECT_EQ(word(), 0);
+  covers({"vout"});
+  says("INIT LOOPON vout=50 sample", {"vout: st_cal is 0, must be 1"});
+  after("CALON", "cal DAC=0");
   for (const auto& [tenths, bits] : {std::pair{5, 1638}, {-100, -32767}, {100, 32767}}) {
     write("vout", tenths);
-    sample();
+    does("sample");
     EXPECT_EQ(word(), bits);
   }
-  EXPECT_THAT(diagnostics(), IsEmpty());
-  ticks(50);
-  EXPECT_GT(get("posit"), 4000);
-  command("CALOFF");
-  EXPECT_EQ(get("st_cal"), 0);
-  EXPECT_EQ(get("follerr"), 0);
+  shows("silent");
+  after("+50", "posit>4000");
+  after("CALOFF", "!cal follerr=0");
   const int there = get("posit");
-  ticks(20);
+  does("+20");
   EXPECT_NEAR(get("posit"), there, 1);
 }
 
 TEST_F(EpicposRegulation, RegoffLeavesTheDacAsItStands) {
-  covers({"st_regoff", "REGOFF accepted", "REGON accepted"});
-  write("pgain", 1000);
+  does("pgain=1000");
   disturb(-20);
   const int last = word();
   ASSERT_GT(last, 6000);
-  command("REGOFF");
-  EXPECT_EQ(get("st_regoff"), 1);
-  count() -= 200;
-  ticks(5);
+  after("REGOFF", "regoff");
+  does("count+=-200 +5");
   EXPECT_EQ(word(), last);
-  EXPECT_EQ(get("posit"), -220);  // it counts on
+  shows("posit=-220");  // it counts on
   cards.analogue_outputs.begin()->second.word = 123;
-  sample();
-  EXPECT_EQ(word(), 123);  // the DAC is free for another device
-  command("REGON");
-  EXPECT_EQ(get("st_regoff"), 0);
-  EXPECT_EQ(word(), 0);  // it reacts where it stands
+  after("sample", "DAC=123");       // the DAC is free for another device
+  after("REGON", "!regoff DAC=0");  // it reacts where it stands
 }
 
 // Several axes on one DAC (002 1.3.1).
@@ -245,7 +178,7 @@ TEST_F(EpicposSharedDac, TurnsAreInOrder) {
     give(*device, "REGOFF");
     both();
   }
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  shows("silent");
   EXPECT_THAT(said_by(*second), IsEmpty());
 }
 
@@ -253,19 +186,19 @@ TEST_F(EpicposSharedDac, TwoAtOnceAreReportedOnce) {
   give(*device, "INIT");
   give(*second, "INIT");
   for (int i = 0; i < 10; ++i) both();
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  shows("silent");
   EXPECT_THAT(said_by(*second), ElementsAre(std::string("IOutA: ") + warning));
   give(*second, "REGOFF");
   both();
   give(*second, "REGON");
   for (int i = 0; i < 10; ++i) both();
   EXPECT_THAT(said_by(*second), ElementsAre(std::string("IOutA: ") + warning));
-  device->power_up();
+  does("power");
   for (int i = 0; i < 10; ++i) both();
   EXPECT_THAT(said_by(*second), IsEmpty());
   give(*device, "INIT");
   for (int i = 0; i < 10; ++i) both();
-  EXPECT_THAT(diagnostics(), ElementsAre(std::string("IOutA: ") + warning));  // now it is the second
+  says({std::string("IOutA: ") + warning});  // now it is the second
 }
 
 TEST_F(EpicposSharedDac, Camming4TakesPart) {
@@ -282,16 +215,16 @@ TEST_F(EpicposSharedDac, Camming4TakesPart) {
   all();
   give(*device, "CALON");
   all();
-  write("vout", 30);
+  does("vout=30");
   all();
-  EXPECT_EQ(word(), 9830);  // CAMMING4 leaves it alone
+  shows("DAC=9830");  // CAMMING4 leaves it alone
   give(*device, "REGOFF");
   all();
   give(*cam, "REGON");
   for (int i = 0; i < 3; ++i) all();
-  EXPECT_EQ(word(), 0);
+  shows("DAC=0");
   EXPECT_THAT(said_by(*cam), IsEmpty());
-  EXPECT_THAT(diagnostics(), IsEmpty());
+  shows("silent");
 }
 
 }  // namespace

@@ -47,55 +47,49 @@ TEST(Oopos2Laws, RecalculationGivesTheWayThatWasCoasted) {
 class Oopos2Inertia : public Oopos2Test {
  protected:
   Oopos2Inertia() {
-    set({{"toldly", 20}, {"inertmode", 2}, {"minpos", 0}, {"maxpos", 8000}});
+    does("toldly=20 inertmode=2 minpos=0 maxpos=8000");
     coast = 12;
     slow = 1;  // the outputs go off exactly where they are to
-    command("INIT");
+    does("INIT");
   }
   /// "iner07"
   static std::string inertia(int number) { return (number < 10 ? "iner0" : "iner") + std::to_string(number); }
 };
 
 TEST_F(Oopos2Inertia, TheSecondPlacementHits) {
-  covers({"inertmode", "inertmode 2", "iner01"});
-  set({{"tollp", 10}, {"tolln", 10}});
+  covers({"inertmode", "inertmode 2"});
+  does("tollp=10 tolln=10");
   place(1000);
-  EXPECT_EQ(get("posit"), 1012);
-  EXPECT_EQ(get("st_toll"), 0);
-  EXPECT_EQ(get("iner01"), 120);
+  shows("posit=1012 !toll iner01=120");
   place(2012);  // as far as before
-  EXPECT_EQ(get("posit"), 2012);
-  EXPECT_EQ(get("st_toll"), 1);
-  EXPECT_EQ(get("iner01"), 120);
+  shows("posit=2012 toll iner01=120");
 }
 
 TEST_F(Oopos2Inertia, BackwardItLearnsTheSame) {
   place(1000);
-  write("iner01", 0);
+  does("iner01=0");
   place(400);
-  EXPECT_EQ(get("posit"), 388);
-  EXPECT_EQ(get("iner01"), 120);
+  shows("posit=388 iner01=120");
 }
 
 TEST_F(Oopos2Inertia, ModeZeroNeverModeOneOutOfToleranceOnly) {
   covers({"inertmode 0", "inertmode 1"});
-  write("inertmode", 0);
+  does("inertmode=0");
   place(1000);
-  EXPECT_EQ(get("iner01"), 0);
-  set({{"inertmode", 1}, {"tollp", 120}});
+  shows("iner01=0");
+  does("inertmode=1 tollp=120");
   place(2012);
-  EXPECT_EQ(get("st_toll"), 1);  // 12 Um beyond, to the Um/10
-  EXPECT_EQ(get("iner01"), 0);
-  write("tollp", 119);
+  shows("toll");  // 12 Um beyond, to the Um/10
+  shows("iner01=0");
+  does("tollp=119");
   place(3024);
-  EXPECT_EQ(get("st_toll"), 0);
-  EXPECT_EQ(get("iner01"), 120);
+  shows("!toll iner01=120");
 }
 
 TEST_F(Oopos2Inertia, EveryBandHasItsOwn) {
   covers({"iner02", "iner03", "iner04", "iner05", "iner06", "iner07", "iner08", "ninert", "actiner",
           "dobiner", "dobiner 0"});
-  write("ninert", 8);
+  does("ninert=8");
   for (int band = 7; band >= 0; --band) {
     coast = 10 + band;
     place(band * 1000 + 300);
@@ -107,7 +101,7 @@ TEST_F(Oopos2Inertia, EveryBandHasItsOwn) {
 
 TEST_F(Oopos2Inertia, WithDobinerEveryDirectionToo) {
   covers({"iner09", "iner10", "iner11", "iner12", "iner13", "iner14", "iner15", "iner16", "dobiner 1"});
-  set({{"ninert", 8}, {"dobiner", 1}});
+  does("ninert=8 dobiner=1");
   for (int band = 0; band < 8; ++band) {
     coast = 10 + band;
     place(band * 1000 + 300);
@@ -121,64 +115,52 @@ TEST_F(Oopos2Inertia, WithDobinerEveryDirectionToo) {
 }
 
 TEST_F(Oopos2Inertia, AChangeAboveMaxinerIsAnAlertOnly) {
-  covers({"maxiner", "st_erin"});
-  write("maxiner", 119);
+  covers({"maxiner"});
+  does("maxiner=119");
   place(1000);
-  EXPECT_EQ(get("st_erin"), 1);
-  EXPECT_EQ(get("iner01"), 120);  // stored all the same
+  shows("erin iner01=120");  // stored all the same
   place(2012);
-  EXPECT_EQ(get("st_erin"), 0);
-  write("iner01", 230);  // a change downward counts too
+  shows("!erin");
+  does("iner01=230");  // a change downward counts too
   place(3124);
-  EXPECT_EQ(get("iner01"), 120);
-  EXPECT_EQ(get("st_erin"), 0);
-  write("iner01", 240);
+  shows("iner01=120 !erin");
+  does("iner01=240");
   place(4236);
-  EXPECT_EQ(get("st_erin"), 1);
-  write("iner01", 0);
-  write("maxiner", 0);  // no alert
+  shows("erin");
+  does("iner01=0 maxiner=0");  // no alert
   place(5348);
-  EXPECT_EQ(get("iner01"), 120);
-  EXPECT_EQ(get("st_erin"), 0);
+  shows("iner01=120 !erin");
 }
 
 TEST_F(Oopos2Inertia, AWayThatItsWordDoesNotHoldIsToldOnceABand) {
-  set({{"ninert", 2}, {"iner02", 32767}});
+  does("ninert=2 iner02=32767");
   const auto overrun = [&](int setpos) {  // 12 Um coasted and pushed on by 3265: 32770 Um/10 in band 1
     write("setpos", setpos);
-    command("START");
-    ASSERT_TRUE(wait("st_movslow", 1));
+    does("START until:movslow");
     while (output(4)) tick();
-    count() += 3265;
-    ASSERT_TRUE(wait("st_still", 1));
+    does("count+=3265 until:still");
   };
-  diagnostics();
+  does("forget");
   overrun(500);
-  EXPECT_EQ(get("iner01"), 32767);
+  shows("iner01=32767");
   EXPECT_THAT(diagnostics(),
               testing::ElementsAre("iner01: the way coasted would be 32770 Um/10, held at 32767"));
-  write("iner01", 0);
-  count() = 0;
+  does("iner01=0 count=0");
   overrun(500);
-  EXPECT_EQ(get("iner01"), 32767);
-  EXPECT_THAT(diagnostics(), testing::IsEmpty());  // said already
-  write("iner02", 0);
+  shows("iner01=32767 silent");  // said already
+  does("iner02=0");
   overrun(4500);
-  EXPECT_EQ(get("iner02"), 32767);
+  shows("iner02=32767");
   EXPECT_THAT(diagnostics(),
               testing::ElementsAre("iner02: the way coasted would be 32770 Um/10, held at 32767"));
 }
 
 TEST_F(Oopos2Inertia, ItIsNeverNegative) {
   coast = 0;
-  write("iner01", 100);
-  write("setpos", 1000);
-  command("START");
-  ASSERT_TRUE(wait("st_movslow", 1));
+  does("iner01=100 setpos=1000 START until:movslow");
   while (output(4)) tick();
-  count() -= 300;  // pushed back
-  ASSERT_TRUE(wait("st_still", 1));
-  EXPECT_EQ(get("iner01"), 0);
+  does("count+=-300");  // pushed back
+  after("until:still", "iner01=0");
 }
 
 }  // namespace

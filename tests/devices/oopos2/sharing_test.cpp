@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "tests/devices/oopos2/fixture.hpp"
 
 namespace drycut::devices::oopos2 {
@@ -11,17 +13,10 @@ class Oopos2Sharing : public testing::Test {
  protected:
   Oopos2Sharing() {
     for (int axis = 0; axis < 2; ++axis) {
-      devices.push_back(make_oopos2({{10, {}},
-                                     {0, Address{Kind::counter, 2, 1 + axis}},
-                                     {0, {}},
-                                     {0, {}},
-                                     {0, parse_address("2.OUT01")},
-                                     {0, parse_address("2.OUT02")},
-                                     {0, {}},
-                                     {0, {}},
-                                     {0, parse_address("2.OUT03")},
-                                     {0, Address{Kind::output, 2, 4 + axis}}},
-                                    cards));
+      devices.push_back(
+          make_oopos2(terminals_of(fmt::format("10 2.CNT0{} X X 2.OUT01 2.OUT02 X X 2.OUT03 2.OUT0{}",
+                                               1 + axis, 4 + axis)),
+                      cards));
       for (const auto& [name, value] : {std::pair{"cntratio", 400000}, {"maxpos", 9999}, {"minpos", -9999}})
         devices[axis]->write(find_symbol(oopos2_type, name).value(), value);
     }

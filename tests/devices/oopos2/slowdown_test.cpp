@@ -31,77 +31,57 @@ TEST(Oopos2Laws, TheSmallestSlowRangeIsStronger) {
 
 class Oopos2Slowdown : public Oopos2Test {
  protected:
-  Oopos2Slowdown() {
-    set({{"setpos", 5000}, {"maxvel", 4000}, {"maxslow", 1000}, {"minslow", 30}, {"toldly", 5}});
-    command("INIT");
-  }
+  Oopos2Slowdown() { does("setpos=5000 maxvel=4000 maxslow=1000 minslow=30 toldly=5 INIT"); }
   /// Way before the quota at which the axis goes slow.
   int slows_at() {
-    command("START");
+    does("START");
     while (!output(5)) tick();
     return 5000 - get("posit");
   }
 };
 
 TEST_F(Oopos2Slowdown, SpeedIsMeasuredOver240Milliseconds) {
-  covers({"frq", "vel", "decpt", "unitvel"});
-  command("MANFFW");
-  ticks(22);
-  EXPECT_EQ(get("vel"), 0);  // the first window began after INIT
-  ticks(1);
-  EXPECT_EQ(get("vel"), 1917);  // 23 samples of 24
-  ticks(24);
+  covers({"frq", "decpt", "unitvel"});
+  after("MANFFW +22", "vel=0");  // the first window began after INIT
+  after("+1", "vel=1917");       // 23 samples of 24
+  does("+24");
   EXPECT_EQ(get("frq"), 20 * 100 / 4);
-  EXPECT_EQ(get("vel"), 2000);
-  write("decpt", 1);
-  ticks(24);
-  EXPECT_EQ(get("vel"), 200);
-  write("unitvel", 0);
-  ticks(24);
-  EXPECT_EQ(get("vel"), 12000);
-  command("MANFBW");
-  ticks(60);
-  EXPECT_EQ(get("vel"), 12000);  // a magnitude
+  shows("vel=2000");
+  after("decpt=1 +24", "vel=200");
+  after("unitvel=0 +24", "vel=12000");
+  after("MANFBW +60", "vel=12000");  // a magnitude
 }
 
 TEST_F(Oopos2Slowdown, Fixed) {
   EXPECT_EQ(slows_at(), 200);
-  EXPECT_EQ(get("exeslow"), 0);
+  shows("exeslow=0");
 }
 
 TEST_F(Oopos2Slowdown, Proportional) {
-  covers({"slowtype", "slowtype 1", "maxvel", "maxslow", "exeslow"});
-  write("slowtype", 1);
+  covers({"slowtype", "slowtype 1", "maxvel", "maxslow"});
+  does("slowtype=1");
   EXPECT_EQ(slows_at(), 500);  // half of maxvel
-  EXPECT_EQ(get("exeslow"), 500);
-  ticks(60);
-  EXPECT_EQ(get("vel"), 400);
-  EXPECT_EQ(get("exeslow"), 500);  // held
-  EXPECT_TRUE(wait("st_still", 1));
-  ticks(60);
-  EXPECT_EQ(get("exeslow"), 30);  // minslow at rest
+  shows("exeslow=500");
+  after("+60", "vel=400 exeslow=500");     // held
+  after("until:still +60", "exeslow=30");  // minslow at rest
 }
 
 TEST_F(Oopos2Slowdown, BySquare) {
   covers({"slowtype 2", "minslow"});
-  write("slowtype", 2);
+  does("slowtype=2");
   EXPECT_EQ(slows_at(), 240);  // a quarter, 250, by steps of 20
-  EXPECT_EQ(get("exeslow"), 250);
+  shows("exeslow=250");
 }
 
 TEST_F(Oopos2Slowdown, BySquareIsNeverBelowMinslow) {
-  set({{"slowtype", 2}, {"minslow", 400}});
+  does("slowtype=2 minslow=400");
   EXPECT_EQ(slows_at(), 400);
 }
 
 TEST_F(Oopos2Slowdown, FollowsTheSpeedUntilItIsEntered) {
-  write("slowtype", 1);
-  command("START");
-  ticks(60);
-  EXPECT_EQ(get("exeslow"), 500);
+  after("slowtype=1 START +60", "exeslow=500");
   fast = 40;
-  ticks(48);
-  EXPECT_EQ(get("exeslow"), 1000);
+  after("+48", "exeslow=1000");
 }
 
 }  // namespace

@@ -4,9 +4,6 @@
 namespace drycut::devices::oopos2 {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-
 // Tolerance, START in tolerance, tool and the resolution of 0.1 Um (001 1.5.1, 1.6.3; spec 9.3).
 TEST(Oopos2Laws, ToleranceIsExactAtItsEdges) {
   for (const int more : {0, 1, 50}) {
@@ -22,18 +19,16 @@ TEST(Oopos2Laws, ToleranceIsExactAtItsEdges) {
 class Oopos2Tolerance : public Oopos2Test {
  protected:
   Oopos2Tolerance() {
-    set({{"toldly", 20}, {"tollp", 20}, {"tolln", 40}});
+    does("toldly=20 tollp=20 tolln=40");
     slow = 1;
-    command("INIT");
+    does("INIT");
   }
 };
 
 TEST_F(Oopos2Tolerance, ExcessAndShortageHaveLimitsOfTheirOwn) {
   covers({"tollp", "tolln"});
   for (const int off : {-5, -4, 0, 2, 3}) {
-    count() = 0;
-    tick();
-    write("posit", 0);
+    does("count=0 +1 posit=0");
     coast = 10;
     write("iner01", 100 - off * 10);
     place(500);
@@ -44,53 +39,37 @@ TEST_F(Oopos2Tolerance, ExcessAndShortageHaveLimitsOfTheirOwn) {
 
 TEST_F(Oopos2Tolerance, ItIsJudgedOnceWhenToldlyIsOver) {
   coast = 50;  // 10 samples: still in tolerance when the outputs go off
-  write("iner01", 480);
-  write("setpos", 500);
-  command("START");
+  does("iner01=480 setpos=500 START");
   int judged = 0;
   while (get("st_still") == 0) {
-    EXPECT_EQ(get("st_toll"), 0);
-    tick();
+    shows("!toll");
+    does("+1");
     ++judged;
   }
-  EXPECT_EQ(get("st_toll"), 1);
-  count() += 100;
-  tick();
-  EXPECT_EQ(get("st_toll"), 1);  // of the placement, not of where the axis is now
-  command("MANFFW");
-  EXPECT_EQ(get("st_toll"), 0);
+  shows("toll");
+  after("count+=100 +1", "toll");  // of the placement, not of where the axis is now
+  after("MANFFW", "!toll");
 }
 
 TEST_F(Oopos2Tolerance, StartInToleranceMovesNothing) {
-  covers({"enstol", "enstol 0", "st_sttoll"});
+  covers({"enstol", "enstol 0"});
   place(500);
-  command("START");
-  EXPECT_EQ(get("st_sttoll"), 1);
-  EXPECT_EQ(get("st_still"), 1);
-  EXPECT_EQ(get("st_toll"), 1);
-  EXPECT_EQ(on(), "F");
-  ticks(100);
-  EXPECT_EQ(on(), "F");
-  EXPECT_EQ(get("posit"), 500);
-  write("setpos", 499);  // still inside
-  command("START");
-  EXPECT_EQ(get("st_sttoll"), 1);
-  write("setpos", 490);
-  command("START");
-  EXPECT_EQ(get("st_sttoll"), 0);
-  EXPECT_EQ(get("st_still"), 0);
+  after("START", "sttoll still toll on=F");
+  after("+100", "on=F posit=500");
+  does("setpos=499");  // still inside
+  after("START", "sttoll");
+  after("setpos=490 START", "!sttoll !still");
 }
 
 TEST_F(Oopos2Tolerance, EveryMovementCommandClearsSttoll) {
   place(500);
   for (const char* name : {"MANSFW", "MANSBW", "MANFFW", "MANFBW", "PRESET"}) {
-    command("START");
+    does("START");
     ASSERT_EQ(get("st_sttoll"), 1) << name;
     command(name);
     EXPECT_EQ(get("st_sttoll"), 0) << name;
     EXPECT_EQ(get("st_toll"), 0) << name;
-    command("STOP");
-    ASSERT_TRUE(wait("st_still", 1));
+    does("STOP until:still");
     write("setpos", get("posit"));
   }
 }
@@ -98,94 +77,58 @@ TEST_F(Oopos2Tolerance, EveryMovementCommandClearsSttoll) {
 TEST_F(Oopos2Tolerance, WithEnstolItPlacesAgain) {
   covers({"enstol 1"});
   place(500);
-  set({{"enstol", 1}, {"setpos", 502}});
-  command("START");
-  EXPECT_EQ(get("st_sttoll"), 0);
-  EXPECT_EQ(get("st_still"), 0);
-  EXPECT_EQ(get("st_toll"), 0);
-  ASSERT_TRUE(wait("st_still", 1));
-  EXPECT_EQ(get("posit"), 502);
-  EXPECT_EQ(get("st_toll"), 1);
+  after("enstol=1 setpos=502 START", "!sttoll !still !toll");
+  after("until:still", "posit=502 toll");
 }
 
 TEST_F(Oopos2Tolerance, TheToolIsAddedAtStart) {
   covers({"tool"});
-  write("tool", 35);  // 3.5 Um
+  does("tool=35");  // 3.5 Um
   place(500);
-  EXPECT_EQ(get("posit"), 504);  // 503.5 by steps of 1
-  EXPECT_EQ(get("setpos"), 500);
-  write("tool", -35);
-  write("setpos", 700);
-  command("START");
-  write("tool", 1000);  // too late for this one
-  ASSERT_TRUE(wait("st_still", 1));
-  EXPECT_EQ(get("posit"), 697);  // 696.5
+  shows("posit=504");  // 503.5 by steps of 1
+  shows("setpos=500");
+  does("tool=-35 setpos=700 START tool=1000");  // too late for this one
+  after("until:still", "posit=697");            // 696.5
 }
 
 TEST_F(Oopos2Tolerance, AQuotaBeyondTheLimitsIsHeldThere) {
   covers({"minpos", "maxpos"});
-  write("maxpos", 600);
-  diagnostics();
-  write("setpos", 650);
-  command("START");
-  EXPECT_THAT(diagnostics(), ElementsAre("setpos: 650 is outside -10000..600 (maxpos), taken anyway",
-                                         "START: setpos 650 plus tool is outside minpos..maxpos, the axis "
-                                         "goes to 600"));
-  ASSERT_TRUE(wait("st_still", 1));
-  EXPECT_EQ(get("posit"), 600);
-  write("minpos", -100);
+  says("maxpos=600 forget setpos=650 START",
+       {"setpos: 650 is outside -10000..600 (maxpos), taken anyway",
+        "START: setpos 650 plus tool is outside minpos..maxpos, the axis goes to 600"});
+  after("until:still", "posit=600");
+  does("minpos=-100");
   place(-200);
-  EXPECT_EQ(get("posit"), -100);
-  diagnostics();
-  set({{"setpos", 600}, {"tool", 1}});
-  command("START");
+  shows("posit=-100");
+  does("forget setpos=600 tool=1 START");
   EXPECT_EQ(diagnostics().size(), 1u);
 }
 
 // One bit is 0.1 Um: QPS places to it (001 1.5.1).
 TEST_F(Oopos2Tolerance, QpsPlacesToATenth) {
   covers({"cntratio"});
-  set({{"cntratio", 40000}, {"tollp", 0}, {"tolln", 0}, {"iner01", 7}, {"slowpos", 10}});
+  does("cntratio=40000 tollp=0 tolln=0 iner01=7 slowpos=10");
   coast = 7;
   place(30);
-  EXPECT_EQ(get("posit"), 30);
-  EXPECT_EQ(count(), 300);  // to the bit, beginning at 0
-  EXPECT_EQ(get("st_toll"), 1);
-  write("iner01", 6);
+  shows("posit=30 count=300");  // to the bit, beginning at 0
+  shows("toll");
+  does("iner01=6");
   place(40);
-  EXPECT_EQ(count(), 401);
-  EXPECT_EQ(get("posit"), 40);
-  EXPECT_EQ(get("st_toll"), 0);  // 0.1 beyond
+  shows("count=401 posit=40 !toll");  // 0.1 beyond
 }
 
 TEST_F(Oopos2Tolerance, CntratioIsUmOfAPulse) {
-  set({{"cntratio", 100000}, {"posit", 0}});  // 001 1.3.2: one Um a pulse, 4 bits
-  tick();
-  count() += 1000;
-  tick();
-  EXPECT_EQ(get("posit"), 250);
-  write("cntratio", 5000);  // 001 1.4.3: 1000 Um in 20000 pulses
-  write("posit", 0);
-  tick();
-  count() += 80000;
-  tick();
-  EXPECT_EQ(get("posit"), 1000);
+  does("cntratio=100000 posit=0");  // 001 1.3.2: one Um a pulse, 4 bits
+  after("+1 count+=1000 +1", "posit=250");
+  does("cntratio=5000");  // 001 1.4.3: 1000 Um in 20000 pulses
+  after("posit=0 +1 count+=80000 +1", "posit=1000");
 }
 
 TEST_F(Oopos2Tolerance, ANewRatioKeepsThePositionAndDropsTheRemainder) {
-  set({{"cntratio", 100000}, {"posit", 0}});
-  tick();
-  count() += 7;  // 1.75 Um
-  tick();
-  EXPECT_EQ(get("posit"), 1);
-  write("cntratio", 200000);
-  tick();
-  count() += 1;
-  tick();
-  EXPECT_EQ(get("posit"), 1);  // 1.5, not 2.25
-  count() += 1;
-  tick();
-  EXPECT_EQ(get("posit"), 2);
+  does("cntratio=100000 posit=0 +1 count+=7");  // 1.75 Um
+  after("+1", "posit=1");
+  after("cntratio=200000 +1 count+=1 +1", "posit=1");  // 1.5, not 2.25
+  after("count+=1 +1", "posit=2");
 }
 
 }  // namespace
