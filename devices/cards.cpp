@@ -110,19 +110,9 @@ std::string to_string(const Address& address) {
 }
 
 std::string_view name_of(Kind kind) {
-  switch (kind) {
-    case Kind::counter:
-      return "counter";
-    case Kind::input:
-      return "digital input";
-    case Kind::output:
-      return "digital output";
-    case Kind::analogue:
-      return "analogue output";
-    case Kind::interrupt:
-      return "interrupt line";
-  }
-  return "terminal";
+  constexpr std::array<std::string_view, 5> names = {"counter", "digital input", "digital output",
+                                                     "analogue output", "interrupt line"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace drycut::devices

@@ -73,7 +73,7 @@ void restore(const Text& retentive, const Scenario& scenario, Controller& contro
 }
 
 std::unique_ptr<devices::Controller> load_qmove(const QmoveSection& section, const Scenario& scenario,
-                                                Problems& problems) {
+                                                Problems& problems, std::vector<std::string>* notes) {
   const auto before = problems.size();
   const auto folder = scenario.file.parent_path();
   const auto read = [&](const Text& path) {
@@ -93,6 +93,9 @@ std::unique_ptr<devices::Controller> load_qmove(const QmoveSection& section, con
                                              devices::catalogue(), problems));
   }
   if (problems.size() != before) return nullptr;
+  if (notes != nullptr)
+    for (const auto& program : programs)
+      notes->insert(notes->end(), program.notes.begin(), program.notes.end());
   auto controller = std::make_unique<qmove::QmoveController>(std::move(configuration), std::move(programs),
                                                              devices::catalogue(), section.cycle);
   restore(section.retentive, scenario, *controller, problems);
@@ -335,7 +338,7 @@ std::optional<std::filesystem::path> retentive_file(const Scenario& scenario) {
 std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, Problems& problems,
                                                      std::vector<std::string>* notes) {
   if (const auto* section = std::get_if<QmoveSection>(&scenario.controller))
-    return load_qmove(*section, scenario, problems);
+    return load_qmove(*section, scenario, problems, notes);
   if (const auto* section = std::get_if<Lx3vpSection>(&scenario.controller))
     return load_lx3vp(*section, scenario, problems);
   if (const auto* section = std::get_if<PlcopenSection>(&scenario.controller))

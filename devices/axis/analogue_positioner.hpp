@@ -177,6 +177,14 @@ class AnaloguePositioner : public TableDevice<table> {
   void load_preset() {
     axis_.quota.set_um(value("prspos"), axis_.settings.resolution);
     set_state("st_prsok", true);
+    requota("IAZero");
+  }
+
+  /// The count was changed by `cause`: a quota out of the running movement's reach is told.
+  void requota(std::string_view cause) {
+    if (axis_.requota()) return;
+    report({Diagnostic::Kind::note, std::string(cause),
+            "the running movement cannot reach its quota any more and stops"});
   }
 
   void step_motion() {

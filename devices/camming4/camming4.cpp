@@ -1,7 +1,9 @@
 #include "devices/camming4/camming4.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace drycut::devices::camming4 {
@@ -240,38 +242,14 @@ void Camming4::publish() {
 void Camming4::drive_output() {
   if (!terminals_.output) return;
   const std::int32_t code = value("codeMex");
-  bool& level = terminals_.output->level;
-  switch (value("funOut")) {
-    case 1:
-      level = false;
-      break;
-    case 2:
-      level = true;
-      break;
-    case 3:
-      level = state("st_toll");
-      break;
-    case 4:
-      level = state("st_tpos");
-      break;
-    case 5:
-      level = state("st_sync");
-      break;
-    case 6:
-      level = code == 1000;
-      break;
-    case 7:
-      level = code == 1000 && state("st_sync");
-      break;
-    case 8:
-      level = code == 1001;
-      break;
-    case 9:
-      level = code == 1002;
-      break;
-    default:
-      break;  // not driven by the device
-  }
+  const bool sync = state("st_sync");
+  const std::array levels = {false,       true,         state("st_toll"),     state("st_tpos"),
+                             sync,        code == 1000, code == 1000 && sync, code == 1001,
+                             code == 1002};  // functions 1 to 9 (000 1.8)
+  // Any other leaves the output as it is.
+  const std::int64_t function = std::int64_t{value("funOut")} - 1;
+  if (function >= 0 && function < std::ssize(levels))
+    terminals_.output->level = levels[static_cast<std::size_t>(function)];
 }
 
 }  // namespace drycut::devices::camming4

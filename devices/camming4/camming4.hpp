@@ -60,7 +60,6 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   void write_position(VariableRow variable, std::int32_t value);
   void write_motion(VariableRow variable);
   void check_resolution(VariableRow measure, VariableRow pulse, axis::Resolution resolution);
-  void requota(std::string_view cause);
 
   // Commands (camming4_commands.cpp).
   void start_cam(std::int64_t master);

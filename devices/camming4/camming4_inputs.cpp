@@ -140,10 +140,7 @@ void Camming4::report_refusal(std::string_view what, std::string_view subject) {
 void Camming4::sample_presets() {
   const bool enable = is_on(enable_);
   const bool met = !std::exchange(enable_was_, enable) && enable;
-  if (!sample_search(enable, false) && value("prsmode") == 2 && met) {
-    load_preset();
-    requota("IAZero");
-  }
+  if (!sample_search(enable, false) && value("prsmode") == 2 && met) load_preset();
   sample_master_preset();
 }
 

@@ -72,13 +72,6 @@ void Camming4::write_position(VariableRow variable, std::int32_t new_value) {
   if (variable == "posit" || variable == "encoder") requota(name_of(variable));
 }
 
-/// The slave's count was changed by `cause`.
-void Camming4::requota(std::string_view cause) {
-  if (axis_.requota()) return;
-  report({Diagnostic::Kind::note, std::string(cause),
-          "the running movement cannot reach its quota any more and stops"});
-}
-
 void Camming4::write_motion(VariableRow variable) {
   if (!axis_.profile().moving() || search_.searching()) return;
   bool taken = true;

@@ -1,68 +1,41 @@
 #include "devices/camming4/recalculation.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace drycut::devices::camming4 {
 namespace {
 
+/// A variable's calculation: its samples, and the variable that stands for all of one calculation (000 1.4).
 struct Calculation {
-  int samples;  ///< 0 = none
-  int shared;   ///< the variable that stands for all of one calculation
+  VariableRow variable;
+  int samples;
+  VariableRow shared;
 };
 
-Calculation calculation_of(int variable) {
-  switch (variable) {
-    case VariableRow("codeG"):
-    case VariableRow("codeQm"):
-    case VariableRow("codeQs"):
-    case VariableRow("codeQma"):
-    case VariableRow("codeQsa"):
-      return {1, VariableRow("codeG")};
-    case VariableRow("maxpos"):
-    case VariableRow("minpos"):
-    case VariableRow("prspos"):
-    case VariableRow("prsposm"):
-    case VariableRow("toll"):
-    case VariableRow("tacc"):
-    case VariableRow("tdec"):
-    case VariableRow("taccmax"):
-    case VariableRow("tdecmax"):
-    case VariableRow("syncrange"):
-    case VariableRow("pgain"):
-    case VariableRow("feedfw"):
-    case VariableRow("integt"):
-    case VariableRow("derivt"):
-      return {1, variable};
-    case VariableRow("tbfm"):
-      return {2, variable};
-    case VariableRow("tbf"):
-      return {3, variable};
-    case VariableRow("maxvel"):
-      return {5, variable};
-    case VariableRow("decpt"):
-    case VariableRow("unitvel"):
-      return {6, VariableRow("decpt")};
-    case VariableRow("pulsem"):
-    case VariableRow("measurem"):
-      return {130, VariableRow("measurem")};
-    case VariableRow("pulse"):
-    case VariableRow("measure"):
-      return {139, VariableRow("measure")};
-    default:
-      return {0, variable};
-  }
-}
+constexpr Calculation calculations[] = {
+    {"codeG", 1, "codeG"},       {"codeQm", 1, "codeG"},        {"codeQs", 1, "codeG"},
+    {"codeQma", 1, "codeG"},     {"codeQsa", 1, "codeG"},       {"maxpos", 1, "maxpos"},
+    {"minpos", 1, "minpos"},     {"prspos", 1, "prspos"},       {"prsposm", 1, "prsposm"},
+    {"toll", 1, "toll"},         {"tacc", 1, "tacc"},           {"tdec", 1, "tdec"},
+    {"taccmax", 1, "taccmax"},   {"tdecmax", 1, "tdecmax"},     {"syncrange", 1, "syncrange"},
+    {"pgain", 1, "pgain"},       {"feedfw", 1, "feedfw"},       {"integt", 1, "integt"},
+    {"derivt", 1, "derivt"},     {"tbfm", 2, "tbfm"},           {"tbf", 3, "tbf"},
+    {"maxvel", 5, "maxvel"},     {"decpt", 6, "decpt"},         {"unitvel", 6, "decpt"},
+    {"pulsem", 130, "measurem"}, {"measurem", 130, "measurem"}, {"pulse", 139, "measure"},
+    {"measure", 139, "measure"},
+};
 
 }  // namespace
 
 void Recalculation::written(int variable, int row) {
-  const Calculation calculation = calculation_of(variable);
-  if (calculation.samples == 0) return;
-  const bool of_row = calculation.shared == VariableRow("codeG");
-  const std::size_t number = of_row ? table::variables.size() + static_cast<std::size_t>(row)
-                                    : static_cast<std::size_t>(calculation.shared);
-  left_ += calculation.samples - of_each_[number];
-  of_each_[number] = static_cast<std::uint8_t>(calculation.samples);
+  const auto* const found = std::ranges::find(calculations, VariableRow{variable}, &Calculation::variable);
+  if (found == std::end(calculations)) return;
+  const std::size_t number = found->shared == "codeG"
+                                 ? table::variables.size() + static_cast<std::size_t>(row)
+                                 : static_cast<std::size_t>(found->shared);
+  left_ += found->samples - of_each_[number];
+  of_each_[number] = static_cast<std::uint8_t>(found->samples);
 }
 
 void Recalculation::sample() {

@@ -68,7 +68,7 @@ void Positioner::written(Symbol symbol, std::int32_t new_value) {
   check_dependent_range(variable);
   if (variable == "posit") {
     axis_.quota.set_um(new_value, axis_.settings.resolution);
-    axis_.requota();
+    requota("posit");
     return;
   }
   if (!changed) return;
@@ -134,9 +134,7 @@ void Positioner::sample_preset() {
   const bool locked = state("st_cntlock");
   if (!enable) enable_released_ = true;
   if (sample_search(enable, locked)) return;
-  if (value("prsmode") != 2 || !enable || !enable_released_ || locked) return;
-  load_preset();
-  axis_.requota();
+  if (value("prsmode") == 2 && enable && enable_released_ && !locked) load_preset();
 }
 
 void Positioner::move_counter(double bits) {

@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <initializer_list>
 
 #include <fmt/format.h>
 
@@ -9,36 +9,22 @@
 // Blocks of QCL: IF ELSE ENDIF, WHILE ENDWHILE, FOR NEXT, SUB ENDSUB; and where JUMP and CALL lead.
 namespace drycut::devices::qmove {
 
-std::string_view Compiler::opener(Block::Kind kind) {
-  switch (kind) {
-    case Block::Kind::if_:
-      return "IF";
-    case Block::Kind::else_:
-      return "ELSE";
-    case Block::Kind::while_:
-      return "WHILE";
-    case Block::Kind::for_:
-      return "FOR";
-    case Block::Kind::sub:
-      return "SUB";
-  }
-  return "";
+namespace {
+
+struct BlockWords {
+  std::string_view opens;
+  std::string_view closes;
+};
+// By the kind of the block; an ELSE goes on with its IF.
+constexpr std::array<BlockWords, 5> block_words{
+    {{"IF", "ENDIF"}, {"IF", "ENDIF"}, {"WHILE", "ENDWHILE"}, {"FOR", "NEXT"}, {"SUB", "ENDSUB"}}};
+
+template <typename Kind>
+constexpr const BlockWords& words_of(Kind kind) {
+  return block_words[static_cast<std::size_t>(kind)];
 }
 
-std::string_view Compiler::closer(Block::Kind kind) {
-  switch (kind) {
-    case Block::Kind::if_:
-    case Block::Kind::else_:
-      return "ENDIF";
-    case Block::Kind::while_:
-      return "ENDWHILE";
-    case Block::Kind::for_:
-      return "NEXT";
-    case Block::Kind::sub:
-      return "ENDSUB";
-  }
-  return "";
-}
+}  // namespace
 
 // IF e and WHILE e.
 void Compiler::open_condition(Block::Kind kind) {
@@ -59,24 +45,21 @@ void Compiler::else_block() {
                          blocks_.back().here.line));
     return;
   }
-  const std::optional<Block> block = close("ELSE", {Block::Kind::if_});
+  const std::optional<Block> block = close("ELSE", Block::Kind::if_, Block::Kind::if_);
   if (!block) return;
   const int exit = emit(Op::jump);
   aim(block->exit);
   blocks_.push_back({Block::Kind::else_, block->place, place, exit, 0});
 }
 
-void Compiler::endif_block() {
-  const std::optional<Block> block = close("ENDIF", {Block::Kind::if_, Block::Kind::else_});
-  advance();
-  if (block) aim(block->exit);
-}
-
-void Compiler::endwhile_block() {
-  const std::optional<Block> block = close("ENDWHILE", {Block::Kind::while_});
+// ENDIF, ENDWHILE, NEXT and ENDSUB.
+void Compiler::close_block(Block::Kind kind) {
+  const bool is_if = kind == Block::Kind::if_;
+  const std::optional<Block> block = close(words_of(kind).closes, kind, is_if ? Block::Kind::else_ : kind);
   advance();
   if (!block) return;
-  emit(Op::jump, block->again);
+  if (kind == Block::Kind::while_ || kind == Block::Kind::for_) emit(Op::jump, block->again);
+  if (kind == Block::Kind::sub) emit(Op::back);
   aim(block->exit);
 }
 
@@ -133,14 +116,6 @@ void Compiler::for_step(const NamedThing* variable, const std::string& form) {
   insert_barriers(begin);
 }
 
-void Compiler::next_block() {
-  const std::optional<Block> block = close("NEXT", {Block::Kind::for_});
-  advance();
-  if (!block) return;
-  emit(Op::jump, block->again);
-  aim(block->exit);
-}
-
 void Compiler::sub_block() {
   const Place place = token().place;
   const Token* name = name_operand("SUB <name>");
@@ -150,31 +125,18 @@ void Compiler::sub_block() {
   // Statements that come to a SUB pass it by; only CALL enters.
   blocks_.push_back({Block::Kind::sub, place, place, emit(Op::jump), 0});
   if (!name) return;
-  const auto [target, is_new] = subs_.emplace(lower(name->text), Target{here(), name->place});
-  if (is_new)
-    sub_names_.emplace_back(name->text);
-  else
-    complain(name->place, fmt::format("the subroutine {} stands twice", in_quotes(name->text)),
-             fmt::format("the first is in line {}; rename one", target->second.place.line));
+  define(subs_, "subroutine", *name);
 }
 
-void Compiler::endsub_block() {
-  const std::optional<Block> block = close("ENDSUB", {Block::Kind::sub});
-  advance();
-  if (!block) return;
-  emit(Op::back);
-  aim(block->exit);
-}
-
-// Takes the innermost open block of one of `kinds` off the stack. Blocks inside it that are still open are
+// Takes the innermost open block of one of two kinds off the stack. Blocks inside it that are still open are
 // faults of theirs.
-std::optional<Compiler::Block> Compiler::close(std::string_view closing,
-                                               std::initializer_list<Block::Kind> kinds) {
+std::optional<Compiler::Block> Compiler::close(std::string_view closing, Block::Kind kind,
+                                               Block::Kind other) {
   const auto found = std::find_if(blocks_.rbegin(), blocks_.rend(), [&](const Block& block) {
-    return std::find(kinds.begin(), kinds.end(), block.kind) != kinds.end();
+    return block.kind == kind || block.kind == other;
   });
   if (found == blocks_.rend()) {
-    const std::string_view first = opener(*kinds.begin());
+    const std::string_view first = words_of(kind).opens;
     complain(line_.front().place, fmt::format("{} without {}", closing, first),
              fmt::format("no {} is open here; remove it or write the missing {}", first, first));
     return std::nullopt;
@@ -189,9 +151,9 @@ std::optional<Compiler::Block> Compiler::close(std::string_view closing,
 }
 
 void Compiler::unclosed(const Block& block) {
-  const std::string_view name = opener(block.kind == Block::Kind::else_ ? Block::Kind::if_ : block.kind);
-  complain(block.place, fmt::format("{} without {}", name, closer(block.kind)),
-           fmt::format("write {} at the end of its block", closer(block.kind)));
+  const auto& [opens, closes] = words_of(block.kind);
+  complain(block.place, fmt::format("{} without {}", opens, closes),
+           fmt::format("write {} at the end of its block", closes));
 }
 
 // Lets the jump at `code` lead here.
@@ -199,24 +161,31 @@ void Compiler::aim(int code) {
   if (code >= 0) program_.code[static_cast<std::size_t>(code)].a = here();
 }
 
+// The `what` called `name` stands here.
+void Compiler::define(Targets& targets, std::string_view what, const Token& name) {
+  const auto [target, is_new] = targets.places.emplace(lower(name.text), Target{here(), name.place});
+  if (is_new)
+    targets.names.emplace_back(name.text);
+  else
+    complain(name.place, fmt::format("the {} {} stands twice", what, in_quotes(name.text)),
+             fmt::format("the first is in line {}; rename one", target->second.place.line));
+}
+
 // JUMP and CALL, whose targets may stand below them.
-void Compiler::resolve() {
-  for (const Reference& reference : jumps_) {
-    const auto found = labels_.find(lower(reference.name));
-    if (found == labels_.end())
-      complain(
-          reference.place, "unknown label " + in_quotes(reference.name),
-          suggestion(reference.name, label_names_, fmt::format("write {}: where it leads", reference.name)));
+void Compiler::refer(Targets& targets, Op op, const std::string& form) {
+  if (const Token* name = name_operand(form))
+    targets.uses.push_back({emit(op), std::string(name->text), name->place});
+}
+
+// `remedy` has {} where the name stands.
+void Compiler::resolve(const Targets& targets, std::string_view what, std::string_view remedy) {
+  for (const Reference& use : targets.uses) {
+    const auto found = targets.places.find(lower(use.name));
+    if (found == targets.places.end())
+      complain(use.place, fmt::format("unknown {} {}", what, in_quotes(use.name)),
+               suggestion(use.name, targets.names, fmt::format(fmt::runtime(remedy), use.name)));
     else
-      program_.code[static_cast<std::size_t>(reference.code)].a = found->second.code;
-  }
-  for (const Reference& reference : calls_) {
-    const auto found = subs_.find(lower(reference.name));
-    if (found == subs_.end())
-      complain(reference.place, "unknown subroutine " + in_quotes(reference.name),
-               suggestion(reference.name, sub_names_, fmt::format("write SUB {} .. ENDSUB", reference.name)));
-    else
-      program_.code[static_cast<std::size_t>(reference.code)].a = found->second.code;
+      program_.code[static_cast<std::size_t>(use.code)].a = found->second.code;
   }
 }
 

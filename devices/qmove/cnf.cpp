@@ -290,22 +290,9 @@ bool CnfParser::declare(const Word& name) {
 }
 
 std::optional<Size> CnfParser::size(const Word& word) {
-  if (word.text.size() == 1) {
-    switch (upper(word.text)[0]) {
-      case 'F':
-        return Size::F;
-      case 'B':
-        return Size::B;
-      case 'W':
-        return Size::W;
-      case 'L':
-        return Size::L;
-      case 'S':
-        return Size::S;
-      default:
-        break;
-    }
-  }
+  constexpr std::string_view letters = "FBWLS";
+  if (word.text.size() == 1 && letters.find(upper(word.text)[0]) != std::string_view::npos)
+    return static_cast<Size>(upper(word.text)[0]);
   complain(word.place, "unknown type " + in_quotes(word.text), fmt::format("the type is {}", sizes));
   return std::nullopt;
 }

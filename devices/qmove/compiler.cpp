@@ -85,7 +85,8 @@ Program Compiler::compile(std::string_view text) {
   for (const Block& block : blocks_) unclosed(block);
   if (!ended_) complain(last_, "the module has no END", "write END after its last statement");
   emit(Op::end);
-  resolve();
+  resolve(labels_, "label", "write {}: where it leads");
+  resolve(subs_, "subroutine", "write SUB {} .. ENDSUB");
   sort_from(problems_, first);
   if (problems_.size() > first) {
     program_.code.clear();

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -46,12 +45,11 @@ class Compiler {
   void word_statement();
   const NamedThing* assignment();
   void store(const NamedThing& thing, Type type);
+  void note_wrapping(const NamedThing& thing, Type type, int begin, const Token& name);
   void check_assignable(const NamedThing& thing, const Token& name);
   void check_writable(int device, Symbol symbol, const Token& parameter);
   void label();
   void wait();
-  void jump();
-  void call();
   void end();
   void set_output(bool on);
   void device_command();
@@ -67,22 +65,33 @@ class Compiler {
     int exit = -1;  ///< the jump to the block's end (if_: to its ELSE), -1 = none
     int again = 0;  ///< where a loop goes on
   };
-  static std::string_view opener(Block::Kind kind);
-  static std::string_view closer(Block::Kind kind);
+  struct Target {
+    int code;
+    Place place;
+  };
+  struct Reference {
+    int code;
+    std::string name;
+    Place place;
+  };
+  /// Labels or subroutines: where each stands, their names as written, and who leads to them.
+  struct Targets {
+    std::map<std::string, Target> places;
+    std::vector<std::string> names;
+    std::vector<Reference> uses;
+  };
   void open_condition(Block::Kind kind);
   void else_block();
-  void endif_block();
-
-  void endwhile_block();
+  void close_block(Block::Kind kind);
   void for_block();
   void for_step(const NamedThing* variable, const std::string& form);
-  void next_block();
   void sub_block();
-  void endsub_block();
-  std::optional<Block> close(std::string_view closing, std::initializer_list<Block::Kind> kinds);
+  std::optional<Block> close(std::string_view closing, Block::Kind kind, Block::Kind other);
   void unclosed(const Block& block);
   void aim(int code);
-  void resolve();
+  void define(Targets& targets, std::string_view what, const Token& name);
+  void refer(Targets& targets, Op op, const std::string& form);
+  void resolve(const Targets& targets, std::string_view what, std::string_view remedy);
 
   // Expressions (expressions.cpp).
   Type expression(int level = 0);
@@ -122,22 +131,9 @@ class Compiler {
   int stack_ = 0;               ///< cells on the stack at this point of the code
   std::set<int> devices_read_;  ///< by the present statement: it waits for their samples
 
-  struct Target {
-    int code;
-    Place place;
-  };
-  struct Reference {
-    int code;
-    std::string name;
-    Place place;
-  };
   std::vector<Block> blocks_;
-  std::map<std::string, Target> labels_;
-  std::map<std::string, Target> subs_;
-  std::vector<std::string> label_names_;
-  std::vector<std::string> sub_names_;
-  std::vector<Reference> jumps_;
-  std::vector<Reference> calls_;
+  Targets labels_;
+  Targets subs_;
   bool ended_ = false;
   Place last_ = {1, 1};
 };

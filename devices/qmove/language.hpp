@@ -19,7 +19,8 @@ inline constexpr std::string_view closing =
 
 inline constexpr std::array language{
     LanguageRow{"name = e",
-                "stores; flags, bytes and words wrap, a single loses its fraction in a whole number",
+                "stores; flags, bytes and words wrap, which a note tells of a constant; a single loses its "
+                "fraction in a whole number",
                 "how values wrap is not in the manuals"},
     LanguageRow{"name[i]  name[i, j]",
                 "an element, from 1; outside: error 3, 4 (recipe) or 5 (step), all tasks stop"},

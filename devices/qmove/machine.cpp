@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <type_traits>
 
 namespace drycut::devices::qmove {
 
@@ -25,24 +27,7 @@ std::int32_t to_long(float value) {
 }
 
 // Memory holds longs and the bits of singles as they are; flags, bytes and words wrap.
-std::int32_t wrapped(std::int32_t size, std::int32_t value) {
-  switch (static_cast<Size>(size)) {
-    case Size::F:
-      return value != 0 ? 1 : 0;
-    case Size::B:
-      return static_cast<std::int8_t>(value);
-    case Size::W:
-      return static_cast<std::int16_t>(value);
-    case Size::L:
-    case Size::S:
-      break;
-  }
-  return value;
-}
-
-// The quotient and remainder of the most negative long by -1 do not fit a long: in 64 bits they do.
-std::int32_t quotient(std::int32_t a, std::int32_t b) { return wrapping(std::int64_t{a} / b); }
-std::int32_t remainder(std::int32_t a, std::int32_t b) { return wrapping(std::int64_t{a} % b); }
+std::int32_t wrapped(std::int32_t size, std::int32_t value) { return wrap(static_cast<Size>(size), value); }
 
 bool within(std::int32_t index, std::int32_t count) { return index >= 1 && index <= count; }
 
@@ -87,6 +72,19 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
   const auto post = [&](int device) {
     machine.post(static_cast<std::size_t>(device));
     task.last_post[static_cast<std::size_t>(device)] = machine.posts;
+  };
+  // Operators of two operands. In 64 bits the quotient of the most negative long by -1 fits too.
+  const auto integers = [&](auto compute) {
+    --top;
+    *top = wrapping(compute(std::int64_t{*top}, std::int64_t{top[1]}));
+  };
+  const auto reals = [&](auto compute) {
+    --top;
+    const auto result = compute(real(*top), real(top[1]));
+    if constexpr (std::is_same_v<decltype(result), const bool>)
+      *top = result;
+    else
+      *top = bits(result);
   };
   for (;; ++at) {
     if (--left < 0) return fail(RunTimeError::watchdog);
@@ -152,49 +150,38 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
       }
 
       case Op::add:
-        --top;
-        *top = wrapping(std::int64_t{*top} + top[1]);
+        integers(std::plus{});
         break;
       case Op::subtract:
-        --top;
-        *top = wrapping(std::int64_t{*top} - top[1]);
+        integers(std::minus{});
         break;
       case Op::multiply:
-        --top;
-        *top = wrapping(std::int64_t{*top} * top[1]);
+        integers(std::multiplies{});
         break;
       case Op::divide:
         if (*top == 0) return fail(RunTimeError::division_by_zero);
-        --top;
-        *top = quotient(*top, top[1]);
+        integers(std::divides{});
         break;
       case Op::modulo:
         if (*top == 0) return fail(RunTimeError::division_by_zero);
-        --top;
-        *top = remainder(*top, top[1]);
+        integers(std::modulus{});
         break;
       case Op::negate:
         *top = wrapping(-std::int64_t{*top});
         break;
       case Op::add_real:
-        --top;
-        *top = bits(real(*top) + real(top[1]));
+        reals(std::plus{});
         break;
       case Op::subtract_real:
-        --top;
-        *top = bits(real(*top) - real(top[1]));
+        reals(std::minus{});
         break;
       case Op::multiply_real:
-        --top;
-        *top = bits(real(*top) * real(top[1]));
+        reals(std::multiplies{});
         break;
-      case Op::divide_real: {
-        const float divisor = real(*top);
-        if (divisor == 0.0F) return fail(RunTimeError::division_by_zero);
-        --top;
-        *top = bits(real(*top) / divisor);
+      case Op::divide_real:
+        if (real(*top) == 0.0F) return fail(RunTimeError::division_by_zero);
+        reals(std::divides{});
         break;
-      }
       case Op::negate_real:
         *top = bits(-real(*top));
         break;
@@ -215,76 +202,59 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
         break;
 
       case Op::equal:
-        --top;
-        *top = *top == top[1] ? 1 : 0;
+        integers(std::equal_to{});
         break;
       case Op::not_equal:
-        --top;
-        *top = *top != top[1] ? 1 : 0;
+        integers(std::not_equal_to{});
         break;
       case Op::less:
-        --top;
-        *top = *top < top[1] ? 1 : 0;
+        integers(std::less{});
         break;
       case Op::less_equal:
-        --top;
-        *top = *top <= top[1] ? 1 : 0;
+        integers(std::less_equal{});
         break;
       case Op::greater:
-        --top;
-        *top = *top > top[1] ? 1 : 0;
+        integers(std::greater{});
         break;
       case Op::greater_equal:
-        --top;
-        *top = *top >= top[1] ? 1 : 0;
+        integers(std::greater_equal{});
         break;
       case Op::equal_real:
-        --top;
-        *top = real(*top) == real(top[1]) ? 1 : 0;
+        reals(std::equal_to{});
         break;
       case Op::not_equal_real:
-        --top;
-        *top = real(*top) != real(top[1]) ? 1 : 0;
+        reals(std::not_equal_to{});
         break;
       case Op::less_real:
-        --top;
-        *top = real(*top) < real(top[1]) ? 1 : 0;
+        reals(std::less{});
         break;
       case Op::less_equal_real:
-        --top;
-        *top = real(*top) <= real(top[1]) ? 1 : 0;
+        reals(std::less_equal{});
         break;
       case Op::greater_real:
-        --top;
-        *top = real(*top) > real(top[1]) ? 1 : 0;
+        reals(std::greater{});
         break;
       case Op::greater_equal_real:
-        --top;
-        *top = real(*top) >= real(top[1]) ? 1 : 0;
+        reals(std::greater_equal{});
         break;
 
       case Op::logic_and:
-        --top;
-        *top = *top != 0 && top[1] != 0 ? 1 : 0;
+        integers(std::logical_and{});
         break;
       case Op::logic_or:
-        --top;
-        *top = *top != 0 || top[1] != 0 ? 1 : 0;
+        integers(std::logical_or{});
         break;
       case Op::logic_not:
         *top = *top == 0 ? 1 : 0;
         break;
       case Op::bit_and:
-        --top;
-        *top &= top[1];
+        integers(std::bit_and{});
         break;
       case Op::bit_or:
-        --top;
-        *top |= top[1];
+        integers(std::bit_or{});
         break;
       case Op::bit_xor:
-        --top;
-        *top ^= top[1];
+        integers(std::bit_xor{});
         break;
       case Op::bit_not:
         *top = ~*top;

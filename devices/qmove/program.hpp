@@ -91,9 +91,10 @@ struct Program {
   std::string name;  ///< the file's name without folder and extension
   std::string file;  ///< for messages
   std::vector<Instruction> code;
-  std::vector<int> lines;         ///< line of each instruction
-  std::vector<Symbol> symbols;    ///< device symbols that instructions refer to
-  std::vector<NamedThing> steps;  ///< group variables that index_step refers to
+  std::vector<int> lines;          ///< line of each instruction
+  std::vector<Symbol> symbols;     ///< device symbols that instructions refer to
+  std::vector<NamedThing> steps;   ///< group variables that index_step refers to
+  std::vector<std::string> notes;  ///< what a reader should know that is no fault: "file:line:column: ..."
 };
 
 /// Deepest nesting of an expression, and of the stack that evaluates it.

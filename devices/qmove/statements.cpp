@@ -31,16 +31,16 @@ void Compiler::word_statement() {
   static constexpr std::array<Row, 15> table{{
       {"IF", [](Compiler& c) { c.open_condition(Block::Kind::if_); }},
       {"ELSE", [](Compiler& c) { c.else_block(); }},
-      {"ENDIF", [](Compiler& c) { c.endif_block(); }},
+      {"ENDIF", [](Compiler& c) { c.close_block(Block::Kind::if_); }},
       {"WHILE", [](Compiler& c) { c.open_condition(Block::Kind::while_); }},
-      {"ENDWHILE", [](Compiler& c) { c.endwhile_block(); }},
+      {"ENDWHILE", [](Compiler& c) { c.close_block(Block::Kind::while_); }},
       {"FOR", [](Compiler& c) { c.for_block(); }},
-      {"NEXT", [](Compiler& c) { c.next_block(); }},
+      {"NEXT", [](Compiler& c) { c.close_block(Block::Kind::for_); }},
       {"WAIT", [](Compiler& c) { c.wait(); }},
-      {"JUMP", [](Compiler& c) { c.jump(); }},
+      {"JUMP", [](Compiler& c) { c.refer(c.labels_, Op::jump, "JUMP <label>"); }},
       {"SUB", [](Compiler& c) { c.sub_block(); }},
-      {"ENDSUB", [](Compiler& c) { c.endsub_block(); }},
-      {"CALL", [](Compiler& c) { c.call(); }},
+      {"ENDSUB", [](Compiler& c) { c.close_block(Block::Kind::sub); }},
+      {"CALL", [](Compiler& c) { c.refer(c.subs_, Op::call, "CALL <subroutine>"); }},
       {"END", [](Compiler& c) { c.end(); }},
       {"SETOUT", [](Compiler& c) { c.set_output(true); }},
       {"RESOUT", [](Compiler& c) { c.set_output(false); }},
@@ -88,12 +88,28 @@ const NamedThing* Compiler::assignment() {
   if (thing) check_assignable(*thing, name);
   if (indexed || (is_sign('[') && !thing)) indexes(indexed ? *thing : NamedThing{}, name);
   if (thing && !indexed && is_sign('['))
-    syntax_error(token(), fmt::format("{} is {} and takes no index", in_quotes(name.text), name_of(thing->kind)),
+    syntax_error(token(),
+                 fmt::format("{} is {} and takes no index", in_quotes(name.text), name_of(thing->kind)),
                  remedy);
   if (line_failed_ || !expect('=', remedy)) return thing;
-  store(thing ? *thing : NamedThing{}, expression());
+  const int value = here();
+  const Type type = expression();
+  if (thing) note_wrapping(*thing, type, value, name);
+  store(thing ? *thing : NamedThing{}, type);
   insert_barriers(begin);
   return thing;
+}
+
+// A number beyond the size of its variable wraps in the run: said here, as a device says it of a parameter.
+void Compiler::note_wrapping(const NamedThing& thing, Type type, int begin, const Token& name) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+  if (!plain || type == Type::real || thing.size == Size::S) return;
+  const std::int32_t value = program_.code.back().a;
+  const std::int32_t stored = wrap(thing.size, value);
+  if (stored == value) return;
+  program_.notes.push_back(fmt::format("{}:{}:{}: {}: {} does not fit size {}, taken as {}", file_,
+                                       name.place.line, name.place.column, name.text, value,
+                                       static_cast<char>(thing.size), stored));
 }
 
 // Converts the value on the stack to what `thing` holds and stores it there.
@@ -153,12 +169,7 @@ void Compiler::label() {
                                     : fmt::format("it is a device; write {}:parameter = value", name.text));
     return;
   }
-  const auto [target, is_new] = labels_.emplace(lower(name.text), Target{here(), name.place});
-  if (is_new)
-    label_names_.emplace_back(name.text);
-  else
-    complain(name.place, fmt::format("the label {} stands twice", in_quotes(name.text)),
-             fmt::format("the first is in line {}; rename one", target->second.place.line));
+  define(labels_, "label", name);
 }
 
 void Compiler::wait() {
@@ -180,16 +191,6 @@ const Token* Compiler::name_operand(const std::string& form) {
   const Token* name = &token();
   advance();
   return name;
-}
-
-void Compiler::jump() {
-  const Token* name = name_operand("JUMP <label>");
-  if (name) jumps_.push_back({emit(Op::jump), std::string(name->text), name->place});
-}
-
-void Compiler::call() {
-  const Token* name = name_operand("CALL <subroutine>");
-  if (name) calls_.push_back({emit(Op::call), std::string(name->text), name->place});
 }
 
 void Compiler::end() {

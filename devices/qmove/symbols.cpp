@@ -1,32 +1,22 @@
 #include "devices/qmove/symbols.hpp"
 
+#include <array>
 #include <utility>
 
 namespace drycut::devices::qmove {
 
 std::string_view name_of(NamedThing::Kind kind) {
-  switch (kind) {
-    case NamedThing::Kind::constant:
-      return "a constant";
-    case NamedThing::Kind::scalar:
-      return "a variable";
-    case NamedThing::Kind::array:
-      return "an array";
-    case NamedThing::Kind::group_static:
-    case NamedThing::Kind::group_step:
-      return "a datagroup variable";
-    case NamedThing::Kind::group:
-      return "a datagroup";
-    case NamedThing::Kind::timer:
-      return "a timer";
-    case NamedThing::Kind::input:
-      return "an input";
-    case NamedThing::Kind::output:
-      return "an output";
-    case NamedThing::Kind::device:
-      return "a device";
-  }
-  return "a name";
+  constexpr std::array<std::string_view, 10> names = {"a constant",
+                                                      "a variable",
+                                                      "an array",
+                                                      "a datagroup variable",
+                                                      "a datagroup variable",
+                                                      "a datagroup",
+                                                      "a timer",
+                                                      "an input",
+                                                      "an output",
+                                                      "a device"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 int cell_count(const NamedThing& thing) {
@@ -64,20 +54,14 @@ SymbolTable::SymbolTable(const Configuration& configuration) {
            .length = group.recipes,
            .steps = group.steps});
   }
-  for (std::size_t i = 0; i < configuration.timers.size(); ++i)
-    add({.kind = Kind::timer, .name = configuration.timers[i].name, .index = static_cast<int>(i)});
-  for (std::size_t i = 0; i < configuration.inputs.size(); ++i)
-    add({.kind = Kind::input,
-         .name = configuration.inputs[i].name,
-         .size = Size::F,
-         .index = static_cast<int>(i)});
-  for (std::size_t i = 0; i < configuration.outputs.size(); ++i)
-    add({.kind = Kind::output,
-         .name = configuration.outputs[i].name,
-         .size = Size::F,
-         .index = static_cast<int>(i)});
-  for (std::size_t i = 0; i < configuration.devices.size(); ++i)
-    add({.kind = Kind::device, .name = configuration.devices[i].name, .index = static_cast<int>(i)});
+  const auto add_numbered = [&](Kind kind, const auto& entries, Size size) {
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      add({.kind = kind, .name = entries[i].name, .size = size, .index = static_cast<int>(i)});
+  };
+  add_numbered(Kind::timer, configuration.timers, Size::L);
+  add_numbered(Kind::input, configuration.inputs, Size::F);
+  add_numbered(Kind::output, configuration.outputs, Size::F);
+  add_numbered(Kind::device, configuration.devices, Size::L);
 }
 
 void SymbolTable::add_values(const Configuration& configuration, bool retentive) {

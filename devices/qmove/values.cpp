@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -67,22 +68,16 @@ std::optional<QmoveController::Location> QmoveController::locate(std::string_vie
   const NamedThing* thing = names_.find(name);
   if (!thing) return std::nullopt;
   Location location{.index = thing->index, .size = thing->size, .name = thing->name};
-  switch (thing->kind) {
-    case NamedThing::Kind::scalar:
-      location.kind = LocationKind::cell;
-      return location;
-    case NamedThing::Kind::timer:
-      location.kind = LocationKind::timer;
-      return location;
-    case NamedThing::Kind::input:
-      location.kind = LocationKind::input;
-      return location;
-    case NamedThing::Kind::output:
-      location.kind = LocationKind::output;
-      return location;
-    default:
-      return std::nullopt;
+  using Thing = NamedThing::Kind;
+  for (const auto& [kind, place] : {std::pair{Thing::scalar, LocationKind::cell},
+                                    {Thing::timer, LocationKind::timer},
+                                    {Thing::input, LocationKind::input},
+                                    {Thing::output, LocationKind::output}}) {
+    if (thing->kind != kind) continue;
+    location.kind = place;
+    return location;
   }
+  return std::nullopt;
 }
 
 // arr[3], ddlCode[2], ddbCodeG[2,1].

@@ -129,7 +129,9 @@ class Checker {
       return;
     }
     if (const auto text = read_file(file, problems_)) {
-      qmove::compile_module(*text, file.string(), *configuration_, devices::catalogue(), problems_);
+      auto program =
+          qmove::compile_module(*text, file.string(), *configuration_, devices::catalogue(), problems_);
+      notes_.insert(notes_.end(), program.notes.begin(), program.notes.end());
     }
   }
 

@@ -125,6 +125,12 @@ class DeviceBench : public testing::Test {
     }
   }
 
+  /// The parameters that the test is about: without them it would see something else.
+  static void about(const std::string& parameters) {
+    std::istringstream words{parameters};
+    for (std::string word; words >> word;) coverage::show(word);
+  }
+
   // The program's side.
   void write(std::string_view name, std::int32_t value) {
     device->write(find_symbol(device->type(), name).value(), value);

@@ -64,6 +64,12 @@ class CamBench {
     return cam.step();
   }
 
+  /// The same; the slave's position there [Um].
+  double slave_at(std::int64_t count, std::int64_t stride = 1) {
+    run(count, stride);
+    return slave_um();
+  }
+
   /// Theoretical slave position from the start of the counts [Um].
   [[nodiscard]] double slave_um() const {
     return (static_cast<double>(cam.step().slave_bits) + cam.step().slave_fraction) *
@@ -84,6 +90,13 @@ class CamBench {
  private:
   CamSettings settings_;
 };
+
+/// A cam that begins at count 0 of its master.
+inline CamBench started(std::initializer_list<Row> rows, const CamSettings& settings = {}) {
+  CamBench bench(rows, settings);
+  bench.start();
+  return bench;
+}
 
 inline constexpr Row end_row{.codeG = 136};
 

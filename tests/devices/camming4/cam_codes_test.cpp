@@ -64,13 +64,12 @@ const std::vector<MovementCase>& movement_cases() {
 TEST(CamCodes, MovementsRunTheirSpacesAndLeaveAtTheirSpeed) {
   for (const MovementCase& expected : movement_cases()) {
     SCOPED_TRACE(expected.row.codeG);
-    CamBench bench({{154, 100, expected.entry}, expected.row, {133, 100, 0}, end_row}, tenths);
-    bench.start();
+    CamBench bench = started({{154, 100, expected.entry}, expected.row, {133, 100, 0}, end_row}, tenths);
     bench.run(1000);
     ASSERT_EQ(bench.to(1001).row, 2);
     const double base = expected.entry;
-    bench.run(1000 + std::lround(expected.master * 5));
-    EXPECT_NEAR(bench.cam.step().ratio, expected.middle, 2e-3 * std::abs(expected.middle) + tolerance);
+    EXPECT_NEAR(bench.run(1000 + std::lround(expected.master * 5)).ratio, expected.middle,
+                2e-3 * std::abs(expected.middle) + tolerance);
     const auto last = static_cast<std::int64_t>(std::ceil(1000 + expected.master * 10)) - 1;
     EXPECT_EQ(bench.run(last).row, 2);
     EXPECT_EQ(bench.run(last + 1).row, 3);
@@ -100,8 +99,8 @@ TEST(CamCodes, EpicycloidalSectorsPeakAtTwiceTheGradient) {
 }
 
 TEST(CamCodes, NopAndEmptyMovementsTakeNoSpace) {
-  CamBench bench({{133, 100, 50}, {130}, {133}, {134}, {233}, {234}, {170}, {175}, {133, 100, 50}, end_row});
-  bench.start();
+  CamBench bench =
+      started({{133, 100, 50}, {130}, {133}, {134}, {233}, {234}, {170}, {175}, {133, 100, 50}, end_row});
   bench.run(99);
   EXPECT_EQ(bench.to(101).row, 9);
   EXPECT_NEAR(bench.slave_um(), 50 + 1 - 0.01 / 2, 1e-2);  // entry speed 1 is kept
@@ -109,8 +108,7 @@ TEST(CamCodes, NopAndEmptyMovementsTakeNoSpace) {
 }
 
 TEST(CamCodes, EndHoldsTheLastPositionExactly) {
-  CamBench bench({{132, 100, 50}, {135, 100, 50, 0, 0, 7}, end_row});
-  bench.start();
+  CamBench bench = started({{132, 100, 50}, {135, 100, 50, 0, 0, 7}, end_row});
   EXPECT_EQ(bench.run(150, 10).codeM, 7);
   bench.run(190, 10);
   const CamStep& step = bench.to(212);
@@ -126,10 +124,8 @@ TEST(CamCodes, EndHoldsTheLastPositionExactly) {
 }
 
 TEST(CamCodes, AbsoluteJumpKeepsSpeedAndCounts) {
-  CamBench bench({{133, 100, 50}, {137, 4}, {131, 1, 1}, {134, 100, 100}, end_row});
-  bench.start();
-  bench.run(110);
-  EXPECT_EQ(bench.cam.step().row, 4);
+  CamBench bench = started({{133, 100, 50}, {137, 4}, {131, 1, 1}, {134, 100, 100}, end_row});
+  EXPECT_EQ(bench.run(110).row, 4);
   EXPECT_NEAR(bench.cam.sector().entry_speed, 1, tolerance);
   EXPECT_EQ(bench.positm(), 110);
   EXPECT_EQ(bench.posit(), 60);
@@ -141,8 +137,7 @@ TEST(CamCodes, LoopTakesTheExecutedSpacesOffTheCounts) {
   bench.slave_grains = -300;
   bench.start();
   bench.run(199, 3);
-  bench.to(203);
-  EXPECT_EQ(bench.cam.step().row, 1);
+  EXPECT_EQ(bench.to(203).row, 1);
   EXPECT_EQ(bench.cam.step().master_shift, 200);
   EXPECT_EQ(bench.cam.step().slave_shift, 160);
   EXPECT_EQ(bench.positm(), 5003);
@@ -163,8 +158,7 @@ TEST(CamCodes, UpdatesActAtTheBoundaryAndKeepTheOvershoot) {
         Case{142, 120 * 7, 40 * 11}, Case{143, 300 * 7 - 120 * 3, 60 * 11 - 40 * 5}, Case{144, 120 * 3, same},
         Case{145, same, 40 * 5}, Case{146, 120 * 3, 40 * 5}}) {
     SCOPED_TRACE(expected.code);
-    CamBench bench({{154, 300, 60}, {expected.code, 120, 40}, {154, 300, 60}, end_row}, settings);
-    bench.start();
+    CamBench bench = started({{154, 300, 60}, {expected.code, 120, 40}, {154, 300, 60}, end_row}, settings);
     bench.run(699);
     bench.to(711);  // 11 bits = 33 grains beyond 300 Um
     EXPECT_EQ(bench.cam.step().row, 3);
@@ -178,36 +172,28 @@ TEST(CamCodes, UpdatesActAtTheBoundaryAndKeepTheOvershoot) {
 }
 
 TEST(CamCodes, StartSyncWaitsForItsQuotaAndCarriesTheOvershoot) {
-  CamBench bench({{160, 50, 0, 0, 0, 9}, {133, 100, 100}, end_row});
-  bench.start();
-  bench.run(49, 7);
-  EXPECT_TRUE(bench.cam.step().waiting);
+  CamBench bench = started({{160, 50, 0, 0, 0, 9}, {133, 100, 100}, end_row});
+  EXPECT_TRUE(bench.run(49, 7).waiting);
   EXPECT_TRUE(bench.cam.running());
   EXPECT_EQ(bench.cam.step().row, 1);
   EXPECT_EQ(bench.cam.step().codeM, 9);
   EXPECT_EQ(bench.cam.step().ratio, 0);
-  bench.to(60);
-  EXPECT_FALSE(bench.cam.step().waiting);
+  EXPECT_FALSE(bench.to(60).waiting);
   EXPECT_EQ(bench.cam.step().row, 2);
   EXPECT_NEAR(bench.slave_um(), 10 * 10 / 100.0, tolerance);
 }
 
 TEST(CamCodes, StartSyncAfterUpdatesUsesTheUpdatedCount) {
-  CamBench bench({{140, 1000}, {130}, {160, 1050}, {154, 100, 100}, end_row});
-  bench.start();
-  bench.run(49, 7);
-  EXPECT_TRUE(bench.cam.step().waiting);
+  CamBench bench = started({{140, 1000}, {130}, {160, 1050}, {154, 100, 100}, end_row});
+  EXPECT_TRUE(bench.run(49, 7).waiting);
   bench.to(55);
   EXPECT_NEAR(bench.slave_um(), 5, tolerance);
 }
 
 TEST(CamCodes, RecoveryIsReportedWithItsRowAndTakesNoMaster) {
-  CamBench bench({{154, 100, 100}, {180, 0, -25}, {154, 100, 100}, end_row});
-  bench.start();
-  bench.run(99);
-  EXPECT_EQ(bench.cam.step().recovery, 0);
-  bench.to(101);
-  EXPECT_EQ(bench.cam.step().recovery, -25);
+  CamBench bench = started({{154, 100, 100}, {180, 0, -25}, {154, 100, 100}, end_row});
+  EXPECT_EQ(bench.run(99).recovery, 0);
+  EXPECT_EQ(bench.to(101).recovery, -25);
   EXPECT_EQ(bench.cam.step().recovery_row, 2);
   EXPECT_EQ(bench.cam.step().row, 3);
   EXPECT_NEAR(bench.slave_um(), 101, tolerance);
@@ -215,8 +201,7 @@ TEST(CamCodes, RecoveryIsReportedWithItsRowAndTakesNoMaster) {
 }
 
 TEST(CamCodes, ConditionalJumpCountsItsJumpsAndStartsAgain) {
-  CamBench bench({{154, 10, 10}, {190, 1, 2}, {154, 10, 20}, {137, 1}});
-  bench.start();
+  CamBench bench = started({{154, 10, 10}, {190, 1, 2}, {154, 10, 20}, {137, 1}});
   std::vector<std::int32_t> done;
   std::vector<int> rows;
   for (int m = 0; m <= 85; m += 5) {
@@ -233,23 +218,19 @@ TEST(CamCodes, ConditionalJumpCountsItsJumpsAndStartsAgain) {
 }
 
 TEST(CamCodes, StartClearsTheJumpCounters) {
-  CamBench bench({{154, 10, 10}, {190, 1, 2, 2}, {154, 10, 10}, end_row});
-  bench.start();
+  CamBench bench = started({{154, 10, 10}, {190, 1, 2, 2}, {154, 10, 10}, end_row});
   EXPECT_EQ(bench.cam.row(2).codeQma, 0);
-  bench.run(15);
-  EXPECT_EQ(bench.cam.step().row, 1);
+  EXPECT_EQ(bench.run(15).row, 1);
 }
 
 TEST(CamCodes, ArcsReadOutTheExecutedMasterSpace) {
-  CamBench bench({{171, 100, 100, 0, 100}, {133, 100, 0}, end_row});
-  bench.start();
+  CamBench bench = started({{171, 100, 100, 0, 100}, {133, 100, 0}, end_row});
   bench.run(42, 6);
   EXPECT_EQ(bench.cam.row(1).codeQma, 42);
   ASSERT_EQ(bench.cam.step().read_out_count, 1);
   EXPECT_EQ(bench.cam.step().read_outs[0].row, 1);
   EXPECT_EQ(bench.cam.step().read_outs[0].codeQma, 42);
-  bench.run(160, 6);
-  EXPECT_EQ(bench.cam.step().row, 2);
+  EXPECT_EQ(bench.run(160, 6).row, 2);
   EXPECT_EQ(bench.cam.row(1).codeQma, 157);
 }
 

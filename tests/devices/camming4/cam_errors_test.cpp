@@ -114,8 +114,7 @@ TEST(CamErrors, SectorEnteredAndLeftInOneSampling) {
 }
 
 TEST(CamErrors, SectorEnteredAndLeftBackwardsInOneSampling) {
-  CamBench bench({move, move, move, end_row});
-  bench.start();
+  CamBench bench = started({move, move, move, end_row});
   bench.run(210, 50);
   bench.to(99);
   ASSERT_EQ(bench.errors.size(), 1U);
@@ -162,8 +161,7 @@ TEST(CamErrors, ArcsThatDoNotExist) {
 }
 
 TEST(CamErrors, ErrorStopsTheCamWhereItWas) {
-  CamBench bench({move, {3}});
-  bench.start();
+  CamBench bench = started({move, {3}});
   bench.run(99);
   const CamStep& step = bench.to(110);
   EXPECT_FALSE(step.running);
@@ -208,16 +206,14 @@ TEST(CamWarnings, StartFromStandstillMetWhileMoving) {
     SCOPED_TRACE(code);
     const Row start{code, 100, 50, 100, 25};
     EXPECT_THAT(warnings_of({{135, 100, 50}, start, end_row}), IsEmpty());
-    CamBench bench({move, start, end_row});
-    bench.start();
+    CamBench bench = started({move, start, end_row});
     bench.run(150);
     EXPECT_THAT(bench.warnings, ElementsAre(CamEvent{6, 2}));
   }
 }
 
 TEST(CamWarnings, StartFromStandstillStartsFromZero) {
-  CamBench bench({move, {131, 100, 50}, end_row});
-  bench.start();
+  CamBench bench = started({move, {131, 100, 50}, end_row});
   bench.run(150);
   EXPECT_THAT(bench.warnings, ElementsAre(CamEvent{6, 2}));
   EXPECT_NEAR(bench.slave_um(), 100 + 12.5, 1e-9);
@@ -242,15 +238,11 @@ TEST(CamWarnings, QuotaAlreadyPassedAtTheStart) {
   bench.start();
   bench.to(60);
   EXPECT_THAT(bench.warnings, ElementsAre(CamEvent{9, 1}));
-  bench.run(200);
-  EXPECT_TRUE(bench.cam.step().waiting);
+  EXPECT_TRUE(bench.run(200).waiting);
   bench.run(50);
-  bench.run(80);
-  EXPECT_TRUE(bench.cam.step().waiting);  // at the quota, never below it
-  bench.run(49);
-  EXPECT_TRUE(bench.cam.step().waiting);
-  bench.run(80);
-  EXPECT_EQ(bench.cam.step().row, 2);
+  EXPECT_TRUE(bench.run(80).waiting);  // at the quota, never below it
+  EXPECT_TRUE(bench.run(49).waiting);
+  EXPECT_EQ(bench.run(80).row, 2);
   EXPECT_NEAR(bench.slave_um(), 30, 1e-9);
   EXPECT_EQ(bench.warnings.size(), 1U);
 }

@@ -16,8 +16,7 @@ TEST(CamSoftening, RampRunsOverTheStatedPartOfTheSmallerSector) {
     for (int softening = 1; softening <= 4; ++softening) {
       SCOPED_TRACE(code * 10 + softening);
       const double w = 60.0 / (softening + 1);
-      CamBench bench({{code, 100, 50, softening}, {code, 60, 120}, end_row}, hundredths);
-      bench.start();
+      CamBench bench = started({{code, 100, 50, softening}, {code, 60, 120}, end_row}, hundredths);
       const auto to = [&](double m) { bench.run(std::llround(m * 100)); };
       to(100 - w);
       EXPECT_NEAR(bench.cam.step().ratio, 0.5, tolerance);
@@ -39,49 +38,41 @@ TEST(CamSoftening, RampRunsOverTheStatedPartOfTheSmallerSector) {
 }
 
 TEST(CamSoftening, SpeedIsContinuousThroughAChainOfSoftenedSectors) {
-  CamBench bench({{154, 100, 50, 1}, {154, 40, 80, 1}, {254, 70, 10, 2}, {154, 50, 50}, end_row}, hundredths);
-  bench.start();
+  CamBench bench =
+      started({{154, 100, 50, 1}, {154, 40, 80, 1}, {254, 70, 10, 2}, {154, 50, 50}, end_row}, hundredths);
   bench.to(0);
   double ratio = bench.cam.step().ratio;
   double slave = 0;
   for (int count = 1; count < 26000; ++count) {
-    bench.to(count);
-    EXPECT_NEAR(bench.cam.step().ratio, ratio, 2e-3) << count;
+    EXPECT_NEAR(bench.to(count).ratio, ratio, 2e-3) << count;
     EXPECT_NEAR(bench.slave_um(), slave + ratio * 0.01, 2e-5) << count;
     ratio = bench.cam.step().ratio;
     slave = bench.slave_um();
   }
-  bench.to(26000);
-  EXPECT_EQ(bench.cam.step().slave_bits, 19000);
+  EXPECT_EQ(bench.to(26000).slave_bits, 19000);
 }
 
 TEST(CamSoftening, RunsBackwardsOnTheSamePath) {
-  CamBench bench({{154, 100, 50, 1}, {154, 60, 120}, end_row}, hundredths);
-  bench.start();
+  CamBench bench = started({{154, 100, 50, 1}, {154, 60, 120}, end_row}, hundredths);
   bench.run(9500, 5);
   const double before = bench.slave_um();
   bench.run(10500, 5);
   const double after = bench.slave_um();
-  bench.run(9500, 5);
-  EXPECT_NEAR(bench.slave_um(), before, tolerance);
-  bench.run(10500, 5);
-  EXPECT_NEAR(bench.slave_um(), after, tolerance);
+  EXPECT_NEAR(bench.slave_at(9500, 5), before, tolerance);
+  EXPECT_NEAR(bench.slave_at(10500, 5), after, tolerance);
 }
 
 TEST(CamSoftening, NoneAtTheStartAndBeforeAStop) {
-  CamBench bench({{154, 100, 50, 1, 1}, {133, 100, 0}, end_row}, hundredths);
-  bench.start();
+  CamBench bench = started({{154, 100, 50, 1, 1}, {133, 100, 0}, end_row}, hundredths);
   EXPECT_NEAR(bench.to(1).ratio, 0.5, tolerance);
   EXPECT_NEAR(bench.run(9999, 7).ratio, 0.5, tolerance);
-  bench.to(10001);
-  EXPECT_NEAR(bench.cam.step().ratio, 0, tolerance);
+  EXPECT_NEAR(bench.to(10001).ratio, 0, tolerance);
   EXPECT_EQ(bench.cam.step().slave_bits, 5000);
 }
 
 TEST(CamGearing, RatioHoldsForEverAndCountsStayBelowTheLap) {
   const CamSettings settings{.master = {7, 10}, .slave = {3, 11}, .decpt = 0};
-  CamBench bench({{154, 30, -20, 0, 2}, end_row}, settings);
-  bench.start();
+  CamBench bench = started({{154, 30, -20, 0, 2}, end_row}, settings);
   for (std::int64_t count = 0; count <= 700'000; count += 25) {
     bench.to(count);
     ASSERT_LT(bench.positm(), 30);
@@ -110,27 +101,22 @@ TEST(CamGearing, CountsWrapAtTheirOwnValues) {
 }
 
 TEST(CamGearing, NewRatioActsWithTheNextSamplingWithoutAStepOfPosition) {
-  CamBench bench({{154, 100, 50, 0, 2}, end_row}, hundredths);
-  bench.start();
-  bench.run(2100, 7);
-  EXPECT_NEAR(bench.slave_um(), 10.5, tolerance);
+  CamBench bench = started({{154, 100, 50, 0, 2}, end_row}, hundredths);
+  EXPECT_NEAR(bench.slave_at(2100, 7), 10.5, tolerance);
   EXPECT_FALSE(bench.cam.refuses(1, Column::codeQs));
   bench.cam.write(1, Column::codeQs, -300);
-  bench.to(2107);
-  EXPECT_NEAR(bench.cam.step().ratio, -3, tolerance);
+  EXPECT_NEAR(bench.to(2107).ratio, -3, tolerance);
   EXPECT_NEAR(bench.slave_um(), 10.5 - 0.21, tolerance);
   bench.cam.write(1, Column::codeQs, 0);
   bench.to(2114);
   EXPECT_NEAR(bench.slave_um(), 10.5 - 0.21, tolerance);
   bench.cam.write(1, Column::codeQs, 100);
-  bench.run(22114, 500);
-  EXPECT_NEAR(bench.slave_um(), 10.5 - 0.21 + 200, tolerance);
+  EXPECT_NEAR(bench.slave_at(22114, 500), 10.5 - 0.21 + 200, tolerance);
   EXPECT_THAT(bench.errors, IsEmpty());
 }
 
 TEST(CamGearing, OnlyRatioAndTypeMayBeWritten) {
-  CamBench bench({{154, 100, 50, 0, 2}, end_row});
-  bench.start();
+  CamBench bench = started({{154, 100, 50, 0, 2}, end_row});
   bench.to(1);
   EXPECT_FALSE(bench.cam.refuses(1, Column::codeQs));
   EXPECT_FALSE(bench.cam.refuses(1, Column::codeQsa));
@@ -141,23 +127,19 @@ TEST(CamGearing, OnlyRatioAndTypeMayBeWritten) {
 TEST(CamGearing, ReleaseGoesOnWithTheNextRowAtOnce) {
   for (const int type : {0, 1}) {
     SCOPED_TRACE(type);
-    CamBench bench({{154, 100, 50, 0, 2}, {133, 100, 50}, end_row}, hundredths);
-    bench.start();
+    CamBench bench = started({{154, 100, 50, 0, 2}, {133, 100, 50}, end_row}, hundredths);
     bench.run(4000, 7);
     bench.cam.write(1, Column::codeQsa, type);
-    bench.to(4010);
-    EXPECT_EQ(bench.cam.step().row, 2);
+    EXPECT_EQ(bench.to(4010).row, 2);
     EXPECT_NEAR(bench.cam.sector().entry_speed, type == 0 ? 0.5 : 0, tolerance);
     bench.run(13999, 7);
-    bench.to(14000);
-    EXPECT_TRUE(bench.cam.step().ended);
+    EXPECT_TRUE(bench.to(14000).ended);
     EXPECT_EQ(bench.cam.step().slave_bits, 7000);
   }
 }
 
 TEST(CamGearing, MasterFasterThanALapASamplingIsError4) {
-  CamBench bench({{154, 100, 50, 0, 2}, end_row});
-  bench.start();
+  CamBench bench = started({{154, 100, 50, 0, 2}, end_row});
   bench.to(50);
   bench.to(149);
   EXPECT_THAT(bench.errors, IsEmpty());
@@ -166,43 +148,31 @@ TEST(CamGearing, MasterFasterThanALapASamplingIsError4) {
 }
 
 TEST(CamGearing, FollowsBackwardsToItsStartAndIntoTheSectorBefore) {
-  CamBench bench({{154, 100, 100}, {154, 10, 20, 0, 2}, end_row});
-  bench.start();
-  bench.run(155, 5);
-  EXPECT_NEAR(bench.slave_um(), 210, tolerance);
-  bench.run(102, 3);
-  EXPECT_NEAR(bench.slave_um(), 104, tolerance);
-  bench.run(40, 3);
-  EXPECT_EQ(bench.cam.step().row, 1);
+  CamBench bench = started({{154, 100, 100}, {154, 10, 20, 0, 2}, end_row});
+  EXPECT_NEAR(bench.slave_at(155, 5), 210, tolerance);
+  EXPECT_NEAR(bench.slave_at(102, 3), 104, tolerance);
+  EXPECT_EQ(bench.run(40, 3).row, 1);
   EXPECT_NEAR(bench.slave_um(), 40, tolerance);
-  bench.run(130, 3);
-  EXPECT_NEAR(bench.slave_um(), 160, tolerance);
+  EXPECT_NEAR(bench.slave_at(130, 3), 160, tolerance);
 }
 
 TEST(CamGearing, WaitsAtItsStartWithoutASectorBefore) {
-  CamBench bench({{154, 10, 20, 0, 2}, end_row});
-  bench.start();
+  CamBench bench = started({{154, 10, 20, 0, 2}, end_row});
   bench.run(25, 5);
-  bench.run(-15, 5);
-  EXPECT_NEAR(bench.slave_um(), 0, tolerance);
-  bench.run(5, 5);
-  EXPECT_NEAR(bench.slave_um(), 10, tolerance);
+  EXPECT_NEAR(bench.slave_at(-15, 5), 0, tolerance);
+  EXPECT_NEAR(bench.slave_at(5, 5), 10, tolerance);
 }
 
 TEST(CamGearing, WithANewRatioItFollowsBackwardsForEver) {
-  CamBench bench({{154, 10, 20, 0, 2}, end_row});
-  bench.start();
+  CamBench bench = started({{154, 10, 20, 0, 2}, end_row});
   bench.run(25, 5);
   bench.cam.write(1, Column::codeQs, 10);
-  bench.run(-75, 5);
-  EXPECT_NEAR(bench.slave_um(), 50 - 100, tolerance);
+  EXPECT_NEAR(bench.slave_at(-75, 5), 50 - 100, tolerance);
 }
 
 TEST(CamGearing, SoftenedChangeIntoAGearingIsAStepWithWarning10) {
-  CamBench bench({{154, 100, 100, 1}, {154, 10, 20, 0, 2}, end_row});
-  bench.start();
-  bench.run(99);
-  EXPECT_NEAR(bench.cam.step().ratio, 1, tolerance);
+  CamBench bench = started({{154, 100, 100, 1}, {154, 10, 20, 0, 2}, end_row});
+  EXPECT_NEAR(bench.run(99).ratio, 1, tolerance);
   bench.run(101);
   EXPECT_THAT(bench.warnings, ElementsAre(CamEvent{10, 2}));
   EXPECT_NEAR(bench.cam.step().ratio, 2, tolerance);

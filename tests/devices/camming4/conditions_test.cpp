@@ -59,13 +59,8 @@ constexpr CommandRule command_rules[] = {
     {"DELCNTM", "init !prsonm !camex"},
 };
 
-TEST(Camming4Conditions, CommandsStandInTheOrderOfTheManual) {
-  ASSERT_EQ(std::size(command_rules), camming4_type.commands.size());
-  for (std::size_t i = 0; i < std::size(command_rules); ++i)
-    EXPECT_EQ(camming4_type.commands[i].name, command_rules[i].name);
-}
-
 TEST(Camming4Conditions, ACommandRunsOnlyIfAllItsConditionsHold) {
+  ASSERT_EQ(std::size(command_rules), camming4_type.commands.size());
   for (const CommandRule& rule : command_rules) {
     bool refused = false;
     bool accepted = false;

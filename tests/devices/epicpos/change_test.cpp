@@ -102,15 +102,6 @@ TEST_F(EpicposChange, ACountBeyondTheQuotaIsNotTaken) {
   does("until:still");
 }
 
-TEST_F(EpicposChange, AManualMovementNeverEndsWhenItsCountIsSetBack) {
-  does("maxpos=3000 INIT LOOPON MANFW");
-  for (int i = 0; i < 5000; ++i) {
-    after("+1", "!still");
-    if (get("posit") > 2000) write("posit", 0);
-  }
-  shows("speed=5000~1 count>40000");
-}
-
 TEST_F(EpicposChange, SetposIsFreeWhileNoPlacementRuns) {
   after("INIT LOOPON MANFW +100 setpos=-700 sample", "setpos=-700");
   after("STOP setpos=-800 sample", "setpos=-800 silent");

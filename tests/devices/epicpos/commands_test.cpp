@@ -10,17 +10,6 @@ using testing::IsEmpty;
 // The conditions of the commands (002 1.4.2; D16).
 using EpicposCommands = PositionerTest;
 
-TEST_F(EpicposCommands, NoneButInitRunsBeforeInit) {
-  none_runs_before_init();
-  for (const State& state : epicpos_type.states)
-    EXPECT_EQ(get(state.name), state.name == "st_still") << state.name;
-}
-
-TEST_F(EpicposCommands, InitOnce) {
-  does("INIT");
-  refuses("INIT", "st_init is 1, must be 0");
-}
-
 TEST_F(EpicposCommands, TheManualsStartUpIsNoRefusal) {
   // 002 1.6.2 gives these whatever the states are.
   after("INIT CNTUNLOCK CNTDIR REGON RESUME LOOPON CALOFF",
@@ -58,34 +47,9 @@ TEST_F(EpicposCommands, WhatHoldsAlreadyIsSilent) {
   after("RESUME REGON CALOFF", "follerr>100");
 }
 
-TEST_F(EpicposCommands, EmergencyStopsWithoutRamp) {
-  after("INIT LOOPON setpos=4000 START +100", "DAC>3000");
-  after("EMRG", "emrg still DAC=0 loopon");
-  const int stopped_at = get("posit");
-  does("count+=300");  // moved by hand: no reaction
-  after("+3", "DAC=0");
-  after("RESUME", "!emrg");
-  after("+1", "DAC=0");  // it reacts where it stands
-  EXPECT_EQ(get("posit"), stopped_at + 300);
-  after("count+=10 sample", "DAC<0");
-  ASSERT_TRUE(place(4000));  // START takes the placement up again
-  shows("posit=4000~1");
-}
-
 TEST_F(EpicposCommands, EmergencyEndsASearchAndCalibrationAMovement) {
   after("INIT LOOPON PRESET +20 EMRG", "!prson");
   after("RESUME MANFW +50 CALON", "still DAC=0");
-}
-
-TEST_F(EpicposCommands, PowerLossForgetsWhatIsNotRetentive) {
-  does("INIT LOOPON MANFW +100");
-  const int posit = get("posit");
-  after("power", "DAC=0 !init still !loopon");
-  EXPECT_EQ(get("posit"), posit);
-  shows("setvel=5000");
-  does("INIT LOOPON +100");
-  EXPECT_EQ(get("posit"), posit);
-  shows("still");
 }
 
 TEST_F(EpicposCommands, SaysWhatUnsetParametersActAs) {

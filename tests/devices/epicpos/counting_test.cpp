@@ -14,12 +14,6 @@ class EpicposCounting : public PositionerTest {
   }
 };
 
-TEST_F(EpicposCounting, DoesNothingBeforeInit) {
-  after("count=500 sample LOOPON! sample", "!loopon posit=0");
-  after("INIT", "init");
-  after("count=600 sample", "posit=100");
-}
-
 TEST_F(EpicposCounting, CntratioIsUmPerPulse) {
   covers({"cntratio", "posit"});
   struct Case {
@@ -48,45 +42,12 @@ TEST_F(EpicposCounting, NoCountIsLostOverManyMoves) {
   shows("posit=27300");
 }
 
-TEST_F(EpicposCounting, WritingPositDropsTheRemainderAndDelcntKeepsIt) {
-  covers({"delta"});
-  does("cntratio=100000 INIT count=9 sample");  // 2.25 Um
-  shows("posit=2");
-  after("delta=2 DELCNT", "posit=4");
-  does("count=12 sample");  // 5.00: the quarter was kept
-  shows("posit=5");
-  does("count=13 sample");                 // 5.25
-  does("posit=7 sample count=16 sample");  // 7.75: the quarter is gone
-  shows("posit=7");
-  after("count=17 sample", "posit=8");
-}
-
 TEST_F(EpicposCounting, ChangingTheRatioDropsTheRemainder) {
   does("cntratio=100000 INIT count=11 sample");  // 2.75
   after("cntratio=200000 sample", "posit=2");
   does("count=12 sample");  // 2.5, not 3.25
   shows("posit=2");
   after("count=13 sample", "posit=3");
-}
-
-TEST_F(EpicposCounting, TwoDelcntsInOneSampleAreOne) {
-  does("INIT posit=1000 delta=-100 DELCNT! DELCNT!");
-  EXPECT_FALSE(device->settled());
-  after("sample", "posit=900");
-  does("DELCNT");  // after a read statement has waited for the first
-  shows("posit=800");
-  after("delta=3 DELCNT delta=40 DELCNT", "posit=843");
-}
-
-TEST_F(EpicposCounting, LockAndReversal) {
-  after("INIT count=100 sample CNTLOCK", "cntlock");
-  after("count=300 sample", "posit=100");
-  after("CNTUNLOCK", "!cntlock");
-  after("count=310 sample", "posit=110");
-  after("CNTREV", "cntrev");
-  after("count=330 sample", "posit=90");
-  after("CNTDIR", "!cntrev");
-  after("count=335 sample", "posit=95");
 }
 
 TEST_F(EpicposCounting, LockReversalAndPositionOutliveThePower) {

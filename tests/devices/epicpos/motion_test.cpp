@@ -24,29 +24,6 @@ class EpicposMotion : public PositionerTest {
   }
 };
 
-TEST_F(EpicposMotion, PlacesTheAxisExactly) {
-  covers({"setpos"});
-  after("INIT LOOPON", "still");
-  for (const int target : {1000, -2000, -1999, 0}) {
-    write("setpos", target);
-    after("START", "!still");
-    does("until:still +300");
-    EXPECT_NEAR(get("posit"), target, 1);
-  }
-  shows("silent");
-}
-
-TEST_F(EpicposMotion, ARampTakesItsTimeFromRestToMaxvel) {
-  covers({"taccdec", "setvel", "maxvel"});
-  does("INIT LOOPON");
-  // 0.1 s each ramp, 500 Um in ramps, 500 Um at speed: 0.3 s, as a trapezoid of the same times needs.
-  does("setpos=1000");
-  EXPECT_EQ(duration("START"), 150);
-  // A tenth of the speed: 0.01 s ramps and 5 Um, 990 Um at 500 Um/s.
-  does("setpos=0 setvel=500");
-  EXPECT_EQ(duration("START"), 5 + 995 + 5);
-}
-
 TEST_F(EpicposMotion, TheRampIsEpicycloidalWithTwiceTheLinearPeak) {
   does("INIT LOOPON setpos=4000 START");
   for (int i = 2; i <= 50; ++i) {
@@ -120,12 +97,6 @@ TEST_F(EpicposMotion, ManualMovementsRunUntilStopOrTheLimit) {
   after("posit=-3000 sample MANBW", "still");
   says({"MANBW: posit -3000 is already at minpos -3000"});
   says("posit=3000 sample MANFW", {"MANFW: posit 3000 is already at maxpos 3000"});
-}
-
-TEST_F(EpicposMotion, APlacementEndsAtTheLimit) {
-  says("minpos=-300 maxpos=500 INIT LOOPON setpos=900 sample forget START",
-       {"START: setpos 900 is outside minpos..maxpos, the axis goes to 500"});
-  after("until:still +300", "posit=500~1");
 }
 
 TEST_F(EpicposMotion, PausesBeforeTurning) {

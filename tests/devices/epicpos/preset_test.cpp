@@ -11,59 +11,11 @@ class EpicposPreset : public SearchBench<PositionerTest, 512, 3> {
   EpicposPreset() : SearchBench(2000, 1000000) { write("pgain", 500); }
 };
 
-TEST_F(EpicposPreset, ModeZeroLoadsAtTheEnablesRelease) {
-  covers({"prsmode", "prspos", "prsvel", "sprsvel"});
-  after("prspos=700 INIT LOOPON PRESET", "prson !still");
-  after("+60", "speed=5000~1 setvel=5000");
-  double slowest = 0;
-  while (get("st_prson") == 1 && samples < 20000) {
-    does("+1");
-    slowest = std::min(slowest, speed());
-  }
-  EXPECT_NEAR(slowest, -1000, 1);
-  shows("prsok !prson still setvel=1000 setpos=700");
-  after("+200", "posit=700~1");
-  // 700 lies where the slow leg left the enable, to the way of one sample (2 Um).
-  shows("count=1999~3 silent");
-}
-
-TEST_F(EpicposPreset, ModeZeroBackwardBeyondTheLimits) {
-  covers({"prsdir"});
-  from = -1010;
-  to = -1000;
-  after("prspos=-50 prsdir=1 minpos=-100 maxpos=100 INIT LOOPON PRESET +60", "movdir");
-  after("until:!prson +200", "posit=-50~1");
-  // It ran over the enable, came back forward and left it at its upper end.
-  shows("count=-1000~3");
-}
-
-TEST_F(EpicposPreset, ModeOneLoadsAtTheFirstZeroPulseAfterTheRelease) {
-  after("prspos=0 prsmode=1 INIT LOOPON PRESET until:!prson", "prsok");
-  does("+200");
-  // Below 2000 the first pulse is at 1536, and its exact count is the quota.
-  EXPECT_EQ(get("posit"), count() - 1536);
-  shows("posit=0~1");
-}
-
 TEST_F(EpicposPreset, ModeOneBackward) {
   from = -1000000;
   to = -2000;
   does("prspos=100 prsmode=1 prsdir=1 INIT LOOPON PRESET until:!prson +200");
   EXPECT_EQ(get("posit"), 100 + count() + 1536);
-}
-
-TEST_F(EpicposPreset, InsideTheEnableTheSlowLegIsFirst) {
-  from = -400;
-  after("prspos=10 INIT LOOPON +2 PRESET +60", "speed=-1000~1");
-  after("until:!prson", "count=-401~4");
-}
-
-TEST_F(EpicposPreset, PresetAgainTurnsTheSearch) {
-  from = 1000000;
-  after("INIT LOOPON PRESET +100", "speed>0");
-  after("PRESET +150", "speed=-5000~1 prson");
-  after("STOP", "!prson !prsok");
-  does("until:still");
 }
 
 TEST_F(EpicposPreset, ANewSearchClearsTheOldResult) {

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <string>
 
@@ -17,6 +17,24 @@ Bench started(const std::string& module, int milliseconds = 1) {
   bench.run(milliseconds);
   EXPECT_EQ(bench["QMOS.oserr"], 0) << module;
   return bench;
+}
+
+TEST(QmoveStatement, ANumberBeyondTheSizeOfItsVariableWrapsAndIsNoted) {
+  const std::string module =
+      "gbSmall = 200\ngwMid = -cBig\ngfDone = 2\nagTemp[2] = 70000\nslR = cBig\n"
+      "gbSmall = 127\ngwMid = slR\ngbSmall = 200\nEND\n";
+  Problems problems;
+  const Configuration configuration =
+      parse_configuration("CONST\ncBig 40000\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
+                          testing::puppets(), problems);
+  const Program program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
+  EXPECT_EQ(text_of(problems), "");
+  EXPECT_THAT(program.notes,
+              ::testing::ElementsAre("task.mod:1:1: gbSmall: 200 does not fit size B, taken as -56",
+                                     "task.mod:3:1: gfDone: 2 does not fit size F, taken as 1",
+                                     "task.mod:4:1: agTemp: 70000 does not fit size W, taken as 4464",
+                                     "task.mod:8:1: gbSmall: 200 does not fit size B, taken as -56"));
+  EXPECT_EQ(started("gbSmall = 200\nEND\n")["gbSmall"], -56);
 }
 
 TEST(QmoveStatement, IfElseNest) {
