@@ -6,6 +6,11 @@
 #include "renders/text.hpp"
 
 namespace drycut::renders {
+namespace {
+
+constexpr const char* kFont = "DejaVu Sans";
+
+}  // namespace
 
 CairoSurface cairo_surface(int width, int height) {
   CairoSurface made(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy);
@@ -57,8 +62,24 @@ Cairo cairo_pen(cairo_surface_t* surface) {
   cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
   cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
   cairo_set_font_options(pen.get(), options.get());
-  cairo_select_font_face(pen.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_select_font_face(pen.get(), kFont, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   return pen;
+}
+
+void set_font(cairo_t* pen, double size, bool bold) {
+  cairo_select_font_face(pen, kFont, CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(pen, size);
+}
+
+void write_text(cairo_t* pen, double x, double baseline, const std::string& words) {
+  cairo_move_to(pen, x, baseline);
+  cairo_show_text(pen, words.c_str());
+}
+
+void fill_box(cairo_t* pen, double left, double top, double width, double height) {
+  cairo_rectangle(pen, left, top, width, height);
+  cairo_fill(pen);
 }
 
 double text_width(cairo_t* pen, const std::string& text) {

@@ -29,13 +29,24 @@ double text_width(cairo_t* pen, const std::string& text);
 /// `text`, or its beginning and an ellipsis, no wider than `room` [pixels].
 std::string fitted_text(cairo_t* pen, std::string text, double room);
 
+/// Size [pixels] and weight of what is written and measured from now on.
+void set_font(cairo_t* pen, double size, bool bold = false);
+/// A line of words that begins at `x`.
+void write_text(cairo_t* pen, double x, double baseline, const std::string& words);
+void fill_box(cairo_t* pen, double left, double top, double width, double height);
+
 /// How large letters and lines are: 1 for a picture 540 pixels high.
 double picture_scale(int height);
 
-/// Red, green, blue of what words stand on.
+/// A colour, each from 0 to 1.
 struct Ink {
   double red, green, blue;
 };
+/// 0xrrggbb
+constexpr Ink ink(unsigned rgb) {
+  return {(rgb >> 16U & 255U) / 255.0, (rgb >> 8U & 255U) / 255.0, (rgb & 255U) / 255.0};
+}
+/// What words in a film stand on.
 constexpr Ink kGround = {0.105, 0.125, 0.150};
 void set_ink(cairo_t* pen, const Ink& ink, double opacity = 1);
 

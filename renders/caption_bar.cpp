@@ -12,7 +12,6 @@
 namespace drycut::renders {
 namespace {
 
-constexpr const char* kFont = "DejaVu Sans";
 constexpr double kLine = 1.5;       ///< line height / font size
 constexpr double kValueGap = 0.55;  ///< between label and value / font size
 constexpr double kColumnGap = 2.0;  ///< between columns / font size
@@ -25,50 +24,21 @@ constexpr Ink kLampOn = {0.25, 0.88, 0.35};
 constexpr Ink kLampOff = {0.17, 0.20, 0.24};
 constexpr double kLamp = 0.85;  ///< diameter / font size
 
-/// A cairo picture to write on.
-class Page {
- public:
-  Page(int width, int height) : surface_(cairo_surface(width, height)), cairo_(cairo_pen(surface_.get())) {}
+void write_in(cairo_t* pen, const Ink& colour, double x, double baseline, const std::string& words) {
+  set_ink(pen, colour);
+  write_text(pen, x, baseline, words);
+}
 
-  void font(double size, bool bold = false) {
-    cairo_select_font_face(cairo_.get(), kFont, CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo_.get(), size);
-  }
-
-  double width(const std::string& text) { return text_width(cairo_.get(), text); }
-  std::string fitted(const std::string& text, double room) { return fitted_text(cairo_.get(), text, room); }
-
-  void text(double x, double baseline, const std::string& words, const Ink& colour) {
-    set_ink(cairo_.get(), colour);
-    cairo_move_to(cairo_.get(), x, baseline);
-    cairo_show_text(cairo_.get(), words.c_str());
-  }
-
-  void fill(double x, double y, double w, double h, const Ink& colour) {
-    set_ink(cairo_.get(), colour);
-    cairo_rectangle(cairo_.get(), x, y, w, h);
-    cairo_fill(cairo_.get());
-  }
-
-  /// A lamp of that diameter; dark with a ring if it is off.
-  void lamp(double x, double y, double diameter, bool on) {
-    cairo_new_path(cairo_.get());  // words leave the pen where they end
-    cairo_arc(cairo_.get(), x, y, diameter / 2, 0, 2 * std::numbers::pi);
-    const Ink& colour = on ? kLampOn : kLampOff;
-    set_ink(cairo_.get(), colour);
-    cairo_fill_preserve(cairo_.get());
-    set_ink(cairo_.get(), kLabel);
-    cairo_set_line_width(cairo_.get(), diameter / 10);
-    cairo_stroke(cairo_.get());
-  }
-
-  void copy_to(Image& image, int first_row, int rows) { copy_rows(surface_.get(), rows, image, first_row); }
-
- private:
-  CairoSurface surface_;
-  Cairo cairo_;
-};
+/// A lamp of that diameter; dark with a ring if it is off.
+void draw_lamp(cairo_t* pen, double x, double y, double diameter, bool on) {
+  cairo_new_path(pen);  // words leave the pen where they end
+  cairo_arc(pen, x, y, diameter / 2, 0, 2 * std::numbers::pi);
+  set_ink(pen, on ? kLampOn : kLampOff);
+  cairo_fill_preserve(pen);
+  set_ink(pen, kLabel);
+  cairo_set_line_width(pen, diameter / 10);
+  cairo_stroke(pen);
+}
 
 }  // namespace
 
@@ -77,17 +47,20 @@ CaptionLayout::CaptionLayout(const Film& film) : title_(one_line(film.title)), w
   margin_ = 16 * scale;
   title_size_ = 16 * scale;
 
-  Page page(16, 16);
+  const CairoSurface nowhere = cairo_surface(16, 16);
+  const Cairo pen = cairo_pen(nowhere.get());
   constexpr double kMeasure = 64;
-  page.font(kMeasure);
+  set_font(pen.get(), kMeasure);
+  const auto width_of = [&](const std::string& words) {
+    return text_width(pen.get(), one_line(words)) / kMeasure;
+  };
   std::vector<Widths> items;
   for (const Frame& frame : film.frames) {
     if (std::abs(frame.time_s * 1e3 - std::round(frame.time_s * 1e3)) > 1e-4) time_digits_ = 4;
     if (frame.caption.size() > items.size()) items.resize(frame.caption.size());
     for (std::size_t i = 0; i < frame.caption.size(); ++i) {
-      items[i].label = std::max(items[i].label, page.width(one_line(frame.caption[i].label)) / kMeasure);
-      const double value =
-          frame.caption[i].lamp ? kLamp : page.width(one_line(frame.caption[i].value)) / kMeasure;
+      items[i].label = std::max(items[i].label, width_of(frame.caption[i].label));
+      const double value = frame.caption[i].lamp ? kLamp : width_of(frame.caption[i].value);
       items[i].value = std::max(items[i].value, value);
     }
   }
@@ -158,32 +131,36 @@ bool CaptionLayout::place(const std::vector<Widths>& items, std::size_t rows, do
 }
 
 void CaptionLayout::draw(const Frame& frame, Image& image) const {
-  Page page(width_, height_);
-  page.fill(0, 0, width_, height_, kGround);
-  page.fill(0, 0, width_, std::max(1.0, std::round(margin_ / 8)), kRule);
+  const CairoSurface surface = cairo_surface(width_, height_);
+  const Cairo owned = cairo_pen(surface.get());
+  cairo_t* const pen = owned.get();
+  set_ink(pen, kGround);
+  fill_box(pen, 0, 0, width_, height_);
+  set_ink(pen, kRule);
+  fill_box(pen, 0, 0, width_, std::max(1.0, std::round(margin_ / 8)));
 
   const double baseline = 0.45 * margin_ + 0.85 * kLine * title_size_ * 0.92;
-  page.font(title_size_, true);
+  set_font(pen, title_size_, true);
   const std::string time = fmt::format("t = {:.{}f} s", frame.time_s, time_digits_);
-  const double time_width = page.width(time);
-  page.text(margin_, baseline, page.fitted(title_, width_ - 3 * margin_ - time_width), kTitle);
-  page.text(width_ - margin_ - time_width, baseline, time, kTitle);
+  const double time_width = text_width(pen, time);
+  write_in(pen, kTitle, margin_, baseline, fitted_text(pen, title_, width_ - 3 * margin_ - time_width));
+  write_in(pen, kTitle, width_ - margin_ - time_width, baseline, time);
 
-  page.font(font_size_);
+  set_font(pen, font_size_);
   for (std::size_t i = 0; i < std::min(frame.caption.size(), cells_.size()); ++i) {
     const Cell& cell = cells_[i];
     const double value_room = cell.right - cell.left - cell.label_width - kValueGap * font_size_;
-    const std::string label = page.fitted(one_line(frame.caption[i].label), cell.label_width + 0.01);
-    const std::string value = page.fitted(one_line(frame.caption[i].value), value_room + 0.01);
-    page.text(cell.left, cell.baseline, label, kLabel);
+    const std::string label = fitted_text(pen, one_line(frame.caption[i].label), cell.label_width + 0.01);
+    const std::string value = fitted_text(pen, one_line(frame.caption[i].value), value_room + 0.01);
+    write_in(pen, kLabel, cell.left, cell.baseline, label);
     if (const auto lamp = frame.caption[i].lamp) {
       const double diameter = kLamp * font_size_;
-      page.lamp(cell.right - diameter / 2, cell.baseline - 0.36 * font_size_, diameter, *lamp);
+      draw_lamp(pen, cell.right - diameter / 2, cell.baseline - 0.36 * font_size_, diameter, *lamp);
       continue;
     }
-    page.text(cell.right - page.width(value), cell.baseline, value, kValue);
+    write_in(pen, kValue, cell.right - text_width(pen, value), cell.baseline, value);
   }
-  page.copy_to(image, image.height - height_, height_);
+  copy_rows(surface.get(), height_, image, image.height - height_);
 }
 
 }  // namespace drycut::renders

@@ -31,10 +31,9 @@ void draw_filmstrip(const std::vector<StripFrame>& frames, int caption_height,
   const int height = frame_height + kGap + kLabelHeight;
 
   const CairoSurface strip = cairo_surface(width, height);
-  const Cairo page(cairo_create(strip.get()), cairo_destroy);
+  const Cairo page = cairo_pen(strip.get());
   cairo_set_source_rgb(page.get(), 1, 1, 1);
   cairo_paint(page.get());
-  cairo_select_font_face(page.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(page.get(), kLabelSize);
   for (int i = 0; i < count; ++i) {
     const StripFrame& frame = frames[static_cast<std::size_t>(i)];
@@ -53,11 +52,10 @@ void draw_filmstrip(const std::vector<StripFrame>& frames, int caption_height,
     cairo_pattern_set_extend(cairo_get_source(page.get()), CAIRO_EXTEND_PAD);
     cairo_paint(page.get());
     cairo_restore(page.get());
-    const std::string label = fitted_text(one_line(frame.label), kLabelSize, kFrameWidth);
+    const std::string label = fitted_text(page.get(), one_line(frame.label), kFrameWidth);
     cairo_set_source_rgb(page.get(), 0.12, 0.16, 0.20);
-    cairo_move_to(page.get(), left + (kFrameWidth - text_width(label, kLabelSize)) / 2,
-                  kGap + frame_height + 0.68 * kLabelHeight);
-    cairo_show_text(page.get(), label.c_str());
+    write_text(page.get(), left + (kFrameWidth - text_width(page.get(), label)) / 2,
+               kGap + frame_height + 0.68 * kLabelHeight, label);
   }
   Image picture(width, height);
   copy_rows(strip.get(), height, picture, 0);

@@ -11,7 +11,4 @@ std::string html_text(std::string_view text);
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 
-/// The look of the report: everything there is, no other file is asked for.
-extern const char* const kReportStyle;
-
 }  // namespace drycut::renders

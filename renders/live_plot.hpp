@@ -1,9 +1,9 @@
 #pragma once
 #include <cairo.h>
 
-#include <array>
 #include <vector>
 
+#include "renders/plot_area.hpp"
 #include "renders/scene3d.hpp"
 
 namespace drycut::renders {
@@ -20,7 +20,7 @@ class LivePlot {
 
  private:
   const Film& film_;
-  std::vector<std::array<double, 2>> ranges_;  ///< lowest and highest value of each curve
+  std::vector<Range> ranges_;  ///< lowest and highest value of each curve
 };
 
 }  // namespace drycut::renders

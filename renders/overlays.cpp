@@ -41,11 +41,9 @@ void plate(const Sheet& sheet, Point at, const std::string& words) {
   at[0] = std::clamp(at[0], half, std::max(half, sheet.width - half));
   at[1] = std::clamp(at[1], high, std::max(high, sheet.height - high));
   set_ink(sheet.pen, kGround, 0.85);
-  cairo_rectangle(sheet.pen, at[0] - half, at[1] - high, 2 * half, 2 * high);
-  cairo_fill(sheet.pen);
+  fill_box(sheet.pen, at[0] - half, at[1] - high, 2 * half, 2 * high);
   cairo_set_source_rgb(sheet.pen, 1, 1, 1);
-  cairo_move_to(sheet.pen, at[0] - half + 0.4 * size, at[1] + 0.36 * size);
-  cairo_show_text(sheet.pen, words.c_str());
+  write_text(sheet.pen, at[0] - half + 0.4 * size, at[1] + 0.36 * size, words);
 }
 
 /// A line with a dark border, so that it shows on bright and dark parts alike.

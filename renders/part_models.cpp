@@ -2,32 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 
+#include "renders/embedded.hpp"
 #include "renders/mesh_file.hpp"
 
-/// One embedded file; the table comes from the build (CMakeLists.txt) and ends with a name that is null.
-struct DrycutPartModel {
-  const char* name;
-  const char* begin;
-  const char* end;
-};
-extern "C" const DrycutPartModel drycut_part_models[];
-
 namespace drycut::renders {
+namespace {
+
+constexpr std::string_view kExtension = ".stl";
+
+}  // namespace
 
 std::vector<std::string_view> part_model_names() {
-  std::vector<std::string_view> names;
-  for (const auto* model = drycut_part_models; model->name != nullptr; ++model)
-    names.emplace_back(model->name);
+  auto names = embedded_names();
+  std::erase_if(names, [](std::string_view name) { return !name.ends_with(kExtension); });
+  for (auto& name : names) name.remove_suffix(kExtension.size());
+  std::sort(names.begin(), names.end());
   return names;
 }
 
 std::string_view part_model_file(std::string_view name) {
-  for (const auto* model = drycut_part_models; model->name != nullptr; ++model) {
-    if (name == model->name) return {model->begin, static_cast<std::size_t>(model->end - model->begin)};
-  }
-  return {};
+  return embedded_file(std::string(name).append(kExtension));
 }
 
 Mesh part_model(std::string_view name) {

@@ -4,15 +4,14 @@
 #include <vector>
 
 #include "renders/axis_ticks.hpp"
+#include "renders/plot_area.hpp"
 #include "renders/plots.hpp"
 
 namespace drycut::renders {
 
 // Where everything of a plot goes, in pixels from the upper left corner.
 
-using Range = std::pair<double, double>;
-
-/// Sizes of type in a plot [pixels]; 1 pt is 4/3 of a pixel at 96 dots an inch.
+/// Sizes of type in a plot [pixels].
 struct PlotType {
   static constexpr double title = 20;
   static constexpr double panel_title = 16;

@@ -84,8 +84,8 @@ struct Plot {
   bool log_x = false;  ///< decades of x are as wide as each other; all x above 0
 };
 
-/// Draws the plots into `directory` as <name>.png and returns the paths. Throws std::runtime_error with the
-/// plotting program's own words if it fails. Same data, same bytes.
+/// Draws the plots into `directory` as <name>.png and returns the paths. Throws std::invalid_argument if a
+/// plot cannot be drawn, std::runtime_error if a file cannot be written. Same data, same bytes.
 std::vector<std::filesystem::path> draw_plots(const std::vector<Plot>& plots,
                                               const std::filesystem::path& directory);
 

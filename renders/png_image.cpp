@@ -19,13 +19,13 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 void flush(png_structp) {}
 
 /// False if libpng gave up. A function of its own without destructors, because libpng leaves it by longjmp.
-bool encode(png_structp png, png_infop info, const Image& image, std::string& bytes) {
+bool encode(png_structp png, png_infop info, const Image& image, int effort, std::string& bytes) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, &bytes, append, flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_filter(png, 0, PNG_FILTER_NONE);
-  png_set_compression_level(png, 1);
+  png_set_compression_level(png, effort);
   png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);
   png_write_info(png, info);
   for (int y = 0; y < image.height; ++y) png_write_row(png, image.row(y));
@@ -35,12 +35,12 @@ bool encode(png_structp png, png_infop info, const Image& image, std::string& by
 
 }  // namespace
 
-std::string png_bytes(const Image& image) {
+std::string png_bytes(const Image& image, int effort) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   std::string bytes;
   bytes.reserve(image.rgb.size() / 4);
-  const bool done = info != nullptr && encode(png, info, image, bytes);
+  const bool done = info != nullptr && encode(png, info, image, effort, bytes);
   png_destroy_write_struct(&png, &info);
   if (!done) throw std::runtime_error("pictures: libpng could not compress a picture");
   return bytes;

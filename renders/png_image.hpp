@@ -23,8 +23,9 @@ struct Image {
   }
 };
 
-/// The image as a PNG file's bytes; tuned for speed, not for the last byte. Throws std::runtime_error.
-std::string png_bytes(const Image& image);
+/// The image as a PNG file's bytes. `effort` is zlib's, from 1 to 9: tuned for speed unless it is said
+/// otherwise, not for the last byte. Throws std::runtime_error.
+std::string png_bytes(const Image& image, int effort = 1);
 
 /// Reads a PNG file of any kind. Throws std::runtime_error if it is none.
 Image read_png(const std::filesystem::path& file);

@@ -69,18 +69,10 @@ void receive(Descriptor& from, std::string& text) {
   }
 }
 
-void transmit(Descriptor& to, const std::string& script, std::size_t& sent) {
-  const ssize_t size =
-      send(to.get(), script.data() + sent, script.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
-  if (size > 0) sent += static_cast<std::size_t>(size);
-  const bool gone = size < 0 && errno != EINTR && errno != EAGAIN;
-  if (gone || sent == script.size()) to.close();
-}
-
-pid_t start(const Command& command, int in, int out, int error) {
+pid_t start(const Command& command, int out, int error) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, error, STDERR_FILENO);
   if (!command.directory.empty()) posix_spawn_file_actions_addchdir_np(&actions, command.directory.c_str());
@@ -183,28 +175,21 @@ std::string fate(int status, const WorkLimits& limits) {
 
 }  // namespace
 
-Finished run_process(const Command& command, const std::string& input) {
-  auto [to_child, child_in] = connection();
+Finished run_process(const Command& command) {
   auto [from_child, child_out] = connection();
   auto [errors, child_error] = connection();
-  const pid_t child = start(command, child_in.get(), child_out.get(), child_error.get());
-  child_in.close();
+  const pid_t child = start(command, child_out.get(), child_error.get());
   child_out.close();
   child_error.close();
 
   Finished finished;
   std::string words;
-  std::size_t sent = 0;
-  if (input.empty()) to_child.close();
   while (from_child.get() >= 0 || errors.get() >= 0) {
-    std::array<pollfd, 3> waiting = {
-        {{to_child.get(), POLLOUT, 0}, {from_child.get(), POLLIN, 0}, {errors.get(), POLLIN, 0}}};
+    std::array<pollfd, 2> waiting = {{{from_child.get(), POLLIN, 0}, {errors.get(), POLLIN, 0}}};
     if (poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR) break;
-    if (waiting[0].revents != 0) transmit(to_child, input, sent);
-    if (waiting[1].revents != 0) receive(from_child, finished.output);
-    if (waiting[2].revents != 0) receive(errors, words);
+    if (waiting[0].revents != 0) receive(from_child, finished.output);
+    if (waiting[1].revents != 0) receive(errors, words);
   }
-  to_child.close();
 
   const int status = ended(child, command.program);
   finished.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -27,9 +27,9 @@ struct Finished {
   std::string words;  ///< its messages on one line, in short
 };
 
-/// Runs a program to its end with `input` as its standard input. Throws HelperFailed if it cannot be
-/// started.
-Finished run_process(const Command& command, const std::string& input);
+/// Runs a program to its end; it has nothing to read from its standard input. Throws HelperFailed if it
+/// cannot be started.
+Finished run_process(const Command& command);
 
 /// AddressSanitizer reserves terabytes of addresses: with it no limit of memory is set.
 #if defined(__SANITIZE_ADDRESS__)

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/sheet.hpp"
+#include "renders/embedded.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
 #include "renders/report_data.hpp"
@@ -26,7 +27,6 @@ const char* verdict_state(const Report& report) {
 }
 
 std::string picture(const ReportFigure& figure) {
-  if (figure.png.empty()) return "<p class=\"remark\">No picture was drawn.</p>";
   const std::string bytes = read_file(figure.png);
   if (bytes.rfind("\x89PNG\r\n", 0) != 0)
     throw std::runtime_error(figure.png.string() + ": not a PNG picture");
@@ -65,7 +65,7 @@ void write_head(std::string& page, const Report& report) {
   page += "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
   page += fmt::format("<title>{}: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-                      html_text(verdict_word(report)), html_text(report.title), kReportStyle);
+                      html_text(verdict_word(report)), html_text(report.title), embedded_file("report.css"));
   page += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n", html_text(report.title),
                       html_text(report.scenario));
   page += fmt::format("<p class=\"verdict {}\"><strong>{}</strong> <span>{}</span></p>\n",

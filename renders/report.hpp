@@ -31,7 +31,7 @@ struct ReportTable {
 std::string rows_text(const ReportTable& table, std::size_t width);
 
 struct ReportFigure {
-  std::filesystem::path png;  ///< "" = none was drawn: its data, if the report has them, stand alone
+  std::filesystem::path png;
   std::string caption;
 };
 

@@ -6,7 +6,10 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
 
+#include "renders/embedded.hpp"
 #include "renders/html.hpp"
 #include "renders/lanes.hpp"
 #include "renders/plot_layout.hpp"
@@ -16,26 +19,9 @@
 namespace drycut::renders {
 namespace {
 
+using nlohmann::ordered_json;
+
 static_assert(std::endian::native == std::endian::little, "the columns are little-endian");
-
-/// A JSON string. Signs that could end the script element are escaped as well.
-std::string json_text(const std::string& text) {
-  std::string json = "\"";
-  for (const char c : one_line(text)) {
-    if (c == '"' || c == '\\' || c == '<' || c == '>' || c == '&') {
-      json += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      json += c;
-    }
-  }
-  return json + "\"";
-}
-
-std::string joined(const std::vector<std::string>& items) {
-  std::string list = "[";
-  for (const std::string& item : items) list += (list.size() > 1 ? "," : "") + item;
-  return list + "]";
-}
 
 template <typename Number>
 std::string bytes_of(const std::vector<double>& numbers) {
@@ -53,13 +39,12 @@ class Columns {
   std::size_t x(const std::vector<double>& numbers) { return index(numbers, true); }
   std::size_t y(const std::vector<double>& numbers) { return index(numbers, false); }
 
-  std::string json() const {
-    std::vector<std::string> items;
-    for (const auto& [numbers, wide] : columns_) {
-      items.push_back(fmt::format(R"({{"type":"{}","base64":"{}"}})", wide ? "f8" : "f4",
-                                  base64(wide ? bytes_of<double>(*numbers) : bytes_of<float>(*numbers))));
-    }
-    return joined(items);
+  [[nodiscard]] ordered_json json() const {
+    auto list = ordered_json::array();
+    for (const auto& [numbers, wide] : columns_)
+      list.push_back({{"type", wide ? "f8" : "f4"},
+                      {"base64", base64(wide ? bytes_of<double>(*numbers) : bytes_of<float>(*numbers))}});
+    return list;
   }
 
  private:
@@ -78,54 +63,77 @@ class Columns {
   std::vector<std::pair<const std::vector<double>*, bool>> columns_;
 };
 
-std::string panel_json(const Panel& panel, Columns& columns) {
-  std::vector<std::string> curves, bands, lanes;
-  for (const Curve& curve : panel.curves) {
-    const char* const style = curve.style == Curve::Style::points  ? "points"
-                              : curve.style == Curve::Style::steps ? "steps"
-                                                                   : "line";
-    curves.push_back(fmt::format(R"({{"label":{},"style":"{}","faint":{},"x":{},"y":{}}})",
-                                 json_text(curve.label), style, curve.faint, columns.x(curve.x),
-                                 columns.y(curve.y)));
-  }
-  for (const Band& band : panel.bands) {
-    bands.push_back(
-        fmt::format(R"({{"label":{},"low":{},"high":{}}})", json_text(band.label), band.low, band.high));
-  }
-  for (const Lane& lane : panel.lanes) {
-    lanes.push_back(fmt::format(R"({{"label":{},"digital":{},"x":{},"y":{}}})", json_text(lane.label),
-                                is_digital(lane), columns.x(lane.x), columns.y(lane.y)));
-  }
-  const std::string range =
-      panel.y_range ? fmt::format("[{},{}]", panel.y_range->first, panel.y_range->second) : "[]";
-  return fmt::format(R"({{"title":{},"yLabel":{},"least":{},"curves":{},"bands":{},"lanes":{}}})",
-                     json_text(panel.title), json_text(panel.y_label), range, joined(curves), joined(bands),
-                     joined(lanes));
+/// An object of each item.
+template <typename Item, typename Object>
+ordered_json list_of(const std::vector<Item>& items, const Object& object) {
+  auto list = ordered_json::array();
+  for (const Item& item : items) list.push_back(object(item));
+  return list;
 }
 
-std::string plot_json(const Plot& plot, Columns& columns) {
-  std::vector<std::string> marks, zones, panels;
-  for (const Mark& mark : plot.marks) {
-    marks.push_back(
-        fmt::format(R"({{"x":{},"label":{},"strong":{}}})", mark.x, json_text(mark.label), mark.strong));
-  }
-  for (const Zone& zone : plot.zones)
-    zones.push_back(fmt::format(R"({{"from":{},"to":{},"strong":{}}})", zone.from, zone.to, zone.strong));
-  const std::string second = plot.second_x
-                                 ? fmt::format(R"({{"label":{},"factor":{}}})",
-                                               json_text(plot.second_x->label), plot.second_x->factor)
-                                 : "null";
-  for (const Panel& panel : plot.panels) panels.push_back(panel_json(panel, columns));
+std::string_view style_name(Curve::Style style) {
+  if (style == Curve::Style::points) return "points";
+  return style == Curve::Style::steps ? "steps" : "line";
+}
+
+ordered_json panel_json(const Panel& panel, Columns& columns) {
+  const auto curve = [&](const Curve& one) -> ordered_json {
+    return {{"label", one_line(one.label)},
+            {"style", style_name(one.style)},
+            {"faint", one.faint},
+            {"x", columns.x(one.x)},
+            {"y", columns.y(one.y)}};
+  };
+  const auto band = [](const Band& one) -> ordered_json {
+    return {{"label", one_line(one.label)}, {"low", one.low}, {"high", one.high}};
+  };
+  const auto lane = [&](const Lane& one) -> ordered_json {
+    return {{"label", one_line(one.label)},
+            {"digital", is_digital(one)},
+            {"x", columns.x(one.x)},
+            {"y", columns.y(one.y)}};
+  };
+  auto range = ordered_json::array();
+  if (panel.y_range) range = {panel.y_range->first, panel.y_range->second};
+  return {{"title", one_line(panel.title)},      {"yLabel", one_line(panel.y_label)},
+          {"least", std::move(range)},           {"curves", list_of(panel.curves, curve)},
+          {"bands", list_of(panel.bands, band)}, {"lanes", list_of(panel.lanes, lane)}};
+}
+
+ordered_json plot_json(const Plot& plot, Columns& columns) {
+  const auto mark = [](const Mark& one) -> ordered_json {
+    return {{"x", one.x}, {"label", one_line(one.label)}, {"strong", one.strong}};
+  };
+  const auto zone = [](const Zone& one) -> ordered_json {
+    return {{"from", one.from}, {"to", one.to}, {"strong", one.strong}};
+  };
+  ordered_json second;
+  if (plot.second_x) second = {{"label", one_line(plot.second_x->label)}, {"factor", plot.second_x->factor}};
   const auto [low, high] = laid_out(plot).x_range;
   const bool points = std::any_of(plot.panels.begin(), plot.panels.end(), [](const Panel& panel) {
     return std::any_of(panel.curves.begin(), panel.curves.end(),
                        [](const Curve& curve) { return curve.style == Curve::Style::points; });
   });
   const double border = points ? 0.015 * (high - low) : 0;  // so that no dot is cut in half
-  return fmt::format(
-      R"({{"title":{},"xLabel":{},"range":[{},{}],"second":{},"marks":{},"zones":{},"panels":{}}})",
-      json_text(plot.title), json_text(plot.x_label), low - border, high + border, second, joined(marks),
-      joined(zones), joined(panels));
+  return {{"title", one_line(plot.title)},
+          {"xLabel", one_line(plot.x_label)},
+          {"range", {low - border, high + border}},
+          {"second", std::move(second)},
+          {"marks", list_of(plot.marks, mark)},
+          {"zones", list_of(plot.zones, zone)},
+          {"panels", list_of(plot.panels, [&](const Panel& one) { return panel_json(one, columns); })}};
+}
+
+/// Signs that could end the script element stand in strings only, and are escaped there.
+std::string safe_in_script(const ordered_json& json) {
+  std::string text;
+  for (const char c : json.dump()) {
+    if (c == '<' || c == '>' || c == '&')
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      text += c;
+  }
+  return text;
 }
 
 }  // namespace
@@ -142,9 +150,10 @@ bool can_be_live(const Plot& plot) {
 
 std::string plot_data(const std::vector<Plot>& plots) {
   Columns columns;
-  std::vector<std::string> items;
-  for (const Plot& plot : plots) items.push_back(can_be_live(plot) ? plot_json(plot, columns) : "null");
-  return fmt::format("{{\"plots\":{},\n\"columns\":{}}}", joined(items), columns.json());
+  auto list = list_of(plots, [&](const Plot& plot) -> ordered_json {
+    return can_be_live(plot) ? plot_json(plot, columns) : nullptr;
+  });
+  return safe_in_script({{"plots", std::move(list)}, {"columns", columns.json()}});
 }
 
 std::string live_plots(const std::vector<Plot>& plots, const std::string& folder) {
@@ -158,8 +167,8 @@ std::string live_plots(const std::vector<Plot>& plots, const std::string& folder
   return fmt::format(
       "<style>{}</style>\n<script>{}</script>\n<script type=\"application/json\" "
       "id=\"plot-data\">{}</script>\n"
-      "<script>\"use strict\";\n(function () {{{}{}{}}})();</script>\n",
-      read_file(style), read_file(library), plot_data(plots), kReportSamples, kReportUnderlay, kReportPlots);
+      "<script>{}</script>\n",
+      read_file(style), read_file(library), plot_data(plots), embedded_file("report.js"));
 }
 
 }  // namespace drycut::renders

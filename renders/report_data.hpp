@@ -20,9 +20,4 @@ std::string plot_data(const std::vector<Plot>& plots);
 std::string live_plots(const std::vector<Plot>& plots,
                        const std::string& folder = "/usr/share/javascript/dygraphs");
 
-// The script that draws them with dygraphs in place of their pictures: three parts of one function.
-extern const char* const kReportSamples;   ///< the columns, what a screen needs of them, values at a place
-extern const char* const kReportUnderlay;  ///< behind the curves: bands, lanes, marks
-extern const char* const kReportPlots;     ///< plots: panels over a common x, cursor, zoom
-
 }  // namespace drycut::renders

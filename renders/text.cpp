@@ -1,8 +1,6 @@
 #include "renders/text.hpp"
 
-#include <cairo.h>
-
-#include <memory>
+#include "renders/cairo_image.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -30,6 +28,13 @@ std::size_t character_size(std::string_view text) {
   return overlong || surrogate || beyond ? 0 : size;
 }
 
+/// A pen that only measures.
+struct Measure {
+  Measure(double font_size, bool bold) { set_font(pen.get(), font_size, bold); }
+  CairoSurface surface = cairo_surface(1, 1);
+  Cairo pen = cairo_pen(surface.get());
+};
+
 }  // namespace
 
 std::string one_line(std::string_view text) {
@@ -55,21 +60,13 @@ void drop_last_character(std::string& text) {
 }
 
 double text_width(const std::string& text, double font_size, bool bold) {
-  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy);
-  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> page(cairo_create(surface.get()), cairo_destroy);
-  cairo_select_font_face(page.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(page.get(), font_size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(page.get(), text.c_str(), &extents);
-  return extents.x_advance;
+  const Measure measure(font_size, bold);
+  return text_width(measure.pen.get(), text);
 }
 
 std::string fitted_text(std::string text, double font_size, double room, bool bold) {
-  if (text_width(text, font_size, bold) <= room) return text;
-  while (!text.empty() && text_width(text + "…", font_size, bold) > room) drop_last_character(text);
-  return text + "…";
+  const Measure measure(font_size, bold);
+  return fitted_text(measure.pen.get(), std::move(text), room);
 }
 
 }  // namespace drycut::renders

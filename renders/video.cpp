@@ -61,7 +61,7 @@ void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
   };
   const Finished finished = [&] {
     try {
-      return run_process(command, "");
+      return run_process(command);
     } catch (const HelperFailed& error) {
       throw HelperFailed(std::string("video: ") + error.what());
     }

@@ -61,9 +61,10 @@ TEST(LiveData, EveryColumnIsThereOnce) {
 
 TEST(LiveData, SaysWhatThePlotsShow) {
   const auto json = plot_data({sine(10)});
-  EXPECT_THAT(json, HasSubstr(R"("title":"Motion \u0026 more","xLabel":"time [s]","range":[0,10])"));
+  EXPECT_THAT(json, HasSubstr(R"("title":"Motion \u0026 more","xLabel":"time [s]","range":[0.0,10.0])"));
   EXPECT_THAT(
-      json, HasSubstr(R"({"x":5,"label":"stuck = 1","strong":true},{"x":7,"label":"cut 3","strong":false})"));
+      json,
+      HasSubstr(R"({"x":5.0,"label":"stuck = 1","strong":true},{"x":7.0,"label":"cut 3","strong":false})"));
   EXPECT_THAT(json, HasSubstr(R"("bands":[{"label":"limit","low":-1.5,"high":1.5}])"));
   EXPECT_THAT(json, AllOf(HasSubstr(R"({"label":"2.OUT01","digital":true,)"),
                           HasSubstr(R"({"label":"phase","digital":false,)")));
@@ -98,7 +99,7 @@ TEST(LiveData, WithoutTheLibraryThePicturesStay) {
 
 bool has_browser() {
   try {
-    return run_process({"chromium", "chromium", {"--version"}}, "").good && !live_plots({sine(10)}).empty();
+    return run_process({"chromium", "chromium", {"--version"}}).good && !live_plots({sine(10)}).empty();
   } catch (const std::runtime_error&) {
     return false;
   }
@@ -128,8 +129,7 @@ std::string browsed(const std::vector<Plot>& plots, const std::string& script) {
                    "chromium",
                    {"--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,900",
                     "--user-data-dir=" + (scratch / "profile").string(), "--virtual-time-budget=5000",
-                    "--dump-dom", "file://" + (scratch / "page.html").string()}},
-                  "")
+                    "--dump-dom", "file://" + (scratch / "page.html").string()}})
           .output;
   const auto begin = dom.rfind("BEGIN");
   const auto end = dom.find("END", begin);

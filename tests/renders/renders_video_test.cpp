@@ -32,7 +32,7 @@ std::vector<std::filesystem::path> frames_in(const std::filesystem::path& folder
 
 bool has(const char* program) {
   try {
-    return run_process({program, program, {"-version"}}, "").good;
+    return run_process({program, program, {"-version"}}).good;
   } catch (const std::runtime_error&) {
     return false;
   }
@@ -47,8 +47,7 @@ TEST(Video, HasEveryFrameAtItsPeriod) {
                                  "ffmpeg",
                                  {"-v", "error", "-count_frames", "-show_entries",
                                   "stream=codec_name,width,height,r_frame_rate,nb_read_frames", "-of",
-                                  "csv=p=0", (scratch / "film.mp4").string()}},
-                                "");
+                                  "csv=p=0", (scratch / "film.mp4").string()}});
   EXPECT_THAT(told.output, HasSubstr("h264,162,122,25/1,7")) << "odd sizes grow by a pixel";
 }
 
@@ -74,7 +73,7 @@ TEST(Video, SaysWhatIsWrongAndLeavesNothingHalf) {
 
 TEST(Process, SaysWhichPackageBringsAMissingProgram) {
   EXPECT_EQ(message_of<std::runtime_error>([] {
-              run_process({"no-such-program", "a-package", {}}, "");
+              run_process({"no-such-program", "a-package", {}});
             }),
             "there is no no-such-program; install a-package");
 }
@@ -82,9 +81,8 @@ TEST(Process, SaysWhichPackageBringsAMissingProgram) {
 TEST(Process, RunsWithItsArgumentsInItsFolder) {
   const Scratch scratch;
   write_file(scratch / "a file.txt", "in the folder");
-  EXPECT_EQ(run_process({"cat", "coreutils", {"a file.txt", "-"}, scratch.path}, ", from the input").output,
-            "in the folder, from the input");
-  const auto bad = run_process({"cat", "coreutils", {"no such file"}, scratch.path}, "");
+  EXPECT_EQ(run_process({"cat", "coreutils", {"a file.txt"}, scratch.path}).output, "in the folder");
+  const auto bad = run_process({"cat", "coreutils", {"no such file"}, scratch.path});
   EXPECT_FALSE(bad.good);
   EXPECT_THAT(bad.words, HasSubstr("no such file"));
 }

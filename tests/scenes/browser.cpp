@@ -82,7 +82,7 @@ std::string decoded(const std::string& base64) {
 
 bool Browser::is_installed() {
   try {
-    return renders::run_process({"chromium", "chromium", {"--version"}}, "").good;
+    return renders::run_process({"chromium", "chromium", {"--version"}}).good;
   } catch (const std::runtime_error&) {
     return false;
   }

@@ -176,7 +176,7 @@ class ReportInABrowser : public ::testing::TestWithParam<Page> {
         command.arguments.push_back(word);
       }
       // Checks may fail in a run cut short; the page is what counts.
-      const auto finished = renders::run_process(command, "");
+      const auto finished = renders::run_process(command);
       EXPECT_EQ(finished.words, "") << finished.output;
     }
     ASSERT_TRUE(std::filesystem::exists(folder / GetParam().report));

@@ -1,8 +1,257 @@
-#include "renders/report_data.hpp"
+// Draws the plots of a report with dygraphs in place of their pictures.
+"use strict";
+(function () {
+  // Curves stay as they were recorded; what is drawn is thinned to the lowest and highest value a pixel, so
+  // that a million samples zoom as fast as a thousand.
+  const source = document.getElementById("plot-data");
+  if (!source || typeof Dygraph === "undefined") return;
+  const data = JSON.parse(source.textContent);
 
-namespace drycut::renders {
+  // ---- columns: little-endian floats in base64 ----
+  function decoded(column) {
+    const text = atob(column.base64), bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    return column.type === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
+  }
+  const columns = data.columns.map(decoded);
 
-const char* const kReportPlots = R"js(
+  // First index whose x is at least `at`.
+  function lowerBound(x, at) {
+    let low = 0, high = x.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (x[middle] < at) low = middle + 1; else high = middle;
+    }
+    return low;
+  }
+
+  // Lowest and highest value of every `block` samples of a long column, made once.
+  const block = 64, digests = new Map();
+  function digest(y) {
+    let made = digests.get(y);
+    if (made) return made;
+    const count = Math.ceil(y.length / block);
+    made = {low: new Float32Array(count), high: new Float32Array(count)};
+    for (let b = 0; b < count; ++b) {
+      let low = NaN, high = NaN;
+      for (let i = b * block; i < Math.min(y.length, (b + 1) * block); ++i) {
+        if (!(y[i] >= low)) low = isNaN(y[i]) ? low : y[i];
+        if (!(y[i] <= high)) high = isNaN(y[i]) ? high : y[i];
+      }
+      made.low[b] = low;
+      made.high[b] = high;
+    }
+    digests.set(y, made);
+    return made;
+  }
+
+  function extremes(y, from, until) {
+    let low = NaN, high = NaN;
+    const take = (a, b) => {
+      if (a < low || isNaN(low)) low = isNaN(a) ? low : a;
+      if (b > high || isNaN(high)) high = isNaN(b) ? high : b;
+    };
+    let i = from;
+    if (until - from > 2 * block) {
+      const blocks = digest(y);
+      while (i % block) { take(y[i], y[i]); ++i; }
+      for (; i + block <= until; i += block) take(blocks.low[i / block], blocks.high[i / block]);
+    }
+    for (; i < until; ++i) take(y[i], y[i]);
+    return [low, high];
+  }
+
+  // Rows [x, y of each curve] between two x, thinned to `pixels`; null where a curve has no sample.
+  function rowsOf(panel, from, until, pixels) {
+    const groups = new Map();
+    panel.curves.forEach((curve, index) => {
+      if (!groups.has(curve.x)) groups.set(curve.x, []);
+      groups.get(curve.x).push(index);
+    });
+    const rows = [], width = panel.curves.length + 1;
+    for (const [column, indexes] of groups) {
+      const x = columns[column];
+      const begin = Math.max(0, lowerBound(x, from) - 1), end = Math.min(x.length, lowerBound(x, until) + 2);
+      const put = (at, values) => {
+        const row = new Array(width).fill(null);
+        row[0] = at;
+        indexes.forEach((index, k) => { row[index + 1] = values[k]; });
+        rows.push(row);
+      };
+      const points = panel.curves[indexes[0]].style === "points";
+      if (points || end - begin <= 4 * pixels) {
+        for (let i = begin; i < end; ++i) put(x[i], indexes.map(index => columns[panel.curves[index].y][i]));
+        continue;
+      }
+      const step = (end - begin) / pixels;
+      for (let p = 0; p < pixels; ++p) {
+        const first = Math.floor(begin + p * step), last = Math.floor(begin + (p + 1) * step);
+        const pairs = indexes.map(index => extremes(columns[panel.curves[index].y], first, last));
+        put(x[first], pairs.map(pair => pair[p % 2 ? 1 : 0]));
+        put(x[Math.min((first + last) >> 1, x.length - 1)], pairs.map(pair => pair[p % 2 ? 0 : 1]));
+      }
+    }
+    if (groups.size > 1) rows.sort((a, b) => a[0] - b[0]);
+    if (rows.length === 0) rows.push([from].concat(new Array(width - 1).fill(null)));
+    return rows;
+  }
+
+  // A number with the digits that tell it from its neighbours.
+  function numberText(value) {
+    if (!isFinite(value)) return "-";
+    const size = Math.abs(value);
+    if (size !== 0 && (size < 1e-3 || size >= 1e7)) return value.toExponential(3);
+    return String(Number(value.toPrecision(size >= 1e5 ? 7 : 5)));
+  }
+
+  // The value that a curve shows at `at`: of the last sample before it, for points of the nearest; none
+  // where nothing was recorded.
+  function valueAt(curve, at) {
+    const x = columns[curve.x], y = columns[curve.y], last = x.length - 1;
+    if (last < 0) return NaN;
+    let i = Math.max(0, lowerBound(x, at) - 1);
+    if (curve.style === "points") return y[i < last && x[i + 1] - at < at - x[i] ? i + 1 : i];
+    if (at < x[0] || at > x[last] + 1e-6 * (x[last] - x[0])) return NaN;
+    return y[i < last && x[i + 1] <= at ? i + 1 : i];
+  }
+
+  // ---- colours of the light or the dark page ----
+  const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#777777"];
+  const darkPalette = ["#56b4e9", "#ff8f4a", "#2ec79b", "#e8a3cb", "#f0bb4a", "#8fd0f5", "#c0c6cc"];
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  const colour = i => (dark.matches ? darkPalette : palette)[i % palette.length];
+  const curveColour = (curve, i) => curve.faint ? (dark.matches ? "#56606b" : "#b9c2cc") : colour(i);
+  const theme = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+  // ---- behind the curves: bands, lanes, marks ----
+  function underlay(self, view, index, context, area, graph) {
+    context.save();
+    context.beginPath();
+    context.rect(area.x, area.y, area.w, area.h);
+    context.clip();
+    drawZones(self.plot.zones, context, area, graph);
+    for (const band of view.panel.bands) drawBand(context, area, graph, band);
+    view.panel.lanes.forEach((lane, i) => drawLane(context, graph, lane, i, view.panel.lanes.length));
+    drawMarks(self.plot.marks, view.top, context, area, graph);
+    context.restore();
+  }
+
+  // Stretches of x: the strong ones, and every second of the others.
+  function drawZones(zones, context, area, graph) {
+    zones.forEach((zone, i) => {
+      if (!zone.strong && i % 2) return;
+      const left = graph.toDomXCoord(zone.from);
+      context.fillStyle = zone.strong ? "rgba(0, 158, 115, 0.18)" : "rgba(123, 135, 148, 0.11)";
+      context.fillRect(left, area.y, graph.toDomXCoord(zone.to) - left, area.h);
+    });
+  }
+
+  function drawBand(context, area, graph, band) {
+    const high = graph.toDomYCoord(band.high), low = graph.toDomYCoord(band.low);
+    context.fillStyle = "rgba(232, 196, 0, 0.20)";
+    context.strokeStyle = theme("--fail");
+    if (low - high > 1) context.fillRect(area.x, high, area.w, low - high);
+    context.setLineDash([6, 4]);
+    for (const y of [high, low]) {
+      context.beginPath();
+      context.moveTo(area.x, y);
+      context.lineTo(area.x + area.w, y);
+      context.stroke();
+    }
+    context.setLineDash([]);
+  }
+
+  // Where the states of a lane begin, found once.
+  const startsMade = new Map();
+  function startsOf(x, y) {
+    let made = startsMade.get(y);
+    if (made) return made;
+    made = {x: [], y: []};
+    for (let i = 0; i < x.length; ++i) {
+      if (i > 0 && (y[i] === y[i - 1] || (isNaN(y[i]) && isNaN(y[i - 1])))) continue;
+      made.x.push(x[i]);
+      made.y.push(y[i]);
+    }
+    startsMade.set(y, made);
+    return made;
+  }
+
+  function drawLane(context, graph, lane, order, count) {
+    const x = columns[lane.x], y = columns[lane.y];
+    const low = graph.toDomYCoord(count - order - 0.82), high = graph.toDomYCoord(count - order - 0.18);
+    const starts = startsOf(x, y), range = graph.xAxisRange();
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.font = "12px sans-serif";
+    let column = -1;
+    for (let k = Math.max(0, lowerBound(starts.x, range[0]) - 1); k < starts.x.length && starts.x[k] < range[1]; ++k) {
+      const left = graph.toDomXCoord(starts.x[k]);
+      const until = k + 1 < starts.x.length ? starts.x[k + 1] : x[x.length - 1];
+      const right = Math.max(left + 1, graph.toDomXCoord(until));
+      if (Math.floor(right) === column) continue;  // that pixel is filled already
+      column = Math.floor(right);
+      context.strokeStyle = context.fillStyle = colour(order % 4);
+      if (!isNaN(starts.y[k])) drawState(context, lane, starts.y[k], left, right, low, high, k > 0);
+    }
+  }
+
+  function drawState(context, lane, value, left, right, low, high, edge) {
+    context.globalAlpha = 0.28;
+    if (!lane.digital) {
+      context.fillStyle = colour(Math.abs(Math.round(value)));
+      context.strokeStyle = theme("--soft");
+      context.lineWidth = 1;
+      context.fillRect(left, high, right - left, low - high);
+      context.globalAlpha = 1;
+      context.strokeRect(left, high, right - left, low - high);
+      const text = numberText(value), middle = (Math.max(left, 0) + right) / 2;
+      context.fillStyle = theme("--ink");
+      if (context.measureText(text).width + 6 < right - left) context.fillText(text, middle, (low + high) / 2 + 1);
+      return;
+    }
+    if (value !== 0) context.fillRect(left, high, right - left, low - high);
+    context.globalAlpha = 1;
+    context.lineWidth = 1.6;
+    context.beginPath();
+    if (edge) { context.moveTo(left, low); context.lineTo(left, high); }
+    context.moveTo(left, value !== 0 ? high : low);
+    context.lineTo(right, value !== 0 ? high : low);
+    context.stroke();
+  }
+
+  function drawMarks(marks, strip, context, area, graph) {
+    const shown = marks.map(mark => ({mark: mark, x: graph.toDomXCoord(mark.x)}))
+                       .filter(one => one.x >= area.x && one.x <= area.x + area.w);
+    const colourOf = mark => mark.strong ? theme("--fail") : theme("--soft");
+    context.setLineDash([2, 3]);
+    for (const one of shown) {
+      context.strokeStyle = colourOf(one.mark);
+      context.lineWidth = one.mark.strong ? 1.4 : 0.8;
+      context.beginPath();
+      context.moveTo(one.x, area.y);
+      context.lineTo(one.x, area.y + area.h);
+      context.stroke();
+    }
+    context.setLineDash([]);
+    if (!strip) return;
+    // Faults first; what would touch a label that stands already has none.
+    const labelled = [];
+    shown.sort((a, b) => Number(b.mark.strong) - Number(a.mark.strong));
+    context.font = markFont;
+    context.textAlign = "left";
+    context.textBaseline = "middle";
+    for (const one of shown) {
+      if (labelled.some(x => Math.abs(x - one.x) < 13)) continue;
+      labelled.push(one.x);
+      context.save();
+      context.translate(one.x + (one.x + 14 > area.x + area.w ? -6 : 7), area.y + strip - 4);
+      context.rotate(-Math.PI / 2);
+      context.fillStyle = colourOf(one.mark);
+      context.fillText(one.mark.label, 0, 0, strip - 6);
+      context.restore();
+    }
+  }
+
   function element(parent, name, kind, text) {
     const made = document.createElement(name);
     if (kind) made.className = kind;
@@ -249,6 +498,4 @@ const char* const kReportPlots = R"js(
   figures.forEach(figure => made.push(new Plot(figure, data.plots[Number(figure.dataset.plot)])));
   dark.addEventListener("change", () => made.forEach(plot => plot.paint()));
   window.drycutPlots = made;
-)js";
-
-}  // namespace drycut::renders
+})();

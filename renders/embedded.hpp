@@ -1,0 +1,16 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+namespace drycut::renders {
+
+// Files that are built into the program, so that it works wherever it is moved: the meshes of scenes/meshes/
+// and what a report is made of, in renders/assets/ (CMakeLists.txt).
+
+/// Names of the files, without folders: "drum.stl", "report.css".
+std::vector<std::string_view> embedded_names();
+
+/// The bytes of the file of that name; empty if there is none.
+std::string_view embedded_file(std::string_view name);
+
+}  // namespace drycut::renders
