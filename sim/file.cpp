@@ -142,4 +142,10 @@ void OutputFile::finish() {
   temporary_.clear();
 }
 
+void write_file(const fs::path& file, std::string_view text) {
+  OutputFile out(file);
+  out.write(text);
+  out.finish();
+}
+
 }  // namespace drycut::sim

@@ -47,4 +47,7 @@ class OutputFile {
   std::FILE* stream_ = nullptr;
 };
 
+/// Writes a whole file so.
+void write_file(const std::filesystem::path& file, std::string_view text);
+
 }  // namespace drycut::sim

@@ -18,10 +18,10 @@
 #include "renders/pictures.hpp"
 #include "renders/process.hpp"
 #include "renders/video.hpp"
-#include "sim/figures.hpp"
 #include "sim/file.hpp"
 #include "sim/gallery_plots.hpp"
 #include "sim/half_step.hpp"
+#include "sim/report.hpp"
 #include "sim/results.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/parameter_text.hpp"
@@ -34,7 +34,6 @@ constexpr auto* frames_folder = "frames";
 constexpr auto* cams_folder = "cams";
 constexpr auto* video_file = "film.mp4";
 constexpr auto* strip_file = "filmstrip.png";
-constexpr auto* report_file = "report.html";
 
 /// Models that are used more than once are read once, those of one size stretched once.
 class Models {
@@ -329,18 +328,14 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
                   {{"physics step", fmt::format("{:g} us", static_cast<double>(scenario.scene.step) / 1e3)}},
                   {{"seed", fmt::format("{}", scenario.scene.seed)}},
                   {{"drycut", DRYCUT_VERSION}}};
-  for (const auto& override : scenario.overrides) {
-    report.facts.push_back({{"--set", fmt::format("{} = {}", override.path, override.value)}});
-  }
+  add_overrides(scenario.overrides, report);
   if (const auto samples = simulation.recording().times().size(); samples > renders::kMostSamples)
     report.facts.push_back(
         {{"note", fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
                               "highest of {} stretches of equal length; all are in trace.csv",
                               samples, renders::kStretches)}});
   for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
-  for (const auto& check : outcome.checks) {
-    report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
-  }
+  add_checks(outcome.checks, report);
   if (outcome.half_step) report.summary.push_back(margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
     for (const auto index : chosen_frames(simulation, report_frames))
@@ -371,12 +366,11 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   return report;
 }
 
-std::vector<std::string> write_pictures(const Scenario& scenario, Simulation& simulation,
-                                        const renders::Film& film, const Outcome& outcome,
-                                        OutputFolder& folder, int threads,
-                                        const std::function<void(const char*, double)>& progress) {
+std::string write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
+                           const Outcome& outcome, OutputFolder& folder, int threads,
+                           const std::function<void(const char*, double)>& progress) {
   Drawn drawn;
-  std::vector<std::string> left_out;
+  std::string left_out;
   if (!film.frames.empty()) {
     const auto count = static_cast<double>(film.frames.size());
     const auto frames = folder.add(frames_folder, renders::frame_names(film));
@@ -393,22 +387,19 @@ std::vector<std::string> write_pictures(const Scenario& scenario, Simulation& si
         renders::encode_video(frames, scenario.pictures.every, video);
         drawn.video = video;
       } catch (const renders::HelperFailed& failed) {
-        left_out.emplace_back(failed.what());
+        left_out = failed.what();
       }
     }
   }
   auto report = report_of(scenario, simulation, outcome, drawn);
-  for (const auto& why : left_out) report.facts.push_back({{"left out", why}});
+  if (!left_out.empty()) report.facts.push_back({{"left out", left_out}});
   auto plots = plots_of(scenario, simulation.recording());
   const auto cams = cams_of(scenario, simulation);
   for (const auto& cam : cams) {
     plots.insert(plots.end(), cam.plots.begin(), cam.plots.end());
-    OutputFile table(folder.add(cams_folder, {cam.name + ".csv"}) / (cam.name + ".csv"));
-    table.write(cam.table);
-    table.finish();
+    write_file(folder.add(cams_folder, {cam.name + ".csv"}) / (cam.name + ".csv"), cam.table);
   }
-  if (auto why = add_plots(plots, folder, report); !why.empty()) left_out.push_back(std::move(why));
-  report.live = std::move(plots);
+  add_plots(std::move(plots), folder, report);
   report.sections = cam_sections(cams, report.plots);
   renders::write_report(report, folder.add(report_file));
   return left_out;

@@ -44,11 +44,10 @@ inline const std::vector<std::string> picture_files = {"report.html", "film.mp4"
                                                        "frames/",     "plots/",   "cams/"};
 /// Everything that is drawn of a run and its `film`: frames/, film.mp4, filmstrip.png, plots/, cams/ and
 /// report.html in `folder`. Returns what is left out because a helper program is missing, and what to
-/// install. `progress` is told what is being done and which share of it is. Throws
+/// install; "" = nothing. `progress` is told what is being done and which share of it is. Throws
 /// std::runtime_error if something cannot be drawn or written.
-std::vector<std::string> write_pictures(const Scenario& scenario, Simulation& simulation,
-                                        const renders::Film& film, const Outcome& outcome,
-                                        OutputFolder& folder, int threads,
-                                        const std::function<void(const char*, double)>& progress);
+std::string write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
+                           const Outcome& outcome, OutputFolder& folder, int threads,
+                           const std::function<void(const char*, double)>& progress);
 
 }  // namespace drycut::sim

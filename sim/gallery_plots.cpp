@@ -11,36 +11,11 @@
 
 namespace drycut::sim {
 
-namespace {
-
-renders::Curve event_curve(const Recording& recording, const PlotRequest& plot, const std::string& event,
-                           const std::string& value) {
-  renders::Curve curve;
-  curve.label = value;
-  curve.style = renders::Curve::Style::points;
-  double number = 0;
-  for (const auto& happened : recording.events()) {
-    if (!names_event(event, happened.source, happened.event)) continue;
-    const auto* found = happened.find(value);
-    ++number;
-    const double at = happened.at_seconds();
-    if (found == nullptr || at < seconds(plot.from) || (plot.until && at > seconds(*plot.until))) continue;
-    curve.x.push_back(plot.against_number ? number : at);
-    curve.y.push_back(found->number);
-  }
-  renders::thin(curve.x, curve.y);
-  return curve;
+EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
+                           const PlotRequest& plot) {
+  return plot.until ? event_numbers(events, event, value, seconds(plot.from), seconds(*plot.until))
+                    : event_numbers(events, event, value, seconds(plot.from));
 }
-
-std::string event_unit(const Recording& recording, const std::string& event, const std::string& value) {
-  for (const auto& happened : recording.events()) {
-    if (!names_event(event, happened.source, happened.event)) continue;
-    if (const auto* found = happened.find(value)) return found->unit;
-  }
-  return "";
-}
-
-}  // namespace
 
 Rows rows_between(const Recording& recording, Time from, const std::optional<Time>& until) {
   const auto& times = recording.times();
@@ -154,8 +129,12 @@ renders::Panel panel_of(const Recording& recording, const PlotRequest& plot,
     units.push_back(column->unit);
   }
   for (const auto& value : request.values) {
-    panel.curves.push_back(event_curve(recording, plot, request.event.text, value.text));
-    units.push_back(event_unit(recording, request.event.text, value.text));
+    auto found = event_numbers(recording.events(), request.event.text, value.text, plot);
+    auto& x = plot.against_number ? found.order : found.times;
+    renders::thin(x, found.numbers);
+    panel.curves.push_back(
+        {value.text, std::move(x), std::move(found.numbers), renders::Curve::Style::points});
+    units.push_back(found.unit);
   }
   panel.y_label = axis_label(request.title, units);
   if (request.limits) {

@@ -7,6 +7,7 @@
 #include "renders/plots.hpp"
 #include "sim/recorder.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "sim/statistics.hpp"
 
 namespace drycut::sim {
 
@@ -18,6 +19,9 @@ struct Rows {
 };
 /// Those from one time to another, both included.
 Rows rows_between(const Recording& recording, Time from, const std::optional<Time>& until);
+/// The numbers of an event's value in the window of a plot.
+EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
+                           const PlotRequest& plot);
 /// A channel over time [s]; of many rows a thinned one (renders/decimate.hpp).
 renders::Curve channel_curve(const Recording& recording, const Recording::Column& column, Rows rows);
 /// "time [s]", with how the curves over it are thinned, if they are.

@@ -9,7 +9,6 @@
 #include "plants/servo_drive.hpp"
 #include "renders/decimate.hpp"
 #include "sim/gallery_plots.hpp"
-#include "sim/known_events.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/statistics.hpp"
 
@@ -18,25 +17,6 @@ namespace drycut::sim {
 namespace {
 
 // ---- histogram ----
-
-struct Numbers {
-  std::vector<double> numbers;
-  std::string unit;
-};
-
-Numbers series_of(const Recording& recording, const PlotRequest& request, const PlotRequest::Panel& panel) {
-  Numbers series;
-  for (const auto& event : recording.events()) {
-    if (!names_event(panel.event.text, event.source, event.event)) continue;
-    const double at = event.at_seconds();
-    const auto* value = event.find(panel.values.front().text);
-    if (value == nullptr || at < seconds(request.from) || (request.until && at > seconds(*request.until)))
-      continue;
-    series.numbers.push_back(value->number);
-    series.unit = value->unit;
-  }
-  return series;
-}
 
 /// The next of 1, 2, 5 times a power of ten.
 double round_width(double width) {
@@ -69,18 +49,19 @@ renders::Curve bars_of(const std::vector<double>& numbers, double low, double hi
 
 std::string capability_text(double value) { return value > 100 ? "above 100" : fmt::format("{:.2f}", value); }
 
-std::string statistics_text(const Numbers& series, const std::optional<std::pair<double, double>>& limits) {
-  const auto [mean, least, greatest, sd, slope, slope_error] = statistics(series.numbers);
+std::string statistics_text(const EventNumbers& series,
+                            const std::optional<std::pair<double, double>>& limits) {
+  const auto figures = statistics(series.numbers);
+  const auto [mean, least, greatest, sd, slope, slope_error] = figures;
   const auto unit = series.unit.empty() ? "" : " " + series.unit;
   auto text = fmt::format("{} values, mean {:.7g}{}, from {:.7g} to {:.7g}, standard deviation {:.3g}{}",
                           series.numbers.size(), mean, unit, least, greatest, sd, unit);
   if (!limits) return text;
   const bool beyond = least < limits->first || greatest > limits->second;
   if (series.numbers.size() < 2) return text + ", too few for a Cpk";
-  if (sd <= 1e-12 * std::abs(mean)) return text + (beyond ? ", beyond a limit" : ", no spread");
-  const double nearest = std::min(limits->second - mean, mean - limits->first);
-  return text + fmt::format(", Cp {}, Cpk {}", capability_text((limits->second - limits->first) / (6 * sd)),
-                            capability_text(nearest / (3 * sd)));
+  const auto found = capability(figures, limits->first, limits->second);
+  if (!found) return text + (beyond ? ", beyond a limit" : ", no spread");
+  return text + fmt::format(", Cp {}, Cpk {}", capability_text(found->cp), capability_text(found->cpk));
 }
 
 // ---- motor ----
@@ -152,7 +133,7 @@ renders::Curve rated_curve(const plants::ServoData& data, bool both_ways, double
 
 void draw_histogram(const Recording& recording, const PlotRequest& request, renders::Plot& plot) {
   const auto& panel = request.panels.front();
-  const auto series = series_of(recording, request, panel);
+  const auto series = event_numbers(recording.events(), panel.event.text, panel.values.front().text, request);
   renders::Panel shown;
   shown.y_label = panel.event.text + " events";
   shown.title = panel.title;

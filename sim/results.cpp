@@ -72,17 +72,14 @@ void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
                                           {"margin", number_or_null(other.margin)},
                                           {"moved", number_or_null(moved(check, other))}};
   }
-  OutputFile out(file);
-  out.write(json.dump(2) + "\n");
-  out.finish();
+  write_file(file, json.dump(2) + "\n");
 }
 
 void write_scenario(const Scenario& scenario, const std::filesystem::path& file) {
-  OutputFile out(file);
-  out.write(
+  write_file(
+      file,
       "# The scenario of this run with every default in force. Paths are relative to the original file.\n" +
-      expand(scenario));
-  out.finish();
+          expand(scenario));
 }
 
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file) {

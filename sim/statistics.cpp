@@ -3,7 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/known_events.hpp"
+
 namespace drycut::sim {
+
+EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
+                           double from, double until) {
+  EventNumbers found;
+  double order = 0;
+  for (const auto& happened : events) {
+    if (!names_event(event, happened.source, happened.event)) continue;
+    ++order;
+    const auto* of = happened.find(value);
+    if (of == nullptr) continue;
+    found.unit = of->unit;
+    const double at = happened.at_seconds();
+    if (at < from || at > until) continue;
+    found.times.push_back(at);
+    found.order.push_back(order);
+    found.numbers.push_back(of->number);
+  }
+  return found;
+}
 
 std::array<double, 6> statistics(const std::vector<double>& numbers) {
   if (numbers.empty()) return {};
@@ -28,6 +49,13 @@ std::array<double, 6> statistics(const std::vector<double>& numbers) {
   const double slope_error = count > 2 ? std::sqrt(residual / (count - 2) / index_squares) : 0;
   const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
   return {mean, *low, *high, sd, slope, slope_error};
+}
+
+std::optional<Capability> capability(const std::array<double, 6>& statistics, double low, double high) {
+  const double mean = statistics[0];
+  const double sd = statistics[3];
+  if (sd <= 1e-12 * std::abs(mean)) return {};
+  return Capability{(high - low) / (6 * sd), std::min(high - mean, mean - low) / (3 * sd)};
 }
 
 }  // namespace drycut::sim

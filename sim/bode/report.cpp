@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "renders/report.hpp"
-#include "sim/figures.hpp"
 #include "sim/recorder.hpp"
+#include "sim/report.hpp"
 
 namespace drycut::sim {
 
@@ -207,9 +207,9 @@ std::string limit_cycle_text(const LimitCycle& cycle) {
   return text + verdict_of(cycle) + "\n";
 }
 
-std::string write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                              const std::vector<std::string>& faults, const std::string& expanded,
-                              OutputFolder& folder) {
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                       const std::vector<std::string>& faults, const std::string& expanded,
+                       OutputFolder& folder) {
   std::vector<renders::Plot> plots;
   renders::Report report;
   report.title = "Frequency response: " + result.wire;
@@ -229,10 +229,8 @@ std::string write_bode_report(const LoopResult& result, const LimitCycle* cycle,
     report.summary.insert(report.summary.begin(), amplitude_table(*cycle));
     if (cycle->least) plots.push_back(amplitude_plot(*cycle));
   }
-  auto left_out = add_plots(plots, folder, report);
   report.scenario_expanded = expanded;
-  renders::write_report(report, folder.add("report.html"));
-  return left_out;
+  write_report(std::move(report), std::move(plots), folder);
 }
 
 std::string bode_csv(const LoopResult& result) {

@@ -17,11 +17,10 @@ std::string limit_cycle_text(const LimitCycle& cycle);
 /// What may be written into the folder of a measurement.
 inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "plots/"};
 /// Writes report.html and plots/ into `folder`; `faults` are what fails it, `expanded` is the scenario with
-/// every default; `cycle` may be null. Returns what is left out because gnuplot is
-/// missing, "" = nothing. Throws std::runtime_error if something cannot be written.
-std::string write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                              const std::vector<std::string>& faults, const std::string& expanded,
-                              OutputFolder& folder);
+/// every default; `cycle` may be null. Throws std::runtime_error if something cannot be written.
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                       const std::vector<std::string>& faults, const std::string& expanded,
+                       OutputFolder& folder);
 /// One row a frequency: gains and phases of open loop, closed loop, sensitivity and speed.
 std::string bode_csv(const LoopResult& result);
 /// Gain and phase over the logarithm of the frequency.

@@ -49,8 +49,4 @@ void check_outputs(const std::string& csv, const std::string& png, const InputFi
   if (png == csv) problems.push_back({"--png", 1, 1, "it is the file of --csv", "name another file"});
 }
 
-void tell_left_out(const std::string& what) {
-  if (!what.empty()) fmt::print(stderr, "left out: {}\n", what);
-}
-
 }  // namespace drycut::sim

@@ -25,8 +25,4 @@ void check_output(const char* option, const std::string& file, const InputFile& 
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
                    Problems& problems);
 
-/// Says on standard error what a missing helper program left out and what to install; nothing if `what` is
-/// "".
-void tell_left_out(const std::string& what);
-
 }  // namespace drycut::sim

@@ -4,8 +4,8 @@
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/progress.hpp"
-#include "sim/figures.hpp"
 #include "sim/file.hpp"
+#include "sim/report.hpp"
 
 namespace drycut::sim {
 
@@ -43,24 +43,18 @@ std::vector<std::string> shortfalls(const BodeOptions& options, const Margins& m
   return lines;
 }
 
-void write_table(const LoopResult& result, const std::filesystem::path& path) {
-  OutputFile file(path);
-  file.write(bode_csv(result));
-  file.finish();
-}
-
 /// All that was asked for; `folder` may be null; `faults` are the lines that fail the measurement.
 void write(const BodeOptions& options, const Scenario& scenario, const LoopResult& result,
            const LimitCycle* cycle, const std::vector<std::string>& faults, OutputFolder* folder) {
-  if (folder != nullptr) tell_left_out(write_bode_report(result, cycle, faults, expand(scenario), *folder));
+  if (folder != nullptr) write_bode_report(result, cycle, faults, expand(scenario), *folder);
   if (result.sweep.points.empty()) return;
-  if (folder != nullptr) write_table(result, folder->add("bode.csv"));
+  if (folder != nullptr) write_file(folder->add("bode.csv"), bode_csv(result));
   if (options.csv == "-") {
     fmt::print("{}", bode_csv(result));
   } else if (!options.csv.empty()) {
-    write_table(result, options.csv);
+    write_file(options.csv, bode_csv(result));
   }
-  if (!options.png.empty()) tell_left_out(draw_png(bode_plot(result, "bode"), options.png));
+  if (!options.png.empty()) draw_png(bode_plot(result, "bode"), options.png);
 }
 
 }  // namespace

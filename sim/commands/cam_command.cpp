@@ -3,8 +3,8 @@
 #include "sim/cam/study.hpp"
 #include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
-#include "sim/figures.hpp"
 #include "sim/file.hpp"
+#include "sim/report.hpp"
 
 namespace drycut::sim {
 
@@ -36,12 +36,6 @@ void check_options(const CamOptions& options, bool speed_known, Problems& proble
     problems.push_back({"--table", 1, 1, "it is the file of another option", "name another file"});
 }
 
-void write_file(const std::string& name, const std::string& text) {
-  OutputFile file(name);
-  file.write(text);
-  file.finish();
-}
-
 void write(const CamOptions& options, const CamStudy& study) {
   if (!options.csv.empty()) {
     const auto text = cam_csv(study.points, study.course.master_speed);
@@ -51,7 +45,7 @@ void write(const CamOptions& options, const CamStudy& study) {
       write_file(options.csv, text);
   }
   if (!options.rows.empty() && !study.table.empty()) write_file(options.rows, study.table);
-  if (!options.png.empty() && !study.plot.panels.empty()) tell_left_out(draw_png(study.plot, options.png));
+  if (!options.png.empty() && !study.plot.panels.empty()) draw_png(study.plot, options.png);
 }
 
 }  // namespace

@@ -57,16 +57,14 @@ int compare_runs(const CompareOptions& options) {
     page.source += (page.source.empty() ? "" : ", ") + run.folder.string();
   }
   page.verdict = difference_text(comparison);
-  std::string left_out;
   try {
     folder->begin();
-    left_out = write_comparison(comparison, page, *folder, options.pictures);
+    write_comparison(comparison, page, *folder, options.pictures);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;
   }
   fmt::print("{}: {}", page.title, comparison_text(comparison));
-  tell_left_out(left_out);
   fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
                                         : "results: " + options.out.string());
   return options.fail_on_difference && !same(comparison) ? check_failed : all_passed;

@@ -36,9 +36,9 @@ struct Job {
   PartMeshes meshes;
   RunResult result;
   std::optional<OutputFolder> folder;
-  std::string trouble;                ///< a result could not be written
-  std::vector<std::string> left_out;  ///< because a helper program is missing, and what to install
-  std::filesystem::path scene;        ///< the glTF file, "" = none
+  std::string trouble;          ///< a result could not be written
+  std::string left_out;         ///< because a helper program is missing, and what to install
+  std::filesystem::path scene;  ///< the glTF file, "" = none
 };
 
 /// A scene that compares some of the jobs.
@@ -49,7 +49,6 @@ struct Group {
   RunResult result;
   std::optional<OutputFolder> folder;
   std::string trouble;
-  std::string left_out;
 };
 
 /// What is to be run: scenarios, and those of scenes that compare.
@@ -205,9 +204,7 @@ void run_job(Job& job, const RunOptions& options, int threads,
     });
   write_scenario(job.scenario, folder.add(scenario_file));
   if (const auto kept = retentive_file(job.scenario)) {
-    OutputFile out(*kept);
-    out.write(job.simulation->retentive_state());
-    out.finish();
+    write_file(*kept, job.simulation->retentive_state());
   }
   const auto finished = [&] { write_checks(job.result.outcome, folder.add(checks_file)); };
   if (!options.pictures && !options.gltf) return finished();
@@ -260,7 +257,7 @@ void run_group(Group& group, bool pictures) {
   }
   auto compared = compare_members(group.scene, group.names, std::move(runs));
   group.result.outcome.checks = compared.page.checks;
-  group.left_out = write_comparison(compared.comparison, compared.page, *group.folder, pictures);
+  write_comparison(compared.comparison, compared.page, *group.folder, pictures);
   group.result.has_report = pictures;
 }
 
@@ -295,7 +292,6 @@ void print_group(const Group& group) {
                  ? fmt::format("compared {} runs", group.members.size())
                  : fmt::format("{}, {}", outcome.passed() ? "passed" : "FAILED", verdict_text(outcome)));
   print_checks(outcome.checks);
-  tell_left_out(group.left_out);
   if (group.trouble.empty()) print_place(group.result);
 }
 
@@ -314,7 +310,7 @@ void print_result(const Job& job) {
       fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
   }
   for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
-  for (const auto& why : job.left_out) tell_left_out(why);
+  if (!job.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left_out);
   if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());
   print_place(result);
 }

@@ -187,9 +187,7 @@ int tune(const TuneOptions& options, const Plan& plan, OutputFolder& folder) {
     tuning.spread = &*spread;
   }
   bar.clear();
-  OutputFile patch(folder.add(patch_file));
-  patch.write(patch_text(tuning));
-  patch.finish();
+  write_file(folder.add(patch_file), patch_text(tuning));
   fmt::print("{}", summary_text(tuning));
   const auto now = trials.simulated() + (spread ? spread->simulated() : 0);
   fmt::print("\n{} sets of values tried, {} simulated now; {}\n", trials.trials().size(), now,
@@ -201,7 +199,7 @@ int tune(const TuneOptions& options, const Plan& plan, OutputFolder& folder) {
       tuning.runs_before.push_back(keep_run(study, entry, {}));
       tuning.runs_after.push_back(keep_run(study, entry, tuned));
     }
-    tell_left_out(write_tuning_report(tuning, folder));
+    write_tuning_report(tuning, folder);
     fmt::print("report: {}\n", (options.out / "report.html").string());
   }
   const auto& best = trials.at(tuning.best).verdict;

@@ -36,18 +36,12 @@ std::vector<ValueName> event_values(const std::vector<RunFolder>& runs) {
 
 std::vector<double> numbers_of(const RunFolder& run, const ValueName& name, const Tolerance* tolerance,
                                std::optional<double> from) {
-  const double begin = from ? *from : tolerance != nullptr ? tolerance->from : 0;
-  const double end = !from && tolerance != nullptr && tolerance->until
-                         ? *tolerance->until
-                         : std::numeric_limits<double>::infinity();
-  std::vector<double> numbers;
-  for (const auto& event : run.recording.events()) {
-    if (event.source != name.source || event.event != name.event) continue;
-    const auto* value = event.find(name.value);
-    if (value != nullptr && event.at_seconds() >= begin && event.at_seconds() <= end)
-      numbers.push_back(value->number);
-  }
-  return numbers;
+  constexpr double end = std::numeric_limits<double>::infinity();
+  const bool window = !from && tolerance != nullptr;
+  return event_numbers(run.recording.events(), name.source + "." + name.event, name.value,
+                       window ? tolerance->from : from.value_or(0),
+                       window ? tolerance->until.value_or(end) : end)
+      .numbers;
 }
 
 double room(const Tolerance& tolerance, double number) {
@@ -87,10 +81,8 @@ struct ValueFigures {
     const auto nearer = [&](double a, double b) { return room(*tolerance, a) < room(*tolerance, b); };
     worst.numbers.push_back(judged && any ? *std::min_element(numbers.begin(), numbers.end(), nearer)
                                           : nothing);
-    // Without spread there is no capability to tell.
-    const bool spreads = two && statistic[3] > 1e-12 * std::abs(statistic[0]);
-    capability.numbers.push_back(judged && spreads ? room(*tolerance, statistic[0]) / (3 * statistic[3])
-                                                   : nothing);
+    const auto found = judged ? sim::capability(statistic, tolerance->low, tolerance->high) : std::nullopt;
+    capability.numbers.push_back(found ? found->cpk : nothing);
   }
 
   void append_to(std::vector<Figure>& figures) {

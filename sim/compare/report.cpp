@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "renders/report.hpp"
-#include "sim/figures.hpp"
 #include "sim/file.hpp"
-#include "sim/gallery.hpp"
+#include "sim/report.hpp"
 #include "sim/results.hpp"
 
 namespace drycut::sim {
@@ -175,26 +174,17 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
     report.facts.push_back({{run.label, fmt::format("{:g} s simulated, drycut {}", run.end, run.version)}});
   if (comparison.from) report.facts.push_back({{"figures from", fmt::format("{:g} s", *comparison.from)}});
   report.facts.push_back({{"compared by drycut", DRYCUT_VERSION}});
-  for (const auto& check : page.checks)
-    report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
+  add_checks(page.checks, report);
   add_tables(comparison, page, report);
   return report;
 }
 
 }  // namespace
 
-std::string write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
-                             bool pictures) {
-  OutputFile out(folder.add(csv_file));
-  out.write(comparison_csv(comparison, page.figures));
-  out.finish();
-  if (!pictures) return "";
-  auto report = report_of(comparison, page);
-  auto plots = drawn_plots(comparison, page);
-  auto left_out = add_plots(plots, folder, report);
-  report.live = std::move(plots);
-  renders::write_report(report, folder.add("report.html"));
-  return left_out;
+void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                      bool pictures) {
+  write_file(folder.add(csv_file), comparison_csv(comparison, page.figures));
+  if (pictures) write_report(report_of(comparison, page), drawn_plots(comparison, page), folder);
 }
 
 std::string comparison_text(const Comparison& comparison) {

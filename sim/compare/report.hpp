@@ -23,11 +23,10 @@ struct ComparisonPage {
 /// What a comparison may write into its folder.
 inline const std::vector<std::string> comparison_files = {"comparison.csv", "report.html", "plots/"};
 
-/// Writes comparison.csv and, with `pictures`, plots/ and report.html into `folder`. Returns
-/// what is left out because gnuplot is missing, "" = nothing. Throws std::runtime_error if something cannot
-/// be written.
-std::string write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
-                             bool pictures);
+/// Writes comparison.csv and, with `pictures`, plots/ and report.html into `folder`. Throws
+/// std::runtime_error if something cannot be written.
+void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                      bool pictures);
 
 /// What differs, for a terminal: a line a check, a parameter.
 std::string comparison_text(const Comparison& comparison);

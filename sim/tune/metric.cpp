@@ -150,7 +150,7 @@ class Metric::Compiler {
       return fault(begin, "no channel and no event value is in it", "for example rms(AxisX.follerr)");
     place_names(term, begin, end);
     for (const auto& slot : term.slots)
-      if (slot.name.event != term.slots[0].name.event || slot.name.source != term.slots[0].name.source)
+      if (slot.name.event != term.slots[0].name.event)
         return fault(slot.name.offset,
                      fmt::format("{} and {} do not happen together", term.slots[0].name.text, slot.name.text),
                      "a term looks at channels, or at the values of one event");
@@ -169,9 +169,9 @@ class Metric::Compiler {
   MetricName named(const std::string& text) {
     for (const auto& event : events_) {
       for (const auto& [value, unit] : event.values) {
-        if (text == event.name + "." + value) return {text, 0, "", event.name, value};
-        if (text == event.source + "." + event.name + "." + value)
-          return {text, 0, event.source, event.name, value};
+        if (text == event.name + "." + value) return {text, 0, event.name, value};
+        const auto full = event.source + "." + event.name;
+        if (text == full + "." + value) return {text, 0, full, value};
       }
     }
     for (const auto& event : events_) {
@@ -183,7 +183,7 @@ class Metric::Compiler {
             "its values: " + list_of_values(event));
       break;
     }
-    return {text, 0, "", "", ""};
+    return {text, 0, "", ""};
   }
 
   void read_band(Term& term, std::size_t begin, std::size_t end) {
@@ -245,46 +245,33 @@ std::vector<MetricName> Metric::names() const {
   return all;
 }
 
-std::vector<std::pair<double, double>> event_numbers(const Recording& recording, const MetricName& name,
-                                                     Time from) {
-  std::vector<std::pair<double, double>> numbers;
-  for (const auto& happened : recording.events()) {
-    if (happened.event != name.event || (!name.source.empty() && happened.source != name.source)) continue;
-    const auto* value = happened.find(name.value);
-    if (value != nullptr && happened.at_seconds() >= seconds(from))
-      numbers.emplace_back(happened.at_seconds(), value->number);
-  }
-  return numbers;
-}
-
 Metric::Numbers Metric::series_of(Term& term, const Recording& recording, Time from) {
   Numbers series;
-  std::vector<const Series<double>*> columns;
-  std::deque<Series<double>> of_events;
-  std::vector<double> times;
-  const bool events = !term.slots[0].name.event.empty();
-  for (const auto& slot : term.slots) {
-    if (events) {
-      auto& numbers = of_events.emplace_back();
-      times.clear();
-      for (const auto& [time, number] : event_numbers(recording, slot.name, from)) {
-        times.push_back(time);
-        numbers.push_back(number);
-      }
-      columns.push_back(&numbers);
-    } else if (const auto* column = recording.column(slot.name.text)) {
-      columns.push_back(&column->values);
-    } else {
-      return {};
-    }
-  }
-  std::size_t rows = events ? times.size() : recording.times().size();
-  for (const auto* column : columns) rows = std::min(rows, column->size());
-  for (std::size_t row = 0; row < rows; ++row) {
-    if (!events && recording.times()[row] < from) continue;
-    for (std::size_t i = 0; i < columns.size(); ++i) term.slots[i].number = (*columns[i])[row];
-    series.times.push_back(events ? times[row] : seconds(recording.times()[row]));
+  const auto add = [&](double time) {
+    series.times.push_back(time);
     series.numbers.push_back(number_of(*term.expression));
+  };
+  if (!term.slots[0].name.event.empty()) {
+    std::vector<EventNumbers> values;
+    for (const auto& [name, number] : term.slots)
+      values.push_back(event_numbers(recording.events(), name.event, name.value, seconds(from)));
+    const auto rows = std::ranges::min(values, {}, [](const auto& v) { return v.times.size(); }).times.size();
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t i = 0; i < values.size(); ++i) term.slots[i].number = values[i].numbers[row];
+      add(values.back().times[row]);
+    }
+    return series;
+  }
+  std::vector<const Series<double>*> columns;
+  for (const auto& slot : term.slots) {
+    const auto* column = recording.column(slot.name.text);
+    if (column == nullptr) return {};
+    columns.push_back(&column->values);
+  }
+  for (std::size_t row = 0; row < recording.times().size(); ++row) {
+    if (recording.times()[row] < from) continue;
+    for (std::size_t i = 0; i < columns.size(); ++i) term.slots[i].number = (*columns[i])[row];
+    add(seconds(recording.times()[row]));
   }
   return series;
 }

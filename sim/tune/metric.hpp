@@ -16,8 +16,7 @@ namespace drycut::sim {
 struct MetricName {
   std::string text;        ///< as written: "AxisX.follerr", "cut.length"
   std::size_t offset = 0;  ///< where, in the metric's text
-  std::string source;      ///< of the event, "" = any
-  std::string event;       ///< "" = a channel
+  std::string event;       ///< "cut", "knife.cut"; "" = a channel
   std::string value;       ///< of the event
 };
 
@@ -87,9 +86,5 @@ class Metric {
   std::deque<Figure> figures_;
   std::optional<Expression> formula_;
 };
-
-/// The numbers of an event's value over a recording, with their times [s], from `from` on.
-std::vector<std::pair<double, double>> event_numbers(const Recording& recording, const MetricName& name,
-                                                     Time from);
 
 }  // namespace drycut::sim

@@ -22,15 +22,12 @@ renders::Curve curve_of(const Recording& recording, const MetricName& name, Time
   renders::Curve curve;
   curve.label = std::move(label);
   if (!name.event.empty()) {
+    auto found = event_numbers(recording.events(), name.event, name.value, seconds(from));
+    renders::thin(found.times, found.numbers);
+    unit = found.unit;
     curve.style = renders::Curve::Style::points;
-    for (const auto& [time, number] : event_numbers(recording, name, from)) {
-      curve.x.push_back(time);
-      curve.y.push_back(number);
-    }
-    renders::thin(curve.x, curve.y);
-    for (const auto& happened : recording.events())
-      if (happened.event == name.event)
-        if (const auto* value = happened.find(name.value)) unit = value->unit;
+    curve.x = std::move(found.times);
+    curve.y = std::move(found.numbers);
     return curve;
   }
   const auto* column = recording.column(name.text);

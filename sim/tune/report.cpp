@@ -8,8 +8,7 @@
 #include <map>
 
 #include "renders/report.hpp"
-#include "sim/figures.hpp"
-#include "sim/results.hpp"
+#include "sim/report.hpp"
 #include "sim/tune/patch.hpp"
 #include "sim/tune/plots.hpp"
 
@@ -236,7 +235,7 @@ std::string summary_text(const Tuning& tuning) {
   return text + "\n" + patch_text(tuning);
 }
 
-std::string write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
+void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   const auto& after = tuning.trials.at(tuning.best).verdict;
   renders::Report report;
   report.title = "Tuning: " + tuning.study.minimise;
@@ -250,12 +249,9 @@ std::string write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   report.facts = {{{"trials", fmt::format("{}", tuning.trials.trials().size())}},
                   {{"measured from", fmt::format("{} s", seconds_text(tuning.study.from))}},
                   {{"drycut", DRYCUT_VERSION}}};
-  for (const auto& override : tuning.study.set)
-    report.facts.push_back({{"--set", fmt::format("{} = {}", override.path, override.value)}});
+  add_overrides(tuning.study.set, report);
   for (const auto& run : tuning.runs_after) {
-    for (const auto& check : run.outcome.checks)
-      report.checks.push_back(
-          {check.name, check.expectation, check.passed, margin_text(check), check.detail});
+    add_checks(run.outcome.checks, report);
     report.scenario_expanded += run.expanded;
   }
   report.summary = {before_after(tuning), values(tuning)};
@@ -264,10 +260,7 @@ std::string write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
   if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));
   report.tables.push_back(trials_table(tuning));
-  auto plots = tuning_plots(tuning);
-  auto left_out = add_plots(plots, folder, report);
-  renders::write_report(report, folder.add("report.html"));
-  return left_out;
+  write_report(std::move(report), tuning_plots(tuning), folder);
 }
 
 }  // namespace drycut::sim

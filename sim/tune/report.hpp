@@ -28,9 +28,8 @@ struct Tuning {
 std::string miss_text(const Tuning& tuning);
 /// Before and after, the values, the surroundings, the spread: for the terminal.
 std::string summary_text(const Tuning& tuning);
-/// Draws plots/ and writes report.html in `folder`. Returns what is left out because gnuplot is missing, "" =
-/// nothing. Throws std::runtime_error if something cannot be written.
-std::string write_tuning_report(const Tuning& tuning, OutputFolder& folder);
+/// Draws plots/ and writes report.html in `folder`. Throws std::runtime_error if something cannot be written.
+void write_tuning_report(const Tuning& tuning, OutputFolder& folder);
 
 /// Index of the worst trial of the spread.
 std::size_t worst_of(const Trials& spread);
