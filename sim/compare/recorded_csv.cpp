@@ -5,79 +5,53 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <vector>
 
-#include "sim/cam/csv.hpp"
+#include "base/text.hpp"
 
 namespace drycut::sim {
 
-namespace {
+bool CsvRows::next(CsvRow& row) {
+  if (at_ >= text_.size()) return false;
+  row.cells.clear();
+  row.line = line_;
+  begin_ = at_;
+  do {
+    row.cells.push_back(cell());
+  } while (at_ < text_.size() && text_[at_++] == ',');
+  ++line_;
+  return true;
+}
 
-/// A cell as it is meant, without the quotes around it, and where it stands.
-struct QuotedCell {
-  std::string text;
-  int column = 1;
-};
-struct Row {
-  std::vector<QuotedCell> cells;
-  int line = 1;
-};
+CsvRow::Cell CsvRows::cell() {
+  CsvRow::Cell cell{"", static_cast<int>(at_ - begin_) + 1};
+  if (at_ < text_.size() && text_[at_] == '"') return quoted_cell(std::move(cell));
+  const auto end = std::min(text_.find_first_of(",\n", at_), text_.size());
+  cell.text = text_.substr(at_, end - at_);
+  if (cell.text.ends_with('\r')) cell.text.pop_back();
+  at_ = end;
+  return cell;
+}
 
-/// Takes the rows of a CSV one after the other; cells in quotes may hold commas, quotes and line ends.
-class CsvRows {
- public:
-  CsvRows(std::string_view text, TableProblems& problems) : text_(text), problems_(problems) {}
-
-  bool next(Row& row) {
-    if (at_ >= text_.size()) return false;
-    row.cells.clear();
-    row.line = line_;
-    begin_ = at_;
-    do {
-      row.cells.push_back(cell());
-    } while (at_ < text_.size() && text_[at_++] == ',');
-    ++line_;
-    return true;
+CsvRow::Cell CsvRows::quoted_cell(CsvRow::Cell cell) {
+  const int line = line_;
+  for (++at_; at_ < text_.size(); ++at_) {
+    if (text_[at_] == '\n') ++line_;
+    if (text_[at_] == '"') {
+      if (!text_.substr(at_ + 1).starts_with('"')) break;
+      ++at_;
+    }
+    cell.text += text_[at_];
   }
-
- private:
-  QuotedCell cell() {
-    QuotedCell cell{"", static_cast<int>(at_ - begin_) + 1};
-    if (at_ < text_.size() && text_[at_] == '"') return quoted_cell(std::move(cell));
-    const auto end = std::min(text_.find_first_of(",\n", at_), text_.size());
-    cell.text = text_.substr(at_, end - at_);
-    if (cell.text.ends_with('\r')) cell.text.pop_back();
-    at_ = end;
+  if (at_ == text_.size()) {
+    problems_.add(line, cell.column, "the quote is never closed", run_again);
     return cell;
   }
-
-  QuotedCell quoted_cell(QuotedCell cell) {
-    const int line = line_;
-    for (++at_; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '\n') ++line_;
-      if (text_[at_] == '"') {
-        if (!text_.substr(at_ + 1).starts_with('"')) break;
-        ++at_;
-      }
-      cell.text += text_[at_];
-    }
-    if (at_ == text_.size()) {
-      problems_.add(line, cell.column, "the quote is never closed", run_again);
-      return cell;
-    }
-    ++at_;
-    const auto end = std::min(text_.find_first_of(",\n", at_), text_.size());
-    if (end != at_) problems_.add(line_, cell.column, "text behind the closing quote", run_again);
-    at_ = end;
-    return cell;
-  }
-
-  std::string_view text_;
-  TableProblems& problems_;
-  std::size_t at_ = 0;
-  std::size_t begin_ = 0;  ///< of the row
-  int line_ = 1;
-};
+  ++at_;
+  const auto end = std::min(text_.find_first_of(",\n", at_), text_.size());
+  if (end != at_) problems_.add(line_, cell.column, "text behind the closing quote", run_again);
+  at_ = end;
+  return cell;
+}
 
 std::optional<double> number_of(std::string_view text) {
   double number = 0;
@@ -87,7 +61,9 @@ std::optional<double> number_of(std::string_view text) {
   return number;
 }
 
-std::optional<double> number_of(const QuotedCell& cell, int line, TableProblems& problems) {
+namespace {
+
+std::optional<double> number_in(const CsvRow::Cell& cell, int line, TableProblems& problems) {
   const auto number = number_of(cell.text);
   if (!number)
     problems.add(line, cell.column, fmt::format("{} is not a number", in_quotes(cell.text)), run_again);
@@ -95,15 +71,15 @@ std::optional<double> number_of(const QuotedCell& cell, int line, TableProblems&
 }
 
 /// A time that a simulation can have reached, to the nanosecond.
-std::optional<Time> time_of(const QuotedCell& cell, int line, TableProblems& problems) {
-  const auto number = number_of(cell, line, problems);
+std::optional<Time> time_of(const CsvRow::Cell& cell, int line, TableProblems& problems) {
+  const auto number = number_in(cell, line, problems);
   if (!number) return {};
   if (*number >= 0 && *number < 1e9) return std::llround(*number * static_cast<double>(second));
   problems.add(line, cell.column, fmt::format("{} is no time of a run", in_quotes(cell.text)), run_again);
   return {};
 }
 
-bool has_width(const Row& row, std::size_t width, TableProblems& problems) {
+bool has_width(const CsvRow& row, std::size_t width, TableProblems& problems) {
   if (row.cells.size() == width) return true;
   problems.add(
       row.line, 1,
@@ -113,7 +89,7 @@ bool has_width(const Row& row, std::size_t width, TableProblems& problems) {
 }
 
 /// "knife.angle [deg]"
-void add_column(const QuotedCell& cell, Recording& recording, TableProblems& problems) {
+void add_column(const CsvRow::Cell& cell, Recording& recording, TableProblems& problems) {
   const auto open = cell.text.rfind(" [");
   if (open == std::string::npos || open == 0 || !cell.text.ends_with(']')) {
     problems.add(1, cell.column, fmt::format("{} is no channel with its unit", in_quotes(cell.text)),
@@ -163,7 +139,7 @@ void take_values(std::string_view rest, RecordedEvent& event) {
   }
 }
 
-bool read_header(CsvRows& rows, Row& row, std::string_view wanted, TableProblems& problems) {
+bool read_header(CsvRows& rows, CsvRow& row, std::string_view wanted, TableProblems& problems) {
   if (rows.next(row) && row.cells[0].text == "time [s]") return true;
   problems.add(1, 1, "the header does not begin with time [s]", fmt::format("the first line is {}", wanted));
   return false;
@@ -174,7 +150,7 @@ bool read_header(CsvRows& rows, Row& row, std::string_view wanted, TableProblems
 Recording read_trace(std::string_view text, const std::string& file, Problems& problems) {
   TableProblems found(file, problems);
   CsvRows rows(text, found);
-  Row row;
+  CsvRow row;
   if (!read_header(rows, row, "time [s],channel [unit],...", found)) return {};
   Recording recording;
   for (std::size_t i = 1; i < row.cells.size(); ++i) add_column(row.cells[i], recording, found);
@@ -186,7 +162,7 @@ Recording read_trace(std::string_view text, const std::string& file, Problems& p
     const auto time = time_of(row.cells[0], row.line, found);
     if (time && *time <= last) found.add(row.line, 1, "the time does not rise", run_again);
     for (std::size_t i = 0; i < numbers.size(); ++i)
-      numbers[i] = number_of(row.cells[i + 1], row.line, found).value_or(0);
+      numbers[i] = number_in(row.cells[i + 1], row.line, found).value_or(0);
     last = time.value_or(last);
     recording.append(last, numbers);
   }
@@ -196,7 +172,7 @@ Recording read_trace(std::string_view text, const std::string& file, Problems& p
 void read_events(std::string_view text, const std::string& file, Recording& recording, Problems& problems) {
   TableProblems found(file, problems);
   CsvRows rows(text, found);
-  Row row;
+  CsvRow row;
   if (!read_header(rows, row, "time [s],source,event,values", found)) return;
   constexpr std::size_t width = 4;
   has_width(row, width, found);

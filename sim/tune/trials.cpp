@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <condition_variable>
 #include <mutex>
 #include <numeric>
@@ -13,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "sim/compare/recorded_csv.hpp"
 #include "sim/controller_loader.hpp"
 #include "sim/file.hpp"
 
@@ -27,32 +27,6 @@ std::string quoted(const std::string& text) {
     out += c == '\n' ? ' ' : c;
   }
   return out + "\"";
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool inside = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && inside && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += c;
-      ++i;
-    } else if (c == '"') {
-      inside = !inside;
-    } else if (c == ',' && !inside) {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-std::optional<double> number_in(const std::string& cell) {
-  double number = 0;
-  const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (read.ec != std::errc() || read.ptr != cell.data() + cell.size()) return {};
-  return number;
 }
 
 /// FNV-1a: the same on every machine.
@@ -137,37 +111,40 @@ void Trials::load() {
   content << old.rdbuf();
   const std::string all = old ? content.str() : "";
   if (all.starts_with(first)) {
-    const std::size_t columns = 2 + parameters_.size() + 1 + study_.constraints.size() + 5;
-    for (std::size_t at = first.size(); at < all.size();) {
-      const auto end = all.find('\n', at);
-      if (end == std::string::npos) break;
-      const auto cells = cells_of(all.substr(at, end - at));
-      if (cells.size() != columns) break;
-      std::vector<double> numbers;
-      for (std::size_t i = 2; i + 1 < columns; ++i) {
-        const auto number = number_in(cells[i]);
-        if (!number) break;
-        numbers.push_back(*number);
-      }
-      if (numbers.size() != columns - 3) break;
-      const auto split = numbers.begin() + static_cast<std::ptrdiff_t>(parameters_.size());
-      Verdict verdict;
-      verdict.metric = *split;
-      verdict.room.assign(split + 1, numbers.end() - 4);
-      verdict.failed_checks = static_cast<int>(numbers.end()[-4]);
-      verdict.violation = numbers.end()[-3];
-      verdict.stopped = numbers.end()[-2] != 0;
-      verdict.runs = static_cast<int>(numbers.end()[-1]);
-      verdict.note = cells.back();
-      kept_.emplace(Point(numbers.begin(), split), verdict);
-      text += all.substr(at, end + 1 - at);
-      ++rows_;
-      at = end + 1;
+    const auto rest = std::string_view(all).substr(first.size(), all.rfind('\n') + 1 - first.size());
+    Problems ignored;
+    TableProblems broken(file_.string(), ignored);
+    CsvRows rows(rest, broken);
+    for (CsvRow row; rows.next(row);) {
+      const auto trial = trial_of(row);
+      if (!trial) break;
+      kept_.emplace(trial->point, trial->verdict);
+      text += row_of(++rows_, *trial);
     }
   }
-  OutputFile out(file_);
-  out.write(text);
-  out.finish();
+  write_file(file_, text);
+}
+
+std::optional<Trials::Trial> Trials::trial_of(const CsvRow& row) const {
+  const std::size_t columns = 2 + parameters_.size() + 1 + study_.constraints.size() + 5;
+  if (row.cells.size() != columns) return {};
+  std::vector<double> numbers;
+  for (std::size_t i = 2; i + 1 < columns; ++i) {
+    const auto number = number_of(row.cells[i].text);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  const auto split = numbers.begin() + static_cast<std::ptrdiff_t>(parameters_.size());
+  Trial trial{row.cells[1].text, Point(numbers.begin(), split), {}};
+  auto& verdict = trial.verdict;
+  verdict.metric = *split;
+  verdict.room.assign(split + 1, numbers.end() - 4);
+  verdict.failed_checks = static_cast<int>(numbers.end()[-4]);
+  verdict.violation = numbers.end()[-3];
+  verdict.stopped = numbers.end()[-2] != 0;
+  verdict.runs = static_cast<int>(numbers.end()[-1]);
+  verdict.note = row.cells.back().text;
+  return trial;
 }
 
 void Trials::append(const Trial& trial) {

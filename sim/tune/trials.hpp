@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "sim/tune/study.hpp"
 
 namespace drycut::sim {
+
+struct CsvRow;
 
 /// Every set of values that was tried, in order, kept in a CSV file: a study that is run again takes from the
 /// file what it has and runs only the rest. The file does not depend on the number of jobs.
@@ -47,6 +50,7 @@ class Trials {
 
  private:
   void load();
+  [[nodiscard]] std::optional<Trial> trial_of(const CsvRow& row) const;
   void append(const Trial& trial);
   [[nodiscard]] std::string heading() const;
   [[nodiscard]] std::string fingerprint() const;
