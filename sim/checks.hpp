@@ -7,6 +7,7 @@
 
 #include "sim/known_events.hpp"
 #include "sim/names.hpp"
+#include "sim/observer.hpp"
 #include "sim/recorder.hpp"
 #include "sim/scenario/expression.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -26,7 +27,7 @@ struct CheckResult {
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
 /// others at every event; an expression has a channel's number in the unit of its trace.csv column.
-class Checks {
+class Checks : public Observer {
  public:
   Checks(const Scenario& scenario, Watch& watch, const Names& names, const std::vector<KnownEvent>& events,
          Problems& problems);
@@ -34,9 +35,9 @@ class Checks {
   Checks& operator=(const Checks&) = delete;
 
   /// The watch has been updated for this record instant.
-  void sample(Time now);
+  void sample(Time now) override;
   /// An event; the watch has been updated for it.
-  void happened(const RecordedEvent& event);
+  void happened(const RecordedEvent& event) override;
   [[nodiscard]] std::vector<CheckResult> results(Time end);
 
  private:

@@ -7,8 +7,6 @@
 
 namespace drycut::sim {
 
-namespace {}  // namespace
-
 Shutter::Shutter(const PicturesSection& pictures)
     : period_(pictures.every / pictures.slow),
       from_(pictures.from),

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "plants/plant.hpp"
+#include "sim/observer.hpp"
 #include "sim/recorder.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -19,7 +20,7 @@ struct Snapshot {
 
 /// Decides when a frame's poses are taken and keeps them: between two times, or around an event. As nobody
 /// knows beforehand when an event happens, the poses of the stretch `before` it are held until then.
-class Shutter {
+class Shutter : public Observer {
  public:
   explicit Shutter(const PicturesSection& pictures);
 
@@ -29,7 +30,7 @@ class Shutter {
   [[nodiscard]] Time next() const { return next_; }
   /// The object to fill with the shot at `now`; nullptr if none is wanted after all.
   Snapshot* take(Time now);
-  void happened(const RecordedEvent& event);
+  void happened(const RecordedEvent& event) override;
 
   /// The shots of the film.
   [[nodiscard]] const std::vector<Snapshot>& kept() const { return kept_; }

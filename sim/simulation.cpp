@@ -9,7 +9,6 @@
 #include <unordered_map>
 
 #include "sim/controller_loader.hpp"
-#include "sim/gallery_plots.hpp"
 
 namespace drycut::sim {
 
@@ -46,8 +45,9 @@ Simulation::Simulation(const Scenario& scenario, Problems& problems)
   all_events_ = known_events_;
   for (auto& event : events_of_every_run()) all_events_.push_back(std::move(event));
   checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, all_events_, problems);
-  bind_recording(problems);
-  bind_pictures(problems);
+  captions_ =
+      bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems);
+  observers_ = {checks_.get(), &shutter_, &remarks_};
 }
 
 Simulation::~Simulation() = default;
@@ -80,108 +80,10 @@ void Simulation::check_periods(Problems& problems) const {
   }
 }
 
-void Simulation::add_channel(const Text& name, Problems& problems) {
-  if (recording_.add(*watch_, name.text)) return;
-  problems.push_back(problem_at(scenario_, name.place, fmt::format("there is no channel '{}'", name.text),
-                                names_->suggest_reading(name.text)));
-}
-
-void Simulation::bind_recording(Problems& problems) {
-  for (const auto& name : scenario_.record.channels) add_channel(name, problems);
-}
-
-void Simulation::check_plot_event(const PlotRequest::Panel& panel, Problems& problems) const {
-  if (panel.event.text.empty()) return;
-  const auto* known = find_event(known_events_, panel.event, scenario_, problems);
-  if (known == nullptr) return;
-  std::vector<std::string> names;
-  for (const auto& [name, unit] : known->values) names.push_back(name);
-  for (const auto& value : panel.values) {
-    if (std::find(names.begin(), names.end(), value.text) != names.end()) continue;
-    problems.push_back(problem_at(scenario_, value.place,
-                                  fmt::format("event '{}' has no value '{}'", panel.event.text, value.text),
-                                  fmt::format("it has: {}", fmt::join(names, ", "))));
-  }
-}
-
-/// A lane shows a state: a quantity with a unit is none.
-void Simulation::add_lane(const Text& name, Problems& problems) {
-  add_channel(name, problems);
-  const auto* column = recording_.column(name.text);
-  if (column == nullptr || column->unit.empty()) return;
-  problems.push_back(problem_at(scenario_, name.place,
-                                fmt::format("{} is a quantity in {}, not a state", name.text, column->unit),
-                                "show it in a panel of channels"));
-}
-
-void Simulation::add_motor(const Text& plant, Problems& problems) {
-  bool known = has_motor_limits(scenario_, plant.text);
-  for (const auto& name : motor_channels(plant.text)) known = known && recording_.add(*watch_, name);
-  if (known) return;
-  problems.push_back(problem_at(scenario_, plant.place,
-                                fmt::format("'{}' is no plant with a servo motor", plant.text),
-                                "name a plant with parameters servo.rated_torque, servo.peak_torque, ..."));
-}
-
-void Simulation::bind_plot(const PlotRequest& plot, Problems& problems) {
-  for (const auto& panel : plot.panels) {
-    check_plot_event(panel, problems);
-    for (const auto& name : panel.lanes) add_lane(name, problems);
-    for (const auto& name : panel.channels) add_channel(name, problems);
-    for (const auto* name : {&panel.x, &panel.y, &panel.split})
-      if (!name->text.empty()) add_channel(*name, problems);
-    if (!panel.motor.text.empty()) add_motor(panel.motor, problems);
-  }
-  if (!plot.marks) return;
-  for (const auto& mark : *plot.marks) find_event(all_events_, mark, scenario_, problems);
-}
-
-void Simulation::bind_frames(Problems& problems) const {
-  const auto& pictures = scenario_.pictures;
-  if (!pictures.frames) return;
-  if (pictures.around) find_event(all_events_, pictures.around->event, scenario_, problems);
-  if (pictures.every % pictures.slow == 0 && pictures.every / pictures.slow % step_ == 0) return;
-  problems.push_back(problem_at(
-      scenario_, pictures.slow_place,
-      fmt::format("pictures.frames: a frame every {} ns / {} is not a whole multiple of the step of {} ns",
-                  pictures.every, pictures.slow, step_),
-      "choose every = slow x a multiple of the step"));
-}
-
-void Simulation::bind_pictures(Problems& problems) {
-  const auto& camera = scenario_.pictures.camera;
-  std::vector<std::string> cameras = {"operator"};
-  for (const auto& plant : named_) cameras.push_back(plant.name);
-  // A part's name is looked up where parts are: load_part_meshes.
-  if (!scenario_.pictures.looks_at_part() &&
-      std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
-    problems.push_back(problem_at(scenario_, scenario_.pictures.camera_place,
-                                  fmt::format("there is no camera '{}'", camera),
-                                  fmt::format("cameras: {}", fmt::join(cameras, ", "))));
-  }
-  bind_frames(problems);
-  for (const auto& plot : scenario_.pictures.plots) bind_plot(plot, problems);
-  for (const auto& name : scenario_.pictures.live) add_channel(name, problems);
-  bind_caption(scenario_.pictures.caption, problems);
-  bind_caption(scenario_.pictures.lamps, problems);
-}
-
-void Simulation::bind_caption(const std::vector<Text>& names, Problems& problems) {
-  for (const auto& name : names) {
-    const auto* slot = watch_->slot(name.text);
-    if (slot == nullptr) {
-      problems.push_back(problem_at(scenario_, name.place, fmt::format("there is no channel '{}'", name.text),
-                                    names_->suggest_reading(name.text)));
-      continue;
-    }
-    caption_.push_back(slot);
-    caption_units_.push_back(watch_->unit(name.text));
-  }
-}
-
 void Simulation::write_to(const std::filesystem::path& trace, const std::filesystem::path& events) {
   recording_.spool_in(trace.parent_path());
   files_ = std::make_unique<TraceFiles>(recording_, trace, events);
+  observers_.push_back(files_.get());
 }
 
 void Simulation::keep_nothing() {
@@ -205,6 +107,7 @@ void Simulation::follow_cams() {
     return {};
   };
   cams_ = std::make_unique<CamRecorder>(controller_->cam_axes(), deviation);
+  observers_.push_back(cams_.get());
 }
 
 // The order of everything inside a step, once and whole (design: time).
@@ -253,35 +156,19 @@ void Simulation::collect_events() {
   }
   if (events_seen_ == recording_.events().size()) return;
   watch_->update();
-  while (events_seen_ < recording_.events().size()) tell(recording_.events()[events_seen_++]);
+  while (events_seen_ < recording_.events().size()) {
+    const auto event = recording_.events()[events_seen_++];
+    for (auto* observer : observers_) observer->happened(event);
+  }
   if (recording_.keeps()) return;
   recording_.forget_events();
   events_seen_ = 0;
 }
 
-void Simulation::tell(const RecordedEvent& event) {
-  constexpr std::size_t shown = 5;
-  checks_->happened(event);
-  shutter_.happened(event);
-  if (files_) files_->happened(event);
-  if (event.text.empty() || event.source == "timeline") return;
-  ++remark_count_;
-  // What a program may wait for in vain, or lose, stands before remarks on values.
-  const bool urgent = event.event == "contradiction" || event.event == "held_up";
-  if ((urgent ? urgent_remarks_ : remarks_.size()) >= shown) return;
-  const auto place = urgent ? urgent_remarks_++ : remarks_.size();
-  remarks_.insert(
-      remarks_.begin() + static_cast<std::ptrdiff_t>(place),
-      fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event, event.text));
-  if (remarks_.size() > shown) remarks_.pop_back();
-}
-
 void Simulation::record() {
   watch_->update();
   recording_.sample(time_);
-  if (files_) files_->sample(time_);
-  checks_->sample(time_);
-  if (cams_) cams_->sample(time_);
+  for (auto* observer : observers_) observer->sample(time_);
   next_record_ = time_ + scenario_.record.every;
   if (const auto name = watch_->not_finite(); !name.empty()) {
     failure_ = fmt::format("{} is no longer a finite number at {} s: the simulation diverged", name,
@@ -299,7 +186,7 @@ void Simulation::snapshot() {
       for (auto& part : plant->parts()) parts_.push_back(std::move(part));
   for (const auto& part : parts_) shot->poses.push_back(part.now());
   for (auto& plant : plants_) plant->callouts(shot->callouts);
-  for (const auto* slot : caption_) shot->caption.push_back(*slot);
+  for (const auto* slot : captions_.slots) shot->caption.push_back(*slot);
 }
 
 std::vector<std::string> Simulation::notes() const {
@@ -314,9 +201,7 @@ std::vector<std::string> Simulation::notes() const {
   }
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
-  notes.insert(notes.end(), remarks_.begin(), remarks_.end());
-  if (remark_count_ > remarks_.size())
-    notes.push_back(fmt::format("and {} more remarks, see events.csv", remark_count_ - remarks_.size()));
+  for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
   return notes;
 }
 
@@ -349,7 +234,7 @@ void Simulation::run_to_end(const std::function<void(Time)>& progress) {
 Outcome Simulation::run(const std::function<void(Time)>& progress) {
   try {
     run_to_end(progress);
-    if (files_) files_->flush();
+    for (auto* observer : observers_) observer->finish();
   } catch (const std::runtime_error& no_room) {
     failure_ = no_room.what();
   }

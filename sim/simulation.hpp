@@ -9,11 +9,14 @@
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "plants/world.hpp"
+#include "sim/bindings.hpp"
 #include "sim/bus.hpp"
 #include "sim/cam/played.hpp"
 #include "sim/checks.hpp"
 #include "sim/names.hpp"
+#include "sim/observer.hpp"
 #include "sim/recorder.hpp"
+#include "sim/remarks.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/shutter.hpp"
 #include "sim/timeline.hpp"
@@ -99,7 +102,7 @@ class Simulation {
   [[nodiscard]] std::optional<double> frames_event() const { return shutter_.event_at(); }
   [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }
   /// Units of the caption channels.
-  [[nodiscard]] const std::vector<std::string>& caption_units() const { return caption_units_; }
+  [[nodiscard]] const std::vector<std::string>& caption_units() const { return captions_.units; }
   /// Events that the plants can report.
   [[nodiscard]] const std::vector<KnownEvent>& known_events() const { return known_events_; }
 
@@ -107,20 +110,10 @@ class Simulation {
   void load_controller(Problems& problems);
   void build_plants();
   void check_periods(Problems& problems) const;
-  void bind_recording(Problems& problems);
-  void bind_pictures(Problems& problems);
-  void bind_caption(const std::vector<Text>& names, Problems& problems);
-  void bind_plot(const PlotRequest& plot, Problems& problems);
-  void bind_frames(Problems& problems) const;
-  void check_plot_event(const PlotRequest::Panel& panel, Problems& problems) const;
-  void add_motor(const Text& plant, Problems& problems);
-  void add_lane(const Text& name, Problems& problems);
-  void add_channel(const Text& name, Problems& problems);
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
   void collect_events();
-  void tell(const RecordedEvent& event);
   void record();
   void snapshot();
 
@@ -145,16 +138,14 @@ class Simulation {
   Time next_record_ = 0;
   Shutter shutter_;
   std::vector<plants::Part> parts_;  ///< of all plants, from the first shot on
-  std::vector<const double*> caption_;
-  std::vector<std::string> caption_units_;
+  Captions captions_;
+  Remarks remarks_;
+  std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told
   std::vector<KnownEvent> known_events_;  ///< of the plants
   std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
-  std::string program_error_;         ///< first run-time error of the controller's program
-  std::vector<std::string> remarks_;  ///< the first of the controller
-  std::size_t urgent_remarks_ = 0;    ///< that stand at their beginning
-  std::size_t remark_count_ = 0;
+  std::string program_error_;  ///< first run-time error of the controller's program
 };
 
 }  // namespace drycut::sim

@@ -89,11 +89,11 @@ void TraceFiles::happened(const RecordedEvent& event) {
 
 void TraceFiles::flush_at(Time time) {
   if (time < next_flush_) return;
-  flush();
+  finish();
   next_flush_ = time + second;
 }
 
-void TraceFiles::flush() {
+void TraceFiles::finish() {
   trace_.flush();
   events_.flush();
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "sim/observer.hpp"
 #include "sim/recorder.hpp"
 
 namespace drycut::sim {
@@ -29,16 +30,16 @@ class GrowingFile {
 
 /// trace.csv and events.csv (design §6), written while the run goes on: after a second of machine time at the
 /// latest a row or an event is in its file.
-class TraceFiles {
+class TraceFiles : public Observer {
  public:
   /// `recording` has all its channels and outlives this.
   TraceFiles(const Recording& recording, const std::filesystem::path& trace,
              const std::filesystem::path& events);
   /// The present values of the recording's channels.
-  void sample(Time time);
-  void happened(const RecordedEvent& event);
+  void sample(Time time) override;
+  void happened(const RecordedEvent& event) override;
   /// Everything is in the files.
-  void flush();
+  void finish() override;
 
  private:
   void flush_at(Time time);

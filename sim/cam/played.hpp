@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "devices/cam_axis.hpp"
-#include "sim/time.hpp"
+#include "sim/observer.hpp"
 
 namespace drycut::sim {
 
@@ -28,7 +28,7 @@ struct PlayedCam {
 };
 
 /// Follows the cams of a controller through a run.
-class CamRecorder {
+class CamRecorder : public Observer {
  public:
   /// How far the drive behind a pulse output is behind its pulses, or nothing if none tells.
   using Deviation = std::function<std::function<double()>(const devices::Address& pulses)>;
@@ -36,7 +36,7 @@ class CamRecorder {
 
   /// After each step of the devices: takes the tables of the cams that have started.
   void step();
-  void sample(Time time);
+  void sample(Time time) override;
   /// What was played, by axis and table in the order of their first start; of an axis that never started its
   /// cam the table that it holds now. Tables of an axis beyond the first 8 are left out and counted in
   /// `untold`.

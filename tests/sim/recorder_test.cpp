@@ -54,7 +54,7 @@ TEST_F(RecorderTest, TraceHasTimeThenChannelsWithUnits) {
   plant.speed = 1.0 / 3;
   watch.update();
   files.sample(2'100'000);
-  files.flush();
+  files.finish();
   EXPECT_EQ(contents(folder / "trace.csv"),
             "time [s],web.speed [m/min],error [Um],panel.start [-]\n"
             "0.0,60,0,0\n"
@@ -67,7 +67,7 @@ TEST_F(RecorderTest, EventsCarryTheirTimeInsideTheStep) {
   recording.happened({300'000, 0, "task", "error", {}, "say \"no\", twice"});
   TraceFiles files(recording, folder / "trace.csv", folder / "events.csv");
   for (const auto& event : recording.events()) files.happened(event);
-  files.flush();
+  files.finish();
   EXPECT_EQ(contents(folder / "events.csv"),
             "time [s],source,event,values\n"
             "0.000150000,knife,cut,length=800.0125 mm; number=3\n"
@@ -99,7 +99,7 @@ TEST_F(RecorderTest, AFullDiskIsTold) {
   TraceFiles files(recording, folder / "trace.csv", "/dev/full");
   try {
     files.happened({0, 0, "task", "note", {}, "first"});
-    files.flush();
+    files.finish();
     ADD_FAILURE();
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "cannot write /dev/full: No space left on device");
