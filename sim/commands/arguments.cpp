@@ -2,11 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "sim/file.hpp"
 
 namespace drycut::sim {
 
 namespace fs = std::filesystem;
+
+void add_set(CLI::App& command, std::vector<std::string>& set, const std::string& whose) {
+  command
+      .add_option("--set", set, fmt::format("Override a value of the {}: path=value, may be repeated", whose))
+      ->allow_extra_args(false);
+}
+
+void add_out(CLI::App& command, fs::path& out, const std::string& help) {
+  // An empty path names no folder.
+  const CLI::Validator named(
+      [](std::string& text) { return text.empty() ? "it is empty; name a folder" : ""; }, "");
+  auto* option = command.add_option("--out", out, help)->check(named);
+  if (!out.empty()) option->capture_default_str();
+}
+
+void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help) {
+  command.add_flag_callback(
+      "--no-pictures", [&pictures] { pictures = false; }, help);
+}
 
 std::vector<Override> overrides_of(const std::vector<std::string>& set, Problems& problems) {
   std::vector<Override> overrides;

@@ -6,7 +6,20 @@
 #include "base/problem.hpp"
 #include "sim/scenario/scenario.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace drycut::sim {
+
+// Options that several commands have.
+
+/// `--set path=value`, any number of them; `whose`: "scenario", "scenarios".
+void add_set(CLI::App& command, std::vector<std::string>& set, const std::string& whose);
+/// `--out FOLDER`; what it is already is the default.
+void add_out(CLI::App& command, std::filesystem::path& out, const std::string& help);
+/// `--no-pictures`
+void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help);
 
 // Arguments that several commands take. What is wrong goes to `problems`, by the name of the option.
 

@@ -1,4 +1,9 @@
+#include "sim/commands/check_command.hpp"
+
 #include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
 
 #include <optional>
 
@@ -11,7 +16,6 @@
 #include "devices/qmove/program.hpp"
 #include "sim/cam/study.hpp"
 #include "sim/commands/arguments.hpp"
-#include "sim/commands/commands.hpp"
 #include "sim/compare/scene_run.hpp"
 #include "sim/file.hpp"
 #include "sim/part_meshes.hpp"
@@ -159,6 +163,21 @@ int check_files(const CheckOptions& options) {
   for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
   fmt::print("{} file{} checked, no problem\n", options.files.size(), options.files.size() == 1 ? "" : "s");
   return all_passed;
+}
+
+void add_check(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<CheckOptions>();
+  auto& options = *chosen;
+  auto* check = app.add_subcommand("check", "Parse and type-check files without running anything");
+  check
+      ->add_option(
+          "files", options.files,
+          "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
+          "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)")
+      ->required();
+  check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
+  add_set(*check, options.set, "scenarios");
+  check->callback([chosen, &status] { status = check_files(*chosen); });
 }
 
 }  // namespace drycut::sim

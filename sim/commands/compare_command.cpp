@@ -1,7 +1,11 @@
+#include "sim/commands/compare_command.hpp"
+
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <memory>
+
 #include "sim/commands/arguments.hpp"
-#include "sim/commands/commands.hpp"
 #include "sim/compare/report.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
@@ -68,6 +72,27 @@ int compare_runs(const CompareOptions& options) {
   fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
                                         : "results: " + options.out.string());
   return options.fail_on_difference && !same(comparison) ? check_failed : all_passed;
+}
+
+void add_compare(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<CompareOptions>();
+  auto& options = *chosen;
+  auto* compare = app.add_subcommand(
+      "compare",
+      "Compare runs: checks, cuts and other events, channels, parameters in force; report.html, plots and\n"
+      "comparison.csv.\n"
+      "Exit status: 0 compared, 1 different and --fail-on-difference, 2 bad input, 3 a result could not be\n"
+      "written");
+  compare->add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
+      ->required();
+  add_out(*compare, options.out, "Directory for the results");
+  compare->add_option(
+      "--from", options.from,
+      "Figures look from this time on, as \"4 s\"; else where the plot with the limits begins");
+  compare->add_flag("--fail-on-difference", options.fail_on_difference,
+                    "Exit status 1 where the runs are not the same");
+  add_no_pictures(*compare, options.pictures, "No plots and no report");
+  compare->callback([chosen, &status] { status = compare_runs(*chosen); });
 }
 
 }  // namespace drycut::sim

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <memory>
+
 #include <algorithm>
 
 #include "base/problem.hpp"
@@ -58,6 +61,19 @@ int show(const std::string& kind, const std::vector<Page>& pages, const std::str
   return all_passed;
 }
 
+void add_pages(CLI::App& app, int& status, int (*list)(const std::string&, bool), const char* command,
+               const char* help, const char* about_name) {
+  struct Chosen {
+    std::string name;
+    bool json = false;
+  };
+  const auto chosen = std::make_shared<Chosen>();
+  auto* pages = app.add_subcommand(command, help);
+  pages->add_option("name", chosen->name, about_name);
+  pages->add_flag("--json", chosen->json, "As JSON");
+  pages->callback([chosen, &status, list] { status = list(chosen->name, chosen->json); });
+}
+
 }  // namespace
 
 std::vector<Page> device_pages() {
@@ -70,5 +86,15 @@ std::vector<Page> device_pages() {
 int list_devices(const std::string& name, bool json) { return show("device", device_pages(), name, json); }
 
 int list_plants(const std::string& name, bool json) { return show("plant", plant_pages(), name, json); }
+
+void add_devices(CLI::App& app, int& status) {
+  add_pages(app, status, list_devices, "devices", "List device types, or the table of one",
+            "Device type, such as CAMMING4");
+}
+
+void add_plants(CLI::App& app, int& status) {
+  add_pages(app, status, list_plants, "plants", "List plant types, or the table of one",
+            "Plant type, such as rotary_knife");
+}
 
 }  // namespace drycut::sim

@@ -1,4 +1,8 @@
+#include "sim/commands/run_command.hpp"
+
 #include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 
 #include <atomic>
 #include <functional>
@@ -11,7 +15,6 @@
 #include "base/sheet.hpp"
 #include "renders/gltf.hpp"
 #include "sim/commands/arguments.hpp"
-#include "sim/commands/commands.hpp"
 #include "sim/commands/progress.hpp"
 #include "sim/compare/scene_run.hpp"
 #include "sim/controller_loader.hpp"
@@ -370,6 +373,25 @@ int run_scenarios(const RunOptions& options) {
     return simulation_failed;
   }
   return status_of(work);
+}
+
+void add_run(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<RunOptions>();
+  auto& options = *chosen;
+  auto* run =
+      app.add_subcommand("run", "Run scenarios: traces, events, checks, pictures and a report for each");
+  run->add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
+  add_out(*run, options.out, "Directory for the results");
+  run->add_option("--jobs", options.jobs, "Scenarios run at the same time")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run->add_option("--seed", options.seed, "Seed of every random source, in place of the scenarios'");
+  add_no_pictures(*run, options.pictures, "No frames, plots or report");
+  run->add_flag("--gltf", options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
+  run->add_flag("--verify-step", options.verify_step,
+                "Run again at half scene.step and tell how far every check's margin moved");
+  add_set(*run, options.set, "scenarios");
+  run->callback([chosen, &status] { status = run_scenarios(*chosen); });
 }
 
 }  // namespace drycut::sim

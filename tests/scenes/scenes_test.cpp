@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "sim/commands/commands.hpp"
+#include "sim/commands/run_command.hpp"
 #include "sim/compare/scene.hpp"
 #include "sim/recorder.hpp"
 #include "sim/simulation.hpp"

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "sim/commands/commands.hpp"
+#include "sim/commands/bode_command.hpp"
 #include "tests/sim/bode/axis.hpp"
 #include "tests/sim/command_bench.hpp"
 

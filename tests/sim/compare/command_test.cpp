@@ -1,7 +1,7 @@
 // drycut compare: exit status, what it prints and writes, what it refuses.
 #include <gmock/gmock.h>
 
-#include "sim/commands/commands.hpp"
+#include "sim/commands/compare_command.hpp"
 #include "tests/sim/compare/bench.hpp"
 
 namespace drycut::sim::comparing {

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
-#include "sim/commands/commands.hpp"
+#include "sim/commands/check_command.hpp"
+#include "sim/commands/run_command.hpp"
+#include "sim/commands/tune_command.hpp"
 #include "sim/compare/run_folder.hpp"
 #include "sim/compare/scene.hpp"
 #include "tests/sim/compare/bench.hpp"

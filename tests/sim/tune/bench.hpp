@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/commands/commands.hpp"
+#include "sim/commands/tune_command.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim::tuning {
