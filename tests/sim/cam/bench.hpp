@@ -8,6 +8,7 @@
 
 #include "sim/cam/camming4/judge.hpp"
 #include "sim/cam/camming4/run.hpp"
+#include "tests/sim/cam/texts.hpp"
 
 namespace drycut::sim::cams {
 
@@ -15,10 +16,7 @@ inline const std::string header = "sector,codeG,codeQm,codeQs,codeQma,codeQsa,co
 
 /// Reads a table that has no fault.
 inline CammingTable table(const std::string& text) {
-  Problems problems;
-  auto read = std::get<CammingTable>(read_camming4(text, "cam.csv", problems));
-  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-  return read;
+  return std::get<CammingTable>(sound(text, read_camming4));
 }
 /// The header is put before the rows.
 inline CammingTable rows(const std::string& text) { return table(header + text); }
@@ -49,20 +47,11 @@ inline CamStudy study(const devices::CamTable& read, const CamRequest& request =
 }
 
 /// The faults of a text, as they are printed, without the file's name.
-inline std::vector<std::string> faults(const std::string& text) {
-  Problems problems;
-  read_camming4(text, "cam.csv", problems);
-  std::vector<std::string> told;
-  for (const auto& problem : problems)
-    told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));
-  return told;
-}
+inline std::vector<std::string> faults(const std::string& text) { return faults_of(text, read_camming4); }
 
 /// The findings on a table, as they are printed.
 inline std::vector<std::string> findings(const CammingTable& read, const CamDuty& duty = {}) {
-  std::vector<std::string> told;
-  for (const auto& finding : judge(read, duty, run_cam(read, duty, 1))) told.push_back(to_string(finding));
-  return told;
+  return printed(judge(read, duty, run_cam(read, duty, 1)), true);
 }
 
 }  // namespace drycut::sim::cams

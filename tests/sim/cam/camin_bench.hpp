@@ -6,35 +6,26 @@
 #include <vector>
 
 #include "sim/cam/mc_camin/judge.hpp"
+#include "tests/sim/cam/texts.hpp"
 
 namespace drycut::sim::camin {
 
 /// Reads a table that has no fault.
 inline CamFile table(const std::string& text) {
-  Problems problems;
-  const auto read = devices::plcopen::read_cam(text, "cam.csv", problems);
-  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-  return read.value_or(CamFile{});
+  return sound(text, devices::plcopen::read_cam).value_or(CamFile{});
 }
 
 /// The faults of a text, as they are printed, without the file's name.
 inline std::vector<std::string> faults(const std::string& text) {
-  Problems problems;
-  const bool read = devices::plcopen::read_cam(text, "cam.csv", problems).has_value();
-  EXPECT_EQ(read, problems.empty());
-  std::vector<std::string> told;
-  for (const auto& problem : problems)
-    told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));
-  return told;
+  return faults_of(text, [](const auto& of, const auto& file, Problems& problems) {
+    EXPECT_EQ(devices::plcopen::read_cam(of, file, problems).has_value(), problems.empty());
+  });
 }
 
 /// The findings on a table, as they are printed; without the remarks unless they are asked for.
 inline std::vector<std::string> findings(const std::string& text, const CamDuty& duty = {},
                                          bool remarks = false) {
-  std::vector<std::string> told;
-  for (const auto& finding : judge_cam_in(run_cam_in(table(text), duty, 1), duty))
-    if (remarks || finding.grade != CamFinding::Grade::remark) told.push_back(to_string(finding));
-  return told;
+  return printed(judge_cam_in(run_cam_in(table(text), duty, 1), duty), remarks);
 }
 
 /// The knots of a table.

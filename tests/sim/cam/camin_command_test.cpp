@@ -4,9 +4,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "sim/commands/commands.hpp"
 #include "tests/sim/cam/camin_bench.hpp"
-#include "tests/sim/command_bench.hpp"
+#include "tests/sim/cam/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -15,15 +14,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-struct CamInCommand : CommandTest {
-  CamOptions options(const std::string& text, const std::string& name = "cam.csv") {
-    CamOptions made;
-    made.table = test_folder.file(name, text);
-    return made;
-  }
-  int run(const CamOptions& options) {
-    return captured([&] { return validate_cam(options); });
-  }
+struct CamInCommand : CamCommandTest {
   /// The samples at these master positions, line by line, without the header.
   std::vector<std::vector<double>> samples(CamOptions made, std::vector<double> at) {
     made.csv = "-";
@@ -41,9 +32,6 @@ struct CamInCommand : CommandTest {
     }
     return rows;
   }
-
-  TestFolder test_folder;
-  const fs::path& folder = test_folder.path;
 };
 
 TEST_F(CamInCommand, TheShippedCamsAreSoundAtTheirSpeed) {
@@ -59,8 +47,7 @@ TEST_F(CamInCommand, TheShippedCamsAreSoundAtTheirSpeed) {
         Shipped{"mc_traverse.csv", 500, "36 rows, POLYNOM_3_KOEFF, periodic"},
         Shipped{"mc_flying_saw.csv", 667, "66 rows, POLYNOM_3_KOEFF, one pass"},
         Shipped{"mc_flying_saw_2m.csv", 667, "200 rows, POLYNOM_3_KOEFF, one pass"}}) {
-    CamOptions made;
-    made.table = shipped_cams / cam.name;
+    auto made = options(shipped_cams / cam.name);
     made.strict = true;
     EXPECT_EQ(run(made), all_passed) << out << err;
     made.duty.master_speed = cam.speed;
@@ -71,8 +58,7 @@ TEST_F(CamInCommand, TheShippedCamsAreSoundAtTheirSpeed) {
 
 TEST_F(CamInCommand, TheSawsZoneIsALineWhateverThePiece) {
   for (const char* name : {"mc_flying_saw.csv", "mc_flying_saw_2m.csv"}) {
-    CamOptions made;
-    made.table = shipped_cams / name;
+    const auto made = options(shipped_cams / name);
     const auto rows = samples(made, {0, 8e5, 1'234'567, 1'999'999, 2.699e6, 4.5e6, 6'599'999});
     ASSERT_EQ(rows.size(), 7U);
     for (std::size_t i = 1; i < 5; ++i) {
@@ -87,8 +73,7 @@ TEST_F(CamInCommand, TheSawsZoneIsALineWhateverThePiece) {
 }
 
 TEST_F(CamInCommand, TheKnifesSamplesAreTheClosedForm) {
-  CamOptions made;
-  made.table = shipped_cams / "mc_rotary_knife.tab";
+  auto made = options(shipped_cams / "mc_rotary_knife.tab");
   made.duty.master_speed = 1000;
   made.loops = 2;
   const double h = 6.8e6;
@@ -114,8 +99,7 @@ TEST_F(CamInCommand, TheKnifesSamplesAreTheClosedForm) {
 }
 
 TEST_F(CamInCommand, TheReportNamesPiecesAndKnots) {
-  CamOptions made;
-  made.table = shipped_cams / "mc_rotary_knife.tab";
+  auto made = options(shipped_cams / "mc_rotary_knife.tab");
   made.duty.master_speed = 1000;
   EXPECT_EQ(run(made), all_passed);
   EXPECT_THAT(out,
@@ -129,23 +113,23 @@ TEST_F(CamInCommand, TheReportNamesPiecesAndKnots) {
 }
 
 TEST_F(CamInCommand, AMastersTurnThatTheFileDoesNotGiveIsSaidToBeAssumed) {
-  EXPECT_EQ(run(options("slave\n0\n1000\n")), all_passed);
+  EXPECT_EQ(run(options_of("slave\n0\n1000\n")), all_passed);
   EXPECT_THAT(
       out, HasSubstr("master turn 3600000 (360 deg) assumed, for there is no # master_modulo, slave turn"));
   out.clear();
-  EXPECT_EQ(run(options("# master_modulo: 3600000\nslave\n0\n1000\n")), all_passed);
+  EXPECT_EQ(run(options_of("# master_modulo: 3600000\nslave\n0\n1000\n")), all_passed);
   EXPECT_THAT(out, HasSubstr("master turn 3600000 (360 deg), slave turn"));
 }
 
 TEST_F(CamInCommand, WhatRoundingLeavesIsNoJump) {
-  EXPECT_EQ(run(options("a0,a1,a2,a3\n0,0,0,0\n0.005,0,0,0\n")), all_passed);
+  EXPECT_EQ(run(options_of("a0,a1,a2,a3\n0,0,0,0\n0.005,0,0,0\n")), all_passed);
   EXPECT_THAT(out, testing::ContainsRegex("2 +1800000 +C3 +0 +0 +0 +0\n"));
-  EXPECT_EQ(run(options("a0,a1,a2,a3\n0,0,0,0\n0.5,0,0,0\n")), all_passed);
+  EXPECT_EQ(run(options_of("a0,a1,a2,a3\n0,0,0,0\n0.5,0,0,0\n")), all_passed);
   EXPECT_THAT(out, testing::ContainsRegex("2 +1800000 +jumps +0.5 +0 +0 +0\n"));
 }
 
 TEST_F(CamInCommand, ARefusedTableIsUnsoundAndDrawsNothing) {
-  auto made = options("# interpolation: POLY5_LINE\nmaster,slave\n0,0\n500,0\n");
+  auto made = options_of("# interpolation: POLY5_LINE\nmaster,slave\n0,0\n500,0\n");
   made.png = folder / "cam.png";
   EXPECT_EQ(run(made), check_failed);
   EXPECT_THAT(out, HasSubstr("nothing to run\n\nrow 2 (line 4): error 60260: masters must ascend"));
@@ -153,24 +137,24 @@ TEST_F(CamInCommand, ARefusedTableIsUnsoundAndDrawsNothing) {
 }
 
 TEST_F(CamInCommand, ALimitFailsWhatIsOnlyACautionFailsWithStrict) {
-  auto made = options("slave\n0\n900000\n");
+  auto made = options_of("slave\n0\n900000\n");
   EXPECT_EQ(run(made), all_passed);
   made.strict = true;
   EXPECT_EQ(run(made), check_failed);
-  auto fast = options(camin::knife());
+  auto fast = options_of(camin::knife());
   fast.duty = {.master_speed = 1000, .max_velocity = 599, .max_acceleration = {}};
   EXPECT_EQ(run(fast), check_failed);
   EXPECT_THAT(out, HasSubstr("limit: velocity 600 deg/s above 599"));
 }
 
 TEST_F(CamInCommand, BadInputIsToldAndNothingIsWritten) {
-  auto made = options("# endless: up\nslave\nx\n");
+  auto made = options_of("# endless: up\nslave\nx\n");
   made.csv = folder / "samples.csv";
   EXPECT_EQ(run(made), bad_input);
   EXPECT_THAT(err, HasSubstr("cam.csv:1:12: endless cannot be 'up'"));
   EXPECT_THAT(err, HasSubstr("cam.csv:3:1: 'x' is no number"));
   EXPECT_FALSE(fs::exists(made.csv));
-  auto far = options(camin::knife());
+  auto far = options_of(camin::knife());
   far.at = {8'000'001};
   EXPECT_EQ(run(far), bad_input);
   EXPECT_EQ(err,
@@ -180,7 +164,7 @@ TEST_F(CamInCommand, BadInputIsToldAndNothingIsWritten) {
 }
 
 TEST_F(CamInCommand, ThePictureIsDrawn) {
-  auto made = options(camin::knife());
+  auto made = options_of(camin::knife());
   made.png = folder / "knife.png";
   made.duty.master_speed = 1000;
   EXPECT_EQ(run(made), all_passed) << err;
@@ -188,15 +172,10 @@ TEST_F(CamInCommand, ThePictureIsDrawn) {
 }
 
 TEST_F(CamInCommand, CheckReadsTabFilesAndCsv) {
-  const auto status_of = [&](const std::string& name, const std::string& text) {
-    CheckOptions check;
-    check.files = {test_folder.file(name, text)};
-    return captured([&] { return check_files(check); });
-  };
-  EXPECT_EQ(status_of("a.tab", "Tabletype = 9\n"), bad_input);
+  EXPECT_EQ(check(file("Tabletype = 9\n", "a.tab")), bad_input);
   EXPECT_THAT(err, HasSubstr("a.tab:1:13: '9' is out of range; write a whole number, 1 to 7"));
-  EXPECT_EQ(status_of("b.tab", content(shipped_cams / "mc_rotary_knife.tab")), all_passed);
-  EXPECT_EQ(status_of("c.csv", "slave\n1,2\n"), bad_input);
+  EXPECT_EQ(check(file(content(shipped_cams / "mc_rotary_knife.tab"), "b.tab")), all_passed);
+  EXPECT_EQ(check(file("slave\n1,2\n", "c.csv")), bad_input);
   EXPECT_THAT(err, HasSubstr("c.csv:2:1: 2 numbers"));
 }
 

@@ -6,9 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "sim/commands/commands.hpp"
 #include "tests/sim/cam/bench.hpp"
-#include "tests/sim/command_bench.hpp"
+#include "tests/sim/cam/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -19,20 +18,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-struct CamCommand : CommandTest {
-  fs::path file(const std::string& text) const { return test_folder.file("cam.csv", text); }
-  int run(const CamOptions& options) {
-    return captured([&] { return validate_cam(options); });
-  }
-  static CamOptions options(const fs::path& table) {
-    CamOptions made;
-    made.table = table;
-    return made;
-  }
-
-  TestFolder test_folder;
-  const fs::path& folder = test_folder.path;
-};
+using CamCommand = CamCommandTest;
 
 TEST_F(CamCommand, TheShippedCamsAreSound) {
   for (const auto* name : {"introduction.csv", "wire_guide.csv", "fly_cut.csv", "rotary_knife.csv"}) {
@@ -54,8 +40,7 @@ TEST_F(CamCommand, PrintsTheSectorsAndTheTotals) {
 }
 
 TEST_F(CamCommand, WithTheMastersSpeedAlsoInTime) {
-  auto made =
-      options(file("# decpt: 1\n# unitvel: 0\n" + cams::header + "1,132,100,50\n2,135,100,50\n3,136\n"));
+  auto made = options_of("# decpt: 1\n# unitvel: 0\n" + cams::header + "1,132,100,50\n2,135,100,50\n3,136\n");
   made.duty.master_speed = 60;  // 10 Um/s
   EXPECT_EQ(run(made), all_passed);
   EXPECT_THAT(
@@ -75,9 +60,9 @@ TEST_F(CamCommand, LoopsAreCountedInTheTable) {
 }
 
 TEST_F(CamCommand, ExitStatusTellsErrorsLimitsAndStrictness) {
-  EXPECT_EQ(run(options(file(cams::header + "1,133,100,0\n"))), check_failed);
+  EXPECT_EQ(run(options_of(cams::header + "1,133,100,0\n")), check_failed);
   EXPECT_THAT(out, HasSubstr("sector 2: error 3: "));
-  auto warned = options(file(cams::header + "1,131,100,50\n2,135,100,20\n3,136\n"));
+  auto warned = options_of(cams::header + "1,131,100,50\n2,135,100,20\n3,136\n");
   EXPECT_EQ(run(warned), all_passed);
   EXPECT_THAT(out, HasSubstr("sector 2 (135 DZC): warning 7: "));
   warned.strict = true;
@@ -89,7 +74,7 @@ TEST_F(CamCommand, ExitStatusTellsErrorsLimitsAndStrictness) {
 }
 
 TEST_F(CamCommand, BadInputWritesNothing) {
-  auto made = options(file(cams::header + "1,999\n1,xx\n"));
+  auto made = options_of(cams::header + "1,999\n1,xx\n");
   made.csv = (folder / "out.csv").string();
   made.png = (folder / "out.png").string();
   EXPECT_EQ(run(made), bad_input);
@@ -208,12 +193,9 @@ TEST_F(CamCommand, ThePlotHasFourPanelsMarksAndLimits) {
 }
 
 TEST_F(CamCommand, CheckParsesATableToo) {
-  testing::internal::CaptureStderr();
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(check_files({{shipped_cams / "introduction.csv"}, false}), all_passed);
-  EXPECT_EQ(check_files({{file(cams::header + "1,999\n")}, false}), bad_input);
-  testing::internal::GetCapturedStdout();
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("cam.csv:2:3: there is no codeG 999; "));
+  EXPECT_EQ(check(shipped_cams / "introduction.csv"), all_passed);
+  EXPECT_EQ(check(file(cams::header + "1,999\n")), bad_input);
+  EXPECT_THAT(err, HasSubstr("cam.csv:2:3: there is no codeG 999; "));
 }
 
 TEST_F(CamCommand, ALargeTableEndsSoon) {
@@ -221,7 +203,7 @@ TEST_F(CamCommand, ALargeTableEndsSoon) {
   for (int row = 1; row <= 126; ++row)
     text += std::to_string(row) + (row % 2 == 0 ? ",233,999999,999999\n" : ",234,999999,-999999\n");
   text += "127,190,1,999999\n128,138\n";
-  auto made = options(file(text));
+  auto made = options_of(text);
   made.loops = 100;
   EXPECT_THAT(run(made), testing::AnyOf(all_passed, check_failed));
   EXPECT_THAT(out, HasSubstr("the cam was left after 20000 sectors"));

@@ -6,34 +6,20 @@
 #include <vector>
 
 #include "sim/cam/lx3vp/judge.hpp"
+#include "tests/sim/cam/texts.hpp"
 
 namespace drycut::sim::ecams {
 
 /// Reads a table that has no fault.
-inline EcamTable table(const std::string& text) {
-  Problems problems;
-  auto read = std::get<EcamTable>(read_lx3vp(text, "cam.csv", problems));
-  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-  return read;
-}
+inline EcamTable table(const std::string& text) { return std::get<EcamTable>(sound(text, read_lx3vp)); }
 
 /// The faults of a text, as they are printed, without the file's name.
-inline std::vector<std::string> faults(const std::string& text) {
-  Problems problems;
-  read_lx3vp(text, "cam.csv", problems);
-  std::vector<std::string> told;
-  for (const auto& problem : problems)
-    told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));
-  return told;
-}
+inline std::vector<std::string> faults(const std::string& text) { return faults_of(text, read_lx3vp); }
 
 /// The findings on a table, as they are printed; without the remarks unless they are asked for.
 inline std::vector<std::string> findings(const EcamTable& read, const CamDuty& duty = {},
                                          bool remarks = false) {
-  std::vector<std::string> told;
-  for (const auto& finding : judge_ecam(read, duty, run_ecam(read, duty, 1)))
-    if (remarks || finding.grade != CamFinding::Grade::remark) told.push_back(to_string(finding));
-  return told;
+  return printed(judge_ecam(read, duty, run_ecam(read, duty, 1)), remarks);
 }
 
 /// The manual's rotary saw; what is given again behind replaces nothing.

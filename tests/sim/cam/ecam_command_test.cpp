@@ -6,9 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "sim/commands/commands.hpp"
+#include "tests/sim/cam/command_bench.hpp"
 #include "tests/sim/cam/ecam_bench.hpp"
-#include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {
 namespace {
@@ -17,24 +16,11 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-struct EcamCommand : CommandTest {
-  CamOptions options(const std::string& text) {
-    CamOptions made;
-    made.table = test_folder.file("cam.csv", text);
-    return made;
-  }
-  int run(const CamOptions& options) {
-    return captured([&] { return validate_cam(options); });
-  }
-
-  TestFolder test_folder;
-  const fs::path& folder = test_folder.path;
-};
+using EcamCommand = CamCommandTest;
 
 TEST_F(EcamCommand, TheShippedCamsAreSound) {
   for (const auto* name : {"ecam_rotary_saw.csv", "ecam_fly_saw.csv", "ecam_s_curve.csv"}) {
-    CamOptions made;
-    made.table = shipped_cams / name;
+    auto made = options(shipped_cams / name);
     made.strict = true;
     EXPECT_EQ(run(made), all_passed) << out << err;
     EXPECT_THAT(out, HasSubstr("LX3VP, 200 rows made by ECAMTBX"));
@@ -42,21 +28,19 @@ TEST_F(EcamCommand, TheShippedCamsAreSound) {
 }
 
 TEST_F(EcamCommand, TheRowsCanBeWrittenAndReadBack) {
-  auto made = options(ecams::rotary());
+  auto made = options_of(ecams::rotary());
   made.rows = folder / "rows.csv";
   EXPECT_EQ(run(made), all_passed) << err;
   const auto text = content(made.rows);
   EXPECT_THAT(text, HasSubstr("master,slave\n0,0\n200,333\n"));
   EXPECT_TRUE(text.ends_with("\n3183,1000\n"));
-  CamOptions again;
-  again.table = made.rows;
-  EXPECT_EQ(run(again), all_passed) << out << err;
+  EXPECT_EQ(run(options(made.rows)), all_passed) << out << err;
   EXPECT_THAT(out, HasSubstr("rows.csv: LX3VP, 200 rows, cyclic\n"));
   EXPECT_THAT(out, HasSubstr("  ... and 139 more\n"));
 }
 
 TEST_F(EcamCommand, SamplesInTheColumnsOfEveryCam) {
-  auto made = options("master,slave\n0,0\n100,50\n200,50\n");
+  auto made = options_of("master,slave\n0,0\n100,50\n200,50\n");
   made.csv = "-";
   made.at = {50, 150};
   made.duty.master_speed = 1000;
@@ -67,7 +51,7 @@ TEST_F(EcamCommand, SamplesInTheColumnsOfEveryCam) {
 }
 
 TEST_F(EcamCommand, ARefusedTableIsUnsoundAndDrawsNothing) {
-  auto made = options(ecams::rotary("1"));
+  auto made = options_of(ecams::rotary("1"));
   made.png = folder / "cam.png";
   made.rows = folder / "rows.csv";
   EXPECT_EQ(run(made), check_failed);
@@ -77,7 +61,7 @@ TEST_F(EcamCommand, ARefusedTableIsUnsoundAndDrawsNothing) {
 }
 
 TEST_F(EcamCommand, BadOptions) {
-  auto given = options("master,slave\n10,0\n110,50\n");
+  auto given = options_of("master,slave\n10,0\n110,50\n");
   given.rows = folder / "rows.csv";
   EXPECT_EQ(run(given), bad_input);
   EXPECT_EQ(err, "--table:1:1: the table's rows were given, not made; leave it out\n");
@@ -89,7 +73,7 @@ TEST_F(EcamCommand, BadOptions) {
   EXPECT_EQ(run(given), bad_input);
   EXPECT_THAT(
       err, HasSubstr("--at:1:1: the cam has no master position 5; give positions from 10 to 110 pulses\n"));
-  auto timed = options(ecams::s_curve());
+  auto timed = options_of(ecams::s_curve());
   timed.duty.max_velocity = 60000;  // its speed is known
   EXPECT_EQ(run(timed), all_passed) << err;
   timed.duty.master_speed = 5;
@@ -97,7 +81,7 @@ TEST_F(EcamCommand, BadOptions) {
   EXPECT_EQ(err,
             "--master-speed:1:1: the master is time and has its own speed; leave it out, or give another # "
             "time_axis\n");
-  auto wrong = options(ecams::rotary());
+  auto wrong = options_of(ecams::rotary());
   wrong.device = "camming4";
   EXPECT_EQ(run(wrong), bad_input);
   EXPECT_THAT(err, HasSubstr("cam.csv:1:3: there is no setting 'ecamtbx'"));
@@ -105,24 +89,16 @@ TEST_F(EcamCommand, BadOptions) {
 
 TEST_F(EcamCommand, AStrokeThatDoesNotFitTheTravelFails) {
   const std::string saw = "parameter,value\nP1,6600\nP2,12900\nP3,9400\nP4,2.5\nP5,2.5\nP6,1\nP7,400\n";
-  EXPECT_EQ(run(options("# ecamtbx: K101\n# max_position: 12900\n" + saw)), all_passed);
-  EXPECT_EQ(run(options("# ecamtbx: K101\n# max_position: 12899\n" + saw)), check_failed);
+  EXPECT_EQ(run(options_of("# ecamtbx: K101\n# max_position: 12900\n" + saw)), all_passed);
+  EXPECT_EQ(run(options_of("# ecamtbx: K101\n# max_position: 12899\n" + saw)), check_failed);
   EXPECT_THAT(out, HasSubstr("limit: the stroke does not fit the travel: slave at 12900 pulses"));
 }
 
 TEST_F(EcamCommand, CheckReadsCamsRegistersAndInstructionLists) {
   const auto faults = [&](const std::string& name, const std::string& text) {
-    const auto path = folder / name;
-    std::ofstream(path) << text;
-    CheckOptions check;
-    check.files = {path};
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    const int status = check_files(check);
-    testing::internal::GetCapturedStdout();
-    const auto told = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(status, told.empty() ? all_passed : bad_input);
-    return told;
+    const int status = check(file(text, name));
+    EXPECT_EQ(status, err.empty() ? all_passed : bad_input);
+    return err;
   };
   EXPECT_THAT(faults("a.csv", "master,slave\n0,0\n5,x\n"),
               HasSubstr("a.csv:3:3: slave 'x' is not a whole number"));
