@@ -13,7 +13,6 @@
 
 #include "base/plain_text.hpp"
 #include "sim/commands/commands.hpp"
-#include "sim/commands/reference.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace {
@@ -28,13 +27,8 @@ int run(int argc, char** argv) {
   int status = all_passed;
 
   for (const auto add :
-       {add_run, add_check, add_cam, add_tune, add_bode, add_compare, add_devices, add_plants})
+       {add_run, add_check, add_cam, add_tune, add_bode, add_compare, add_devices, add_plants, add_reference})
     add(app, status);
-
-  std::filesystem::path folder;
-  auto* reference = app.add_subcommand("reference", "Write the reference: manual page, completion, pages");
-  reference->add_option("folder", folder, "Directory for the files")->required()->check(named());
-  reference->group("")->callback([&] { status = write_reference(app, folder); });
 
   std::vector<std::string> commands;
   for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());

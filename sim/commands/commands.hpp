@@ -26,6 +26,9 @@ void add_bode(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_devices(CLI::App& app, int& status);
 void add_plants(CLI::App& app, int& status);
+/// drycut reference DIR, which --help does not list: `drycut.1`, the manual page, `drycut.bash`, completion
+/// for bash, and in Markdown `commands.md`, `devices.md`, `plants.md` and a page for each device and plant.
+void add_reference(CLI::App& app, int& status);
 
 /// drycut devices, drycut plants: the tables; of one type if `name` is given.
 int list_devices(const std::string& name, bool json);

@@ -1,11 +1,11 @@
-#include "sim/commands/reference.hpp"
-
+// `drycut reference`: what the tables of the program say, as files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "sim/commands/arguments.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/pages.hpp"
 #include "sim/file.hpp"
@@ -163,8 +163,6 @@ std::string command_line(const CLI::App& program) {
   return text;
 }
 
-}  // namespace
-
 int write_reference(const CLI::App& program, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const auto put = [&folder](const std::string& name, const std::string& text) {
@@ -180,6 +178,16 @@ int write_reference(const CLI::App& program, const std::filesystem::path& folder
   for (const auto& pages : {device_pages(), plant_pages()})
     for (const auto& page : pages) put(page.name + ".md", markdown(page));
   return all_passed;
+}
+
+}  // namespace
+
+void add_reference(CLI::App& app, int& status) {
+  auto* reference = app.add_subcommand("reference", "Write the manual page, completion and pages of tables");
+  auto folder = std::make_shared<std::filesystem::path>();
+  reference->add_option("folder", *folder, "Directory for the files")->required();
+  reference->group("");  // for those who build it
+  reference->callback([&app, &status, folder] { status = write_reference(app, *folder); });
 }
 
 }  // namespace drycut::sim
