@@ -172,6 +172,14 @@ struct Bench {
 /// A linear cam that turns the slave once for each turn of the master.
 inline std::vector<double> one_to_one() { return {0, 900'000, 1'800'000, 2'700'000}; }
 
+/// A bench with such a cam, its master under way.
+struct Turning : Bench {
+  Turning() {
+    table(one_to_one());
+    start_master();
+  }
+};
+
 /// A rise to half a turn and back, at rest at both ends of the cam.
 inline std::vector<double> swing() { return {0, 0, 600'000, 0, 1'200'000, 1'800'000, 1'800'000, 1'800'000}; }
 

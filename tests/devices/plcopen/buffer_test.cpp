@@ -208,9 +208,7 @@ TEST(PlcopenBuffer, ASpeedIsDoneWhenItIsReachedAndThenAborted) {
 }
 
 TEST(PlcopenBuffer, ACamBehindAMoveEngagesAtItsEndAndAMoveBehindACamAtItsProfilesEnd) {
-  Bench b;
-  b.table(one_to_one());
-  b.start_master();
+  Turning b;
   auto before = b.make<McMoveAbsolute>(300'000);
   auto after = b.make<McMoveRelative>(300'000);
   before.Position = 900'000;

@@ -50,9 +50,7 @@ TEST(PlcopenCamOrders, AFeedEnableDropStopsACoupledSlaveUnlessTheCouplingIsKept)
 }
 
 TEST(PlcopenCamOrders, CamOutKeepsTheSpeed) {
-  Bench b;
-  b.table(one_to_one());
-  b.start_master();
+  Turning b;
   b.engage(turning);
   auto out = b.make<McCamOut>();
   out.Execute = true;
@@ -70,9 +68,7 @@ TEST(PlcopenCamOrders, CamOutKeepsTheSpeed) {
 }
 
 TEST(PlcopenCamOrders, PhasingShiftsTheApparentMasterJerkLimited) {
-  Bench b;
-  b.table(one_to_one());
-  b.start_master();
+  Turning b;
   b.couple(turning);
   auto phasing = b.make<McPhasing>();
   phasing.PhaseShift = 250'000;

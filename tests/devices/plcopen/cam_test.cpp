@@ -88,9 +88,7 @@ TEST(PlcopenCam, WithoutThePeriodicBitThereIsOnePassFromZeroToZero) {
 }
 
 TEST(PlcopenCam, AnotherExecuteDuringThePassAddsOnePassAndNoMore) {
-  Bench b;
-  b.table(one_to_one());
-  b.start_master();
+  Turning b;
   b.engage(hli_ci_endless_positive);
   const std::int64_t turns = b.s().set().position.turns;
   for (int i = 0; i < 3; ++i) {
@@ -141,9 +139,7 @@ TEST(PlcopenCam, AMasterExactlyAtZeroStartsThePassAtOnce) {
 }
 
 TEST(PlcopenCam, PeriodicallyTheEndIsToldAtEveryTurn) {
-  Bench b;
-  b.table(one_to_one());
-  b.start_master();
+  Turning b;
   b.engage(hli_ci_f_periodic | hli_ci_endless_positive);
   int ends = 0;
   for (int i = 0; i < 2'500; ++i) {
@@ -170,9 +166,7 @@ TEST(PlcopenCam, EndlessNegativeTurnsTheSlaveBackwards) {
 TEST(PlcopenCam, RampInAbsoluteAndRelativeBitsChangeNothing) {
   std::vector<double> ends;
   for (const std::uint32_t bits : {0u, 1u, 2u, 4u, 7u}) {
-    Bench b;
-    b.table(one_to_one());
-    b.start_master();
+    Turning b;
     b.couple(turning | bits);
     b.step(700);
     EXPECT_TRUE(b.cam.InSync);

@@ -353,26 +353,19 @@ TEST(PlcopenController, ACamBehindALinearMasterNamesTheMaster) {
   made.axes[0].parameters.modulo = 0;
   made.axes[1].parameters.homed_at_start = 1;
   made.tables[0].interpolation = Interpolation::poly5_line;
-  Rig rig(R"(PROGRAM line
+  constexpr const char* text = R"(PROGRAM line
 VAR_EXTERNAL Web : AXIS_REF; Knife : AXIS_REF; END_VAR
 VAR Power : MC_Power; CamIn : MC_CamIn; END_VAR
 Power(Axis := Knife, Enable := TRUE);
 CamIn(Master := Web, Slave := Knife, Execute := Power.Status, CamTableID := 1);
 END_PROGRAM
-)",
-          made);
+)";
+  Rig rig(text, made);
   rig.run(10);
   EXPECT_THAT(rig.told(), ElementsAre("CamIn block_error: 60181 this cam needs modulo axes: Web"));
   made.axes[0].parameters.modulo = 8'000'000;
   made.axes[1].parameters.modulo = 0;
-  Rig other(R"(PROGRAM line
-VAR_EXTERNAL Web : AXIS_REF; Knife : AXIS_REF; END_VAR
-VAR Power : MC_Power; CamIn : MC_CamIn; END_VAR
-Power(Axis := Knife, Enable := TRUE);
-CamIn(Master := Web, Slave := Knife, Execute := Power.Status, CamTableID := 1);
-END_PROGRAM
-)",
-            made);
+  Rig other(text, made);
   other.run(10);
   EXPECT_THAT(other.told(), ElementsAre("CamIn block_error: 60181 this cam needs modulo axes: Knife"));
 }

@@ -22,6 +22,11 @@ struct Geared : Bench {
     for (int i = 0; i < 5'000 && !gear.InGear && !gear.Error; ++i) turn_over();
     EXPECT_TRUE(gear.InGear) << gear.ErrorID;
   }
+  Peaks until_in_gear() {
+    Peaks peaks;
+    for (; !gear.InGear; peaks.take(s().set())) turn_over();
+    return peaks;
+  }
   void turn_over(int times = 1) {
     for (int i = 0; i < times; ++i) {
       run.call(kernel);
@@ -62,11 +67,7 @@ TEST(PlcopenGear, AGearEngagesWithItsOwnDynamics) {
   b.gear.Deceleration = 600;
   b.gear.Jerk = 30'000;
   b.gear.Execute = true;
-  Peaks up;
-  while (!b.gear.InGear) {
-    b.turn_over();
-    up.take(b.s().set());
-  }
+  const Peaks up = b.until_in_gear();
   EXPECT_NEAR(up.a, 1.5e7, 1);
   EXPECT_NEAR(up.j, 3e8, 1e3);
   b.gear.RatioDenominator = 4;
@@ -74,11 +75,7 @@ TEST(PlcopenGear, AGearEngagesWithItsOwnDynamics) {
   b.gear.call(b.kernel);
   b.gear.Execute = true;
   b.turn_over();
-  Peaks down;
-  while (!b.gear.InGear) {
-    b.turn_over();
-    down.take(b.s().set());
-  }
+  const Peaks down = b.until_in_gear();
   EXPECT_NEAR(down.d, 6e6, 1);
   covers("MC_GearIn", {"Acceleration", "Deceleration", "Jerk"});
 }

@@ -9,9 +9,7 @@ namespace drycut::devices::plcopen {
 namespace {
 
 TEST(PlcopenRampIn, OnARunningMasterTheSlavePassesItsThreePhasesInTheirTimes) {
-  Bench b;
-  b.table(one_to_one());
-  b.start_master();
+  Turning b;
   const double speed = b.m().set().velocity;  // 3.6e6 inc/s
   EXPECT_DOUBLE_EQ(speed, 3'600'000);
   b.couple(turning);
@@ -223,9 +221,7 @@ TEST(PlcopenRampIn, TheSlavesSpeedLimitHoldsInTheCouplingToo) {
 }
 
 TEST(PlcopenRampIn, CoupledNeitherOverrideNorFeedHoldActOnTheSlave) {
-  Bench b;
-  b.table(one_to_one());
-  b.start_master();
+  Turning b;
   b.engage(turning);
   b.s().control.override_percent = 10;
   b.s().control.feed_hold = true;

@@ -41,6 +41,16 @@ struct Monkey : Bench {
       if (name == "TableFctType") *std::get<std::uint32_t*>(value) = 6;
     }
   }
+  /// Calls all blocks, one in so many with other inputs.
+  void play(unsigned one_in) {
+    std::size_t number = 0;
+    for (const BlockType& type : block_types()) {
+      if (type.name == "MC_Power") continue;
+      FunctionBlock& block = *blocks[number++];
+      if (random() % one_in == 0) twist(block, type);
+      block.call(kernel);
+    }
+  }
 };
 
 TEST(PlcopenRandom, WhateverIsOrderedTheSlaveNeverLeaps) {
@@ -49,13 +59,7 @@ TEST(PlcopenRandom, WhateverIsOrderedTheSlaveNeverLeaps) {
     Monkey b(seed);
     b.start_master();
     for (int i = 0; i < 15'000; ++i) {
-      std::size_t number = 0;
-      for (const BlockType& type : block_types()) {
-        if (type.name == "MC_Power") continue;
-        FunctionBlock& block = *b.blocks[number++];
-        if (b.random() % 300 == 0) b.twist(block, type);
-        block.call(b.kernel);
-      }
+      b.play(300);
       if (b.random() % 200 == 0) b.s().control.override_percent = static_cast<double>(b.random() % 150);
       if (b.random() % 1'000 == 0) b.s().drive.emergency_stop = b.random() % 2 == 0;
       b.s().control.feed_enable = b.random() % 1'000 != 0;
@@ -90,13 +94,7 @@ TEST(PlcopenRandom, TheSameOrdersGiveTheSameMotion) {
     b.start_master();
     std::vector<double> positions;
     for (int i = 0; i < 2'000; ++i) {
-      std::size_t number = 0;
-      for (const BlockType& type : block_types()) {
-        if (type.name == "MC_Power") continue;
-        FunctionBlock& block = *b.blocks[number++];
-        if (b.random() % 100 == 0) b.twist(block, type);
-        block.call(b.kernel);
-      }
+      b.play(100);
       b.kernel.cycle();
       positions.push_back(b.at(b.s()));
     }

@@ -86,9 +86,7 @@ TEST(PlcopenSuperImposed, InStandstillItIsARelativeMovement) {
 
 TEST(PlcopenSuperImposed, OnACamAndAGearItShiftsTheSlaveAndNothingElse) {
   for (const bool cam : {true, false}) {
-    Bench b;
-    b.table(one_to_one());
-    b.start_master();
+    Turning b;
     auto gear = b.make<McGearIn>();
     if (cam)
       b.couple(hli_ci_f_periodic | hli_ci_endless_positive);

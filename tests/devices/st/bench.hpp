@@ -67,11 +67,28 @@ inline std::vector<std::string> problems_of(const std::string& text) {
   return lines;
 }
 
-/// The problems of a text begin so, in this order, and there are no others.
+/// The problems of a text begin so, in this order, and there are no others; with a '$' behind it the whole
+/// problem is told.
 inline void expect_problems(const std::string& text, const std::vector<std::string>& beginnings) {
   std::vector<testing::Matcher<std::string>> matchers;
-  for (const std::string& beginning : beginnings) matchers.emplace_back(testing::StartsWith(beginning));
+  for (const std::string& told : beginnings)
+    matchers.push_back(told.ends_with('$') ? testing::Matcher<std::string>(told.substr(0, told.size() - 1))
+                                           : testing::StartsWith(told));
   EXPECT_THAT(problems_of(text), testing::ElementsAreArray(matchers)) << text;
+}
+
+/// Why a program stands after its first scan; a cold start leads out of it.
+inline std::optional<Fault> fault_in_first_scan(const std::string& text) {
+  Problems problems;
+  MotionKernel kernel;
+  Runtime runtime(compile(text, "f", problems), kernel);
+  for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
+  runtime.scan(0);
+  const auto fault = runtime.fault();
+  runtime.scan(1);
+  runtime.cold_start();
+  EXPECT_FALSE(runtime.fault());
+  return fault;
 }
 
 /// The value of an expression in a variable of type `type`; `vars` are further declarations.

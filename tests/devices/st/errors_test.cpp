@@ -133,15 +133,15 @@ TEST(StErrors, StructuresOfDifferentTypesAreNotAssigned) {
 }
 
 TEST(StErrors, AnArgumentWithoutANameIsToldTheBlocksOwnInput) {
-  EXPECT_THAT(problems_of("PROGRAM m VAR_EXTERNAL Slide : AXIS_REF; END_VAR VAR pwS : MC_Power; END_VAR\n"
-                          "pwS(Slide, Enable := TRUE);\nEND_PROGRAM"),
-              ElementsAre("2:5: an argument of 'pwS' without a name; name its input: Axis := value"));
+  expect_problems(
+      "PROGRAM m VAR_EXTERNAL Slide : AXIS_REF; END_VAR VAR pwS : MC_Power; END_VAR\n"
+      "pwS(Slide, Enable := TRUE);\nEND_PROGRAM",
+      {"2:5: an argument of 'pwS' without a name; name its input: Axis := value$"});
 }
 
 TEST(StErrors, OfWholeFiles) {
-  EXPECT_THAT(
-      problems_of(""),
-      ElementsAre("1:1: the file has no PROGRAM; PROGRAM name ... END_PROGRAM is what the controller runs"));
+  expect_problems(
+      "", {"1:1: the file has no PROGRAM; PROGRAM name ... END_PROGRAM is what the controller runs$"});
   expect_problems("PROGRAM m\nVAR i : INT; END_VAR i := 1;",
                   {"1:1: PROGRAM has no END_PROGRAM; write END_PROGRAM at the end"});
   expect_problems("i := 1;\nPROGRAM m END_PROGRAM", {"1:1: 'i' stands outside of all units"});
@@ -154,33 +154,22 @@ TEST(StErrors, OfWholeFiles) {
 }
 
 TEST(StErrors, OfDeclarations) {
-  const auto declared = [](const std::string& text) {
-    return problems_of("PROGRAM m VAR " + text + " END_VAR END_PROGRAM");
-  };
-  EXPECT_THAT(declared("a : INT (3..1);"),
-              ElementsAre("1:23: a range from 3 to 1 is empty; the lower bound stands first"));
-  EXPECT_THAT(declared("a : ULINT := -1;"),
-              ElementsAre("1:28: the constant -1 is out of the range of ULINT; 0 to 18446744073709551615"));
-  EXPECT_THAT(declared("a : REAL (1..3);"),
-              ElementsAre(StartsWith("1:24: a range of REAL; whole numbers have ranges")));
-  EXPECT_THAT(declared("a : INT (0..9) := 10;"),
-              ElementsAre("1:33: the constant 10 is out of the range of INT (0..9); 0 to 9"));
-  EXPECT_THAT(declared("a : ARRAY [3..1] OF INT;"),
-              ElementsAre(StartsWith("1:26: an array from 3 to 1 is empty")));
-  EXPECT_THAT(declared("a : ARRAY [0..9999999] OF INT;"),
-              ElementsAre(StartsWith("1:26: the array is too large")));
-  EXPECT_THAT(declared("a : ARRAY [0..1] OF INT := [1, 2, 3];"),
+  for (const Row& row :
+       {Row{"a : INT (3..1);", "1:23: a range from 3 to 1 is empty; the lower bound stands first$"},
+        {"a : ULINT := -1;",
+         "1:28: the constant -1 is out of the range of ULINT; 0 to 18446744073709551615$"},
+        {"a : REAL (1..3);", "1:24: a range of REAL; whole numbers have ranges"},
+        {"a : INT (0..9) := 10;", "1:33: the constant 10 is out of the range of INT (0..9); 0 to 9$"},
+        {"a : ARRAY [3..1] OF INT;", "1:26: an array from 3 to 1 is empty"},
+        {"a : ARRAY [0..9999999] OF INT;", "1:26: the array is too large"},
+        {"a : INT; b : INT := a;", "1:35: a value that is not constant"},
+        {"a : LREAL := SQRT(-1);", "1:28: SQRT of -1; it takes 0"},
+        {"if : INT;", "1:15: the name of a variable is missing before 'if'; IF is a word of the language"},
+        {"a, b AT %IX0.0 : BOOL;", "1:18: two variables at one place"},
+        {"a AT %QX0.0 : INT;", "1:15: 'a' at a terminal is a BOOL, not INT"}})
+    expect_problems("PROGRAM m VAR " + std::string(row.statements) + " END_VAR END_PROGRAM", {row.problem});
+  EXPECT_THAT(problems_of("PROGRAM m VAR a : ARRAY [0..1] OF INT := [1, 2, 3]; END_VAR END_PROGRAM"),
               ElementsAre(HasSubstr("more values than the 2 elements")));
-  EXPECT_THAT(declared("a : INT; b : INT := a;"),
-              ElementsAre(StartsWith("1:35: a value that is not constant")));
-  EXPECT_THAT(declared("a : LREAL := SQRT(-1);"), ElementsAre(StartsWith("1:28: SQRT of -1; it takes 0")));
-  EXPECT_THAT(declared("if : INT;"),
-              ElementsAre(StartsWith(
-                  "1:15: the name of a variable is missing before 'if'; IF is a word of the language")));
-  EXPECT_THAT(declared("a, b AT %IX0.0 : BOOL;"),
-              ElementsAre(StartsWith("1:18: two variables at one place")));
-  EXPECT_THAT(declared("a AT %QX0.0 : INT;"),
-              ElementsAre(StartsWith("1:15: 'a' at a terminal is a BOOL, not INT")));
   EXPECT_THAT(problems_of("FUNCTION F : INT VAR t : TON; END_VAR END_FUNCTION PROGRAM m END_PROGRAM"),
               ElementsAre(HasSubstr("the function block 't' cannot be in VAR here")));
   expect_problems("PROGRAM m VAR CONSTANT a : INT; END_VAR END_PROGRAM",

@@ -195,15 +195,7 @@ TEST(StRun, SymbolsHaveTypesRangesAndLimits) {
 }
 
 std::string fault_of(const std::string& text) {
-  Problems problems;
-  MotionKernel kernel;
-  Runtime runtime(compile(text, "f", problems), kernel);
-  for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
-  runtime.scan(0);
-  const auto fault = runtime.fault();
-  runtime.scan(1);
-  runtime.cold_start();
-  EXPECT_FALSE(runtime.fault());
+  const auto fault = fault_in_first_scan(text);
   return fault ? std::to_string(fault->line) + ":" + std::to_string(fault->column) + ": " + fault->text : "";
 }
 
