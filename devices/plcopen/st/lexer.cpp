@@ -17,16 +17,9 @@ namespace {
 
 bool belongs_to_name(char c) { return is_letter(c) || is_digit(c); }
 
-int digit_of(char c) {
-  if (is_digit(c)) return c - '0';
-  const char small = static_cast<char>(c | 0x20);
-  return small >= 'a' && small <= 'f' ? small - 'a' + 10 : 99;
-}
-
 std::string without_underscores(std::string_view text) {
-  std::string result;
-  for (const char c : text)
-    if (c != '_') result += c;
+  std::string result(text);
+  std::erase(result, '_');
   return result;
 }
 
@@ -243,25 +236,16 @@ class Lexer {
   }
 
   void read_integer(Token& token, const std::string& digits, int base) {
-    constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t number = 0;
-    if (digits.empty()) {
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, number, base);
+    if (digits.empty())
       complain(token, in_quotes(token.text) + " has no digits", "16#FF");
-      return;
-    }
-    for (const char c : digits) {
-      const int digit = digit_of(c);
-      if (digit >= base) {
-        complain(token, fmt::format("{} has a digit that base {} does not have", in_quotes(token.text), base),
-                 "2#1010, 8#17 or 16#FF");
-        return;
-      }
-      if (number > (largest - static_cast<std::uint64_t>(digit)) / static_cast<std::uint64_t>(base)) {
-        complain(token, in_quotes(token.text) + " is out of range", "a ULINT goes to 18446744073709551615");
-        return;
-      }
-      number = number * static_cast<std::uint64_t>(base) + static_cast<std::uint64_t>(digit);
-    }
+    else if (error == std::errc::result_out_of_range)
+      complain(token, in_quotes(token.text) + " is out of range", "a ULINT goes to 18446744073709551615");
+    else if (stop != end)
+      complain(token, fmt::format("{} has a digit that base {} does not have", in_quotes(token.text), base),
+               "2#1010, 8#17 or 16#FF");
     token.value = static_cast<Cell>(number);
     token.basic = token.value < 0 ? Basic::ulint : Basic::lint;
   }
@@ -333,12 +317,10 @@ class Lexer {
   static std::optional<std::int64_t> leading(std::string_view& text, char until) {
     const std::size_t size = until == '\0' ? text.size() : text.find(until);
     constexpr std::size_t longest = 5;
-    if (size == 0 || size > longest) return std::nullopt;
-    std::int64_t number = 0;
-    for (const char c : text.substr(0, size)) {
-      if (!is_digit(c)) return std::nullopt;
-      number = number * 10 + (c - '0');
-    }
+    if (size > longest) return std::nullopt;
+    std::uint32_t number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + size, number);
+    if (error != std::errc{} || stop != text.data() + size) return std::nullopt;
     text.remove_prefix(std::min(size + 1, text.size()));
     return number;
   }
@@ -392,6 +374,11 @@ class Lexer {
     unescape(token, token.text.substr(1, size - 1), begin);
   }
 
+  /// Two hexadecimal digits.
+  static bool is_hex(const char* digits, unsigned char& code) {
+    return std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+  }
+
   void unescape(Token& token, std::string_view text, Place begin) {
     constexpr std::string_view names = "$'LlNnPpRrTt";
     constexpr std::string_view values = "$'\n\n\n\n\f\f\r\r\t\t";
@@ -405,8 +392,8 @@ class Lexer {
       if (known != std::string_view::npos) {
         token.string += values[known];
         ++i;
-      } else if (i + 2 < text.size() && digit_of(text[i + 1]) < 16 && digit_of(text[i + 2]) < 16) {
-        token.string += static_cast<char>(digit_of(text[i + 1]) * 16 + digit_of(text[i + 2]));
+      } else if (unsigned char code = 0; i + 2 < text.size() && is_hex(text.data() + i + 1, code)) {
+        token.string += static_cast<char>(code);
         i += 2;
       } else {
         const Place at{begin.line, begin.column + 1 + static_cast<int>(i)};

@@ -116,20 +116,14 @@ Cell value_of(Basic basic, std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   if (text.starts_with('+')) text.remove_prefix(1);
   if (basic == Basic::boolean) return same_word(text, "TRUE") || text == "1" ? 1 : 0;
-  const char* const end = text.data() + text.size();
-  if (is_real(basic)) {
-    double number = 0;
-    const auto result = std::from_chars(text.data(), end, number);
-    return cell_of(result.ec == std::errc{} ? rounded(basic, number) : 0);
-  }
-  if (is_wide(basic)) {
-    std::uint64_t number = 0;
-    std::from_chars(text.data(), end, number);
-    return static_cast<Cell>(number);
-  }
-  std::int64_t number = 0;
-  std::from_chars(text.data(), end, number);
-  return wrapped(basic, number);
+  // What is no number, or out of range, stays 0.
+  const auto number = [&](auto value) {
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+  };
+  if (is_real(basic)) return cell_of(rounded(basic, number(0.0)));
+  if (is_wide(basic)) return static_cast<Cell>(number(std::uint64_t{0}));
+  return wrapped(basic, number(std::int64_t{0}));
 }
 
 }  // namespace drycut::devices::plcopen::st
