@@ -85,8 +85,8 @@ const auto own_name = [](const auto& info) { return info.param; };
 INSTANTIATE_TEST_SUITE_P(All, Scenes, ::testing::ValuesIn(scenarios(source_root / "scenes")), own_name);
 INSTANTIATE_TEST_SUITE_P(All, ComparingScenes, ::testing::ValuesIn(scenarios(source_root / "scenes", true)),
                          own_name);
-INSTANTIATE_TEST_SUITE_P(All, FailingScenes, ::testing::ValuesIn(scenarios(source_root / "tests/scenes/failing")),
-                         own_name);
+INSTANTIATE_TEST_SUITE_P(All, FailingScenes,
+                         ::testing::ValuesIn(scenarios(source_root / "tests/scenes/failing")), own_name);
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "sim/commands/cam_command.hpp"
+#include "sim/commands/check_command.hpp"
 #include "tests/sim/tune/bench.hpp"
 
 namespace drycut::sim {

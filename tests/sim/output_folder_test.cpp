@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "sim/commands/run_command.hpp"
 #include "sim/gallery.hpp"
 #include "sim/report.hpp"
 #include "tests/sim/tune/bench.hpp"
