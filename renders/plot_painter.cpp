@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "renders/cairo_image.hpp"
 #include "renders/decimate.hpp"
@@ -346,12 +347,27 @@ class Painter {
       }
       clipped(area, [&] {
         if (curve.style == Curve::Style::area) fill_to_zero(area, points, colour);
-        trace(pen_, area, points.x, points.y, curve.style == Curve::Style::steps);
-        stroke(colour, kCurveWidth, dash_of(i));
+        curve_line(area, points, curve.style == Curve::Style::steps, colour, dash_of(i));
       });
       dots(area, isolated(points), kLonelyDot, colour);
     }
     return any;
+  }
+
+  /// In stretches, which their round ends join: a path that often crosses itself takes cairo the square of
+  /// its length. Dashes run on, so that a line of them is one stretch.
+  void curve_line(const PlotArea& area, const Points& points, bool steps, const Ink& colour,
+                  const Dash& dash) const {
+    const std::span<const double> x = points.x;
+    const std::span<const double> y = points.y;
+    const std::size_t stretch = dash.empty() ? 200 : x.size();
+    cairo_set_line_cap(pen_, dash.empty() ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    for (std::size_t first = 0; first + 1 < x.size(); first += stretch) {
+      const std::size_t count = std::min(stretch + 1, x.size() - first);
+      trace(pen_, area, x.subspan(first, count), y.subspan(first, count), steps);
+      stroke(colour, kCurveWidth, dash);
+    }
+    cairo_set_line_cap(pen_, CAIRO_LINE_CAP_BUTT);
   }
 
   void fill_to_zero(const PlotArea& area, const Points& points, const Ink& colour) const {
@@ -406,8 +422,7 @@ class Painter {
       steps.y.insert(steps.y.end(), {level, level});
     }
     const auto points = decimated(steps, grid_of(area));
-    trace(pen_, area, points.x, points.y);
-    stroke(colour, kCurveWidth);
+    curve_line(area, points, false, colour, {});
   }
 
   /// A band for each state, with its number where there is room.
