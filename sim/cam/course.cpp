@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/cam/reach.hpp"
+
 namespace drycut::sim {
 
 namespace {
@@ -74,11 +76,7 @@ double CamCourse::end_of(std::size_t piece) const {
   return piece + 1 < law.pieces.size() ? law.pieces[piece + 1].master : law.master_length;
 }
 
-double CamCourse::peak(devices::CamOrder order) const {
-  double most = 0;
-  for (const auto& piece : law.pieces) most = std::max(most, piece.peak(order));
-  return most;
-}
+double CamCourse::peak(devices::CamOrder order) const { return peak_of(law.pieces, order); }
 
 std::vector<CamPoint> sample_cam(const CamCourse& course, bool both_sides) {
   constexpr double hair = 1e-9;

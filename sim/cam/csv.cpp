@@ -112,6 +112,21 @@ std::optional<double> real_number(const Cell& cell, int line, std::string_view n
 
 // Settings.
 
+void Settings::travel(const std::string& least, const std::string& most, Range range,
+                      devices::CamTravel& travel) {
+  whole(least, range, travel.least);
+  whole(most, range, travel.most);
+  travel_ = &travel;
+  least_ = least;
+  most_ = most;
+}
+
+void Settings::check_travel() const {
+  if (travel_->least && travel_->most && *travel_->least > *travel_->most)
+    problems_.add(line_of(least_), 1, fmt::format("{} is above {}", least_, most_),
+                  fmt::format("give the lower end of the travel as {}", least_));
+}
+
 void Settings::read(const Cell& comment, int line, bool above) {
   const auto colon = comment.text.find(':');
   if (comment.text.starts_with("##")) return;

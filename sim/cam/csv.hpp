@@ -5,9 +5,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/problem.hpp"
+#include "devices/cam/travel.hpp"
 
 namespace drycut::sim {
 
@@ -58,6 +60,22 @@ class Settings {
   using Take = std::function<void(const Cell& value, int line)>;
   explicit Settings(TableProblems& problems) : problems_(problems) {}
   void add(std::string name, Take take) { settings_.emplace(std::move(name), std::move(take)); }
+  /// A setting that is a whole number in its range.
+  template <typename Target>
+  void whole(const std::string& name, Range range, Target& target) {
+    add(name, [this, name, range, &target](const Cell& value, int line) {
+      const auto number = whole_number(value, line, name, range, problems_);
+      if (!number) return;
+      if constexpr (std::is_integral_v<Target>)
+        target = static_cast<Target>(*number);
+      else
+        target = static_cast<double>(*number);
+    });
+  }
+  /// Two settings, the lower end of the travel and the upper one.
+  void travel(const std::string& least, const std::string& most, Range range, devices::CamTravel& travel);
+  /// Tells ends of the travel that were given the wrong way round.
+  void check_travel() const;
   /// Reads a comment line; `above` is false once the header was read.
   void read(const Cell& comment, int line, bool above);
   /// Line that gave a setting, 0 = none did.
@@ -70,6 +88,9 @@ class Settings {
   TableProblems& problems_;
   std::map<std::string, Take, std::less<>> settings_;
   std::map<std::string, int, std::less<>> given_;
+  const devices::CamTravel* travel_ = nullptr;
+  std::string least_;  ///< name of its lower end
+  std::string most_;
 };
 
 /// Where the columns of a table stand in its lines.

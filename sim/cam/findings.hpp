@@ -11,7 +11,7 @@ struct CamCure {
   std::string parameter;  ///< a column, a parameter; "master speed" of the duty; "begin": the slave's way on
   double value = 0;
 };
-/// What would be right, in words, and the numbers that it names, each of which cures alone.
+/// What would be right, in words, and the numbers that it names: each cures, a "stroke" with its "begin".
 struct CamRemedy {
   CamRemedy(std::string words = "", std::vector<CamCure> numbers = {})
       : text(std::move(words)), cures(std::move(numbers)) {}

@@ -25,14 +25,19 @@ CamRemedy travel_remedy(const devices::CamTravel& travel, double low, double hig
   const double stroke = high - low;
   const bool both = travel.least && travel.most;
   if (both && stroke > *travel.most - *travel.least + just_met) {
-    // The nearer end stays where the cam has it; a stroke that just fits has no other place than its travel.
-    const double shift = std::abs(low) <= std::abs(high) ? *travel.least - low : *travel.most - high;
-    return fmt::format("{} {} {} at most{}; it is {}",
-                       words.stroke.empty() ? std::string("shorten the stroke to")
-                                            : fmt::format("shorten the stroke ({}) to", words.stroke),
-                       way_text(*travel.most - *travel.least), words.unit,
-                       std::abs(shift) <= just_met ? "" : " and " + moved_begin(shift, words),
-                       place_text(stroke));
+    // The nearer end stays where the cam has it, or where the stroke as shortened has it; a stroke that just
+    // fits has no other place than its travel.
+    const double room = *travel.most - *travel.least;
+    const double shift = words.shrinks                     ? *travel.least - low * room / stroke
+                         : std::abs(low) <= std::abs(high) ? *travel.least - low
+                                                           : *travel.most - high;
+    return {fmt::format("{} {} {} at most{}; it is {}",
+                        words.stroke.empty() ? std::string("shorten the stroke to")
+                                             : fmt::format("shorten the stroke ({}) to", words.stroke),
+                        way_text(room), words.unit,
+                        std::abs(shift) <= just_met ? "" : " and " + moved_begin(shift, words),
+                        place_text(stroke)),
+            {{0, "stroke", room}, {0, "begin", shift}}};
   }
   const double shift = above ? *travel.most - high : *travel.least - low;
   return {"shorten the stroke, or " + moved_begin(shift, words), {{0, "begin", shift}}};

@@ -14,6 +14,7 @@ struct TravelWords {
   std::string_view most;    ///< setting's name
   std::string_view unit;    ///< "pulses", "Um"
   std::string_view stroke;  ///< what sets the stroke's length: "P2"; "" = many numbers do
+  bool shrinks = false;     ///< the ends lie beyond the rows, and come nearer to them as these shrink
 };
 
 /// A stroke that leaves the travel on one side.

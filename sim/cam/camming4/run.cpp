@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "devices/axis/speed.hpp"
+#include "sim/cam/reach.hpp"
 
 namespace drycut::sim {
 
@@ -268,12 +269,6 @@ class Walk {
   double slave_shown_ = 0;
 };
 
-double peak_of(const CamVisit& visit, devices::CamOrder order) {
-  double most = 0;
-  for (const auto& piece : visit.pieces()) most = std::max(most, piece.peak(order));
-  return most;
-}
-
 }  // namespace
 
 std::vector<devices::CamPiece> CamVisit::pieces() const {
@@ -314,18 +309,17 @@ devices::CamLaw law_of(const std::vector<CamVisit>& visits, std::size_t count) {
   return law;
 }
 
-double peak_speed(const CamVisit& visit) { return peak_of(visit, devices::CamOrder::velocity); }
+double peak_speed(const CamVisit& visit) { return peak_of(visit.pieces(), devices::CamOrder::velocity); }
 
-double peak_gradient(const CamVisit& visit) { return peak_of(visit, devices::CamOrder::acceleration); }
+double peak_gradient(const CamVisit& visit) {
+  return peak_of(visit.pieces(), devices::CamOrder::acceleration);
+}
 
 devices::CamExtremes reach_of(const CamVisit& visit) {
-  devices::CamExtremes reach{visit.slave_start, visit.slave_start};
-  if (visit.master_length <= 0) return reach;
-  for (const auto& piece : visit.pieces()) {
-    const auto found = piece.extremes(devices::CamOrder::position);
-    reach = {std::min(reach.low, found.low), std::max(reach.high, found.high)};
-  }
-  return reach;
+  const double start = visit.slave_start;
+  if (visit.master_length <= 0) return {start, start};
+  const auto reach = reach_of(visit.pieces());
+  return {std::min(start, reach.low), std::max(start, reach.high)};
 }
 
 double um_per_second(const CammingTable& table) {

@@ -59,10 +59,7 @@ class Reader {
       : text_(text), told_(file, problems), settings_(told_) {
     table_.file = file;
     const auto take = [&](const char* name, std::int32_t& target) {
-      settings_.add(name, [this, name, &target](const Cell& value, int line) {
-        if (const auto number = whole_number(value, line, name, range_of_variable(name), told_))
-          target = static_cast<std::int32_t>(*number);
-      });
+      settings_.whole(name, range_of_variable(name), target);
     };
     take("measure", measure_);
     take("pulse", pulse_);
@@ -73,14 +70,7 @@ class Reader {
     take("maxvel", table_.maxvel);
     take("taccmax", table_.taccmax);
     take("tdecmax", table_.tdecmax);
-    const auto take_position = [&](const char* name, std::optional<double>& target) {
-      settings_.add(name, [this, name, &target](const Cell& value, int line) {
-        if (const auto number = whole_number(value, line, name, range_of_variable(name), told_))
-          target = static_cast<double>(*number);
-      });
-    };
-    take_position("minpos", table_.travel.least);
-    take_position("maxpos", table_.travel.most);
+    settings_.travel("minpos", "maxpos", range_of_variable("minpos"), table_.travel);
     settings_.add("TCamp", [this](Cell value, int line) {
       if (value.text.ends_with("ms"))
         value = trimmed({value.text.substr(0, value.text.size() - 2), value.column});
@@ -90,11 +80,10 @@ class Reader {
   }
 
   CammingTable read() {
-    while (!text_.empty() && !told_.full()) {
-      const auto end = std::min(text_.find('\n'), text_.size());
+    for (const auto line : split_lines(text_)) {
+      if (told_.full()) break;
       ++line_;
-      read_line(text_.substr(0, end));
-      text_.remove_prefix(std::min(end + 1, text_.size()));
+      read_line(line);
     }
     if (!told_.full()) check_whole();
     return std::move(table_);
@@ -187,10 +176,7 @@ class Reader {
         problem(settings_.line_of(ramp), 1, fmt::format("{} means nothing without maxvel", ramp),
                 "give the speed at 10 V too: # maxvel: 1000");
     }
-    const auto& travel = table_.travel;
-    if (travel.least && travel.most && *travel.least > *travel.most)
-      problem(settings_.line_of("minpos"), 1, "minpos is above maxpos",
-              "give the lower end of the travel as minpos");
+    settings_.check_travel();
     if (!header_.is_read()) {
       problem(std::max(line_, 1), 1, "there is no table: the header is missing",
               "give the line sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM and a line for each sector");

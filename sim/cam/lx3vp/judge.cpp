@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/cam/lx3vp/remedies.hpp"
+#include "sim/cam/reach.hpp"
 #include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
@@ -77,35 +78,33 @@ class EcamJudge {
 
   // What the device plays: straight pieces from row to row.
 
-  [[nodiscard]] double length(std::size_t row) const {
-    return static_cast<double>(table_.rows[row].master) - table_.rows[row - 1].master;
-  }
+  [[nodiscard]] double length(std::size_t row) const { return played_.pieces[row - 1].length; }
+  [[nodiscard]] double ratio(std::size_t row) const { return ratio_of(played_.pieces[row - 1]).r0; }
   [[nodiscard]] double rise(std::size_t row) const {
     return static_cast<double>(table_.rows[row].slave) - table_.rows[row - 1].slave;
   }
-  [[nodiscard]] double ratio(std::size_t row) const { return rise(row) / length(row); }
 
   /// The row that ends the steepest piece.
-  [[nodiscard]] std::size_t steepest() const { return steepest_row(table_.rows); }
+  [[nodiscard]] std::size_t steepest() const {
+    CamWorst worst;
+    for (const auto& piece : played_.pieces) worst.take(ratio_of(piece).r0, piece.row);
+    return static_cast<std::size_t>(std::max(worst.row, 1));
+  }
 
   void judge_ratio() {
     if (!table_.max_ratio) return;
-    std::size_t worst = 0;
-    int count = 0;
-    double most = 0;
+    CamWorst worst;
     for (std::size_t i = 1; i < table_.rows.size(); ++i) {
       // Both ends are rounded to a pulse.
       const double surplus = std::abs(rise(i)) - 1 - *table_.max_ratio * length(i) * within;
-      if (surplus <= 0) continue;
-      ++count;
-      if (surplus / length(i) <= most) continue;
-      most = surplus / length(i);
-      worst = i;
+      if (surplus > 0) worst.take(surplus / length(i), static_cast<int>(i));
     }
-    if (count == 0) return judge_ratio_of_law();
-    add(Grade::limit, where(worst),
-        fmt::format("ratio {} above {}{}", number(ratio(worst)), number(*table_.max_ratio), others(count)),
-        table_.is_made() ? ratio_remedy() : longer_piece(worst));
+    if (worst.count == 0) return judge_ratio_of_law();
+    const auto row = static_cast<std::size_t>(worst.row);
+    add(Grade::limit, where(row),
+        fmt::format("ratio {} above {}{}", number(ratio(row)), number(*table_.max_ratio),
+                    others(worst.count)),
+        table_.is_made() ? ratio_remedy() : longer_piece(row));
   }
 
   [[nodiscard]] CamRemedy longer_piece(std::size_t row) const {
@@ -118,10 +117,10 @@ class EcamJudge {
   void judge_ratio_of_law() {
     constexpr double of_a_float = 1 + 1e-6;
     if (!table_.is_made()) return;
-    const auto most = peak_of_law();
-    if (most.ratio <= *table_.max_ratio * of_a_float) return;
+    const auto most = peak_of_law(CamOrder::velocity);
+    if (most.value <= *table_.max_ratio * of_a_float) return;
     add(Grade::limit, most.where,
-        fmt::format("ratio {} above {}", number(most.ratio), number(*table_.max_ratio)), ratio_remedy());
+        fmt::format("ratio {} above {}", number(most.value), number(*table_.max_ratio)), ratio_remedy());
   }
 
   [[nodiscard]] CamRemedy ratio_remedy() const {
@@ -134,16 +133,16 @@ class EcamJudge {
     return count == 1 ? "" : fmt::format(", the worst of {} rows", count);
   }
 
-  /// Largest |ratio| and where it is.
+  /// The largest absolute value and where it is.
   struct Peak {
-    double ratio = 0;
+    double value = 0;
     std::string where;
   };
-  [[nodiscard]] Peak peak_of_law() const {
+  [[nodiscard]] Peak peak_of_law(CamOrder order) const {
     Peak most;
     for (std::size_t i = 0; i < run_.law.pieces.size(); ++i)
-      if (run_.law.pieces[i].peak(CamOrder::velocity) > most.ratio)
-        most = {run_.law.pieces[i].peak(CamOrder::velocity), fmt::format("piece {}", i + 1)};
+      if (const double peak = run_.law.pieces[i].peak(order); peak > most.value)
+        most = {peak, fmt::format("piece {}", i + 1)};
     return most;
   }
   /// Of the rows, which the device plays, and of the law if that is steeper: rounded to pulses, rows may be
@@ -151,16 +150,16 @@ class EcamJudge {
   [[nodiscard]] Peak peak() const {
     const Peak played = {std::abs(ratio(steepest())), where(steepest())};
     if (!table_.is_made()) return played;
-    auto law = peak_of_law();
-    return played.ratio > law.ratio * within ? played : law;
+    auto law = peak_of_law(CamOrder::velocity);
+    return played.value > law.value * within ? played : law;
   }
 
   void judge_speed() {
     if (!run_.master_speed) return;
     const auto most = peak();
-    const double frequency = most.ratio * *run_.master_speed;
+    const double frequency = most.value * *run_.master_speed;
     const auto remedy = [&](double limit) -> CamRemedy {
-      if (table_.time_axis == 0) return slower_master("", limit / most.ratio, "pulses/s");
+      if (table_.time_axis == 0) return slower_master("", limit / most.value, "pulses/s");
       if (table_.is_s_curve()) return top_speed_remedy(table_, *run_.master_speed, limit);
       return "give the same way more time";
     };
@@ -178,30 +177,21 @@ class EcamJudge {
   void judge_acceleration() {
     if (!run_.master_speed || !duty_.max_acceleration) return;
     const double speed = *run_.master_speed;
-    double most = 0;
-    std::string place;
-    if (table_.is_made()) {
-      for (std::size_t i = 0; i < run_.law.pieces.size(); ++i) {
-        if (run_.law.pieces[i].peak(CamOrder::acceleration) <= most) continue;
-        most = run_.law.pieces[i].peak(CamOrder::acceleration);
-        place = fmt::format("piece {}", i + 1);
-      }
-    } else {
-      // From the middle of a piece to the middle of the next.
-      for (std::size_t i = 2; i < table_.rows.size(); ++i) {
-        const double gradient = std::abs(ratio(i) - ratio(i - 1)) * 2 / (length(i) + length(i - 1));
-        if (gradient <= most) continue;
-        most = gradient;
-        place = where(i - 1);
-      }
+    Peak most;
+    if (table_.is_made()) most = peak_of_law(CamOrder::acceleration);
+    // From the middle of a piece to the middle of the next.
+    for (std::size_t i = 2; !table_.is_made() && i < table_.rows.size(); ++i) {
+      const double gradient = std::abs(ratio(i) - ratio(i - 1)) * 2 / (length(i) + length(i - 1));
+      if (gradient > most.value) most = {gradient, where(i - 1)};
     }
-    const double acceleration = most * speed * speed;
+    const double acceleration = most.value * speed * speed;
     if (acceleration <= *duty_.max_acceleration * within) return;
-    add(Grade::limit, place,
+    add(Grade::limit, most.where,
         fmt::format("acceleration {} pulses/s2 above {}", number(acceleration),
                     number(*duty_.max_acceleration)),
-        table_.time_axis > 0 ? "give its ramps more time"
-                             : slower_master("", std::sqrt(*duty_.max_acceleration / most), "pulses/s"));
+        table_.time_axis > 0
+            ? "give its ramps more time"
+            : slower_master("", std::sqrt(*duty_.max_acceleration / most.value), "pulses/s"));
   }
 
   /// The slave is farthest at a row, for the device plays straight pieces.
@@ -237,26 +227,21 @@ class EcamJudge {
   /// Steps of the ratio, for given rows: more than half of the largest ratio from one piece to the next.
   void judge_steps() {
     const double peak = std::abs(ratio(steepest()));
-    double most = peak / 2;
-    std::size_t worst = 0;
-    int count = 0;
+    CamWorst most;
     const auto look = [&](std::size_t before, std::size_t after, std::size_t row) {
       const double rounding = 1 / length(before) + 1 / length(after);
       const double step = std::abs(ratio(after) - ratio(before)) - rounding;
-      if (step <= peak / 2) return;
-      ++count;
-      if (step <= most) return;
-      most = step;
-      worst = row;
+      if (step > peak / 2) most.take(step, static_cast<int>(row));
     };
     const auto last = table_.rows.size() - 1;
     for (std::size_t i = 1; i < last; ++i) look(i, i + 1, i);
     if (table_.cyclic && last > 1) look(last, 1, last);
-    if (count == 0) return;
+    if (most.count == 0) return;
+    const auto worst = static_cast<std::size_t>(most.row);
     const auto next = worst == last ? 1 : worst + 1;
     add(Grade::caution, where(worst),
         fmt::format("the ratio jumps from {} to {}{}{}", number(ratio(worst)), number(ratio(next)),
-                    worst == last ? " as the cycle begins again" : "", others(count)),
+                    worst == last ? " as the cycle begins again" : "", others(most.count)),
         "put rows between, so that the slave can follow");
   }
 
@@ -336,6 +321,7 @@ class EcamJudge {
   const EcamTable& table_;
   const CamDuty& duty_;
   const CamCourse& run_;
+  const devices::CamLaw played_ = straight_law(table_.rows);
   std::vector<CamFinding> found_;
 };
 

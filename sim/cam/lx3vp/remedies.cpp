@@ -5,21 +5,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/cam/reach.hpp"
+
 namespace drycut::sim {
 
 using devices::lx3vp::EcamError;
 using devices::lx3vp::EcamType;
 
-double steepness(const std::vector<devices::lx3vp::CamTableRow>& rows, std::size_t row) {
-  return std::abs(static_cast<double>(rows[row].slave) - rows[row - 1].slave) /
-         (static_cast<double>(rows[row].master) - rows[row - 1].master);
-}
-
-std::size_t steepest_row(const std::vector<devices::lx3vp::CamTableRow>& rows) {
-  std::size_t worst = 1;
-  for (std::size_t i = 2; i < rows.size(); ++i)
-    if (steepness(rows, i) > steepness(rows, worst)) worst = i;
-  return worst;
+devices::CamLaw straight_law(const std::vector<devices::lx3vp::CamTableRow>& rows) {
+  devices::CamLaw law;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double length = static_cast<double>(rows[i].master) - rows[i - 1].master;
+    const double rise = static_cast<double>(rows[i].slave) - rows[i - 1].slave;
+    if (length <= 0) return {};
+    const double ratio = rise / length;
+    law.pieces.push_back({law.master_length, length, law.slave_length, static_cast<int>(i),
+                          devices::CamTransition{ratio, ratio}});
+    law.master_length += length;
+    law.slave_length += rise;
+  }
+  return law;
 }
 
 std::string wrong_words(const EcamTable& table) {
@@ -150,9 +155,8 @@ CamRemedy top_speed_remedy(const EcamTable& table, double master_speed, double l
   for (int turn = 0; turn < most_turns && parameters.top_speed > 0; ++turn) {
     const auto made = make_table(*table.type, table.saw, parameters);
     if (!made.ok()) break;
-    double most = steepness(made.rows, steepest_row(made.rows));
-    for (const auto& piece : made.profile.pieces)
-      most = std::max(most, piece.peak(devices::CamOrder::velocity));
+    double most = std::max(peak_of(straight_law(made.rows).pieces, devices::CamOrder::velocity),
+                           peak_of(made.profile.pieces, devices::CamOrder::velocity));
     most *= master_speed;
     if (most <= limit * within)
       return {fmt::format("give P2 {} Hz at most", parameters.top_speed),

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -7,10 +6,8 @@
 
 namespace drycut::sim {
 
-/// |ratio| of the straight piece that ends with `row`, 1 or more.
-double steepness(const std::vector<devices::lx3vp::CamTableRow>& rows, std::size_t row);
-/// The steepest of the straight pieces between rows, by the row that ends it.
-std::size_t steepest_row(const std::vector<devices::lx3vp::CamTableRow>& rows);
+/// A straight piece between each two rows, as the device plays them; none if they do not ascend.
+devices::CamLaw straight_law(const std::vector<devices::lx3vp::CamTableRow>& rows);
 
 /// What no type of table has: "P6L 7", "P6H 4" or both; "" if both are known.
 std::string wrong_words(const EcamTable& table);

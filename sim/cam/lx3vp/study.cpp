@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "sim/cam/lx3vp/judge.hpp"
+#include "sim/cam/lx3vp/remedies.hpp"
 
 namespace drycut::sim {
 
@@ -15,22 +16,6 @@ using devices::CamOrder;
 using devices::CamPiece;
 using devices::Transition;
 using devices::lx3vp::EcamType;
-
-/// The pieces between given rows; none if they do not ascend.
-devices::CamLaw straight_pieces(const EcamTable& table) {
-  devices::CamLaw law;
-  for (std::size_t i = 1; i < table.rows.size(); ++i) {
-    const double length = static_cast<double>(table.rows[i].master) - table.rows[i - 1].master;
-    const double rise = static_cast<double>(table.rows[i].slave) - table.rows[i - 1].slave;
-    if (length <= 0) return {};
-    const double ratio = rise / length;
-    law.pieces.push_back({law.master_length, length, law.slave_length, static_cast<int>(i),
-                          devices::CamTransition{ratio, ratio}});
-    law.master_length += length;
-    law.slave_length += rise;
-  }
-  return law;
-}
 
 std::string type_text(const EcamTable& table) {
   constexpr const char* laws[] = {"uniform", "uniform acceleration", "B type"};
@@ -130,14 +115,10 @@ renders::Curve played(const EcamTable& table, const CamCourse& run, double scale
   renders::Curve curve;
   curve.label = "as played";
   for (int pass = 0; pass < run.loops; ++pass) {
-    for (std::size_t i = 1; i < table.rows.size(); ++i) {
-      const auto& from = table.rows[i - 1];
-      const auto& to = table.rows[i];
-      const double ratio =
-          (static_cast<double>(to.slave) - from.slave) / (static_cast<double>(to.master) - from.master);
-      for (const auto end : {from.master, to.master}) {
-        curve.x.push_back(pass * run.law.master_length + end);
-        curve.y.push_back(ratio * scale);
+    for (const auto& piece : straight_law(table.rows).pieces) {
+      for (const double end : {piece.master, piece.master + piece.length}) {
+        curve.x.push_back(pass * run.law.master_length + table.rows.front().master + end);
+        curve.y.push_back(ratio_of(piece).r0 * scale);
       }
     }
   }
@@ -210,7 +191,7 @@ CamCourse run_ecam(const EcamTable& table, const CamDuty& duty, int loops) {
   if (table.is_made()) {
     run.law = table.made.profile;
   } else if (!table.rows.empty()) {
-    run.law = straight_pieces(table);
+    run.law = straight_law(table.rows);
     run.first_master = table.rows.front().master;
     run.first_slave = table.rows.front().slave;
   }

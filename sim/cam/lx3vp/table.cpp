@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <map>
 
@@ -48,11 +49,10 @@ class Reader {
   }
 
   EcamTable read() {
-    while (!text_.empty() && !told_.full()) {
-      const auto end = std::min(text_.find('\n'), text_.size());
+    for (const auto line : split_lines(text_)) {
+      if (told_.full()) break;
       ++line_;
-      read_line(text_.substr(0, end));
-      text_.remove_prefix(std::min(end + 1, text_.size()));
+      read_line(line);
     }
     if (!told_.full()) finish();
     if (told_.none()) table_.complete();
@@ -61,27 +61,14 @@ class Reader {
 
  private:
   void add_settings() {
-    const auto take = [&](const char* name, Range range, std::int32_t& target) {
-      settings_.add(name, [this, name, range, &target](const Cell& value, int line) {
-        if (const auto number = whole_number(value, line, name, range, told_))
-          target = static_cast<std::int32_t>(*number);
-      });
-    };
-    take("max_frequency", {1, 200000}, table_.max_frequency);
+    settings_.whole("max_frequency", {1, 200000}, table_.max_frequency);
     settings_.add("time_axis", [this](const Cell& value, int line) {
       // S1 as the program has it.
       if (const auto number = whole_number(behind_k(value), line, "time_axis", {1, 2147483647}, told_))
         table_.time_axis = static_cast<std::int32_t>(*number);
     });
-    take("cyclic", {0, 1}, cyclic_);
-    const auto take_position = [&](const char* name, std::optional<double>& target) {
-      settings_.add(name, [this, name, &target](const Cell& value, int line) {
-        if (const auto number = whole_number(value, line, name, whole_32, told_))
-          target = static_cast<double>(*number);
-      });
-    };
-    take_position("min_position", table_.travel.least);
-    take_position("max_position", table_.travel.most);
+    settings_.whole("cyclic", {0, 1}, cyclic_);
+    settings_.travel("min_position", "max_position", whole_32, table_.travel);
     settings_.add("max_ratio", [this](const Cell& value, int line) {
       constexpr double least = 1e-9;
       table_.max_ratio = real_number(value, line, "max_ratio", {least, 1e9}, told_);
@@ -90,15 +77,10 @@ class Reader {
   }
 
   void read_type(const Cell& value, int line) {
-    for (const auto& [name, type] : {std::pair{"K0", EcamType::s_curve_0},
-                                     {"K1", EcamType::s_curve_1},
-                                     {"K100", EcamType::rotary_saw},
-                                     {"K101", EcamType::fly_saw}}) {
-      const std::string_view number = std::string_view(name).substr(1);
-      if (value.text == name || value.text == number ||
-          (value.text.starts_with('k') && value.text.substr(1) == number))
-        table_.type = type;
-    }
+    const auto number = behind_k(value).text;
+    for (const auto type :
+         {EcamType::s_curve_0, EcamType::s_curve_1, EcamType::rotary_saw, EcamType::fly_saw})
+      if (number == std::to_string(static_cast<int>(type))) table_.type = type;
     if (!table_.type)
       told_.add(line, value.column, fmt::format("there is no ecamtbx {}", in_quotes(value.text)),
                 "write K0 or K1 S-curve, K100 rotary saw, K101 fly saw");
@@ -193,11 +175,8 @@ class Reader {
     constexpr std::size_t most = 8;
     if (text.size() < 2 || text.size() > most + 1 || (text.front() != 'H' && text.front() != 'h')) return {};
     std::uint32_t value = 0;
-    for (const char c : text.substr(1)) {
-      const auto digit = std::string_view("0123456789ABCDEFabcdef").find(c);
-      if (digit == std::string_view::npos) return {};
-      value = value << 4 | static_cast<std::uint32_t>(digit > 15 ? digit - 6 : digit);
-    }
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
     return value;
   }
 
@@ -205,10 +184,7 @@ class Reader {
 
   void finish() {
     table_.cyclic = cyclic_ == 1;
-    const auto& travel = table_.travel;
-    if (travel.least && travel.most && *travel.least > *travel.most)
-      told_.add(settings_.line_of("min_position"), 1, "min_position is above max_position",
-                "give the lower end of the travel as min_position");
+    settings_.check_travel();
     if (lost_) return;
     if (settings_.line_of("ecamtbx") > 0) {
       finish_parameters();

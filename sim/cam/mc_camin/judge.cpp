@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/cam/reach.hpp"
 #include "sim/cam/travel.hpp"
 
 namespace drycut::sim {
@@ -18,20 +19,10 @@ using devices::plcopen::CamLimits;
 using devices::plcopen::Endless;
 using Grade = CamFinding::Grade;
 
-/// The largest of a kind of finding, and how many there are.
-struct Worst {
-  int count = 0;
-  double value = 0;
-  int row = 0;
-
-  void take(double size, int at) {
-    ++count;
-    if (std::abs(size) <= std::abs(value)) return;
-    value = size;
-    row = at;
-  }
-  [[nodiscard]] std::string others() const { return count < 2 ? "" : fmt::format("; so at {} rows", count); }
-};
+/// "; so at 3 rows", if there are others.
+std::string others(const CamWorst& worst) {
+  return worst.count < 2 ? "" : fmt::format("; so at {} rows", worst.count);
+}
 
 class CamInJudge {
  public:
@@ -77,7 +68,7 @@ class CamInJudge {
     if (!limit || !run_.master_speed) return;
     const int power = static_cast<int>(order);
     const double in_time = std::pow(*run_.master_speed, power) / increments_per_unit;
-    Worst worst;
+    CamWorst worst;
     for (const CamPiece& piece : run_.law.pieces) {
       const double peak = piece.peak(order) * in_time;
       if (peak > *limit * within) worst.take(peak, piece.row);
@@ -86,46 +77,38 @@ class CamInJudge {
     if (worst.count > 0) {
       add(Grade::limit, where(worst.row),
           fmt::format("{} {} {} above {}{}", name, number(worst.value), per(power), number(*limit),
-                      worst.others()),
+                      others(worst)),
           slower_master("", speed * std::pow(*limit / worst.value, 1.0 / power), cam_.master_unit + "/s"));
     }
     judge_steps(power, name);
   }
 
   void judge_steps(int power, const char* name) {
-    Worst worst;
+    CamWorst worst;
     for (const CamKnot& knot : run_.knots)
       if (knot.smooth < power - 1)
         worst.take(knot.jumps[static_cast<std::size_t>(knot.smooth) + 1], knot.row);
     if (worst.count > 0)
       add(Grade::limit, where(worst.row),
-          fmt::format("{} without end: what it is the derivative of jumps there{}", name, worst.others()),
+          fmt::format("{} without end: what it is the derivative of jumps there{}", name, others(worst)),
           "see the table of knots");
   }
 
   void judge_travel() {
     if (!limits_.travel.is_given()) return;
-    double low = 0;
-    double high = 0;
-    range(low, high);
+    const auto [low, high] = reach_of(run_.law.pieces);
     const std::string unit = increments_of(unit_);
-    for (const TravelFault& fault : travel_faults(limits_.travel, low, high, {"minpos", "maxpos", unit, ""}))
+    const bool beyond = std::any_of(run_.law.pieces.begin(), run_.law.pieces.end(),
+                                    [](const CamPiece& piece) { return std::abs(overshoot_of(piece)) > 1; });
+    for (const TravelFault& fault :
+         travel_faults(limits_.travel, low, high, {"minpos", "maxpos", unit, "", beyond}))
       add(Grade::limit, "", fault.text, fault.remedy);
   }
 
-  void range(double& low, double& high) const {
-    low = high = run_.law.pieces.front().begin().position;
-    for (const CamPiece& piece : run_.law.pieces) {
-      const CamExtremes extremes = piece.extremes(CamOrder::position);
-      low = std::min(low, extremes.low);
-      high = std::max(high, extremes.high);
-    }
-  }
-
   void judge_jumps() {
-    Worst position;
-    Worst velocity;
-    Worst acceleration;
+    CamWorst position;
+    CamWorst velocity;
+    CamWorst acceleration;
     for (const CamKnot& knot : run_.knots) {
       if (knot.smooth == -1) position.take(knot.jumps[0], knot.row);
       if (knot.smooth == 0) velocity.take(knot.jumps[1], knot.row);
@@ -135,19 +118,19 @@ class CamInJudge {
     if (position.count > 0)
       add(Grade::caution, where(position.row),
           fmt::format("the position jumps by {} {}{}", number_text(position.value), increments_of(unit_),
-                      position.others()),
+                      others(position)),
           turns_on(position.value) ? "it is a turn of the slave: write # endless: positive or negative"
           : steps                  ? "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"
                                    : "let each row end where the next one begins");
     if (velocity.count > 0)
       add(Grade::caution, where(velocity.row),
           fmt::format("the velocity jumps by {}{}{}", in_time(velocity.value, 1), velocity_unit(),
-                      velocity.others()),
+                      others(velocity)),
           "POLYNOM_3, or POLY5 between lines, has no such jumps");
     if (acceleration.count > 0)
       add(Grade::remark, where(acceleration.row),
           fmt::format("the acceleration jumps by {} {}{}", in_time(acceleration.value, 2),
-                      acceleration_unit(), acceleration.others()));
+                      acceleration_unit(), others(acceleration)));
   }
 
   [[nodiscard]] bool turns_on(double jump) const {
@@ -189,7 +172,7 @@ class CamInJudge {
     if (cam_.endless != Endless::no || cam_.slave_modulo <= 0) return;
     if (cam_.table.columns() == 4) return;  // its jumps are told
     if (cam_.interpolation == devices::plcopen::Interpolation::step_direct) return;
-    Worst worst;
+    CamWorst worst;
     for (const CamPiece& piece : run_.law.pieces) {
       const double way = piece.end().position - piece.begin().position;
       if (piece.master >= 0 && std::abs(way) > cam_.slave_modulo / 2) worst.take(way, piece.row);
@@ -197,7 +180,7 @@ class CamInJudge {
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
           fmt::format("goes {} by {} {}, more than half a turn{}", worst.value < 0 ? "back" : "on",
-                      number_text(std::abs(worst.value)), increments_of(unit_), worst.others()),
+                      number_text(std::abs(worst.value)), increments_of(unit_), others(worst)),
           "if the slave is to turn on instead, write # endless: positive or negative");
   }
 
@@ -251,7 +234,7 @@ class CamInJudge {
   /// Pieces that leave the range between their two ends.
   void judge_overshoot() {
     if (cam_.table.columns() == 4) return;
-    Worst worst;
+    CamWorst worst;
     for (const CamPiece& piece : run_.law.pieces) {
       if (piece.master < 0) continue;
       const double overshoot = overshoot_of(piece);
@@ -260,7 +243,7 @@ class CamInJudge {
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
           fmt::format("overshoots its two rows by {} {}{}", number(std::abs(worst.value)),
-                      increments_of(unit_), worst.others()),
+                      increments_of(unit_), others(worst)),
           overshoot_remedy(worst.row));
   }
 
@@ -269,7 +252,7 @@ class CamInJudge {
     if (cam_.endless == Endless::no) return;
     const double direction = cam_.endless == Endless::positive ? 1 : -1;
     const double rounding = 1e-6 * run_.peak(CamOrder::velocity);
-    Worst worst;
+    CamWorst worst;
     for (const CamPiece& piece : run_.law.pieces) {
       const CamExtremes v = piece.extremes(CamOrder::velocity);
       const double back = direction > 0 ? v.low : v.high;
@@ -278,15 +261,13 @@ class CamInJudge {
     if (worst.count > 0)
       add(Grade::caution, where(worst.row),
           fmt::format("runs against its direction, at {}{} at most{}", in_time(worst.value, 1),
-                      velocity_unit(), worst.others()),
+                      velocity_unit(), others(worst)),
           "if it must not turn back, bring its rows nearer to a steady rise");
   }
 
   void judge_range() {
     if (cam_.slave_modulo <= 0 || cam_.endless != Endless::no) return;
-    double low = 0;
-    double high = 0;
-    range(low, high);
+    const auto [low, high] = reach_of(run_.law.pieces);
     if (low >= -1 && high < cam_.slave_modulo + 1) return;
     add(Grade::caution, "",
         fmt::format("the slave leaves its turn: {} to {} of 0 to {} {}", number_text(low), number_text(high),

@@ -8,7 +8,7 @@
 
 #include "sim/cam/camming4/judge.hpp"
 #include "sim/cam/camming4/run.hpp"
-#include "tests/sim/cam/texts.hpp"
+#include "tests/sim/cam/told.hpp"
 
 namespace drycut::sim::cams {
 
@@ -48,10 +48,16 @@ inline CamStudy study(const devices::CamTable& read, const CamRequest& request =
 
 /// The faults of a text, as they are printed, without the file's name.
 inline std::vector<std::string> faults(const std::string& text) { return faults_of(text, read_camming4); }
+inline void expect_faults(const std::vector<Told<>>& cases) {
+  expect_told(cases, [](const auto& one) { return faults(one.cam); });
+}
 
 /// The findings on a table, as they are printed.
 inline std::vector<std::string> findings(const CammingTable& read, const CamDuty& duty = {}) {
   return printed(judge(read, duty, run_cam(read, duty, 1)), true);
+}
+inline void expect_findings(const std::vector<Told<CammingTable>>& cases) {
+  expect_told(cases, [](const auto& one) { return findings(one.cam, one.duty); });
 }
 
 }  // namespace drycut::sim::cams

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/cam/mc_camin/judge.hpp"
-#include "tests/sim/cam/texts.hpp"
+#include "tests/sim/cam/told.hpp"
 
 namespace drycut::sim::camin {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/cam/lx3vp/judge.hpp"
-#include "tests/sim/cam/texts.hpp"
+#include "tests/sim/cam/told.hpp"
 
 namespace drycut::sim::ecams {
 
@@ -15,11 +15,18 @@ inline EcamTable table(const std::string& text) { return std::get<EcamTable>(sou
 
 /// The faults of a text, as they are printed, without the file's name.
 inline std::vector<std::string> faults(const std::string& text) { return faults_of(text, read_lx3vp); }
+inline void expect_faults(const std::vector<cams::Told<>>& cases) {
+  cams::expect_told(cases, [](const auto& one) { return faults(one.cam); });
+}
 
 /// The findings on a table, as they are printed; without the remarks unless they are asked for.
 inline std::vector<std::string> findings(const EcamTable& read, const CamDuty& duty = {},
                                          bool remarks = false) {
   return printed(judge_ecam(read, duty, run_ecam(read, duty, 1)), remarks);
+}
+
+inline void expect_findings(const std::vector<cams::Told<EcamTable>>& cases) {
+  cams::expect_told(cases, [](const auto& one) { return findings(one.cam, one.duty, one.remarks); });
 }
 
 /// The manual's rotary saw; what is given again behind replaces nothing.

@@ -19,22 +19,21 @@ EcamTable ecam_rows(const std::string& text, const std::string& settings = "") {
 }
 
 TEST(EcamFindings, SoundTablesHaveNone) {
-  EXPECT_THAT(ecams::findings(ecam_rows("0,0\n100,50\n200,100\n")), IsEmpty());
-  EXPECT_THAT(ecams::findings(ecams::table(ecams::rotary())), IsEmpty());
-  EXPECT_THAT(ecams::findings(ecams::table(ecams::s_curve())), IsEmpty());
+  ecams::expect_findings({{ecam_rows("0,0\n100,50\n200,100\n"), {}},
+                          {ecams::table(ecams::rotary()), {}},
+                          {ecams::table(ecams::s_curve()), {}}});
 }
 
 TEST(EcamFindings, TablesThatTheDeviceRefuses) {
-  EXPECT_THAT(
-      ecams::findings(ecam_rows("0,0\n")),
-      ElementsAre("row 0 (line 2): error 6782: a cam of one row has no length; give at least two rows"));
-  EXPECT_THAT(
-      ecams::findings(ecam_rows("-5,0\n10,5\n10,6\n4,7\n")),
-      ElementsAre("row 0 (line 2): error 6782: the cam begins at master -5; begin at 0",
-                  "row 2 (line 4): error 6782: master 10 does not come after 10; give the rows in ascending "
-                  "order of the master, each position once",
-                  "row 3 (line 5): error 6782: master 4 does not come after 10; give the rows in ascending "
-                  "order of the master, each position once"));
+  ecams::expect_findings(
+      {{ecam_rows("0,0\n"),
+        {"row 0 (line 2): error 6782: a cam of one row has no length; give at least two rows"}},
+       {ecam_rows("-5,0\n10,5\n10,6\n4,7\n"),
+        {"row 0 (line 2): error 6782: the cam begins at master -5; begin at 0",
+         "row 2 (line 4): error 6782: master 10 does not come after 10; give the rows in ascending order of "
+         "the master, each position once",
+         "row 3 (line 5): error 6782: master 4 does not come after 10; give the rows in ascending order of "
+         "the master, each position once"}}});
   std::string many;
   for (int i = 0; i < 513; ++i) many += std::to_string(i) + ",0\n";
   EXPECT_THAT(ecams::findings(ecam_rows(many)),
@@ -98,17 +97,17 @@ TEST(EcamFindings, RatiosAboveTheLimit) {
 
 TEST(EcamFindings, SpeedsAtTheMastersSpeed) {
   const auto table = ecam_rows("0,0\n100,100\n200,300\n", "# max_frequency: 50000\n");
-  EXPECT_THAT(ecams::findings(table, {.master_speed = 25000.0}), IsEmpty());
-  EXPECT_THAT(ecams::findings(table, {.master_speed = 26000.0, .max_velocity = 51000.0}),
-              ElementsAre("row 2 (line 5): limit: output at 52000 Hz above 50000 Hz (words 6 and 7): the "
-                          "slave lags and catches up "
-                          "later; run the master at 25000 pulses/s at most",
-                          "row 2 (line 5): limit: velocity 52000 pulses/s above 51000; run the master at "
-                          "25500 pulses/s at most"));
-  EXPECT_THAT(ecams::findings(table, {.master_speed = 1000.0, .max_acceleration = 9999.0}),
-              ElementsAre("row 1 (line 4): limit: acceleration 10000 pulses/s2 above 9999; run "
-                          "the master at "
-                          "999.949 pulses/s at most"));
+  ecams::expect_findings({{table, {}, {.master_speed = 25000.0}},
+                          {table,
+                           {"row 2 (line 5): limit: output at 52000 Hz above 50000 Hz (words 6 and 7): the "
+                            "slave lags and catches up later; run the master at 25000 pulses/s at most",
+                            "row 2 (line 5): limit: velocity 52000 pulses/s above 51000; run the master at "
+                            "25500 pulses/s at most"},
+                           {.master_speed = 26000.0, .max_velocity = 51000.0}},
+                          {table,
+                           {"row 1 (line 4): limit: acceleration 10000 pulses/s2 above 9999; run the master "
+                            "at 999.949 pulses/s at most"},
+                           {.master_speed = 1000.0, .max_acceleration = 9999.0}}});
 }
 
 TEST(EcamFindings, SpeedsOfMadeTablesAreOfTheLawOrOfTheSteeperRows) {
@@ -150,8 +149,7 @@ TEST(EcamFindings, TheRemedysSpeedIsSoundAsLawAndAsRows) {
       const double speed =
           number_behind(ecams::findings(table, {.master_speed = 180000.0}), "run the master at ");
       EXPECT_GT(speed, 10000);
-      EXPECT_THAT(ecams::findings(law, {.master_speed = speed}), IsEmpty());
-      EXPECT_THAT(ecams::findings(as_rows, {.master_speed = speed}), IsEmpty());
+      ecams::expect_findings({{law, {}, {.master_speed = speed}}, {as_rows, {}, {.master_speed = speed}}});
       // It is the largest of six digits.
       EXPECT_THAT(ecams::findings(as_rows, {.master_speed = speed * 1.00002}), testing::SizeIs(1));
     }
@@ -168,8 +166,8 @@ TEST(EcamFindings, TheRemedysP2IsSoundAsLawAndAsRows) {
     EXPECT_GT(P2, 0.8 * limit);
     EXPECT_LE(P2, limit);
     const auto law = s_curve(static_cast<int>(P2));
-    EXPECT_THAT(ecams::findings(law, {.max_velocity = limit}), IsEmpty());
-    EXPECT_THAT(ecams::findings(ecams::table(ecam_rows_csv(law)), {.max_velocity = limit}), IsEmpty());
+    ecams::expect_findings({{law, {}, {.max_velocity = limit}},
+                            {ecams::table(ecam_rows_csv(law)), {}, {.max_velocity = limit}}});
   }
 }
 
@@ -181,13 +179,13 @@ TEST(EcamFindings, AccelerationsOfMadeTablesAndTheirP2) {
 }
 
 TEST(EcamFindings, RatiosOfALawAboveTheLimit) {
-  EXPECT_THAT(
-      ecams::findings(ecams::table("# max_ratio: 4.99\n" + ecams::s_curve())),
-      ElementsAre(testing::MatchesRegex("row [0-9]+: limit: ratio 5 above 4.99; give P2 [0-9]+ Hz at most")));
-  EXPECT_THAT(ecams::findings(ecams::table("# max_ratio: 5\n" + ecams::s_curve())), IsEmpty());
-  EXPECT_THAT(ecams::findings(ecams::table("# max_ratio: 1.66\n" + ecams::rotary())),
-              ElementsAre(HasSubstr("limit: ratio 1.66667 above 1.66; no P5 does that: this cycle and its "
-                                    "synchronous zone (P1 to P4) need the ratio")));
+  ecams::expect_findings(
+      {{ecams::table("# max_ratio: 4.99\n" + ecams::s_curve()),
+        {testing::MatchesRegex("row [0-9]+: limit: ratio 5 above 4.99; give P2 [0-9]+ Hz at most")}},
+       {ecams::table("# max_ratio: 5\n" + ecams::s_curve()), {}},
+       {ecams::table("# max_ratio: 1.66\n" + ecams::rotary()),
+        {HasSubstr("limit: ratio 1.66667 above 1.66; no P5 does that: this cycle and its synchronous zone "
+                   "(P1 to P4) need the ratio")}}});
 }
 
 TEST(EcamFindings, ACamThatRunsOnceJumpsFromRestOrToRest) {
@@ -215,29 +213,23 @@ TEST(EcamFindings, ACamThatRunsOnceJumpsFromRestOrToRest) {
 }
 
 TEST(EcamFindings, JumpsOfTheRatio) {
-  EXPECT_THAT(
-      ecams::findings(ecam_rows("0,0\n100,0\n200,300\n300,300\n")),
-      ElementsAre(
-          "row 1 (line 3): caution: the ratio jumps from 0 to 3, the worst of 2 rows; put rows between, so "
-          "that the slave can follow"));
-  EXPECT_THAT(
-      ecams::findings(ecam_rows("0,0\n100,300\n200,500\n300,600\n")),
-      ElementsAre(
-          "row 3 (line 5): caution: the ratio jumps from 1 to 3 as the cycle begins again; put rows between, "
-          "so that the slave can follow"));
-  EXPECT_THAT(ecams::findings(ecam_rows("0,0\n100,300\n200,500\n300,600\n", "# cyclic: 0\n")), IsEmpty());
-  EXPECT_THAT(
-      ecams::findings(ecams::table(ecams::rotary("50/3", "0"))),
-      ElementsAre(
-          "piece 1: caution: the ratio jumps from 1.66667 to 0.223585; give P6L 1 or 2 for ramps",
-          "piece 2: caution: the ratio jumps from 0.223585 to 1.66667 as the cycle begins again; give P6L 1 "
-          "or 2 for ramps"));
-  EXPECT_THAT(ecams::findings(ecams::table(ecams::rotary("50/3", "1", "1000"))),
-              ElementsAre("piece 1: caution: the ratio jumps from 1.66667 to 0; give P3 less than P2, so "
-                          "that there is way left for ramps",
-                          "piece 2: caution: the ratio jumps from 0 to 1.66667 as the cycle begins again; "
-                          "give P3 less than P2, so that "
-                          "there is way left for ramps"));
+  ecams::expect_findings(
+      {{ecam_rows("0,0\n100,0\n200,300\n300,300\n"),
+        {"row 1 (line 3): caution: the ratio jumps from 0 to 3, the worst of 2 rows; put rows between, so "
+         "that the slave can follow"}},
+       {ecam_rows("0,0\n100,300\n200,500\n300,600\n"),
+        {"row 3 (line 5): caution: the ratio jumps from 1 to 3 as the cycle begins again; put rows between, "
+         "so that the slave can follow"}},
+       {ecam_rows("0,0\n100,300\n200,500\n300,600\n", "# cyclic: 0\n"), {}},
+       {ecams::table(ecams::rotary("50/3", "0")),
+        {"piece 1: caution: the ratio jumps from 1.66667 to 0.223585; give P6L 1 or 2 for ramps",
+         "piece 2: caution: the ratio jumps from 0.223585 to 1.66667 as the cycle begins again; give P6L 1 "
+         "or 2 for ramps"}},
+       {ecams::table(ecams::rotary("50/3", "1", "1000")),
+        {"piece 1: caution: the ratio jumps from 1.66667 to 0; give P3 less than P2, so that there is way "
+         "left for ramps",
+         "piece 2: caution: the ratio jumps from 0 to 1.66667 as the cycle begins again; give P3 less than "
+         "P2, so that there is way left for ramps"}}});
 }
 
 TEST(EcamFindings, ACycleThatDoesNotClose) {
@@ -286,11 +278,11 @@ TEST(EcamFindings, AStrokeThatDoesNotFitTheTravel) {
 TEST(EcamFindings, TheTravelIsReadAndWrittenBack) {
   const std::string text = "# min_position: -2147483648\n# max_position: 2147483647\n";
   EXPECT_THAT(ecam_rows_csv(ecam_rows("0,0\n5,5\n", text)), HasSubstr(text + "master,slave\n"));
-  EXPECT_THAT(ecams::faults("# max_position: 5\n# min_position: 6\nmaster,slave\n0,0\n5,5\n"),
-              ElementsAre("2:1: min_position is above max_position; give the lower end of the travel as "
-                          "min_position"));
-  EXPECT_THAT(ecams::faults("# max_position: 5.5\nmaster,slave\n0,0\n5,5\n"),
-              ElementsAre(HasSubstr("1:17: max_position '5.5' is not a whole number")));
+  ecams::expect_faults(
+      {{"# max_position: 5\n# min_position: 6\nmaster,slave\n0,0\n5,5\n",
+        {"2:1: min_position is above max_position; give the lower end of the travel as min_position"}},
+       {"# max_position: 5.5\nmaster,slave\n0,0\n5,5\n",
+        {HasSubstr("1:17: max_position '5.5' is not a whole number")}}});
 }
 
 TEST(EcamFindings, ASawsStrokeAndItsRemedy) {
@@ -312,28 +304,30 @@ TEST(EcamFindings, ASawsStrokeAndItsRemedy) {
 
 TEST(EcamFindings, ACycleThatWandersLeavesTheTravelInTheEnd) {
   const std::string steps = "0,0\n100,50\n200,100\n";
-  EXPECT_THAT(ecams::findings(ecam_rows(steps, "# max_position: 350\n")),
-              ElementsAre("limit: the slave goes on by 100 pulses each cycle and passes max_position 350 in "
-                          "cycle 4; end the cycle where it begins, or run it once: # cyclic: 0"));
-  EXPECT_THAT(ecams::findings(ecam_rows(steps, "# max_position: 400\n")),
-              ElementsAre(HasSubstr("in cycle 5; ")));
-  EXPECT_THAT(ecams::findings(ecam_rows("0,0\n100,-50\n200,-100\n", "# min_position: -100\n")),
-              ElementsAre(HasSubstr("goes on by -100 pulses each cycle and passes min_position -100 in cycle "
-                                    "2; ")));
+  ecams::expect_findings(
+      {{ecam_rows(steps, "# max_position: 350\n"),
+        {"limit: the slave goes on by 100 pulses each cycle and passes max_position 350 in cycle 4; end the "
+         "cycle where it begins, or run it once: # cyclic: 0"}},
+       {ecam_rows(steps, "# max_position: 400\n"), {HasSubstr("in cycle 5; ")}},
+       {ecam_rows("0,0\n100,-50\n200,-100\n", "# min_position: -100\n"),
+        {HasSubstr("goes on by -100 pulses each cycle and passes min_position -100 in cycle 2; ")}}});
   EXPECT_THAT(ecams::findings(ecam_rows(steps, "# min_position: 0\n")), IsEmpty()) << "it goes the other way";
   EXPECT_THAT(ecams::findings(ecam_rows(steps, "# max_position: 100\n# cyclic: 0\n")), IsEmpty());
 }
 
 TEST(EcamFindings, Remarks) {
-  EXPECT_THAT(ecams::findings(ecam_rows("100,0\n200,50\n"), {}, true),
-              ElementsAre("remark: the cycle begins at master 100; the cam runs from there",
-                          "remark: the slave goes on by 50 pulses each cycle"));
-  EXPECT_THAT(ecams::findings(ecams::table(ecams::rotary()), {}, true),
-              ElementsAre("remark: synchronous zone: master 0 to 199.8",
-                          "remark: the slave goes on by 1000 pulses each cycle",
-                          "remark: samples are of the laws; the device plays 199 straight pieces, ratio 1.75 "
-                          "at most, never more "
-                          "than 0.5 pulses from them"));
+  ecams::expect_findings(
+      {{ecam_rows("100,0\n200,50\n"),
+        {"remark: the cycle begins at master 100; the cam runs from there",
+         "remark: the slave goes on by 50 pulses each cycle"},
+        {},
+        true},
+       {ecams::table(ecams::rotary()),
+        {"remark: synchronous zone: master 0 to 199.8", "remark: the slave goes on by 1000 pulses each cycle",
+         "remark: samples are of the laws; the device plays 199 straight pieces, ratio 1.75 at most, never "
+         "more than 0.5 pulses from them"},
+        {},
+        true}});
 }
 
 // Samples.
