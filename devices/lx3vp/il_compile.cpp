@@ -267,14 +267,11 @@ class Compiler {
     if (!ended_ && !refused_)
       problem(1, program_.steps.empty() ? "there is no program" : "END is missing",
               "end the program with END");
-    const auto tell = [this](int line, int column, std::string what, std::string remedy) {
-      problem_at(line, column, std::move(what), std::move(remedy));
-    };
     // What an instruction that was refused would have begun or ended is not known.
     if (refused_)
-      find_labels(program_, labels_, tell);
+      find_labels(program_, labels_, tell_);
     else
-      join_structure(program_, labels_, tell);
+      join_structure(program_, labels_, tell_);
   }
 
   std::string_view text_;
@@ -285,9 +282,10 @@ class Compiler {
   Program program_;
   int line_ = 0;
   bool ended_ = false;
-  Rungs rungs_{[this](int column, std::string what, std::string remedy) {
-    problem(column, std::move(what), std::move(remedy));
-  }};
+  const TellLine tell_ = [this](int line, int column, std::string what, std::string remedy) {
+    problem_at(line, column, std::move(what), std::move(remedy));
+  };
+  Rungs rungs_{tell_};
   Labels labels_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <functional>
 #include <string>
 
+#include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_program.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -10,8 +10,7 @@ namespace drycut::devices::lx3vp::il {
 /// taken up, and it ends with a coil or another instruction that needs power.
 class Rungs {
  public:
-  using Tell = std::function<void(int column, std::string what, std::string remedy)>;
-  explicit Rungs(Tell tell) : tell_(std::move(tell)) {}
+  explicit Rungs(TellLine tell) : tell_(std::move(tell)) {}
   /// The next instruction; says in the step whether it opens a block.
   void add(Step& step);
   /// An instruction was refused: what follows in its rung is not judged.
@@ -22,10 +21,10 @@ class Rungs {
   void branch(const Step& step);
   void need_contact(const Step& step);
   void need_one_block(const Step& step);
-  void end_rung(int column);
-  void tell(int column, std::string what, std::string remedy);
+  void end_rung(const Step& step);
+  void tell(const Step& step, std::string what, std::string remedy);
 
-  Tell tell_;
+  TellLine tell_;
   int blocks_ = 0;    ///< begun and not joined, in this rung
   int branches_ = 0;  ///< kept by MPS
   bool after_output_ = false;

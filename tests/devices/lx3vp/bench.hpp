@@ -28,6 +28,12 @@ class CamBench {
     table({{0, 0}, {1000, 1000}});
   }
 
+  /// One that `start` has started, with these bits of its function word.
+  explicit CamBench(int mode, unsigned functions = 0) : CamBench() {
+    set(word::function, static_cast<int>(functions));
+    start(mode);
+  }
+
   /// The manual's initial values of a block.
   void initialise(int at) {
     for (const BlockWord& word : block_words()) {

@@ -161,8 +161,7 @@ TEST(Lx3vpBlock, TheTimeAxisCountsTicks) {
     EXPECT_EQ(bench.output(), 500) << unit;
     EXPECT_EQ(bench.tick(unit - 1), 500) << unit;
   }
-  CamBench other;
-  other.start(1);
+  CamBench other(1);
   EXPECT_FALSE(other.flag(status::time_axis));
   covers({"word 1 bit 11"});
 }
@@ -308,8 +307,7 @@ TEST(Lx3vpBlock, FourCamsRunAtOnce) {
 }
 
 TEST(Lx3vpBlock, ThePositionRegistersCountBothWaysAndMayBeWritten) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.travel(300);
   EXPECT_EQ(bench.registers.d[8140], 300);
   bench.registers.set_i32(8140, 0);

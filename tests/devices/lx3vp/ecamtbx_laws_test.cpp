@@ -1,4 +1,6 @@
 // The laws of ECAMTBX against their closed forms, and every curve and case of the rotary saw.
+#include <tuple>
+
 #include "tests/devices/lx3vp/ecamtbx_bench.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -141,29 +143,20 @@ TEST(EcamtbxRotary, TheSynchronousZoneStandsWhereTheCurveSays) {
   EXPECT_EQ(zone(mid_cam_end), std::pair(500.0, 600.0));
 }
 
-struct Ends {
-  double first;
-  double last;
-};
-Ends ends(std::int32_t slave, std::uint16_t curve) {
-  const auto made = make_rotary_saw(plain(slave, curve));
-  EXPECT_TRUE(made.ok());
-  return {at(made.profile, 0).velocity, at(made.profile, 1100).velocity};
-}
-
 TEST(EcamtbxRotary, RatiosAtTheEndsOfTheCycle) {
   for (const std::int32_t slave : {600, 1700, 3200}) {
     const double middle = slave == 600 ? 0 : slave == 1700 ? 1 : 4;
-    EXPECT_DOUBLE_EQ(ends(slave, left_cam).first, 2);
-    EXPECT_DOUBLE_EQ(ends(slave, left_cam).last, 2);
-    EXPECT_DOUBLE_EQ(ends(slave, right_cam).first, 2);
-    EXPECT_DOUBLE_EQ(ends(slave, right_cam).last, 2);
-    EXPECT_DOUBLE_EQ(ends(slave, mid_cam_all).first, middle);
-    EXPECT_DOUBLE_EQ(ends(slave, mid_cam_all).last, middle);
-    EXPECT_DOUBLE_EQ(ends(slave, mid_cam_begin).first, 0);
-    EXPECT_DOUBLE_EQ(ends(slave, mid_cam_begin).last, middle);
-    EXPECT_DOUBLE_EQ(ends(slave, mid_cam_end).first, middle);
-    EXPECT_DOUBLE_EQ(ends(slave, mid_cam_end).last, 0);
+    const std::tuple<SawCurve, double, double> ends[] = {{left_cam, 2, 2},
+                                                         {right_cam, 2, 2},
+                                                         {mid_cam_all, middle, middle},
+                                                         {mid_cam_begin, 0, middle},
+                                                         {mid_cam_end, middle, 0}};
+    for (const auto& [curve, first, last] : ends) {
+      const auto made = make_rotary_saw(plain(slave, curve));
+      ASSERT_TRUE(made.ok()) << curve;
+      EXPECT_DOUBLE_EQ(at(made.profile, 0).velocity, first) << curve;
+      EXPECT_DOUBLE_EQ(at(made.profile, 1100).velocity, last) << curve;
+    }
   }
 }
 

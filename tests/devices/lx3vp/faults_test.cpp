@@ -150,8 +150,7 @@ TEST(Lx3vpFaults, TheNextStartClearsThem) {
 }
 
 TEST(Lx3vpFaults, AnOutputHasOneCam) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   DecamOperands second = bench.operands;
   second.block = 3000;
   bench.initialise(3000);

@@ -63,8 +63,7 @@ TEST(Lx3vpSequence, OnlyTheProgramResetsTheCompletedBits) {
 }
 
 TEST(Lx3vpSequence, WordFiveStopsAtOnceWithoutLosingItsPlace) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.travel(300);
   bench.set(word::start, 0);
   EXPECT_EQ(bench.travel(300), 300);
@@ -73,8 +72,7 @@ TEST(Lx3vpSequence, WordFiveStopsAtOnceWithoutLosingItsPlace) {
 }
 
 TEST(Lx3vpSequence, ARestartNeedsMoreThanATickOfZero) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.travel(300);
   bench.set(word::start, 0);
   bench.tick();
@@ -89,8 +87,7 @@ TEST(Lx3vpSequence, ARestartNeedsMoreThanATickOfZero) {
 }
 
 TEST(Lx3vpSequence, AChangeOfModeNeedsAStop) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.set(word::start, 2);
   bench.tick(10);
   EXPECT_TRUE(bench.flag(status::cyclic, status::non_cyclic));
@@ -107,8 +104,7 @@ TEST(Lx3vpSequence, AChangeOfModeNeedsAStop) {
 }
 
 TEST(Lx3vpSequence, StopAfterCycleEndsExactlyAtTheEndOfTheCycle) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.travel(1900);
   bench.set(word::live, live::stop_after_cycle);
   EXPECT_EQ(bench.travel(90), 1990);
@@ -126,8 +122,7 @@ TEST(Lx3vpSequence, StopAfterCycleEndsExactlyAtTheEndOfTheCycle) {
 }
 
 TEST(Lx3vpSequence, StopAfterCycleHoldsBackwardsToo) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.travel(-300);
   EXPECT_EQ(bench.tick(), -300);  // the direction changes a tick before the pulses
   bench.set(word::live, live::stop_after_cycle);
@@ -135,9 +130,7 @@ TEST(Lx3vpSequence, StopAfterCycleHoldsBackwardsToo) {
 }
 
 TEST(Lx3vpSequence, ANonCyclicCamWaitsForItsSignal) {
-  CamBench bench;
-  bench.set(word::function, function::external_start);
-  bench.start(2);
+  CamBench bench(2, function::external_start);
   EXPECT_TRUE(bench.flag(status::initialised | status::non_cyclic));
   EXPECT_EQ(bench.travel(400), 0);
   bench.trigger();
@@ -202,8 +195,7 @@ TEST(Lx3vpSequence, FiveMillisecondsLieBetweenTwoRuns) {
 }
 
 TEST(Lx3vpSequence, WithoutExternalStartOneStartIsOneRun) {
-  CamBench bench;
-  bench.start(2);
+  CamBench bench(2);
   EXPECT_EQ(bench.travel(1500), 1000);
   EXPECT_FALSE(bench.flag(status::non_cyclic));
   bench.tick(100);
@@ -323,9 +315,7 @@ TEST(Lx3vpSequence, PulsesStillOwedAtTheStopComeAfterResuming) {
 }
 
 TEST(Lx3vpSequence, ResumingAfterTheEndBeginsAnew) {
-  CamBench bench;
-  bench.set(word::function, function::resume);
-  bench.start(2);
+  CamBench bench(2, function::resume);
   EXPECT_EQ(bench.travel(1500), 1000);
   bench.restart(2);
   EXPECT_EQ(bench.travel(100), 1100);
@@ -333,8 +323,7 @@ TEST(Lx3vpSequence, ResumingAfterTheEndBeginsAnew) {
 }
 
 TEST(Lx3vpSequence, LosingPowerStopsAtOnceAndPowerStartsAgain) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.travel(300);
   bench.enable(false);
   EXPECT_EQ(bench.travel(300), 300);
@@ -345,15 +334,13 @@ TEST(Lx3vpSequence, LosingPowerStopsAtOnceAndPowerStartsAgain) {
 }
 
 TEST(Lx3vpSequence, TheTableIsTakenAtTheStart) {
-  CamBench bench;
-  bench.start(1);
+  CamBench bench(1);
   bench.table({{0, 0}, {1000, 5000}});
   EXPECT_EQ(bench.travel(100), 100);
 }
 
 TEST(Lx3vpSequence, ANonCyclicCamHasNothingBeforeItsStart) {
-  CamBench bench;
-  bench.start(2);
+  CamBench bench(2);
   EXPECT_EQ(bench.travel(-50), 0);
   EXPECT_EQ(bench.travel(150), 100);
 }
