@@ -410,16 +410,7 @@ void Machine::call_motion(std::int64_t instance) {
   for (std::size_t i = 0; i < motion.pins.size(); ++i) {
     const Variable& pin = motion.type->members[i];
     if (pin.section != Section::output) continue;
-    Cell& place = at(instance + pin.offset);
-    std::visit(
-        [&](const auto* source) {
-          using T = std::remove_cvref_t<decltype(*source)>;
-          if constexpr (std::is_same_v<T, double>)
-            place = cell_of(*source);
-          else if constexpr (std::is_arithmetic_v<T>)
-            place = static_cast<Cell>(*source);
-        },
-        motion.pins[i]);
+    if (const auto cell = cell_of_pin(motion.pins[i])) at(instance + pin.offset) = *cell;
   }
 }
 

@@ -275,15 +275,7 @@ const Type* Declarations::motion_type(const BlockType& block) {
                      : pin.direction == PinDirection::output ? Section::output
                                                              : Section::in_out;
     std::vector<Cell> initial = member.type->initial;
-    std::visit(
-        [&](const auto* pointer) {
-          using T = std::remove_cvref_t<decltype(*pointer)>;
-          if constexpr (std::is_same_v<T, double>)
-            initial[0] = cell_of(*pointer);
-          else if constexpr (std::is_arithmetic_v<T>)
-            initial[0] = static_cast<Cell>(*pointer);
-        },
-        value);
+    if (const auto cell = cell_of_pin(value)) initial[0] = *cell;
     append(type, std::move(member), initial);
   }
   motions_.emplace(&block, &type);

@@ -135,6 +135,8 @@ int string_cells(std::size_t length);
 inline constexpr std::size_t default_string_length = 80;
 inline constexpr std::size_t longest_string_length = 255;
 const std::vector<std::string>& elementary_names();
+/// What a pin holds, if it is of one cell and no AXIS_REF.
+std::optional<Cell> cell_of_pin(const PinValue& pin);
 /// The member called `name`, any case; nullptr if there is none.
 const Variable* find_member(const Type& type, std::string_view name);
 
