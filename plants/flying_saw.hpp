@@ -84,7 +84,7 @@ class FlyingSaw : public Plant {
   };
   void watch(const EndStop& stop, Crash& crash);
   void report(const SawCut::Outcome& outcome);
-  class Picture;
+  struct Picture;
   [[nodiscard]] double blade_axis() const;  // height over the line [m]
 
   FlyingSawData data_;

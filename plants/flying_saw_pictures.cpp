@@ -23,8 +23,7 @@ constexpr looks::Look jaw_look = {{0.35F, 0.62F, 0.30F}};
 }  // namespace
 
 /// The carriage's frame is at the place of the blade on the line.
-class FlyingSaw::Picture : public Assembly {
- public:
+struct FlyingSaw::Picture : Assembly {
   explicit Picture(const FlyingSaw& saw) : saw_(saw), data_(saw.data_) {
     add_bed();
     add_drive();
@@ -32,7 +31,6 @@ class FlyingSaw::Picture : public Assembly {
     add_head();
   }
 
- private:
   void add_bed();
   void add_drive();
   void add_rack();
@@ -73,6 +71,7 @@ void FlyingSaw::Picture::add_bed() {
 }
 
 void FlyingSaw::Picture::add_drive() {
+  on_floor();
   if (data_.lead >= rack_lead) return add_rack();
   const Pose axis = at(0, -0.185, 0);
   const Frame screw = [axis, &drive = saw_.screw_] { return axis * about_x(drive.screw_turn()); };

@@ -60,7 +60,7 @@ class LinearAxis : public Plant {
   [[nodiscard]] double twist() const { return screw_.twist(); }
 
  private:
-  class Picture;
+  struct Picture;
   void draw_ink();
   // Where the carrier's carriage is, the axis' position 0 and the tip of the pen for such positions [m].
   [[nodiscard]] double carrier_position() const { return carrier_ ? carrier_->carriage().position : 0; }

@@ -55,8 +55,7 @@ void LinearAxis::draw_ink() {
 
 /// In its frames x is along the axis, from position 0 or from the middle of the carriage, y over the lower
 /// side of the beam, z to its right.
-class LinearAxis::Picture : public Assembly {
- public:
+struct LinearAxis::Picture : Assembly {
   explicit Picture(const LinearAxis& axis) : axis_(axis), data_(axis.data_) {
     add_beam();
     add_motor();
@@ -69,7 +68,6 @@ class LinearAxis::Picture : public Assembly {
     if (data_.tool == "pen") add_pen();
   }
 
- private:
   void add_beam();
   void add_motor();
   void add_screw();

@@ -60,7 +60,7 @@ class RotaryKnife : public Plant {
  private:
   void report(const Cutter::Outcome& outcome);
 
-  class Picture;
+  struct Picture;
 
   RotaryKnifeData data_;
   Web& web_;

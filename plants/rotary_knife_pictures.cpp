@@ -26,8 +26,7 @@ constexpr looks::Look shaft_look = {{0.70F, 0.72F, 0.74F}, "steel"};
 
 }  // namespace
 
-class RotaryKnife::Picture : public Assembly {
- public:
+struct RotaryKnife::Picture : Assembly {
   explicit Picture(const RotaryKnife& knife) : knife_(knife) {
     add_drum();
     add_frame(1);
@@ -42,7 +41,6 @@ class RotaryKnife::Picture : public Assembly {
     add_blades();
   }
 
- private:
   void add_drum();
   void add_frame(int side);
   void add_drive();

@@ -1,10 +1,20 @@
 #include "plants/screw_drive.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "base/units.hpp"
 
 namespace drycut::plants {
+
+namespace {
+
+SlideDefinition started(SlideDefinition part, double position) {
+  part.position = position;
+  return part;
+}
+
+}  // namespace
 
 double motor_inertia(const ScrewDriveData& data, double rotor_inertia) {
   return rotor_inertia + data.screw_inertia / (data.gear.ratio * data.gear.ratio);
@@ -20,7 +30,7 @@ ScrewDrive::ScrewDrive(const ScrewDriveData& data, const std::string& name, doub
     : rotor(world.add_shaft({.name = name + " motor",
                              .inertia = motor_inertia(data, rotor_inertia),
                              .revolutions = data.start / data.lead * data.gear.ratio})),
-      slide(world.add_slide((part.position = data.start, part))),
+      slide(world.add_slide(started(std::move(part), data.start))),
       stops{EndStop(data.stop, data.travel_min, -1), EndStop(data.stop, data.travel_max, 1)},
       sensors(data.sensors, data.start, rotor.revolutions(), world.random(name + " encoder"),
               world.random(name + " scale")),

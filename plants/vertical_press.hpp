@@ -65,7 +65,7 @@ class VerticalPress : public Plant {
   [[nodiscard]] DryResistance losses(double torque) const;
   void report_contacts();
   void watch_for_sag(double h);
-  class Picture;
+  struct Picture;
 
   VerticalPressData data_;
   World& world_;

@@ -28,8 +28,7 @@ constexpr double weight_plate = 1e-3;  // height of a stack of plates per kilogr
 }  // namespace
 
 /// Its frames are at the middle of the table's top and at the tool's face.
-class VerticalPress::Picture : public Assembly {
- public:
+struct VerticalPress::Picture : Assembly {
   explicit Picture(const VerticalPress& press) : press_(press), data_(press.data_) {
     add_frame();
     add_drive();
@@ -38,7 +37,6 @@ class VerticalPress::Picture : public Assembly {
     add_load();
   }
 
- private:
   void add_frame();
   void add_drive();
   void add_counterbalance();

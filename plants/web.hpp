@@ -57,7 +57,7 @@ class Web : public Plant {
   [[nodiscard]] double register_error() const { return marks_.behind_mark(lead_end_); }
 
  private:
-  class Picture;
+  struct Picture;
   // How far the web reaches beyond the cut, and where printed marks are on what is seen of it [m].
   [[nodiscard]] double overhang() const;
   [[nodiscard]] std::vector<double> prints_in_sight() const;

@@ -47,8 +47,7 @@ std::size_t prints_of(const PrintMarkData& marks) {
 
 }  // namespace
 
-class Web::Picture : public Assembly {
- public:
+struct Web::Picture : Assembly {
   explicit Picture(const Web& web) : web_(web), data_(web.data_) {
     add_material("web", [this_web = &web_] {
       const double lead = this_web->overhang();
@@ -68,7 +67,6 @@ class Web::Picture : public Assembly {
     add_prints();
   }
 
- private:
   void add_pull_rolls();
   void add_wheel();
   void add_stands();

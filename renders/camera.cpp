@@ -12,17 +12,9 @@ namespace drycut::renders {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr Vec3 kFromOperator = {-0.42, 0.40, 1.0};  ///< towards the eye: upstream, above, operator's side
-constexpr double kBorder = 0.1;                     ///< around the mechanism, in its longest side
-constexpr double kPictureUsed = 0.95;               ///< share of the picture that the mechanism may fill
-
-bool is_empty(const Extent& e) { return e.low[0] > e.high[0]; }
-
-double longest_side(const SolidPart& part, const Placement& placement) {
-  double longest = 0;
-  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, part.size[i] * placement.scale[i]);
-  return longest;
-}
+const Vec3 kFromOperator = {-0.42, 0.40, 1.0};  ///< towards the eye: upstream, above, operator's side
+constexpr double kBorder = 0.1;                 ///< around the mechanism, in its longest side
+constexpr double kPictureUsed = 0.95;           ///< share of the picture that the mechanism may fill
 
 /// What a part does over the film.
 struct Course {
@@ -30,7 +22,7 @@ struct Course {
   bool always = true;
   bool product = false;  ///< of web material: what the machine works on
   double length = 0;     ///< longest side, at its longest [m]
-  Extent swept = kNothing;
+  Extent swept;
 };
 
 bool belongs_to_machine(const Course& course) { return course.seen && course.always && !course.product; }
@@ -47,8 +39,8 @@ std::vector<Course> courses(const Film& film) {
         continue;
       }
       all[i].seen = true;
-      all[i].length = std::max(all[i].length, longest_side(film.parts[i], placement));
-      for (const Vec3& point : outline(film.parts[i], placement)) include(all[i].swept, point);
+      all[i].length = std::max(all[i].length, film.parts[i].size.cwiseProduct(placement.scale).maxCoeff());
+      for (const Vec3& point : outline(film.parts[i], placement)) all[i].swept.extend(point);
     }
   }
   return all;
@@ -64,36 +56,10 @@ double median_length(const std::vector<Course>& all) {
   return lengths[lengths.size() / 2];
 }
 
-/// The part of `extent` that lies within `limit`, added to `sum`.
-void include_within(Extent& sum, const Extent& extent, const Extent& limit) {
-  Extent common;
-  for (std::size_t i = 0; i < 3; ++i) {
-    common.low[i] = std::max(extent.low[i], limit.low[i]);
-    common.high[i] = std::min(extent.high[i], limit.high[i]);
-    if (common.low[i] > common.high[i]) return;
-  }
-  include(sum, common.low);
-  include(sum, common.high);
-}
-
-Extent grown(const Extent& extent, double border) {
-  const Vec3 step = {border, border, border};
-  return {extent.low - step, extent.high + step};
-}
-
 }  // namespace
 
-void include(Extent& extent, const Vec3& point) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    extent.low[i] = std::min(extent.low[i], point[i]);
-    extent.high[i] = std::max(extent.high[i], point[i]);
-  }
-}
-
 Vec3 placed(const Placement& placement, const Vec3& point) {
-  const auto& scale = placement.scale;
-  return placement.position +
-         rotated(placement.rotation, {point[0] * scale[0], point[1] * scale[1], point[2] * scale[2]});
+  return placement.position + rotation_of(placement.rotation) * placement.scale.cwiseProduct(point);
 }
 
 std::vector<Vec3> outline(const SolidPart& part, const Placement& placement) {
@@ -130,24 +96,21 @@ Extent mechanism_extent(const Film& film) {
   const std::vector<Course> all = courses(film);
   const double limit = 3 * median_length(all);
 
-  Extent mechanism = kNothing;
-  Extent everything = kNothing;
+  Extent mechanism;
+  Extent everything;
   for (const Course& course : all) {
-    if (!course.seen) continue;
-    include(everything, course.swept.low);
-    include(everything, course.swept.high);
-    if (!belongs_to_machine(course) || course.length > limit) continue;
-    include(mechanism, course.swept.low);
-    include(mechanism, course.swept.high);
+    everything.extend(course.swept);
+    if (belongs_to_machine(course) && course.length <= limit) mechanism.extend(course.swept);
   }
-  if (is_empty(everything)) return {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
-  if (is_empty(mechanism)) return everything;
+  if (everything.isEmpty()) return {Vec3::Constant(-0.5), Vec3::Constant(0.5)};
+  if (mechanism.isEmpty()) return everything;
 
-  const Vec3 size = mechanism.high - mechanism.low;
-  const Extent surroundings = grown(mechanism, kBorder * *std::max_element(size.begin(), size.end()));
+  const Vec3 border = Vec3::Constant(kBorder * mechanism.sizes().maxCoeff());
+  const Extent surroundings(mechanism.min() - border, mechanism.max() + border);
   Extent shown = mechanism;
   for (const Course& course : all) {
-    if (course.seen) include_within(shown, course.swept, surroundings);
+    const Extent common = course.swept.intersection(surroundings);
+    if (!common.isEmpty()) shown.extend(common);
   }
   return shown;
 }
@@ -155,7 +118,7 @@ Extent mechanism_extent(const Film& film) {
 double floor_level(const Film& film) {
   double level = kFar;
   for (const Course& course : courses(film)) {
-    if (course.seen) level = std::min(level, course.swept.low[1]);
+    if (course.seen) level = std::min(level, course.swept.min().y());
   }
   return std::isfinite(level) ? level : -0.5;
 }
@@ -165,36 +128,33 @@ Camera camera_of(const Film& film, std::size_t frame) {
   if (!film.follow) return camera;
   const Vec3 way = film.frames[frame].placements[*film.follow].position -
                    film.frames.front().placements[*film.follow].position;
-  camera.eye = camera.eye + way;
-  camera.target = camera.target + way;
+  camera.eye += way;
+  camera.target += way;
   return camera;
 }
 
 Matrix4 view_projection(const Camera& camera, double aspect, const Extent& extent) {
-  const double radius = length(extent.high - extent.low) / 2;
-  const double distance = length((0.5 * (extent.low + extent.high)) - camera.eye);
+  const double radius = extent.diagonal().norm() / 2;
+  const double distance = (extent.center() - camera.eye).norm();
   const double near = std::max(0.02 * radius, 0.25 * (distance - radius));
   const double far = distance + 60 * radius;
-  return multiplied(perspective(camera.field_of_view_deg * std::numbers::pi / 180, aspect, near, far),
-                    look_at(camera.eye, camera.target));
+  return perspective(camera.field_of_view_deg * std::numbers::pi / 180, aspect, near, far) *
+         look_at(camera.eye, camera.target);
 }
 
 std::array<double, 2> projected(const Camera& camera, int width, int height, const Vec3& point) {
-  const Matrix4 m = multiplied(perspective(camera.field_of_view_deg * std::numbers::pi / 180,
-                                           static_cast<double>(width) / height, 0.1, 10),
-                               look_at(camera.eye, camera.target));
-  const auto row = [&](std::size_t r) {
-    return m[r] * point[0] + m[4 + r] * point[1] + m[8 + r] * point[2] + m[12 + r];
-  };
-  return {(row(0) / row(3) + 1) / 2 * width, (1 - row(1) / row(3)) / 2 * height};
+  const Vec4 seen = perspective(camera.field_of_view_deg * std::numbers::pi / 180,
+                                static_cast<double>(width) / height, 0.1, 10) *
+                    look_at(camera.eye, camera.target) * point.homogeneous();
+  return {(seen.x() / seen.w() + 1) / 2 * width, (1 - seen.y() / seen.w()) / 2 * height};
 }
 
 Camera operator_camera(const Film& film) {
   Camera camera;
   const Extent extent = mechanism_extent(film);
-  const Vec3 forward = normalised(-1.0 * kFromOperator);
-  const Vec3 right = normalised(cross(forward, {0, 1, 0}));
-  const Vec3 up = cross(right, forward);
+  const Vec3 forward = -kFromOperator.normalized();
+  const Vec3 right = forward.cross(Vec3::UnitY()).normalized();
+  const Vec3 up = right.cross(forward);
 
   const int view_height = film.height - CaptionLayout(film).height();
   const double tan_up = std::tan(camera.field_of_view_deg * std::numbers::pi / 360) * kPictureUsed;
@@ -203,20 +163,17 @@ Camera operator_camera(const Film& film) {
   // A point is in the picture if |its offset sideways| <= tangent * its depth: each picture edge is a plane
   // through the eye, so the nearest eye that sees all points comes from four extremes.
   double left = kFar, low = kFar, rightmost = -kFar, high = -kFar;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 point = {(corner & 1) != 0 ? extent.high[0] : extent.low[0],
-                        (corner & 2) != 0 ? extent.high[1] : extent.low[1],
-                        (corner & 4) != 0 ? extent.high[2] : extent.low[2]};
-    const double depth = dot(point, forward);
-    left = std::min(left, dot(point, right) + tan_right * depth);
-    rightmost = std::max(rightmost, dot(point, right) - tan_right * depth);
-    low = std::min(low, dot(point, up) + tan_up * depth);
-    high = std::max(high, dot(point, up) - tan_up * depth);
+  for (const Vec3& point : corners_of(extent)) {
+    const double depth = point.dot(forward);
+    left = std::min(left, point.dot(right) + tan_right * depth);
+    rightmost = std::max(rightmost, point.dot(right) - tan_right * depth);
+    low = std::min(low, point.dot(up) + tan_up * depth);
+    high = std::max(high, point.dot(up) - tan_up * depth);
   }
   const double depth_of_eye = std::min((left - rightmost) / (2 * tan_right), (low - high) / (2 * tan_up));
   camera.eye = ((left + rightmost) / 2) * right + ((low + high) / 2) * up + depth_of_eye * forward;
 
-  const double depth_of_centre = dot(0.5 * (extent.low + extent.high), forward);
+  const double depth_of_centre = extent.center().dot(forward);
   camera.target = camera.eye + (depth_of_centre - depth_of_eye) * forward;
   return camera;
 }

@@ -1,24 +1,11 @@
 #pragma once
-#include <limits>
+#include <array>
 #include <vector>
 
 #include "renders/geometry.hpp"
 #include "renders/scene3d.hpp"
 
 namespace drycut::renders {
-
-/// A box along the world axes [m].
-struct Extent {
-  Vec3 low = {0, 0, 0};
-  Vec3 high = {0, 0, 0};
-};
-/// An extent without points.
-constexpr Extent kNothing = {
-    {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-     std::numeric_limits<double>::infinity()},
-    {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-     -std::numeric_limits<double>::infinity()}};
-void include(Extent& extent, const Vec3& point);
 
 /// A point of a part [m, its own coordinates] in the world.
 Vec3 placed(const Placement& placement, const Vec3& point);

@@ -14,8 +14,8 @@ namespace {
 constexpr int kKeySize = 1024;
 constexpr int kSkySize = 256;
 constexpr int kSkyMeans = 64;
-constexpr Vec3 kToKey = {-0.35, 1.0, 0.62};  ///< upstream, above, operator's side
-constexpr Vec3 kToSky = {0, 1, 0};
+const Vec3 kToKey = {-0.35, 1.0, 0.62};  ///< upstream, above, operator's side
+const Vec3 kToSky = {0, 1, 0};
 
 }  // namespace
 
@@ -23,7 +23,7 @@ GlLamps::GlLamps(const Stage& stage)
     : stage_(stage),
       key_(lamp_towards(kToKey)),
       sky_(lamp_towards(kToSky)),
-      centre_(0.5 * (stage.extent.low + stage.extent.high)),
+      centre_(stage.extent.center()),
       // Parts may be far from the mechanism (a coil stand), so the lamps see some way around it.
       reach_(2 * stage.radius()),
       depth_program_(shaders::kDepthVertex, shaders::kDepthFragment),

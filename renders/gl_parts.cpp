@@ -5,7 +5,6 @@
 #include <GL/glext.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -18,32 +17,6 @@ void upload(GLenum target, const std::vector<Item>& items) {
   glGenBuffers(1, &buffer);
   glBindBuffer(target, buffer);
   glBufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(), GL_STATIC_DRAW);
-}
-
-/// The part's axes in the world, as columns.
-std::array<Vec3, 3> axes_of(const Placement& placement) {
-  return {rotated(placement.rotation, {1, 0, 0}), rotated(placement.rotation, {0, 1, 0}),
-          rotated(placement.rotation, {0, 0, 1})};
-}
-
-std::array<float, 16> model_of(const Placement& placement, const std::array<Vec3, 3>& axes) {
-  std::array<float, 16> m{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t row = 0; row < 3; ++row)
-      m[4 * i + row] = static_cast<float>(placement.scale[i] * axes[i][row]);
-    m[12 + i] = static_cast<float>(placement.position[i]);
-  }
-  m[15] = 1;
-  return m;
-}
-
-/// For normals, which a stretched part leans the other way.
-std::array<float, 9> turn_of(const Placement& placement, const std::array<Vec3, 3>& axes) {
-  std::array<float, 9> m{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t row = 0; row < 3; ++row)
-      m[3 * i + row] = static_cast<float>(axes[i][row] / placement.scale[i]);
-  return m;
 }
 
 }  // namespace
@@ -72,7 +45,7 @@ void GlParts::draw(const GlProgram& program, const std::vector<std::size_t>& par
   };
   std::vector<Visible> order;
   for (const std::size_t part : parts)
-    if (placements[part].visible) order.push_back({length(placements[part].position - eye), part});
+    if (placements[part].visible) order.push_back({(placements[part].position - eye).norm(), part});
   std::stable_sort(order.begin(), order.end(),
                    [](const Visible& a, const Visible& b) { return a.distance < b.distance; });
 
@@ -83,9 +56,12 @@ void GlParts::draw(const GlProgram& program, const std::vector<std::size_t>& par
   for (const Visible& visible : order) {
     const Placement& placement = placements[visible.part];
     const Surfaces::Range& range = ranges_[visible.part];
-    const auto axes = axes_of(placement);
-    glUniformMatrix4fv(model, 1, GL_FALSE, model_of(placement, axes).data());
-    if (turn >= 0) glUniformMatrix3fv(turn, 1, GL_FALSE, turn_of(placement, axes).data());
+    const Eigen::Affine3d where = Eigen::Translation3d(placement.position) * rotation_of(placement.rotation);
+    const Eigen::Affine3f stretched = (where * Eigen::Scaling(placement.scale)).cast<float>();
+    glUniformMatrix4fv(model, 1, GL_FALSE, stretched.data());
+    // For normals, which a stretched part leans the other way.
+    const Eigen::Matrix3d leaned = where.linear() * placement.scale.cwiseInverse().asDiagonal();
+    if (turn >= 0) glUniformMatrix3fv(turn, 1, GL_FALSE, Eigen::Matrix3f(leaned.cast<float>()).data());
     glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(range.indices), GL_UNSIGNED_INT,
                              reinterpret_cast<const void*>(range.first_index * sizeof(std::uint32_t)),
                              static_cast<GLint>(range.first_vertex));

@@ -44,7 +44,7 @@ int GlProgram::place(const char* name) const { return glGetUniformLocation(progr
 
 void GlProgram::set(const char* name, const Matrix4& matrix) const {
   use();
-  glUniformMatrix4fv(place(name), 1, GL_FALSE, as_floats(matrix).data());
+  glUniformMatrix4fv(place(name), 1, GL_FALSE, Eigen::Matrix4f(matrix.cast<float>()).data());
 }
 void GlProgram::set(const char* name, const Vec3& vector) const {
   use();

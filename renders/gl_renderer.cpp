@@ -31,16 +31,6 @@ double floor_spacing(double radius) {
   return 10 * decade;
 }
 
-std::array<Vec3, 8> corners_of(const Extent& box, const Placement& placement) {
-  std::array<Vec3, 8> corners{};
-  for (unsigned i = 0; i < 8; ++i) {
-    const Vec3 own = {(i & 1U) != 0 ? box.high[0] : box.low[0], (i & 2U) != 0 ? box.high[1] : box.low[1],
-                      (i & 4U) != 0 ? box.high[2] : box.low[2]};
-    corners[i] = placed(placement, own);
-  }
-  return corners;
-}
-
 }  // namespace
 
 GlRenderer::GlRenderer(const Stage& stage)
@@ -77,7 +67,7 @@ GlRenderer::GlRenderer(const Stage& stage)
   bind(kPaints, surfaces_.colour(0));
   bind(kNormals, surfaces_.colour(1));
   bind(kHall, hall_.colour(0));
-  const Vec3 centre = 0.5 * (stage.extent.low + stage.extent.high);
+  const Vec3 centre = stage.extent.center();
   for (const GlProgram* program : {&hall_program_, &floor_program_}) {
     program->set("centre", Vec3{centre[0], stage.floor_level, centre[2]});
     program->set("reach", kFloorReach * stage.radius());
@@ -116,13 +106,13 @@ void GlRenderer::draw(const std::vector<Placement>& placements, const Camera& ca
 void GlRenderer::look_through(const Camera& camera) {
   camera_ = camera;
   view_matrix_ = view_projection(camera, static_cast<double>(stage_.width) / stage_.height, stage_.extent);
-  const Matrix4 look = look_at(camera.eye, camera.target);
+  const Eigen::Matrix3d look = look_at(camera.eye, camera.target).topLeftCorner<3, 3>();
   const double tangent = std::tan(camera.field_of_view_deg * std::numbers::pi / 360);
   for (const GlProgram* program : {&surface_program_, &hall_program_, &parts_program_, &floor_program_}) {
     program->set("eye", camera.eye);
-    program->set("forward", Vec3{-look[2], -look[6], -look[10]});
-    program->set("right", (tangent * stage_.width / stage_.height) * Vec3{look[0], look[4], look[8]});
-    program->set("up", tangent * Vec3{look[1], look[5], look[9]});
+    program->set("forward", Vec3(-look.row(2)));
+    program->set("right", Vec3(tangent * stage_.width / stage_.height * look.row(0)));
+    program->set("up", Vec3(tangent * look.row(1)));
   }
   surface_program_.set("matrix", view_matrix_);
 
@@ -154,8 +144,11 @@ void GlRenderer::mark_floor() const {
 }
 void GlRenderer::mark_floor(const std::vector<Placement>& placements) const {
   std::vector<std::array<Vec3, 8>> corners;
-  for (const std::size_t part : stage_.moving)
-    if (placements[part].visible) corners.push_back(corners_of(stage_.boxes[part], placements[part]));
+  for (const std::size_t part : stage_.moving) {
+    if (!placements[part].visible) continue;
+    corners.push_back(corners_of(stage_.boxes[part]));
+    for (Vec3& corner : corners.back()) corner = placed(placements[part], corner);
+  }
   glClearStencil(0);
   glClear(GL_STENCIL_BUFFER_BIT);
   glEnable(GL_STENCIL_TEST);
@@ -167,7 +160,7 @@ void GlRenderer::mark_floor(const std::vector<Placement>& placements) const {
   glEnable(GL_DEPTH_CLAMP);  // also what is near the eye
   glBindVertexArray(empty_array_);
   for (const Patch& patch : lamps_.shade_on_floor(corners)) {
-    mark_program_.set("patch_matrix", multiplied(view_matrix_, patch_matrix(patch)));
+    mark_program_.set("patch_matrix", Matrix4(view_matrix_ * patch_matrix(patch)));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   glDisable(GL_DEPTH_CLAMP);

@@ -42,7 +42,7 @@ class GlRenderer {
   GlCanvas surfaces_;  ///< what every pixel shows: paint, normal, distance
   GlCanvas hall_;      ///< the floor without shadows
   GlCanvas picture_;
-  Matrix4 view_matrix_{};
+  Matrix4 view_matrix_;
   Name empty_array_ = 0;
   std::vector<std::uint8_t> pixels_;
 };

@@ -24,14 +24,15 @@ namespace {
 // assimp's scene owns what hangs on it and deletes it: here, and only here, things are made with `new`.
 
 constexpr double ticks_per_second = 1000;
-constexpr std::array<double, 3> tiny = {1e-6, 1e-6, 1e-6};
+const Vec3 tiny = Vec3::Constant(1e-6);
 
-aiVector3D vector_of(const std::array<double, 3>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+aiVector3D vector_of(const Vec3& v) {
+  const Eigen::Vector3f f = v.cast<float>();
+  return {f.x(), f.y(), f.z()};
 }
-aiQuaternion quaternion_of(const std::array<double, 4>& q) {
-  return {static_cast<float>(q[3]), static_cast<float>(q[0]), static_cast<float>(q[1]),
-          static_cast<float>(q[2])};
+aiQuaternion quaternion_of(const Vec4& q) {
+  const Eigen::Vector4f f = q.cast<float>();
+  return {f.w(), f.x(), f.y(), f.z()};
 }
 
 /// As the pictures have it: colours of the scene are shown values, glTF wants linear ones.
@@ -86,7 +87,7 @@ Item** owned(const std::vector<Item*>& items) {
 
 /// Parts of the same look share a mesh: cut pieces, belt marks.
 using Look =
-    std::tuple<SolidPart::Shape, std::array<double, 3>, std::array<float, 3>, std::string, const Mesh*>;
+    std::tuple<SolidPart::Shape, double, double, double, std::array<float, 3>, std::string, const Mesh*>;
 
 class Builder {
  public:
@@ -133,7 +134,8 @@ class Builder {
   }
 
   unsigned mesh(const SolidPart& part) {
-    const Look look = {part.shape, part.size, part.colour, part.material, part.mesh.get()};
+    const Look look = {part.shape,  part.size.x(), part.size.y(),  part.size.z(),
+                       part.colour, part.material, part.mesh.get()};
     const auto [found, fresh] = mesh_numbers_.emplace(look, meshes_.size());
     if (fresh) {
       meshes_.push_back(mesh_of(part, solid_surface(part), material(part.material)));

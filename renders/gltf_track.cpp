@@ -1,23 +1,14 @@
 #include "renders/gltf_track.hpp"
 
-#include <cmath>
-
 namespace drycut::renders {
 namespace {
 
 constexpr double blink = 1e-3;  ///< in which a part appears or goes, in times between two frames
-constexpr std::array<double, 3> nothing = {0, 0, 0};
+const Vec3 nothing = Vec3::Zero();
 
 /// The rotation of unit length, with the sign that is nearer to `before`.
-std::array<double, 4> beside(const std::array<double, 4>& before, std::array<double, 4> rotation) {
-  double norm = 0;
-  double along = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    norm += rotation[i] * rotation[i];
-    along += rotation[i] * before[i];
-  }
-  for (auto& x : rotation) x *= (along < 0 ? -1 : 1) / std::sqrt(norm);
-  return rotation;
+Vec4 beside(const Vec4& before, const Vec4& rotation) {
+  return rotation.dot(before) < 0 ? -rotation.normalized() : rotation.normalized();
 }
 
 bool same(const Placement& a, const Placement& b) {

@@ -1,47 +1,24 @@
 #include "renders/lamp.hpp"
 
-#include <algorithm>
-#include <limits>
-
 namespace drycut::renders {
 namespace {
 
 /// How a lamp sees something: a rectangle along its `right` and `up` [m].
-struct Outline {
-  std::array<double, 2> low, high;
-
-  double area() const { return (high[0] - low[0]) * (high[1] - low[1]); }
-};
-
-Outline together(const Outline& a, const Outline& b) {
-  Outline sum = a;
-  for (std::size_t i = 0; i < 2; ++i) {
-    sum.low[i] = std::min(a.low[i], b.low[i]);
-    sum.high[i] = std::max(a.high[i], b.high[i]);
-  }
-  return sum;
-}
+using Outline = Eigen::AlignedBox2d;
 
 Outline outline_of(const Lamp& lamp, const std::array<Vec3, 8>& thing, double border) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Outline outline = {{far, far}, {-far, -far}};
-  for (const Vec3& point : thing) {
-    const std::array<double, 2> seen = {dot(point, lamp.right), dot(point, lamp.up)};
-    outline = together(outline, {seen, seen});
-  }
-  for (std::size_t i = 0; i < 2; ++i) {
-    outline.low[i] -= border;
-    outline.high[i] += border;
-  }
-  return outline;
+  Outline outline;
+  for (const Vec3& point : thing) outline.extend(Eigen::Vector2d(point.dot(lamp.right), point.dot(lamp.up)));
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(border);
+  return {outline.min() - around, outline.max() + around};
 }
 
 /// Joins what covers no more together.
 void join(std::vector<Outline>& outlines) {
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     for (std::size_t k = i + 1; k < outlines.size();) {
-      const Outline both = together(outlines[i], outlines[k]);
-      if (both.area() > outlines[i].area() + outlines[k].area()) {
+      const Outline both = outlines[i].merged(outlines[k]);
+      if (both.volume() > outlines[i].volume() + outlines[k].volume()) {
         ++k;
         continue;
       }
@@ -61,38 +38,25 @@ Vec3 on_floor(const Lamp& lamp, double right, double up, double floor_level) {
 }  // namespace
 
 Lamp lamp_towards(const Vec3& direction) {
-  const Vec3 toward = normalised(direction);
-  const Vec3 line = {1, 0, 0};
-  const Vec3 right = normalised(line - dot(line, toward) * toward);
-  return {toward, right, cross(toward, right)};
+  const Vec3 toward = direction.normalized();
+  const Vec3 right = (Vec3::UnitX() - toward.x() * toward).normalized();
+  return {toward, right, toward.cross(right)};
 }
 
 Matrix4 map_matrix(const Lamp& lamp, const Vec3& centre, double reach) {
-  const double deep = 3 * reach;
-  const Vec3 x = (1 / reach) * lamp.right;
-  const Vec3 y = (1 / reach) * lamp.up;
-  const Vec3 z = (-1 / deep) * lamp.toward;
-  return {x[0],
-          y[0],
-          z[0],
-          0,  //
-          x[1],
-          y[1],
-          z[1],
-          0,  //
-          x[2],
-          y[2],
-          z[2],
-          0,  //
-          -dot(x, centre),
-          -dot(y, centre),
-          -dot(z, centre),
-          1};
+  Eigen::Matrix3d axes;
+  axes << lamp.right.transpose() / reach, lamp.up.transpose() / reach, -lamp.toward.transpose() / (3 * reach);
+  Matrix4 map = Matrix4::Identity();
+  map.topLeftCorner<3, 3>() = axes;
+  map.topRightCorner<3, 1>() = -axes * centre;
+  return map;
 }
 
 Matrix4 patch_matrix(const Patch& patch) {
-  const auto& [c, x, y] = patch;
-  return {x[0], x[1], x[2], 0, y[0], y[1], y[2], 0, 0, 0, 0, 0, c[0], c[1], c[2], 1};
+  Matrix4 square = Matrix4::Zero();
+  square.topRows<3>() << patch.right, patch.up, Vec3::Zero(), patch.centre;
+  square(3, 3) = 1;
+  return square;
 }
 
 std::vector<Patch> shade_on_floor(const Lamp& lamp, const std::vector<std::array<Vec3, 8>>& things,
@@ -102,11 +66,10 @@ std::vector<Patch> shade_on_floor(const Lamp& lamp, const std::vector<std::array
   join(outlines);
   std::vector<Patch> patches;
   for (const Outline& outline : outlines) {
-    const double right = (outline.low[0] + outline.high[0]) / 2;
-    const double up = (outline.low[1] + outline.high[1]) / 2;
-    const Vec3 centre = on_floor(lamp, right, up, floor_level);
-    patches.push_back({centre, on_floor(lamp, outline.high[0], up, floor_level) - centre,
-                       on_floor(lamp, right, outline.high[1], floor_level) - centre});
+    const Eigen::Vector2d middle = outline.center();
+    const Vec3 centre = on_floor(lamp, middle.x(), middle.y(), floor_level);
+    patches.push_back({centre, on_floor(lamp, outline.max().x(), middle.y(), floor_level) - centre,
+                       on_floor(lamp, middle.x(), outline.max().y(), floor_level) - centre});
   }
   return patches;
 }

@@ -119,22 +119,12 @@ std::optional<MeshProblem> refused_scene(const aiScene& scene) {
   return std::nullopt;
 }
 
-/// Where the axes come to lie when they are turned about x, y and z in this order.
-std::array<Vec3, 3> turned_axes(const std::array<double, 3>& angles) {
-  std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  for (std::size_t about = 0; about < 3; ++about) {
-    Quaternion q = {0, 0, 0, std::cos(angles[about] / 2)};
-    q[about] = std::sin(angles[about] / 2);
-    for (Vec3& axis : axes) axis = rotated(q, axis);
-  }
-  return axes;
-}
-
 /// The triangles of a scene in metres, scaled, turned and moved.
 Mesh placed(const aiScene& scene, double unit, const MeshPlacing& placing) {
   const double scale = unit * placing.scale;
-  const std::array<Vec3, 3> axes = turned_axes(placing.rotate);
-  const auto turn = [&](const Vec3& v) { return v[0] * axes[0] + v[1] * axes[1] + v[2] * axes[2]; };
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  // about x, y and z in this order
+  for (int axis = 0; axis < 3; ++axis)
+    turn = Eigen::AngleAxisd(placing.rotate[axis], Vec3::Unit(axis)) * turn;
   Mesh all;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
@@ -144,8 +134,8 @@ Mesh placed(const aiScene& scene, double unit, const MeshPlacing& placing) {
         const unsigned index = mesh.mFaces[f].mIndices[c];
         const aiVector3D& p = mesh.mVertices[index];
         const aiVector3D& n = mesh.mNormals[index];
-        all.corners.push_back(
-            {as_floats(turn(scale * Vec3{p.x, p.y, p.z}) + placing.at), as_floats(turn({n.x, n.y, n.z}))});
+        all.corners.push_back({as_floats(turn * (scale * Vec3(p.x, p.y, p.z)) + placing.at),
+                               as_floats(turn * Vec3(n.x, n.y, n.z))});
       }
     }
   }
@@ -185,8 +175,7 @@ Loaded judged(Loaded loaded, double unit) {
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return nowhere(i);
   }
   find_hull(mesh);
-  const Vec3 size = extent_of(mesh).high - extent_of(mesh).low;
-  const double longest = *std::max_element(size.begin(), size.end());
+  const double longest = extent_of(mesh).sizes().maxCoeff();
   if (!(longest >= mesh_smallest && longest <= mesh_largest))
     return MeshProblem{
         fmt::format("its longest side is {:.4g} mm; parts have {} to {} mm", longest / millimetre,

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,9 +13,9 @@ namespace drycut::renders {
 
 /// How a file's mesh becomes a part's: scaled, then turned about x, y and z in this order, then moved.
 struct MeshPlacing {
-  double scale = 1;                          ///< on millimetres, or metres where the format says so
-  std::array<double, 3> rotate = {0, 0, 0};  ///< [rad]
-  std::array<double, 3> at = {0, 0, 0};      ///< from the part's own middle [m]
+  double scale = 1;         ///< on millimetres, or metres where the format says so
+  Vec3 rotate = {0, 0, 0};  ///< [rad]
+  Vec3 at = {0, 0, 0};      ///< from the part's own middle [m]
 };
 
 /// Why a mesh is refused and what would be right.

@@ -28,7 +28,9 @@ struct Sheet {
   double scale;  ///< 1 for a film 540 pixels high
 
   Point at(const Vec3& point) const { return projected(camera, width, height, point); }
-  bool before_eye(const Vec3& point) const { return dot(point - camera.eye, camera.target - camera.eye) > 0; }
+  bool before_eye(const Vec3& point) const {
+    return (point - camera.eye).dot(camera.target - camera.eye) > 0;
+  }
 };
 
 /// Words on a dark plate, their middle at `at`, moved into the picture if they stick out.
@@ -75,9 +77,9 @@ void draw_length(const Sheet& sheet, const Callout& callout) {
 }
 
 void draw_force(const Sheet& sheet, const Callout& callout, double largest) {
-  const double force = length(callout.to);
+  const double force = callout.to.norm();
   if (force < 1e-3 * largest || !sheet.before_eye(callout.at)) return;
-  const double reach = length(callout.at - sheet.camera.eye);
+  const double reach = (callout.at - sheet.camera.eye).norm();
   const Point from = sheet.at(callout.at);
   const Point ahead = sheet.at(callout.at + (0.02 * reach / force) * callout.to);
   const double way = std::hypot(ahead[0] - from[0], ahead[1] - from[1]);
@@ -140,7 +142,7 @@ Overlays::Overlays(const Film& film, int caption_height)
   for (const Frame& frame : film.frames) {
     empty_ = empty_ && frame.callouts.empty();
     for (const Callout& callout : frame.callouts)
-      if (callout.kind == Callout::Kind::force) largest_ = std::max(largest_, length(callout.to));
+      if (callout.kind == Callout::Kind::force) largest_ = std::max(largest_, callout.to.norm());
   }
 }
 

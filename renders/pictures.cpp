@@ -23,13 +23,7 @@ namespace {
 constexpr int kSmallest = 160;
 constexpr int kLargest = 8192;
 
-template <std::size_t N>
-bool all_finite(const std::array<double, N>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-bool all_positive(const Vec3& values) {
-  return all_finite(values) && std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
-}
+bool all_positive(const Vec3& values) { return values.allFinite() && values.minCoeff() > 0; }
 
 void require(bool good, const std::string& otherwise) {
   if (!good) throw std::invalid_argument("pictures: " + otherwise);
@@ -62,7 +56,7 @@ void require_drawable(const Film& film) {
                       film.height, kSmallest, kLargest));
   const Camera& camera = film.camera;
   require(!film.follow || *film.follow < film.parts.size(), "the camera follows a part that is not there");
-  require(all_finite(camera.eye) && all_finite(camera.target) && length(camera.target - camera.eye) > 0,
+  require(camera.eye.allFinite() && camera.target.allFinite() && camera.target != camera.eye,
           "the camera's eye and target must be two different points");
   require(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150,
           fmt::format("field of view {} degrees; 1 to 150 can be drawn", camera.field_of_view_deg));
@@ -79,8 +73,8 @@ void require_drawable(const Film& film) {
         fmt::format("frame {}: {} placements for {} parts", f, frame.placements.size(), film.parts.size()));
     for (std::size_t i = 0; i < film.parts.size(); ++i) {
       const Placement& p = frame.placements[i];
-      const bool turned = all_finite(p.rotation) && p.rotation != std::array<double, 4>{0, 0, 0, 0};
-      require(!p.visible || (all_finite(p.position) && turned && all_positive(p.scale)),
+      const bool turned = p.rotation.allFinite() && p.rotation != Vec4::Zero();
+      require(!p.visible || (p.position.allFinite() && turned && all_positive(p.scale)),
               fmt::format(
                   "frame {}: part '{}' has no place that can be drawn (a number is not finite, the rotation "
                   "is 0 0 0 0 or a scale is not more than 0)",

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <optional>
@@ -10,33 +11,37 @@ namespace drycut::renders {
 // What the renderer draws: plain data, filled by the simulation from recorded poses. Metres; x along the line
 // in web direction, y up, z across the line towards the operator.
 
+using Vec3 = Eigen::Vector3d;
+using Vec4 = Eigen::Vector4d;
+/// Numbers of a scenario or of a plant.
+inline Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
 /// A surface of triangles in a part's own coordinates [m].
 struct Mesh {
   struct Corner {
     std::array<float, 3> position;
     std::array<float, 3> normal;
   };
-  std::vector<Corner> corners;              ///< three a triangle, counter-clockwise seen from outside
-  std::vector<std::array<double, 3>> hull;  ///< those that stand out: what a camera must see
+  std::vector<Corner> corners;  ///< three a triangle, counter-clockwise seen from outside
+  std::vector<Vec3> hull;       ///< those that stand out: what a camera must see
 };
 
 struct SolidPart {
   enum class Shape { box, cylinder, wedge };  ///< cylinder axis: z; wedge: a blade, edge towards -y
   std::string name;
   Shape shape = Shape::box;
-  std::array<double, 3> size = {1, 1, 1};  ///< box: x y z; cylinder: diameter, diameter, length; wedge: x y z
+  Vec3 size = {1, 1, 1};  ///< box: x y z; cylinder: diameter, diameter, length; wedge: x y z
   std::array<float, 3> colour = {0.6F, 0.6F, 0.6F};
   std::string material = "steel";         ///< "steel", "paint", "rubber", "web", "blade"
   std::shared_ptr<const Mesh> mesh = {};  ///< drawn in place of the shape; null = none
-  std::optional<std::array<double, 3>> tip =
-      {};  ///< point of it that leaves a trail [m, its own coordinates]
+  std::optional<Vec3> tip = {};           ///< point of it that leaves a trail [m, its own coordinates]
 };
 
 /// Where a part is in one frame.
 struct Placement {
-  std::array<double, 3> position = {0, 0, 0};
-  std::array<double, 4> rotation = {0, 0, 0, 1};  ///< quaternion x y z w
-  std::array<double, 3> scale = {1, 1, 1};
+  Vec3 position = {0, 0, 0};
+  Vec4 rotation = {0, 0, 0, 1};  ///< quaternion x y z w
+  Vec3 scale = {1, 1, 1};
   bool visible = true;
 };
 
@@ -51,9 +56,9 @@ struct CaptionItem {
 struct Callout {
   enum class Kind { length, force };
   Kind kind = Kind::length;
-  std::string text;                      ///< "800.0 mm"; of a force: what it is
-  std::array<double, 3> at = {0, 0, 0};  ///< one end of the length, or where the force acts [m]
-  std::array<double, 3> to = {0, 0, 0};  ///< the other end [m], or the force [N]
+  std::string text;     ///< "800.0 mm"; of a force: what it is
+  Vec3 at = {0, 0, 0};  ///< one end of the length, or where the force acts [m]
+  Vec3 to = {0, 0, 0};  ///< the other end [m], or the force [N]
 };
 
 /// A channel that runs along in the corner of the picture.
@@ -72,8 +77,8 @@ struct Frame {
 };
 
 struct Camera {
-  std::array<double, 3> eye = {1, 1, 2};
-  std::array<double, 3> target = {0, 0, 0};
+  Vec3 eye = {1, 1, 2};
+  Vec3 target = {0, 0, 0};
   double field_of_view_deg = 35;  ///< vertical
   bool operator==(const Camera&) const = default;
 };

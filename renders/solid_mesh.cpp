@@ -48,7 +48,7 @@ class Builder {
 
   /// A flat polygon, counter-clockwise from outside.
   void polygon(const std::vector<Vec3>& points, const Colour& colour) {
-    const Vec3 normal = normalised(cross(points[1] - points[0], points[2] - points[0]));
+    const Vec3 normal = (points[1] - points[0]).cross(points[2] - points[0]).normalized();
     for (std::size_t i = 2; i < points.size(); ++i) {
       triangle({points[0], normal}, {points[i - 1], normal}, {points[i], normal}, colour);
     }
@@ -64,21 +64,19 @@ class Builder {
 };
 
 /// How far edges are broken: a few per cent of the thinnest side, at most 4 mm.
-double edge_break(const Vec3& half) {
-  return std::min(0.004, 0.12 * *std::min_element(half.begin(), half.end()));
-}
+double edge_break(const Vec3& half) { return std::min(0.004, 0.12 * half.minCoeff()); }
 
 void box(Builder& build, const Vec3& half, const Colour& colour) {
   const double bevel = edge_break(half);
   // The corner (sx, sy, sz) as it belongs to the face of `axis`: on that face, set in by the bevel elsewhere.
   const auto corner = [&](std::size_t axis, const std::array<int, 3>& sign) {
-    Vec3 point{};
+    Vec3 point;
     for (std::size_t i = 0; i < 3; ++i) point[i] = sign[i] * (half[i] - (i == axis ? 0 : bevel));
     return point;
   };
   const auto outward = [&](std::vector<Vec3> points) {
-    const Vec3 normal = cross(points[1] - points[0], points[2] - points[0]);
-    if (dot(normal, points[0] + points[2]) < 0) std::reverse(points.begin(), points.end());
+    const Vec3 normal = (points[1] - points[0]).cross(points[2] - points[0]);
+    if (normal.dot(points[0] + points[2]) < 0) std::reverse(points.begin(), points.end());
     build.polygon(points, colour);
   };
 
@@ -140,9 +138,9 @@ void cylinder(Builder& build, const Vec3& half, const Colour& colour) {
   const double rim = 1 - bevel / std::min(half[0], half[1]);
   const auto point = [&](int segment, double share, double z, double slope) {
     const double angle = 2 * std::numbers::pi * segment / kSegments;
-    const Vec3 radial = normalised({std::cos(angle) / half[0], std::sin(angle) / half[1], 0});
+    const Vec3 radial = Vec3(std::cos(angle) / half[0], std::sin(angle) / half[1], 0).normalized();
     return Corner{{share * half[0] * std::cos(angle), share * half[1] * std::sin(angle), z},
-                  normalised(radial + Vec3{0, 0, slope})};
+                  (radial + Vec3(0, 0, slope)).normalized()};
   };
   const double shoulder = half[2] - bevel;
   for (int i = 0; i < kSegments; ++i) {

@@ -27,8 +27,7 @@ void append(Surfaces& surfaces, const std::vector<Vertex>& corners) {
 
 Extent box_of(const SolidPart& part) {
   if (part.mesh) return extent_of(*part.mesh);
-  const Vec3 half = 0.5 * part.size;
-  return {-1.0 * half, half};
+  return {-part.size / 2, part.size / 2};
 }
 
 bool stands(const Film& film, std::size_t part) {

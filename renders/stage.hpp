@@ -35,7 +35,7 @@ struct Stage {
   std::vector<std::size_t> moving;  ///< the others
 
   /// Of a ball around the extent [m].
-  double radius() const { return std::max(1e-3, length(extent.high - extent.low) / 2); }
+  double radius() const { return std::max(1e-3, extent.diagonal().norm() / 2); }
 };
 
 /// The stage of a film that can be drawn, in a picture `height` pixels high.

@@ -44,7 +44,7 @@ class Models {
     if (mesh) return mesh;
     auto found = read_.find(part.model);
     if (found == read_.end()) found = read_.emplace(part.model, renders::part_model(part.model)).first;
-    mesh = std::make_shared<const renders::Mesh>(renders::stretched(found->second, part.size));
+    mesh = std::make_shared<const renders::Mesh>(renders::stretched(found->second, renders::vec(part.size)));
     return mesh;
   }
 
@@ -57,7 +57,10 @@ renders::SolidPart solid(const std::string& plant, const plants::Part& part) {
   const auto shape = part.shape == plants::Part::Shape::box        ? renders::SolidPart::Shape::box
                      : part.shape == plants::Part::Shape::cylinder ? renders::SolidPart::Shape::cylinder
                                                                    : renders::SolidPart::Shape::wedge;
-  return {plant + "." + part.name, shape, part.size, part.colour, part.material, {}, part.tip};
+  renders::SolidPart drawn{plant + "." + part.name, shape, renders::vec(part.size), part.colour,
+                           part.material};
+  if (part.tip) drawn.tip = renders::vec(*part.tip);
+  return drawn;
 }
 
 /// A caption's number with as many digits as an operator's panel would show.
@@ -219,7 +222,8 @@ std::vector<renders::Callout> chosen_callouts(const PicturesSection::Overlays& o
   for (const auto& [kind, text, at, to] : callouts) {
     const bool length = kind == plants::Callout::Kind::length;
     if (length ? !overlays.lengths : !overlays.forces) continue;
-    chosen.push_back({length ? renders::Callout::Kind::length : renders::Callout::Kind::force, text, at, to});
+    chosen.push_back({length ? renders::Callout::Kind::length : renders::Callout::Kind::force, text,
+                      renders::vec(at), renders::vec(to)});
   }
   return chosen;
 }
@@ -256,13 +260,12 @@ renders::Camera named_camera(const renders::Film& film, const std::string& name)
   constexpr double room = 1.8;
   auto camera = renders::operator_camera(shown(film, name));
   if (!part_number(film, name)) return camera;
-  for (std::size_t i = 0; i < 3; ++i)
-    camera.eye[i] = camera.target[i] + room * (camera.eye[i] - camera.target[i]);
+  camera.eye = camera.target + room * (camera.eye - camera.target);
   return camera;
 }
 
 renders::Camera own_camera(const PicturesSection::Eye& eye) {
-  return {eye.eye, eye.target, eye.field_of_view * 180 / std::numbers::pi};
+  return {renders::vec(eye.eye), renders::vec(eye.target), eye.field_of_view * 180 / std::numbers::pi};
 }
 
 /// What a film in slow motion about an event tells beside the channels.
@@ -296,7 +299,11 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
     renders::Frame frame;
     frame.time_s = seconds(shot.time);
     for (const auto& pose : shot.poses) {
-      frame.placements.push_back({pose.pose.position, pose.pose.rotation, pose.scale, pose.visible});
+      const auto& turn = pose.pose.rotation;
+      frame.placements.push_back({renders::vec(pose.pose.position),
+                                  {turn[0], turn[1], turn[2], turn[3]},
+                                  renders::vec(pose.scale),
+                                  pose.visible});
     }
     frame.caption = film_caption(scenario.pictures, simulation.frames_event(), frame.time_s);
     const auto& numbers = scenario.pictures.caption;

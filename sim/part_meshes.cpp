@@ -55,7 +55,8 @@ PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPla
   for (const auto& request : scenario.pictures.meshes) {
     if (!must_exist(request.part)) continue;
     const auto file = scenario.file.parent_path() / request.file.text;
-    auto loaded = renders::load_mesh(file, {request.scale, request.rotate, request.at});
+    auto loaded =
+        renders::load_mesh(file, {request.scale, renders::vec(request.rotate), renders::vec(request.at)});
     if (const auto* problem = std::get_if<renders::MeshProblem>(&loaded)) {
       problems.push_back(problem_at(scenario, request.file.place,
                                     fmt::format("mesh {}: {}", file.string(), problem->what),

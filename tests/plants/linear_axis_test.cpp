@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/plants/plants_lookup.hpp"
+#include "tests/plants/screw_prediction.hpp"
 
 namespace drycut::plants {
 namespace {
@@ -33,12 +33,7 @@ LinearAxisDefinition frictionless() {
   return definition;
 }
 
-double inertia_at_carriage(const LinearAxisData& data) {
-  const double per_metre = turn / data.lead * data.gear.ratio;
-  return data.mass +
-         (data.drive.servo.rotor_inertia + data.screw_inertia / (data.gear.ratio * data.gear.ratio)) *
-             per_metre * per_metre;
-}
+ScrewPrediction predicted(const LinearAxisData& data) { return {data, data.drive.servo.rotor_inertia}; }
 
 TEST(LinearAxis, FreeMotionKeepsItsSpeed) {
   const auto definition = frictionless();
@@ -53,16 +48,15 @@ TEST(LinearAxis, FreeMotionKeepsItsSpeed) {
 }
 
 TEST(LinearAxis, AnOuterForceAcceleratesCarriageAndMotorTogether) {
-  // Symplectic Euler overshoots the travel by a t h / 2.
   auto definition = frictionless();
   definition.data.gear.ratio = 2;
   Unit unit(definition);
   unit.set("force", 500);
   unit.run(0.5);
-  const double a = 500 / inertia_at_carriage(definition.data);
+  const Uniform motion = {500 / predicted(definition.data).total(), 0.5};
   // The spring stretches by the force that moves the motor; its oscillation dies out by its damper.
-  EXPECT_NEAR(unit.read("speed") / (1000 * a * 0.5), 1, 1e-2);
-  EXPECT_NEAR(unit.read("position"), 100 + 1000 * (0.5 * a * 0.25 + 0.5 * a * 0.5 * h), 0.05);
+  EXPECT_NEAR(unit.read("speed") / (1000 * motion.speed()), 1, 1e-2);
+  EXPECT_NEAR(unit.read("position"), 100 + 1000 * motion.way(), 0.05);
   unit.set("force", 0);
   const double before = unit.read("speed");
   unit.run(0.2);
@@ -76,15 +70,10 @@ TEST(LinearAxis, ConservesMomentumAndLosesEnergyOnlyInTheDamper) {
     definition.data.gear.damping = damping;
     Unit unit(definition);
     unit.carriage().speed = 0.2;  // the motor stands: the screw is wound up
-    const double per_metre = turn / data.lead;
-    const auto momentum = [&] {
-      return unit.carriage().speed * data.mass + unit.rotor().speed * unit.rotor().inertia * per_metre;
-    };
+    const ScrewPrediction screw = predicted(data);
+    const auto momentum = [&] { return screw.momentum(unit.carriage(), unit.rotor()); };
     const auto energy = [&] {
-      const double twist = unit.axis().twist();
-      return 0.5 * data.mass * std::pow(unit.carriage().speed, 2) +
-             0.5 * unit.rotor().inertia * std::pow(unit.rotor().speed, 2) +
-             0.5 * data.gear.stiffness * twist * twist;
+      return screw.energy(unit.carriage(), unit.rotor(), unit.axis().twist() * data.lead / turn);
     };
     const double p = momentum();
     const double e = energy();
@@ -95,7 +84,7 @@ TEST(LinearAxis, ConservesMomentumAndLosesEnergyOnlyInTheDamper) {
   // Without the damper symplectic Euler lets the energy swing by about w h / 2.
   const double w = std::sqrt(1000 / (20 * std::pow(0.02 / turn, 2)));
   EXPECT_NEAR(run(0), 1, w * h);
-  const double end = data.mass / inertia_at_carriage(data);  // both at the common speed
+  const double end = data.mass / predicted(data).total();  // both at the common speed
   EXPECT_NEAR(run(0.05), end, 0.01 * end);
 }
 
@@ -115,10 +104,7 @@ TEST(LinearAxis, OscillatesAtTheTwoMassResonance) {
   }
   ASSERT_GT(crossings.size(), 20U);
   const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-  const auto& data = definition.data;
-  const double load = data.mass * std::pow(data.lead / turn, 2);
-  const double motor = data.drive.servo.rotor_inertia + data.screw_inertia;
-  EXPECT_NEAR(turn / period / std::sqrt(1000 * (1 / motor + 1 / load)), 1, 1e-3);
+  EXPECT_NEAR(turn / period / predicted(definition.data).resonance(), 1, 1e-3);
 }
 
 TEST(LinearAxis, EndStopTakesTheMomentumOfAFreeCarriage) {
@@ -131,9 +117,7 @@ TEST(LinearAxis, EndStopTakesTheMomentumOfAFreeCarriage) {
     Unit unit(definition);
     unit.carriage().speed = side * 0.5;
     while (unit.events.empty() && unit.steps < 20000) unit.step(1e-5);
-    ASSERT_EQ(unit.events.size(), 1U);
-    const Event& hit = unit.events[0];
-    EXPECT_EQ(hit.name, "end_stop");
+    const Event& hit = unit.only("end_stop");
     EXPECT_EQ(value(hit, "side"), side);
     const double speed = value(hit, "speed") / 1000;
     EXPECT_NEAR(speed, 0.5, 1e-9);
@@ -166,7 +150,7 @@ TEST(LinearAxis, WeightActsAlongAnInclinedAxis) {
   definition.data.start = 0.9;
   Unit unit(definition);
   unit.run(0.3);
-  const double a = definition.data.mass * gravity * 0.5 / inertia_at_carriage(definition.data);
+  const double a = definition.data.mass * gravity * 0.5 / predicted(definition.data).total();
   EXPECT_NEAR(unit.read("speed") / (-1000 * a * 0.3), 1, 1e-2);
 }
 

@@ -99,6 +99,13 @@ struct Machine {
     command("drive.slow", slow);
   }
 
+  /// The one event that there was, of that name.
+  const Event& only(const std::string& name) {
+    EXPECT_EQ(events.size(), 1U);
+    EXPECT_EQ(events.at(0).name, name);
+    return events.at(0);
+  }
+
   void step(double dt = h) {
     if (supply) supply->drive(dt);
     plant->drive(dt);

@@ -10,6 +10,8 @@
 namespace drycut::plants {
 namespace {
 
+using ::testing::ElementsAre;
+
 /// A shaft with imposed speed and an encoder on it.
 struct Turning {
   World world;
@@ -21,44 +23,39 @@ struct Turning {
         encoder(data, start, world.random("encoder")) {
     encoder.pulses.offer_faults(faults, "encoder");
   }
+  /// Counts at the index pulses of what was run last.
+  std::vector<std::int64_t> indexes;
   void run(double turns_per_step, int steps) {
+    indexes.clear();
     shaft.speed = turns_per_step * 2 * pi / h;
     for (int i = 0; i < steps; ++i) {
       world.step(h);
       encoder.sense(shaft);
+      for (const SignalPort::Edge& edge : encoder.index.edges)
+        if (edge.rising) indexes.push_back(encoder.pulses.port.count_at(edge.fraction));
     }
   }
+  [[nodiscard]] double now() const { return encoder.pulses.port.now; }
   [[nodiscard]] std::int64_t count() const { return encoder.pulses.port.count; }
 };
 
 TEST(Encoder, CountsExactlyOverAMillionTurnsBothWays) {
   Turning t({.lines = 2501});
-  int indexes = 0;
-  int wrong = 0;
-  const auto run = [&](double turns_per_step, int steps) {
-    t.shaft.speed = turns_per_step * 2 * pi / h;
-    for (int i = 0; i < steps; ++i) {
-      t.world.step(h);
-      t.encoder.sense(t.shaft);
-      for (const SignalPort::Edge& edge : t.encoder.index.edges) {
-        if (!edge.rising) continue;
-        ++indexes;
-        // The index is at a whole turn: its count is a multiple of the counts per turn, exactly.
-        if (t.encoder.pulses.port.count_at(edge.fraction) % 10004 != 0) ++wrong;
-      }
-    }
+  std::size_t indexes = 0;
+  const auto run = [&](double turns_per_step) {
+    t.run(turns_per_step, 8333340);
+    indexes += t.indexes.size();
+    // The index is at a whole turn: its count is a multiple of the counts per turn, exactly.
+    for (const std::int64_t count : t.indexes) ASSERT_EQ(count % 10004, 0);
   };
-  const int steps = 8333340;
-  run(0.12, steps);  // 1 000 000.8 turns: count 10 004 008 003.2
+  run(0.12);  // 1 000 000.8 turns: count 10 004 008 003.2
   EXPECT_EQ(t.count(), 10004008003);
-  EXPECT_EQ(indexes, 1000000);
-  EXPECT_EQ(wrong, 0);
-  run(-0.12, steps);
-  EXPECT_NEAR(t.encoder.pulses.port.now, 0, 1e-3);
-  run(-0.12, steps);
+  EXPECT_EQ(indexes, 1000000U);
+  run(-0.12);
+  EXPECT_NEAR(t.now(), 0, 1e-3);
+  run(-0.12);
   EXPECT_EQ(t.count(), -10004008003);
-  EXPECT_EQ(indexes, 3000001);  // a million each way and back, and the one at zero
-  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(indexes, 3000001U);  // a million each way and back, and the one at zero
 }
 
 TEST(Encoder, CountIsTheNearestToTheExactPosition) {
@@ -73,53 +70,38 @@ TEST(Encoder, CountIsTheNearestToTheExactPosition) {
 
 TEST(Encoder, StartsAtZeroWhereTheShaftStandsAndKeepsTheIndexWhereItIs) {
   Turning t({.lines = 2048}, 2.5);
-  t.run(0.1, 6);
-  const SignalPort& index = t.encoder.index;
-  EXPECT_NEAR(t.encoder.pulses.port.now, 0.6 * 8192, 1e-6);
-  Turning back({.lines = 2048}, 2.5);
-  back.run(0.1, 5);  // reaches 3.0 in the fifth step, or the next by rounding
-  if (back.encoder.index.edges.empty()) back.run(0.1, 1);
-  ASSERT_EQ(back.encoder.index.edges.size(), 2U);
-  EXPECT_EQ(back.encoder.pulses.port.count_at(back.encoder.index.edges[0].fraction), 4096);
-  EXPECT_EQ(index.edges.size(), 0U);
+  t.run(0.1, 6);  // reaches 3.0 in the fifth step, or the next by rounding
+  EXPECT_NEAR(t.now(), 0.6 * 8192, 1e-6);
+  EXPECT_THAT(t.indexes, ElementsAre(4096));
+  t.run(0.1, 1);
+  EXPECT_THAT(t.indexes, ElementsAre());
 }
 
 TEST(Encoder, IndexIsTheSameCountFromBothSides) {
   Turning t({.lines = 1024}, 0.93);
-  t.run(0.02, 6);
-  std::int64_t forwards = 0;
-  std::int64_t backwards = 1;
-  Turning u({.lines = 1024}, 0.93);
-  for (int i = 0; i < 8; ++i) {
-    u.run(0.0171, 1);
-    if (!u.encoder.index.edges.empty())
-      forwards = u.encoder.pulses.port.count_at(u.encoder.index.edges[0].fraction);
+  const auto expected = static_cast<std::int64_t>(std::floor(0.07 * 4096 + 0.5));
+  for (const double turns : {0.0171, -0.0171}) {
+    t.run(turns, 8);
+    EXPECT_THAT(t.indexes, ElementsAre(expected));
   }
-  for (int i = 0; i < 8; ++i) {
-    u.run(-0.0171, 1);
-    if (!u.encoder.index.edges.empty())
-      backwards = u.encoder.pulses.port.count_at(u.encoder.index.edges[0].fraction);
-  }
-  EXPECT_EQ(forwards, static_cast<std::int64_t>(std::floor(0.07 * 4096 + 0.5)));
-  EXPECT_EQ(backwards, forwards);
 }
 
 TEST(Encoder, ReverseMountingCountsDown) {
   Turning t({.lines = 2048, .reverse = true});
   t.run(0.1, 11);
-  EXPECT_NEAR(t.encoder.pulses.port.now, -1.1 * 8192, 1e-6);
+  EXPECT_NEAR(t.now(), -1.1 * 8192, 1e-6);
 }
 
 TEST(EncoderFaults, LostCountsStayLostInTheDirectionOfMotion) {
   for (const double direction : {1.0, -1.0}) {
     Turning t;
     t.run(0.1 * direction, 3);
-    const double before = t.encoder.pulses.port.now;
+    const double before = t.now();
     fault(t.faults, "encoder", "lose_counts", 200);
     t.run(0.1 * direction, 1);
-    EXPECT_NEAR(t.encoder.pulses.port.now, before + direction * (819.2 - 200), 1e-6);
+    EXPECT_NEAR(t.now(), before + direction * (819.2 - 200), 1e-6);
     t.run(0.1 * direction, 10);
-    EXPECT_NEAR(t.encoder.pulses.port.now, direction * (1.4 * 8192 - 200), 1e-6);
+    EXPECT_NEAR(t.now(), direction * (1.4 * 8192 - 200), 1e-6);
   }
 }
 
@@ -131,11 +113,11 @@ TEST(EncoderFaults, StuckHoldsTheCountAndTheIndex) {
   for (int i = 0; i < 20; ++i) {
     t.run(0.1, 1);
     EXPECT_EQ(t.count(), held);
-    EXPECT_EQ(t.encoder.index.edges.size(), 0U);
+    EXPECT_THAT(t.indexes, ElementsAre());
   }
   fault(t.faults, "encoder", "stuck", 0);
   t.run(0.1, 5);
-  EXPECT_NEAR(t.encoder.pulses.port.now, 8192, 1e-6);
+  EXPECT_NEAR(t.now(), 8192, 1e-6);
 }
 
 TEST(EncoderFaults, ReverseTurnsTheCountRoundFromItsTime) {
@@ -143,10 +125,10 @@ TEST(EncoderFaults, ReverseTurnsTheCountRoundFromItsTime) {
   t.run(0.1, 5);
   fault(t.faults, "encoder", "reverse", 1);
   t.run(0.1, 2);
-  EXPECT_NEAR(t.encoder.pulses.port.now, 0.3 * 8192, 1e-6);
+  EXPECT_NEAR(t.now(), 0.3 * 8192, 1e-6);
   fault(t.faults, "encoder", "reverse", 0);
   t.run(0.1, 1);
-  EXPECT_NEAR(t.encoder.pulses.port.now, 0.4 * 8192, 1e-6);
+  EXPECT_NEAR(t.now(), 0.4 * 8192, 1e-6);
 }
 
 TEST(EncoderFaults, JitterHasItsRmsAndLeavesNoOffset) {
@@ -158,7 +140,7 @@ TEST(EncoderFaults, JitterHasItsRmsAndLeavesNoOffset) {
   for (int i = 0; i < n; ++i) {
     t.run(0, 1);
     EXPECT_EQ(t.encoder.pulses.port.before, last);  // steps join
-    last = t.encoder.pulses.port.now;
+    last = t.now();
     square += last * last / n;
   }
   EXPECT_NEAR(std::sqrt(square), 3, 0.1);
@@ -252,7 +234,6 @@ std::vector<double> edges(PositionSwitch& s, double from, double to, double step
 
 TEST(PositionSwitch, ATargetThatIsPassedWithinAStepGivesBothEdges) {
   using ::testing::DoubleNear;
-  using ::testing::ElementsAre;
   PositionSwitch s({.centre = 1, .width = 0.01, .hysteresis = 0.002}, 0, 0);
   EXPECT_THAT(edges(s, 0.1, 2.1, 0.4), ElementsAre(DoubleNear(0.995, 1e-12), DoubleNear(1.007, 1e-12)));
   EXPECT_THAT(edges(s, 2.1, 0.1, 0.4), ElementsAre(DoubleNear(1.005, 1e-12), DoubleNear(0.993, 1e-12)));

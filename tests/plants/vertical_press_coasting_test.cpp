@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/plants/drive_stand.hpp"
+#include "tests/plants/screw_prediction.hpp"
 #include "tests/plants/vertical_press_unit.hpp"
 
 namespace drycut::plants {
@@ -41,12 +43,6 @@ struct Model {
     return a;
   }
 };
-
-double kloss(const WindingData& w, double slip) {
-  const double ratio = w.pullout_torque / w.rated_torque;
-  const double pullout = (w.synchronous_speed - w.rated_speed) / (ratio - std::sqrt(ratio * ratio - 1));
-  return 2 * w.pullout_torque / (slip / pullout + pullout / slip);
-}
 
 /// The way from the opening of the drive's contacts to rest, starting at `v`; the brake grips at `grip`.
 double coast(const Model& m, double v, double grip, double brake) {
@@ -141,7 +137,7 @@ TEST(VerticalPressCoasting, UpAndDownDifferByWhatGravitySays) {
   d.efficiency = d.back_efficiency = 1;
   d.drive.brake.engage_delay = 0;
   const double r = d.lead / turn;
-  const double mass = d.mass + (d.drive.motor.rotor_inertia + d.screw_inertia) / (r * r);
+  const double mass = ScrewPrediction(d, d.drive.motor.rotor_inertia).total();
   double deceleration[2] = {};
   for (const int direction : {1, -1}) {
     d.start = direction > 0 ? 0.05 : 0.55;

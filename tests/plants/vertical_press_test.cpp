@@ -118,8 +118,7 @@ TEST(VerticalPress, WithoutABrakeItSagsAsItsWeightSays) {
     EXPECT_NEAR(press.read("speed") / (-1000 * a * seconds), 1, 0.01);
     EXPECT_NEAR((press.read("position") - 300) / (-500 * a * seconds * seconds), 1, 0.01);
     press.run(0.2);
-    ASSERT_EQ(press.events.size(), 1U);
-    EXPECT_EQ(press.events[0].name, "sag");
+    press.only("sag");
     EXPECT_NEAR(press.times[0], 0.5, 1.5 * h);  // it was told to hold from the start
     EXPECT_NEAR(value(press.events[0], "speed") / (-1000 * a * 0.4), 1, 0.01);
     press.run(6);  // into the lower stop and to rest
@@ -160,8 +159,7 @@ TEST(VerticalPress, PressesWithTheTorqueLimitOfTheInverter) {
   EXPECT_GE(press.read("press.force"), ram + (22 - 0.2) * 0.9 / r - 300);
   EXPECT_NEAR(press.read("motor.torque"), -22, 1e-6);
   EXPECT_NEAR(press.read("position"), 50 - press.read("press.force") / 5e6 * 1000, 1e-3);
-  ASSERT_EQ(press.events.size(), 1U);
-  EXPECT_EQ(press.events[0].name, "pressed");
+  press.only("pressed");
   EXPECT_GT(value(press.events[0], "force"), 5000);
   EXPECT_NEAR(value(press.events[0], "speed"), 29, 1);  // 150 rpm and the slip of a motor that is driven
 }
@@ -231,8 +229,7 @@ TEST(VerticalPress, BothContactorsTripAndTheBrakeStopsTheRam) {
   press.run(0.5);
   press.fault("drive.backward", "stuck_on", 1);
   press.run(1);
-  ASSERT_EQ(press.events.size(), 1U);
-  EXPECT_EQ(press.events[0].name, "trip");
+  press.only("trip");
   EXPECT_NEAR(value(press.events[0], "speed"), press.read("motor.speed") + 330, 30);
   EXPECT_EQ(press.read("drive.state"), 3);
   EXPECT_NEAR(press.read("speed"), 0, 1e-9);

@@ -44,11 +44,12 @@ Film knife_line() {
 }
 
 TEST(RendersGeometry, TurnsByQuaternion) {
-  const Vec3 turned = rotated({0, 0, kHalf, kHalf}, {1, 2, 3});  // 90 degrees about z
+  const Vec3 turned = rotation_of({0, 0, kHalf, kHalf}) * Vec3(1, 2, 3);  // 90 degrees about z
   EXPECT_NEAR(turned[0], -2, 1e-12);
   EXPECT_NEAR(turned[1], 1, 1e-12);
   EXPECT_NEAR(turned[2], 3, 1e-12);
-  const Vec3 longer = rotated({0, 0, 5 * kHalf, 5 * kHalf}, {1, 2, 3});  // its length does not matter
+  const Vec3 longer =
+      rotation_of({0, 0, 5 * kHalf, 5 * kHalf}) * Vec3(1, 2, 3);  // its length does not matter
   EXPECT_NEAR(longer[0], turned[0], 1e-12);
 }
 
@@ -89,10 +90,10 @@ TEST(RendersCamera, OutlineOfATurnedBoxAndACylinder) {
 TEST(RendersCamera, MechanismLeavesOutTheFarEndsOfWebAndPieces) {
   const Extent extent = mechanism_extent(knife_line());
   // The posts span -0.15..0.15, the drum to 0.2; the mechanism is 0.65 deep, so the border is 0.065.
-  EXPECT_NEAR(extent.low[0], -0.15 - 0.065, 1e-9);
-  EXPECT_NEAR(extent.high[0], 0.2 + 0.065, 0.066);
-  EXPECT_NEAR(extent.low[1], 0, 1e-12);
-  EXPECT_NEAR(extent.high[2], 0.325, 1e-12);
+  EXPECT_NEAR(extent.min()[0], -0.15 - 0.065, 1e-9);
+  EXPECT_NEAR(extent.max()[0], 0.2 + 0.065, 0.066);
+  EXPECT_NEAR(extent.min()[1], 0, 1e-12);
+  EXPECT_NEAR(extent.max()[2], 0.325, 1e-12);
 }
 
 TEST(RendersCamera, CarriageThatTravelsIsKeptInView) {
@@ -101,12 +102,12 @@ TEST(RendersCamera, CarriageThatTravelsIsKeptInView) {
     film.frames[i].placements[2].position[0] = static_cast<double>(i);  // the drum rides on a carriage
   }
   // From -0.15 to 4.1, and the web as far as the border.
-  EXPECT_NEAR(mechanism_extent(film).high[0], 4.1 + 0.425, 1e-9);
+  EXPECT_NEAR(mechanism_extent(film).max()[0], 4.1 + 0.425, 1e-9);
 }
 
 TEST(RendersCamera, FilmWithNothingInItStillHasAnExtent) {
   const Extent extent = mechanism_extent(Film{});
-  EXPECT_GT(extent.high[0], extent.low[0]);
+  EXPECT_GT(extent.max()[0], extent.min()[0]);
   EXPECT_TRUE(std::isfinite(floor_level(Film{})));
 }
 
@@ -128,11 +129,8 @@ TEST(RendersCamera, OperatorSeesTheWholeMechanismAndLarge) {
     const int view = height - CaptionLayout(film).height();
     const Extent extent = mechanism_extent(film);
     double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-    for (int corner = 0; corner < 8; ++corner) {
-      const auto p = projected(camera, width, view,
-                               {(corner & 1) != 0 ? extent.low[0] : extent.high[0],
-                                (corner & 2) != 0 ? extent.low[1] : extent.high[1],
-                                (corner & 4) != 0 ? extent.low[2] : extent.high[2]});
+    for (const Vec3& corner : corners_of(extent)) {
+      const auto p = projected(camera, width, view, corner);
       left = std::min(left, p[0]);
       right = std::max(right, p[0]);
       top = std::min(top, p[1]);
@@ -144,8 +142,8 @@ TEST(RendersCamera, OperatorSeesTheWholeMechanismAndLarge) {
     EXPECT_LE(bottom, 0.98 * view);
     const double used = std::max((right - left) / width, (bottom - top) / view);
     EXPECT_NEAR(used, 0.95, 1e-6) << "the tighter direction fills the picture up to the margin";
-    EXPECT_GT(camera.eye[2], extent.high[2]) << "operator's side";
-    EXPECT_GT(camera.eye[1], extent.high[1]) << "above";
+    EXPECT_GT(camera.eye[2], extent.max()[2]) << "operator's side";
+    EXPECT_GT(camera.eye[1], extent.max()[1]) << "above";
     EXPECT_LT(camera.eye[0], camera.target[0]) << "upstream";
   }
 }

@@ -63,7 +63,7 @@ std::vector<double> seconds_of(const aiScene& scene, const aiNodeAnim& channel) 
   return times;
 }
 
-void expect_rotation(const aiQuaternion& found, const Quaternion& wanted) {
+void expect_rotation(const aiQuaternion& found, const Vec4& wanted) {
   const double along = found.x * wanted[0] + found.y * wanted[1] + found.z * wanted[2] + found.w * wanted[3];
   EXPECT_NEAR(std::abs(along), 1, 1e-6);
 }

@@ -10,13 +10,7 @@ namespace {
 
 constexpr double kFloor = -0.3;
 
-std::array<Vec3, 8> corners(const Vec3& low, const Vec3& high) {
-  std::array<Vec3, 8> all{};
-  for (unsigned i = 0; i < 8; ++i)
-    all[i] = {(i & 1U) != 0 ? high[0] : low[0], (i & 2U) != 0 ? high[1] : low[1],
-              (i & 4U) != 0 ? high[2] : low[2]};
-  return all;
-}
+std::array<Vec3, 8> corners(const Vec3& low, const Vec3& high) { return corners_of(Extent(low, high)); }
 
 /// Where a point's shadow falls on the floor.
 Vec3 shadow_of(const Lamp& lamp, const Vec3& point) {
@@ -38,10 +32,10 @@ INSTANTIATE_TEST_SUITE_P(Directions, RendersLamp,
 
 TEST_P(RendersLamp, FrameIsRightHandedAndOfLengthOne) {
   const Lamp lamp = lamp_towards(GetParam());
-  const Vec3 third = cross(lamp.right, lamp.up);
+  const Vec3 third = lamp.right.cross(lamp.up);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(third[i], lamp.toward[i], 1e-12);
-  EXPECT_NEAR(length(lamp.toward), 1, 1e-12);
-  EXPECT_NEAR(length(lamp.right), 1, 1e-12);
+  EXPECT_NEAR(lamp.toward.norm(), 1, 1e-12);
+  EXPECT_NEAR(lamp.right.norm(), 1, 1e-12);
   EXPECT_NEAR(lamp.up[0], 0, 1e-12) << "the line goes to the right only";
 }
 
@@ -57,7 +51,7 @@ TEST_P(RendersLamp, ShadowsStayWithinThePatchWithItsBorder) {
     EXPECT_NEAR(patches[0].centre[1] + patches[0].right[1] + patches[0].up[1], kFloor, 1e-12);
     const auto [a, b] = place_in(patches[0], shadow);
     // The border across the light is the same on every side.
-    EXPECT_LE(std::abs(a) * length(patches[0].right), length(patches[0].right) - 0.05 + 1e-9);
+    EXPECT_LE(std::abs(a) * patches[0].right.norm(), patches[0].right.norm() - 0.05 + 1e-9);
     EXPECT_LE(std::abs(b), 1);
     widest = std::max({widest, std::abs(a), std::abs(b)});
   }
@@ -75,20 +69,15 @@ TEST(RendersLamps, ThingsSideBySideGetOnePatchAndThoseApartTwo) {
   const auto beside = corners({0.9, 0, 0}, {2, 1, 1});
   const auto both = shade_on_floor(lamp, {left, beside}, kFloor, 0);
   ASSERT_EQ(both.size(), 1U);
-  EXPECT_NEAR(length(both[0].right), 1, 1e-12) << "from 0 to 2";
+  EXPECT_NEAR(both[0].right.norm(), 1, 1e-12) << "from 0 to 2";
 }
 
 TEST(RendersLamps, MapHoldsWhatIsWithinReach) {
   const Lamp lamp = lamp_towards({-0.35, 1, 0.62});
   const Vec3 centre = {1, 2, 3};
   const Matrix4 m = map_matrix(lamp, centre, 2);
-  const auto mapped = [&](const Vec3& p) {
-    Vec3 at{};
-    for (std::size_t row = 0; row < 3; ++row)
-      at[row] = m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row];
-    return at;
-  };
-  const Vec3 edge = mapped(centre + 2.0 * lamp.right - 2.0 * lamp.up + 6.0 * lamp.toward);
+  const Vec3 point = centre + 2.0 * lamp.right - 2.0 * lamp.up + 6.0 * lamp.toward;
+  const Vec4 edge = m * point.homogeneous();
   EXPECT_NEAR(edge[0], 1, 1e-12);
   EXPECT_NEAR(edge[1], -1, 1e-12);
   EXPECT_NEAR(edge[2], -1, 1e-12) << "nearest to the lamp";
@@ -100,7 +89,7 @@ Film workshop() {
   Film film;
   film.width = 320;
   film.height = 200;
-  const auto part = [](const char* name, const std::array<double, 3>& size) {
+  const auto part = [](const char* name, const Vec3& size) {
     SolidPart made;
     made.name = name;
     made.size = size;

@@ -68,17 +68,18 @@ void expect_near(const Vec3& a, const Vec3& b) {
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
-    sum += dot(as_doubles(mesh.corners[i].position),
-               cross(as_doubles(mesh.corners[i + 1].position), as_doubles(mesh.corners[i + 2].position))) /
-           6;
+    sum +=
+        as_doubles(mesh.corners[i].position)
+            .dot(as_doubles(mesh.corners[i + 1].position).cross(as_doubles(mesh.corners[i + 2].position))) /
+        6;
   return sum;
 }
 
 TEST_F(RendersMeshFile, AnObjIsInMillimetres) {
   const Mesh mesh = good("box.obj", box_obj(200, 100, 50));
   EXPECT_EQ(mesh.corners.size(), 36U);
-  expect_near(extent_of(mesh).low, {0, 0, 0});
-  expect_near(extent_of(mesh).high, {0.2, 0.1, 0.05});
+  expect_near(extent_of(mesh).min(), {0, 0, 0});
+  expect_near(extent_of(mesh).max(), {0.2, 0.1, 0.05});
   EXPECT_NEAR(volume(mesh), 1e-3, 1e-9);
 }
 
@@ -91,7 +92,7 @@ TEST_F(RendersMeshFile, APlyAndAnOffAreInMillimetresToo) {
   for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
            {"a.ply", ply + corners + faces}, {"a.off", "OFF\n4 4 6\n" + corners + faces}}) {
     const Mesh mesh = good(name, text);
-    expect_near(extent_of(mesh).high, {0.3, 0.1, 0.05});
+    expect_near(extent_of(mesh).max(), {0.3, 0.1, 0.05});
     EXPECT_NEAR(volume(mesh), 0.3 * 0.1 * 0.05 / 6, 1e-9) << name;
   }
 }
@@ -100,8 +101,8 @@ TEST_F(RendersMeshFile, IsScaledThenTurnedAboutXYZThenMoved) {
   const double quarter = std::numbers::pi / 2;
   // (200, 100, 50) mm twice as large; about x: y to z, z to -y; then about z: x to y, y to -x.
   const Mesh mesh = good("box.obj", box_obj(200, 100, 50), {2, {quarter, 0, quarter}, {1, 2, 3}});
-  expect_near(extent_of(mesh).low, {1, 2, 3});
-  expect_near(extent_of(mesh).high, {1.1, 2.4, 3.2});
+  expect_near(extent_of(mesh).min(), {1, 2, 3});
+  expect_near(extent_of(mesh).max(), {1.1, 2.4, 3.2});
   EXPECT_NEAR(volume(mesh), 8e-3, 1e-8);
 }
 
@@ -299,10 +300,10 @@ TEST(RendersMesh, AStretchedMeshFillsItsBoxAboutTheMiddle) {
     mesh.corners.push_back({p, {slope, slope, 0}});
   find_hull(mesh);
   const Mesh wide = stretched(mesh, {4, 2, 1});
-  expect_near(extent_of(wide).low, {-2, -1, -0.5});
-  expect_near(extent_of(wide).high, {2, 1, 0.5});
+  expect_near(extent_of(wide).min(), {-2, -1, -0.5});
+  expect_near(extent_of(wide).max(), {2, 1, 0.5});
   // Twice as wide, the slope leans half as much in x.
-  expect_near(as_doubles(wide.corners[0].normal), normalised({0.5, 1, 0}));
+  expect_near(as_doubles(wide.corners[0].normal), Vec3(0.5, 1, 0).normalized());
 }
 
 TEST(RendersMesh, TheHullStandsForTheMeshAlongEveryAxisAndDiagonal) {
@@ -319,8 +320,8 @@ TEST(RendersMesh, TheHullStandsForTheMeshAlongEveryAxisAndDiagonal) {
        {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{1, 1, -1}, Vec3{-1, 0, 1}}) {
     double all = -9;
     double hull = -9;
-    for (const auto& corner : mesh.corners) all = std::max(all, dot(direction, as_doubles(corner.position)));
-    for (const auto& point : mesh.hull) hull = std::max(hull, dot(direction, point));
+    for (const auto& corner : mesh.corners) all = std::max(all, direction.dot(as_doubles(corner.position)));
+    for (const auto& point : mesh.hull) hull = std::max(hull, direction.dot(point));
     EXPECT_EQ(hull, all);
   }
 }

@@ -19,7 +19,7 @@ Film turning_tool() {
   film.height = 360;
   SolidPart tool;
   tool.size = {0.1, 0.1, 0.1};
-  tool.tip = std::array{0.0, -0.1, 0.0};
+  tool.tip = Vec3(0, -0.1, 0);
   film.parts = {tool};
   film.camera.eye = {0, 0, 4};
   film.camera.target = {0, 0, 0};

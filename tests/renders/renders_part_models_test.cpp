@@ -23,12 +23,12 @@ TEST(RendersPartModels, EveryModelIsASoundSurface) {
       const Vec3 a = as_doubles(mesh.corners[i].position);
       const Vec3 b = as_doubles(mesh.corners[i + 1].position);
       const Vec3 c = as_doubles(mesh.corners[i + 2].position);
-      const Vec3 face = 0.5 * cross(b - a, c - a);
-      net = net + face;
-      area += length(face);
-      volume += dot(a, cross(b, c)) / 6;
+      const Vec3 face = 0.5 * (b - a).cross(c - a);
+      net += face;
+      area += face.norm();
+      volume += a.dot(b.cross(c)) / 6;
     }
-    EXPECT_LT(length(net), 1e-4 * area) << name << " has holes";
+    EXPECT_LT(net.norm(), 1e-4 * area) << name << " has holes";
     EXPECT_GT(volume, 0) << name << " is inside out";
   }
 }

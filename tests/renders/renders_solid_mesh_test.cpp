@@ -10,8 +10,8 @@
 namespace drycut::renders {
 namespace {
 
-Vec3 position(const Vertex& v) { return {v.position[0], v.position[1], v.position[2]}; }
-Vec3 normal(const Vertex& v) { return {v.normal[0], v.normal[1], v.normal[2]}; }
+Vec3 position(const Vertex& v) { return as_doubles(v.position); }
+Vec3 normal(const Vertex& v) { return as_doubles(v.normal); }
 
 std::vector<Vertex> mesh(SolidPart::Shape shape, const Vec3& size) {
   SolidPart part;
@@ -24,7 +24,7 @@ std::vector<Vertex> mesh(SolidPart::Shape shape, const Vec3& size) {
 double volume(const std::vector<Vertex>& triangles) {
   double sum = 0;
   for (std::size_t i = 0; i < triangles.size(); i += 3) {
-    sum += dot(position(triangles[i]), cross(position(triangles[i + 1]), position(triangles[i + 2]))) / 6;
+    sum += position(triangles[i]).dot(position(triangles[i + 1]).cross(position(triangles[i + 2]))) / 6;
   }
   return sum;
 }
@@ -34,9 +34,9 @@ double net_area(const std::vector<Vertex>& triangles) {
   Vec3 sum = {0, 0, 0};
   for (std::size_t i = 0; i < triangles.size(); i += 3) {
     const Vec3 a = position(triangles[i]);
-    sum = sum + 0.5 * cross(position(triangles[i + 1]) - a, position(triangles[i + 2]) - a);
+    sum += 0.5 * (position(triangles[i + 1]) - a).cross(position(triangles[i + 2]) - a);
   }
-  return length(sum);
+  return sum.norm();
 }
 
 class RendersSolid : public ::testing::TestWithParam<SolidPart::Shape> {};
@@ -48,10 +48,10 @@ TEST_P(RendersSolid, IsClosedAndFacesOutwards) {
   EXPECT_GT(volume(triangles), 0);
   for (std::size_t i = 0; i < triangles.size(); i += 3) {
     const Vec3 a = position(triangles[i]);
-    const Vec3 face = cross(position(triangles[i + 1]) - a, position(triangles[i + 2]) - a);
+    const Vec3 face = (position(triangles[i + 1]) - a).cross(position(triangles[i + 2]) - a);
     for (std::size_t k = i; k < i + 3; ++k) {
-      EXPECT_NEAR(length(normal(triangles[k])), 1, 1e-5);
-      EXPECT_GE(dot(face, normal(triangles[k])), -1e-9) << "normal against its face, triangle " << i / 3;
+      EXPECT_NEAR(normal(triangles[k]).norm(), 1, 1e-5);
+      EXPECT_GE(face.dot(normal(triangles[k])), -1e-9) << "normal against its face, triangle " << i / 3;
     }
   }
 }
@@ -83,7 +83,7 @@ TEST(RendersSolidMesh, CylinderCarriesAMarkThatShowsItTurn) {
   // Darkest corners of the end that faces the operator, and where they are on average.
   Vec3 sum = {0, 0, 0};
   for (const Vertex& v : mesh(SolidPart::Shape::cylinder, {1, 1, 0.2}))
-    if (v.normal[2] > 0.99F && v.colour[0] < 0.2F) sum = sum + position(v);
+    if (v.normal[2] > 0.99F && v.colour[0] < 0.2F) sum += position(v);
   EXPECT_GT(std::hypot(sum[0], sum[1]), 1.0) << "on one side";
 }
 

@@ -203,8 +203,8 @@ TEST(PicturesFilm, ACameraOfTheUsersOwnStandsWhereItIsPut) {
   const std::string eye =
       "frames: {every: 500 ms, camera: {eye: [-1 m, 60 cm, 1400 mm], target: [1 mm, 2 mm, 0 m]";
   const auto usual = KnifeLine(eye + "}}").film().camera;
-  EXPECT_EQ(usual.eye, (std::array<double, 3>{-1, 0.6, 1.4}));
-  EXPECT_EQ(usual.target, (std::array<double, 3>{0.001, 0.002, 0}));
+  EXPECT_EQ(usual.eye, renders::Vec3(-1, 0.6, 1.4));
+  EXPECT_EQ(usual.target, renders::Vec3(0.001, 0.002, 0));
   EXPECT_NEAR(usual.field_of_view_deg, 35, 1e-9);
   EXPECT_NEAR(KnifeLine(eye + ", field_of_view: 60 deg}}").film().camera.field_of_view_deg, 60, 1e-9);
 }
