@@ -35,6 +35,21 @@ std::vector<CamTableRow> read_rows(const Registers& registers, int block) {
   return rows;
 }
 
+CamLaw straight_law(const std::vector<CamTableRow>& rows) {
+  CamLaw law;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double length = static_cast<double>(rows[i].master) - rows[i - 1].master;
+    const double rise = static_cast<double>(rows[i].slave) - rows[i - 1].slave;
+    if (length <= 0) return {};
+    const double ratio = rise / length;
+    law.pieces.push_back(
+        {law.master_length, length, law.slave_length, static_cast<int>(i), CamTransition{ratio, ratio}});
+    law.master_length += length;
+    law.slave_length += rise;
+  }
+  return law;
+}
+
 RowLaw::RowLaw(std::vector<Row> rows, Zoom master, Zoom slave)
     : rows_(std::move(rows)), master_(master), slave_(slave) {
   assert(rows_.size() >= 2);

@@ -10,6 +10,9 @@ namespace drycut::devices::lx3vp {
 /// The rows in the block at D`block`, as many as its word 38 says.
 std::vector<CamTableRow> read_rows(const Registers& registers, int block);
 
+/// A straight piece between each two rows, which is how the device plays them; none if they do not ascend.
+CamLaw straight_law(const std::vector<CamTableRow>& rows);
+
 /// Integers of 128 bit: positions of the cam are fractions whose terms do not fit 64.
 __extension__ using Wide = __int128;
 

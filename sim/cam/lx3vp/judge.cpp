@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "devices/lx3vp/cam_law.hpp"
 #include "sim/cam/lx3vp/remedies.hpp"
 #include "sim/cam/reach.hpp"
 #include "sim/cam/travel.hpp"

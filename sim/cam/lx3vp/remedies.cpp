@@ -5,27 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "devices/lx3vp/cam_law.hpp"
 #include "sim/cam/reach.hpp"
 
 namespace drycut::sim {
 
 using devices::lx3vp::EcamError;
 using devices::lx3vp::EcamType;
-
-devices::CamLaw straight_law(const std::vector<devices::lx3vp::CamTableRow>& rows) {
-  devices::CamLaw law;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double length = static_cast<double>(rows[i].master) - rows[i - 1].master;
-    const double rise = static_cast<double>(rows[i].slave) - rows[i - 1].slave;
-    if (length <= 0) return {};
-    const double ratio = rise / length;
-    law.pieces.push_back({law.master_length, length, law.slave_length, static_cast<int>(i),
-                          devices::CamTransition{ratio, ratio}});
-    law.master_length += length;
-    law.slave_length += rise;
-  }
-  return law;
-}
 
 std::string wrong_words(const EcamTable& table) {
   const auto curve = table.saw.curve & ~devices::lx3vp::return_square;

@@ -6,9 +6,6 @@
 
 namespace drycut::sim {
 
-/// A straight piece between each two rows, as the device plays them; none if they do not ascend.
-devices::CamLaw straight_law(const std::vector<devices::lx3vp::CamTableRow>& rows);
-
 /// What no type of table has: "P6L 7", "P6H 4" or both; "" if both are known.
 std::string wrong_words(const EcamTable& table);
 /// What a fault of ECAMTBX asks to be changed, with the list's own numbers.

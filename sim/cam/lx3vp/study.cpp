@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "devices/lx3vp/cam_law.hpp"
 #include "sim/cam/lx3vp/judge.hpp"
-#include "sim/cam/lx3vp/remedies.hpp"
 
 namespace drycut::sim {
 

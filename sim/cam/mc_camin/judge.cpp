@@ -19,11 +19,6 @@ using devices::plcopen::CamLimits;
 using devices::plcopen::Endless;
 using Grade = CamFinding::Grade;
 
-/// "; so at 3 rows", if there are others.
-std::string others(const CamWorst& worst) {
-  return worst.count < 2 ? "" : fmt::format("; so at {} rows", worst.count);
-}
-
 class CamInJudge {
  public:
   CamInJudge(const CamInRun& run, const CamDuty& duty)
@@ -50,6 +45,12 @@ class CamInJudge {
   void add(Grade grade, std::string where, std::string text, CamRemedy remedy = {}, int id = 0) {
     found_.push_back({grade, id, std::move(where), std::move(text), std::move(remedy)});
   }
+  /// Where it is worst, if there are such places at all, and how many there are.
+  void add(Grade grade, const CamWorst& worst, const std::string& text, CamRemedy remedy = {}) {
+    if (worst.count == 0) return;
+    const auto others = worst.count < 2 ? "" : fmt::format("; so at {} rows", worst.count);
+    add(grade, where(worst.row), text + others, std::move(remedy));
+  }
   [[nodiscard]] std::string where(int row) const {
     return fmt::format("row {} (line {})", row, cam_.lines[static_cast<std::size_t>(row) - 1]);
   }
@@ -74,12 +75,10 @@ class CamInJudge {
       if (peak > *limit * within) worst.take(peak, piece.row);
     }
     const double speed = *run_.master_speed / increments_per_unit;
-    if (worst.count > 0) {
-      add(Grade::limit, where(worst.row),
-          fmt::format("{} {} {} above {}{}", name, number(worst.value), per(power), number(*limit),
-                      others(worst)),
+    if (worst.count > 0)
+      add(Grade::limit, worst,
+          fmt::format("{} {} {} above {}", name, number(worst.value), per(power), number(*limit)),
           slower_master("", speed * std::pow(*limit / worst.value, 1.0 / power), cam_.master_unit + "/s"));
-    }
     judge_steps(power, name);
   }
 
@@ -88,10 +87,8 @@ class CamInJudge {
     for (const CamKnot& knot : run_.knots)
       if (knot.smooth < power - 1)
         worst.take(knot.jumps[static_cast<std::size_t>(knot.smooth) + 1], knot.row);
-    if (worst.count > 0)
-      add(Grade::limit, where(worst.row),
-          fmt::format("{} without end: what it is the derivative of jumps there{}", name, others(worst)),
-          "see the table of knots");
+    add(Grade::limit, worst, fmt::format("{} without end: what it is the derivative of jumps there", name),
+        "see the table of knots");
   }
 
   void judge_travel() {
@@ -115,22 +112,16 @@ class CamInJudge {
       if (knot.smooth == 1) acceleration.take(knot.jumps[2], knot.row);
     }
     const bool steps = cam_.interpolation == devices::plcopen::Interpolation::step_direct;
-    if (position.count > 0)
-      add(Grade::caution, where(position.row),
-          fmt::format("the position jumps by {} {}{}", number_text(position.value), increments_of(unit_),
-                      others(position)),
-          turns_on(position.value) ? "it is a turn of the slave: write # endless: positive or negative"
-          : steps                  ? "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"
-                                   : "let each row end where the next one begins");
-    if (velocity.count > 0)
-      add(Grade::caution, where(velocity.row),
-          fmt::format("the velocity jumps by {}{}{}", in_time(velocity.value, 1), velocity_unit(),
-                      others(velocity)),
-          "POLYNOM_3, or POLY5 between lines, has no such jumps");
-    if (acceleration.count > 0)
-      add(Grade::remark, where(acceleration.row),
-          fmt::format("the acceleration jumps by {} {}{}", in_time(acceleration.value, 2),
-                      acceleration_unit(), others(acceleration)));
+    add(Grade::caution, position,
+        fmt::format("the position jumps by {} {}", number_text(position.value), increments_of(unit_)),
+        turns_on(position.value) ? "it is a turn of the slave: write # endless: positive or negative"
+        : steps                  ? "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"
+                                 : "let each row end where the next one begins");
+    add(Grade::caution, velocity,
+        fmt::format("the velocity jumps by {}{}", in_time(velocity.value, 1), velocity_unit()),
+        "POLYNOM_3, or POLY5 between lines, has no such jumps");
+    add(Grade::remark, acceleration,
+        fmt::format("the acceleration jumps by {} {}", in_time(acceleration.value, 2), acceleration_unit()));
   }
 
   [[nodiscard]] bool turns_on(double jump) const {
@@ -177,11 +168,10 @@ class CamInJudge {
       const double way = piece.end().position - piece.begin().position;
       if (piece.master >= 0 && std::abs(way) > cam_.slave_modulo / 2) worst.take(way, piece.row);
     }
-    if (worst.count > 0)
-      add(Grade::caution, where(worst.row),
-          fmt::format("goes {} by {} {}, more than half a turn{}", worst.value < 0 ? "back" : "on",
-                      number_text(std::abs(worst.value)), increments_of(unit_), others(worst)),
-          "if the slave is to turn on instead, write # endless: positive or negative");
+    add(Grade::caution, worst,
+        fmt::format("goes {} by {} {}, more than half a turn", worst.value < 0 ? "back" : "on",
+                    number_text(std::abs(worst.value)), increments_of(unit_)),
+        "if the slave is to turn on instead, write # endless: positive or negative");
   }
 
   /// How far a piece leaves the range between its two ends, negative below it.
@@ -241,9 +231,9 @@ class CamInJudge {
       if (std::abs(overshoot) > 1) worst.take(overshoot, piece.row);
     }
     if (worst.count > 0)
-      add(Grade::caution, where(worst.row),
-          fmt::format("overshoots its two rows by {} {}{}", number(std::abs(worst.value)),
-                      increments_of(unit_), others(worst)),
+      add(Grade::caution, worst,
+          fmt::format("overshoots its two rows by {} {}", number(std::abs(worst.value)),
+                      increments_of(unit_)),
           overshoot_remedy(worst.row));
   }
 
@@ -258,11 +248,9 @@ class CamInJudge {
       const double back = direction > 0 ? v.low : v.high;
       if (direction * back < -rounding) worst.take(back, piece.row);
     }
-    if (worst.count > 0)
-      add(Grade::caution, where(worst.row),
-          fmt::format("runs against its direction, at {}{} at most{}", in_time(worst.value, 1),
-                      velocity_unit(), others(worst)),
-          "if it must not turn back, bring its rows nearer to a steady rise");
+    add(Grade::caution, worst,
+        fmt::format("runs against its direction, at {}{} at most", in_time(worst.value, 1), velocity_unit()),
+        "if it must not turn back, bring its rows nearer to a steady rise");
   }
 
   void judge_range() {
