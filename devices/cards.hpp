@@ -71,6 +71,24 @@ struct Cards {
   std::map<int, DigitalInput> interrupt_lines;  ///< by line number 1..8, present level
 };
 
+/// Calls `use` with the terminals of a slot's kind and the key of `address` among them.
+template <typename Use>
+auto with_terminals(auto& cards, const Address& address, Use use) {
+  switch (address.kind) {
+    case Kind::counter:
+      return use(cards.counters, address);
+    case Kind::input:
+      return use(cards.inputs, address);
+    case Kind::output:
+      return use(cards.outputs, address);
+    case Kind::analogue:
+      return use(cards.analogue_outputs, address);
+    case Kind::interrupt:
+      break;
+  }
+  return use(cards.interrupt_lines, address.number);
+}
+
 /// Full scale of the DAC [bits] and [V].
 inline constexpr int dac_full_scale = 32767;
 inline constexpr double dac_full_scale_volts = 10.0;

@@ -27,6 +27,63 @@ consteval std::array<Row, N + M> joined(const std::array<Row, N>& first, const s
   return rows;
 }
 
+/// The rows, in the manual's section where they name none.
+template <typename Row, std::size_t N>
+constexpr std::array<Row, N> in_section(std::string_view section, std::array<Row, N> rows) {
+  for (Row& row : rows)
+    if (row.section.empty()) row.section = section;
+  return rows;
+}
+/// A row that the manual defines elsewhere than those around it.
+template <typename Row>
+constexpr Row elsewhere(std::string_view section, Row row) {
+  row.section = section;
+  return row;
+}
+/// Variables of a table that has so many rows.
+template <std::size_t N>
+constexpr std::array<Variable, N> of_rows(int number, std::array<Variable, N> variables) {
+  for (Variable& variable : variables) variable.rows = number;
+  return variables;
+}
+
+// The ends of a variable of size L.
+inline constexpr double lowest = -2147483648.0;
+inline constexpr double highest = 2147483647.0;
+
+/// A parameter: programs write it where `write` holds, the retentive memory keeps it.
+constexpr Variable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
+                        Condition write, std::string_view meaning) {
+  return {name, size, unit, min, max, Access::read_write, Retention::retentive, write, meaning};
+}
+constexpr Variable kept(std::string_view name, Size size, std::string_view unit, double min, double max,
+                        std::string_view meaning) {
+  return kept(name, size, unit, min, max, {}, meaning);
+}
+/// The same of a value that begins at 0 with each power-up.
+constexpr Variable zeroed(std::string_view name, Size size, std::string_view unit, double min, double max,
+                          Condition write, std::string_view meaning) {
+  return {name, size, unit, min, max, Access::read_write, Retention::zero, write, meaning};
+}
+constexpr Variable zeroed(std::string_view name, Size size, std::string_view unit, double min, double max,
+                          std::string_view meaning) {
+  return zeroed(name, size, unit, min, max, {}, meaning);
+}
+/// What the device shows; without a range any value of size L.
+constexpr Variable shown(std::string_view name, Size size, std::string_view unit, double min, double max,
+                         std::string_view meaning) {
+  return {name, size, unit, min, max, Access::read, Retention::zero, {}, meaning};
+}
+constexpr Variable shown(std::string_view name, std::string_view unit, std::string_view meaning) {
+  return shown(name, Size::L, unit, lowest, highest, meaning);
+}
+
+/// A command, and what it does to a state.
+constexpr Command command(std::string_view name, Condition condition, std::string_view meaning,
+                          Effect effect = {}) {
+  return {name, condition, meaning, {}, effect};
+}
+
 /// needs({"st_init", "!st_emrg"}): the condition that these rows of `states` are 1, or 0 where the name
 /// begins with '!'.
 template <const auto& states>
@@ -53,10 +110,6 @@ struct Turns {
     return {find_row(states, off ? name.substr(1) : name), !off, quiet};
   }
 };
-
-// The ends of a variable of size L.
-inline constexpr double lowest = -2147483648.0;
-inline constexpr double highest = 2147483647.0;
 
 /// Number of a row of `type`, which its name stands for; a name that is not in the table does not compile.
 template <const DeviceType& type, auto rows>

@@ -100,6 +100,16 @@ class AnaloguePositioner : public TableDevice<table> {
     if (acts != value(variable)) report(acts_as(name_of(variable), value(variable), acts));
   }
 
+  /// A parameter was written: the running movement takes it if it can. `ramps`: its speed or its ramps are
+  /// others.
+  void write_motion(VariableRow variable, bool ramps) {
+    if (!axis_.profile().moving() || search_.searching()) return;
+    bool taken = true;
+    if (variable == "setpos" && axis_.placing()) taken = axis_.retarget(clamped(value("setpos")));
+    if (ramps) taken = axis_.change(value("setvel"));
+    if (!taken) report(kept_for_the_next(name_of(variable)));
+  }
+
   // Commands.
 
   bool may_execute(int command) override {

@@ -307,10 +307,12 @@ void Cam::hold(const Point& slave) {
   step_.ratio = 0;
 }
 
-void Cam::fail(int code, int number) {
+/// Ends the cam with an error; always 0: no row is next.
+int Cam::fail(int code, int number) {
   stop();
   step_.ratio = 0;
   step_.error = {code, number};
+  return 0;
 }
 
 void Cam::warn(int code, int number) {

@@ -133,7 +133,7 @@ class Cam {
   [[nodiscard]] std::int64_t master_value(const Point& point, const CamSample& sample) const;
   [[nodiscard]] std::int64_t slave_value(const Point& point, const CamSample& sample) const;
 
-  void fail(int code, int number);
+  int fail(int code, int number);
   void warn(int code, int number);
   void read_out(int number, double um);
 

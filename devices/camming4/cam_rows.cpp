@@ -26,25 +26,16 @@ void Cam::run_rows(int number, const CamSample& sample) {
 
 /// Does row `number`; the row to do next, or 0.
 int Cam::execute(int number, const CamSample& sample) {
-  if (number > cam_rows) {
-    fail(6, cam_rows);
-    return 0;
-  }
+  if (number > cam_rows) return fail(6, cam_rows);
   const Row row = take(number);
   const Code* code = find_code(row.codeG);
-  if (code == nullptr) {
-    fail(3, number);
-    return 0;
-  }
+  if (code == nullptr) return fail(3, number);
   if (code->what == CodeClass::movement && !is_empty_movement(*code, row))
     return enter(*code, row, number, sample);
   adjacent_ = false;
   if (code->what == CodeClass::start_sync) return wait_for_quota(row, number, sample);
   const bool update = code->what == CodeClass::count_update;
-  if (update ? ++update_rows_ > most_update_rows : ++zero_rows_ > most_zero_rows) {
-    fail(1, number);
-    return 0;
-  }
+  if (update ? ++update_rows_ > most_update_rows : ++zero_rows_ > most_zero_rows) return fail(1, number);
   switch (code->what) {
     case CodeClass::end:
       end();
@@ -70,20 +61,14 @@ int Cam::execute(int number, const CamSample& sample) {
 }
 
 int Cam::enter(const Code& code, const Row& row, int number, const CamSample& sample) {
-  if (code.zero_start && jumped_ && !is_standstill(speed_)) {
-    fail(2, number);
-    return 0;
-  }
+  if (code.zero_start && jumped_ && !is_standstill(speed_)) return fail(2, number);
   fetch_next(number);
   const SectorEntry entry{.speed = speed_,
                           .softening = adjacent_ ? softening_ : Softening{},
                           .next = next_row_ != 0 ? &next_ : nullptr};
   const SectorResult result = make_sector(code, row, number, settings_, entry);
   for (int i = 0; i < result.warning_count; ++i) warn(result.warnings[static_cast<std::size_t>(i)], number);
-  if (result.error != 0) {
-    fail(result.error, number);
-    return 0;
-  }
+  if (result.error != 0) return fail(result.error, number);
   if (softening_due_ && entry.softening.half_width <= 0 && code.qma == Use::softening) warn(10, number);
 
   current_ = number;
@@ -107,10 +92,7 @@ int Cam::enter(const Code& code, const Row& row, int number, const CamSample& sa
 
 // 000 1.2.5
 int Cam::wait_for_quota(const Row& row, int number, const CamSample& sample) {
-  if (!beginning_) {
-    fail(7, number);
-    return 0;
-  }
+  if (!beginning_) return fail(7, number);
   beginning_ = false;
   zero_rows_ = update_rows_ = 0;
   fetch_next(number);
@@ -139,10 +121,7 @@ bool Cam::quota_passed(const CamSample& sample) {
 }
 
 int Cam::jump_to(std::int32_t target, int from) {
-  if (target < 1 || target > cam_rows) {
-    fail(6, from);
-    return 0;
-  }
+  if (target < 1 || target > cam_rows) return fail(6, from);
   jumped_ = true;
   beginning_ = false;
   return target;

@@ -58,7 +58,6 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   void load_table();
   void write_row(Symbol symbol, std::int32_t value);
   void write_position(VariableRow variable, std::int32_t value);
-  void write_motion(VariableRow variable);
   void check_resolution(VariableRow measure, VariableRow pulse, axis::Resolution resolution);
 
   // Commands (camming4_commands.cpp).
@@ -81,8 +80,6 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   void report_refusal(std::string_view what, std::string_view subject);
   void sample_presets();
   void sample_master_preset();
-  [[nodiscard]] std::int64_t slave_bits_at(std::int64_t total) const;
-  [[nodiscard]] std::int64_t master_bits_at(std::int64_t total) const;
 
   // The periodic step (camming4.cpp).
   void step_cam();

@@ -11,6 +11,12 @@ constexpr int falling = 1;
 constexpr int rising_edge = 2;
 constexpr int stop_inhibited_ms = 25;
 
+/// What the count was `ago` bits before, as a variable shows it.
+std::int32_t shown_before(axis::Quota quota, std::int64_t ago, axis::Resolution resolution) {
+  quota.count(-ago, resolution);
+  return wrap(Size::L, quota.bits(resolution));
+}
+
 std::int32_t incremented(std::int32_t value) { return wrap(Size::L, std::int64_t{value} + 1); }
 
 }  // namespace
@@ -58,19 +64,9 @@ void Camming4::sample_inputs() {
   run_function(value("funInt"), capture, "funInt");
 }
 
-std::int64_t Camming4::slave_bits_at(std::int64_t total) const {
-  axis::Quota quota = axis_.quota;
-  quota.count(total - axis_.transducer().total(), axis_.settings.resolution);
-  return quota.bits(axis_.settings.resolution);
-}
-
-std::int64_t Camming4::master_bits_at(std::int64_t total) const {
-  axis::Quota quota = master_quota_;
-  quota.count(total - master_.total(), master_resolution_);
-  return quota.bits(master_resolution_);
-}
-
 void Camming4::run_function(int function, const Capture& capture, std::string_view subject) {
+  const std::int64_t slave_ago = axis_.transducer().total() - capture.slave;
+  const std::int64_t master_ago = master_.total() - capture.master;
   const bool counts_writable = holds(type().variables[VariableRow("encoder")].write);
   switch (function) {
     case 1:
@@ -85,13 +81,13 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
     case 3:
     case 9:
     case 11:
-      value("delta1") = wrap(Size::L, slave_bits_at(capture.slave));
+      value("delta1") = shown_before(axis_.quota, slave_ago, axis_.settings.resolution);
       if (function != 3) function_start(capture, subject);
       break;
     case 4:
     case 10:
     case 12:
-      value("delta2") = wrap(Size::L, master_bits_at(capture.master));
+      value("delta2") = shown_before(master_quota_, master_ago, master_resolution_);
       if (function != 4) function_start(capture, subject);
       break;
     case 5:
@@ -106,7 +102,7 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
         break;
       }
       axis_.quota.set_bits(value("delta1"), axis_.settings.resolution);
-      axis_.quota.count(axis_.transducer().total() - capture.slave, axis_.settings.resolution);
+      axis_.quota.count(slave_ago, axis_.settings.resolution);
       requota(subject);
       break;
     case 8:
@@ -115,7 +111,7 @@ void Camming4::run_function(int function, const Capture& capture, std::string_vi
         break;
       }
       master_quota_.set_bits(value("delta2"), master_resolution_);
-      master_quota_.count(master_.total() - capture.master, master_resolution_);
+      master_quota_.count(master_ago, master_resolution_);
       break;
     default:
       report(

@@ -42,7 +42,8 @@ void Camming4::written(Symbol symbol, std::int32_t new_value) {
   if (!changed) return;
   recompute();
   if (state("st_init")) {
-    write_motion(variable);
+    write_motion(variable,
+                 variable == "setvel" || variable == "tacc" || variable == "tdec" || variable == "rtype");
   } else {
     // The counts of a new resolution, for INIT to go on from.
     value("encoder") = static_cast<std::int32_t>(axis_.quota.bits(axis_.settings.resolution));
@@ -70,15 +71,6 @@ void Camming4::write_position(VariableRow variable, std::int32_t new_value) {
   if (variable == "positm") master_quota_.set_um(new_value, master_resolution_);
   if (variable == "encoderm") master_quota_.set_bits(new_value, master_resolution_);
   if (variable == "posit" || variable == "encoder") requota(name_of(variable));
-}
-
-void Camming4::write_motion(VariableRow variable) {
-  if (!axis_.profile().moving() || search_.searching()) return;
-  bool taken = true;
-  if (variable == "setpos" && axis_.placing()) taken = axis_.retarget(clamped(value("setpos")));
-  if (variable == "setvel" || variable == "tacc" || variable == "tdec" || variable == "rtype")
-    taken = axis_.change(value("setvel"));
-  if (!taken) report(axis::kept_for_the_next(name_of(variable)));
 }
 
 void Camming4::recompute() {

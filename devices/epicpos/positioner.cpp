@@ -75,14 +75,7 @@ void Positioner::written(Symbol symbol, std::int32_t new_value) {
   const axis::Demand ramps = axis_.settings.ramps;
   recompute();
   if (variable == "cntratio") check_ratio();
-  write_motion(variable, !same_ramps(ramps, axis_.settings.ramps));
-}
-
-void Positioner::write_motion(VariableRow variable, bool ramps_changed) {
-  if (!axis_.profile().moving() || search_.searching()) return;
-  if (variable == "setpos" && axis_.placing()) axis_.retarget(clamped(value("setpos")));
-  if ((variable == "setvel" || ramps_changed) && !axis_.change(value("setvel")))
-    report(axis::kept_for_the_next(name_of(variable)));
+  write_motion(variable, variable == "setvel" || !same_ramps(ramps, axis_.settings.ramps));
 }
 
 /// What the ratio acts as, if not as itself.

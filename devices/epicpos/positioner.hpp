@@ -28,7 +28,6 @@ class Positioner final : public axis::AnaloguePositioner<epicpos_type> {
  private:
   void recompute();
   void check_ratio();
-  void write_motion(VariableRow variable, bool ramps_changed);
   void sample_preset();
   void move_counter(double bits);
   void publish();

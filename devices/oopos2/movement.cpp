@@ -69,19 +69,13 @@ bool Movement::advance(Parts position, Parts slow_range) {
       return true;
     case Phase::inversion:
       if (timer_ms_ > 0) return false;
-      if (reached(position, leg_.inertia)) {
-        arrive();
-        return true;
-      }
+      if (reached(position, leg_.inertia)) return arrive();
       last_backward_ = leg_.backward;
       driven_ = true;
       enter(leg_.slow || (leg_.slows && reached(position, slow_range)) ? Phase::slow : Phase::fast);
       return false;
     case Phase::fast:
-      if (reached(position, leg_.inertia)) {
-        arrive();
-        return true;
-      }
+      if (reached(position, leg_.inertia)) return arrive();
       if (!leg_.slows || !reached(position, slow_range)) return false;
       slowdown_ms_ = times.slowdown;
       if (slowdown_ms_ > 0) switch_off();
@@ -89,10 +83,7 @@ bool Movement::advance(Parts position, Parts slow_range) {
       return true;
     case Phase::slowdown:
     case Phase::slow:
-      if (reached(position, leg_.inertia)) {
-        arrive();
-        return true;
-      }
+      if (reached(position, leg_.inertia)) return arrive();
       if (phase_ == Phase::slow || timer_ms_ > 0) return false;
       enter(Phase::slow);
       return false;
@@ -118,16 +109,18 @@ void Movement::invert() {
   enter(Phase::inversion, turns ? std::max(times.inversion - off_ms_, 0) : 0);
 }
 
-void Movement::arrive() {
+/// The leg is over; what follows is entered in the same sample.
+bool Movement::arrive() {
   switch_off();
   if (!last_) {
     enter(Phase::tolerance, times.tolerance);
-    return;
+    return true;
   }
   leg_ = *last_;
   last_.reset();
   driven_ = false;
   invert();
+  return true;
 }
 
 bool Movement::retarget(Parts position, const std::optional<Leg>& overshoot, const Leg& last) {

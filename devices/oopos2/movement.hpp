@@ -100,7 +100,7 @@ class Movement {
   void begin(const Leg& leg);
   void switch_off();
   void invert();
-  void arrive();
+  bool arrive();
   [[nodiscard]] bool reached(Parts position, Parts before) const;
   [[nodiscard]] static bool ahead(const Leg& leg, Parts position);
   [[nodiscard]] bool changeable() const;

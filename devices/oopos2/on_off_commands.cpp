@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "devices/oopos2/on_off_positioner.hpp"
 
 namespace drycut::devices::oopos2 {
@@ -50,8 +48,7 @@ void OnOffPositioner::execute(int command) {
 
 /// A target [Um/10] held between minpos and maxpos; `quota` is the parameter that it comes from.
 std::int64_t OnOffPositioner::clamped(std::int64_t tenths, std::string_view subject, std::int32_t quota) {
-  const std::int64_t held =
-      std::max(std::int64_t{value("minpos")} * 10, std::min(tenths, std::int64_t{value("maxpos")} * 10));
+  const std::int64_t held = within_limits(tenths);
   if (held != tenths)
     report({Diagnostic::Kind::note, std::string(subject),
             fmt::format("setpos {} plus tool is outside minpos..maxpos, the axis goes to {}", quota,

@@ -89,14 +89,17 @@ OnOffPositioner::Legs OnOffPositioner::legs_to(std::int64_t tenths, bool backwar
   legs.last = {backward, false, true, tenths * parts_per_tenth, inertia(backward)};
   if (!overshoots) return legs;
   const std::int64_t over = std::int64_t{value("overpos")} * 10;
-  const std::int64_t beyond =
-      std::max(std::int64_t{value("minpos")} * 10,
-               std::min(tenths + (backward ? -over : over), std::int64_t{value("maxpos")} * 10));
+  const std::int64_t beyond = within_limits(tenths + (backward ? -over : over));
   const bool slows = value("bklashmode") <= 2;
   legs.overshoot = Leg{backward, false, slows, beyond * parts_per_tenth, inertia(backward)};
   legs.last.backward = !backward;
   legs.last.inertia = inertia(!backward);
   return legs;
+}
+
+/// A quota [Um/10] held between minpos and maxpos.
+std::int64_t OnOffPositioner::within_limits(std::int64_t tenths) const {
+  return std::max(std::int64_t{value("minpos")} * 10, std::min(tenths, std::int64_t{value("maxpos")} * 10));
 }
 
 bool OnOffPositioner::within_tolerance(std::int64_t tenths) const {

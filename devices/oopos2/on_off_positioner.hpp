@@ -58,6 +58,7 @@ class OnOffPositioner final : public TableDevice<oopos2_type> {
   [[nodiscard]] Parts slow_way() const;
   [[nodiscard]] VariableRow inertia_variable(int band, bool backward) const;
   [[nodiscard]] Legs legs_to(std::int64_t tenths, bool backward, bool overshoots) const;
+  [[nodiscard]] std::int64_t within_limits(std::int64_t tenths) const;
   [[nodiscard]] bool within_tolerance(std::int64_t tenths) const;
 
   // Commands (on_off_commands.cpp).

@@ -207,13 +207,10 @@ Compiler::Type Compiler::name_value() {
       emit(Op::load_at);
       break;
     case NamedThing::Kind::device:
-      complain(name.place, fmt::format("{} is a device, not a value", in_quotes(name.text)),
-               fmt::format("write {}:parameter", name.text));
-      emit(Op::push);
-      return Type::integer;
     case NamedThing::Kind::group:
-      complain(name.place, fmt::format("{} is a datagroup, not a value", in_quotes(name.text)),
-               "name one of its variables");
+      complain(name.place, fmt::format("{} is {}, not a value", in_quotes(name.text), name_of(thing->kind)),
+               thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter", name.text)
+                                                       : "name one of its variables");
       emit(Op::push);
       return Type::integer;
   }

@@ -100,11 +100,10 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
         *top = machine.cells[*top];
         break;
       case Op::index:
-        if (!within(*top, now.b)) return fail(RunTimeError::index_out_of_bound);
-        *top += now.a - 1;
-        break;
       case Op::index_recipe:
-        if (!within(*top, now.b)) return fail(RunTimeError::recipe_out_of_range);
+        if (!within(*top, now.b))
+          return fail(now.op == Op::index ? RunTimeError::index_out_of_bound
+                                          : RunTimeError::recipe_out_of_range);
         *top += now.a - 1;
         break;
       case Op::index_step: {

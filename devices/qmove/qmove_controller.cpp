@@ -67,23 +67,7 @@ QmoveController::QmoveController(Configuration configuration, std::vector<Progra
 }
 
 void QmoveController::add_terminal(const Address& address) {
-  switch (address.kind) {
-    case Kind::counter:
-      cards_.counters.try_emplace(address);
-      break;
-    case Kind::input:
-      cards_.inputs.try_emplace(address);
-      break;
-    case Kind::output:
-      cards_.outputs.try_emplace(address);
-      break;
-    case Kind::analogue:
-      cards_.analogue_outputs.try_emplace(address);
-      break;
-    case Kind::interrupt:
-      cards_.interrupt_lines.try_emplace(address.number);
-      break;
-  }
+  with_terminals(cards_, address, [](auto& terminals, const auto& key) { terminals.try_emplace(key); });
 }
 
 std::vector<Controller::Period> QmoveController::periods() const {

@@ -118,19 +118,8 @@ std::optional<QmoveController::Location> QmoveController::locate_symbol(std::str
 }
 
 bool QmoveController::has_terminal(const Address& address) const {
-  switch (address.kind) {
-    case Kind::counter:
-      return cards_.counters.contains(address);
-    case Kind::input:
-      return cards_.inputs.contains(address);
-    case Kind::output:
-      return cards_.outputs.contains(address);
-    case Kind::analogue:
-      return cards_.analogue_outputs.contains(address);
-    case Kind::interrupt:
-      return cards_.interrupt_lines.contains(address.number);
-  }
-  return false;
+  return with_terminals(cards_, address,
+                        [](const auto& terminals, const auto& key) { return terminals.contains(key); });
 }
 
 std::optional<ControllerValue> QmoveController::find(const std::string& name) {

@@ -51,6 +51,24 @@ struct Place {
   int line;
 };
 
+/// What another device on the same cards shows.
+inline std::int32_t value_of(const Device& device, std::string_view name) {
+  return device.read(find_symbol(device.type(), name).value());
+}
+/// Writes, commands and samples of it, as a bench has them: "pulse=4 INIT LOOPON! sample".
+inline void drive(Device& device, const std::string& script) {
+  std::istringstream words{script};
+  for (std::string word; words >> word;) {
+    const auto sign = word.find_first_of("=!");
+    const std::string name = word.substr(0, sign);
+    if (sign != std::string::npos && word[sign] == '=')
+      device.write(find_symbol(device.type(), name).value(), std::stoi(word.substr(sign + 1)));
+    else if (word != "sample")
+      device.command(find_command(device.type(), name).value());
+    if (sign == std::string::npos) device.sample();
+  }
+}
+
 /// A device of movement on cards of its own, and how a test says what happens and what is seen then:
 ///
 ///   after("INIT LOOPON setpos=1000 START +20", "!still acc posit=12~2 DAC>0");

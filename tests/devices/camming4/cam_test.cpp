@@ -64,13 +64,6 @@ TEST_F(Camming4Cam, StopCamLeavesTheMasterWithARamp) {
   shows("!toll");
 }
 
-TEST_F(Camming4Cam, EmergencyEndsTheCam) {
-  load_constant();
-  after("INIT LOOPON STARTCAM +30*10 EMRG", "DAC=0 !camex");
-  after("RESUME +10*10", "!camex");
-  after("STARTCAM", "rowex=1");
-}
-
 TEST_F(Camming4Cam, GearingTakesANewRatio) {
   rows({{132, 100, 50}, {154, 1000, 1000, 0, 2}});
   after("INIT LOOPON STARTCAM +40*10", "ffwdreg=3277");

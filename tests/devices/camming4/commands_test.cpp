@@ -33,7 +33,7 @@ TEST_F(Camming4Commands, CommandsSetTheirStates) {
   shows("silent !warning");
 }
 
-// What the locks and directions do to the counts is in camming4_regulation_test.cpp; here each on its own.
+// What lock and direction do to the count is in positioners_test.cpp; here each of both counts on its own.
 TEST_F(Camming4Commands, EachCountHasItsLockAndItsDirection) {
   does("INIT");
   const auto moved = [&] {

@@ -88,12 +88,7 @@ struct TableError {
 class Camming4TableErrors : public Camming4Test, public testing::WithParamInterface<TableError> {};
 
 TEST_P(Camming4TableErrors, BlockTheAxis) {
-  int number = 1;
-  for (const auto& values : GetParam().rows) {
-    static constexpr const char* columns[] = {"codeG", "codeQm", "codeQs", "codeQma", "codeQsa"};
-    for (std::size_t i = 0; i < values.size(); ++i) write(columns[i] + std::to_string(number), values[i]);
-    ++number;
-  }
+  rows(GetParam().rows);
   after("INIT LOOPON STARTCAM +60*10", "error");
   EXPECT_EQ(get("errcode"), GetParam().code);
   EXPECT_EQ(get("errvalue"), GetParam().row);

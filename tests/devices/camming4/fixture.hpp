@@ -20,7 +20,7 @@ class Camming4Test : public IdealAxisBench {
   }
 
   /// Writes rows of the cam table, from row 1 on; what a row leaves out stays as it is.
-  void rows(std::initializer_list<std::vector<std::int32_t>> table) {
+  void rows(const std::vector<std::vector<std::int32_t>>& table) {
     int number = 1;
     for (const auto& values : table) row(number++, values);
   }

@@ -13,7 +13,6 @@ using testing::HasSubstr;
 /// the interrupt input, which has them latched at the edge; every function of the output (000 1.8).
 class Camming4Functions : public Camming4Test, public testing::WithParamInterface<bool> {
  protected:
-  static constexpr int line = 5;
   bool interrupt() { return GetParam(); }
   std::string mark(int function) {
     return (interrupt() ? "interrupt input " : "normal input ") + std::to_string(function);
@@ -23,34 +22,29 @@ class Camming4Functions : public Camming4Test, public testing::WithParamInterfac
     rows({{154, 1000, 1000}, {137, 1}});
     does("INIT LOOPON posit=0 positm=0 delta1=7000 delta2=-7000 +3");
   }
+  int armed() { return get(interrupt() ? "st_intenbl" : "st_enbl"); }
+  int done() { return get(interrupt() ? "st_intcapt" : "st_capt"); }
   void arm(int function) {
-    if (interrupt()) {
-      set({{"funInt", function}, {"intcapt", 2}});
-      does("INTENBL");
-    } else {
-      set({{"funInp", function}, {"inpcapt", 2}});
-      does("ENBL");
-    }
-    does("+2");
-    EXPECT_EQ(get(interrupt() ? "st_intenbl" : "st_enbl"), 1);
+    write(interrupt() ? "funInt" : "funInp", function);
+    does(interrupt() ? "intcapt=2 INTENBL +2" : "inpcapt=2 ENBL +2");
+    EXPECT_EQ(armed(), 1);
   }
   /// The axes run on by 40 and 30, the edge comes, they run on by 4 and 3, the device samples.
   void fire() {
-    does("count+=40 master+=30");
-    if (interrupt())
-      edge(line, true);
-    else
-      input("2.INP03") = true;
+    does(interrupt() ? "count+=40 master+=30 rise:5" : "count+=40 master+=30 2.INP03=1");
     does("count+=4 +1*3 2.INP03=0");
-    cards.interrupt_lines[line].level = false;
+    cards.interrupt_lines[5].level = false;
+  }
+  /// The edge of an armed function, which runs it once.
+  void runs(int function) {
+    arm(function);
+    fire();
+    EXPECT_EQ(armed(), 0);
+    EXPECT_EQ(done(), 1);
   }
   /// Counts at which the device sees the edge.
   int slave_seen() { return interrupt() ? 40 : 44; }
   int master_seen() { return interrupt() ? 30 : 33; }
-  void expect_done() {
-    EXPECT_EQ(get(interrupt() ? "st_intenbl" : "st_enbl"), 0);
-    EXPECT_EQ(get(interrupt() ? "st_intcapt" : "st_capt"), 1);
-  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Inputs, Camming4Functions, testing::Bool(),
@@ -60,8 +54,8 @@ TEST_P(Camming4Functions, ZeroDoesNothingAndStaysArmed) {
   prepare();
   arm(0);
   fire();
-  EXPECT_EQ(get(interrupt() ? "st_intenbl" : "st_enbl"), 1);
-  EXPECT_EQ(get(interrupt() ? "st_intcapt" : "st_capt"), 0);
+  EXPECT_EQ(armed(), 1);
+  EXPECT_EQ(done(), 0);
   shows("delta1=7000 !camex");
   covers({mark(0)});
 }
@@ -69,9 +63,7 @@ TEST_P(Camming4Functions, ZeroDoesNothingAndStaysArmed) {
 TEST_P(Camming4Functions, OneStopsTheCam) {
   prepare();
   does("forget");
-  arm(1);
-  fire();
-  expect_done();
+  runs(1);
   shows("still");
   EXPECT_THAT(diagnostics(), Contains(HasSubstr("STOPCAM: by fun")));
   does("STARTCAM");
@@ -86,9 +78,7 @@ TEST_P(Camming4Functions, TwoNineTenElevenAndTwelveStartTheCam) {
   for (const int function : {2, 9, 10, 11, 12}) {
     SCOPED_TRACE(function);
     prepare();
-    arm(function);
-    fire();
-    expect_done();
+    runs(function);
     shows("camex");
     // The cam has run since the edge: the axis stood still when it began.
     EXPECT_EQ(get("follerr"), interrupt() ? 44 - 3 : 44);
@@ -108,16 +98,12 @@ TEST_P(Camming4Functions, TwoNineTenElevenAndTwelveStartTheCam) {
 
 TEST_P(Camming4Functions, ThreeAndFourCaptureTheCounts) {
   prepare();
-  arm(3);
-  fire();
-  expect_done();
+  runs(3);
   EXPECT_EQ(get("delta1"), slave_seen());
   shows("delta2=-7000");
   covers({mark(3), "delta1"});
   prepare();
-  arm(4);
-  fire();
-  expect_done();
+  runs(4);
   EXPECT_EQ(get("delta2"), master_seen());
   shows("delta1=7000");
   covers({mark(4), "delta2"});
@@ -126,9 +112,7 @@ TEST_P(Camming4Functions, ThreeAndFourCaptureTheCounts) {
 TEST_P(Camming4Functions, FiveAndSixCountEvents) {
   prepare();
   for (const int count : {1, 2, 3}) {
-    arm(5);
-    fire();
-    expect_done();
+    runs(5);
     EXPECT_EQ(get("delta1"), 7000 + count);
   }
   arm(6);
@@ -139,9 +123,7 @@ TEST_P(Camming4Functions, FiveAndSixCountEvents) {
 
 TEST_P(Camming4Functions, SevenAndEightLoadTheCounts) {
   prepare();
-  arm(7);
-  fire();
-  expect_done();
+  runs(7);
   EXPECT_EQ(get("encoder"), interrupt() ? 7004 : 7000);
   arm(8);
   fire();

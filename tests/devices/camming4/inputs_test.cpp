@@ -95,26 +95,6 @@ TEST_F(Camming4Inputs, ARecalculationDelaysTheEvent) {
   covers({"warning 8", "interrupt input 2"});
 }
 
-TEST_F(Camming4Inputs, EachParameterHasItsRecalculationTime) {
-  struct Delay {
-    const char* name;
-    int samples;
-  };
-  does("INIT");
-  for (const auto& [name, count] :
-       {Delay{"codeQm1", 1}, Delay{"toll", 1}, Delay{"tbfm", 2}, Delay{"tbf", 3}, Delay{"decpt", 6},
-        Delay{"pulsem", 130}, Delay{"measure", 139}, Delay{"offset", 0}, Delay{"setpos", 0}}) {
-    does("funInt=5 intcapt=2 INTENBL +2");
-    while (get("st_intcapt") == 1) command("RSINTCAPT");
-    const int before = get("delta1");
-    write(name, 1);
-    does("rise:5");
-    int waited = 0;
-    for (tick(); get("delta1") == before && waited < 1000; ++waited) tick();
-    EXPECT_EQ(waited, count) << name;
-  }
-}
-
 TEST_F(Camming4Inputs, StopCamIsInhibitedAfterFunctionEleven) {
   load_cam();
   after("INIT LOOPON funInp=11 inpcapt=2 ENBL 2.INP03=1 +1 2.INP03=0", "camex");

@@ -12,18 +12,11 @@ namespace {
 /// the following error is the theoretical way.
 class Camming4Parameters : public Camming4Test {
  protected:
-  void without_gains() { does("pgain=0 feedfw=0 blocked=1"); }
   /// Theoretical way of `count` periods [bits].
   int way(int count) {
     const int before = get("follerr");
     ticks(count);
     return get("follerr") - before;
-  }
-  /// Periods until the axis stands.
-  int time_to_still() {
-    const long before = samples;
-    does("until:still");
-    return static_cast<int>(samples - before);
   }
 };
 
@@ -154,7 +147,7 @@ TEST_F(Camming4Parameters, FrequencyWindowsAreThoseOfTheirTimeBase) {
     long master_seen = 0;
     const long begin = samples - 1;
     for (int i = 0; i < 260; ++i) {
-      does("count+=4 +1*8");
+      does("count+=-4 +1*8");
       if (slave_seen == 0 && get("frq") != 0) slave_seen = samples - begin;
       if (master_seen == 0 && get("frqm") != 0) master_seen = samples - begin;
     }

@@ -22,20 +22,6 @@ TEST_F(Camming4Regulation, SaturationIsAWarning) {
   after("RSWRN", "wrncode=4");                        // and comes back at once
 }
 
-TEST_F(Camming4Regulation, MeasuresFrequencyAndSpeed) {
-  does("tbf=2 tbfm=2 INIT");
-  for (int i = 0; i < 12; ++i) does("count+=-8 +1*20");
-  shows("frq=1000 vel=4000 frqm=2500");
-}
-
-TEST_F(Camming4Regulation, LocksAndReversesItsCounts) {
-  after("INIT CNTREV count+=10 sample", "posit=-10");
-  after("CNTLOCK count+=10 sample", "posit=-10");
-  after("CNTUNLOCK CNTDIR count+=3 +1*4", "posit=-7");
-  after("CNTREVM +1*1", "positm=3");
-  after("CNTLOCKM +1*100", "encoderm=3");
-}
-
 TEST_F(Camming4Regulation, ConvertsByTheRatioOfMeasureAndPulse) {
   after("measure=220 pulse=4096 INIT count=62296 sample", "posit=3345");
   after("encoder=-4096 sample", "posit=-220");

@@ -12,7 +12,6 @@ using testing::Contains;
 /// the theoretical way.
 class Camming4Stop : public Camming4Test {
  protected:
-  void blocked() { does("pgain=0 feedfw=0 blocked=1"); }
   void constant_ratio(int master, int slave) { rows({{154, master, slave}, {137, 1}}); }
   /// Way of the ramp after STOPCAM [bits].
   int stopping_way() {
@@ -24,7 +23,7 @@ class Camming4Stop : public Camming4Test {
 
 TEST_F(Camming4Stop, TheRampBeginsWithTheSpeedOfTheLaw) {
   // v2/2d from 5000 Um/s and 50000 Um/s2, less half the way of the first period.
-  blocked();
+  without_gains();
   constant_ratio(1000, 1000);
   does("INIT LOOPON STARTCAM +100*10");
   EXPECT_NEAR(stopping_way(), 250, 5);
@@ -37,7 +36,7 @@ TEST_F(Camming4Stop, ASlowMastersCountsAreNoSteps) {
   for (int phase = 0; phase < 3; ++phase) {
     SCOPED_TRACE(phase);
     does("power");
-    blocked();
+    without_gains();
     constant_ratio(10000, 600000);
     does("INIT LOOPON STARTCAM");
     for (int i = 0; i < 300 + phase; ++i) tick(i % 3 == 0 ? 1 : 0);
@@ -46,14 +45,14 @@ TEST_F(Camming4Stop, ASlowMastersCountsAreNoSteps) {
 }
 
 TEST_F(Camming4Stop, AMasterThatStandsStillStopsTheSlaveWithoutARamp) {
-  blocked();
+  without_gains();
   constant_ratio(1000, 1000);
   does("INIT LOOPON STARTCAM +100*10 +3");  // the master has stopped dead
   EXPECT_EQ(stopping_way(), 0);
 }
 
 TEST_F(Camming4Stop, ARampInTheMiddleOfASectorBeginsWithItsSpeed) {
-  blocked();
+  without_gains();
   row(1, {131, 1000, 1000});  // 0 to twice the master's speed
   row(2, {137, 2});
   does("INIT LOOPON STARTCAM +50*10");  // at its middle: as fast as the master, 5000 Um/s
@@ -108,14 +107,14 @@ TEST_F(Camming4Stop, ARecoveryThatTheEndCutsOffIsReported) {
 }
 
 TEST_F(Camming4Stop, ARecoveryStopsWithTheCam) {
-  blocked();
+  without_gains();
   rows({{154, 100, 100}, {180, 0, 40000}, {154, 1000, 1000}, {136}});
   does("INIT LOOPON STARTCAM +51*2 +200");  // the master stands, the recovery runs at setvel
   EXPECT_NEAR(stopping_way(), 250, 15);
 }
 
 TEST_F(Camming4Stop, CountUpdatesAfterARecoveryMeetTheAxisWhereItIs) {
-  blocked();
+  without_gains();
   rows({{154, 100, 100}, {180, 0, 40}, {154, 1000, 1000}, {141, 0, 500}, {154, 1000, 1000}, {136}});
   does("INIT LOOPON STARTCAM +540*2");
   EXPECT_EQ(get("follerr"), 1080 + 40);
@@ -135,7 +134,7 @@ TEST_F(Camming4Stop, ACamThatBeginsOutOfTheSyncRangeHasNotLeftIt) {
 TEST_F(Camming4Stop, PowerLossInARecoveryLeavesNothingOfIt) {
   rows({{154, 100, 100}, {180, 0, 400}, {154, 1000, 1000}, {136}});
   does("setvel=1000");
-  blocked();
+  without_gains();
   does("INIT LOOPON STARTCAM +60*5 power INIT LOOPON");
   row(2, {130});
   after("STARTCAM +100*5", "follerr=500");

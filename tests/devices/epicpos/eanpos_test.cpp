@@ -163,116 +163,60 @@ TEST_F(EanposSimulated, PowerLossClearsTheCounterAndKeepsThePosition) {
 
 TEST_F(EanposSimulated, EpicposIsAnotherDeviceOfMovement) {
   Cards other;
-  const Address counter = *parse_address("1.CNT02");
   const auto epicpos = make_epicpos(terminals_of("2 1.CNT02 X X X"), other);
-  const auto write_to = [&](const char* name, int value) {
-    epicpos->write(*find_symbol(epicpos->type(), name), value);
-  };
-  for (const auto& [name, value] : {std::pair{"cntratio", 100000},
-                                    {"maxvel", 1000},
-                                    {"setvel", 1000},
-                                    {"unitvel", 1},
-                                    {"maxpos", 999999}})
-    write_to(name, value);
-  for (const char* name : {"INIT", "MANFW"}) {
-    epicpos->command(*find_command(epicpos->type(), name));
-    epicpos->sample();
-  }
+  drive(*epicpos, "cntratio=100000 maxvel=1000 setvel=1000 unitvel=1 maxpos=999999 INIT MANFW");
   for (int i = 1; i < 500; ++i) epicpos->sample();
-  EXPECT_EQ(other.counters.at(counter).count, 4000);
+  EXPECT_EQ(other.counters.begin()->second.count, 4000);
 }
 
 TEST_F(EanposSimulated, TwoOnOneCounterAreReported) {
   const auto second = eanpos::make_eanpos(terminals_of("2 1.CNT01 X X X"), cards);
-  second->write(*find_symbol(second->type(), "cntratio"), 100000);
-  second->command(*find_command(second->type(), "INIT"));
-  second->sample();
-  const auto said = second->take_diagnostics();
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0].subject + ": " + said[0].text, "ICont: another device moves the same simulated counter");
+  drive(*second, "cntratio=100000 INIT");
+  EXPECT_THAT(said_by(*second),
+              testing::ElementsAre("ICont: another device moves the same simulated counter"));
 }
 
 // CAMMING4 takes it as either master, and exchanges them in a cam without a jump (000 1.5; D18).
 TEST_F(EanposSimulated, IsAMasterOfCamming4) {
-  Resources record(12);
-  record[0].number = period;
-  record[1].address = parse_address("2.CNT01");
-  record[2].address = parse_address("2.CNT02");
-  record[3].address = address;
-  const auto cam = camming4::make_camming4(record, cards);
-  const auto set_cam = [&](const char* name, int value) {
-    cam->write(*find_symbol(cam->type(), name), value);
-  };
-  const auto cam_value = [&](const char* name) { return cam->read(*find_symbol(cam->type(), name)); };
-  for (const auto& [name, value] : {std::pair{"measure", 1},
-                                    {"pulse", 4},
-                                    {"measurem", 1},
-                                    {"pulsem", 4},
-                                    {"maxvel", 100000},
-                                    {"unitvel", 1},
-                                    {"feedfw", 1000},
-                                    {"mtype", 1},
-                                    {"codeG1", 132},
-                                    {"codeQm1", 1000},
-                                    {"codeQs1", 500},
-                                    {"codeG2", 133},
-                                    {"codeQm2", 900000},
-                                    {"codeQs2", 900000}})
-    set_cam(name, value);
-  const auto give_cam = [&](const char* name) { cam->command(*find_command(cam->type(), name)); };
-  give_cam("INIT");
-  give_cam("LOOPON");
-  cam->sample();
-  give_cam("STARTCAM");
-  cam->sample();
-  ASSERT_EQ(cam_value("st_camex"), 1);
+  const auto cam = camming4::make_camming4(terminals_of("2 2.CNT01 2.CNT02 1.CNT01 X X X X X X X X"), cards);
+  drive(*cam,
+        "measure=1 pulse=4 measurem=1 pulsem=4 maxvel=100000 unitvel=1 feedfw=1000 mtype=1 "
+        "codeG1=132 codeQm1=1000 codeQs1=500 codeG2=133 codeQm2=900000 codeQs2=900000 INIT! LOOPON STARTCAM");
+  ASSERT_EQ(value_of(*cam, "st_camex"), 1);
   does("MANFW");
   for (int i = 0; i < 1000; ++i) {
-    does("+1");
+    tick();
     cam->sample();
-    ASSERT_EQ(cam_value("encoderm"), count());
+    ASSERT_EQ(value_of(*cam, "encoderm"), count());
   }
-  EXPECT_EQ(cam_value("rowex"), 2);
-  EXPECT_EQ(cam_value("ffwdreg"), 328);  // 1000 Um/s of 100000: the slave runs with the master
-  const int before = cam_value("positm");
-  cards.counters.at(*parse_address("2.CNT02")).count = 123456;
-  set_cam("mtype", 0);
+  EXPECT_EQ(value_of(*cam, "rowex"), 2);
+  EXPECT_EQ(value_of(*cam, "ffwdreg"), 328);  // 1000 Um/s of 100000: the slave runs with the master
+  const int before = value_of(*cam, "positm");
+  std::int64_t& wired = cards.counters.at(*parse_address("2.CNT02")).count;
+  wired = 123456;
+  drive(*cam, "mtype=0 sample");
+  EXPECT_NEAR(value_of(*cam, "positm"), before, 2);
+  wired += 40;
+  tick();
   cam->sample();
-  EXPECT_NEAR(cam_value("positm"), before, 2);
-  cards.counters.at(*parse_address("2.CNT02")).count += 40;
-  does("+1");
-  cam->sample();
-  EXPECT_NEAR(cam_value("positm"), before + 10, 2);
+  EXPECT_NEAR(value_of(*cam, "positm"), before + 10, 2);
 }
 
 // Its count at an edge of an interrupt line is the one of its last sample.
 TEST_F(EanposSimulated, IsCapturedByInterrupts) {
-  Resources record(12);
-  record[0].number = period;
-  record[2].address = address;
-  record[9].number = 5;
-  const auto cam = camming4::make_camming4(record, cards);
-  const auto set_cam = [&](const char* name, int value) {
-    cam->write(*find_symbol(cam->type(), name), value);
-  };
-  for (const auto& [name, value] : {std::pair{"measurem", 1}, {"pulsem", 4}, {"funInt", 4}})
-    set_cam(name, value);
-  cam->command(0);
-  cam->sample();
-  set_cam("intcapt", 2);
-  cam->sample();
-  cam->command(*find_command(cam->type(), "INTENBL"));
+  const auto cam = camming4::make_camming4(terminals_of("2 X 1.CNT01 X X X X X X 5 X X"), cards);
+  drive(*cam, "measurem=1 pulsem=4 funInt=4 INIT intcapt=2 sample INTENBL!");
   does("MANFW");
   for (int i = 0; i < 300; ++i) {
-    does("+1");
+    tick();
     cam->sample();
   }
   shows("count>1000");
   cam->interrupt(5, true);
   const std::int64_t at_edge = count();
-  does("+1");
+  tick();
   cam->sample();
-  EXPECT_EQ(cam->read(*find_symbol(cam->type(), "delta2")), at_edge);
+  EXPECT_EQ(value_of(*cam, "delta2"), at_edge);
 }
 
 }  // namespace

@@ -73,46 +73,30 @@ class EpicposSharedDac : public EpicposRegulation {
   static constexpr const char* warning =
       "another device regulates on the same analogue output; of devices that share one, all but one need "
       "REGOFF";
-  static Resources record(std::size_t fields, std::size_t dac) {
-    Resources resources(fields);
-    resources[0].number = period;
-    resources[dac].address = parse_address("2.AN01");
-    return resources;
-  }
-  std::unique_ptr<Device> second = make_epicpos(record(5, 4), cards);
-  void give(Device& to, const char* name) { to.command(find_command(to.type(), name).value()); }
-  void both() {
-    device->sample();
-    second->sample();
-  }
-  std::vector<std::string> said_by(Device& other) {
-    std::vector<std::string> said;
-    for (const Diagnostic& diagnostic : other.take_diagnostics())
-      said.push_back(diagnostic.subject + ": " + diagnostic.text);
-    return said;
+  std::unique_ptr<Device> second = make_epicpos(terminals_of("2 X X X 2.AN01"), cards);
+  void both(int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      device->sample();
+      second->sample();
+    }
   }
 };
 
 TEST_F(EpicposSharedDac, TurnsAreInOrder) {
-  give(*device, "INIT");
-  give(*device, "REGOFF");
-  give(*second, "INIT");
-  give(*second, "REGOFF");
+  drive(*device, "INIT! REGOFF!");
+  drive(*second, "INIT! REGOFF!");
   both();
   for (int i = 0; i < 3; ++i) {
-    give(*device, "REGON");
-    both();
-    both();
+    drive(*device, "REGON!");
+    both(2);
     // The same turn of the program hands it over, and back: the order of sampling does not matter.
-    give(*device, "REGOFF");
-    give(*second, "REGON");
-    both();
-    both();
-    give(*second, "REGOFF");
-    give(*device, "REGON");
-    both();
-    both();
-    give(*device, "REGOFF");
+    drive(*device, "REGOFF!");
+    drive(*second, "REGON!");
+    both(2);
+    drive(*second, "REGOFF!");
+    drive(*device, "REGON!");
+    both(2);
+    drive(*device, "REGOFF!");
     both();
   }
   shows("silent");
@@ -120,47 +104,43 @@ TEST_F(EpicposSharedDac, TurnsAreInOrder) {
 }
 
 TEST_F(EpicposSharedDac, TwoAtOnceAreReportedOnce) {
-  give(*device, "INIT");
-  give(*second, "INIT");
-  for (int i = 0; i < 10; ++i) both();
+  drive(*device, "INIT!");
+  drive(*second, "INIT!");
+  both(10);
   shows("silent");
   EXPECT_THAT(said_by(*second), ElementsAre(std::string("IOutA: ") + warning));
-  give(*second, "REGOFF");
+  drive(*second, "REGOFF!");
   both();
-  give(*second, "REGON");
-  for (int i = 0; i < 10; ++i) both();
+  drive(*second, "REGON!");
+  both(10);
   EXPECT_THAT(said_by(*second), ElementsAre(std::string("IOutA: ") + warning));
   does("power");
-  for (int i = 0; i < 10; ++i) both();
+  both(10);
   EXPECT_THAT(said_by(*second), IsEmpty());
-  give(*device, "INIT");
-  for (int i = 0; i < 10; ++i) both();
+  drive(*device, "INIT!");
+  both(10);
   says({std::string("IOutA: ") + warning});  // now it is the second
 }
 
 TEST_F(EpicposSharedDac, Camming4TakesPart) {
-  const auto cam = camming4::make_camming4(record(12, 10), cards);
-  const auto all = [&] {
-    device->sample();
-    cam->sample();
-  };
-  give(*device, "INIT");
-  give(*cam, "INIT");
-  for (int i = 0; i < 5; ++i) all();
-  EXPECT_THAT(said_by(*cam), ElementsAre(std::string("IoutA: ") + warning));
-  give(*cam, "REGOFF");
-  all();
-  give(*device, "CALON");
-  all();
+  second = camming4::make_camming4(terminals_of("2 X X X X X X X X X 2.AN01 X"), cards);
+  drive(*device, "INIT!");
+  drive(*second, "INIT!");
+  both(5);
+  EXPECT_THAT(said_by(*second), ElementsAre(std::string("IoutA: ") + warning));
+  drive(*second, "REGOFF!");
+  both();
+  drive(*device, "CALON!");
+  both();
   does("vout=30");
-  all();
+  both();
   shows("DAC=9830");  // CAMMING4 leaves it alone
-  give(*device, "REGOFF");
-  all();
-  give(*cam, "REGON");
-  for (int i = 0; i < 3; ++i) all();
+  drive(*device, "REGOFF!");
+  both();
+  drive(*second, "REGON!");
+  both(3);
   shows("DAC=0");
-  EXPECT_THAT(said_by(*cam), IsEmpty());
+  EXPECT_THAT(said_by(*second), IsEmpty());
   shows("silent");
 }
 

@@ -158,8 +158,8 @@ TEST_P(Oopos2Random, TheSameProgramGivesTheSameBytes) {
       other.counters.begin()->second.count += static_cast<int>(same() % 21) - 10;
       twin->sample();
       for (const State& state : oopos2_type.states)
-        trace += static_cast<char>('0' + twin->read(find_symbol(oopos2_type, state.name).value()));
-      trace += std::to_string(twin->read(find_symbol(oopos2_type, "vel").value()));
+        trace += static_cast<char>('0' + value_of(*twin, state.name));
+      trace += std::to_string(value_of(*twin, "vel"));
     }
     for (const std::string& text : said_by(*twin)) trace += text;
   }

@@ -17,12 +17,11 @@ class Oopos2Sharing : public testing::Test {
           make_oopos2(terminals_of(fmt::format("10 2.CNT0{} X X 2.OUT01 2.OUT02 X X 2.OUT03 2.OUT0{}",
                                                1 + axis, 4 + axis)),
                       cards));
-      for (const auto& [name, value] : {std::pair{"cntratio", 400000}, {"maxpos", 9999}, {"minpos", -9999}})
-        devices[axis]->write(find_symbol(oopos2_type, name).value(), value);
+      drive(*devices[axis], "cntratio=400000 maxpos=9999 minpos=-9999");
     }
   }
   void command(int axis, const char* name) {
-    devices[axis]->command(find_command(oopos2_type, name).value());
+    drive(*devices[axis], std::string(name) + "!");
     sample();
   }
   void sample(int number = 1) {
@@ -67,8 +66,8 @@ TEST_F(Oopos2Sharing, ATurnMayChangeHandsInOneSample) {
   command(1, "INIT");
   command(1, "REGOFF");
   said();
-  devices[0]->command(find_command(oopos2_type, "REGOFF").value());
-  devices[1]->command(find_command(oopos2_type, "REGON").value());
+  drive(*devices[0], "REGOFF!");
+  drive(*devices[1], "REGON!");
   sample(5);
   EXPECT_THAT(said(), IsEmpty());
 }
@@ -91,7 +90,7 @@ TEST_F(Oopos2Sharing, RegulationOffEndsAMovementAndOnlyTheBrakeGoesOn) {
   for (int axis = 0; axis < 2; ++axis) command(axis, "INIT");
   command(1, "REGOFF");
   const int toldly = 30;
-  devices[0]->write(find_symbol(oopos2_type, "toldly").value(), toldly);
+  drive(*devices[0], "toldly=30");
   command(0, "MANFFW");
   ASSERT_TRUE(output(1));
   command(0, "REGOFF");
