@@ -18,7 +18,8 @@ inline CamFile table(const std::string& text) {
 /// The faults of a text, as they are printed, without the file's name.
 inline std::vector<std::string> faults(const std::string& text) {
   return faults_of(text, [](const auto& of, const auto& file, Problems& problems) {
-    EXPECT_EQ(devices::plcopen::read_cam(of, file, problems).has_value(), problems.empty());
+    const bool read = devices::plcopen::read_cam(of, file, problems).has_value();
+    EXPECT_EQ(read, problems.empty());
   });
 }
 
