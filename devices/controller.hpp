@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
 #include "devices/value_range.hpp"
@@ -20,12 +21,14 @@ struct ControllerValue {
   std::function<double()> read;
   std::function<void(double)> write;  ///< empty if read-only; acts as a program's store does (device mailbox)
   std::optional<ValueRange> range = {};  ///< of one that can be written: the manual's, of a parameter
+  bool of_table = false;                 ///< a row of a cam table: one of many, of which most are 0
 };
 
 /// Something that happened inside the controller: a refused command, a run-time error, a device warning.
 struct ControllerEvent {
   std::string source;  ///< device or task name
-  /// "refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up", "stopped", "errorstop" ...
+  /// "refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up", "stopped",
+  /// "errorstop" ...
   std::string event;
   std::string text;
 };
@@ -81,6 +84,12 @@ class Controller {
 
   /// What survives power-off, as text, one `name = value` a line; "" if there is nothing.
   [[nodiscard]] virtual std::string retentive_state() const { return ""; }
+  /// Puts such a text back, before the first run; `file_name` names it in problems. False, and nothing
+  /// changed, if `problems` had to be added.
+  virtual bool restore(const std::string& /*text*/, Problems& /*problems*/,
+                       const std::string& /*file_name*/) {
+    return true;
+  }
 
   /// The value called `name`, any case, or nullopt. Stays valid as long as the controller.
   virtual std::optional<ControllerValue> find(const std::string& name) = 0;

@@ -18,6 +18,7 @@
 #include "renders/pictures.hpp"
 #include "renders/process.hpp"
 #include "renders/video.hpp"
+#include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
 #include "sim/gallery_plots.hpp"
 #include "sim/half_step.hpp"
@@ -143,7 +144,7 @@ renders::ReportTable axis_table(const PlcopenSection::Axis& axis) {
   for (const auto& row : devices::plcopen::axis_parameter_table()) {
     const bool given = std::any_of(axis.places.begin(), axis.places.end(),
                                    [&](const auto& p) { return p.first == row.name; });
-    table.rows.push_back({{std::string(row.name), axis_value_text(row, parameters.*row.member, measure),
+    table.rows.push_back({{std::string(row.name), axis_value_text(row, parameters, measure),
                            std::string(row.meaning), given ? "the scenario" : std::string(row.number)}});
   }
   return table;
@@ -366,7 +367,7 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   if (!others.rows.empty()) report.tables.push_back(std::move(others));
   if (auto table = controller_table(simulation); !table.rows.empty())
     report.tables.push_back(std::move(table));
-  if (const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller))
+  if (const auto* plcopen = controller_of<PlcopenSection>(scenario))
     for (const auto& axis : plcopen->axes) report.tables.push_back(axis_table(axis));
   for (const auto& entry : scenario.plants) report.tables.push_back(parameter_table(entry));
   report.scenario_expanded = expand(scenario);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
 #include "sim/gallery.hpp"
 
@@ -11,7 +12,7 @@ namespace drycut::sim {
 std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulation) {
   if (simulation.cams() == nullptr) return {};
   auto played = simulation.cams()->played();
-  const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller);
+  const auto* plcopen = controller_of<PlcopenSection>(scenario);
   if (played.empty() && plcopen != nullptr) {
     Problems problems;
     for (const auto& table : plcopen->tables)

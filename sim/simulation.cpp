@@ -31,8 +31,7 @@ Simulation::Simulation(const Scenario& scenario, Problems& problems)
     check_periods(problems);
   }
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
-  if (!controller_ && !std::holds_alternative<std::monostate>(scenario.controller))
-    names_->assume_controller(scenario.wiring);
+  if (!controller_ && scenario.controller) names_->assume_controller(scenario.wiring);
   watch_ = std::make_unique<Watch>(*names_);
   timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
   for (const auto& [name, plant] : named_) {
@@ -211,8 +210,7 @@ std::vector<Reading> Simulation::controller_values() {
   for (const auto& name : controller_->names()) {
     auto value = controller_->find(name);
     if (!value) continue;
-    const bool cam_row = name.find(".code") != std::string::npos;
-    if (cam_row && value->read() == 0) continue;
+    if (value->of_table && value->read() == 0) continue;
     values.push_back({name, value->unit, value->read});
   }
   return values;

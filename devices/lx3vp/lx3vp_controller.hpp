@@ -60,7 +60,8 @@ class Lx3vpController : public Controller, private Instructions {
   [[nodiscard]] std::string retentive_state() const override;
   /// Puts such a text back: retentive registers that it does not name become 0. False, and nothing changed,
   /// if `problems` had to be added.
-  bool restore(const std::string& text, Problems& problems, const std::string& file_name = "retentive state");
+  bool restore(const std::string& text, Problems& problems,
+               const std::string& file_name = "retentive state") override;
 
   [[nodiscard]] Registers& registers() { return registers_; }
 

@@ -20,12 +20,12 @@ bool slope_in_range(double value) { return value == 0 || in_range(value, 1); }
 
 Axis::Axis(std::string name, const AxisParameters& parameters)
     : name_(std::move(name)), parameters_(parameters) {
-  homed_ = parameters.homed_at_start != 0;
+  homed_ = parameters.homed_at_start;
 }
 
 bool Axis::set_parameter(const AxisParameter& parameter, double value) {
   // What the axis is made of cannot change under a running axis.
-  const bool build = parameter.member == &AxisParameters::kind || parameter.member == &AxisParameters::modulo;
+  const bool build = parameter.is(&AxisParameters::kind) || parameter.is(&AxisParameters::modulo);
   if (build && state_ != AxisState::disabled) return false;
   return plcopen::set_parameter(parameters_, parameter, value);
 }
@@ -180,11 +180,11 @@ void Axis::fault(ErrorId error) {
 
 void Axis::regulate() {
   outputs_ = {};
-  if (parameters_.kind == static_cast<int>(AxisKind::virtual_axis)) {
+  if (parameters_.kind == AxisKind::virtual_axis) {
     actual_ = set_.position;
     actual_velocity_ = set_.velocity;
   }
-  if (parameters_.kind != static_cast<int>(AxisKind::drive) || !powered_ || !drive.ready) return;
+  if (parameters_.kind != AxisKind::drive || !powered_ || !drive.ready) return;
   const double lag = following_error();
   if (parameters_.following_error_max > 0 && std::abs(lag) > parameters_.following_error_max)
     fault(ErrorId::following_error);

@@ -16,21 +16,21 @@ void Axis::latch(double dt) {
   acceleration_before_ = set_.acceleration;
   cycle_time_ = dt;
   profile_ended_ = false;
-  if (parameters_.kind == static_cast<int>(AxisKind::virtual_axis)) return;
+  if (parameters_.kind == AxisKind::virtual_axis) return;
   const Position before = actual_;
   actual_ = position_of(drive.counts);
   double velocity = latched_ ? difference(actual_, before, modulo()) / dt : 0;
   latched_ = true;
   velocities_.push_back(velocity);
   const std::size_t keep =
-      parameters_.average_filter != 0 ? static_cast<std::size_t>(parameters_.filter_cycles) : 1;
+      parameters_.average_filter ? static_cast<std::size_t>(parameters_.filter_cycles) : 1;
   while (velocities_.size() > keep) velocities_.pop_front();
   actual_velocity_ =
       std::accumulate(velocities_.begin(), velocities_.end(), 0.0) / static_cast<double>(velocities_.size());
 }
 
 void Axis::stand_on_actual() {
-  if (parameters_.kind != static_cast<int>(AxisKind::virtual_axis)) set_.position = actual_;
+  if (parameters_.kind != AxisKind::virtual_axis) set_.position = actual_;
   set_.velocity = 0;
   set_.acceleration = 0;
   base_ = set_;
@@ -51,11 +51,11 @@ bool Axis::passes_limit(const AxisMotion& next, bool with_braking) const {
 }
 
 void Axis::move(double dt) {
-  if (parameters_.kind == static_cast<int>(AxisKind::encoder)) {
+  if (parameters_.kind == AxisKind::encoder) {
     base_ = set_ = {actual_, actual_velocity_, 0};
     return;
   }
-  const bool drive_axis = parameters_.kind == static_cast<int>(AxisKind::drive);
+  const bool drive_axis = parameters_.kind == AxisKind::drive;
   if (powered_ && drive_axis && !drive.ready) fault(ErrorId::drive_error);
   if (powered_ && drive.emergency_stop) fault(ErrorId::emergency_stop);
   if (state_ == AxisState::disabled) return stand_on_actual();
@@ -118,7 +118,7 @@ void Axis::finish_profile() {
   }
   // The next movement takes over at the target itself.
   const bool passes_over = profile_->end.velocity != 0;
-  if (!passes_over && target_ && parameters_.kind == static_cast<int>(AxisKind::drive) &&
+  if (!passes_over && target_ && parameters_.kind == AxisKind::drive &&
       std::abs(following_error()) > parameters_.window)
     return;
   // The target itself, not the sum that has come there.
@@ -164,7 +164,7 @@ CouplingLimits Axis::coupling_limits() const {
   limits.window_floor = p.vb_max / 1000 * increments_per_speed;
   limits.time_in_window = p.time_in_window * units::microsecond;
   limits.timeout = p.time_out_in_window * units::microsecond;
-  limits.timeout_from_start = p.timeout_from_execute != 0;
+  limits.timeout_from_start = p.timeout_from_execute;
   double jerk = p.j_vel_sync > 0 ? std::min(p.j_vel_sync, steepest) : half / (p.tr_max * units::microsecond);
   limits.up = p.a_max * increments_per_acceleration;
   limits.down = limits.up;
@@ -188,10 +188,10 @@ CouplingLimits Axis::coupling_limits() const {
 }
 
 void Axis::follow(const AxisMotion& master, double dt) {
-  const bool drive_axis = parameters_.kind == static_cast<int>(AxisKind::drive);
+  const bool drive_axis = parameters_.kind == AxisKind::drive;
   if (drive_axis && !drive.ready) fault(ErrorId::drive_error);
-  if (drive.emergency_stop && parameters_.keep_coupling_on_lr_error == 0) fault(ErrorId::emergency_stop);
-  if (!control.feed_enable && parameters_.keep_coupling_on_fe_drop == 0) fault(ErrorId::feed_enable_dropped);
+  if (drive.emergency_stop && !parameters_.keep_coupling_on_lr_error) fault(ErrorId::emergency_stop);
+  if (!control.feed_enable && !parameters_.keep_coupling_on_fe_drop) fault(ErrorId::feed_enable_dropped);
   if (state_ != AxisState::synchronized_motion) return brake(dt);
   advance_overlay(dt);
   AxisMotion next = base_;

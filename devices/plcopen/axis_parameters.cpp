@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -100,7 +101,11 @@ std::string_view unit_of(const AxisParameter& parameter, Measure measure) {
 bool set_parameter(AxisParameters& parameters, const AxisParameter& parameter, double value) {
   if (!(value >= parameter.min && value <= parameter.max)) return false;
   if (parameter.whole && value != std::round(value)) return false;
-  parameters.*parameter.member = value;
+  std::visit(
+      [&](auto place) {
+        parameters.*place = static_cast<std::remove_reference_t<decltype(parameters.*place)>>(value);
+      },
+      parameter.member);
   return true;
 }
 

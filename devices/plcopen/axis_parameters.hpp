@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace drycut::devices::plcopen {
 
@@ -20,7 +21,7 @@ enum class AxisKind : int {
 
 /// The axis machine data as far as a cam application needs them, in the units of axis_parameter_table.
 struct AxisParameters {
-  double kind = 0;
+  AxisKind kind = AxisKind::drive;
   double modulo = 3'600'000;
   double vb_max = 1'000'000;
   double a_max = 10'000;
@@ -32,18 +33,18 @@ struct AxisParameters {
   double window = 1'000;
   double path_increments = 3'600'000;
   double path_counts = 10'000;
-  double homed_at_start = 0;
+  bool homed_at_start = false;
   double v_at_10v = 1'000'000;
   double kv = 2'000;
   double feed_forward = 1'000;
   double following_error_max = 0;
 
-  double is_master = 0;
+  bool is_master = false;
   double v_diff_percent = 100;
   double time_in_window = 8'000;
   double time_out_in_window = 1'000'000;
-  double timeout_from_execute = 0;
-  double average_filter = 0;
+  bool timeout_from_execute = false;
+  bool average_filter = false;
   double filter_cycles = 10;
   double delay_time = 0;
   double v_max_slave = 0;
@@ -53,8 +54,8 @@ struct AxisParameters {
   double d_phasing = 1;
   double j_phasing = 10;
   double j_vel_sync = 1'000;
-  double keep_coupling_on_lr_error = 0;
-  double keep_coupling_on_fe_drop = 0;
+  bool keep_coupling_on_lr_error = false;
+  bool keep_coupling_on_fe_drop = false;
 };
 
 /// One parameter of an axis: its face to programs, scenarios and `drycut devices`.
@@ -65,8 +66,19 @@ struct AxisParameter {
   double min = 0;
   double max = 0;
   bool whole = false;
-  double AxisParameters::*member = nullptr;
+  std::variant<double AxisParameters::*, bool AxisParameters::*, AxisKind AxisParameters::*> member;
   std::string_view meaning;
+
+  /// A switch as 0 or 1, the kind by its number.
+  [[nodiscard]] double value(const AxisParameters& of) const {
+    return std::visit([&](auto place) { return static_cast<double>(of.*place); }, member);
+  }
+  [[nodiscard]] bool is_switch() const { return std::holds_alternative<bool AxisParameters::*>(member); }
+  template <typename Value>
+  [[nodiscard]] bool is(Value AxisParameters::*other) const {
+    const auto* own = std::get_if<Value AxisParameters::*>(&member);
+    return own != nullptr && *own == other;
+  }
 };
 
 /// What an axis measures: its units for people are mm or deg.

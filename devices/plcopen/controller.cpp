@@ -34,7 +34,7 @@ std::string_view kind_text(AxisKind kind) {
   return texts.at(static_cast<std::size_t>(kind));
 }
 
-AxisKind kind_of(const AxisConfiguration& axis) { return static_cast<AxisKind>(axis.parameters.kind); }
+AxisKind kind_of(const AxisConfiguration& axis) { return axis.parameters.kind; }
 
 }  // namespace
 
@@ -242,7 +242,7 @@ void PlcopenController::start_anew() {
 void PlcopenController::latch_power_up() {
   for (std::size_t i = 0; i < plugs_.size(); ++i) {
     AxisPlugs& plugs = plugs_[i];
-    const bool absolute = configuration_.axes[i].parameters.homed_at_start != 0;
+    const bool absolute = configuration_.axes[i].parameters.homed_at_start;
     plugs.counts_at_power_up = absolute || plugs.encoder == nullptr ? 0 : plugs.encoder->count;
   }
 }

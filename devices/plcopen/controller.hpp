@@ -70,7 +70,8 @@ class PlcopenController : public Controller {
   [[nodiscard]] std::string retentive_state() const override;
   /// Puts such a text back; variables that it does not name keep their initial values. False, and nothing
   /// changed, if `problems` had to be added.
-  bool restore(const std::string& text, Problems& problems, const std::string& file_name = "retentive state");
+  bool restore(const std::string& text, Problems& problems,
+               const std::string& file_name = "retentive state") override;
 
  private:
   /// The terminals of an axis that are there, and its state a cycle ago.

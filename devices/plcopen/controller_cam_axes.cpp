@@ -39,7 +39,7 @@ CamMoment PlcopenController::cam_moment(int number) const {
   moment.master = static_cast<double>(place.turns) * cam.curve.master_length + place.part;
   moment.set = (slave.set().position.part - cam.slave_offset) / cam.slave_scaling;
   moment.turn = slave.modulo() / std::abs(cam.slave_scaling);
-  if (slave.parameters().kind != static_cast<double>(AxisKind::virtual_axis))
+  if (slave.parameters().kind != AxisKind::virtual_axis)
     moment.behind = slave.following_error() / cam.slave_scaling;
   return moment;
 }

@@ -83,14 +83,13 @@ std::optional<ControllerValue> PlcopenController::axis_value(int number, std::st
 std::optional<ControllerValue> PlcopenController::parameter_value(int number,
                                                                   const AxisParameter& parameter) {
   const AxisConfiguration& configured = configuration_.axes[static_cast<std::size_t>(number)];
-  ControllerValue value{
-      fmt::format("{}.{}", configured.name, parameter.name),
-      std::string(unit_of(parameter, configured.measure)),
-      [this, number, member = parameter.member] { return axis(number).parameters().*member; },
-      {},
-      {}};
+  ControllerValue value{fmt::format("{}.{}", configured.name, parameter.name),
+                        std::string(unit_of(parameter, configured.measure)),
+                        [this, number, &parameter] { return parameter.value(axis(number).parameters()); },
+                        {},
+                        {}};
   // What an axis is made of has been wired.
-  if (parameter.member == &AxisParameters::kind) return value;
+  if (parameter.is(&AxisParameters::kind)) return value;
   value.range = ValueRange{parameter.min, parameter.max, parameter.whole};
   value.write = [this, number, &parameter](double wish) { set_parameter(number, parameter, wish); };
   return value;

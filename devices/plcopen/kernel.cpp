@@ -112,7 +112,7 @@ Order MotionKernel::check_axes(AxisRef master, AxisRef slave) const {
   const Axis* behind = axis(slave);
   if (ahead == nullptr || behind == nullptr) return {ErrorId::no_such_axis};
   if (follows(*ahead, *behind)) return {ErrorId::own_master};
-  if (ahead->parameters().is_master == 0) return {ErrorId::not_a_master, 0, master};
+  if (!ahead->parameters().is_master) return {ErrorId::not_a_master, 0, master};
   return {};
 }
 

@@ -68,8 +68,7 @@ ErrorId write_numbered_parameter(Axis& axis, int number, double value) {
   wanted.*row->written = value;
   const bool crossed = wanted.swe_neg > wanted.swe_pos;
   for (const AxisParameter& candidate : axis_parameter_table())
-    if (candidate.member == row->written && !crossed && axis.set_parameter(candidate, value))
-      return ErrorId::none;
+    if (candidate.is(row->written) && !crossed && axis.set_parameter(candidate, value)) return ErrorId::none;
   return ErrorId::parameter_range;
 }
 

@@ -10,7 +10,7 @@ namespace {
 /// Each axis with an encoder has one probe, number 0.
 ErrorId check_probe(const Axis* axis, std::uint16_t number) {
   if (axis == nullptr) return ErrorId::no_such_axis;
-  const bool has_encoder = axis->parameters().kind != static_cast<int>(AxisKind::virtual_axis);
+  const bool has_encoder = axis->parameters().kind != AxisKind::virtual_axis;
   return has_encoder && number == 0 ? ErrorId::none : ErrorId::no_such_probe;
 }
 
@@ -33,7 +33,7 @@ void McReadStatus::read(const plcopen::Axis* axis) {
 }
 
 void McReadAxisInfo::read(const plcopen::Axis* axis) {
-  const AxisKind kind = axis == nullptr ? AxisKind::drive : static_cast<AxisKind>(axis->parameters().kind);
+  const AxisKind kind = axis == nullptr ? AxisKind::drive : axis->parameters().kind;
   Simulation = axis != nullptr && kind == AxisKind::virtual_axis;
   CommunicationReady = axis != nullptr;
   ReadyForPowerOn = axis != nullptr && (kind != AxisKind::drive || axis->drive.ready);

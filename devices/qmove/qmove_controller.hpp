@@ -69,7 +69,8 @@ class QmoveController : public Controller {
   [[nodiscard]] std::string retentive_state() const override;
   /// Puts such a text back, before any device is initialised: variables that it does not name become 0,
   /// device values that it does not name stay. False, and nothing changed, if `problems` had to be added.
-  bool restore(const std::string& text, Problems& problems, const std::string& file_name = "retentive state");
+  bool restore(const std::string& text, Problems& problems,
+               const std::string& file_name = "retentive state") override;
 
  private:
   /// Where a value lives.

@@ -157,6 +157,7 @@ std::optional<ControllerValue> QmoveController::find(const std::string& name) {
       if (symbol.kind == Symbol::Kind::state) break;
       const Variable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
       value.unit = variable.unit;
+      value.of_table = variable.rows > 1;
       value.range = ValueRange{variable.min, variable.max, true};
       if (variable.access == Access::read_write)
         value.write = [this, index, symbol](double x) { write_device(index, symbol, x); };

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-
 #include <optional>
 
 #include "devices/catalogue.hpp"
@@ -19,6 +18,7 @@
 #include "sim/compare/scene_run.hpp"
 #include "sim/file.hpp"
 #include "sim/part_meshes.hpp"
+#include "sim/scenario/json_schema.hpp"
 #include "sim/simulation.hpp"
 
 namespace drycut::sim {
@@ -169,15 +169,19 @@ void add_check(CLI::App& app, int& status) {
   const auto chosen = std::make_shared<CheckOptions>();
   auto& options = *chosen;
   auto* check = app.add_subcommand("check", "Parse and type-check files without running anything");
-  check
-      ->add_option(
-          "files", options.files,
-          "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
-          "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)")
-      ->required();
+  auto* files = check->add_option(
+      "files", options.files,
+      "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
+      "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
   check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(*check, options.set, "scenarios");
-  check->callback([chosen, &status] { status = check_files(*chosen); });
+  check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
+      ->excludes(files);
+  check->callback([chosen, files, &status] {
+    if (chosen->schema) return fmt::print("{}\n", json_schema());
+    if (chosen->files.empty()) throw CLI::RequiredError(files->get_name());
+    status = check_files(*chosen);
+  });
 }
 
 }  // namespace drycut::sim

@@ -10,6 +10,7 @@ namespace drycut::sim {
 struct CheckOptions {
   std::vector<std::filesystem::path> files;
   bool expand = false;
+  bool schema = false;              ///< print the JSON Schema of scenarios and check nothing
   std::vector<std::string> set = {};  ///< overrides of the scenarios: path=value
 };
 /// drycut check: scenarios (.yaml), configurations (.cnf), QCL modules (.mod, .qcl; against the .cnf before

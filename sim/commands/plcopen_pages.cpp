@@ -37,11 +37,11 @@ std::string value_unit(const plcopen::AxisValue& value) {
 }
 
 std::string default_text(const plcopen::AxisParameter& parameter) {
-  return axis_value_text(parameter, plcopen::AxisParameters{}.*parameter.member, Measure::angle);
+  return axis_value_text(parameter, {}, Measure::angle);
 }
 
 std::string range_text(const plcopen::AxisParameter& parameter) {
-  if (parameter.member == &plcopen::AxisParameters::kind) return "drive | virtual | encoder";
+  if (parameter.is(&plcopen::AxisParameters::kind)) return "drive | virtual | encoder";
   return fmt::format("{:.10g}..{:.10g}", parameter.min, parameter.max);
 }
 
@@ -49,7 +49,7 @@ std::string offered_by(const plcopen::AxisTerminal& terminal) {
   std::vector<std::string> kinds;
   for (const auto kind :
        {plcopen::AxisKind::drive, plcopen::AxisKind::virtual_axis, plcopen::AxisKind::encoder})
-    if (terminal.offered_by(kind)) kinds.emplace_back(axis_kind_text(static_cast<double>(kind)));
+    if (terminal.offered_by(kind)) kinds.emplace_back(axis_kind_text(kind));
   return listed(kinds);
 }
 

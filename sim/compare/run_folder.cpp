@@ -13,8 +13,8 @@
 #include "sim/file.hpp"
 #include "sim/known_events.hpp"
 #include "sim/results.hpp"
-#include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_node.hpp"
+#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim {
 
@@ -175,8 +175,13 @@ void read_scenario_yaml(const std::string& text, const std::string& file, RunFol
                         Problems& problems) {
   Findings findings({file});
   auto root = parse_yaml(text, 0, findings);
-  if (const auto* pictures = child(root, "pictures"))
-    run.tolerances = tolerances_of(read_pictures(*pictures, findings));
+  if (const auto* pictures = child(root, "pictures")) {
+    PicturesSection section;
+    MapReader reader(*pictures, "pictures", findings);
+    visit(reader, section);
+    reader.finish();
+    run.tolerances = tolerances_of(section);
+  }
   std::erase_if(root.entries, [](const YamlNode::Entry& entry) { return entry.key.text == "pictures"; });
   if (findings.empty() && root.kind != YamlNode::Kind::map)
     refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);

@@ -52,6 +52,8 @@ struct ComparisonScene {
 /// read_scenario tells them.
 std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file, Problems& problems);
 
+void visit(Archive& archive, ComparisonScene& scene);
+
 /// The scene as YAML with every default in force.
 std::string expand(const ComparisonScene& scene);
 

@@ -5,8 +5,8 @@
 
 #include "sim/compare/scene.hpp"
 #include "sim/file.hpp"
-#include "sim/scenario/sections.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/format.hpp"
+#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim {
 
@@ -21,171 +21,133 @@ void require_name(const Text& name, const std::string& what, Findings& findings)
                "letters, digits and underscores, a letter first: MC_CamIn");
 }
 
-/// Says that two entries of a list have one name.
-template <typename Item>
-void refuse_same_name(const std::vector<Item>& items, const std::string& what, Findings& findings) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const auto same = std::find_if(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(i),
-                                   [&](const Item& other) { return other.name.text == items[i].name.text; });
-    if (same == items.begin() + static_cast<std::ptrdiff_t>(i) || items[i].name.text.empty()) continue;
-    findings.add(items[i].name.place, fmt::format("there are two {} named '{}'", what, items[i].name.text),
-                 fmt::format("give it a name of its own; the first is at line {}", same->name.place.line));
+constexpr std::string_view same_name_remedy = "give it a name of its own; the first is at line {}";
+
+void judge_members(MapReader& reader, std::vector<ComparisonScene::Member>& members) {
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    auto& [name, scenario, set, channels] = members[i];
+    const auto full = fmt::format("{}.{}", reader.full("scenarios"), i);
+    if (name.text.empty()) name = {std::filesystem::path(scenario.text).stem().string(), scenario.place};
+    if (!scenario.text.empty()) require_name(name, full + ":", reader.findings());
+    if (name.text == "plots")
+      reader.findings().add(name.place,
+                            fmt::format("{}: 'plots' is the folder of the comparison's own plots", full),
+                            "give the run another name");
   }
+  if (members.size() < 2)
+    reader.refuse("scenarios", "compare.scenarios needs two scenarios at least",
+                  "write scenarios: [rotary_knife.yaml, rotary_knife_lx3vp.yaml]");
+  refuse_same_name(members, "runs", same_name_remedy, reader.findings());
 }
 
-// channels: {following_error: {of: AxisX.follerr * 0.1, unit: mm}}
-std::vector<ComparisonScene::Channel> read_channels(const YamlNode& map, const std::string& name,
-                                                    Findings& findings) {
-  refuse_duplicates(map, name, findings);
-  std::vector<ComparisonScene::Channel> channels;
-  for (const auto& entry : map.entries) {
-    ComparisonScene::Channel channel;
-    channel.name = entry.key;
-    require_name(channel.name, name + ":", findings);
-    MapReader reader(entry.value, name + "." + entry.key.text, findings);
-    reader.text("of", channel.of);
-    reader.text("unit", channel.unit);
-    reader.finish();
-    if (!reader.has("of")) reader.missing("of", "add of: AxisX.follerr * 0.1 or the like");
-    channels.push_back(std::move(channel));
-  }
-  return channels;
-}
-
-std::vector<std::pair<Override, Place>> read_set(const YamlNode& map, const std::string& name,
-                                                 Findings& findings) {
-  refuse_duplicates(map, name, findings);
-  std::vector<std::pair<Override, Place>> set;
-  for (const auto& entry : map.entries) {
-    if (entry.value.kind == YamlNode::Kind::scalar) {
-      set.push_back({{entry.key.text, entry.value.text.text}, entry.value.text.place});
-    } else {
-      refuse_kind(entry.value, name + "." + entry.key.text, YamlNode::Kind::scalar, findings);
-    }
-  }
-  return set;
-}
-
-/// A path, or a map with the path and what is particular to this run.
-ComparisonScene::Member read_one(const YamlNode& node, const std::string& name, Findings& findings) {
-  ComparisonScene::Member member;
-  if (node.kind == YamlNode::Kind::scalar) {
-    member.scenario = node.text;
-  } else {
-    MapReader reader(node, name, findings);
-    reader.text("name", member.name);
-    reader.text("scenario", member.scenario);
-    if (const auto* set = reader.map("set")) member.set = read_set(*set, name + ".set", findings);
-    if (const auto* map = reader.map("channels"))
-      member.channels = read_channels(*map, name + ".channels", findings);
-    reader.finish();
-    if (node.kind != YamlNode::Kind::map) return member;
-    if (!reader.has("scenario")) reader.missing("scenario", "add scenario: rotary_knife.yaml");
-  }
-  if (member.name.text.empty())
-    member.name = {std::filesystem::path(member.scenario.text).stem().string(), member.scenario.place};
-  if (!member.scenario.text.empty()) require_name(member.name, name + ":", findings);
-  if (member.name.text == "plots")
-    findings.add(member.name.place,
-                 fmt::format("{}: 'plots' is the folder of the comparison's own plots", name),
-                 "give the run another name");
-  return member;
-}
-
-ComparisonScene::FigureRequest read_figure(const YamlNode& node, const std::string& name,
-                                           Findings& findings) {
-  ComparisonScene::FigureRequest figure;
-  MapReader reader(node, name, findings);
-  reader.text("name", figure.name);
-  figure.title = figure.name.text;
-  reader.text("title", figure.title);
-  reader.text("of", figure.of);
-  reader.text("unit", figure.unit);
-  reader.finish();
-  if (node.kind != YamlNode::Kind::map) return figure;
-  if (!reader.has("name")) reader.missing("name", "checks name it: mean_length");
-  if (!reader.has("of")) reader.missing("of", "add of: mean(cut.length) or the like");
-  if (reader.has("name")) require_name(figure.name, name + ":", findings);
-  return figure;
-}
-
-/// As one of pictures.plots, and with a window about an event of each run.
-OverlayRequest read_overlay(const YamlNode& node, const std::string& name, Findings& findings) {
-  static const std::vector<std::string> own = {"around", "before", "after"};
-  const auto is_own = [&](const YamlNode::Entry& entry) {
-    return std::find(own.begin(), own.end(), entry.key.text) != own.end();
-  };
-  OverlayRequest request;
-  YamlNode window(YamlNode::Kind::map, node.text);
-  auto plot = node;
-  for (const auto& entry : node.entries)
-    if (is_own(entry)) window.entries.push_back(entry);
-  std::erase_if(plot.entries, is_own);
-  request.plot = read_plot(plot, name, findings);
-  for (const auto& panel : request.plot.panels) {
-    if (!panel.has_own_x()) continue;
-    findings.add(node.text.place, fmt::format("{}: a path, a histogram or a motor is not overlaid", name),
-                 "write panels of channels, of lanes or of an event");
-    break;
-  }
-  if (window.entries.empty()) return request;
-  MapReader reader(window, name, findings);
-  request.around = read_around_window(reader, findings);
-  for (const auto* key : {"from", "until", "against"}) {
-    if (child(node, key) == nullptr) continue;
-    findings.add(child(node, key)->text.place, fmt::format("{}.{} does not go with around", name, key),
-                 "write before and after");
-  }
-  return request;
-}
-
-void read_compare(const YamlNode& node, ComparisonScene& scene, Findings& findings) {
-  MapReader reader(node, "compare", findings);
-  const auto each = [&](const char* key, const auto& read) {
-    const auto* list = reader.list(key);
-    if (list == nullptr) return;
-    for (std::size_t i = 0; i < list->items.size(); ++i)
-      read(list->items[i], fmt::format("compare.{}.{}", key, i));
-  };
-  each("scenarios", [&](const YamlNode& item, const std::string& name) {
-    scene.members.push_back(read_one(item, name, findings));
+void visit_compare(Archive& archive, ComparisonScene& scene) {
+  archive.list({"scenarios", "paths, or maps with what is particular to a run"}, scene.members);
+  archive.value({"from", "figures look from here on"}, form(scene.from, Sign::not_negative));
+  archive.list({"figures", "numbers of each run, side by side"}, scene.figures);
+  archive.list({"plots", "as pictures.plots, the runs over each other"}, scene.plots);
+  archive.judge([&scene](MapReader& reader) {
+    judge_members(reader, scene.members);
+    refuse_same_name(scene.figures, "figures", same_name_remedy, reader.findings());
   });
-  reader.time("from", scene.from, Sign::not_negative);
-  each("figures", [&](const YamlNode& item, const std::string& name) {
-    scene.figures.push_back(read_figure(item, name, findings));
-  });
-  each("plots", [&](const YamlNode& item, const std::string& name) {
-    scene.plots.push_back(read_overlay(item, name, findings));
-  });
-  reader.finish();
-  if (scene.members.size() < 2 && node.kind == YamlNode::Kind::map) {
-    findings.add(reader.place("scenarios"), "compare.scenarios needs two scenarios at least",
-                 "write scenarios: [rotary_knife.yaml, rotary_knife_lx3vp.yaml]");
-  }
-  refuse_same_name(scene.members, "runs", findings);
-  refuse_same_name(scene.figures, "figures", findings);
-}
-
-std::vector<ComparisonScene::Check> read_own_checks(const YamlNode& list, Findings& findings) {
-  std::vector<ComparisonScene::Check> checks;
-  for (std::size_t i = 0; i < list.items.size(); ++i) {
-    ComparisonScene::Check check;
-    MapReader reader(list.items[i], fmt::format("checks.{}", i), findings);
-    reader.text("name", check.name);
-    reader.expression("expect", check.expect);
-    reader.finish();
-    if (list.items[i].kind == YamlNode::Kind::map) {
-      if (!reader.has("name")) reader.missing("name", "a check needs a name of its own");
-      if (!reader.has("expect"))
-        reader.missing("expect", "add expect: \"abs(A.mean_length - B.mean_length) <= 0.1\" or the like");
-    }
-    checks.push_back(std::move(check));
-  }
-  refuse_same_name(checks, "checks", findings);
-  return checks;
 }
 
 }  // namespace
+
+// set: {scene.duration: 2 s}
+void visit(Archive& archive, std::pair<Override, Place>& setting) {
+  auto value = form(setting.first.value);
+  value.read = [&setting, read = value.read](const YamlNode& node, const auto& name, auto& findings) {
+    setting.second = node.text.place;
+    read(node, name, findings);
+  };
+  archive.alone(value);
+}
+
+// channels: {following_error: {of: AxisX.follerr * 0.1, unit: mm}}
+void visit(Archive& archive, ComparisonScene::Channel& channel) {
+  archive.in_line();
+  archive.value({"of", "an expression over what this run records"}, quoted_form(channel.of));
+  archive.require("of", "add of: AxisX.follerr * 0.1 or the like");
+  archive.value({"unit", ""}, form(channel.unit));
+}
+
+// A path, or a map with the path and what is particular to this run.
+void visit(Archive& archive, ComparisonScene::Member& member) {
+  if (archive.instead(false, form(member.scenario))) return;
+  archive.value({"name", "its folder, its label, its name in checks"}, form(member.name));
+  archive.value({"scenario", "path, relative to the scene"}, form(member.scenario));
+  archive.require("scenario", "add scenario: rotary_knife.yaml");
+  auto& set = member.set;
+  archive.names({"set", "as --set of the command line", !set.empty()},
+                {set.size(), [&](std::size_t i) { return set[i].first.path; },
+                 [&](const Text& path) {
+                   set.push_back({{path.text, ""}, {}});
+                 },
+                 [&] { set.pop_back(); }, [&](Archive& inner, std::size_t i) { visit(inner, set[i]); }});
+  archive.names({"channels", "names that all runs share", !member.channels.empty()}, member.channels,
+                &ComparisonScene::Channel::name);
+  archive.judge([&member](MapReader& reader) {
+    for (const auto& channel : member.channels)
+      require_name(channel.name, reader.full("channels") + ":", reader.findings());
+  });
+}
+
+void visit(Archive& archive, ComparisonScene::FigureRequest& figure) {
+  archive.in_line();
+  archive.value({"name", "in checks: RUN.name"}, form(figure.name));
+  archive.require("name", "checks name it: mean_length");
+  if (archive.reads()) figure.title = figure.name.text;
+  archive.value({"title", "the name unless given"}, form(figure.title));
+  archive.value({"of", "terms as of drycut tune: mean(cut.length)"}, quoted_form(figure.of));
+  archive.require("of", "add of: mean(cut.length) or the like");
+  archive.value({"unit", ""}, form(figure.unit));
+  archive.judge([&figure](MapReader& reader) {
+    if (reader.has("name")) require_name(figure.name, reader.name() + ":", reader.findings());
+  });
+}
+
+// As one of pictures.plots, and with a window about an event of each run.
+void visit(Archive& archive, OverlayRequest& request) {
+  visit(archive, request.plot, request.around);
+  archive.judge([&request](MapReader& reader) {
+    const auto& panels = request.plot.panels;
+    if (std::any_of(panels.begin(), panels.end(), [](const auto& panel) { return panel.has_own_x(); }))
+      reader.findings().add(reader.place(),
+                            fmt::format("{}: a path, a histogram or a motor is not overlaid", reader.name()),
+                            "write panels of channels, of lanes or of an event");
+    for (const auto* key : {"from", "until", "against"}) {
+      if (!request.around || !reader.has(key)) continue;
+      reader.findings().add(reader.value_place(key),
+                            fmt::format("{} does not go with around", reader.full(key)),
+                            "write before and after");
+    }
+  });
+}
+
+void visit(Archive& archive, ComparisonScene::Check& check) {
+  archive.in_line();
+  archive.value({"name", "what reports call it"}, form(check.name));
+  archive.require("name", "a check needs a name of its own");
+  archive.value({"expect", "over RUN.figure and RUN.passed"}, expression_form(check.expect));
+  archive.require("expect", "add expect: \"abs(A.mean_length - B.mean_length) <= 0.1\" or the like");
+}
+
+void visit(Archive& archive, ComparisonScene& scene) {
+  archive.section({"scene", ""}, [&](Archive& inner) {
+    inner.value({"title", "what reports call it"}, form(scene.title));
+  });
+  archive.section({"compare", "scenarios that are run and laid over each other"},
+                  [&](Archive& inner) { visit_compare(inner, scene); });
+  archive.list({"checks", "what must hold between the runs"}, scene.checks);
+  archive.judge([&scene](MapReader& reader) {
+    refuse_same_name(scene.checks, "checks", same_name_remedy, reader.findings());
+  });
+}
+
+std::string expand(const ComparisonScene& scene) {
+  // A visit takes what an archive may fill; this one fills nothing.
+  return yaml_of([&](Archive& archive) { visit(archive, const_cast<ComparisonScene&>(scene)); });
+}
 
 std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file, Problems& problems) {
   // What cannot be read or parsed is told by whoever reads it as a scenario.
@@ -198,13 +160,7 @@ std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file
   ComparisonScene scene;
   scene.file = file;
   MapReader reader(root, "", findings);
-  if (const auto* node = reader.map("scene")) {
-    MapReader own(*node, "scene", findings);
-    own.text("title", scene.title);
-    own.finish();
-  }
-  if (const auto* node = reader.map("compare")) read_compare(*node, scene, findings);
-  if (const auto* node = reader.list("checks")) scene.checks = read_own_checks(*node, findings);
+  visit(reader, scene);
   reader.finish();
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
   return scene;

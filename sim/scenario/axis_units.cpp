@@ -42,13 +42,19 @@ AxisUnit axis_unit(const AxisParameter& parameter, Measure measure) {
   return {};
 }
 
-std::string_view axis_kind_text(double kind) {
-  constexpr std::array<std::string_view, 3> names{"drive", "virtual", "encoder"};
-  return names.at(static_cast<std::size_t>(kind));
+const std::vector<std::string>& axis_kinds() {
+  static const std::vector<std::string> names = {"drive", "virtual", "encoder"};
+  return names;
 }
 
-std::string axis_value_text(const AxisParameter& parameter, double value, Measure measure) {
-  if (parameter.member == &AxisParameters::kind) return std::string(axis_kind_text(value));
+const std::string& axis_kind_text(devices::plcopen::AxisKind kind) {
+  return axis_kinds().at(static_cast<std::size_t>(kind));
+}
+
+std::string axis_value_text(const AxisParameter& parameter, const AxisParameters& parameters,
+                            Measure measure) {
+  if (parameter.is(&AxisParameters::kind)) return axis_kind_text(parameters.kind);
+  const double value = parameter.value(parameters);
   const AxisUnit people = axis_unit(parameter, measure);
   if (people.unit.empty()) return fmt::format("{}", value);
   for (const int digits : {15, 16, 17}) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "devices/plcopen/axis_parameters.hpp"
 
@@ -13,12 +14,14 @@ struct AxisUnit {
 };
 AxisUnit axis_unit(const devices::plcopen::AxisParameter& parameter, devices::plcopen::Measure measure);
 
-/// "drive", "virtual", "encoder" by number.
-std::string_view axis_kind_text(double kind);
+/// The words for AxisKind, in its order: "drive", "virtual", "encoder".
+const std::vector<std::string>& axis_kinds();
+const std::string& axis_kind_text(devices::plcopen::AxisKind kind);
 
 /// The value as a scenario writes it: with its unit where that reads back as the very same value, else in the
 /// kernel's units.
-std::string axis_value_text(const devices::plcopen::AxisParameter& parameter, double value,
+std::string axis_value_text(const devices::plcopen::AxisParameter& parameter,
+                            const devices::plcopen::AxisParameters& parameters,
                             devices::plcopen::Measure measure);
 
 /// `number` in `unit`, of the dimension of `people.unit`, in the kernel's units. What lies within rounding of

@@ -1,12 +1,12 @@
-// pictures: frames and caption; the plots are read in plot_requests.cpp.
+// pictures: frames, what stands over them, the user's own meshes. Plots are in plot_requests.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <numbers>
 
-#include "sim/scenario/sections.hpp"
-#include "sim/scenario/yaml_reader.hpp"
+#include "sim/scenario/format.hpp"
+#include "sim/scenario/forms.hpp"
 
 namespace drycut::sim {
 
@@ -15,187 +15,186 @@ namespace {
 constexpr int smallest = 64;
 constexpr int largest = 4096;
 constexpr std::size_t most_live = 2;
-constexpr double narrowest = 1 * std::numbers::pi / 180;  // field of view [rad]
-constexpr double widest = 150 * std::numbers::pi / 180;
+constexpr double degree = std::numbers::pi / 180;
 
 // "960x540"
-void read_size(const Text& text, PicturesSection& pictures, Findings& findings) {
-  int width = 0;
-  int height = 0;
-  const char* const end = text.text.data() + text.text.size();
-  const auto first = std::from_chars(text.text.data(), end, width);
-  const bool crossed = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
-  const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
-  if (!crossed || second.ec != std::errc() || second.ptr != end) {
-    findings.add(text.place, fmt::format("pictures.frames.size: '{}' is no picture size", text.text),
-                 "write width x height in pixels without blanks: 960x540");
-  } else if (std::min(width, height) < smallest || std::max(width, height) > largest) {
-    findings.add(text.place, fmt::format("pictures.frames.size is {}, out of range", text.text),
-                 fmt::format("{} to {} pixels each way", smallest, largest));
-  } else {
-    pictures.width = width;
-    pictures.height = height;
-  }
+Form size_form(PicturesSection& pictures) {
+  return single(
+      [&pictures](const Text& text, const std::string& name, Findings& findings) {
+        int width = 0;
+        int height = 0;
+        const char* const end = text.text.data() + text.text.size();
+        const auto first = std::from_chars(text.text.data(), end, width);
+        const bool crossed = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
+        const auto second = crossed ? std::from_chars(first.ptr + 1, end, height) : first;
+        if (!crossed || second.ec != std::errc() || second.ptr != end) {
+          findings.add(text.place, fmt::format("{}: '{}' is no picture size", name, text.text),
+                       "write width x height in pixels without blanks: 960x540");
+        } else if (std::min(width, height) < smallest || std::max(width, height) > largest) {
+          findings.add(text.place, fmt::format("{} is {}, out of range", name, text.text),
+                       fmt::format("{} to {} pixels each way", smallest, largest));
+        } else {
+          pictures.width = width;
+          pictures.height = height;
+        }
+      },
+      [&pictures] { return fmt::format("{}x{}", pictures.width, pictures.height); },
+      R"({"type": "string", "pattern": "^[0-9]+x[0-9]+$"})");
 }
 
 // around: "cut[3]", or cut for the first
-void read_around(const Text& text, const std::string& name, PicturesSection::Around& around,
-                 Findings& findings) {
-  around.event = text;
-  const auto open = text.text.find('[');
-  if (open == std::string::npos) return;
-  around.event.text.resize(open);
-  const char* const end = text.text.data() + text.text.size();
-  const auto number = std::from_chars(text.text.data() + open + 1, end, around.number);
-  const bool closed = number.ec == std::errc() && end - number.ptr == 1 && *number.ptr == ']';
-  if (closed && around.number >= 1 && open > 0) return;
-  findings.add(text.place, fmt::format("{}: '{}' is no event", name, text.text),
-               "write its name and its number from 1: \"cut[3]\"");
-}
-
-void read_window(MapReader& reader, PicturesSection& pictures, Findings& findings) {
-  reader.time("from", pictures.from, Sign::not_negative);
-  reader.time("until", pictures.until, Sign::positive);
-  pictures.around = read_around_window(reader, findings);
-  refuse_empty_window(reader, pictures.from, pictures.until, findings);
-  for (const auto* key : {"from", "until"}) {
-    if (!reader.has("around") || !reader.has(key)) continue;
-    findings.add(reader.place(key), fmt::format("{} does not go with around", reader.full(key)),
-                 "write before and after");
-  }
+Form around_form(std::optional<PicturesSection::Around>& around) {
+  return single(
+      [&around](const Text& text, const std::string& name, Findings& findings) {
+        around = PicturesSection::Around{};
+        auto& [event, number, before, after] = *around;
+        event = text;
+        const auto open = text.text.find('[');
+        if (open == std::string::npos) return;
+        event.text.resize(open);
+        const char* const end = text.text.data() + text.text.size();
+        const auto read = std::from_chars(text.text.data() + open + 1, end, number);
+        const bool closed = read.ec == std::errc() && end - read.ptr == 1 && *read.ptr == ']';
+        if (closed && number >= 1 && open > 0) return;
+        findings.add(text.place, fmt::format("{}: '{}' is no event", name, text.text),
+                     "write its name and its number from 1: \"cut[3]\"");
+      },
+      [&around] {
+        return around ? yaml_quoted(fmt::format("{}[{}]", around->event.text, around->number)) : "";
+      },
+      std::string(any_text_schema));
 }
 
 // camera: operator, or {eye: [0 m, 1 m, 2 m], target: [0 m, 0 m, 0 m]}
-void read_camera(MapReader& frames, PicturesSection& pictures, Findings& findings) {
-  const auto* entry = frames.find("camera");
-  if (entry == nullptr) return;
-  pictures.camera_place = entry->value.text.place;
-  if (entry->value.kind != YamlNode::Kind::map) {
-    if (const auto* name = frames.scalar("camera")) pictures.camera = name->text;
-    return;
-  }
-  MapReader reader(entry->value, "pictures.frames.camera", findings);
-  PicturesSection::Eye own;
-  for (const auto* key : {"eye", "target"})
-    if (!reader.has(key))
-      reader.missing(key, fmt::format("write {}: [0 m, 1 m, 2 m], along x, y and z", key));
-  const auto before = findings.count();
-  read_triple(reader, "eye", "m", own.eye, findings);
-  read_triple(reader, "target", "m", own.target, findings);
-  if (const auto* angle = reader.scalar("field_of_view")) {
-    own.field_of_view =
-        read_si(*angle, reader.full("field_of_view"), "deg", findings).value_or(own.field_of_view);
-    if (own.field_of_view < narrowest || own.field_of_view > widest)
-      findings.add(angle->place,
-                   fmt::format("{} is {}, out of range", reader.full("field_of_view"), angle->text),
-                   "1 deg to 150 deg; 35 deg is the default");
-  }
-  if (findings.count() == before && reader.has("eye") && reader.has("target") && own.eye == own.target)
-    findings.add(reader.place("target"), "pictures.frames.camera looks at the place where it stands",
-                 "let target be another point than eye");
-  reader.finish();
-  pictures.own_camera = own;
+void visit_camera(Archive& archive, PicturesSection& pictures) {
+  auto& own = pictures.own_camera;
+  if (archive.instead(!own, form(pictures.camera))) return;
+  if (!own) own = PicturesSection::Eye{};
+  archive.value({"eye", "where it stands, along x, y and z"}, form(own->eye, "m"));
+  archive.value({"target", "what it looks at"}, form(own->target, "m"));
+  archive.value({"field_of_view", "vertical"}, form(own->field_of_view, "deg", 1 * degree, 150 * degree,
+                                                    "1 deg to 150 deg; 35 deg is the default"));
+  archive.require("eye", "write eye: [0 m, 1 m, 2 m], along x, y and z");
+  archive.require("target", "write target: [0 m, 1 m, 2 m], along x, y and z");
+  archive.judge([&own](MapReader& reader) {
+    if (reader.is_sound() && own->eye == own->target)
+      reader.refuse("target", "pictures.frames.camera looks at the place where it stands",
+                    "let target be another point than eye");
+  });
+}
+
+void visit_frames(Archive& archive, PicturesSection& pictures) {
+  pictures.frames = true;
+  archive.value({"every", "a frame this often"}, form(pictures.every, Sign::positive));
+  visit_window(archive, pictures.from, pictures.until, &pictures.around);
+  archive.value({"slow", "so many times slower than the machine"}, form(pictures.slow, 1, 10000));
+  archive.section({"camera", "operator, a plant, a part (knife.blade), or a place of your own"},
+                  [&](Archive& inner) { visit_camera(inner, pictures); });
+  archive.value({"follow", "a part that the camera goes with", !pictures.follow.text.empty()},
+                form(pictures.follow));
+  archive.value({"size", "of a frame in pixels"}, size_form(pictures));
+  archive.judge([&pictures](MapReader& reader) {
+    pictures.slow_place = reader.has("slow") ? reader.value_place("slow") : reader.place("every");
+    if (reader.has("camera")) pictures.camera_place = reader.value_place("camera");
+    for (const auto* key : {"from", "until"}) {
+      if (!reader.has("around") || !reader.has(key)) continue;
+      reader.refuse(key, fmt::format("{} does not go with around", reader.full(key)),
+                    "write before and after");
+    }
+  });
 }
 
 // overlays: [trail, lengths, forces]
-void read_overlays(MapReader& reader, PicturesSection& pictures, Findings& findings) {
-  std::vector<Text> names;
-  const bool given = reader.has("overlays");
-  reader.texts("overlays", names);
-  if (!given) return;
-  auto& overlays = pictures.overlays;
-  overlays = {false, false, false};
-  for (const auto& name : names) {
-    bool* chosen = name.text == "trail"     ? &overlays.trail
-                   : name.text == "lengths" ? &overlays.lengths
-                   : name.text == "forces"  ? &overlays.forces
-                                            : nullptr;
-    if (chosen != nullptr)
-      *chosen = true;
-    else
-      findings.add(name.place, fmt::format("pictures.overlays: there is no overlay '{}'", name.text),
-                   "overlays: trail, lengths, forces");
-  }
-}
-
-// live: [knife.motor.torque, AxisX.follerr]
-void read_live(MapReader& reader, PicturesSection& pictures, Findings& findings) {
-  reader.texts("live", pictures.live);
-  if (pictures.live.size() > most_live)
-    findings.add(pictures.live[most_live].place,
-                 fmt::format("pictures.live has {} channels", pictures.live.size()),
-                 "one or two have room in the corner; show more in plots");
-}
-
-void read_frames(const YamlNode& node, PicturesSection& pictures, Findings& findings) {
-  MapReader reader(node, "pictures.frames", findings);
-  pictures.frames = true;
-  reader.time("every", pictures.every, Sign::positive);
-  read_window(reader, pictures, findings);
-  reader.integer("slow", pictures.slow, 1, 10000);
-  const auto* slow = reader.scalar("slow");
-  pictures.slow_place = slow == nullptr ? reader.place("every") : slow->place;
-  read_camera(reader, pictures, findings);
-  reader.text("follow", pictures.follow);
-  if (const auto* size = reader.scalar("size")) read_size(*size, pictures, findings);
-  reader.finish();
+Form overlays_form(PicturesSection::Overlays& overlays) {
+  const auto flag = [&overlays](std::string_view name) -> bool* {
+    if (name == "trail") return &overlays.trail;
+    if (name == "lengths") return &overlays.lengths;
+    return name == "forces" ? &overlays.forces : nullptr;
+  };
+  return whole(
+      YamlNode::Kind::sequence,
+      [&overlays, flag](const YamlNode& list, const Form::Name& name, Findings& findings) {
+        std::vector<Text> given;
+        form(given).read(list, name, findings);
+        overlays = {false, false, false};
+        for (const auto& one : given) {
+          if (bool* const chosen = flag(one.text))
+            *chosen = true;
+          else
+            findings.add(one.place, fmt::format("{}: there is no overlay '{}'", name.full, one.text),
+                         "overlays: trail, lengths, forces");
+        }
+      },
+      [flag] {
+        std::vector<std::string> names;
+        for (const auto* name : {"trail", "lengths", "forces"})
+          if (*flag(name)) names.emplace_back(name);
+        return yaml_list(names);
+      },
+      R"({"type": "array", "items": {"enum": ["trail", "lengths", "forces"]}})");
 }
 
 }  // namespace
 
-std::optional<PicturesSection::Around> read_around_window(MapReader& reader, Findings& findings) {
-  PicturesSection::Around around;
-  const auto* event = reader.scalar("around");
-  reader.time("before", around.before, Sign::not_negative);
-  reader.time("after", around.after, Sign::not_negative);
-  if (event != nullptr) read_around(*event, reader.full("around"), around, findings);
-  for (const auto* key : {"before", "after"}) {
-    if (reader.has("around") || !reader.has(key)) continue;
-    findings.add(reader.place(key), fmt::format("{} stands without around", reader.full(key)),
-                 "add around: \"cut[3]\", or write from and until");
-  }
-  if (event == nullptr) return {};
-  return around;
+void visit_window(Archive& archive, Time& from, std::optional<Time>& until,
+                  std::optional<PicturesSection::Around>* around) {
+  const bool about = around != nullptr && *around;
+  archive.value({"from", "what is earlier is not shown", !about}, form(from, Sign::not_negative));
+  archive.value({"until", "what is later is not shown", !about}, form(until, Sign::positive));
+  archive.judge([&from, &until](MapReader& reader) {
+    if (!until || *until > from || *until == 0) return;
+    reader.refuse("until", fmt::format("{} is not after from", reader.full("until")),
+                  "let until be later than from");
+  });
+  if (around == nullptr) return;
+  archive.value({"around", "in place of from and until: about an event, cut[3] the third cut"},
+                around_form(*around));
+  PicturesSection::Around none;
+  auto& window = *around ? **around : none;
+  archive.value({"before", "so long before the event", about}, form(window.before, Sign::not_negative));
+  archive.value({"after", "so long after it", about}, form(window.after, Sign::not_negative));
+  archive.judge([](MapReader& reader) {
+    for (const auto* key : {"before", "after"}) {
+      if (reader.has("around") || !reader.has(key)) continue;
+      reader.refuse(key, fmt::format("{} stands without around", reader.full(key)),
+                    "add around: \"cut[3]\", or write from and until");
+    }
+  });
 }
 
-void refuse_empty_window(MapReader& reader, Time from, const std::optional<Time>& until, Findings& findings) {
-  if (!until || *until > from || *until == 0) return;
-  findings.add(reader.place("until"), fmt::format("{} is not after from", reader.full("until")),
-               "let until be later than from");
+void visit(Archive& archive, PicturesSection::MeshRequest& mesh) {
+  archive.value({"file", "a mesh, relative to the scenario"}, form(mesh.file));
+  archive.require("file", "name a mesh file: file: meshes/my_drum.stl");
+  archive.value({"scale", "on the file's unit"},
+                form(mesh.scale, "", 1e-6, 1e6, "1e-6 to 1e6; 1 takes the file as it is"));
+  archive.value({"at", "its origin from the part's middle, along x, y and z"}, form(mesh.at, "mm"));
+  archive.value({"rotate", "about x, then y, then z"}, form(mesh.rotate, "deg"));
 }
 
-PicturesSection read_pictures(const YamlNode& node, Findings& findings) {
-  PicturesSection pictures;
-  MapReader reader(node, "pictures", findings);
-  if (const auto* frames = reader.map("frames")) read_frames(*frames, pictures, findings);
-  if (const auto* video = reader.scalar("video")) {
-    pictures.video = read_switch(*video, "pictures.video", findings).value_or(false);
+void visit(Archive& archive, PicturesSection& pictures) {
+  archive.section({"frames", "pictures of the machine", pictures.frames},
+                  [&](Archive& inner) { visit_frames(inner, pictures); });
+  archive.value({"video", "the frames as a film too", pictures.frames}, form(pictures.video));
+  archive.value({"caption", "channels under the frames"}, form(pictures.caption));
+  archive.value({"lamps", "channels there as lamps, lit unless 0", pictures.frames}, form(pictures.lamps));
+  archive.value({"overlays", "what is drawn over the frames", pictures.frames},
+                overlays_form(pictures.overlays));
+  archive.value({"live", "one or two channels that run along in the corner", pictures.frames},
+                form(pictures.live));
+  archive.names({"meshes", "meshes of your own in place of parts: knife.drum", !pictures.meshes.empty()},
+                pictures.meshes, &PicturesSection::MeshRequest::part);
+  archive.list({"plots", "curves of the run"}, pictures.plots);
+  archive.judge([&pictures](MapReader& reader) {
     if (pictures.video && !reader.has("frames")) {
-      findings.add(reader.place("video"), "pictures.video is a film of the frames, and there are none",
-                   "add frames: {every: 40 ms}");
+      reader.refuse("video", "pictures.video is a film of the frames, and there are none",
+                    "add frames: {every: 40 ms}");
     }
-  }
-  reader.texts("caption", pictures.caption);
-  reader.texts("lamps", pictures.lamps);
-  read_overlays(reader, pictures, findings);
-  read_live(reader, pictures, findings);
-  if (const auto* meshes = reader.map("meshes")) pictures.meshes = read_meshes(*meshes, findings);
-  if (const auto* list = reader.list("plots")) {
-    for (std::size_t i = 0; i < list->items.size(); ++i) {
-      auto plot = read_plot(list->items[i], fmt::format("pictures.plots.{}", i), findings);
-      const bool twice =
-          std::any_of(pictures.plots.begin(), pictures.plots.end(), [&](const PlotRequest& other) {
-            return !plot.name.text.empty() && other.name.text == plot.name.text;
-          });
-      if (twice) {
-        findings.add(plot.name.place, fmt::format("there are two plots named '{}'", plot.name.text),
-                     "rename one: each is a file");
-      }
-      pictures.plots.push_back(std::move(plot));
-    }
-  }
-  reader.finish();
-  return pictures;
+    if (pictures.live.size() > most_live)
+      reader.findings().add(pictures.live[most_live].place,
+                            fmt::format("pictures.live has {} channels", pictures.live.size()),
+                            "one or two have room in the corner; show more in plots");
+    refuse_same_name(pictures.plots, "plots", "rename one: each is a file", reader.findings());
+  });
 }
 
 }  // namespace drycut::sim

@@ -2,182 +2,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string_view>
 #include <unordered_map>
 
+#include "sim/scenario/forms.hpp"
+#include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/sections.hpp"
-#include "sim/scenario/units.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim {
 
 namespace {
-
-using plants::Parameter;
-using plants::Parameters;
-
-// A number in the parameter's unit as a message shows it.
-std::string shown(double number, std::string_view unit) {
-  return unit.empty() ? fmt::format("{:.12g}", number) : fmt::format("{:.12g} {}", number, unit);
-}
-
-// Reads the parameters of one plant.
-class ParameterReader {
- public:
-  ParameterReader(PlantEntry& entry, Time step, Findings& findings)
-      : entry_(entry), step_(step), parameters_(entry.definition->parameters()), findings_(findings) {}
-
-  void read(const YamlNode& node) {
-    read_level(node, "");
-    if (findings_.count() != at_start_) return;  // an objection to a default would only be an echo
-    for (const auto& objection : entry_.definition->objections(seconds(step_))) {
-      findings_.add(place_of(objection.parameter),
-                    fmt::format("{}.{}: {}", entry_.name.text, objection.parameter, objection.what),
-                    objection.remedy);
-    }
-  }
-
- private:
-  // A key is a parameter, or the first part of some: then its value is a map of the rest.
-  void read_level(const YamlNode& node, const std::string& prefix) {
-    const auto where = "plants." + entry_.name.text + (prefix.empty() ? "" : "." + prefix);
-    refuse_duplicates(node, where, findings_);
-    for (const auto& entry : node.entries) {
-      const auto& key = entry.key;
-      const auto& value = entry.value;
-      if ((prefix.empty() && key.text == "type") || entry.is_repeated()) continue;
-      const auto name = prefix.empty() ? key.text : prefix + "." + key.text;
-      const auto full = "plants." + entry_.name.text + "." + name;
-      if (auto* parameter = find(name)) {
-        if (remember(name, key)) read_value(*parameter, value, key, full);
-      } else if (!is_group(name)) {
-        findings_.add(key.place, fmt::format("unknown key '{}' in {}", key.text, where),
-                      suggestion(prefix, key.text));
-      } else if (value.kind != YamlNode::Kind::map) {
-        refuse_kind(value, full, YamlNode::Kind::map, findings_);
-      } else {
-        read_level(value, name);
-      }
-    }
-  }
-
-  Parameter* find(const std::string& name) {
-    const auto found = std::find_if(parameters_.begin(), parameters_.end(),
-                                    [&](const Parameter& parameter) { return parameter.name == name; });
-    return found == parameters_.end() ? nullptr : &*found;
-  }
-  bool is_group(const std::string& name) const {
-    return std::any_of(parameters_.begin(), parameters_.end(),
-                       [&](const Parameter& parameter) { return parameter.name.starts_with(name + "."); });
-  }
-
-  // False if the parameter was given before: nested in one place and dotted in another.
-  bool remember(const std::string& name, const Text& key) {
-    for (const auto& [known, place] : entry_.places) {
-      if (known != name) continue;
-      findings_.add(key.place, fmt::format("plants.{}.{} is given twice", entry_.name.text, name),
-                    fmt::format("keep one; the first is at line {}", place.line));
-      return false;
-    }
-    entry_.places.emplace_back(name, key.place);
-    return true;
-  }
-
-  std::string suggestion(const std::string& prefix, const std::string& key) const {
-    std::vector<std::string> here;
-    for (const auto& parameter : parameters_) {
-      std::string_view rest = parameter.name;
-      if (!prefix.empty()) {
-        if (!rest.starts_with(prefix + ".")) continue;
-        rest.remove_prefix(prefix.size() + 1);
-      }
-      const auto dot = rest.find('.');
-      if (dot != std::string_view::npos) here.emplace_back(rest.substr(0, dot));
-      here.emplace_back(rest);
-    }
-    if (const auto near = nearest(key, here); !near.empty()) {
-      return fmt::format("did you mean {}?", near);
-    }
-    for (const auto& parameter : parameters_) {
-      if (parameter.name.ends_with("." + key)) return fmt::format("did you mean {}?", parameter.name);
-    }
-    return fmt::format("'drycut plants {}' lists its parameters", entry_.type.text);
-  }
-
-  void read_value(const Parameter& parameter, const YamlNode& node, const Text& key,
-                  const std::string& full) {
-    if (node.kind == YamlNode::Kind::null) {
-      findings_.add(key.place, fmt::format("{} has no value", full), "give it one, or leave the key out");
-      return;
-    }
-    if (node.kind != YamlNode::Kind::scalar) {
-      refuse_kind(node, full, YamlNode::Kind::scalar, findings_);
-      return;
-    }
-    entry_.places.back().second = node.text.place;
-    std::visit([&](auto* bound) { assign(parameter, *bound, node.text, full); }, parameter.value);
-  }
-
-  void assign(const Parameter& parameter, double& bound, const Text& text, const std::string& full) {
-    const auto si = read_si(text, full, parameter.unit, findings_);
-    if (!si) return;
-    const auto quantity = parse_quantity(text.text);
-    const bool same_unit = quantity->unit.empty() || quantity->unit == parameter.unit;
-    const double number = same_unit ? quantity->number : from_si(*si, parameter.unit);
-    // Another unit's conversion may miss a limit by its last digit.
-    const double slack = same_unit ? 0 : 1e-12 * std::max(std::abs(parameter.min), std::abs(parameter.max));
-    if (!(number >= parameter.min - slack && number <= parameter.max + slack)) {
-      findings_.add(text.place, fmt::format("{} is {}, out of range", full, shown(number, parameter.unit)),
-                    range(parameter));
-      return;
-    }
-    bound = *si;
-  }
-
-  void assign(const Parameter& parameter, int& bound, const Text& text, const std::string& full) {
-    const auto si = read_si(text, full, parameter.unit, findings_);
-    if (!si) return;
-    const double number = from_si(*si, parameter.unit);
-    if (number != std::round(number)) {
-      findings_.add(text.place, fmt::format("{} is {}, not a whole number", full, text.text),
-                    range(parameter));
-    } else if (!(number >= parameter.min && number <= parameter.max)) {
-      findings_.add(text.place, fmt::format("{} is {}, out of range", full, shown(number, parameter.unit)),
-                    range(parameter));
-    } else {
-      bound = static_cast<int>(number);
-    }
-  }
-
-  void assign(const Parameter&, bool& bound, const Text& text, const std::string& full) {
-    if (const auto on = read_switch(text, full, findings_)) bound = *on;
-  }
-
-  void assign(const Parameter& parameter, std::string& bound, const Text& text, const std::string& full) {
-    if (!parameter.choices.empty() && !read_choice(text, full, parameter.choices, findings_)) return;
-    bound = text.text;
-  }
-
-  static std::string range(const Parameter& parameter) {
-    return fmt::format("{} to {}", shown(parameter.min, parameter.unit),
-                       shown(parameter.max, parameter.unit));
-  }
-
-  Place place_of(const std::string& parameter) const {
-    for (const auto& [name, place] : entry_.places) {
-      if (name == parameter) return place;
-    }
-    return entry_.name.place;
-  }
-
-  PlantEntry& entry_;
-  Time step_;
-  Parameters parameters_;
-  Findings& findings_;
-  std::size_t at_start_ = findings_.count();
-};
 
 std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<const plants::PlantType> types,
                                      Findings& findings) {
@@ -217,6 +52,14 @@ Place place_of(const PlantEntry& plant, const std::string& parameter) {
     if (name == parameter) return place;
   }
   return plant.name.place;
+}
+
+void object(const PlantEntry& plant, const std::vector<plants::PlantDefinition::Objection>& objections,
+            Findings& findings) {
+  for (const auto& objection : objections)
+    findings.add(place_of(plant, objection.parameter),
+                 fmt::format("{}.{}: {}", plant.name.text, objection.parameter, objection.what),
+                 objection.remedy);
 }
 
 // Where each plant is in a list.
@@ -315,10 +158,7 @@ void object_to_each_other(const std::vector<PlantEntry>& all, Time step, Finding
     return found == index.end() ? nullptr : all[found->second].definition.get();
   };
   for (const auto& plant : all)
-    for (const auto& objection : plant.definition->objections_with(find, seconds(step)))
-      findings.add(place_of(plant, objection.parameter),
-                   fmt::format("{}.{}: {}", plant.name.text, objection.parameter, objection.what),
-                   objection.remedy);
+    object(plant, plant.definition->objections_with(find, seconds(step)), findings);
 }
 
 // A reference that is `sole` is a place for one: a web has one cut.
@@ -343,7 +183,26 @@ void refuse_shared_places(const std::vector<PlantEntry>& all, Findings& findings
   }
 }
 
+// What an editor shows of a parameter.
+std::string described(const plants::Parameter& parameter) {
+  const auto unit = parameter.unit.empty() ? std::string() : fmt::format(" [{}]", parameter.unit);
+  const bool number = parameter.value.index() < 2;
+  const auto range =
+      number ? fmt::format("; {:.12g} to {:.12g}", parameter.min, parameter.max) : std::string();
+  return fmt::format("{}{}{}; default {}", parameter.meaning, unit, range, value_text(parameter));
+}
+
 }  // namespace
+
+void visit(Archive& archive, PlantEntry& plant) {
+  archive.value({"type", "what it is"}, form(plant.type));
+  const auto parameters = plant.definition->parameters();
+  ParameterTable table{{}, fmt::format("'drycut plants {}' lists its parameters", plant.type.text)};
+  table.places = &plant.places;
+  for (const auto& parameter : parameters)
+    table.rows.push_back({parameter.name, [&parameter] { return described(parameter); }, form(parameter)});
+  archive.table(table);
+}
 
 std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types, Time step,
                                     Findings& findings) {
@@ -362,7 +221,10 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     if (entry.is_repeated()) continue;
     auto plant = read_plant(entry, types, findings);
     if (!plant) continue;
-    ParameterReader(*plant, step, findings).read(entry.value);
+    MapReader reader(entry.value, "plants." + name, findings);
+    visit(reader, *plant);
+    // An objection to a default would only be an echo.
+    if (reader.is_sound()) object(*plant, plant->definition->objections(seconds(step)), findings);
     plants.push_back(std::move(*plant));
   }
   auto order = sorted(std::move(plants), node, findings);

@@ -2,14 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
-#include <unordered_set>
 
 #include "base/plain_text.hpp"
+#include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/format.hpp"
-#include "sim/scenario/scenario.hpp"
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
@@ -19,125 +17,73 @@ namespace {
 
 constexpr std::size_t largest_text = std::size_t{1} << 20U;  // [bytes]; yaml-cpp takes half a second for it
 
-void read_seed(const Text& text, std::uint64_t& seed, Findings& findings) {
-  const char* const end = text.text.data() + text.text.size();
-  const auto read = std::from_chars(text.text.data(), end, seed);
-  if (read.ec == std::errc() && read.ptr == end) return;
-  findings.add(text.place, fmt::format("scene.seed: '{}' is not a whole number", text.text),
-               "0 to 18446744073709551615");
-}
+// Reads the whole: plants need the step and the known types, a controller one of its kinds.
+class ScenarioReader final : public MapReader {
+ public:
+  ScenarioReader(const YamlNode& root, std::span<const plants::PlantType> types, const SceneSection& scene,
+                 Findings& findings)
+      : MapReader(root, "", findings), types_(types), scene_(scene) {}
 
-SceneSection read_scene(const YamlNode& node, Findings& findings) {
-  SceneSection scene;
-  MapReader reader(node, "scene", findings);
-  reader.text("title", scene.title);
-  reader.time("step", scene.step, Sign::positive);
-  if (const auto* step = reader.scalar("step")) scene.step_place = step->place;
-  reader.time("duration", scene.duration, Sign::positive);
-  if (const auto* seed = reader.scalar("seed")) read_seed(*seed, scene.seed, findings);
-  reader.finish();
-  return scene;
-}
-
-QmoveSection read_qmove(const YamlNode& node, const Place& place, Findings& findings) {
-  QmoveSection qmove;
-  qmove.place = place;
-  MapReader reader(node, "controller.qmove", findings);
-  reader.text("configuration", qmove.configuration);
-  reader.texts("tasks", qmove.tasks);
-  reader.time("cycle", qmove.cycle, Sign::positive);
-  reader.text("retentive", qmove.retentive);
-  read_preset(reader, "controller.qmove", qmove.set, findings);
-  reader.finish();
-  if (!reader.has("configuration")) {
-    reader.missing("configuration", "add configuration: programs/line.cnf");
+  void plants(const Key& key, std::vector<PlantEntry>& plants) override {
+    const auto before = findings().count();
+    if (const auto* node = of_kind(key.name, YamlNode::Kind::map))
+      plants = read_plants(*node, types_, scene_.step, findings());
+    machine_sound_ = findings().count() == before;
   }
-  return qmove;
-}
 
-Lx3vpSection read_lx3vp(const YamlNode& node, const Place& place, Findings& findings) {
-  Lx3vpSection lx3vp;
-  lx3vp.place = place;
-  MapReader reader(node, "controller.lx3vp", findings);
-  reader.text("program", lx3vp.program);
-  reader.text("registers", lx3vp.registers);
-  reader.time("scan", lx3vp.scan, Sign::positive);
-  reader.text("retentive", lx3vp.retentive);
-  read_preset(reader, "controller.lx3vp", lx3vp.set, findings);
-  reader.finish();
-  if (!reader.has("program")) reader.missing("program", "add program: programs/saw.il");
-  return lx3vp;
-}
+  void controller(const Key& key, std::unique_ptr<ControllerSection>& controller) override {
+    const auto before = findings().count();
+    if (const auto* node = of_kind(key.name, YamlNode::Kind::map)) read_controller(*node, controller);
+    machine_sound_ = machine_sound_ && findings().count() == before;
+  }
 
-ControllerSection read_controller(const YamlNode& node, Findings& findings) {
-  refuse_duplicates(node, "controller", findings);
-  ControllerSection section;
-  for (const auto& entry : node.entries) {
-    const auto& kind = entry.key.text;
-    if (kind != "qmove" && kind != "lx3vp" && kind != "plcopen") {
-      findings.add(entry.key.place, fmt::format("unknown controller '{}'", kind),
-                   "known: qmove, lx3vp, plcopen");
-    } else if (!entry.is_repeated()) {
-      if (&entry != &node.entries.front()) {
-        findings.add(entry.key.place,
-                     fmt::format("a second controller, after {}", node.entries.front().key.text), "keep one");
-      } else if (kind == "qmove") {
-        section = read_qmove(entry.value, entry.key.place, findings);
-      } else if (kind == "lx3vp") {
-        section = read_lx3vp(entry.value, entry.key.place, findings);
-      } else {
-        section = read_plcopen(entry.value, entry.key.place, findings);
+  [[nodiscard]] bool machine_is_sound() const { return machine_sound_; }
+
+ private:
+  void read_controller(const YamlNode& node, std::unique_ptr<ControllerSection>& controller) {
+    refuse_duplicates(node, "controller", findings());
+    std::vector<std::string> known;
+    std::vector<std::string> examples;
+    for (const auto& kind : controller_kinds()) {
+      known.emplace_back(kind.name);
+      examples.push_back(fmt::format("{{{}: {}}}", kind.name, kind.example));
+    }
+    for (const auto& entry : node.entries) {
+      const auto* const kind = controller_kind(entry.key.text);
+      if (kind == nullptr) {
+        findings().add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text),
+                       fmt::format("known: {}", fmt::join(known, ", ")));
+      } else if (!entry.is_repeated() && &entry != &node.entries.front()) {
+        findings().add(entry.key.place,
+                       fmt::format("a second controller, after {}", node.entries.front().key.text),
+                       "keep one");
+      } else if (!entry.is_repeated()) {
+        controller = kind->make();
+        controller->place = entry.key.place;
+        MapReader reader(entry.value, "controller." + entry.key.text, findings());
+        controller->visit(reader);
+        reader.finish();
       }
     }
+    if (!node.entries.empty()) return;
+    const auto last = examples.back();
+    examples.pop_back();
+    findings().add(node.text.place, "controller names none",
+                   fmt::format("write controller: {} or {}", fmt::join(examples, ", "), last));
   }
-  if (node.entries.empty()) {
-    findings.add(node.text.place, "controller names none",
-                 "write controller: {qmove: {configuration: ...}}, {lx3vp: {program: ...}} or {plcopen: "
-                 "{program: ...}}");
-  }
-  return section;
-}
 
-std::vector<Wire> read_wiring(const YamlNode& node, Findings& findings) {
-  std::vector<Wire> wiring;
-  refuse_duplicates(node, "wiring", findings);
-  for (const auto& entry : node.entries) {
-    const auto name = "wiring." + entry.key.text;
-    if (entry.is_repeated()) continue;
-    if (entry.value.kind == YamlNode::Kind::scalar) {
-      wiring.push_back({entry.key, entry.value.text});
-    } else if (entry.value.kind == YamlNode::Kind::null) {
-      findings.add(entry.key.place, fmt::format("{} leads to nothing", name),
-                   "write terminal: plant.plug, or terminal: panel.switch");
-    } else {
-      refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
-    }
-  }
-  return wiring;
-}
-
-RecordSection read_record(const YamlNode& node, Findings& findings) {
-  RecordSection record;
-  record.place = node.text.place;
-  MapReader reader(node, "record", findings);
-  reader.time("every", record.every, Sign::positive);
-  reader.texts("channels", record.channels);
-  reader.finish();
-  std::unordered_set<std::string> known;
-  for (const auto& channel : record.channels)
-    if (!known.insert(channel.text).second)
-      findings.add(channel.place, fmt::format("channel {} is recorded twice", channel.text), "keep one");
-  return record;
-}
+  std::span<const plants::PlantType> types_;
+  const SceneSection& scene_;
+  bool machine_sound_ = true;
+};
 
 // Where the value at `path` stands: the place of what makes two numbers not fit.
 Place place_at(const YamlNode& root, std::initializer_list<std::string_view> path) {
   const YamlNode* node = &root;
   for (const auto& key : path) {
-    const auto found = std::find_if(node->entries.begin(), node->entries.end(),
-                                    [&](const YamlNode::Entry& entry) { return entry.key.text == key; });
-    if (found == node->entries.end()) return node->text.place;
-    node = &found->value;
+    const auto* const next = child(*node, key);
+    if (next == nullptr) break;
+    node = next;
   }
   return node->text.place;
 }
@@ -162,14 +108,9 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
   if (scenario.pictures.frames) {
     require_multiple(root, {"pictures", "frames", "every"}, scenario.pictures.every, step, findings);
   }
-  if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) {
-    require_multiple(root, {"controller", "qmove", "cycle"}, qmove->cycle, step, findings);
-  }
-  if (const auto* lx3vp = std::get_if<Lx3vpSection>(&scenario.controller)) {
-    require_multiple(root, {"controller", "lx3vp", "scan"}, lx3vp->scan, step, findings);
-  }
-  if (const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller)) {
-    require_multiple(root, {"controller", "plcopen", "cycle"}, plcopen->cycle, step, findings);
+  if (const auto& controller = scenario.controller) {
+    const auto [key, time] = controller->period();
+    require_multiple(root, {"controller", controller->kind(), key}, time, step, findings);
   }
   if (scenario.scene.duration < step) {
     findings.add(place_at(root, {"scene", "duration"}),
@@ -188,24 +129,12 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
 
 void read_sections(const YamlNode& root, std::span<const plants::PlantType> types, Scenario& scenario,
                    Findings& findings) {
-  MapReader reader(root, "", findings);
-  if (const auto* node = reader.map("scene")) scenario.scene = read_scene(*node, findings);
-  const auto before = findings.count();
-  if (const auto* node = reader.map("plants"))
-    scenario.plants = read_plants(*node, types, scenario.scene.step, findings);
-  if (const auto* node = reader.map("controller")) {
-    scenario.controller = read_controller(*node, findings);
-  }
-  const bool machine_sound = findings.count() == before;
-  if (const auto* node = reader.map("wiring")) scenario.wiring = read_wiring(*node, findings);
-  if (const auto* node = reader.list("timeline")) scenario.timeline = read_timeline(*node, findings);
-  if (const auto* node = reader.map("record")) scenario.record = read_record(*node, findings);
-  if (const auto* node = reader.list("checks")) scenario.checks = read_checks(*node, findings);
-  if (const auto* node = reader.map("pictures")) scenario.pictures = read_pictures(*node, findings);
+  ScenarioReader reader(root, types, scenario.scene, findings);
+  visit(reader, scenario);
   reader.finish();
   const auto singly = findings.count();
   check_together(scenario, root, findings);
-  scenario.buildable = machine_sound && findings.count() == singly;
+  scenario.buildable = reader.machine_is_sound() && findings.count() == singly;
 }
 
 // A scene that compares scenarios (sim/compare/scene.hpp) is none itself.
@@ -250,27 +179,6 @@ Problem problem_at(const Scenario& scenario, const Place& place, std::string wha
   const auto source = static_cast<std::size_t>(place.source);
   const auto name = source < scenario.sources.size() ? scenario.sources[source] : scenario.file.string();
   return {name, place.line, place.column, std::move(what), std::move(remedy)};
-}
-
-void read_preset(MapReader& reader, const std::string& of, std::vector<std::pair<Text, double>>& values,
-                 Findings& findings) {
-  const auto* set = reader.map("set");
-  if (set == nullptr) return;
-  refuse_duplicates(*set, of + ".set", findings);
-  for (const auto& entry : set->entries) {
-    const auto name = fmt::format("{}.set.{}", of, entry.key.text);
-    if (entry.value.kind != YamlNode::Kind::scalar) {
-      refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
-    } else if (const auto number = read_si(entry.value.text, name, "", findings)) {
-      values.emplace_back(entry.key, *number);
-    }
-  }
-}
-
-const std::vector<std::string>& section_names() {
-  static const std::vector<std::string> names = {"scene",    "plants", "controller", "wiring",
-                                                 "timeline", "record", "checks",     "pictures"};
-  return names;
 }
 
 Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,

@@ -7,11 +7,10 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "base/problem.hpp"
-#include "devices/plcopen/axis_parameters.hpp"
+#include "devices/controller.hpp"
 #include "plants/plant.hpp"
 #include "sim/time.hpp"
 
@@ -54,53 +53,40 @@ struct PlantEntry {
   std::vector<std::pair<std::string, Place>> places;    ///< of the parameters that the file gives
 };
 
-/// controller: qmove: ...
-struct QmoveSection {
-  Text configuration;            ///< path of the .CNF, relative to the scenario
-  std::vector<Text> tasks;       ///< paths of the QCL units, one task each
-  Time cycle = 2 * millisecond;  ///< a round of all tasks begins every `cycle`
+class Archive;
+struct Scenario;
+
+/// What a scenario says of its controller. sim/controllers/kinds.hpp lists the kinds; what one of them is, is
+/// in its file there.
+struct ControllerSection {
+  ControllerSection() = default;
+  virtual ~ControllerSection() = default;
+  ControllerSection(const ControllerSection&) = delete;
+  ControllerSection& operator=(const ControllerSection&) = delete;
+
   Text retentive;  ///< file that keeps retentive values over power cycles and runs, "" = memory only
-  std::vector<std::pair<Text, double>> set;  ///< values before power-up: {slLength: 800, AxisX.pgain: 5}
-  Place place;
-};
-/// controller: lx3vp: ...
-struct Lx3vpSection {
-  Text program;                 ///< path of the instruction list, relative to the scenario
-  Text registers;               ///< path of a CSV with register values before power-up, "" = none
-  Time scan = 1 * millisecond;  ///< a scan of the program begins every `scan`
-  Text retentive;               ///< as of QmoveSection
-  std::vector<std::pair<Text, double>>
-      set;  ///< after the CSV and the retentive file: {D100: 5, DD2044: 50000}
-  Place place;
-};
-/// controller: plcopen: ...
-struct PlcopenSection {
-  Text program;                       ///< path of the Structured Text, relative to the scenario
-  Time cycle = 2 * millisecond;       ///< of the axes
-  Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
-  struct Axis {
-    Text name;
-    devices::plcopen::AxisConfiguration configuration;
-    std::vector<std::pair<std::string, Place>> places;  ///< of the parameters that the file gives
-  };
-  std::vector<Axis> axes;
-  struct Table {
-    Text file;   ///< .tab or .csv, relative to the scenario
-    int id = 0;  ///< in place of the file's own; 0 = that
-  };
-  std::vector<Table> tables;
-  struct Task {
-    Text name;
-    Time cycle = 0;              ///< a whole multiple of the axes' `cycle`
-    int priority = 0;            ///< 0 runs first
-    std::vector<Text> programs;  ///< of the program's file
-  };
-  std::vector<Task> tasks;                   ///< of several PROGRAMs; others run every `task_cycle`
-  Text retentive;                            ///< as of QmoveSection
   std::vector<std::pair<Text, double>> set;  ///< values before power-up, after the retentive file
   Place place;
+
+  /// As the scenario writes it: "qmove".
+  [[nodiscard]] virtual std::string_view kind() const = 0;
+  /// The section's keys.
+  virtual void visit(Archive& archive) = 0;
+  /// The period that must be a whole multiple of the step, and its key.
+  struct Period {
+    std::string_view key;
+    Time time;
+  };
+  [[nodiscard]] virtual Period period() const = 0;
+  /// The files that it is made of, the retentive one apart.
+  [[nodiscard]] virtual std::vector<Text> files() const = 0;
+  /// What `set` can name, for messages.
+  [[nodiscard]] virtual std::string_view settable() const = 0;
+  /// The controller with its programs read and compiled; nullptr after problems. `notes`, if given, takes
+  /// what is no fault.
+  virtual std::unique_ptr<devices::Controller> load(const Scenario& scenario, Problems& problems,
+                                                    std::vector<std::string>* notes) const = 0;
 };
-using ControllerSection = std::variant<std::monostate, QmoveSection, Lx3vpSection, PlcopenSection>;
 
 /// wiring: {2.CNT01: knife.encoder}
 struct Wire {
@@ -259,7 +245,7 @@ struct Scenario {
   std::filesystem::path file;
   SceneSection scene;
   std::vector<PlantEntry> plants;
-  ControllerSection controller;
+  std::unique_ptr<ControllerSection> controller;  ///< nullptr without
   std::vector<Wire> wiring;
   std::vector<Stimulus> timeline;
   RecordSection record;

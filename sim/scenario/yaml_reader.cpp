@@ -4,9 +4,41 @@
 
 #include <algorithm>
 
-#include "sim/scenario/format.hpp"
-
 namespace drycut::sim {
+
+namespace {
+
+std::string below(const std::string& name, std::string_view key) {
+  return name.empty() ? std::string(key) : fmt::format("{}.{}", name, key);
+}
+
+bool is_group(const ParameterTable& table, const std::string& name) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [&](const auto& row) { return row.name.starts_with(name + "."); });
+}
+
+// A table that is written as nested maps is suggested by the names of this map, another by whole names.
+std::string suggestion(const ParameterTable& table, const std::string& prefix, const std::string& key) {
+  const auto map = table.nested ? prefix : std::string();
+  std::vector<std::string> here;
+  for (const auto& row : table.rows) {
+    std::string_view rest = row.name;
+    if (!map.empty()) {
+      if (!rest.starts_with(map + ".")) continue;
+      rest.remove_prefix(map.size() + 1);
+    }
+    const auto dot = table.nested ? rest.find('.') : std::string_view::npos;
+    if (dot != std::string_view::npos) here.emplace_back(rest.substr(0, dot));
+    here.emplace_back(rest);
+  }
+  const auto wanted = table.nested ? key : below(prefix, key);
+  if (const auto near = nearest(wanted, here); !near.empty()) return fmt::format("did you mean {}?", near);
+  for (const auto& row : table.rows)
+    if (row.name.ends_with("." + key)) return fmt::format("did you mean {}?", row.name);
+  return std::string(table.help);
+}
+
+}  // namespace
 
 void refuse_kind(const YamlNode& node, const std::string& name, YamlNode::Kind wanted, Findings& findings) {
   std::string form = "key: value, or {key: value}";
@@ -26,42 +58,24 @@ void refuse_duplicates(const YamlNode& map, const std::string& name, Findings& f
   }
 }
 
-std::vector<Text> read_texts(const YamlNode& list, const std::string& name, Findings& findings) {
-  std::vector<Text> texts;
-  for (std::size_t i = 0; i < list.items.size(); ++i) {
-    const auto& item = list.items[i];
-    if (item.kind == YamlNode::Kind::scalar) {
-      texts.push_back(item.text);
-    } else {
-      refuse_kind(item, fmt::format("{}.{}", name, i), YamlNode::Kind::scalar, findings);
-    }
-  }
-  return texts;
-}
-
 MapReader::MapReader(const YamlNode& node, std::string name, Findings& findings)
     : node_(node), name_(std::move(name)), findings_(findings) {
-  if (node.kind == YamlNode::Kind::map) {
-    refuse_duplicates(node, name_, findings);
-  } else {
-    refuse_kind(node, name_, YamlNode::Kind::map, findings);
-  }
+  refuse_duplicates(node, name_, findings);
 }
 
-std::string MapReader::full(std::string_view key) const {
-  return name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
-}
+std::string MapReader::full(std::string_view key) const { return below(name_, key); }
 
-bool MapReader::has(std::string_view key) const {
-  return std::any_of(node_.entries.begin(), node_.entries.end(),
-                     [&](const YamlNode::Entry& entry) { return entry.key.text == key; });
-}
+bool MapReader::has(std::string_view key) const { return child(node_, key) != nullptr; }
 
 Place MapReader::place(std::string_view key) const {
-  for (const auto& entry : node_.entries) {
+  for (const auto& entry : node_.entries)
     if (entry.key.text == key) return entry.key.place;
-  }
   return node_.text.place;
+}
+
+Place MapReader::value_place(std::string_view key) const {
+  const auto* value = child(node_, key);
+  return value == nullptr ? node_.text.place : value->text.place;
 }
 
 const YamlNode::Entry* MapReader::find(std::string_view key) {
@@ -87,64 +101,147 @@ const YamlNode* MapReader::of_kind(std::string_view key, YamlNode::Kind kind) {
   return nullptr;
 }
 
-const Text* MapReader::scalar(std::string_view key) {
-  const auto* node = of_kind(key, YamlNode::Kind::scalar);
-  return node == nullptr ? nullptr : &node->text;
+void MapReader::value(const Key& key, const Form& form) {
+  if (const auto* entry = find(key.name))
+    form.read(entry->value, {full(key.name), entry->key.place}, findings_);
 }
 
-void MapReader::text(std::string_view key, std::string& value) {
-  if (const auto* text = scalar(key)) value = text->text;
+void MapReader::section(const Key& key, const Visit& visit) {
+  const auto* entry = find(key.name);
+  if (entry == nullptr) return;
+  MapReader reader(entry->value, full(key.name), findings_);
+  visit(reader);
+  reader.finish();
 }
 
-void MapReader::text(std::string_view key, Text& value) {
-  if (const auto* text = scalar(key)) value = *text;
-}
-
-void MapReader::texts(std::string_view key, std::vector<Text>& values) {
-  if (const auto* node = list(key)) values = read_texts(*node, full(key), findings_);
-}
-
-void MapReader::expression(std::string_view key, Text& value) {
-  if (const auto* text = scalar(key)) {
-    value = *text;
-    check_expression(*text, findings_);
+void MapReader::list(const Key& key, const Items& items) {
+  const auto* node = of_kind(key.name, YamlNode::Kind::sequence);
+  if (node == nullptr) return;
+  for (std::size_t i = 0; i < node->items.size(); ++i) {
+    MapReader reader(node->items[i], fmt::format("{}.{}", full(key.name), i), findings_);
+    items.add({});
+    items.visit(reader, i);
+    reader.finish();
   }
 }
 
-void MapReader::time(std::string_view key, Time& value, Sign sign) {
-  if (const auto* text = scalar(key)) {
-    if (const auto time = read_time(*text, full(key), sign, findings_)) value = *time;
+void MapReader::names(const Key& key, const Items& items) {
+  const auto* node = of_kind(key.name, YamlNode::Kind::map);
+  if (node == nullptr) return;
+  const auto name = full(key.name);
+  refuse_duplicates(*node, name, findings_);
+  std::size_t count = 0;
+  for (const auto& entry : node->entries) {
+    if (entry.is_repeated()) continue;
+    items.add(entry.key);
+    auto empty = YamlNode(YamlNode::Kind::null, {"", entry.key.place});
+    if (items.may_be_empty) empty.kind = YamlNode::Kind::map;
+    const bool given = entry.value.kind != YamlNode::Kind::null;
+    MapReader reader(given ? entry.value : empty, below(name, entry.key.text), findings_);
+    items.visit(reader, count);
+    if (reader.finish())
+      ++count;
+    else
+      items.drop();
   }
 }
 
-void MapReader::time(std::string_view key, std::optional<Time>& value, Sign sign) {
-  if (const auto* text = scalar(key)) {
-    // A wrong value still counts as given, so that nothing else complains that it is missing.
-    value = read_time(*text, full(key), sign, findings_).value_or(0);
-  }
+void MapReader::table(const ParameterTable& table) {
+  has_table_ = true;
+  read_level(table, node_, "");
 }
 
-void MapReader::integer(std::string_view key, int& value, int min, int max) {
-  if (const auto* text = scalar(key)) {
-    if (const auto number = read_integer(*text, full(key), min, max, findings_)) {
-      value = static_cast<int>(*number);
+// A key is a parameter, or the first part of some: then its value is a map of the rest.
+void MapReader::read_level(const ParameterTable& table, const YamlNode& node, const std::string& prefix) {
+  const auto where = prefix.empty() ? name_ : full(prefix);
+  if (!prefix.empty()) refuse_duplicates(node, where, findings_);
+  for (const auto& entry : node.entries) {
+    const auto& key = entry.key;
+    const bool known = prefix.empty() && std::find(known_.begin(), known_.end(), key.text) != known_.end();
+    if (known || entry.is_repeated()) continue;
+    const auto name = below(prefix, key.text);
+    const auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                                  [&](const auto& candidate) { return candidate.name == name; });
+    if (row != table.rows.end()) {
+      read_parameter(table, *row, entry);
+    } else if (!is_group(table, name)) {
+      findings_.add(key.place, fmt::format("unknown key '{}' in {}", key.text, where),
+                    suggestion(table, prefix, key.text));
+    } else if (entry.value.kind != YamlNode::Kind::map) {
+      refuse_kind(entry.value, full(name), YamlNode::Kind::map, findings_);
+    } else {
+      read_level(table, entry.value, name);
     }
   }
 }
 
-void MapReader::missing(std::string_view key, std::string remedy) {
-  findings_.add(node_.text.place, fmt::format("{} is missing", full(key)), std::move(remedy));
+void MapReader::read_parameter(const ParameterTable& table, const ParameterTable::Row& row,
+                               const YamlNode::Entry& entry) {
+  const auto name = full(row.name);
+  // It may be nested in one place and dotted in another.
+  for (const auto& covered : row.covers.empty() ? std::vector{row.name} : row.covers) {
+    for (const auto& [known, place] : *table.places) {
+      if (known != covered) continue;
+      findings_.add(entry.key.place, fmt::format("{} is given twice", full(covered)),
+                    fmt::format("keep one; the first is at line {}", place.line));
+      return;
+    }
+    const bool at_value = table.at_value && entry.value.kind == YamlNode::Kind::scalar;
+    table.places->emplace_back(covered, at_value ? entry.value.text.place : entry.key.place);
+  }
+  if (entry.value.kind != YamlNode::Kind::null)
+    return row.form.read(entry.value, {name, entry.key.place}, findings_);
+  findings_.add(entry.key.place, fmt::format("{} has no value", name), "give it one, or leave the key out");
 }
 
-void MapReader::finish() {
+void MapReader::alone(const Form& form) {
+  is_alone_ = true;
+  form.read(node_, {name_, node_.text.place}, findings_);
+}
+
+bool MapReader::instead(bool, const Form& form) {
+  if (node_.kind == YamlNode::Kind::scalar) alone(form);
+  return is_alone_;
+}
+
+void MapReader::refuse(std::string_view key, std::string what, std::string remedy) {
+  findings_.add(place(key), std::move(what), std::move(remedy));
+}
+
+void MapReader::missing(std::string_view key, std::string_view remedy) {
+  findings_.add(node_.text.place, fmt::format("{} is missing", full(key)), std::string(remedy));
+}
+
+void MapReader::require(std::string_view key, std::string_view remedy) {
+  judge([key, remedy](MapReader& reader) {
+    if (!reader.has(key)) reader.missing(key, remedy);
+  });
+}
+
+void MapReader::require_one(const std::vector<std::string_view>& keys, std::string_view what,
+                            std::string_view remedy) {
+  judge([keys, what, remedy](MapReader& reader) {
+    if (std::any_of(keys.begin(), keys.end(), [&](auto key) { return reader.has(key); })) return;
+    reader.findings_.add(reader.place(), fmt::format("{} {}", reader.name(), what), std::string(remedy));
+  });
+}
+
+bool MapReader::finish() {
+  if (is_alone_) return is_sound();
+  if (node_.kind != YamlNode::Kind::map) {
+    refuse_kind(node_, name_, YamlNode::Kind::map, findings_);
+    return false;
+  }
   for (const auto& entry : node_.entries) {
-    if (std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) continue;
+    if (has_table_ || std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) continue;
     const auto where = name_.empty() ? std::string() : fmt::format(" in {}", name_);
     const bool torn = entry.key.text.find_first_of("()") != std::string::npos;  // max(a, b) in a {...}
     findings_.add(
         entry.key.place, fmt::format("unknown key '{}'{}", entry.key.text, where),
         torn ? "an expression with a comma in it stands in quotes" : did_you_mean(entry.key.text, known_));
   }
+  for (const auto& judge : judges_) judge(*this);
+  return true;
 }
 
 }  // namespace drycut::sim

@@ -29,12 +29,11 @@ std::string unit_remedy(const std::string& unit) {
 
 std::string example(std::string_view unit) { return fmt::format("for example 1 {}", unit); }
 
-// A number without unit is understood where one is one: counts, codes, ratios; not %, mm or deg.
+}  // namespace
+
 bool needs_unit(std::string_view unit) {
   return !unit.empty() && (!same_dimension(unit, "") || to_si(1, unit) != 1);
 }
-
-}  // namespace
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
   if (const auto near = nearest(word, candidates); !near.empty()) {

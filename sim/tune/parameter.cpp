@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "plants/plant.hpp"
 #include "sim/controller_loader.hpp"
+#include "sim/controllers/kinds.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim {
@@ -104,10 +105,7 @@ class Reader {
 
 /// What the scenario sets before power-up; nullptr without a controller.
 const std::vector<std::pair<Text, double>>* preset_of(const Scenario& scenario) {
-  if (const auto* qmove = std::get_if<QmoveSection>(&scenario.controller)) return &qmove->set;
-  if (const auto* lx3vp = std::get_if<Lx3vpSection>(&scenario.controller)) return &lx3vp->set;
-  if (const auto* plcopen = std::get_if<PlcopenSection>(&scenario.controller)) return &plcopen->set;
-  return nullptr;
+  return scenario.controller ? &scenario.controller->set : nullptr;
 }
 
 /// A controller just loaded and one of its values, which lives as long; no value if it has none of that name.
@@ -161,9 +159,9 @@ std::vector<Override> overrides_of(const TunedParameters& parameters, const Poin
 }
 
 std::optional<PresetName> preset_name(const std::string& path) {
-  for (const std::string section : {"qmove", "lx3vp", "plcopen"}) {
-    const auto prefix = "controller." + section + ".set.";
-    if (path.starts_with(prefix)) return PresetName{section, path.substr(prefix.size())};
+  for (const auto& kind : controller_kinds()) {
+    const auto prefix = fmt::format("controller.{}.set.", kind.name);
+    if (path.starts_with(prefix)) return PresetName{std::string(kind.name), path.substr(prefix.size())};
   }
   return {};
 }

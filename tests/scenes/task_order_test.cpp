@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "sim/compare/scene.hpp"
+#include "sim/controllers/kinds.hpp"
 #include "sim/simulation.hpp"
 #include "tests/test_folder.hpp"
 
@@ -43,7 +44,7 @@ std::vector<std::string> scenes_of_several_tasks() {
     Problems problems;
     if (entry.path().extension() != ".yaml" || read_comparison(entry.path(), problems)) continue;
     const Scenario scenario = read_scenario(entry.path(), {}, problems);
-    const auto* qmove = std::get_if<QmoveSection>(&scenario.controller);
+    const auto* qmove = controller_of<QmoveSection>(scenario);
     if (qmove && qmove->tasks.size() > 1) names.push_back(entry.path().stem().string());
   }
   std::ranges::sort(names);
@@ -56,7 +57,7 @@ TEST_P(TaskOrder, OfAShippedSceneChangesNoVerdict) {
   Problems problems;
   Scenario scenario = read_scenario(source_root / "scenes" / (GetParam() + ".yaml"), {}, problems);
   ASSERT_EQ(lines_of(problems), "");
-  auto& tasks = std::get<QmoveSection>(scenario.controller).tasks;
+  auto& tasks = dynamic_cast<QmoveSection&>(*scenario.controller).tasks;
   const auto as_shipped = tasks;
   std::vector<std::string> expected;
   for (const auto& order : orders(tasks.size())) {

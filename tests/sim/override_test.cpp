@@ -30,7 +30,7 @@ TEST(Override, MakesTheMapsOnItsWay) {
                           {"pictures.frames.every", "20 ms"}},
                          problems);
   EXPECT_THAT(problems, testing::IsEmpty());
-  const auto& set = std::get<QmoveSection>(made.controller).set;
+  const auto& set = made.controller->set;
   ASSERT_EQ(set.size(), 2U);
   EXPECT_EQ(set[0].first.text, "AxisX.pgain");
   EXPECT_EQ(set[0].second, 12);
@@ -44,7 +44,7 @@ TEST(Override, FillsAKeyThatStandsWithoutAValue) {
   std::vector<std::string> problems;
   const auto made = read(text, {{"controller.qmove.set.AxisX.pgain", "12"}}, problems);
   EXPECT_THAT(problems, testing::IsEmpty());
-  EXPECT_EQ(std::get<QmoveSection>(made.controller).set.size(), 1U);
+  EXPECT_EQ(made.controller->set.size(), 1U);
 }
 
 TEST(Override, WhatItMadeUpIsRefusedByTheReaders) {

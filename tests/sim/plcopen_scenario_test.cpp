@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "sim/controller_loader.hpp"
+#include "sim/controllers/kinds.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/simulation.hpp"
@@ -30,7 +31,7 @@ struct PlcopenScenario : ScenarioFolder {
     return "scene: {step: 500 us, duration: 1 s}\ncontroller:\n  plcopen:\n" + lines;
   }
   static const PlcopenSection& section(const Scenario& scenario) {
-    return std::get<PlcopenSection>(scenario.controller);
+    return *controller_of<PlcopenSection>(scenario);
   }
   std::vector<std::string> build(const std::string& text) {
     const auto scenario = read(text);
@@ -135,7 +136,7 @@ TEST_F(PlcopenScenario, QuantitiesAreConvertedAndBareNumbersAreTheKernels) {
   ASSERT_EQ(axes.size(), 4U);
   const auto& web = axes[0].configuration;
   EXPECT_EQ(web.measure, plcopen::Measure::length);
-  EXPECT_EQ(web.parameters.kind, 2);
+  EXPECT_EQ(web.parameters.kind, plcopen::AxisKind::encoder);
   EXPECT_EQ(web.parameters.modulo, 8'000'000);
   EXPECT_EQ(web.parameters.path_increments, 5'000'000);
   EXPECT_EQ(web.parameters.path_counts, 10'000);
@@ -269,8 +270,8 @@ TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
   EXPECT_EQ(expand(again), expanded);
   for (const auto& row : plcopen::axis_parameter_table())
     for (std::size_t i = 0; i < 2; ++i)
-      EXPECT_EQ(section(again).axes[i].configuration.parameters.*row.member,
-                section(scenario).axes[i].configuration.parameters.*row.member)
+      EXPECT_EQ(row.value(section(again).axes[i].configuration.parameters),
+                row.value(section(scenario).axes[i].configuration.parameters))
           << row.name;
 }
 

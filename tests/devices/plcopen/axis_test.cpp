@@ -61,7 +61,7 @@ struct One {
 
 AxisParameters servo() {
   AxisParameters parameters = Bench::virtual_axis();
-  parameters.kind = static_cast<int>(AxisKind::drive);
+  parameters.kind = AxisKind::drive;
   parameters.homed_at_start = 0;
   return parameters;
 }
@@ -342,9 +342,9 @@ TEST(PlcopenAxis, SoftwareLimitsRefuseATargetAndStopARunningAxisInFrontOfThem) {
 TEST(PlcopenAxis, ParametersKeepTheirRangesAndWhatTheAxisIsMadeOfIsFixedWhileItRuns) {
   for (const AxisParameter& parameter : axis_parameter_table()) {
     AxisParameters values;
-    EXPECT_TRUE(set_parameter(values, parameter, values.*parameter.member)) << parameter.name;
+    EXPECT_TRUE(set_parameter(values, parameter, parameter.value(values))) << parameter.name;
     EXPECT_TRUE(set_parameter(values, parameter, parameter.max)) << parameter.name;
-    EXPECT_EQ(values.*parameter.member, parameter.max);
+    EXPECT_EQ(parameter.value(values), parameter.max);
     EXPECT_FALSE(set_parameter(values, parameter, parameter.min - 1)) << parameter.name;
     EXPECT_FALSE(set_parameter(values, parameter, std::nan(""))) << parameter.name;
     EXPECT_EQ(set_parameter(values, parameter, parameter.min + 0.5), !parameter.whole) << parameter.name;

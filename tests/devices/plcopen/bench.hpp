@@ -20,7 +20,7 @@ inline unsigned id(ErrorId error) { return static_cast<unsigned>(error); }
 
 inline AxisParameters axis_of(AxisKind kind) {
   AxisParameters parameters;
-  parameters.kind = static_cast<int>(kind);
+  parameters.kind = kind;
   return parameters;
 }
 
@@ -52,7 +52,7 @@ struct Bench {
 
   static AxisParameters virtual_axis() {
     AxisParameters parameters;
-    parameters.kind = static_cast<int>(AxisKind::virtual_axis);
+    parameters.kind = AxisKind::virtual_axis;
     parameters.homed_at_start = 1;
     parameters.is_master = 1;
     parameters.j_vel_sync = 100'000;

@@ -120,7 +120,7 @@ TEST(PlcopenCamOrders, WhatIsWrongWithAnOrderIsToldByItsNumber) {
   AxisParameters linear = usual;
   linear.modulo = 0;
   AxisParameters homed = usual;
-  homed.kind = static_cast<int>(AxisKind::drive);
+  homed.kind = AxisKind::drive;
   AxisParameters unhomed = homed;
   unhomed.homed_at_start = 0;
   // What is changed on the bench before each order, and what the order says then.

@@ -40,14 +40,14 @@ struct Rig {
   static Configuration configuration() {
     Configuration made;
     AxisConfiguration web{"Web", {}, Measure::length};
-    web.parameters.kind = 2;
+    web.parameters.kind = AxisKind::encoder;
     web.parameters.modulo = 8'000'000;
     web.parameters.path_increments = 5'000'000;
     AxisConfiguration knife{"Knife", {}, Measure::angle};
     knife.parameters.a_max = 100'000;
     knife.parameters.tr_min = 1'000;
     AxisConfiguration line{"Line", {}, Measure::length};
-    line.parameters.kind = 1;
+    line.parameters.kind = AxisKind::virtual_axis;
     line.parameters.homed_at_start = 1;
     made.axes = {web, knife, line};
     CamTable table;

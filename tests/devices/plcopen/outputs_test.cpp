@@ -37,7 +37,7 @@ TEST(PlcopenOutputs, OneOfBusyDoneAbortedAndErrorIsTrueAndDoneIsShownOnceWithout
     SCOPED_TRACE(type.name);
     AxisParameters slave = Bench::virtual_axis();
     const bool probe = type.name == "MC_TouchProbe" || type.name == "MC_AbortTrigger";
-    if (probe) slave.kind = static_cast<int>(AxisKind::encoder);
+    if (probe) slave.kind = AxisKind::encoder;
     Bench b(slave);
     b.table(one_to_one());
     const std::unique_ptr<FunctionBlock> block = type.make();

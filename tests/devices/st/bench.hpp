@@ -18,7 +18,7 @@ class Bench {
     const Program program = compile(text, "test.st", problems);
     for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
     AxisParameters web;
-    web.kind = static_cast<double>(AxisKind::encoder);
+    web.kind = AxisKind::encoder;
     kernel.add_axis("Web", web);
     kernel.add_axis("Knife", AxisParameters{});
     runtime = std::make_unique<Runtime>(program, kernel);

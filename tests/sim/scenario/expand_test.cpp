@@ -64,7 +64,7 @@ TEST(ScenarioOverride, ReplacesWhatTheFileSays) {
   EXPECT_EQ(dynamic_cast<FakeKnife&>(*scenario.plants[1].definition).rated_torque, 5);
   EXPECT_EQ(scenario.checks[0].expression.text, "abs(length - 800) <= 1");
   EXPECT_EQ(scenario.wiring[0].plug.text, "web.wheel");
-  EXPECT_EQ(std::get<QmoveSection>(scenario.controller).set[0].second, 5000);
+  EXPECT_EQ(scenario.controller->set[0].second, 5000);
   EXPECT_EQ(scenario.timeline[0].set[0].second.number, 0);
   ASSERT_EQ(scenario.record.channels.size(), 1U);
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "sim/controllers/kinds.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 
 namespace drycut::sim {
@@ -41,7 +42,7 @@ TEST(ScenarioRead, LeavesDefaultsWhereNothingIsSaid) {
   EXPECT_EQ(scenario.scene.seed, 1U);
   EXPECT_EQ(scenario.record.every, 2 * millisecond);
   EXPECT_FALSE(scenario.pictures.frames);
-  EXPECT_TRUE(std::holds_alternative<std::monostate>(scenario.controller));
+  EXPECT_TRUE(scenario.controller == nullptr);
 }
 
 TEST(ScenarioRead, Scene) {
@@ -121,7 +122,7 @@ TEST(ScenarioRead, Controller) {
     retentive: knife.state
     set: {slLength: 8000, AxisX.pgain: -5.5}
 )");
-  const auto& qmove = std::get<QmoveSection>(scenario.controller);
+  const auto& qmove = *controller_of<QmoveSection>(scenario);
   EXPECT_EQ(qmove.configuration.text, "programs/knife.cnf");
   EXPECT_EQ(qmove.configuration.place.line, 3);
   EXPECT_EQ(qmove.configuration.place.column, 20);

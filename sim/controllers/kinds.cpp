@@ -1,0 +1,44 @@
+#include "sim/controllers/kinds.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "sim/file.hpp"
+#include "sim/scenario/forms.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+template <typename Section>
+std::unique_ptr<ControllerSection> make() {
+  return std::make_unique<Section>();
+}
+
+constexpr std::array kinds = {
+    ControllerKind{"qmove", "{configuration: ...}", make<QmoveSection>},
+    ControllerKind{"lx3vp", "{program: ...}", make<Lx3vpSection>},
+    ControllerKind{"plcopen", "{program: ...}", make<PlcopenSection>},
+};
+
+}  // namespace
+
+std::span<const ControllerKind> controller_kinds() { return kinds; }
+
+const ControllerKind* controller_kind(std::string_view name) {
+  const auto* const found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const ControllerKind& kind) { return kind.name == name; });
+  return found == kinds.end() ? nullptr : found;
+}
+
+void visit_memory(Archive& archive, ControllerSection& section) {
+  archive.value({"retentive", "a file that keeps retentive values from run to run"}, form(section.retentive));
+  archive.value({"set", "values before power-up, as the controller counts them"}, form(section.set));
+}
+
+std::optional<std::string> read_named(const Text& path, const Scenario& scenario, Problems& problems) {
+  return read_file(scenario.file.parent_path() / path.text, problems,
+                   problem_at(scenario, path.place, "", ""));
+}
+
+}  // namespace drycut::sim

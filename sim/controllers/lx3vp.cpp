@@ -1,0 +1,44 @@
+#include "devices/lx3vp/lx3vp_controller.hpp"
+#include "sim/controllers/kinds.hpp"
+#include "sim/scenario/forms.hpp"
+
+namespace drycut::sim {
+
+namespace lx3vp = devices::lx3vp;
+
+void Lx3vpSection::visit(Archive& archive) {
+  archive.value({"program", "path of the instruction list, relative to the scenario"}, form(program));
+  archive.require("program", "add program: programs/saw.il");
+  archive.value({"registers", "path of a CSV with register values before power-up"}, form(registers));
+  archive.value({"scan", "a scan of the program begins this often"}, form(scan, Sign::positive));
+  visit_memory(archive, *this);
+}
+
+std::vector<Text> Lx3vpSection::files() const {
+  if (registers.text.empty()) return {program};
+  return {program, registers};
+}
+
+std::string_view Lx3vpSection::settable() const {
+  return "name a register: D10, DD10 (32 bit), FD10 (float), D10.A, M0, S0, T0 or C0";
+}
+
+std::unique_ptr<devices::Controller> Lx3vpSection::load(const Scenario& scenario, Problems& problems,
+                                                        std::vector<std::string>*) const {
+  const auto before = problems.size();
+  const auto path_of = [&](const Text& path) { return (scenario.file.parent_path() / path.text).string(); };
+  lx3vp::il::Program compiled;
+  if (const auto text = read_named(program, scenario, problems))
+    compiled = lx3vp::il::compile(*text, path_of(program), problems);
+  std::vector<lx3vp::RegisterValue> values;
+  if (!registers.text.empty()) {
+    if (const auto text = read_named(registers, scenario, problems))
+      values = lx3vp::read_register_values(*text, path_of(registers), ',', problems);
+  }
+  if (problems.size() != before) return nullptr;
+  auto controller = std::make_unique<lx3vp::Lx3vpController>(std::move(compiled), scan);
+  for (const auto& entry : values) lx3vp::write(controller->registers(), entry.name, entry.value);
+  return controller;
+}
+
+}  // namespace drycut::sim

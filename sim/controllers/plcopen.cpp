@@ -1,0 +1,278 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/tab_file.hpp"
+#include "sim/controllers/kinds.hpp"
+#include "sim/scenario/axis_units.hpp"
+#include "sim/scenario/format.hpp"
+#include "sim/scenario/forms.hpp"
+
+namespace drycut::sim {
+
+namespace plcopen = devices::plcopen;
+
+namespace {
+
+void check_multiple(MapReader& reader, std::string_view key, Time time, Time cycle) {
+  if (time % cycle == 0) return;
+  reader.refuse(key,
+                fmt::format("{} {} is not a whole multiple of the cycle {}", reader.full(key),
+                            format_time(time), format_time(cycle)),
+                fmt::format("for example {}", format_time(std::max<Time>(1, time / cycle) * cycle)));
+}
+
+// tasks: {fast: {cycle: 2 ms, priority: 1, programs: [Main]}}
+void visit_task(Archive& archive, PlcopenSection& section, std::size_t number) {
+  constexpr int last_priority = 65535;
+  auto& task = section.tasks[number];
+  archive.in_line();
+  archive.value({"cycle", "a whole multiple of the axes' cycle"}, form(task.cycle, Sign::positive));
+  archive.value({"priority", "0 runs first"}, form(task.priority, 0, last_priority));
+  archive.value({"programs", "its PROGRAMs, in the order in which they run"}, form(task.programs));
+  archive.judge([&section, number](MapReader& reader) {
+    const auto& judged = section.tasks[number];
+    if (judged.programs.empty()) reader.missing("programs", "name its PROGRAMs: programs: [Main]");
+    check_multiple(reader, "cycle", judged.cycle, section.cycle);
+    for (std::size_t i = 0; i < number; ++i)
+      for (const auto& program : section.tasks[i].programs)
+        for (const auto& again : judged.programs)
+          if (same_word(program.text, again.text))
+            reader.findings().add(
+                again.place, fmt::format("{} runs in {} already", again.text, section.tasks[i].name.text),
+                "a program has one task");
+  });
+}
+
+void judge_axis_names(const std::vector<PlcopenSection::Axis>& axes, Findings& findings) {
+  for (auto axis = axes.begin(); axis != axes.end(); ++axis) {
+    const auto& name = axis->name;
+    const auto same = std::find_if(axes.begin(), axis, [&](const PlcopenSection::Axis& other) {
+      return same_word(other.name.text, name.text);
+    });
+    if (!is_identifier(name.text) || name.text == "panel")
+      findings.add(name.place, fmt::format("'{}' is no name of an axis", name.text),
+                   "letters, digits and underscores, as the program's VAR_EXTERNAL spells it");
+    else if (same != axis)
+      findings.add(
+          name.place,
+          fmt::format("axis {} is {} already: names are the same in any case", name.text, same->name.text),
+          "keep one");
+  }
+}
+
+/// The cam tables, each under its file's name and its own id.
+std::vector<plcopen::CamTable> load_tables(const PlcopenSection& section,
+                                           const std::vector<plcopen::AxisConfiguration>& axes,
+                                           const Scenario& scenario, Problems& problems) {
+  std::vector<plcopen::CamTable> tables;
+  std::vector<plcopen::MasterTurn> masters;
+  for (const auto& [name, parameters, measure] : axes)
+    if (parameters.is_master && parameters.modulo > 0) masters.push_back({name, parameters.modulo});
+  for (const auto& entry : section.tables) {
+    const auto path = scenario.file.parent_path() / entry.file.text;
+    const auto complain = [&](std::string what, std::string remedy) {
+      problems.push_back(problem_at(scenario, entry.file.place, std::move(what), std::move(remedy)));
+    };
+    if (path.extension() != ".tab" && path.extension() != ".csv") {
+      complain(fmt::format("'{}' is no kind of cam table that is known", entry.file.text),
+               "give a table of the kernel (.tab) or a cam as CSV (.csv)");
+      continue;
+    }
+    const auto text = read_named(entry.file, scenario, problems);
+    if (!text) continue;
+    std::optional<plcopen::CamTable> table;
+    if (path.extension() == ".tab") {
+      table = plcopen::parse_tab(*text, path.string(), problems);
+    } else if (auto cam = plcopen::parse_cam_csv(*text, path.string(), problems, masters)) {
+      table = std::move(cam->table);
+    }
+    if (!table) continue;
+    table->file = path.filename().string();
+    if (entry.id != 0) table->id = static_cast<std::uint16_t>(entry.id);
+    for (const auto& other : tables) {
+      if (other.id == table->id)
+        complain(fmt::format("{} has id {}, as {} has", table->file, table->id, other.file),
+                 fmt::format("give one an id of its own: {{file: {}, id: {}}}", entry.file.text,
+                             tables.size() + 1));
+      else if (other.file == table->file)
+        complain(fmt::format("two tables are called {}", table->file),
+                 "programs find them by name: rename one");
+    }
+    tables.push_back(std::move(*table));
+  }
+  return tables;
+}
+
+/// What the program names must be there: axes and tables.
+void check_names(const plcopen::st::Program& program, const std::string& file,
+                 const plcopen::Configuration& configuration, Problems& problems) {
+  const auto check = [&](const std::vector<plcopen::st::Program::Name>& wanted,
+                         const std::vector<std::string>& there, bool any_case, std::string_view what,
+                         std::string_view section) {
+    for (const auto& name : wanted) {
+      const auto same = [&](const std::string& other) {
+        return any_case ? same_word(other, name.name) : other == name.name;
+      };
+      if (std::any_of(there.begin(), there.end(), same)) continue;
+      const auto near = nearest(name.name, there);
+      problems.push_back(
+          {file, name.line, name.column, fmt::format("the scenario has no {} '{}'", what, name.name),
+           near.empty()
+               ? fmt::format("add it to controller.plcopen.{}", section)
+               : fmt::format("did you mean {}? Else add it to controller.plcopen.{}", near, section)});
+    }
+  };
+  std::vector<std::string> axes;
+  std::vector<std::string> tables;
+  for (const auto& axis : configuration.axes) axes.push_back(axis.name);
+  for (const auto& table : configuration.tables) tables.push_back(table.file);
+  check(program.externals(), axes, true, "axis", "axes");
+  check(program.tables(), tables, false, "cam table", "tables");
+}
+
+/// The scenario's tasks name programs that are there; several programs need tasks, the CONFIGURATION's own
+/// fit the axes' cycle.
+void check_tasks(const plcopen::st::Program& program, const std::string& file, const PlcopenSection& section,
+                 const Scenario& scenario, Problems& problems) {
+  for (const auto& task : program.tasks())
+    if (task.interval_ns % section.cycle != 0)
+      problems.push_back({file, task.line, task.column,
+                          fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}",
+                                      task.name, format_time(task.interval_ns), format_time(section.cycle)),
+                          "change INTERVAL or controller.plcopen.cycle"});
+  if (section.tasks.empty()) {
+    if (program.has_configuration() || program.instances().size() < 2) return;
+    const auto& second = program.instances()[1];
+    problems.push_back(
+        {file, second.line, second.column, fmt::format("a second PROGRAM, '{}', without a task", second.name),
+         fmt::format("CONFIGURATION ... TASK says when it runs, or the scenario: controller.plcopen.tasks: "
+                     "{{slow: {{cycle: 20 ms, programs: [{}]}}}}",
+                     second.name)});
+    return;
+  }
+  if (program.has_configuration()) {
+    problems.push_back(problem_at(scenario, section.tasks.front().name.place,
+                                  "the program's CONFIGURATION has the tasks",
+                                  "leave out controller.plcopen.tasks, or the CONFIGURATION"));
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto& instance : program.instances()) names.push_back(instance.name);
+  for (const auto& task : section.tasks)
+    for (const auto& wanted : task.programs)
+      if (std::none_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return same_word(name, wanted.text); }))
+        problems.push_back(problem_at(scenario, wanted.place,
+                                      fmt::format("there is no PROGRAM '{}'", wanted.text),
+                                      did_you_mean(wanted.text, names)));
+}
+
+/// True if the scenario sets the value, before power-up or in its timeline.
+bool sets(const Scenario& scenario, const PlcopenSection& section, const std::string& value) {
+  const auto names_it = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const auto& entry) { return same_word(entry.first.text, value); });
+  };
+  return names_it(section.set) ||
+         std::any_of(scenario.timeline.begin(), scenario.timeline.end(), [&](const Stimulus& stimulus) {
+           return names_it(stimulus.set) || names_it(stimulus.ramp);
+         });
+}
+
+/// The kernel's own v_phasing is so slow that a slave seems to hang on its way to the cam. MC_GearIn does not
+/// need it: a gear has no place to go to.
+void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection& section,
+                       const Scenario& scenario, std::vector<std::string>& notes) {
+  if (!program.has_motion_block("MC_CamIn")) return;
+  const auto& phasing = *plcopen::find_axis_parameter("cam_gear.v_phasing");
+  for (const auto& axis : section.axes) {
+    const auto& parameters = axis.configuration.parameters;
+    const bool encoder = parameters.kind == plcopen::AxisKind::encoder;
+    if (encoder || parameters.is_master) continue;  // masters
+    const auto name = fmt::format("{}.{}", axis.name.text, phasing.name);
+    if (parameters.v_phasing != plcopen::AxisParameters{}.v_phasing || sets(scenario, section, name))
+      continue;
+    notes.push_back(fmt::format(
+        "{} is at its default, {}: MC_CamIn will hardly reach its cam; give v_phasing, a_phasing, "
+        "d_phasing and j_phasing",
+        name, axis_value_text(phasing, parameters, axis.configuration.measure)));
+  }
+}
+
+}  // namespace
+
+// tables: [cams/knife.tab, {file: cams/eject.csv, id: 2}]
+void visit(Archive& archive, PlcopenSection::Table& table) {
+  constexpr int last_id = 65535;
+  if (archive.instead(table.id == 0, form(table.file))) return;
+  archive.in_line();
+  archive.value({"file", "a table of the kernel (.tab) or a cam as CSV"}, form(table.file));
+  archive.value({"id", "in place of the file's own"}, form(table.id, 1, last_id));
+  archive.require("file", "add file: cams/knife.tab");
+}
+
+void PlcopenSection::visit(Archive& archive) {
+  archive.value({"program", "path of the Structured Text, relative to the scenario"}, form(program));
+  archive.require("program", "add program: programs/knife.st");
+  archive.value({"cycle", "of the axes"}, form(cycle, Sign::positive));
+  if (archive.reads()) task_cycle = cycle;
+  archive.value({"task_cycle", "of the program, a whole multiple of cycle"},
+                form(task_cycle, Sign::positive));
+  archive.names(
+      {"tasks", "of several PROGRAMs"},
+      {tasks.size(), [this](std::size_t i) { return tasks[i].name.text; },
+       [this](const Text& name) {
+         tasks.push_back({name, task_cycle, 0, {}});
+       },
+       [this] { tasks.pop_back(); }, [this](Archive& inner, std::size_t i) { visit_task(inner, *this, i); }});
+  archive.names({"axes", "by the names that the program has for them; 'drycut devices AXIS'"}, axes,
+                &Axis::name, true);
+  archive.list({"tables", "cam tables: a path, or a path and an id"}, tables, true);
+  if (archive.reads()) std::erase_if(tables, [](const Table& table) { return table.file.text.empty(); });
+  visit_memory(archive, *this);
+  archive.judge([this](MapReader& reader) {
+    check_multiple(reader, "task_cycle", task_cycle, cycle);
+    judge_axis_names(axes, reader.findings());
+  });
+}
+
+std::vector<Text> PlcopenSection::files() const {
+  std::vector<Text> files = {program};
+  for (const auto& table : tables) files.push_back(table.file);
+  return files;
+}
+
+std::string_view PlcopenSection::settable() const {
+  return "name a variable of the program, or a value or parameter of an axis (drycut devices AXIS)";
+}
+
+std::unique_ptr<devices::Controller> PlcopenSection::load(const Scenario& scenario, Problems& problems,
+                                                          std::vector<std::string>* notes) const {
+  const auto before = problems.size();
+  const auto file = (scenario.file.parent_path() / program.text).string();
+  plcopen::Configuration configuration;
+  configuration.cycle_ns = cycle;
+  configuration.task_ns = task_cycle;
+  for (const auto& axis : axes) configuration.axes.push_back(axis.configuration);
+  for (const auto& task : tasks) {
+    configuration.tasks.push_back({task.name.text, 0, 0, task.cycle, task.priority, {}});
+    for (const auto& name : task.programs) configuration.tasks.back().programs.push_back(name.text);
+  }
+  configuration.tables = load_tables(*this, configuration.axes, scenario, problems);
+  const bool tables_sound = problems.size() == before;
+  plcopen::st::Program compiled;
+  if (const auto text = read_named(program, scenario, problems)) {
+    compiled = plcopen::st::compile(*text, file, problems);
+    // A table that could not be read is not missing.
+    if (tables_sound) check_names(compiled, file, configuration, problems);
+    if (problems.size() == before) check_tasks(compiled, file, *this, scenario, problems);
+  }
+  if (problems.size() != before) return nullptr;
+  if (notes != nullptr) note_slow_phasing(compiled, *this, scenario, *notes);
+  return std::make_unique<plcopen::PlcopenController>(std::move(compiled), file, std::move(configuration));
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,55 @@
+#include "devices/catalogue.hpp"
+#include "devices/qmove/cnf.hpp"
+#include "devices/qmove/program.hpp"
+#include "devices/qmove/qmove_controller.hpp"
+#include "sim/controllers/kinds.hpp"
+#include "sim/scenario/forms.hpp"
+
+namespace drycut::sim {
+
+namespace qmove = devices::qmove;
+
+void QmoveSection::visit(Archive& archive) {
+  archive.value({"configuration", "path of the .CNF, relative to the scenario"}, form(configuration));
+  archive.require("configuration", "add configuration: programs/line.cnf");
+  archive.value({"tasks", "paths of the QCL units, one task each"}, form(tasks));
+  archive.value({"cycle", "a round of all tasks begins this often"}, form(cycle, Sign::positive));
+  visit_memory(archive, *this);
+}
+
+std::vector<Text> QmoveSection::files() const {
+  auto files = tasks;
+  files.push_back(configuration);
+  return files;
+}
+
+std::string_view QmoveSection::settable() const {
+  return "name a program variable or a device parameter (drycut devices)";
+}
+
+std::unique_ptr<devices::Controller> QmoveSection::load(const Scenario& scenario, Problems& problems,
+                                                        std::vector<std::string>* notes) const {
+  const auto before = problems.size();
+  const auto folder = scenario.file.parent_path();
+  const auto text = read_named(configuration, scenario, problems);
+  if (!text) return nullptr;
+  auto parsed = qmove::parse_configuration(*text, (folder / configuration.text).string(),
+                                           devices::catalogue(), problems);
+  // Modules are not judged by a configuration that is not sound.
+  if (problems.size() != before) return nullptr;
+  std::vector<qmove::Program> programs;
+  for (const auto& task : tasks) {
+    const auto module = read_named(task, scenario, problems);
+    if (!module) continue;
+    programs.push_back(qmove::compile_module(*module, (folder / task.text).string(), parsed,
+                                             devices::catalogue(), problems));
+  }
+  if (problems.size() != before) return nullptr;
+  if (notes != nullptr)
+    for (const auto& program : programs)
+      notes->insert(notes->end(), program.notes.begin(), program.notes.end());
+  return std::make_unique<qmove::QmoveController>(std::move(parsed), std::move(programs),
+                                                  devices::catalogue(), cycle);
+}
+
+}  // namespace drycut::sim

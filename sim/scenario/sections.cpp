@@ -1,0 +1,287 @@
+// The sections of a scenario: scene, wiring, timeline, record and checks. Plants and pictures have files of
+// their own, controllers a folder (sim/controllers).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <unordered_set>
+
+#include "sim/scenario/format.hpp"
+#include "sim/scenario/forms.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+void visit_scene(Archive& archive, SceneSection& scene) {
+  archive.value({"title", "what reports and films call the scenario"}, form(scene.title));
+  archive.value({"step", "of the physics; every period is a whole multiple of it"},
+                form(scene.step, Sign::positive));
+  archive.value({"duration", "of the run"}, form(scene.duration, Sign::positive));
+  archive.value({"seed", "of all that is drawn at random"}, form(scene.seed));
+  archive.judge([&scene](MapReader& reader) {
+    if (reader.has("step")) scene.step_place = reader.value_place("step");
+  });
+}
+
+// A value that the timeline writes: a quantity, or a switch position as 1 or 0.
+std::optional<Quantity> read_action(const YamlNode::Entry& entry, const std::string& name,
+                                    Findings& findings) {
+  if (entry.value.kind == YamlNode::Kind::null) {
+    findings.add(entry.key.place, fmt::format("{} has no value", name), "write the value to set");
+    return {};
+  }
+  if (entry.value.kind != YamlNode::Kind::scalar) {
+    refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings);
+    return {};
+  }
+  const auto& text = entry.value.text;
+  if (text.text == "on" || text.text == "true") return Quantity{1, "", text.place};
+  if (text.text == "off" || text.text == "false") return Quantity{0, "", text.place};
+  return read_quantity(text, name, findings);
+}
+
+std::string action_text(const Text& target, const Quantity& value) {
+  const auto number = fmt::format("{}", value.number);
+  return fmt::format("{}: {}", yaml_text(target.text),
+                     value.unit.empty() ? number : yaml_text(fmt::format("{} {}", number, value.unit)));
+}
+
+constexpr std::string_view action_schema = R"({"type": ["number", "string", "boolean"]})";
+
+// set: {panel.start: 1, web.speed: 60 m/min}
+Form actions_form(std::vector<std::pair<Text, Quantity>>& actions) {
+  return whole(
+      YamlNode::Kind::map,
+      [&actions](const YamlNode& map, const Form::Name& name, Findings& findings) {
+        refuse_duplicates(map, name.full, findings);
+        for (const auto& entry : map.entries) {
+          const auto quantity = read_action(entry, name.full + "." + entry.key.text, findings);
+          if (quantity) actions.emplace_back(entry.key, *quantity);
+        }
+      },
+      [&actions] {
+        std::vector<std::string> items;
+        for (const auto& [target, value] : actions) items.push_back(action_text(target, value));
+        return yaml_map(items);
+      },
+      map_schema(action_schema));
+}
+
+void read_faults(const YamlNode& map, const std::string& name, std::vector<Stimulus::FaultAction>& faults,
+                 Findings& findings) {
+  refuse_duplicates(map, name, findings);
+  for (const auto& component : map.entries) {
+    const auto full = name + "." + component.key.text;
+    if (component.value.kind != YamlNode::Kind::map || component.value.entries.empty()) {
+      findings.add(
+          component.key.place, fmt::format("{} names no fault", full),
+          fmt::format("write {}: {{fault: value}}; 'drycut plants' lists the faults", component.key.text));
+      continue;
+    }
+    refuse_duplicates(component.value, full, findings);
+    for (const auto& fault : component.value.entries) {
+      const auto value = read_action(fault, full + "." + fault.key.text, findings);
+      if (value) faults.push_back({component.key, fault.key, *value});
+    }
+  }
+}
+
+// Each component once, with its faults.
+std::string faults_text(const std::vector<Stimulus::FaultAction>& faults) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> components;
+  for (const auto& fault : faults) {
+    auto same = std::find_if(components.begin(), components.end(),
+                             [&](const auto& other) { return other.first == fault.component.text; });
+    if (same == components.end()) same = components.insert(same, {fault.component.text, {}});
+    same->second.push_back(action_text(fault.fault, fault.value));
+  }
+  std::vector<std::string> items;
+  for (const auto& [component, own] : components)
+    items.push_back(fmt::format("{}: {}", yaml_text(component), yaml_map(own)));
+  return yaml_map(items);
+}
+
+// fault: {knife.encoder: {lose_counts: 200}}
+Form faults_form(std::vector<Stimulus::FaultAction>& faults) {
+  return whole(
+      YamlNode::Kind::map,
+      [&faults](const YamlNode& map, const Form::Name& name, Findings& findings) {
+        read_faults(map, name.full, faults, findings);
+      },
+      [&faults] { return faults_text(faults); },
+      fmt::format(R"({{"type": "object", "additionalProperties": {{"type": "object", "minProperties": 1,)"
+                  R"( "additionalProperties": {}}}}})",
+                  action_schema));
+}
+
+void judge_stimulus(MapReader& reader, Stimulus& stimulus) {
+  stimulus.place = reader.place();
+  const auto& name = reader.name();
+  if (reader.has("ramp") && !reader.has("over"))
+    reader.refuse("ramp", fmt::format("{}.ramp has no duration", name), "add over: 1 s");
+  if (reader.has("over") && !reader.has("ramp")) {
+    reader.refuse("over", fmt::format("{}.over stands without ramp", name),
+                  "write ramp instead of set, or leave over out");
+  }
+}
+
+struct KindName {
+  std::string_view key;
+  Check::Kind kind;
+  std::string_view meaning;
+};
+constexpr KindName kinds[] = {
+    {"each", Check::Kind::each, "every event of this name satisfies expect"},
+    {"all", Check::Kind::all, "expect holds over statistics of all events of this name: mean_x, max_x, ..."},
+    {"always", Check::Kind::always, "the expression holds at every record instant"},
+    {"eventually", Check::Kind::eventually, "the expression holds at one record instant at least"},
+    {"never", Check::Kind::never, "no event of this name happens"}};
+
+bool is_of_events(const Check& check) {
+  return check.kind == Check::Kind::each || check.kind == Check::Kind::all;
+}
+
+// The value of a kind's key: an expression, or an event. `said` once one of the keys has been read.
+Form kind_form(Check& check, const KindName& of, bool& said) {
+  auto expression = expression_form(check.expression);
+  auto event = form(check.event);
+  const bool of_time = of.kind == Check::Kind::always || of.kind == Check::Kind::eventually;
+  auto made = of_time ? expression : event;
+  made.read = [&check, &said, &of, read = made.read](const YamlNode& node, const Form::Name& name,
+                                                     Findings& findings) {
+    if (said) return;
+    said = true;
+    check.kind = of.kind;
+    read(node, name, findings);
+  };
+  return made;
+}
+
+void judge_check(MapReader& reader, const Check& check) {
+  // A key that belongs to other kinds of check only.
+  const auto refuse_misplaced = [&](std::string_view key, std::string_view belongs_to) {
+    if (!reader.has(key)) return;
+    reader.refuse(key, fmt::format("{} does not go with this kind of check", reader.full(key)),
+                  fmt::format("{} belongs to {}", key, belongs_to));
+  };
+  std::vector<std::string_view> given;
+  for (const auto& kind : kinds)
+    if (reader.find(kind.key) != nullptr) given.push_back(kind.key);
+  const bool of_events = !given.empty() && is_of_events(check);
+  if (of_events && !reader.has("expect"))
+    reader.missing("expect", "add expect: \"abs(length - 500) <= 0.2\" or the like");
+  if (!of_events && !given.empty()) refuse_misplaced("expect", "each and all");
+  if (given.size() > 1) {
+    reader.refuse(given[1], fmt::format("{} is both {} and {}", reader.name(), given[0], given[1]),
+                  "make two checks of it");
+  }
+  const bool eventually = check.kind == Check::Kind::eventually;
+  if (!eventually) refuse_misplaced("within", "eventually");
+  if (eventually) refuse_misplaced("until", "each, all, always and never");
+  if (!is_of_events(check)) refuse_misplaced("at_least", "each and all");
+  if (check.until && *check.until <= check.from && reader.has("from")) {
+    reader.refuse("until", fmt::format("{} is not after from", reader.full("until")),
+                  "let until be later than from");
+  }
+}
+
+void visit_record(Archive& archive, RecordSection& record) {
+  archive.value({"every", "a row of trace.csv"}, form(record.every, Sign::positive));
+  archive.value({"channels", "columns: AxisX.posit, knife.angle, web.speed"}, form(record.channels));
+  archive.judge([&record](MapReader& reader) {
+    record.place = reader.place();
+    std::unordered_set<std::string> known;
+    for (const auto& channel : record.channels)
+      if (!known.insert(channel.text).second)
+        reader.findings().add(channel.place, fmt::format("channel {} is recorded twice", channel.text),
+                              "keep one");
+  });
+}
+
+}  // namespace
+
+void visit(Archive& archive, Wire& wire) {
+  auto plug = form(wire.plug);
+  plug.read = [read = plug.read](const YamlNode& node, const Form::Name& name, Findings& findings) {
+    if (node.kind != YamlNode::Kind::null) return read(node, name, findings);
+    findings.add(name.key, fmt::format("{} leads to nothing", name.full),
+                 "write terminal: plant.plug, or terminal: panel.switch");
+  };
+  archive.alone(plug);
+}
+
+void visit(Archive& archive, Stimulus& stimulus) {
+  archive.in_line();
+  archive.value({"at", "time from the start"}, form(stimulus.at, Sign::not_negative));
+  archive.value({"when", "an expression; the entry acts once, the first time it is true"},
+                expression_form(stimulus.when));
+  archive.value({"after", "delay behind at or when", stimulus.after != 0},
+                form(stimulus.after, Sign::not_negative));
+  archive.value({"every", "acts again with this period"}, form(stimulus.every, Sign::positive));
+  archive.value({"set", "panel switches, settings of plants and controller values", !stimulus.set.empty()},
+                actions_form(stimulus.set));
+  archive.value({"ramp", "the same, reached linearly over `over`", !stimulus.ramp.empty()},
+                actions_form(stimulus.ramp));
+  archive.value({"over", "duration of the ramp", !stimulus.ramp.empty()},
+                form(stimulus.over, Sign::positive));
+  archive.value(
+      {"fault", "faults by component: {knife.encoder: {lose_counts: 200}}", !stimulus.faults.empty()},
+      faults_form(stimulus.faults));
+  archive.value({"power", "of the controller"}, form(stimulus.power));
+  archive.require_one({"at", "when"}, "does not say when", "add at: 0.5 s, or when: \"...\"");
+  archive.require_one({"set", "ramp", "fault", "power"}, "does nothing", "add set, ramp, fault or power");
+  archive.judge([&stimulus](MapReader& reader) { judge_stimulus(reader, stimulus); });
+}
+
+void visit(Archive& archive, Check& check) {
+  archive.in_line();
+  archive.value({"name", "what reports call it, once a scenario"}, form(check.name));
+  archive.require("name", "a check needs a name of its own");
+  bool said = false;
+  for (const auto& kind : kinds)
+    archive.value({kind.key, kind.meaning, kind.kind == check.kind}, kind_form(check, kind, said));
+  auto expect = expression_form(check.expression);
+  if (archive.reads() && !(said && is_of_events(check))) expect.read = [](auto&&...) {};
+  archive.value({"expect", "of each and all: over the event's values", is_of_events(check)}, expect);
+  archive.value({"from", "what is earlier does not count"}, form(check.from, Sign::not_negative));
+  archive.value({"until", "what is later does not count"}, form(check.until, Sign::positive));
+  archive.value({"within", "of eventually: not later than so long after from"},
+                form(check.within, Sign::positive));
+  archive.value({"at_least", "of each and all: fewer events than this fail the check", is_of_events(check)},
+                form(check.at_least, 0, std::numeric_limits<int>::max()));
+  archive.require_one({"each", "all", "always", "eventually", "never"}, "does not say what it checks",
+                      "add one of each, all, always, eventually, never");
+  archive.judge([&check](MapReader& reader) { judge_check(reader, check); });
+}
+
+void visit(Archive& archive, Scenario& scenario) {
+  archive.section({"scene", "title, time and chance"},
+                  [&](Archive& inner) { visit_scene(inner, scenario.scene); });
+  archive.plants({"plants", "the machine's parts, by names of your own; 'drycut plants' lists the types",
+                  !scenario.plants.empty()},
+                 scenario.plants);
+  archive.controller({"controller", "one of them", scenario.controller != nullptr}, scenario.controller);
+  archive.names(
+      {"wiring", "terminal of the controller: plant.plug, or panel.switch", !scenario.wiring.empty()},
+      scenario.wiring, &Wire::terminal);
+  archive.list(
+      {"timeline", "what the operator and the line around do, and faults", !scenario.timeline.empty()},
+      scenario.timeline);
+  archive.section({"record", "what trace.csv holds"},
+                  [&](Archive& inner) { visit_record(inner, scenario.record); });
+  archive.list({"checks", "what must hold for the run to pass", !scenario.checks.empty()}, scenario.checks);
+  archive.section({"pictures", "frames, film and plots of the run"},
+                  [&](Archive& inner) { visit(inner, scenario.pictures); });
+  archive.judge([&scenario](MapReader& reader) {
+    refuse_same_name(scenario.checks, "checks", "rename one; the first is at line {}", reader.findings());
+  });
+}
+
+const std::vector<std::string>& section_names() {
+  static const std::vector<std::string> names = {"scene",    "plants", "controller", "wiring",
+                                                 "timeline", "record", "checks",     "pictures"};
+  return names;
+}
+
+}  // namespace drycut::sim
