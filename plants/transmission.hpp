@@ -18,7 +18,7 @@ struct TransmissionData {
 /// Where a machine's defaults are from.
 struct TransmissionSources {
   std::string_view stiffness = "estimate: planetary gear of the 2 kW class, 15 N m/arcmin";
-  std::string_view ratio = "";
+  std::string_view ratio = {};
 };
 /// Rows of the group `gear.`.
 Parameters transmission_parameters(TransmissionData& data, const TransmissionSources& from = {});
