@@ -8,8 +8,8 @@
 
 #include "base/text.hpp"
 #include "devices/value_range.hpp"
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/simulation.hpp"
 
 namespace drycut {
 

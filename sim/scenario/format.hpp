@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/time.hpp"
+#include "sim/loop/time.hpp"
 
 namespace drycut::sim {
 

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/compare/scene.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/scenario/archive.hpp"
+#include "sim/studies/compare/scene.hpp"
 
 namespace drycut::sim {
 

@@ -137,7 +137,7 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
   scenario.buildable = reader.machine_is_sound() && findings.count() == singly;
 }
 
-// A scene that compares scenarios (sim/compare/scene.hpp) is none itself.
+// A scene that compares scenarios (sim/studies/compare/scene.hpp) is none itself.
 bool refuse_comparison(const YamlNode& root, Findings& findings) {
   const auto found = std::find_if(root.entries.begin(), root.entries.end(),
                                   [](const YamlNode::Entry& entry) { return entry.key.text == "compare"; });

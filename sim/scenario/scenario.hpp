@@ -12,7 +12,7 @@
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
-#include "sim/time.hpp"
+#include "sim/loop/time.hpp"
 
 namespace drycut::sim {
 

@@ -7,10 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sim/loop/time.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/yaml_node.hpp"
-#include "sim/time.hpp"
 
 namespace drycut::sim {
 

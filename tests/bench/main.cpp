@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
 #include "tests/bench/mechanism.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Cam tables of CAMMING4 and the LX3VP as CSV, sampled and judged.
-#include "sim/cam/study.hpp"
+#include "sim/cams/study.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace drycut {

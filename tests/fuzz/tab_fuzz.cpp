@@ -1,6 +1,6 @@
 // Cam tables of MC_CamIn: .tab and CSV.
 #include "devices/plcopen/tab_file.hpp"
-#include "sim/cam/study.hpp"
+#include "sim/cams/study.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace drycut {

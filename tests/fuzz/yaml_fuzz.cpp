@@ -1,7 +1,7 @@
 // Scenarios: read, built, printed with their defaults, and run for some steps. The files that they name are
 // those of scenes/.
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim/simulation.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace drycut {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
 
 namespace drycut::sim {
 namespace {

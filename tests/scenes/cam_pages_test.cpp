@@ -5,11 +5,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "sim/cam/overlay.hpp"
-#include "sim/cam/study.hpp"
+#include "sim/cams/overlay.hpp"
+#include "sim/cams/study.hpp"
 #include "sim/file.hpp"
-#include "sim/gallery.hpp"
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/report/gallery.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -10,8 +10,8 @@
 #include "renders/caption_bar.hpp"
 #include "renders/pictures.hpp"
 #include "renders/png_image.hpp"
-#include "sim/gallery.hpp"
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/report/gallery.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "sim/commands/run_command.hpp"
-#include "sim/compare/scene.hpp"
-#include "sim/recorder.hpp"
-#include "sim/simulation.hpp"
+#include "sim/cli/run_command.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/studies/compare/scene.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <numeric>
 
-#include "sim/compare/scene.hpp"
 #include "sim/controllers/kinds.hpp"
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/studies/compare/scene.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "sim/commands/tune_command.hpp"
+#include "sim/cli/tune_command.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {

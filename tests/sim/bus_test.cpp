@@ -1,4 +1,4 @@
-#include "sim/bus.hpp"
+#include "sim/loop/bus.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
-#include "sim/checks.hpp"
+#include "sim/loop/checks.hpp"
 
 #include <gmock/gmock.h>
 
-#include "sim/results.hpp"
-#include "sim/statistics.hpp"
+#include "sim/report/results.hpp"
+#include "sim/report/statistics.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "sim/commands/commands.hpp"
+#include "sim/cli/commands.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {

@@ -6,7 +6,7 @@
 
 #include "devices/slot_terminals.hpp"
 #include "plants/plant.hpp"
-#include "sim/names.hpp"
+#include "sim/loop/names.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::fakes {

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "sim/commands/cam_command.hpp"
-#include "sim/commands/check_command.hpp"
-#include "tests/sim/tune/bench.hpp"
+#include "sim/cli/cam_command.hpp"
+#include "sim/cli/check_command.hpp"
+#include "tests/sim/studies/tune/bench.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/gallery.hpp"
+#include "sim/report/gallery.hpp"
 #include "tests/sim/fakes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/commands/run_command.hpp"
+#include "sim/cli/run_command.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {

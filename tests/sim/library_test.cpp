@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "base/text.hpp"
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim/simulation.hpp"
 
 namespace drycut {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "devices/lx3vp/lx3vp_controller.hpp"
-#include "sim/bus.hpp"
+#include "sim/loop/bus.hpp"
 #include "tests/sim/fakes.hpp"
 
 namespace drycut::sim {

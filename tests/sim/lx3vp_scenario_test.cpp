@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sim/controller_loader.hpp"
+#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim/simulation.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim {

@@ -4,7 +4,7 @@
 
 #include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
-#include "sim/commands/commands.hpp"
+#include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {

@@ -8,10 +8,10 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "sim/commands/run_command.hpp"
-#include "sim/gallery.hpp"
-#include "sim/report.hpp"
-#include "tests/sim/tune/bench.hpp"
+#include "sim/cli/run_command.hpp"
+#include "sim/report/gallery.hpp"
+#include "sim/report/report.hpp"
+#include "tests/sim/studies/tune/bench.hpp"
 
 namespace drycut::sim {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "plants/plant.hpp"
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim/simulation.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut::sim {

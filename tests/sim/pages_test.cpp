@@ -7,7 +7,7 @@
 
 #include "base/sheet.hpp"
 #include "base/text.hpp"
-#include "sim/commands/commands.hpp"
+#include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {

@@ -1,5 +1,5 @@
 // pictures.meshes: how a user's own mesh takes the place of a part, and what is refused.
-#include "sim/part_meshes.hpp"
+#include "sim/report/part_meshes.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 
 #include "plants/world.hpp"
 #include "renders/part_models.hpp"
-#include "sim/gallery.hpp"
+#include "sim/report/gallery.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <optional>
 
-#include "sim/gallery.hpp"
-#include "sim/part_meshes.hpp"
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/report/gallery.hpp"
+#include "sim/report/part_meshes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sim/controller_loader.hpp"
 #include "sim/controllers/kinds.hpp"
+#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/simulation.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim/simulation.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim {

@@ -9,7 +9,7 @@
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/readings.hpp"
 #include "devices/plcopen/terminals.hpp"
-#include "sim/commands/commands.hpp"
+#include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim {

@@ -4,7 +4,7 @@
 
 #include "devices/catalogue.hpp"
 #include "devices/qmove/language.hpp"
-#include "sim/commands/commands.hpp"
+#include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
 
 // `drycut devices` marks readings of ours, with the place that leaves them open, in text and JSON.

@@ -1,4 +1,4 @@
-#include "sim/recorder.hpp"
+#include "sim/loop/recorder.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "sim/file.hpp"
-#include "sim/results.hpp"
-#include "sim/trace_files.hpp"
+#include "sim/loop/trace_files.hpp"
+#include "sim/report/results.hpp"
 #include "tests/sim/fakes.hpp"
 #include "tests/test_folder.hpp"
 

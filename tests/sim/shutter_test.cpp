@@ -1,5 +1,5 @@
 // Which instants become frames: a period, a window, the stretch around an event.
-#include "sim/shutter.hpp"
+#include "sim/loop/shutter.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "sim/timeline.hpp"
+#include "sim/loop/timeline.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // What a scenario gives a value is what the value takes: presets, --set, the timeline, of every controller.
 #include <gmock/gmock.h>
 
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim {

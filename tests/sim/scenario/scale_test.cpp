@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "sim/simulation.hpp"
+#include "sim/loop/simulation.hpp"
 
 namespace drycut::sim {
 namespace {

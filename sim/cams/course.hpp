@@ -1,0 +1,49 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "devices/cam/law.hpp"
+#include "sim/cams/points.hpp"
+
+namespace drycut::sim {
+
+/// What a cam is judged at. Speeds are in the table's own unit: of CAMMING4 10^decpt Um (the unit that the
+/// decimal point makes) per unitvel time, as the device's maxvel; of LX3VP pulses per second; of MC_CamIn deg
+/// or mm per second.
+struct CamDuty {
+  std::optional<double> master_speed = {};
+  std::optional<double> max_velocity = {};      ///< of the slave
+  std::optional<double> max_acceleration = {};  ///< of the slave, [Um/s2, pulses/s2, deg/s2 or mm/s2]
+};
+
+/// A cam without a machine, behind a master that runs evenly on from where the cam begins.
+struct CamCourse {
+  devices::CamLaw law;      ///< of a cycle, from its own first master position on; no pieces if nothing runs
+  double first_master = 0;  ///< where the table counts that
+  double first_slave = 0;
+  int loops = 1;         ///< cycles, one after the other
+  int passes = 0;        ///< times round that the law has in itself; 0: it is the one that is repeated
+  int drawn = 0;         ///< parts of each row that are drawn at least
+  bool holds = false;    ///< each piece holds the slave up to the next one, the last one to the next cycle
+  bool lets_go = false;  ///< behind its end the slave stands
+  std::optional<double> master_speed = {};  ///< [master's unit/s]
+
+  [[nodiscard]] bool runs() const { return !law.pieces.empty(); }
+  [[nodiscard]] double master_total() const { return loops * law.master_length; }
+  [[nodiscard]] double slave_total() const { return loops * law.slave_length; }
+  /// Where in the cycle a piece is in force: the first one may begin before it and the last one end behind
+  /// it.
+  [[nodiscard]] double begin_of(std::size_t piece) const;
+  [[nodiscard]] double end_of(std::size_t piece) const;
+  /// Largest absolute value over the cycle.
+  [[nodiscard]] double peak(devices::CamOrder order) const;
+};
+
+/// 1000 points a pass, evenly spaced, and every boundary of pieces; where something jumps, before and after.
+/// With `both_sides`, for drawing, before and after at every boundary, and `drawn` parts of each row.
+std::vector<CamPoint> sample_cam(const CamCourse& course, bool both_sides = false);
+/// At the given positions, each within the course, in the order of running; a boundary belongs to the piece
+/// that it begins.
+std::vector<CamPoint> sample_cam_at(const CamCourse& course, std::vector<double> masters);
+
+}  // namespace drycut::sim

@@ -1,0 +1,27 @@
+#pragma once
+#include "sim/cams/study.hpp"
+
+// What each kind of cam has of its own: how its tables are read and written, and what its manual says of
+// them.
+namespace drycut::sim {
+
+using CammingTable = devices::camming4::CamTable;
+using devices::lx3vp::EcamTable;
+using devices::plcopen::CamFile;
+
+devices::CamTable read_camming4(std::string_view text, const std::string& file, Problems& problems);
+CamStudy study_of(const CammingTable& table, const CamRequest& request, Problems& problems);
+IdealCam ideal_of(const CammingTable& table, MasterRange range);
+std::string file_of(CammingTable& table, const std::string& file);
+
+devices::CamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems);
+CamStudy study_of(const EcamTable& table, const CamRequest& request, Problems& problems);
+IdealCam ideal_of(const EcamTable& table, MasterRange range);
+std::string file_of(EcamTable& table, const std::string& file);
+
+devices::CamTable read_mc_camin(std::string_view text, const std::string& file, Problems& problems);
+CamStudy study_of(const CamFile& cam, const CamRequest& request, Problems& problems);
+IdealCam ideal_of(const CamFile& cam, MasterRange range);
+std::string file_of(CamFile& cam, const std::string& file);
+
+}  // namespace drycut::sim

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/cams/kinds.hpp"
+
+namespace drycut::sim {
+
+/// What no type of table has: "P6L 7", "P6H 4" or both; "" if both are known.
+std::string wrong_words(const EcamTable& table);
+/// What a fault of ECAMTBX asks to be changed, with the list's own numbers.
+CamRemedy remedy_of(devices::lx3vp::EcamError error, const EcamTable& table);
+/// The largest P2 whose law and rows both keep to a speed [Hz], behind a master of `master_speed` [pulses/s].
+CamRemedy top_speed_remedy(const EcamTable& table, double master_speed, double limit);
+
+/// The P5 of a saw that keeps its law to a ratio, if there is one.
+CamRemedy ratio_limit_remedy(const EcamTable& table, double limit);
+
+}  // namespace drycut::sim

@@ -1,0 +1,221 @@
+#include "sim/cams/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "sim/cams/overlay.hpp"
+#include "sim/cams/study.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// "Y0 (DECAM D1000)" is "Y0_DECAM_D1000".
+std::string file_name(const std::string& axis) {
+  std::string name;
+  for (const char c : axis) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (plain)
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name.empty() ? "cam" : name;
+}
+
+/// Its four first digits, as a person would give it.
+double rounded(double speed) { return std::strtod(fmt::format("{:.4g}", speed).c_str(), nullptr); }
+
+MasterRange range_of(const PlayedCam& played) {
+  MasterRange range;
+  for (std::size_t i = 0; i < played.samples.size(); ++i) {
+    const double master = played.samples[i].master;
+    range.first = i == 0 ? master : std::min(range.first, master);
+    range.last = i == 0 ? master : std::max(range.last, master);
+  }
+  return range;
+}
+
+renders::ReportRow row_of(const CamPeak& peak, const std::string& master_unit) {
+  renders::ReportRow row{{peak.name,
+                          fmt::format("{} {} at master {} {}", number(peak.value), peak.quantity.unit,
+                                      number(peak.master), master_unit),
+                          "", ""}};
+  const auto& limits = peak.quantity.limits;
+  if (limits.empty()) return row;
+  const auto tightest = std::min_element(limits.begin(), limits.end(),
+                                         [](const auto& a, const auto& b) { return a.value < b.value; });
+  const double share = std::abs(peak.value) / tightest->value;
+  row.cells[2] = fmt::format("{} {} {}", tightest->name, number(tightest->value), peak.quantity.unit);
+  row.cells[3] = share <= within ? fmt::format("PASS {:.1f} % left", 100 * std::max(0.0, 1 - share))
+                                 : fmt::format("FAIL {:.1f} % too much", 100 * (share - 1));
+  return row;
+}
+
+std::string grade_of(const CamFinding& finding) {
+  const auto text = to_string({finding.grade, finding.number, "", "", ""});
+  return text.substr(0, text.find(':'));
+}
+
+renders::ReportTable feasibility(const CamStudy& study, const std::string& master_unit) {
+  renders::ReportTable table{"Feasibility", {"what", "found", "limit or remedy", "verdict"}, {}, false, true};
+  for (const auto& peak : study.peaks) table.rows.push_back(row_of(peak, master_unit));
+  for (const auto& finding : study.findings) {
+    const bool bad = is_unsound({finding}, false);
+    const auto grade = grade_of(finding);
+    table.rows.push_back({{finding.where.empty() ? "the cam" : finding.where, finding.text,
+                           finding.remedy.text, bad ? "FAIL " + grade : grade}});
+  }
+  const bool unsound = is_unsound(study.findings, false);
+  table.rows.push_back(
+      {{"verdict", unsound ? "the cam is not sound" : "the cam is sound", "", unsound ? "FAIL" : "PASS"}});
+  return table;
+}
+
+/// Columns of text as a table: names with their units, then the lines.
+renders::ReportTable table_of(const std::string& title, const Columns& columns) {
+  renders::ReportTable table{title, {}, {}, true};
+  for (const auto& [name, unit, words] : columns.headings())
+    table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
+  for (const auto& cells : columns.lines()) table.rows.push_back({cells});
+  return table;
+}
+
+renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors,
+                                  const std::vector<PlayedCycle>& cycles) {
+  renders::ReportTable table{
+      "How near the axis was to its cam", {"difference", "largest", "root mean square", "over"}, {}, false};
+  const auto whole =
+      std::count_if(cycles.begin(), cycles.end(), [](const auto& cycle) { return cycle.whole; });
+  const auto add = [&](const std::string& name, const std::vector<double>& of) {
+    const auto figures = figures_of(of);
+    if (figures.count == 0) return;
+    table.rows.push_back(
+        {{name, fmt::format("{} {}", error_text(figures.largest), ideal.error_unit),
+          fmt::format("{} {}", error_text(figures.rms), ideal.error_unit),
+          fmt::format("{} samples, {} whole cycle{}", figures.count, whole, whole == 1 ? "" : "s")}});
+  };
+  add("set less ideal position", errors.set);
+  add("set less measured position (following error)", errors.behind);
+  return table;
+}
+
+/// One page, made step by step.
+class PageMaker {
+ public:
+  PageMaker(const PlayedCam& played, std::string title, std::string name) : played_(played) {
+    page_.title = std::move(title);
+    page_.name = std::move(name);
+    page_.table = played.text;
+    const auto file = page_.name + ".csv";
+    if (played.table) {
+      table_ = *played.table;
+      page_.table = cam_file(table_, file);
+    }
+    // Also of a table that was written just now: will drycut cam take the file?
+    const auto& kind = cam_kind(played.table ? kind_name(*played.table) : "mc_camin", page_.table);
+    auto read = kind.read(page_.table, file, problems_);
+    if (!played.table) table_ = std::move(read);
+  }
+
+  CamPage make() {
+    if (played_.samples.empty())
+      page_.notes.emplace_back("No slave was on this cam in the run: only the cam is shown.");
+    if (played_.left_out > 0)
+      page_.notes.push_back(
+          fmt::format("Shown and measured over the last {} samples, from {:.1f} s on; {} "
+                      "before them are left out.",
+                      played_.samples.size(), seconds(played_.samples.front().time), played_.left_out));
+    if (problems_.empty()) ideal_ = ideal_cam(table_, range_of(played_));
+    draw_cam();
+    if (!ideal_.silence.empty())
+      page_.notes.push_back(
+          fmt::format("The ideal ends where the table alone does not say it: {}.", ideal_.silence));
+    draw_run();
+    return std::move(page_);
+  }
+
+ private:
+  void draw_cam() {
+    CamRequest request;
+    request.plot_name = "cam_" + page_.name;
+    const double fastest = fastest_master(played_) * ideal_.speed_scale;
+    if (!gives_master_speed(table_) && fastest > 0) request.duty.master_speed = rounded(fastest);
+    CamStudy study;
+    if (problems_.empty()) study = study_cam(table_, request, problems_);
+    if (!problems_.empty()) {
+      page_.notes.push_back(
+          fmt::format("drycut cam does not take this table: {}", to_string(problems_.front())));
+      return;
+    }
+    for (std::size_t begin = 0; begin < study.text.heading.size();) {
+      const auto end = study.text.heading.find('\n', begin);
+      page_.notes.push_back(study.text.heading.substr(begin, end - begin));
+      begin = end == std::string::npos ? end : end + 1;
+    }
+    if (request.duty.master_speed)
+      page_.notes.emplace_back("Judged at the fastest that the master was while the cam was played.");
+    if (!study.plot.panels.empty()) page_.plots.push_back(std::move(study.plot));
+    page_.tables.push_back(feasibility(study, ideal_.master_unit));
+    for (const auto& [name, columns] : study.text.tables) page_.tables.push_back(table_of(name, columns));
+  }
+
+  void draw_run() {
+    const auto errors = errors_of(played_, ideal_);
+    const auto cycles = cycles_of(played_, ideal_);
+    const auto* shown = shown_cycle(cycles);
+    if (shown == nullptr || shown->first == shown->last) return;
+    page_.plots.push_back(
+        overlay_plot(played_, ideal_, errors, cycles, *shown, "cam_" + page_.name + "_played"));
+    page_.tables.insert(page_.tables.begin(), played_table(ideal_, errors, cycles));
+  }
+
+  const PlayedCam& played_;
+  devices::CamTable table_;
+  Problems problems_;
+  IdealCam ideal_;
+  CamPage page_;
+};
+
+}  // namespace
+
+double fastest_master(const PlayedCam& played) {
+  constexpr Time window = 20 * millisecond;
+  double fastest = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < played.samples.size(); ++i) {
+    const auto& last = played.samples[i];
+    if (last.begins) first = i;
+    while (first + 1 < i && last.time - played.samples[first + 1].time >= window) ++first;
+    if (first == i) continue;
+    const double way = std::abs(last.master - played.samples[first].master);
+    const Time span = last.time - played.samples[first].time;
+    // Two samples that are near to each other tell more of the device's sampling than of the master.
+    if (span >= window) fastest = std::max(fastest, way / seconds(span));
+  }
+  return fastest;
+}
+
+std::vector<CamPage> cam_pages(const std::vector<PlayedCam>& played) {
+  std::map<std::string, int> all;
+  for (const auto& cam : played) ++all[cam.axis];
+  std::map<std::string, int> told;
+  std::vector<CamPage> pages;
+  for (const auto& cam : played) {
+    const int number = ++told[cam.axis];
+    const bool alone = all[cam.axis] == 1;
+    const auto title = alone ? fmt::format("Cam of {}", cam.axis)
+                             : fmt::format("Cam of {}, table {} of {}", cam.axis, number, all[cam.axis]);
+    const auto name = file_name(cam.axis) + (alone ? "" : fmt::format("_{}", number));
+    pages.push_back(PageMaker(cam, title, name).make());
+  }
+  return pages;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,81 @@
+#include "sim/cams/played.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "devices/cam/table.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr std::ptrdiff_t most_samples = 100'000;  // of a cam at least, twice as many at most
+
+}  // namespace
+
+CamRecorder::CamRecorder(std::vector<devices::CamAxis> axes, const Deviation& deviation) {
+  for (auto& axis : axes) {
+    Follower follower;
+    if (axis.pulses) follower.deviation = deviation(*axis.pulses);
+    follower.axis = std::move(axis);
+    followers_.push_back(std::move(follower));
+  }
+}
+
+void CamRecorder::step() {
+  for (auto& follower : followers_) {
+    const auto start = follower.axis.start();
+    if (start == follower.start) continue;
+    follower.start = start;
+    follower.followed = false;
+    if (start != 0) take_table(follower);
+  }
+}
+
+void CamRecorder::take_table(Follower& follower) {
+  constexpr std::size_t most_tables = 8;
+  auto table = follower.axis.table();
+  follower.now = none;
+  if (table == nullptr) return;
+  const auto same = [&](std::size_t cam) { return *played_[cam].table == *table; };
+  const auto found = std::find_if(follower.cams.begin(), follower.cams.end(), same);
+  if (found != follower.cams.end()) {
+    follower.now = *found;
+  } else if (follower.cams.size() == most_tables) {
+    ++untold_;
+  } else {
+    follower.now = played_.size();
+    follower.cams.push_back(follower.now);
+    played_.push_back({follower.axis.name, std::move(table)});
+  }
+}
+
+void CamRecorder::sample(Time time) {
+  for (auto& follower : followers_) {
+    if (follower.now == none) continue;
+    const auto moment = follower.axis.moment();
+    const bool begins = !follower.followed;
+    follower.followed = moment.follows;
+    if (!moment.follows) continue;
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    const double behind = moment.behind        ? *moment.behind
+                          : follower.deviation ? follower.deviation()
+                                               : nothing;
+    auto& cam = played_[follower.now];
+    if (cam.samples.size() == 2 * most_samples) {
+      cam.samples.erase(cam.samples.begin(), cam.samples.begin() + most_samples);
+      cam.left_out += most_samples;
+    }
+    cam.samples.push_back({time, begins, moment.master, moment.set, behind, moment.turn});
+  }
+}
+
+std::vector<PlayedCam> CamRecorder::played() const {
+  auto played = played_;
+  for (const auto& follower : followers_)
+    if (auto table = follower.cams.empty() ? follower.axis.table() : nullptr; table != nullptr)
+      played.push_back({follower.axis.name, std::move(table)});
+  return played;
+}
+
+}  // namespace drycut::sim

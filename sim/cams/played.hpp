@@ -1,0 +1,63 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/cam_axis.hpp"
+#include "sim/loop/observer.hpp"
+
+namespace drycut::sim {
+
+/// What an axis did with one cam table in a run: a sample every record period while its slave was on the cam.
+/// Master and slave in the table's units.
+struct PlayedCam {
+  struct Sample {
+    Time time = 0;
+    bool begins = false;  ///< the first one since the cam was entered
+    double master = 0;
+    double set = 0;     ///< where the device wanted the slave
+    double behind = 0;  ///< set less measured; not a number if nothing measures
+    double turn = 0;    ///< both are known but for whole turns of this length; 0 = they are known
+  };
+  std::string axis;
+  std::shared_ptr<const devices::CamTable> table;  ///< as the device held it when it took it over
+  std::vector<Sample> samples = {};
+  std::string text = {};     ///< of a cam of MC_CamIn that is read from its file: no device held it
+  std::size_t left_out = 0;  ///< earlier samples: of a long run the last ones are kept
+};
+
+/// Follows the cams of a controller through a run.
+class CamRecorder : public Observer {
+ public:
+  /// How far the drive behind a pulse output is behind its pulses, or nothing if none tells.
+  using Deviation = std::function<std::function<double()>(const devices::Address& pulses)>;
+  CamRecorder(std::vector<devices::CamAxis> axes, const Deviation& deviation);
+
+  /// After each step of the devices: takes the tables of the cams that have started.
+  void step();
+  void sample(Time time) override;
+  /// What was played, by axis and table in the order of their first start; of an axis that never started its
+  /// cam the table that it holds now. Tables of an axis beyond the first 8 are left out and counted in
+  /// `untold`.
+  [[nodiscard]] std::vector<PlayedCam> played() const;
+  [[nodiscard]] std::size_t untold() const { return untold_; }
+
+ private:
+  struct Follower {
+    devices::CamAxis axis;
+    std::function<double()> deviation;
+    std::uint64_t start = 0;
+    bool followed = false;          ///< at the last sample, since the last start
+    std::vector<std::size_t> cams;  ///< indices into played_
+    std::size_t now = none;         ///< that is played; none = its table was left out
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  void take_table(Follower& follower);
+
+  std::vector<Follower> followers_;
+  std::vector<PlayedCam> played_;
+  std::size_t untold_ = 0;
+};
+
+}  // namespace drycut::sim

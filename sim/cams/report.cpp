@@ -1,0 +1,51 @@
+#include "sim/cams/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/sheet.hpp"
+
+namespace drycut::sim {
+
+std::string plain(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
+
+void Columns::add(std::vector<std::string> cells, std::size_t most) {
+  if (lines_.size() < most)
+    lines_.push_back(std::move(cells));
+  else
+    ++more_;
+}
+
+std::string Columns::text() const {
+  std::vector<std::vector<std::string>> all(2);
+  for (const auto& heading : headings_) {
+    all[0].push_back(heading.name);
+    all[1].push_back(heading.unit);
+  }
+  if (std::all_of(all[1].begin(), all[1].end(), [](const auto& unit) { return unit.empty(); }))
+    all.pop_back();
+  all.insert(all.end(), lines_.begin(), lines_.end());
+  std::vector<bool> numbers;
+  for (const auto& heading : headings_) numbers.push_back(!heading.words);
+  auto text = in_columns(all, 0, numbers);
+  return more_ == 0 ? text : text + fmt::format("  ... and {} more{}\n", more_, why_);
+}
+
+std::string totals_text(const CamCourse& course, const std::string& master_unit,
+                        const std::string& slave_unit, const std::string& more) {
+  auto text = fmt::format("master total {} {}, slave total {} {}{}", number_text(course.master_total()),
+                          master_unit, number_text(course.slave_total()), slave_unit, more);
+  if (course.master_speed) text += fmt::format(", {} s", plain(course.master_total() / *course.master_speed));
+  return text + '\n';
+}
+
+std::string cam_report(const CamText& text, const std::vector<CamFinding>& findings) {
+  std::string sections;
+  for (const auto& [name, columns] : text.tables) sections += (sections.empty() ? "" : "\n") + columns.text();
+  if (sections.empty()) sections = "nothing to run\n";
+  return text.heading + '\n' + sections + '\n' + findings_text(findings) + text.totals;
+}
+
+}  // namespace drycut::sim

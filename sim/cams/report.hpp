@@ -1,0 +1,56 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/cams/course.hpp"
+#include "sim/cams/findings.hpp"
+
+namespace drycut::sim {
+
+/// Of a report's pieces and knots.
+inline constexpr std::size_t most_lines = 60;
+
+/// A number of a report: what is 0 but for rounding is 0.
+std::string plain(double value);
+
+/// Columns of text, as wide as their widest cells; numbers to the right, words to the left.
+class Columns {
+ public:
+  struct Heading {
+    std::string name;
+    std::string unit = {};
+    bool words = false;
+  };
+  explicit Columns(std::vector<Heading> headings) : headings_(std::move(headings)) {}
+  /// Lines beyond `most` are only counted.
+  void add(std::vector<std::string> cells, std::size_t most = most_lines);
+  /// What to say of the lines that were left out.
+  void left_out(std::string why) { why_ = std::move(why); }
+  /// With the headings in two lines, and what was left out.
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] const std::vector<Heading>& headings() const { return headings_; }
+  [[nodiscard]] const std::vector<std::vector<std::string>>& lines() const { return lines_; }
+
+ private:
+  std::vector<Heading> headings_;
+  std::vector<std::vector<std::string>> lines_;
+  std::size_t more_ = 0;
+  std::string why_ = {};
+};
+
+/// A cam in words: what it is, its sectors or rows, its totals.
+struct CamText {
+  std::string heading;                                       ///< ends with a line feed
+  std::vector<std::pair<std::string, Columns>> tables = {};  ///< with their names
+  std::string totals = {};                                   ///< ends with a line feed
+};
+
+/// "master total 700 Um, slave total 565 Um, 1.2 s"; `more` stands before the time.
+std::string totals_text(const CamCourse& course, const std::string& master_unit,
+                        const std::string& slave_unit, const std::string& more);
+
+/// What `drycut cam` prints: the cam in words with the findings before the totals.
+std::string cam_report(const CamText& text, const std::vector<CamFinding>& findings);
+
+}  // namespace drycut::sim

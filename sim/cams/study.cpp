@@ -1,0 +1,147 @@
+#include "sim/cams/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "base/text.hpp"
+#include "sim/cams/csv.hpp"
+#include "sim/cams/kinds.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+bool owns_camming4(std::string_view text) { return header_line(text).starts_with("sector"); }
+
+bool owns_mc_camin(std::string_view text) {
+  const auto header = header_line(text).substr(0, header_line(text).find_first_of("\r\n"));
+  if (header.starts_with("slave") || header.starts_with("a0")) return true;
+  if (header.find('=') != std::string_view::npos) return true;  // of a .tab file
+  const auto above = text.substr(0, static_cast<std::size_t>(header.data() - text.data()));
+  return header.starts_with("master") && above.find("# interpolation") != std::string_view::npos;
+}
+
+bool owns_lx3vp(std::string_view text) {
+  const auto header = header_line(text);
+  return header.starts_with("master") || header.starts_with("parameter");
+}
+
+/// Sectors of CAMMING4 (000), run by the device's own cam engine.
+constexpr CamKind camming4_cams = {"camming4", "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM",
+                                   owns_camming4, read_camming4};
+/// Cam tables of the ISG kernel's MC_CamIn (004): its .tab files, or CSV.
+constexpr CamKind mc_camin_cams = {
+    "mc_camin", "slave (or a0,a1,a2,a3, or master,slave below # interpolation: POLY5_LINE; or a .tab file)",
+    owns_mc_camin, read_mc_camin};
+/// Tables of the LX3VP's electronic cam (003), given or made by its own ECAMTBX.
+constexpr CamKind lx3vp_cams = {"lx3vp", "master,slave (or # ecamtbx: K100 and parameter,value)", owns_lx3vp,
+                                read_lx3vp};
+/// In the order of asking whose a text is.
+constexpr std::array kinds = {camming4_cams, mc_camin_cams, lx3vp_cams};
+
+/// How many cells of a header are columns of a kind of table, or nearly so.
+auto near_columns(const CamKind& kind, std::string_view header) {
+  std::vector<std::string> names;
+  for (const auto& column : split_cells(kind.header.substr(0, kind.header.find(" ("))))
+    names.emplace_back(column.text);
+  const auto cells = split_cells(header);
+  return std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
+    return !nearest(std::string(cell.text.substr(0, 40)), names).empty();
+  });
+}
+
+devices::CamTable read_no_kind(std::string_view text, const std::string& file, Problems& problems) {
+  const auto header = header_line(text);
+  const auto before = text.substr(0, static_cast<std::size_t>(header.data() - text.data()));
+  const auto line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const auto column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
+  problems.push_back(
+      {file, line, column, fmt::format("{} is the header of no cam table", in_quotes(trimmed({header}).text)),
+       fmt::format(
+           "CAMMING4's is {}; LX3VP's is master,slave, or parameter,value below a line "
+           "# ecamtbx: K100 (K101, K0, K1); MC_CamIn's is slave, or a0,a1,a2,a3, or master,slave below a "
+           "line # interpolation: POLY5_LINE",
+           camming4_cams.header)});
+  return {};
+}
+
+bool owns_nothing(std::string_view /*text*/) { return false; }
+
+/// Takes what no kind knows, to tell what all of them want.
+constexpr CamKind no_kind = {"", "", owns_nothing, read_no_kind};
+
+void check_positions(const std::vector<double>& at, const CamStudy& study, Problems& problems) {
+  const double first = study.course.first_master;
+  const double last = first + study.course.master_total();
+  for (const double position : at) {
+    if (position >= first && position <= last) continue;
+    problems.push_back({"--at", 1, 1, fmt::format("the cam has no master position {}", position),
+                        fmt::format("give positions from {} to {} {}", first, last, study.master_unit)});
+  }
+}
+
+}  // namespace
+
+std::span<const CamKind> cam_kinds() { return kinds; }
+
+const CamKind& cam_kind(std::string_view name, std::string_view text) {
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const CamKind& kind) {
+    return name.empty() ? kind.owns(text) : kind.name == name;
+  });
+  if (found != kinds.end()) return *found;
+  const auto header = header_line(text);
+  const bool numbers = !header.empty() && std::isdigit(static_cast<unsigned char>(header.front())) != 0;
+  if (!name.empty() || header.empty() || numbers) return kinds.front();
+  const auto near = std::max_element(kinds.begin(), kinds.end(), [&](const CamKind& a, const CamKind& b) {
+    return near_columns(a, header) < near_columns(b, header);
+  });
+  return near_columns(*near, header) == 0 ? no_kind : *near;
+}
+
+std::string_view kind_name(const devices::CamTable& table) {
+  constexpr std::array names = {"camming4", "lx3vp", "mc_camin"};
+  return names[table.index()];
+}
+
+CamStudy study_cam(const devices::CamTable& table, const CamRequest& request, Problems& problems) {
+  auto study = std::visit([&](const auto& one) { return study_of(one, request, problems); }, table);
+  const auto& course = study.course;
+  // A cam of sectors has its beginning, whatever stops it there.
+  if (!course.runs() && course.passes == 0) return study;
+  check_positions(request.at, study, problems);
+  if (!problems.empty()) return {};
+  study.points = request.at.empty() ? sample_cam(course) : sample_cam_at(course, request.at);
+  auto drawing = motion_plot(course, study.zones, study.drawn, request.plot_name);
+  study.plot = std::move(drawing.plot);
+  study.peaks = std::move(drawing.peaks);
+  return study;
+}
+
+IdealCam ideal_cam(const devices::CamTable& table, MasterRange range) {
+  return std::visit([&](const auto& one) { return ideal_of(one, range); }, table);
+}
+
+bool gives_master_speed(const devices::CamTable& table) {
+  const auto* ecam = std::get_if<EcamTable>(&table);
+  return ecam != nullptr && ecam->time_axis > 0;
+}
+
+std::string cam_file(devices::CamTable& table, const std::string& file) {
+  return std::visit([&](auto& one) { return file_of(one, file); }, table);
+}
+
+std::string_view header_line(std::string_view text) {
+  while (!text.empty()) {
+    auto line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    const auto begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos || line[begin] == '#') continue;
+    return line.substr(begin);
+  }
+  return {};
+}
+
+}  // namespace drycut::sim

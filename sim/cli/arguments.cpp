@@ -1,0 +1,73 @@
+#include "sim/cli/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "sim/file.hpp"
+
+namespace drycut::sim {
+
+namespace fs = std::filesystem;
+
+void add_set(CLI::App& command, std::vector<std::string>& set, const std::string& whose) {
+  command
+      .add_option("--set", set, fmt::format("Override a value of the {}: path=value, may be repeated", whose))
+      ->allow_extra_args(false);
+}
+
+void add_out(CLI::App& command, fs::path& out, const std::string& help) {
+  // An empty path names no folder.
+  const CLI::Validator named(
+      [](std::string& text) { return text.empty() ? "it is empty; name a folder" : ""; }, "");
+  auto* option = command.add_option("--out", out, help)->check(named);
+  if (!out.empty()) option->capture_default_str();
+}
+
+void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help) {
+  command.add_flag_callback(
+      "--no-pictures", [&pictures] { pictures = false; }, help);
+}
+
+std::vector<Override> overrides_of(const std::vector<std::string>& set, Problems& problems) {
+  std::vector<Override> overrides;
+  for (const auto& text : set) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      problems.push_back({"--set", 1, 1, fmt::format("'{}' is not an assignment", text),
+                          "write path=value, such as \"plants.web.speed=80 m/min\""});
+      continue;
+    }
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+void check_output(const char* option, const std::string& file, const InputFile& input, Problems& problems) {
+  std::error_code ignored;
+  if (fs::equivalent(file, input.file, ignored))
+    problems.push_back(
+        {option, 1, 1, fmt::format("{} is the {} itself", file, input.kind), "name another file"});
+  if (fs::is_directory(file, ignored))
+    problems.push_back({option, 1, 1, fmt::format("{} is a directory", file), "name a file"});
+  else if (const auto why = hindrance(file); !why.empty())
+    problems.push_back(
+        {option, 1, 1, fmt::format("{} cannot be written: {}", file, why), "name another file"});
+  const auto folder = fs::path(file).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    problems.push_back({option, 1, 1, fmt::format("there is no directory {}", folder.string()),
+                        "make it first or name another"});
+}
+
+void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
+                   Problems& problems) {
+  if (!csv.empty() && csv != "-") check_output("--csv", csv, input, problems);
+  if (png.empty()) return;
+  check_output("--png", png, input, problems);
+  const fs::path picture = png;
+  if (picture.extension() != ".png" || picture.stem().empty())
+    problems.push_back({"--png", 1, 1, fmt::format("{} does not end in .png", png), "name it x.png"});
+  if (png == csv) problems.push_back({"--png", 1, 1, "it is the file of --csv", "name another file"});
+}
+
+}  // namespace drycut::sim

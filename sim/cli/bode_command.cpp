@@ -1,0 +1,142 @@
+#include "sim/cli/bode_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "sim/cli/arguments.hpp"
+#include "sim/cli/progress.hpp"
+#include "sim/file.hpp"
+#include "sim/report/report.hpp"
+#include "sim/studies/bode/report.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+void check_limit(const char* option, const std::optional<double>& value, double most, const char* unit,
+                 Problems& problems) {
+  if (!value || (*value >= 0 && *value <= most)) return;  // not NaN either
+  problems.push_back(
+      {option, 1, 1, fmt::format("{} is out of range", *value), fmt::format("give 0 to {} {}", most, unit)});
+}
+
+void check_options(const BodeOptions& options, Problems& problems) {
+  check_request(options.loop, problems);
+  check_limit("--min-phase-margin", options.min_phase_margin, 180, "deg", problems);
+  check_limit("--min-gain-margin", options.min_gain_margin, 200, "dB", problems);
+  check_outputs(options.csv, options.png, {options.scenario, "scenario"}, problems);
+}
+
+/// What falls below the limits of the options, a line each.
+std::vector<std::string> shortfalls(const BodeOptions& options, const Margins& margins) {
+  std::vector<std::string> lines;
+  const auto judge = [&](const char* name, const std::optional<double>& limit,
+                         const std::optional<AtFrequency>& margin, const char* unit) {
+    if (!limit) return;
+    if (!margin) {
+      lines.push_back(fmt::format("FAIL: the {} is not known: it lies outside these frequencies", name));
+    } else if (margin->value < *limit) {
+      lines.push_back(
+          fmt::format("FAIL: the {} of {:.2f} {} is below {} {}", name, margin->value, unit, *limit, unit));
+    }
+  };
+  judge("phase margin", options.min_phase_margin, margins.phase, "deg");
+  judge("gain margin", options.min_gain_margin, margins.gain, "dB");
+  return lines;
+}
+
+/// All that was asked for; `folder` may be null; `faults` are the lines that fail the measurement.
+void write(const BodeOptions& options, const Scenario& scenario, const LoopResult& result,
+           const LimitCycle* cycle, const std::vector<std::string>& faults, OutputFolder* folder) {
+  if (folder != nullptr) write_bode_report(result, cycle, faults, expand(scenario), *folder);
+  if (result.sweep.points.empty()) return;
+  if (folder != nullptr) write_file(folder->add("bode.csv"), bode_csv(result));
+  if (options.csv == "-") {
+    fmt::print("{}", bode_csv(result));
+  } else if (!options.csv.empty()) {
+    write_file(options.csv, bode_csv(result));
+  }
+  if (!options.png.empty()) draw_png(bode_plot(result, "bode"), options.png);
+}
+
+}  // namespace
+
+int measure_bode(const BodeOptions& options) {
+  Problems problems;
+  check_options(options, problems);
+  const auto overrides = overrides_of(options.set, problems);
+  auto scenario = read_scenario(options.scenario, overrides, problems);
+  scenario.pictures.frames = false;  // nothing draws them
+  if (scenario.buildable) check_loop(scenario, options.loop, problems);
+  std::optional<OutputFolder> folder;
+  if (problems.empty() && !options.out.empty()) folder.emplace(options.out, "bode", bode_files, problems);
+  if (problems.empty() && folder) folder->begin();
+  std::optional<LoopResult> result;
+  std::optional<LimitCycle> cycle;
+  if (problems.empty() && options.limit_cycle) {
+    Progress bar;
+    cycle = find_limit_cycle(scenario, options.loop, problems, [&](double done) {
+      bar.show("measuring " + options.scenario.stem().string(), done);
+    });
+    if (cycle) result = cycle->margins[cycle->least.value_or(cycle->margins.size() / 2)].loop;
+  } else if (problems.empty()) {
+    Progress bar;
+    result = measure_loop(scenario, options.loop, problems, [&](double done) {
+      bar.show("measuring " + options.scenario.stem().string(), done);
+    });
+  }
+  if (!result) {
+    print_problems(problems);
+    return bad_input;
+  }
+  const auto doubts = loop_doubts(*result);
+  auto faults = shortfalls(options, result->margins);
+  auto text = bode_report(*result);
+  if (cycle) text += '\n' + limit_cycle_text(*cycle);
+  for (const auto& line : faults) text += line + '\n';
+  // A response on standard output is for a program: it must find nothing else there.
+  fmt::print(options.csv == "-" ? stderr : stdout, "{}", text);
+  // Where play makes a limit cycle, small motions do not answer: that is what was looked for.
+  if (!cycle || !cycle->least) faults.insert(faults.begin(), doubts.begin(), doubts.end());
+  if (cycle && !cycle->least) faults.emplace_back("no gain margin was found at any amplitude");
+  write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, folder ? &*folder : nullptr);
+  if (!options.out.empty())
+    fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());
+  if (!result->sweep.failure.empty()) return simulation_failed;
+  return faults.empty() ? all_passed : check_failed;
+}
+
+void add_bode(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<BodeOptions>();
+  auto& options = *chosen;
+  auto* bode = app.add_subcommand(
+      "bode",
+      "Frequency response of a closed position loop: a sine is added to the analogue reference.\n"
+      "Exit status: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the\n"
+      "simulation failed");
+  bode->add_option("scenario", options.scenario, "Scenario (.yaml)")->required();
+  bode->add_option("--wire", options.loop.wire, "Analogue reference, as knife.servo.reference");
+  bode->add_option("--speed", options.loop.speed, "Channel of the motor's speed, for the speed loop");
+  bode->add_option("--at", options.loop.at, "The scenario runs undisturbed until then [s]; else to its end");
+  bode->add_option("--from", options.loop.from, "Lowest frequency [Hz]; else 1, and lower to the crossover");
+  bode->add_option("--to", options.loop.to, "Highest frequency [Hz]; else half the sampling frequency");
+  bode->add_option("--points", options.loop.points, "Frequencies between them, evenly in decades")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  bode->add_option("--amplitude", options.loop.amplitude, "Of the sine [V]")->capture_default_str();
+  bode->add_option("--settle", options.loop.settle, "Before each measurement [s]")->capture_default_str();
+  bode->add_flag(
+      "--limit-cycle", options.limit_cycle,
+      "Sweep the amplitude too: from which gain on play, stiction or limits keep an oscillation up");
+  bode->add_option("--min-phase-margin", options.min_phase_margin, "Fails if the margin is less [deg]");
+  bode->add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
+  bode->add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
+  bode->add_option("--png", options.png, "Draw gain and phase");
+  add_out(*bode, options.out, "Directory for report.html, plot and table");
+  add_set(*bode, options.set, "scenario");
+  bode->callback([chosen, &status] { status = measure_bode(*chosen); });
+}
+
+}  // namespace drycut::sim

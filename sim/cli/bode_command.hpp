@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/cli/commands.hpp"
+#include "sim/studies/bode/loop.hpp"
+
+namespace drycut::sim {
+
+struct BodeOptions {
+  std::filesystem::path scenario;
+  LoopRequest loop;
+  bool limit_cycle = false;                ///< sweeps the amplitude too; shows the one with the least margin
+  std::optional<double> min_phase_margin;  ///< [deg], less fails
+  std::optional<double> min_gain_margin;   ///< [dB], less fails
+  std::string csv;                         ///< "" = none, "-" = standard output
+  std::string png;                         ///< "" = none
+  std::filesystem::path out;               ///< folder for report, plot and table, "" = none
+  std::vector<std::string> set;            ///< overrides of the scenario: path=value
+};
+/// drycut bode: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the
+/// simulation failed
+int measure_bode(const BodeOptions& options);
+
+}  // namespace drycut::sim

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/cams/course.hpp"
+#include "sim/cli/commands.hpp"
+
+namespace drycut::sim {
+
+struct CamOptions {
+  std::filesystem::path table;
+  std::string device = {};  ///< "" = by the table's header
+  CamDuty duty;
+  std::vector<double> at;  ///< master positions, empty = 1000 a pass and every boundary
+  std::string csv;         ///< "" = none, "-" = standard output
+  std::string png;         ///< "" = none
+  std::string rows = {};   ///< file for the rows that the device makes from parameters, "" = none
+  int loops = 1;
+  bool strict = false;  ///< warnings and cautions fail too
+};
+/// drycut cam: 0 sound, 1 an error or a violated limit, 2 bad input
+int validate_cam(const CamOptions& options);
+
+}  // namespace drycut::sim

@@ -1,0 +1,187 @@
+#include "sim/cli/check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "devices/catalogue.hpp"
+#include "devices/lx3vp/il_lines.hpp"
+#include "devices/lx3vp/il_program.hpp"
+#include "devices/lx3vp/register_file.hpp"
+#include "devices/plcopen/st/program.hpp"
+#include "devices/qmove/cnf.hpp"
+#include "devices/qmove/program.hpp"
+#include "sim/cams/study.hpp"
+#include "sim/cli/arguments.hpp"
+#include "sim/file.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/report/part_meshes.hpp"
+#include "sim/scenario/json_schema.hpp"
+#include "sim/studies/compare/scene_run.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+namespace qmove = devices::qmove;
+
+/// Checks files in the order given; a configuration stands for the modules after it.
+class Checker {
+ public:
+  explicit Checker(const CheckOptions& options)
+      : expand_(options.expand), overrides_(overrides_of(options.set, problems_)) {}
+
+  void check(const std::filesystem::path& file) {
+    auto kind = file.extension().string();
+    for (auto& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (kind == ".yaml" || kind == ".yml") {
+      check_scenario(file);
+    } else if (kind == ".cnf") {
+      check_configuration(file);
+    } else if (kind == ".mod" || kind == ".qcl") {
+      check_module(file);
+    } else if (kind == ".il") {
+      if (const auto text = read_file(file, problems_))
+        devices::lx3vp::il::compile(*text, file.string(), problems_);
+    } else if (kind == ".st") {
+      if (const auto text = read_file(file, problems_))
+        devices::plcopen::st::compile(*text, file.string(), problems_);
+    } else if (kind == ".csv") {
+      if (const auto text = read_file(file, problems_)) check_table(*text, file.string());
+    } else if (kind == ".tab") {
+      if (const auto text = read_file(file, problems_))
+        cam_kind("mc_camin", *text).read(*text, file.string(), problems_);
+    } else {
+      problems_.push_back(
+          {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
+           "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an instruction "
+           "list (.il), Structured Text (.st), a cam table (.csv, .tab) or registers (.csv)"});
+    }
+  }
+
+  [[nodiscard]] const Problems& problems() const { return problems_; }
+  /// What is no fault and worth knowing.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  void take_notes(const std::string& of, const Simulation& simulation) {
+    for (const auto& note : simulation.notes_of_setup()) notes_.push_back(fmt::format("{}: {}", of, note));
+  }
+
+  /// A comparing scene: its members, then what it asks of them.
+  void check_comparing(const ComparisonScene& scene) {
+    std::vector<MemberNames> names;
+    for (const auto& member : scene.members) {
+      Problems own;
+      const auto scenario = read_member(scene, member, overrides_, own);
+      if (scenario.buildable) {
+        const Simulation simulation(scenario, own);
+        load_part_meshes(scenario, simulation.plants(), own);
+        take_notes(member.name.text, simulation);
+        if (own.empty()) names.push_back(names_of(simulation));
+      }
+      place_in_scene(scene, member, own);
+      problems_.insert(problems_.end(), own.begin(), own.end());
+    }
+    if (names.size() == scene.members.size()) sim::check_comparison(scene, names, problems_);
+  }
+
+  void check_scenario(const std::filesystem::path& file) {
+    const auto before = problems_.size();
+    if (const auto scene = read_comparison(file, problems_)) {
+      if (problems_.size() == before) check_comparing(*scene);
+      if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(*scene));
+      return;
+    }
+    const auto scenario = read_scenario(file, overrides_, problems_);
+    if (scenario.buildable) {
+      const Simulation simulation(scenario, problems_);
+      load_part_meshes(scenario, simulation.plants(), problems_);
+      take_notes(file.string(), simulation);
+    }
+    if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
+  }
+
+  /// Registers or a program of the LX3VP, or a cam table, as its lines say.
+  void check_table(const std::string& text, const std::string& file) {
+    if (devices::lx3vp::il::is_table(text))
+      devices::lx3vp::il::compile(text, file, problems_);
+    else if (devices::lx3vp::is_register_file(text, ','))
+      devices::lx3vp::read_register_values(text, file, ',', problems_);
+    else
+      cam_kind("", text).read(text, file, problems_);
+  }
+
+  void check_configuration(const std::filesystem::path& file) {
+    configuration_.reset();
+    configuration_given_ = true;
+    const auto before = problems_.size();
+    if (const auto text = read_file(file, problems_)) {
+      configuration_ = qmove::parse_configuration(*text, file.string(), devices::catalogue(), problems_);
+    }
+    if (problems_.size() != before) configuration_.reset();
+  }
+
+  void check_module(const std::filesystem::path& file) {
+    // Modules are not judged by a configuration that is not sound.
+    if (!configuration_ && configuration_given_) return;
+    if (!configuration_) {
+      problems_.push_back({file.string(), 1, 1, "a QCL module needs a configuration to be checked against",
+                           "name its .cnf file before it"});
+      return;
+    }
+    if (const auto text = read_file(file, problems_)) {
+      auto program =
+          qmove::compile_module(*text, file.string(), *configuration_, devices::catalogue(), problems_);
+      notes_.insert(notes_.end(), program.notes.begin(), program.notes.end());
+    }
+  }
+
+  bool expand_;
+  std::vector<std::string> notes_;
+  Problems problems_;
+  std::vector<Override> overrides_;
+  std::optional<qmove::Configuration> configuration_;
+  bool configuration_given_ = false;
+};
+
+}  // namespace
+
+int check_files(const CheckOptions& options) {
+  Checker checker(options);
+  for (const auto& file : options.files) checker.check(file);
+  print_problems(checker.problems());
+  if (!checker.problems().empty()) {
+    fmt::print(stderr, "{} problem{} in {} file{}\n", checker.problems().size(),
+               checker.problems().size() == 1 ? "" : "s", options.files.size(),
+               options.files.size() == 1 ? "" : "s");
+    return bad_input;
+  }
+  if (options.expand) return all_passed;
+  for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
+  fmt::print("{} file{} checked, no problem\n", options.files.size(), options.files.size() == 1 ? "" : "s");
+  return all_passed;
+}
+
+void add_check(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<CheckOptions>();
+  auto& options = *chosen;
+  auto* check = app.add_subcommand("check", "Parse and type-check files without running anything");
+  auto* files = check->add_option(
+      "files", options.files,
+      "Scenarios (.yaml), configurations (.cnf), QCL modules (.mod) after their .cnf, instruction "
+      "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
+  check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
+  add_set(*check, options.set, "scenarios");
+  check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
+      ->excludes(files);
+  check->callback([chosen, files, &status] {
+    if (chosen->schema) return fmt::print("{}\n", json_schema());
+    if (chosen->files.empty()) throw CLI::RequiredError(files->get_name());
+    status = check_files(*chosen);
+  });
+}
+
+}  // namespace drycut::sim

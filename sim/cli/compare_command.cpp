@@ -1,0 +1,98 @@
+#include "sim/cli/compare_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "sim/cli/arguments.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+#include "sim/studies/compare/report.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<double> from_of(const CompareOptions& options, Problems& problems) {
+  if (options.from.empty()) return {};
+  Findings findings({"--from"});
+  const auto time = read_time({options.from, {1, 1}}, "--from", Sign::not_negative, findings);
+  for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
+  if (!time) return {};
+  return seconds(*time);
+}
+
+std::vector<RunFolder> read_runs(const CompareOptions& options, Problems& problems) {
+  if (options.runs.size() < 2) {
+    problems.push_back({options.runs.empty() ? "compare" : options.runs[0].string(), 1, 1,
+                        "one run alone is nothing to compare", "name two folders of runs or more"});
+  }
+  const auto labels = labels_of(options.runs, problems);
+  std::vector<RunFolder> runs;
+  for (std::size_t i = 0; i < options.runs.size(); ++i) {
+    std::error_code ignored;
+    if (fs::equivalent(options.out, options.runs[i], ignored))
+      problems.push_back({"--out", 1, 1, fmt::format("{} is one of the runs", options.out.string()),
+                          "the comparison would replace its report; name another folder"});
+    runs.push_back(read_run(options.runs[i], problems));
+    runs.back().label = labels[i];
+  }
+  return runs;
+}
+
+}  // namespace
+
+int compare_runs(const CompareOptions& options) {
+  Problems problems;
+  auto runs = read_runs(options, problems);
+  const auto from = from_of(options, problems);
+  std::optional<OutputFolder> folder;
+  if (problems.empty()) folder.emplace(options.out, "compare", comparison_files, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  const auto comparison = compare(std::move(runs), from);
+  ComparisonPage page;
+  for (const auto& run : comparison.runs) {
+    page.title += (page.title.empty() ? "" : " against ") + run.label;
+    page.source += (page.source.empty() ? "" : ", ") + run.folder.string();
+  }
+  page.verdict = difference_text(comparison);
+  try {
+    folder->begin();
+    write_comparison(comparison, page, *folder, options.pictures);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return simulation_failed;
+  }
+  fmt::print("{}: {}", page.title, comparison_text(comparison));
+  fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
+                                        : "results: " + options.out.string());
+  return options.fail_on_difference && !same(comparison) ? check_failed : all_passed;
+}
+
+void add_compare(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<CompareOptions>();
+  auto& options = *chosen;
+  auto* compare = app.add_subcommand(
+      "compare",
+      "Compare runs: checks, cuts and other events, channels, parameters in force; report.html, plots and\n"
+      "comparison.csv.\n"
+      "Exit status: 0 compared, 1 different and --fail-on-difference, 2 bad input, 3 a result could not be\n"
+      "written");
+  compare->add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
+      ->required();
+  add_out(*compare, options.out, "Directory for the results");
+  compare->add_option(
+      "--from", options.from,
+      "Figures look from this time on, as \"4 s\"; else where the plot with the limits begins");
+  compare->add_flag("--fail-on-difference", options.fail_on_difference,
+                    "Exit status 1 where the runs are not the same");
+  add_no_pictures(*compare, options.pictures, "No plots and no report");
+  compare->callback([chosen, &status] { status = compare_runs(*chosen); });
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/cli/commands.hpp"
+
+namespace drycut::sim {
+
+struct CompareOptions {
+  std::vector<std::filesystem::path> runs;  ///< folders that drycut run made of scenarios, two or more
+  std::filesystem::path out = "out/compare";
+  std::string from = {};            ///< "4 s": figures look from here on; "" = as the runs' plots say
+  bool fail_on_difference = false;  ///< exit status 1 where the runs differ
+  bool pictures = true;
+};
+/// drycut compare: 0 compared, 1 different and --fail-on-difference, 2 bad input, 3 cannot be written
+int compare_runs(const CompareOptions& options);
+
+}  // namespace drycut::sim

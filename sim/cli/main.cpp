@@ -1,0 +1,70 @@
+// The program `drycut`: reads the command line and calls what does the work (sim/cli/commands.hpp).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "base/plain_text.hpp"
+#include "sim/cli/commands.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+
+namespace {
+
+using namespace drycut;
+using namespace drycut::sim;
+
+int run(int argc, char** argv) {
+  CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", DRYCUT_VERSION);
+  int status = all_passed;
+
+  for (const auto add :
+       {add_run, add_check, add_cam, add_tune, add_bode, add_compare, add_devices, add_plants, add_reference})
+    add(app, status);
+
+  std::vector<std::string> commands;
+  for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1], did_you_mean(argv[1], commands));
+    return bad_input;
+  }
+  for (int i = 1; i < argc; ++i) {
+    const auto fault = text_fault(argv[i]);
+    if (!fault) continue;
+    fmt::print(stderr, "drycut: in argument {} {}: {}\n", i, fault->what, printable(argv[i]));
+    return bad_input;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? all_passed : bad_input;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // What cannot be told, because standard error takes nothing either, is still told by the status.
+  const auto failed = [](const std::string& what) {
+    std::fputs(("drycut: " + what + "\n").c_str(), stderr);
+    return simulation_failed;
+  };
+  try {
+    const int status = run(argc, argv);
+    std::cout.flush();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return status;
+    return failed(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
+  } catch (const std::exception& error) {
+    return failed(error.what());
+  }
+}

@@ -1,0 +1,100 @@
+#include "sim/cli/pages.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include <algorithm>
+
+#include "base/problem.hpp"
+#include "base/text.hpp"
+#include "sim/cli/commands.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json json_of(const Page& page) {
+  ordered_json json = {{"name", page.name}, {"summary", page.summary}};
+  for (const auto& sheet : page.sheets)
+    if (auto rows = sheet.json(); !sheet.key().empty() && !rows.empty()) json[sheet.key()] = std::move(rows);
+  if (!page.aliases.empty()) json["aliases"] = page.aliases;
+  return json;
+}
+
+void print(const Page& page) {
+  fmt::print("{}: {}\n", page.name, page.summary);
+  if (!page.preamble.empty()) fmt::print("\n{}\n", page.preamble);
+  const auto width = output_width();
+  for (const auto& sheet : page.sheets) fmt::print("{}", sheet.text(width));
+}
+
+/// Says that there is no page of that name, and which there are.
+int unknown(const std::string& kind, const std::string& name, const std::vector<Page>& pages) {
+  std::vector<std::string> names;
+  for (const auto& page : pages) names.push_back(page.name);
+  const auto near = nearest(name, names);
+  fmt::print(stderr, "drycut {}s: there is no {} type '{}'; {}\n", kind, kind, name,
+             near.empty() ? "there are: " + listed(names) : fmt::format("did you mean {}?", near));
+  return bad_input;
+}
+
+int show(const std::string& kind, const std::vector<Page>& pages, const std::string& name, bool json) {
+  if (!name.empty()) {
+    const auto page = std::ranges::find_if(pages, [&](const auto& p) { return same_word(p.name, name); });
+    if (page == pages.end()) return unknown(kind, name, pages);
+    if (json)
+      fmt::print("{}\n", json_of(*page).dump(2));
+    else
+      print(*page);
+  } else if (json) {
+    auto all = ordered_json::array();
+    for (const auto& page : pages) all.push_back(json_of(page));
+    fmt::print("{}\n", all.dump(2));
+  } else {
+    for (const auto& page : pages)
+      if (page.listed) fmt::print("{:<14} {}\n", page.name, page.summary);
+  }
+  return all_passed;
+}
+
+void add_pages(CLI::App& app, int& status, int (*list)(const std::string&, bool), const char* command,
+               const char* help, const char* about_name) {
+  struct Chosen {
+    std::string name;
+    bool json = false;
+  };
+  const auto chosen = std::make_shared<Chosen>();
+  auto* pages = app.add_subcommand(command, help);
+  pages->add_option("name", chosen->name, about_name);
+  pages->add_flag("--json", chosen->json, "As JSON");
+  pages->callback([chosen, &status, list] { status = list(chosen->name, chosen->json); });
+}
+
+}  // namespace
+
+std::vector<Page> device_pages() {
+  auto pages = qmove_pages();
+  std::ranges::move(plcopen_pages(), std::back_inserter(pages));
+  std::ranges::move(lx3vp_pages(), std::back_inserter(pages));
+  return pages;
+}
+
+int list_devices(const std::string& name, bool json) { return show("device", device_pages(), name, json); }
+
+int list_plants(const std::string& name, bool json) { return show("plant", plant_pages(), name, json); }
+
+void add_devices(CLI::App& app, int& status) {
+  add_pages(app, status, list_devices, "devices", "List device types, or the table of one",
+            "Device type, such as CAMMING4");
+}
+
+void add_plants(CLI::App& app, int& status) {
+  add_pages(app, status, list_plants, "plants", "List plant types, or the table of one",
+            "Plant type, such as rotary_knife");
+}
+
+}  // namespace drycut::sim

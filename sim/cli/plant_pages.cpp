@@ -1,0 +1,223 @@
+// `drycut plants`.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "plants/plant.hpp"
+#include "plants/world.hpp"
+#include "sim/cli/pages.hpp"
+#include "sim/scenario/parameter_text.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// A plant with its defaults, built, to ask it what it offers; plants that it needs are built too.
+struct Specimen {
+  plants::World world{1};
+  std::map<std::string, std::unique_ptr<plants::PlantDefinition>, std::less<>> definitions;
+  std::map<std::string, std::unique_ptr<plants::Plant>, std::less<>> plants;
+
+  void build(const plants::PlantType& type, const std::string& name, const std::string& drive = "") {
+    auto& definition = *(definitions[name] = type.define());
+    for (auto& parameter : definition.parameters()) {
+      if (!drive.empty() && parameter.name == "drive") *std::get<std::string*>(parameter.value) = drive;
+      if (parameter.reference.empty() || *std::get<std::string*>(parameter.value) == plants::no_plant)
+        continue;
+      const std::string other(parameter.reference);
+      *std::get<std::string*>(parameter.value) = other;
+      if (!plants.contains(other))
+        build(*std::ranges::find(plants::plant_types(), other, &plants::PlantType::name), other);
+    }
+    plants[name] = definition.build(world, [this](std::string_view wanted) -> plants::Plant* {
+      const auto found = plants.find(wanted);
+      return found == plants.end() ? nullptr : found->second.get();
+    });
+  }
+};
+
+/// Something that a plant of the type offers, and with which drives if not with all of them.
+template <typename Item>
+struct Offered {
+  Item item;
+  std::vector<std::string> drives;
+};
+
+/// A specimen for every choice of the parameter `drive`, the default one first; one if it has no such
+/// choice. A drive brings plugs, channels and faults of its own.
+class Specimens {
+ public:
+  explicit Specimens(const plants::PlantType& type) {
+    const auto definition = type.define();  // its parameters point into it
+    for (const auto& p : definition->parameters()) {
+      if (p.name != "drive" || p.choices.empty()) continue;
+      drives_ = {*std::get<std::string*>(p.value)};
+      for (const auto& choice : p.choices)
+        if (choice != drives_.front()) drives_.push_back(choice);
+    }
+    if (drives_.empty()) drives_ = {""};
+    for (const auto& drive : drives_) {
+      specimens_.push_back(std::make_unique<Specimen>());
+      specimens_.back()->build(type, "it", drive);
+    }
+  }
+
+  [[nodiscard]] plants::Parameters parameters() const {
+    return specimens_.front()->definitions.at("it")->parameters();
+  }
+
+  /// What the specimens offer by `list`, each once: those whose `same` is equal are one.
+  template <typename Item, typename Same>
+  std::vector<Offered<Item>> offered(std::vector<Item> (plants::Plant::*list)(), Same same) const {
+    std::vector<Offered<Item>> all;
+    for (std::size_t i = 0; i < specimens_.size(); ++i) {
+      for (auto& item : (*specimens_[i]->plants.at("it").*list)()) {
+        auto known =
+            std::find_if(all.begin(), all.end(), [&](const auto& o) { return same(o.item) == same(item); });
+        if (known == all.end()) known = all.insert(all.end(), {std::move(item), {}});
+        known->drives.push_back(drives_[i]);
+      }
+    }
+    for (auto& one : all)
+      if (one.drives.size() == drives_.size()) one.drives.clear();
+    return all;
+  }
+
+ private:
+  std::vector<std::string> drives_;
+  std::vector<std::unique_ptr<Specimen>> specimens_;
+};
+
+/// In text with the drives that have it: "runs forward (drive: inverter, contactors)".
+template <typename Item>
+Sheet::Cell meaning_cell(const Offered<Item>& offered) {
+  std::string text(offered.item.meaning);
+  if (!offered.drives.empty()) text += fmt::format(" (drive: {})", fmt::join(offered.drives, ", "));
+  return {offered.item.meaning, text};
+}
+
+/// Absent where all drives have it.
+template <typename Item>
+Sheet::Cell drives_cell(const Offered<Item>& offered) {
+  return offered.drives.empty() ? Sheet::Cell(nullptr) : Sheet::Cell(offered.drives);
+}
+
+std::string_view plug_text(const plants::Port& port) {
+  constexpr std::string_view names[] = {"encoder (to a counter)", "signal (to an input or interrupt line)",
+                                        "command (from an output)", "reference (from an analogue output)",
+                                        "pulse train (from a pulse output)"};
+  return names[port.plug.index()];
+}
+
+std::string range_text(const plants::Range& range) {
+  return fmt::format("{:.12g} {} {:.12g}", range.min, range.whole && range.max == 1 ? "or" : "to", range.max);
+}
+std::string range_text(const plants::Parameter& parameter) {
+  if (!parameter.choices.empty()) return fmt::format("{}", fmt::join(parameter.choices, " | "));
+  if (!parameter.reference.empty()) return fmt::format("name of a {}", parameter.reference);
+  if (std::holds_alternative<bool*>(parameter.value)) return "true | false";
+  if (std::holds_alternative<std::string*>(parameter.value)) return "";
+  return fmt::format("{:g}..{:g}", parameter.min, parameter.max);
+}
+
+/// In text "length [mm], force [N]".
+Sheet::Cell values_cell(const plants::EventType& event) {
+  Sheet::Cell cell(nlohmann::ordered_json::array(), "");
+  for (const auto& [name, unit] : event.values) {
+    cell.value.push_back({{"name", name}, {"unit", unit}});
+    cell.text += fmt::format("{}{}{}", cell.text.empty() ? "" : ", ", name,
+                             unit.empty() ? "" : fmt::format(" [{}]", unit));
+  }
+  return cell;
+}
+
+/// "600 x 75 x 40 mm" of the part with the default parameters.
+std::string part_size(const plants::Part& part) {
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", part.size[0] * 1e3, part.size[1] * 1e3,
+                     part.size[2] * 1e3);
+}
+
+/// "blade 3": what is before the number; the number, 0 = none.
+std::pair<std::string, int> stem_of(const std::string& name) {
+  const auto space = name.find_last_not_of("0123456789");
+  if (space == std::string::npos || space + 1 == name.size() || name[space] != ' ') return {name, 0};
+  return {name.substr(0, space), std::stoi(name.substr(space + 1))};
+}
+
+/// In text parts that differ only in their number share a row: "piece 1..24".
+Sheet parts_of(const Specimens& specimens) {
+  Sheet sheet("parts", "Parts, for pictures.meshes, from their middle",
+              {"name=part", "size=size x y z", "drives="});
+  const auto parts = specimens.offered(&plants::Plant::parts, [](const auto& p) { return p.name; });
+  for (std::size_t i = 0, next = 0; i < parts.size(); i = next) {
+    const auto& first = parts[i].item;
+    const auto named = stem_of(first.name);
+    int last = named.second;
+    const auto follows = [&](const plants::Part& part) {
+      return last > 0 && part.size == first.size && stem_of(part.name) == std::pair(named.first, last + 1);
+    };
+    for (next = i + 1; next < parts.size() && follows(parts[next].item); ++next) ++last;
+    const auto size = part_size(first);
+    sheet.add({{first.name, next > i + 1 ? fmt::format("{}..{}", first.name, last) : first.name},
+               size,
+               drives_cell(parts[i])});
+    for (++i; i < next; ++i) sheet.add({{parts[i].item.name, ""}, {size, ""}, drives_cell(parts[i])});
+  }
+  return sheet;
+}
+
+Page plant_page(const plants::PlantType& type) {
+  const auto name = [](const auto& item) { return item.name; };
+  const auto name_and_unit = [](const auto& item) { return std::pair(item.name, item.unit); };
+  const Specimens specimens(type);
+  Sheet parameters("parameters", "Parameters",
+                   {"name=parameter", "default", "unit=", "range", "meaning", "source=from"});
+  for (const auto& p : specimens.parameters()) {
+    const auto range = range_text(p);
+    const bool in_unit = !p.unit.empty() && !range.empty();
+    parameters.add({p.name,
+                    value_text(p),
+                    p.unit,
+                    {range, in_unit ? fmt::format("{} {}", range, p.unit) : range},
+                    p.meaning,
+                    p.source});
+  }
+  Sheet ports("ports", "Plugs, for wiring", {"name=plug", "kind", "meaning", "drives="});
+  for (const auto& o : specimens.offered(
+           &plants::Plant::ports, [](const auto& port) { return std::pair(port.name, port.plug.index()); }))
+    ports.add({o.item.name, plug_text(o.item), meaning_cell(o), drives_cell(o)});
+  Sheet channels("channels", "Channels, for record, checks and plots",
+                 {"name=channel", "unit", "meaning", "drives="});
+  for (const auto& o : specimens.offered(&plants::Plant::channels, name_and_unit))
+    channels.add({o.item.name, o.item.unit, meaning_cell(o), drives_cell(o)});
+  Sheet settings("settings", "Settings, for the timeline",
+                 {"name=setting", "unit", "range", "meaning", "drives="});
+  for (const auto& o : specimens.offered(&plants::Plant::settings, name_and_unit))
+    settings.add({o.item.name, o.item.unit, range_text(o.item.range), meaning_cell(o), drives_cell(o)});
+  Sheet faults("faults", "Faults, for the timeline",
+               {"component", "name=fault", "unit", "range", "meaning", "drives="});
+  for (const auto& o : specimens.offered(
+           &plants::Plant::faults, [](const auto& f) { return std::tuple(f.component, f.name, f.unit); }))
+    faults.add({o.item.component, o.item.name, o.item.unit, range_text(o.item.range), meaning_cell(o),
+                drives_cell(o)});
+  Sheet events("events", "Events, for checks", {"name=event", "values", "meaning", "drives="});
+  for (const auto& o : specimens.offered(&plants::Plant::event_types, name))
+    events.add({o.item.name, values_cell(o.item), meaning_cell(o), drives_cell(o)});
+  return {std::string(type.name),
+          std::string(type.summary),
+          "",
+          {parameters, ports, channels, settings, faults, events, parts_of(specimens)}};
+}
+
+}  // namespace
+
+std::vector<Page> plant_pages() {
+  std::vector<Page> pages;
+  for (const auto& type : plants::plant_types()) pages.push_back(plant_page(type));
+  return pages;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,397 @@
+#include "sim/cli/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "base/plain_text.hpp"
+#include "base/sheet.hpp"
+#include "renders/gltf.hpp"
+#include "sim/cli/arguments.hpp"
+#include "sim/cli/progress.hpp"
+#include "sim/file.hpp"
+#include "sim/loop/controller_loader.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report/gallery.hpp"
+#include "sim/report/results.hpp"
+#include "sim/studies/compare/scene_run.hpp"
+#include "sim/studies/half_step.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr auto* junit_file = "junit.xml";
+
+/// One scenario on its way from file to report.
+struct Job {
+  Scenario scenario;
+  std::optional<Scenario> half;  ///< the same at half its step, with --verify-step
+  std::unique_ptr<Simulation> simulation;
+  PartMeshes meshes;
+  RunResult result;
+  std::optional<OutputFolder> folder;
+  std::string trouble;          ///< a result could not be written
+  std::string left_out;         ///< because a helper program is missing, and what to install
+  std::filesystem::path scene;  ///< the glTF file, "" = none
+};
+
+/// A scene that compares some of the jobs.
+struct Group {
+  ComparisonScene scene;
+  std::vector<Job*> members;
+  std::vector<MemberNames> names;
+  RunResult result;
+  std::optional<OutputFolder> folder;
+  std::string trouble;
+};
+
+/// What is to be run: scenarios, and those of scenes that compare.
+struct Work {
+  std::optional<OutputFolder> folder;
+  std::vector<std::unique_ptr<Job>> jobs;
+  std::vector<Group> groups;
+};
+
+/// Claims what the results of `file` are called; a problem if another file has claimed it.
+class Claims {
+ public:
+  void results(const std::string& name, const std::filesystem::path& file, Problems& problems) {
+    if (name.empty() || name == "." || name == ".." || name == junit_file) {
+      problems.push_back({file.string(), 1, 1, fmt::format("its results cannot be called '{}'", name),
+                          "give the scenario another file name"});
+    }
+    claim(name, file, "its results would overwrite those of {}",
+          "give the scenarios different file names or run them apart", problems);
+  }
+  void retentive(const std::filesystem::path& kept, const std::filesystem::path& file, Problems& problems) {
+    claim("retentive " + kept.lexically_normal().string(), file,
+          "it keeps its retentive values in the file of {}",
+          "give each scenario a retentive file of its own or run them apart", problems);
+  }
+
+ private:
+  void claim(const std::string& name, const std::filesystem::path& file, const char* what, const char* remedy,
+             Problems& problems) {
+    const auto [other, fresh] = names_.emplace(name, file);
+    if (fresh) return;
+    problems.push_back(
+        {file.string(), 1, 1, fmt::format(fmt::runtime(what), other->second.string()), remedy});
+  }
+  std::map<std::string, std::filesystem::path> names_;
+};
+
+/// Takes a scenario that was read; false if it has problems.
+bool put_together(Job& job, const std::string& name, const RunOptions& options, Claims& claims,
+                  Problems& problems) {
+  if (options.seed) job.scenario.scene.seed = *options.seed;
+  if (const auto kept = retentive_file(job.scenario)) claims.retentive(*kept, job.scenario.file, problems);
+  if (options.gltf) job.scenario.pictures.frames = true;
+  if (job.scenario.buildable) {
+    job.simulation = std::make_unique<Simulation>(job.scenario, problems);
+    job.meshes = load_part_meshes(job.scenario, job.simulation->plants(), problems);
+  } else if (problems.empty()) {
+    throw std::logic_error("a scenario that cannot be built has no problem");
+  }
+  job.result.name = name;
+  job.result.scenario = job.scenario.file;
+  job.result.directory = options.out / name;
+  return problems.empty();
+}
+
+/// Reads a sound scenario once more, at half its step.
+void read_half(Job& job, std::vector<Override> overrides, const RunOptions& options,
+               const std::function<Scenario(const std::vector<Override>&)>& read, Problems& problems) {
+  if (!options.verify_step || !problems.empty()) return;
+  const auto half = halved_step(job.scenario, problems);
+  if (!half) return;
+  overrides.push_back(*half);
+  job.half = read(overrides);
+  job.half->scene.seed = job.scenario.scene.seed;
+}
+
+/// The members of a comparing scene as jobs, in a folder of its own each inside the scene's.
+void prepare_members(ComparisonScene scene, const std::vector<Override>& overrides, const RunOptions& options,
+                     Claims& claims, Work& work, Problems& problems) {
+  auto& group = work.groups.emplace_back();
+  const auto stem = scene.file.stem().string();
+  bool sound = true;
+  for (const auto& member : scene.members) {
+    auto job = std::make_unique<Job>();
+    Problems own;
+    job->scenario = read_member(scene, member, overrides, own);
+    sound = put_together(*job, stem + "/" + member.name.text, options, claims, own) && sound;
+    read_half(
+        *job, overrides, options, [&](const auto& set) { return read_member(scene, member, set, own); }, own);
+    place_in_scene(scene, member, own);
+    problems.insert(problems.end(), own.begin(), own.end());
+    group.members.push_back(job.get());
+    if (sound) group.names.push_back(names_of(*job->simulation));
+    work.jobs.push_back(std::move(job));
+  }
+  if (sound) check_comparison(scene, group.names, problems);
+  group.result.name = stem;
+  group.result.scenario = scene.file;
+  group.result.directory = options.out / stem;
+  group.scene = std::move(scene);
+}
+
+/// Reads and puts together all scenarios; problems of all of them are told before anything runs.
+Work prepare(const RunOptions& options, Problems& problems) {
+  const auto overrides = overrides_of(options.set, problems);
+  Work work;
+  Claims claims;
+  for (const auto& file : options.scenarios) {
+    claims.results(file.stem().string(), file, problems);
+    Problems own;
+    if (auto scene = read_comparison(file, own)) {
+      if (own.empty()) prepare_members(std::move(*scene), overrides, options, claims, work, own);
+    } else {
+      auto job = std::make_unique<Job>();
+      job->scenario = read_scenario(file, overrides, own);
+      put_together(*job, file.stem().string(), options, claims, own);
+      read_half(
+          *job, overrides, options, [&](const auto& set) { return read_scenario(file, set, own); }, own);
+      work.jobs.push_back(std::move(job));
+    }
+    problems.insert(problems.end(), own.begin(), own.end());
+  }
+  return work;
+}
+
+std::string scene_file_of(const Job& job) { return job.result.directory.filename().string() + ".glb"; }
+
+/// Takes the folders of all results; what lies in them and is not ours is told before anything runs.
+void open_folders(Work& work, const RunOptions& options, Problems& problems) {
+  work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file}, problems);
+  for (auto& group : work.groups)
+    group.folder.emplace(group.result.directory, "compare", comparison_files, problems);
+  for (auto& job : work.jobs) {
+    auto names = picture_files;
+    for (const auto* name : {trace_file, events_file, checks_file, scenario_file}) names.emplace_back(name);
+    names.push_back(scene_file_of(*job));
+    job->folder.emplace(job->result.directory, "run", names, problems);
+  }
+}
+
+/// Old results go before new ones are made: what is killed half-way must not leave an old verdict.
+void begin(Work& work) {
+  work.folder->begin();
+  for (auto& group : work.groups) group.folder->begin();
+  for (auto& job : work.jobs) {
+    job->folder->begin();
+    write_checks(outcome_to_come(), job->folder->add(checks_file));
+  }
+}
+
+void run_job(Job& job, const RunOptions& options, int threads,
+             const std::function<void(const char*, double)>& progress) {
+  auto& folder = *job.folder;
+  const auto duration = static_cast<double>(job.scenario.scene.duration);
+  if (options.pictures) job.simulation->follow_cams();
+  if (!options.pictures && !options.gltf) job.simulation->keep_nothing();
+  job.simulation->write_to(folder.add(trace_file), folder.add(events_file));
+  job.result.outcome =
+      job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
+  if (job.half)
+    job.result.outcome.half_step = run_half_step(std::move(*job.half), [&](Time now) {
+      progress("at half the step", static_cast<double>(now) / duration);
+    });
+  write_scenario(job.scenario, folder.add(scenario_file));
+  if (const auto kept = retentive_file(job.scenario)) {
+    write_file(*kept, job.simulation->retentive_state());
+  }
+  const auto finished = [&] { write_checks(job.result.outcome, folder.add(checks_file)); };
+  if (!options.pictures && !options.gltf) return finished();
+  const auto film = job.simulation->snapshots().empty() ? renders::Film{}
+                                                        : film_of(job.scenario, *job.simulation, job.meshes);
+  if (options.gltf && !film.frames.empty()) {
+    job.scene = folder.add(scene_file_of(job));
+    renders::write_gltf(film, job.scene, job.scenario.pictures.slow);
+  }
+  if (!options.pictures) return finished();
+  job.left_out =
+      write_pictures(job.scenario, *job.simulation, film, job.result.outcome, folder, threads, progress);
+  job.result.has_report = true;
+  finished();
+}
+
+void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options) {
+  // Cores that no scenario runs on help to draw; the pictures are the same whoever draws them.
+  const auto running = std::min<std::size_t>(static_cast<std::size_t>(options.jobs), jobs.size());
+  const auto drawing_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency() / running));
+  Progress bar;
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (auto i = next++; i < jobs.size(); i = next++) {
+      auto& job = *jobs[i];
+      const auto show = [&](const char* doing, double done) {
+        bar.show(fmt::format("{} {} ({} of {})", doing, job.result.name, i + 1, jobs.size()), done);
+      };
+      try {
+        run_job(job, options, drawing_threads, show);
+      } catch (const std::exception& error) {
+        job.trouble = error.what();
+      }
+    }
+  };
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 1; i < running; ++i) threads.emplace_back(work);
+  work();
+}
+
+/// Compares the members of a scene from the files that they left.
+void run_group(Group& group, bool pictures) {
+  Problems problems;
+  std::vector<RunFolder> runs;
+  for (std::size_t i = 0; i < group.members.size(); ++i) {
+    runs.push_back(read_run(group.members[i]->result.directory, problems));
+    runs.back().label = group.scene.members[i].name.text;
+    if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
+    group.result.outcome.end = std::max(group.result.outcome.end, group.members[i]->result.outcome.end);
+  }
+  auto compared = compare_members(group.scene, group.names, std::move(runs));
+  group.result.outcome.checks = compared.page.checks;
+  write_comparison(compared.comparison, compared.page, *group.folder, pictures);
+  group.result.has_report = pictures;
+}
+
+void run_groups(std::vector<Group>& groups, bool pictures) {
+  for (auto& group : groups) {
+    try {
+      run_group(group, pictures);
+    } catch (const std::exception& error) {
+      group.trouble = fmt::format("not compared: {}", error.what());
+    }
+  }
+}
+
+void print_checks(const std::vector<CheckResult>& checks) {
+  for (const auto& check : checks) {
+    const auto margin = margin_text(check);
+    fmt::print("  {} {}: {}{}{}\n", check.passed ? "ok  " : "FAIL", printable(check.name),
+               printable(check.detail), margin.empty() ? "" : "; ", margin);
+  }
+}
+
+void print_place(const RunResult& result) {
+  fmt::print("  {}: {}\n", result.has_report ? "report" : "results",
+             (result.has_report ? result.directory / "report.html" : result.directory).string());
+}
+
+void print_group(const Group& group) {
+  const auto& outcome = group.result.outcome;
+  fmt::print("{}: {}\n", printable(group.result.name),
+             !group.trouble.empty() ? group.trouble
+             : outcome.checks.empty()
+                 ? fmt::format("compared {} runs", group.members.size())
+                 : fmt::format("{}, {}", outcome.passed() ? "passed" : "FAILED", verdict_text(outcome)));
+  print_checks(outcome.checks);
+  if (group.trouble.empty()) print_place(group.result);
+}
+
+void print_result(const Job& job) {
+  const auto& result = job.result;
+  const auto word = !job.trouble.empty() || !result.outcome.failure.empty() ? "STOPPED"
+                    : result.outcome.passed()                               ? "passed"
+                                                                            : "FAILED";
+  fmt::print("{}: {}, {} ({} s simulated)\n", printable(result.name), word,
+             job.trouble.empty() ? verdict_text(result.outcome) : job.trouble,
+             seconds_text(result.outcome.end));
+  print_checks(result.outcome.checks);
+  if (result.outcome.half_step) {
+    const auto margins = margin_table(result.outcome, job.scenario.scene.step);
+    if (!margins.rows.empty())
+      fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
+  }
+  for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
+  if (!job.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left_out);
+  if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());
+  print_place(result);
+}
+
+int status_of(const Work& work) {
+  int status = all_passed;
+  const auto take = [&](const std::string& trouble, const Outcome& outcome) {
+    if (!trouble.empty() || !outcome.failure.empty()) {
+      status = simulation_failed;
+    } else if (!outcome.passed() && status == all_passed) {
+      status = check_failed;
+    }
+  };
+  for (const auto& job : work.jobs) take(job->trouble, job->result.outcome);
+  for (const auto& group : work.groups) take(group.trouble, group.result.outcome);
+  return status;
+}
+
+}  // namespace
+
+void print_problems(const Problems& problems) {
+  for (const auto& problem : problems) fmt::print(stderr, "{}\n", printable(to_string(problem)));
+}
+
+int run_scenarios(const RunOptions& options) {
+  Problems problems;
+  auto work = prepare(options, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  open_folders(work, options, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  begin(work);
+  run_all(work.jobs, options);
+  run_groups(work.groups, options.pictures);
+  std::vector<RunResult> results;
+  const auto keep = [&](const RunResult& result, const std::string& trouble) {
+    results.push_back(result);
+    if (!trouble.empty()) results.back().outcome.failure = trouble;
+  };
+  for (const auto& job : work.jobs) {
+    print_result(*job);
+    keep(job->result, job->trouble);
+  }
+  for (const auto& group : work.groups) {
+    print_group(group);
+    keep(group.result, group.trouble);
+  }
+  try {
+    write_junit(results, work.folder->add(junit_file));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return simulation_failed;
+  }
+  return status_of(work);
+}
+
+void add_run(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<RunOptions>();
+  auto& options = *chosen;
+  auto* run =
+      app.add_subcommand("run", "Run scenarios: traces, events, checks, pictures and a report for each");
+  run->add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
+  add_out(*run, options.out, "Directory for the results");
+  run->add_option("--jobs", options.jobs, "Scenarios run at the same time")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run->add_option("--seed", options.seed, "Seed of every random source, in place of the scenarios'");
+  add_no_pictures(*run, options.pictures, "No frames, plots or report");
+  run->add_flag("--gltf", options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
+  run->add_flag("--verify-step", options.verify_step,
+                "Run again at half scene.step and tell how far every check's margin moved");
+  add_set(*run, options.set, "scenarios");
+  run->callback([chosen, &status] { status = run_scenarios(*chosen); });
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/cli/commands.hpp"
+
+namespace drycut::sim {
+
+struct RunOptions {
+  std::vector<std::filesystem::path> scenarios;
+  std::filesystem::path out = "out";
+  int jobs = 1;
+  std::optional<std::uint64_t> seed;  ///< in place of the scenarios'
+  bool pictures = true;
+  bool verify_step = false;      ///< again at half the step: how far every margin moves
+  bool gltf = false;             ///< the run as an animated .glb file, with or without pictures
+  std::vector<std::string> set;  ///< "plants.web.speed=80 m/min"
+};
+/// drycut run
+int run_scenarios(const RunOptions& options);
+
+}  // namespace drycut::sim

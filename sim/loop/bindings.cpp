@@ -1,0 +1,137 @@
+#include "sim/loop/bindings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "sim/report/gallery_plots.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+class Binder {
+ public:
+  Binder(const Lookup& lookup, Recording& recording, Problems& problems)
+      : lookup_(lookup),
+        scenario_(lookup.scenario),
+        pictures_(lookup.scenario.pictures),
+        recording_(recording),
+        problems_(problems) {}
+
+  Captions bind() {
+    for (const auto& name : scenario_.record.channels) add_channel(name);
+    check_camera();
+    check_frames();
+    for (const auto& plot : pictures_.plots) add_plot(plot);
+    for (const auto& name : pictures_.live) add_channel(name);
+    Captions captions;
+    for (const auto* names : {&pictures_.caption, &pictures_.lamps}) add_captions(*names, captions);
+    return captions;
+  }
+
+ private:
+  void fault(const Place& place, std::string what, std::string remedy) {
+    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  }
+  void no_channel(const Text& name) {
+    fault(name.place, fmt::format("there is no channel '{}'", name.text),
+          lookup_.names.suggest_reading(name.text));
+  }
+
+  void add_channel(const Text& name) {
+    if (!recording_.add(lookup_.watch, name.text)) no_channel(name);
+  }
+
+  /// A lane shows a state: a quantity with a unit is none.
+  void add_lane(const Text& name) {
+    add_channel(name);
+    const auto* column = recording_.column(name.text);
+    if (column != nullptr && !column->unit.empty())
+      fault(name.place, fmt::format("{} is a quantity in {}, not a state", name.text, column->unit),
+            "show it in a panel of channels");
+  }
+
+  void add_motor(const Text& plant) {
+    bool known = has_motor_limits(scenario_, plant.text);
+    for (const auto& name : motor_channels(plant.text)) known = known && recording_.add(lookup_.watch, name);
+    if (!known)
+      fault(plant.place, fmt::format("'{}' is no plant with a servo motor", plant.text),
+            "name a plant with parameters servo.rated_torque, servo.peak_torque, ...");
+  }
+
+  void add_captions(const std::vector<Text>& names, Captions& captions) {
+    for (const auto& name : names) {
+      const auto* slot = lookup_.watch.slot(name.text);
+      if (slot == nullptr) {
+        no_channel(name);
+        continue;
+      }
+      captions.slots.push_back(slot);
+      captions.units.push_back(lookup_.watch.unit(name.text));
+    }
+  }
+
+  void add_plot(const PlotRequest& plot) {
+    for (const auto& panel : plot.panels) {
+      check_event(panel);
+      for (const auto& name : panel.lanes) add_lane(name);
+      for (const auto& name : panel.channels) add_channel(name);
+      for (const auto* name : {&panel.x, &panel.y, &panel.split})
+        if (!name->text.empty()) add_channel(*name);
+      if (!panel.motor.text.empty()) add_motor(panel.motor);
+    }
+    if (!plot.marks) return;
+    for (const auto& mark : *plot.marks) find_event(lookup_.all_events, mark, scenario_, problems_);
+  }
+
+  void check_event(const PlotRequest::Panel& panel) {
+    if (panel.event.text.empty()) return;
+    const auto* known = find_event(lookup_.plant_events, panel.event, scenario_, problems_);
+    if (known == nullptr) return;
+    std::vector<std::string> names;
+    for (const auto& [name, unit] : known->values) names.push_back(name);
+    for (const auto& value : panel.values) {
+      if (std::find(names.begin(), names.end(), value.text) == names.end())
+        fault(value.place, fmt::format("event '{}' has no value '{}'", panel.event.text, value.text),
+              fmt::format("it has: {}", fmt::join(names, ", ")));
+    }
+  }
+
+  void check_frames() {
+    if (!pictures_.frames) return;
+    if (pictures_.around) find_event(lookup_.all_events, pictures_.around->event, scenario_, problems_);
+    const auto step = scenario_.scene.step;
+    if (pictures_.every % pictures_.slow == 0 && pictures_.every / pictures_.slow % step == 0) return;
+    fault(
+        pictures_.slow_place,
+        fmt::format("pictures.frames: a frame every {} ns / {} is not a whole multiple of the step of {} ns",
+                    pictures_.every, pictures_.slow, step),
+        "choose every = slow x a multiple of the step");
+  }
+
+  /// A part's name is looked up where parts are: load_part_meshes.
+  void check_camera() {
+    std::vector<std::string> cameras = {"operator"};
+    for (const auto& plant : lookup_.plants) cameras.push_back(plant.name);
+    if (!pictures_.looks_at_part() &&
+        std::find(cameras.begin(), cameras.end(), pictures_.camera) == cameras.end())
+      fault(pictures_.camera_place, fmt::format("there is no camera '{}'", pictures_.camera),
+            fmt::format("cameras: {}", fmt::join(cameras, ", ")));
+  }
+
+  const Lookup& lookup_;
+  const Scenario& scenario_;
+  const PicturesSection& pictures_;
+  Recording& recording_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& problems) {
+  return Binder(lookup, recording, problems).bind();
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/loop/known_events.hpp"
+#include "sim/loop/names.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/loop/watch.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+/// Where the names that a scenario wants recorded and drawn are looked up.
+struct Lookup {
+  const Scenario& scenario;
+  const std::vector<NamedPlant>& plants;
+  const Names& names;
+  Watch& watch;
+  const std::vector<KnownEvent>& plant_events;
+  const std::vector<KnownEvent>& all_events;  ///< with those of timeline and controller
+};
+
+/// The numbers below a film: one a caption channel, then one a lamp.
+struct Captions {
+  std::vector<const double*> slots;
+  std::vector<std::string> units;
+};
+
+/// Adds to the recording what is to be recorded, then what the pictures need. What is not there, and what in
+/// the pictures does not fit, goes to `problems`.
+Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& problems);
+
+}  // namespace drycut::sim

@@ -1,0 +1,335 @@
+#include "sim/loop/bus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/loop/names.hpp"
+
+namespace drycut::sim {
+
+using devices::Address;
+using devices::Kind;
+
+namespace {
+
+constexpr std::string_view panel_name = "panel";
+
+/// "an encoder", ... what a plug of a plant is, in the order of plants::Port::plug.
+std::string_view kind_of(const plants::Port& port) {
+  constexpr std::string_view names[] = {"an encoder", "a signal", "a command", "a reference",
+                                        "a pulse train"};
+  return names[port.plug.index()];
+}
+
+constexpr std::size_t pulse_plug = 4;
+
+/// The kind of plug that a terminal takes: index into plants::Port::plug.
+std::size_t plug_for(Kind kind) {
+  switch (kind) {
+    case Kind::counter:
+      return 0;
+    case Kind::input:
+    case Kind::interrupt:
+      return 1;
+    case Kind::output:
+      return 2;
+    case Kind::analogue:
+      return 3;
+  }
+  return 0;
+}
+
+/// The first of them, where there are very many.
+std::string list(const std::vector<std::string>& names, std::string_view none) {
+  constexpr std::size_t most = 50;
+  if (names.empty()) return std::string(none);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+    text += (text.empty() ? "" : ", ") + names[i];
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
+}  // namespace
+
+void Panel::set(const std::string& name, bool on) {
+  auto& port = switches.at(name);
+  if (port.level != on) port.add_edge(on, 0.0);
+  port.level = on;
+}
+
+/// Connects one scenario's wires; keeps what the messages need.
+class Connector {
+ public:
+  Connector(Bus& bus, const Scenario& scenario, devices::Controller& controller,
+            const std::vector<NamedPlant>& plants, Problems& problems)
+      : bus_(bus), scenario_(scenario), controller_(controller), problems_(problems) {
+    for (const auto& [name, plant] : plants) {
+      for (auto& port : plant->ports()) ports_.emplace(name + "." + port.name, port);
+      plant_names_.push_back(name);
+      known_plants_.insert(name);
+    }
+  }
+
+  void connect(const Wire& wire) {
+    const auto address = terminal(wire.terminal);
+    if (!address) return;
+    if (!bus_.wired_.insert(*address).second) {
+      problem(wire.terminal.place, fmt::format("{} is wired already", controller_.terminal_name(*address)),
+              "a terminal takes one wire; remove this one");
+      return;
+    }
+    const auto looped = address->kind == Kind::counter ? own_terminal(wire.plug) : std::nullopt;
+    if (looped) {
+      connect_loop(*address, wire, *looped);
+    } else if (wire.plug.text.starts_with("panel.")) {
+      connect_panel(*address, wire);
+    } else if (const auto* port = plug(wire.plug)) {
+      connect_plant(*address, wire, *port);
+    }
+  }
+
+ private:
+  void problem(const Place& place, std::string what, std::string remedy) {
+    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  }
+
+  /// The terminal, if it is one of the controller.
+  std::optional<Address> terminal(const Text& text) {
+    const auto found = controller_.terminal(text.text);
+    if (const auto* address = std::get_if<Address>(&found)) return *address;
+    const auto& fault = std::get<devices::TerminalFault>(found);
+    problem(text.place, fault.what, fault.remedy);
+    return {};
+  }
+
+  /// A plug that is no plug of a plant but a terminal of the controller itself.
+  std::optional<Address> own_terminal(const Text& plug) {
+    if (ports_.contains(plug.text)) return {};
+    const auto found = controller_.terminal(plug.text);
+    const auto* address = std::get_if<Address>(&found);
+    return address == nullptr ? std::nullopt : std::optional(*address);
+  }
+
+  const plants::Port* plug(const Text& text) {
+    if (const auto found = ports_.find(text.text); found != ports_.end()) return &found->second;
+    const auto plant = text.text.substr(0, text.text.find('.'));
+    // The plugs of one plant stand together.
+    const auto first = ports_.lower_bound(plant + ".");
+    const bool known_plant = known_plants_.contains(plant);
+    std::vector<std::string> candidates;
+    for (auto port = known_plant ? first : ports_.begin(); port != ports_.end(); ++port) {
+      if (known_plant ? !port->first.starts_with(plant + ".") : problems_.size() > most_suggestions) break;
+      candidates.push_back(port->first);
+    }
+    const auto near = nearest(text.text, candidates);
+    if (!known_plant) {
+      problem(text.place, fmt::format("there is no plant '{}'", plant),
+              near.empty() ? fmt::format("plants: {}", list(plant_names_, "none"))
+                           : fmt::format("did you mean {}?", near));
+    } else {
+      problem(text.place,
+              fmt::format("plant '{}' has no plug '{}'", plant,
+                          text.text.substr(std::min(text.text.size(), plant.size() + 1))),
+              near.empty() ? fmt::format("it has: {}", list(candidates, "no plugs"))
+                           : fmt::format("did you mean {}?", near));
+    }
+    return nullptr;
+  }
+
+  const std::string& plugs_of_kind(std::size_t kind) {
+    auto& text = plugs_of_kind_[kind];
+    if (!text.empty()) return text;
+    std::vector<std::string> names;
+    for (const auto& [name, port] : ports_) {
+      if (port.plug.index() == kind) names.push_back(name);
+    }
+    return text = list(names, "no plug of that kind here");
+  }
+
+  /// A pulse output of the controller, counted by one of its own counters: the manual's way to have a master.
+  void connect_loop(const Address& address, const Wire& wire, const Address& from) {
+    auto& cards = controller_.cards();
+    if (!cards.pulse_outputs.contains(from)) {
+      problem(wire.plug.place,
+              fmt::format("{} gives no pulses that {} could count", wire.plug.text,
+                          controller_.terminal_name(address)),
+              "wire an encoder to it, or a pulse output of the controller");
+      return;
+    }
+    bus_.loops_.push_back({&cards.pulse_outputs.at(from), &cards.counters.at(address)});
+    bus_.looped_.insert(from);
+  }
+
+  void connect_pulses(const Address& address, const Wire& wire, plants::PulsePort* port) {
+    auto& trains = controller_.cards().pulse_outputs;
+    if (const auto found = trains.find(address); found == trains.end()) {
+      problem(wire.plug.place,
+              fmt::format("{} gives no pulses, {} is a pulse train", controller_.terminal_name(address),
+                          wire.plug.text),
+              controller_.pulse_terminals().empty()
+                  ? "this controller has no pulse outputs"
+                  : fmt::format("wire it to {}", controller_.pulse_terminals()));
+    } else if (sole_driver(address, wire)) {
+      bus_.pulses_.push_back({&found->second, port});
+    }
+  }
+
+  void connect_plant(const Address& address, const Wire& wire, const plants::Port& port) {
+    if (address.kind == Kind::output && port.plug.index() == pulse_plug)
+      return connect_pulses(address, wire, std::get<plants::PulsePort*>(port.plug));
+    if (port.plug.index() != plug_for(address.kind)) {
+      problem(wire.plug.place,
+              fmt::format("{} is a {}, {} is {}", controller_.terminal_name(address), name_of(address.kind),
+                          wire.plug.text, kind_of(port)),
+              fmt::format("wire it to one of: {}", plugs_of_kind(plug_for(address.kind))));
+      return;
+    }
+    auto& cards = controller_.cards();
+    switch (address.kind) {
+      case Kind::counter:
+        bus_.counters_.push_back({std::get<plants::EncoderPort*>(port.plug), &cards.counters.at(address)});
+        break;
+      case Kind::input:
+        bus_.inputs_.push_back({std::get<plants::SignalPort*>(port.plug), &cards.inputs.at(address)});
+        break;
+      case Kind::interrupt:
+        connect_interrupt(std::get<plants::SignalPort*>(port.plug), address.number);
+        break;
+      case Kind::output:
+        if (sole_driver(address, wire)) {
+          bus_.outputs_.push_back({&cards.outputs.at(address), std::get<plants::CommandPort*>(port.plug)});
+        }
+        break;
+      case Kind::analogue:
+        if (sole_driver(address, wire)) {
+          bus_.analogue_outputs_.push_back({address, controller_.terminal_name(address), wire.plug.text,
+                                            &cards.analogue_outputs.at(address),
+                                            std::get<plants::ReferencePort*>(port.plug)});
+        }
+        break;
+    }
+  }
+
+  void connect_interrupt(const plants::SignalPort* from, int line) {
+    bus_.interrupts_.push_back({from, line, &controller_.cards().interrupt_lines[line]});
+  }
+
+  void connect_panel(const Address& address, const Wire& wire) {
+    const auto name = wire.plug.text.substr(panel_name.size() + 1);
+    auto& cards = controller_.cards();
+    auto& panel = bus_.panel_;
+    switch (address.kind) {
+      case Kind::input:
+        bus_.inputs_.push_back({&panel.switches[name], &cards.inputs.at(address)});
+        break;
+      case Kind::interrupt:
+        connect_interrupt(&panel.switches[name], address.number);
+        break;
+      case Kind::output:
+        if (sole_driver(address, wire))
+          bus_.outputs_.push_back({&cards.outputs.at(address), &panel.lamps[name]});
+        break;
+      case Kind::counter:
+      case Kind::analogue:
+        problem(wire.plug.place,
+                fmt::format("{} is a {}, the panel has switches and lamps",
+                            controller_.terminal_name(address), name_of(address.kind)),
+                fmt::format("wire it to one of: {}", plugs_of_kind(plug_for(address.kind))));
+        return;
+    }
+    if (panel.switches.contains(name) && panel.lamps.contains(name)) {
+      problem(wire.plug.place, fmt::format("{} is both a switch and a lamp", wire.plug.text),
+              "give the lamp a name of its own");
+    }
+  }
+
+  /// Notes who drives the plug; false if another terminal does already.
+  bool sole_driver(const Address& address, const Wire& wire) {
+    const auto [at, fresh] = drivers_.emplace(wire.plug.text, address);
+    if (!fresh) {
+      problem(wire.plug.place,
+              fmt::format("{} already drives {}", controller_.terminal_name(at->second), wire.plug.text),
+              fmt::format("wire {} elsewhere: a plug has one driver", controller_.terminal_name(address)));
+    }
+    return fresh;
+  }
+
+  Bus& bus_;
+  const Scenario& scenario_;
+  devices::Controller& controller_;
+  Problems& problems_;
+  std::map<std::string, plants::Port> ports_;
+  std::vector<std::string> plant_names_;
+  std::set<std::string> known_plants_;
+  std::map<std::size_t, std::string> plugs_of_kind_;  // as messages list them
+  std::map<std::string, Address> drivers_;
+};
+
+void Bus::connect(const Scenario& scenario, devices::Controller& controller,
+                  const std::vector<NamedPlant>& plants, Problems& problems) {
+  controller_ = &controller;
+  Connector connector(*this, scenario, controller, plants, problems);
+  for (const auto& wire : scenario.wiring) connector.connect(wire);
+}
+
+std::vector<std::string> Bus::unwired() const {
+  std::vector<std::string> names;
+  const auto collect = [&](const auto& terminals) {
+    for (const auto& [address, terminal] : terminals) {
+      if (!controller_->takes_wire(address)) continue;
+      if (!wired_.contains(address) && !looped_.contains(address))
+        names.push_back(controller_->terminal_name(address));
+    }
+  };
+  if (controller_ == nullptr) return names;
+  const auto& cards = controller_->cards();
+  collect(cards.counters);
+  collect(cards.inputs);
+  collect(cards.outputs);
+  collect(cards.pulse_outputs);
+  collect(cards.analogue_outputs);
+  return names;
+}
+
+void Bus::outputs_to_plants() const {
+  for (const auto& wire : outputs_) wire.to->level = wire.from->level;
+  for (const auto& wire : analogue_outputs_) wire.to->volts = wire.output() + wire.added;
+  for (const auto& wire : pulses_) wire.to->pulses = wire.from->count;
+}
+
+void Bus::plants_to_inputs() {
+  for (const auto& wire : counters_) wire.to->count = wire.from->count;
+  // A pulse is one period, four edges.
+  for (const auto& wire : loops_) wire.to->count = 4 * wire.from->count;
+  for (const auto& wire : inputs_) wire.to->level = wire.from->level;
+  for (const auto& wire : interrupts_) {
+    if (!wire.from->edges.empty()) {
+      deliver_interrupts();
+      break;
+    }
+  }
+  for (const auto& wire : interrupts_) wire.level->level = wire.from->level;
+  for (auto& [name, port] : panel_.switches) port.edges.clear();
+}
+
+void Bus::deliver_interrupts() {
+  struct Arrival {
+    double fraction;
+    int line;
+    bool rising;
+  };
+  std::vector<Arrival> arrivals;
+  for (const auto& wire : interrupts_) {
+    for (const auto& edge : wire.from->edges) arrivals.push_back({edge.fraction, wire.line, edge.rising});
+  }
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.fraction < b.fraction; });
+  for (const auto& arrival : arrivals) {
+    for (const auto& wire : counters_) wire.to->latched = wire.from->count_at(arrival.fraction);
+    controller_->interrupt(arrival.line, arrival.rising);
+  }
+}
+
+}  // namespace drycut::sim

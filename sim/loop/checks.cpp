@@ -1,0 +1,302 @@
+#include "sim/loop/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "sim/report/statistics.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr int shown_digits = 6;
+
+std::string window_text(const Check& check) {
+  std::string text;
+  if (check.from > 0) text += fmt::format(", from {} s", seconds_text(check.from));
+  if (check.until) text += fmt::format(", until {} s", seconds_text(*check.until));
+  if (check.within) text += fmt::format(", within {} s", seconds_text(*check.within));
+  return text;
+}
+
+std::string expectation_text(const Check& check) {
+  switch (check.kind) {
+    case Check::Kind::each:
+      return fmt::format("each {}: {}{}", check.event.text, check.expression.text, window_text(check));
+    case Check::Kind::all:
+      return fmt::format("all {}: {}{}", check.event.text, check.expression.text, window_text(check));
+    case Check::Kind::always:
+      return fmt::format("always {}{}", check.expression.text, window_text(check));
+    case Check::Kind::eventually:
+      return fmt::format("eventually {}{}", check.expression.text, window_text(check));
+    case Check::Kind::never:
+      return fmt::format("never {}{}", check.event.text, window_text(check));
+  }
+  return "";
+}
+
+bool in_window(const Check& check, double at) {
+  return at >= seconds(check.from) && (!check.until || at <= seconds(*check.until));
+}
+
+}  // namespace
+
+Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
+               const std::vector<KnownEvent>& events, Problems& problems) {
+  auto known = names.reading_names();
+  for (const auto& check : scenario.checks) {
+    states_.emplace_back().check = check;
+    if (problems.size() > most_suggestions) known.clear();
+    bind(states_.back(), scenario, watch, known, events, problems);
+  }
+}
+
+/// Finds the event of a check and makes the slots of its values or statistics.
+const KnownEvent* Checks::bind_event(State& state, const Scenario& scenario,
+                                     const std::vector<KnownEvent>& events, Problems& problems) {
+  const auto& check = state.check;
+  const auto* found = find_event(events, check.event, scenario, problems);
+  if (found == nullptr) return nullptr;
+  for (const auto& [name, unit] : found->values) {
+    if (check.kind == Check::Kind::all) {
+      state.series.push_back({name, unit, {}});
+      for (const auto* statistic : statistic_names) {
+        state.slots.push_back({fmt::format("{}_{}", statistic, name), unit, 0.0});
+      }
+    } else {
+      state.slots.push_back({name, unit, 0.0});
+    }
+  }
+  if (check.kind == Check::Kind::all) state.slots.push_back({"count", "", 0.0});
+  return found;
+}
+
+void Checks::bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
+                  const std::vector<KnownEvent>& events, Problems& problems) {
+  const auto& check = state.check;
+  if (!check.event.text.empty() && bind_event(state, scenario, events, problems) == nullptr) return;
+  if (check.kind == Check::Kind::never) return;
+
+  // The values of the event come before channels of the same name.
+  std::set<std::string> units;
+  const auto note = [&](const std::string& name, const double* number, const std::string& unit) {
+    for (const auto& operand : state.operands)
+      if (operand.name == name) return;
+    state.operands.push_back({name, number, unit, 0});
+  };
+  const auto resolve = [&](const std::string& name) -> const double* {
+    for (const auto& slot : state.slots) {
+      if (slot.name != name) continue;
+      units.insert(slot.unit);
+      note(name, &slot.number, slot.unit);
+      return &slot.number;
+    }
+    const auto* slot = watch.slot(name);
+    if (slot != nullptr) {
+      units.insert(watch.unit(name));
+      note(name, slot, watch.unit(name));
+    }
+    return slot;
+  };
+  const auto of_all = known.size();
+  for (const auto& slot : state.slots) known.push_back(slot.name);
+  state.expression = Expression::compile(check.expression, scenario, resolve, known, problems);
+  known.resize(of_all);
+  units.erase("");
+  if (units.size() == 1) state.unit = *units.begin();
+}
+
+bool Checks::concerns(const State& state, const RecordedEvent& event) {
+  return !state.check.event.text.empty() && names_event(state.check.event.text, event.source, event.event) &&
+         in_window(state.check, event.at_seconds());
+}
+
+void Checks::note_operands(State& state) {
+  for (auto& operand : state.operands) operand.noted = *operand.number;
+}
+
+std::string Checks::operands_text(const State& state) {
+  std::string text;
+  for (const auto& [name, number, unit, noted] : state.operands) {
+    text += fmt::format("{}{}={:.{}g}{}{}", text.empty() ? "" : "; ", name, without_noise(noted),
+                        shown_digits, unit.empty() ? "" : " ", unit);
+  }
+  return text;
+}
+
+/// When a condition without a margin did not hold: there is no worst moment, but a first and a last one.
+std::string Checks::failed_text(const State& state) {
+  auto text =
+      fmt::format(", {} failed, first at {:.4f} s: {}", state.failed, state.worst_at, state.worst_values);
+  if (state.failed > 1) text += fmt::format(", last at {:.4f} s", state.last_failed_at);
+  return text;
+}
+
+void Checks::evaluate(State& state, double at, const std::string& values) {
+  ++state.count;
+  const auto evaluation = state.expression->evaluate();
+  state.last_at = at;
+  if (!evaluation.holds) {
+    ++state.failed;
+    state.last_failed_at = at;
+  }
+  const bool eventually = state.check.kind == Check::Kind::eventually;
+  if (eventually && evaluation.holds && !state.held_at) state.held_at = at;
+  // For "eventually" the moment that counts is the best one, for the others the worst. Without margins it is
+  // the first that decided.
+  bool decisive = false;
+  if (evaluation.margin) {
+    decisive =
+        !state.worst || (eventually ? *evaluation.margin > *state.worst : *evaluation.margin < *state.worst);
+    if (decisive) state.worst = evaluation.margin;
+  } else {
+    decisive = state.failed == 1 && !evaluation.holds && !eventually;
+  }
+  if (decisive) {
+    state.worst_at = at;
+    state.worst_values = values;
+    if (state.check.kind == Check::Kind::always && !evaluation.margin) {
+      note_operands(state);
+      state.worst_values = operands_text(state);
+    }
+  }
+  if (eventually) note_operands(state);
+}
+
+void Checks::sample(Time now) {
+  const double at = seconds(now);
+  for (auto& state : states_) {
+    const auto kind = state.check.kind;
+    if (kind == Check::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
+    if (kind == Check::Kind::eventually && now >= state.check.from && !state.held_at &&
+        (!state.check.within || now <= state.check.from + *state.check.within)) {
+      evaluate(state, at, "");
+    }
+  }
+}
+
+void Checks::happened(const RecordedEvent& event) {
+  for (auto& state : states_) {
+    if (!concerns(state, event)) continue;
+    switch (state.check.kind) {
+      case Check::Kind::each:
+        for (auto& slot : state.slots) {
+          if (const auto* value = event.find(slot.name)) slot.number = value->number;
+        }
+        evaluate(state, event.at_seconds(), values_text(event, shown_digits));
+        break;
+      case Check::Kind::all:
+        ++state.count;
+        for (auto& series : state.series) {
+          if (const auto* value = event.find(series.value)) series.numbers.push_back(value->number);
+        }
+        break;
+      case Check::Kind::never:
+        if (state.count++ == 0) {
+          state.worst_at = event.at_seconds();
+          state.worst_values = values_text(event, shown_digits);
+        }
+        break;
+      case Check::Kind::always:
+      case Check::Kind::eventually:
+        break;
+    }
+  }
+}
+
+void Checks::finish_statistics(State& state) {
+  const auto set = [&](const std::string& name, double number) {
+    for (auto& slot : state.slots) {
+      if (slot.name == name) slot.number = number;
+    }
+  };
+  set("count", state.count);
+  std::string values;
+  for (const auto& series : state.series) {
+    const auto numbers = statistics(series.numbers);
+    for (std::size_t i = 0; i < statistic_names.size(); ++i) {
+      set(fmt::format("{}_{}", statistic_names[i], series.value), numbers[i]);
+      const auto name = fmt::format("{}_{}", statistic_names[i], series.value);
+      if (state.check.expression.text.find(name) == std::string::npos) continue;
+      values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name, without_noise(numbers[i]),
+                            series.unit.empty() ? "" : " ", series.unit);
+    }
+  }
+  const int events = state.count;
+  evaluate(state, 0, values);
+  state.count = events;
+}
+
+std::vector<CheckResult> Checks::results(Time end) {
+  std::vector<CheckResult> all;
+  for (auto& state : states_) all.push_back(result(state, end));
+  return all;
+}
+
+CheckResult Checks::result(State& state, Time end) {
+  const auto& check = state.check;
+  CheckResult result{check.name.text, expectation_text(check), false, {}, state.unit, {}, ""};
+  const bool by_event = check.kind == Check::Kind::each || check.kind == Check::Kind::all;
+  if (by_event && state.count < check.at_least) {
+    result.detail = fmt::format("only {} {} events in the time looked at, at least {} expected", state.count,
+                                check.event.text, check.at_least);
+    return result;
+  }
+  const auto never_looked_at = [&] {
+    return fmt::format("never looked at: the run ended at {} s", seconds_text(end));
+  };
+  if (check.kind == Check::Kind::never && check.from > end) {
+    result.detail = never_looked_at();
+    return result;
+  }
+  if (check.kind == Check::Kind::never) {
+    result.passed = state.count == 0;
+    result.detail = state.count == 0
+                        ? "none"
+                        : fmt::format("{}, first at {:.4f} s: {}",
+                                      state.count == 1 ? "once" : fmt::format("{} times", state.count),
+                                      state.worst_at, state.worst_values);
+    if (state.count > 0) result.at = state.worst_at;
+    return result;
+  }
+  if (check.kind == Check::Kind::all) finish_statistics(state);
+  if (state.count == 0) {
+    result.detail = never_looked_at();
+    return result;
+  }
+  result.margin = state.worst;
+  if (check.kind == Check::Kind::eventually) {
+    result.passed = state.held_at.has_value();
+    result.at = state.held_at ? *state.held_at : state.worst ? state.worst_at : state.last_at;
+    result.detail = state.held_at ? fmt::format("first true at {:.4f} s", *state.held_at)
+                                  : fmt::format("not true at any of {} instants, the last at {:.4f} s: {}",
+                                                state.count, state.last_at, operands_text(state));
+    // Once it held, what is left is time.
+    result.margin.reset();
+    if (state.held_at && check.within) {
+      result.margin = seconds(check.from + *check.within) - *state.held_at;
+      result.unit = "s";
+    }
+    return result;
+  }
+  result.passed = state.failed == 0;
+  if (check.kind != Check::Kind::all && (state.worst || state.failed > 0)) result.at = state.worst_at;
+  const auto looked_at =
+      check.kind == Check::Kind::always ? std::string("instants") : check.event.text + " events";
+  if (!state.worst && state.failed > 0 && check.kind != Check::Kind::all) {
+    result.detail = fmt::format("{} {}{}", state.count, looked_at, failed_text(state));
+    return result;
+  }
+  result.detail = fmt::format(
+      "{} {}{}{}", state.count, looked_at,
+      state.failed > 0 && check.kind != Check::Kind::all ? fmt::format(", {} failed", state.failed) : "",
+      state.worst_values.empty()
+          ? ""
+          : (check.kind == Check::Kind::all ? ": " : ", worst: ") + state.worst_values);
+  return result;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,94 @@
+#pragma once
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/loop/known_events.hpp"
+#include "sim/loop/names.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/scenario/expression.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+/// What a check came to.
+struct CheckResult {
+  std::string name;
+  std::string expectation;  ///< "each cut: abs(length - 800) <= 0.1, from 4.0 s"
+  bool passed = false;
+  std::optional<double> margin;  ///< how far the worst moment was from the limit; negative: beyond it
+  std::string unit;              ///< of the margin, "" if it is none or mixed
+  std::optional<double> at;      ///< [s] the worst moment
+  std::string detail;            ///< "15 cuts, worst length = 800.047 mm at 7.204 s"
+};
+
+/// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
+/// others at every event; an expression has a channel's number in the unit of its trace.csv column.
+class Checks : public Observer {
+ public:
+  Checks(const Scenario& scenario, Watch& watch, const Names& names, const std::vector<KnownEvent>& events,
+         Problems& problems);
+  Checks(const Checks&) = delete;
+  Checks& operator=(const Checks&) = delete;
+
+  /// The watch has been updated for this record instant.
+  void sample(Time now) override;
+  /// An event; the watch has been updated for it.
+  void happened(const RecordedEvent& event) override;
+  [[nodiscard]] std::vector<CheckResult> results(Time end);
+
+ private:
+  struct Series {
+    std::string value;
+    std::string unit;
+    std::vector<double> numbers;
+  };
+  struct Slot {
+    std::string name;
+    std::string unit;
+    double number = 0;
+  };
+  /// A name in an expression, where its number is, and its unit.
+  struct Operand {
+    std::string name;
+    const double* number;
+    std::string unit;
+    double noted = 0;  ///< the number at an instant to tell of
+  };
+  struct State {
+    Check check;
+    std::optional<Expression> expression;
+    std::vector<Operand> operands;  ///< what the expression names
+    std::deque<Slot> slots;         ///< event values or statistics, by name in the expression
+    std::vector<Series> series;     ///< all: the numbers behind the statistics
+    std::string unit;               ///< common to all names in the expression
+    int count = 0;                  ///< events or instants looked at
+    int failed = 0;
+    std::optional<double> worst;
+    double worst_at = 0;
+    std::string worst_values;
+    double last_failed_at = 0;
+    double last_at = 0;             ///< instant looked at last
+    std::optional<double> held_at;  ///< eventually: first time
+  };
+
+  /// `known`: the names that may be suggested; left as it was.
+  void bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
+            const std::vector<KnownEvent>& events, Problems& problems);
+  static const KnownEvent* bind_event(State& state, const Scenario& scenario,
+                                      const std::vector<KnownEvent>& events, Problems& problems);
+  static bool concerns(const State& state, const RecordedEvent& event);
+  static void evaluate(State& state, double at, const std::string& values);
+  static void note_operands(State& state);
+  static std::string operands_text(const State& state);
+  static std::string failed_text(const State& state);
+  static void finish_statistics(State& state);
+  static CheckResult result(State& state, Time end);
+
+  std::deque<State> states_;
+};
+
+}  // namespace drycut::sim

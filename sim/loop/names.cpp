@@ -1,0 +1,188 @@
+#include "sim/loop/names.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "devices/plcopen/terminals.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr std::string_view panel_prefix = "panel.";
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates,
+                         std::string_view else_say) {
+  const auto near = nearest(name, candidates);
+  return near.empty() ? std::string(else_say) : fmt::format("did you mean {}?", near);
+}
+
+}  // namespace
+
+devices::ValueRange range_of(const plants::Range& range) { return {range.min, range.max, range.whole}; }
+
+// As it is written: controllers find their names in any case, but `knife.angle` beside `Knife.posit` are two.
+void refuse_shared_names(const Scenario& scenario, devices::Controller& controller, Problems& problems) {
+  std::set<std::string> taken;
+  for (const auto& name : controller.names()) taken.insert(name.substr(0, name.find_first_of(".:[")));
+  for (const auto& plant : scenario.plants) {
+    const auto& name = plant.name.text;
+    const auto value = controller.find(name);
+    if (!taken.contains(name) && (!value || value->name != name)) continue;
+    problems.push_back(problem_at(scenario, plant.name.place,
+                                  fmt::format("plants.{0}: the controller has {0} too", name),
+                                  "give the plant a name of its own, or another spelling: knife and Knife"));
+  }
+}
+
+Names::Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, Panel& panel)
+    : controller_(controller), panel_(panel) {
+  for (const auto& [name, plant] : plants) {
+    for (auto& channel : plant->channels()) channels_.emplace(name + "." + channel.name, channel);
+    for (auto& setting : plant->settings()) settings_.emplace(name + "." + setting.name, setting);
+    for (auto& fault : plant->faults()) {
+      const auto component = name + "." + fault.component;
+      fault_index_.emplace(std::pair(component, fault.name), faults_.size());
+      faults_.emplace_back(component, fault);
+    }
+    plant_names_.insert(name);
+  }
+}
+
+void Names::assume_controller(const std::vector<Wire>& wiring) {
+  assumed_ = true;
+  for (const auto& [terminal, plug] : wiring) {
+    if (!plug.text.starts_with(panel_prefix)) continue;
+    const auto name = plug.text.substr(panel_prefix.size());
+    auto address = devices::parse_address(terminal.text);
+    if (!address) address = devices::parse_base_terminal(terminal.text);
+    if (const auto other = devices::plcopen::parse_terminal(terminal.text); other && !address)
+      address = other->terminal != nullptr ? other->terminal->address(0) : other->address;
+    const bool lamp = address && address->kind == devices::Kind::output;
+    // What is wrong with a terminal is told once there is a controller to ask.
+    if (lamp)
+      panel_.lamps[name];
+    else
+      panel_.switches[name];
+  }
+}
+
+bool Names::of_controller(const std::string& name) const {
+  const auto plant = name.substr(0, name.find('.'));
+  return plant != "panel" && !plant_names_.contains(plant);
+}
+
+std::optional<Reading> Names::reading(const std::string& name) {
+  if (const auto found = channels_.find(name); found != channels_.end()) {
+    return Reading{name, found->second.unit, found->second.read};
+  }
+  if (assumed_ && of_controller(name)) return Reading{name, "", [] { return 0.0; }};
+  if (name.starts_with(panel_prefix)) {
+    const auto plug = name.substr(panel_prefix.size());
+    if (const auto found = panel_.switches.find(plug); found != panel_.switches.end()) {
+      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; }};
+    }
+    if (const auto found = panel_.lamps.find(plug); found != panel_.lamps.end()) {
+      return Reading{name, "", [port = &found->second] { return port->level ? 1.0 : 0.0; }};
+    }
+    return {};
+  }
+  if (controller_ != nullptr) {
+    if (auto value = controller_->find(name)) return Reading{name, value->unit, value->read};
+  }
+  return {};
+}
+
+std::optional<Target> Names::target(const std::string& name) {
+  if (const auto found = settings_.find(name); found != settings_.end()) {
+    const auto& setting = found->second;
+    return Target{name, setting.unit, setting.write, setting.read, range_of(setting.range)};
+  }
+  if (assumed_ && of_controller(name)) return Target{name, "", [](double) {}, [] { return 0.0; }};
+  if (name.starts_with(panel_prefix)) {
+    const auto plug = name.substr(panel_prefix.size());
+    if (!panel_.switches.contains(plug)) return {};
+    return Target{name, "", [this, plug](double on) { panel_.set(plug, on != 0); },
+                  [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; },
+                  range_of(plants::Range{})};
+  }
+  if (controller_ != nullptr) {
+    if (auto value = controller_->find(name); value && value->write)
+      return Target{name, "", value->write, value->read, value->range};
+  }
+  return {};
+}
+
+std::optional<plants::Fault> Names::fault(const std::string& component, const std::string& fault) {
+  const auto found = fault_index_.find({component, fault});
+  if (found == fault_index_.end()) return {};
+  return faults_[found->second].second;
+}
+
+std::vector<std::string> Names::reading_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, channel] : channels_) names.push_back(name);
+  for (const auto& [name, port] : panel_.switches) names.push_back(std::string(panel_prefix) + name);
+  for (const auto& [name, port] : panel_.lamps) names.push_back(std::string(panel_prefix) + name);
+  if (controller_ != nullptr) {
+    for (auto& name : controller_->names()) names.push_back(name);
+  }
+  return names;
+}
+
+std::string Names::suggest_reading(const std::string& name) const {
+  constexpr auto* where_names_are =
+      "name a plant's channel (drycut plants), a device variable or state (drycut devices) or a "
+      "variable of the program";
+  if (++suggestions_ > most_suggestions) return where_names_are;
+  std::vector<std::string> own;  // of the same plant, if the plant is right
+  const auto plant = name.substr(0, name.find('.') + 1);
+  for (const auto& [full, channel] : channels_) {
+    if (!plant.empty() && full.starts_with(plant)) own.push_back(full);
+  }
+  if (!own.empty()) {
+    std::string all;
+    for (const auto& full : own) all += (all.empty() ? "" : ", ") + full;
+    return did_you_mean(name, own, "it has: " + all);
+  }
+  return did_you_mean(name, reading_names(), where_names_are);
+}
+
+std::string Names::suggest_target(const std::string& name) const {
+  constexpr auto* where_names_are =
+      "name a plant's setting (drycut plants), a wired panel switch or a controller value";
+  if (++suggestions_ > most_suggestions) return where_names_are;
+  std::vector<std::string> names;
+  for (const auto& [full, setting] : settings_) names.push_back(full);
+  for (const auto& [plug, port] : panel_.switches) names.push_back(std::string(panel_prefix) + plug);
+  if (name.starts_with(panel_prefix)) {
+    std::string switches;
+    for (const auto& [plug, port] : panel_.switches)
+      switches += fmt::format("{} panel.{}", switches.empty() ? "; switches:" : ",", plug);
+    return fmt::format("wire an input to {} first{}", name, switches);
+  }
+  if (channels_.contains(name)) return "it can only be read; settings are listed by drycut plants";
+  if (controller_ != nullptr) {
+    for (auto& other : controller_->names()) names.push_back(other);
+  }
+  return did_you_mean(name, names, where_names_are);
+}
+
+std::string Names::suggest_fault(const std::string& component) const {
+  if (++suggestions_ > most_suggestions) return "drycut plants lists the faults of components";
+  std::vector<std::string> components;
+  std::set<std::string> seen;
+  std::string offered;
+  for (const auto& [name, candidate] : faults_) {
+    if (seen.insert(name).second) components.push_back(name);
+    if (name == component) offered += (offered.empty() ? "" : ", ") + candidate.name;
+  }
+  if (!offered.empty()) return fmt::format("{} offers: {}", component, offered);
+  std::string all;
+  for (const auto& name : components) all += (all.empty() ? "" : ", ") + name;
+  return did_you_mean(component, components,
+                      all.empty() ? "no plant here offers faults" : "components with faults: " + all);
+}
+
+}  // namespace drycut::sim

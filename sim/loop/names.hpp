@@ -1,0 +1,81 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "devices/controller.hpp"
+#include "sim/loop/bus.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+/// A number that can be recorded or used in an expression.
+struct Reading {
+  std::string name;
+  std::string unit;  ///< of the number; "" = pure number
+  std::function<double()> read;
+};
+
+/// A number that the timeline can set or ramp; `write` takes it in `unit` as the timeline gives it (SI for
+/// plants).
+struct Target {
+  std::string name;
+  std::string_view unit;  ///< "" = pure number
+  std::function<void(double)> write;
+  std::function<double()> read;
+  std::optional<devices::ValueRange> range = {};  ///< in `unit`; absent: any number
+};
+
+/// What a plant's setting or fault takes, in its unit.
+devices::ValueRange range_of(const plants::Range& range);
+
+/// Says which plants are called like something of the controller: their names would mean two things.
+void refuse_shared_names(const Scenario& scenario, devices::Controller& controller, Problems& problems);
+
+/// The nearest name is looked for so often at most, for it takes a look at all names: of ten thousand slips
+/// the first ones tell enough.
+inline constexpr std::size_t most_suggestions = 100;
+
+/// Every name of a running scenario: `knife.angle`, `AxisX.posit`, `panel.start`, `slLength`, `2.AN01`.
+/// Plants come first, then the panel, then the controller; any of them may be absent.
+class Names {
+ public:
+  Names(const std::vector<NamedPlant>& plants, devices::Controller* controller, Panel& panel);
+  /// For a scenario whose controller has problems of its own: every name that no plant and no panel could
+  /// have is taken for one of the controller's, and the panel has what `wiring` names, so that only what is
+  /// wrong is told.
+  void assume_controller(const std::vector<Wire>& wiring);
+
+  /// What can be recorded or checked under this name.
+  std::optional<Reading> reading(const std::string& name);
+  /// What can be set under this name.
+  std::optional<Target> target(const std::string& name);
+  /// The fault `fault` of `component` ("knife.encoder").
+  std::optional<plants::Fault> fault(const std::string& component, const std::string& fault);
+
+  /// Remedies for an unknown name: the nearest one, or what there is.
+  [[nodiscard]] std::string suggest_reading(const std::string& name) const;
+  [[nodiscard]] std::string suggest_target(const std::string& name) const;
+  [[nodiscard]] std::string suggest_fault(const std::string& component) const;
+  /// All names that `reading` knows.
+  [[nodiscard]] std::vector<std::string> reading_names() const;
+
+ private:
+  devices::Controller* controller_;
+  [[nodiscard]] bool of_controller(const std::string& name) const;
+
+  Panel& panel_;
+  bool assumed_ = false;
+  std::map<std::string, plants::Channel> channels_;
+  std::map<std::string, plants::Setting> settings_;
+  std::vector<std::pair<std::string, plants::Fault>> faults_;               ///< full component name, fault
+  std::map<std::pair<std::string, std::string>, std::size_t> fault_index_;  ///< component and fault
+  std::set<std::string> plant_names_;
+  mutable std::size_t suggestions_ = 0;  ///< made so far
+};
+
+}  // namespace drycut::sim

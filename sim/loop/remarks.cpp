@@ -1,0 +1,30 @@
+#include "sim/loop/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include "sim/loop/recorder.hpp"
+
+namespace drycut::sim {
+
+void Remarks::happened(const RecordedEvent& event) {
+  constexpr std::size_t shown = 5;
+  if (event.text.empty() || event.source == "timeline") return;
+  ++count_;
+  // What a program may wait for in vain, or lose, stands before remarks on values.
+  const bool urgent = event.event == "contradiction" || event.event == "held_up";
+  if ((urgent ? urgent_ : remarks_.size()) >= shown) return;
+  const auto place = urgent ? urgent_++ : remarks_.size();
+  remarks_.insert(
+      remarks_.begin() + static_cast<std::ptrdiff_t>(place),
+      fmt::format("{} at {} s: {}: {}", event.source, seconds_text(event.time), event.event, event.text));
+  if (remarks_.size() > shown) remarks_.pop_back();
+}
+
+std::vector<std::string> Remarks::notes() const {
+  auto notes = remarks_;
+  if (count_ > remarks_.size())
+    notes.push_back(fmt::format("and {} more remarks, see events.csv", count_ - remarks_.size()));
+  return notes;
+}
+
+}  // namespace drycut::sim

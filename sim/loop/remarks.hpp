@@ -1,0 +1,23 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim/loop/observer.hpp"
+
+namespace drycut::sim {
+
+/// Keeps the first of what the controller remarks during a run, for a reader who does not open events.csv.
+class Remarks : public Observer {
+ public:
+  void happened(const RecordedEvent& event) override;
+  /// The remarks, and how many more there were.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+ private:
+  std::vector<std::string> remarks_;
+  std::size_t urgent_ = 0;  ///< that stand at their beginning
+  std::size_t count_ = 0;
+};
+
+}  // namespace drycut::sim

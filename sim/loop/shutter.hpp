@@ -1,0 +1,58 @@
+#pragma once
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "plants/plant.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+/// Where every part was at the instant of a frame, and the captions' numbers.
+struct Snapshot {
+  Time time = 0;
+  std::vector<plants::PartPose> poses;  ///< of all plants, in order
+  std::vector<double> caption;          ///< one a caption channel, then one a lamp
+  std::vector<plants::Callout> callouts;
+};
+
+/// Decides when a frame's poses are taken and keeps them: between two times, or around an event. As nobody
+/// knows beforehand when an event happens, the poses of the stretch `before` it are held until then.
+class Shutter : public Observer {
+ public:
+  explicit Shutter(const PicturesSection& pictures);
+
+  /// No shots any more.
+  void close();
+  /// A shot is due at the first step at or after this time.
+  [[nodiscard]] Time next() const { return next_; }
+  /// The object to fill with the shot at `now`; nullptr if none is wanted after all.
+  Snapshot* take(Time now);
+  void happened(const RecordedEvent& event) override;
+
+  /// The shots of the film.
+  [[nodiscard]] const std::vector<Snapshot>& kept() const { return kept_; }
+  /// When the event that the film is about happened [s].
+  [[nodiscard]] std::optional<double> event_at() const {
+    return event_ ? std::optional(seconds(*event_)) : std::nullopt;
+  }
+  /// How often it has happened so far.
+  [[nodiscard]] int seen() const { return seen_; }
+
+ private:
+  Snapshot* hold(Time now);
+
+  Time period_;
+  Time from_;
+  std::optional<Time> until_;
+  std::optional<PicturesSection::Around> around_;
+  Time next_;                  ///< never: nothing more is wanted
+  std::deque<Snapshot> held_;  ///< not older than `before`
+  std::vector<Snapshot> kept_;
+  int seen_ = 0;
+  std::optional<Time> event_;
+};
+
+}  // namespace drycut::sim

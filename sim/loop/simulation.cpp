@@ -1,0 +1,259 @@
+#include "sim/loop/simulation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
+
+#include "sim/loop/controller_loader.hpp"
+
+namespace drycut::sim {
+
+bool Outcome::passed() const {
+  return failure.empty() &&
+         std::all_of(checks.begin(), checks.end(), [](const CheckResult& c) { return c.passed; });
+}
+
+Simulation::Simulation(const Scenario& scenario, Problems& problems)
+    : scenario_(scenario),
+      step_(scenario.scene.step),
+      h_(seconds(scenario.scene.step)),
+      world_(scenario.scene.seed),
+      shutter_(scenario.pictures) {
+  load_controller(problems);
+  build_plants();
+  if (controller_) {
+    bus_.connect(scenario, *controller_, named_, problems);
+    refuse_shared_names(scenario, *controller_, problems);
+    check_periods(problems);
+  }
+  names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
+  if (!controller_ && scenario.controller) names_->assume_controller(scenario.wiring);
+  watch_ = std::make_unique<Watch>(*names_);
+  timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
+  for (const auto& [name, plant] : named_) {
+    for (const auto& type : plant->event_types()) {
+      KnownEvent event{name, std::string(type.name), {}};
+      for (const auto& value : type.values) event.values.emplace_back(value.name, value.unit);
+      known_events_.push_back(std::move(event));
+    }
+  }
+  all_events_ = known_events_;
+  for (auto& event : events_of_every_run()) all_events_.push_back(std::move(event));
+  checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, all_events_, problems);
+  captions_ =
+      bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems);
+  observers_ = {checks_.get(), &shutter_, &remarks_};
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::load_controller(Problems& problems) {
+  controller_ = sim::load_controller(scenario_, problems, &notes_of_setup_);
+}
+
+void Simulation::build_plants() {
+  std::unordered_map<std::string_view, plants::Plant*> built;
+  const auto find = [&](std::string_view name) -> plants::Plant* {
+    const auto found = built.find(name);
+    return found == built.end() ? nullptr : found->second;
+  };
+  for (const auto& entry : scenario_.plants) {
+    plants_.push_back(entry.definition->build(world_, find));
+    named_.push_back({entry.name.text, plants_.back().get()});
+    built.emplace(entry.name.text, plants_.back().get());
+  }
+}
+
+void Simulation::check_periods(Problems& problems) const {
+  const auto place = scenario_.scene.step_place;
+  for (const auto& period : controller_->periods()) {
+    if (period.ns % step_ == 0) continue;
+    problems.push_back(problem_at(scenario_, place,
+                                  fmt::format("{} of {} ns is not a whole multiple of the step of {} ns",
+                                              period.name, period.ns, step_),
+                                  "choose a step that divides it"));
+  }
+}
+
+void Simulation::write_to(const std::filesystem::path& trace, const std::filesystem::path& events) {
+  recording_.spool_in(trace.parent_path());
+  files_ = std::make_unique<TraceFiles>(recording_, trace, events);
+  observers_.push_back(files_.get());
+}
+
+void Simulation::keep_nothing() {
+  recording_.keep_nothing();
+  shutter_.close();
+}
+
+void Simulation::follow_cams() {
+  if (!controller_) return;
+  // A servo behind a pulse output tells on its own channel how far it is behind.
+  const auto deviation = [this](const devices::Address& pulses) -> std::function<double()> {
+    constexpr std::string_view train = ".pulses";
+    for (const auto& wire : scenario_.wiring) {
+      const auto terminal = controller_->terminal(wire.terminal.text);
+      const auto* address = std::get_if<devices::Address>(&terminal);
+      const auto& plug = wire.plug.text;
+      if (address == nullptr || !(*address == pulses) || !plug.ends_with(train)) continue;
+      const auto reading = names_->reading(plug.substr(0, plug.size() - train.size()) + ".deviation");
+      if (reading) return reading->read;
+    }
+    return {};
+  };
+  cams_ = std::make_unique<CamRecorder>(controller_->cam_axes(), deviation);
+  observers_.push_back(cams_.get());
+}
+
+// The order of everything inside a step, once and whole (design: time).
+void Simulation::step() {
+  timeline_->run(time_, recording_);
+
+  if (controller_) {
+    controller_->run_devices(time_);
+    controller_->run_tasks(time_);
+    if (cams_) cams_->step();
+    bus_.outputs_to_plants();
+  }
+
+  for (auto& plant : plants_) plant->drive(h_);
+  world_.step(h_);
+  for (auto& plant : plants_) plant->sense(h_);
+
+  if (controller_) bus_.plants_to_inputs();
+
+  collect_events();
+  time_ += step_;
+  if (!world_.failure().empty()) failure_ = world_.failure();
+  if (time_ >= next_record_) record();
+  if (time_ >= shutter_.next()) snapshot();
+}
+
+void Simulation::collect_events() {
+  for (const auto& [name, plant] : named_) {
+    if (!plant->has_events()) continue;
+    for (const auto& event : plant->take_events()) {
+      RecordedEvent recorded{time_, event.fraction * h_, name, std::string(event.name), {}, ""};
+      for (const auto& value : event.values) {
+        recorded.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
+      }
+      recording_.happened(std::move(recorded));
+    }
+  }
+  if (controller_ && controller_->has_events()) {
+    for (auto& event : controller_->take_events()) {
+      if (event.event == "error" && program_error_.empty()) {
+        program_error_ = fmt::format("{}, at {} s", event.text, seconds_text(time_));
+      }
+      recording_.happened(
+          {time_, 0, std::move(event.source), std::move(event.event), {}, std::move(event.text)});
+    }
+  }
+  if (events_seen_ == recording_.events().size()) return;
+  watch_->update();
+  while (events_seen_ < recording_.events().size()) {
+    const auto event = recording_.events()[events_seen_++];
+    for (auto* observer : observers_) observer->happened(event);
+  }
+  if (recording_.keeps()) return;
+  recording_.forget_events();
+  events_seen_ = 0;
+}
+
+void Simulation::record() {
+  watch_->update();
+  recording_.sample(time_);
+  for (auto* observer : observers_) observer->sample(time_);
+  next_record_ = time_ + scenario_.record.every;
+  if (const auto name = watch_->not_finite(); !name.empty()) {
+    failure_ = fmt::format("{} is no longer a finite number at {} s: the simulation diverged", name,
+                           seconds_text(time_));
+  }
+}
+
+void Simulation::snapshot() {
+  auto* shot = shutter_.take(time_);
+  if (shot == nullptr) return;
+  watch_->update();
+  shot->time = time_;
+  if (parts_.empty())
+    for (auto& plant : plants_)
+      for (auto& part : plant->parts()) parts_.push_back(std::move(part));
+  for (const auto& part : parts_) shot->poses.push_back(part.now());
+  for (auto& plant : plants_) plant->callouts(shot->callouts);
+  for (const auto* slot : captions_.slots) shot->caption.push_back(*slot);
+}
+
+std::vector<std::string> Simulation::notes() const {
+  std::vector<std::string> notes;
+  if (const auto open = bus_.unwired(); !open.empty())
+    notes.push_back(fmt::format("not wired: {}", fmt::join(open, ", ")));
+  notes.insert(notes.end(), notes_of_setup_.begin(), notes_of_setup_.end());
+  const auto& around = scenario_.pictures.around;
+  if (around && scenario_.pictures.frames && !shutter_.event_at()) {
+    notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
+                                around->number, shutter_.seen()));
+  }
+  if (time_ > 0)  // it ran
+    for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
+  for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
+  return notes;
+}
+
+std::vector<Reading> Simulation::controller_values() {
+  std::vector<Reading> values;
+  if (!controller_) return values;
+  for (const auto& name : controller_->names()) {
+    auto value = controller_->find(name);
+    if (!value) continue;
+    if (value->of_table && value->read() == 0) continue;
+    values.push_back({name, value->unit, value->read});
+  }
+  return values;
+}
+
+void Simulation::run_to_end(const std::function<void(Time)>& progress) {
+  constexpr int steps_between_reports = 2000;
+  record();
+  int countdown = steps_between_reports;
+  while (time_ < scenario_.scene.duration && failure_.empty()) {
+    step();
+    if (--countdown == 0) {
+      countdown = steps_between_reports;
+      if (progress) progress(time_);
+    }
+  }
+}
+
+Outcome Simulation::run(const std::function<void(Time)>& progress) {
+  try {
+    run_to_end(progress);
+    for (auto* observer : observers_) observer->finish();
+  } catch (const std::runtime_error& no_room) {
+    failure_ = no_room.what();
+  }
+  return outcome();
+}
+
+Outcome Simulation::outcome() {
+  Outcome outcome;
+  outcome.end = time_;
+  outcome.failure = failure_;
+  outcome.checks = checks_->results(time_);
+  if (controller_) {
+    outcome.checks.push_back({"the program runs",
+                              "no run-time error stops the tasks",
+                              program_error_.empty(),
+                              {},
+                              "",
+                              {},
+                              program_error_.empty() ? "no error" : program_error_});
+  }
+  return outcome;
+}
+
+}  // namespace drycut::sim

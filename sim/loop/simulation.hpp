@@ -1,0 +1,151 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "devices/controller.hpp"
+#include "plants/plant.hpp"
+#include "plants/world.hpp"
+#include "sim/cams/played.hpp"
+#include "sim/loop/bindings.hpp"
+#include "sim/loop/bus.hpp"
+#include "sim/loop/checks.hpp"
+#include "sim/loop/names.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/loop/remarks.hpp"
+#include "sim/loop/shutter.hpp"
+#include "sim/loop/timeline.hpp"
+#include "sim/loop/trace_files.hpp"
+#include "sim/loop/watch.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+/// What the checks came to at half the step.
+struct HalfStep {
+  Time step = 0;
+  std::string failure;
+  std::vector<CheckResult> checks;  ///< the run's own, in its order
+};
+
+/// How a run ended.
+struct Outcome {
+  Time end = 0;         ///< simulated until
+  std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
+  std::vector<CheckResult> checks;
+  std::optional<HalfStep> half_step = {};  ///< where it was asked for
+  [[nodiscard]] bool passed() const;
+};
+
+/// A scenario put together: controller, plants, wires, stimuli, checks; then run. One object is one run,
+/// always from time zero in a fresh world.
+class Simulation {
+ public:
+  /// Puts `scenario` together. Everything that does not fit is reported in `problems`; run() may be called
+  /// only if there are none. `scenario` must outlive the simulation.
+  Simulation(const Scenario& scenario, Problems& problems);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Writes trace.csv and events.csv, here and while it runs; before run().
+  void write_to(const std::filesystem::path& trace, const std::filesystem::path& events);
+  /// Keeps nothing for pictures of the run: no rows, no events, no poses. Before run().
+  void keep_nothing();
+  /// Keeps what the controller's cams play, for pictures of it; before run().
+  void follow_cams();
+  /// What was kept; nullptr if nothing was asked for.
+  [[nodiscard]] const CamRecorder* cams() const { return cams_.get(); }
+
+  /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
+  Outcome run(const std::function<void(Time)>& progress = {});
+
+  // For whoever works at the machine while it runs, in place of run().
+  /// One step; false if the simulation itself failed, now or before.
+  bool advance() {
+    if (time_ == 0) record();
+    if (failure_.empty()) step();
+    return failure_.empty();
+  }
+  /// What came of the run, if it ended now.
+  [[nodiscard]] Outcome outcome();
+  [[nodiscard]] Time time() const { return time_; }
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  [[nodiscard]] Bus& bus() { return bus_; }
+  [[nodiscard]] Names& names() { return *names_; }
+  /// Sampling time of what drives the analogue output; 0 if nothing does.
+  [[nodiscard]] Time output_period(const devices::Address& analogue) const {
+    return controller_ ? controller_->output_period(analogue) : 0;
+  }
+
+  /// What a reader should know that is no fault: terminals without a wire, how the controller is set
+  /// up, remarks of it during the run.
+  [[nodiscard]] std::vector<std::string> notes() const;
+  /// Those of them that are known before the run: how the controller is set up.
+  [[nodiscard]] const std::vector<std::string>& notes_of_setup() const { return notes_of_setup_; }
+  /// The controller's values as they are now, by name, with units; rows of cam tables only where they are not
+  /// 0.
+  [[nodiscard]] std::vector<Reading> controller_values();
+  /// The controller's retentive values as they are now, as text.
+  [[nodiscard]] std::string retentive_state() const {
+    return controller_ ? controller_->retentive_state() : "";
+  }
+  [[nodiscard]] const Recording& recording() const { return recording_; }
+  /// The same, given away after run().
+  [[nodiscard]] Recording take_recording() { return std::move(recording_); }
+  [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return shutter_.kept(); }
+  /// When the event happened that the frames are about [s]; absent if they are about none.
+  [[nodiscard]] std::optional<double> frames_event() const { return shutter_.event_at(); }
+  [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }
+  /// Units of the caption channels.
+  [[nodiscard]] const std::vector<std::string>& caption_units() const { return captions_.units; }
+  /// Events that the plants can report.
+  [[nodiscard]] const std::vector<KnownEvent>& known_events() const { return known_events_; }
+
+ private:
+  void load_controller(Problems& problems);
+  void build_plants();
+  void check_periods(Problems& problems) const;
+
+  void run_to_end(const std::function<void(Time)>& progress);
+  void step();
+  void collect_events();
+  void record();
+  void snapshot();
+
+  const Scenario& scenario_;
+  Time step_;
+  double h_;  ///< [s]
+  Time time_ = 0;
+
+  std::unique_ptr<devices::Controller> controller_;
+  plants::World world_;
+  std::vector<std::unique_ptr<plants::Plant>> plants_;
+  std::vector<NamedPlant> named_;
+  Bus bus_;
+  std::unique_ptr<Names> names_;
+  std::unique_ptr<Watch> watch_;
+  std::unique_ptr<Timeline> timeline_;
+  std::unique_ptr<Checks> checks_;
+  Recording recording_;
+  std::unique_ptr<TraceFiles> files_;
+  std::unique_ptr<CamRecorder> cams_;
+  std::size_t events_seen_ = 0;
+  Time next_record_ = 0;
+  Shutter shutter_;
+  std::vector<plants::Part> parts_;  ///< of all plants, from the first shot on
+  Captions captions_;
+  Remarks remarks_;
+  std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told
+  std::vector<KnownEvent> known_events_;  ///< of the plants
+  std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
+  std::string failure_;
+  std::vector<std::string> notes_of_setup_;
+  std::string program_error_;  ///< first run-time error of the controller's program
+};
+
+}  // namespace drycut::sim

@@ -1,0 +1,231 @@
+#include "sim/loop/timeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "sim/scenario/units.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+std::string text_of(const std::string& name, const Quantity& quantity, std::string_view sign) {
+  return fmt::format("{} {} {}{}{}", name, sign, quantity.number, quantity.unit.empty() ? "" : " ",
+                     quantity.unit);
+}
+
+/// Converts stimuli of one file and says what does not fit.
+class Binder {
+ public:
+  Binder(Names& names, const Scenario& scenario, Problems& problems)
+      : names_(names), scenario_(scenario), problems_(problems) {}
+
+  void problem(const Place& place, std::string what, std::string remedy) {
+    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  }
+
+  /// The quantity as a setting or fault with `unit` and `range` takes it (SI); nullopt after a problem.
+  std::optional<double> value(const std::string& name, std::string_view unit,
+                              const std::optional<devices::ValueRange>& range, const Quantity& quantity) {
+    const auto si = converted(name, unit, quantity);
+    if (!si || !range) return si;
+    // Another unit's conversion may miss a limit by its last digit.
+    const double number = quantity.unit == unit
+                              ? quantity.number
+                              : std::strtod(fmt::format("{:.12g}", from_si(*si, unit)).c_str(), nullptr);
+    const auto fault = devices::misfit(name, *range, number, unit);
+    if (!fault) return si;
+    problem(quantity.place, fault->what, fault->remedy);
+    return {};
+  }
+
+  std::optional<double> converted(const std::string& name, std::string_view unit, const Quantity& quantity) {
+    if (unit.empty()) {
+      if (quantity.unit.empty()) return quantity.number;
+      problem(quantity.place, fmt::format("{} takes a plain number, not '{}'", name, quantity.unit),
+              bare_number(name));
+      return {};
+    }
+    if (quantity.unit.empty()) {
+      problem(quantity.place, fmt::format("{} needs a unit", name),
+              fmt::format("write for example {} {}", quantity.number, unit));
+      return {};
+    }
+    if (!is_unit(quantity.unit) || !same_dimension(quantity.unit, unit)) {
+      problem(quantity.place, fmt::format("{} is {}, '{}' is not", name, dimension_name(unit), quantity.unit),
+              fmt::format("give it in {}", unit));
+      return {};
+    }
+    return to_si(quantity.number, quantity.unit);
+  }
+
+  /// A controller's value is set as its device counts it, whatever scenarios call its unit elsewhere.
+  std::string bare_number(const std::string& name) {
+    const auto reading = names_.reading(name);
+    if (!reading || reading->unit.empty()) return "leave the unit away";
+    return fmt::format("write the number of {} without the unit", reading->unit);
+  }
+
+  std::optional<Target> target(const Text& name) {
+    auto found = names_.target(name.text);
+    if (!found) {
+      problem(name.place, fmt::format("nothing called '{}' can be set", name.text),
+              names_.suggest_target(name.text));
+    }
+    return found;
+  }
+
+  std::optional<plants::Fault> fault(const Stimulus::FaultAction& action) {
+    auto found = names_.fault(action.component.text, action.fault.text);
+    if (!found) {
+      problem(action.fault.place,
+              fmt::format("{} offers no fault '{}'", action.component.text, action.fault.text),
+              names_.suggest_fault(action.component.text));
+    }
+    return found;
+  }
+
+ private:
+  Names& names_;
+  const Scenario& scenario_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* controller,
+                   Problems& problems)
+    : watch_(names),
+      controller_(controller),
+      look_every_((millisecond + scenario.scene.step - 1) / scenario.scene.step * scenario.scene.step) {
+  Binder binder(names, scenario, problems);
+  auto known = names.reading_names();
+  const auto slot = [this](const std::string& name) { return watch_.slot(name); };
+  for (const auto& stimulus : scenario.timeline) {
+    if (problems.size() > most_suggestions) known.clear();
+    Entry entry;
+    entry.after = stimulus.after;
+    entry.every = stimulus.every;
+    entry.over = stimulus.over;
+    entry.power = stimulus.power;
+    entry.from = stimulus.at.value_or(0);
+    entry.line = stimulus.place.line;
+    if (stimulus.when) {
+      entry.when = Expression::compile(*stimulus.when, scenario, slot, known, problems);
+    } else {
+      entry.due = stimulus.at.value_or(0) + stimulus.after;
+    }
+    for (const auto& [name, quantity] : stimulus.set) {
+      const auto target = binder.target(name);
+      if (!target) continue;
+      const auto value = binder.value(name.text, target->unit, target->range, quantity);
+      if (value) entry.sets.push_back({*target, *value, text_of(name.text, quantity, "=")});
+    }
+    for (const auto& [name, quantity] : stimulus.ramp) {
+      const auto target = binder.target(name);
+      if (!target) continue;
+      const auto value = binder.value(name.text, target->unit, target->range, quantity);
+      if (value) entry.ramps.push_back({*target, *value, text_of(name.text, quantity, "->")});
+    }
+    for (const auto& action : stimulus.faults) {
+      const auto fault = binder.fault(action);
+      if (!fault) continue;
+      const auto name = action.component.text + "." + action.fault.text;
+      const auto value = binder.value(name, fault->unit, range_of(fault->range), action.value);
+      if (value) entry.faults.push_back({fault->act, *value, text_of(name, action.value, "=")});
+    }
+    if (stimulus.power && controller == nullptr) {
+      binder.problem(stimulus.place, "there is no controller to switch",
+                     "add a controller section or leave power away");
+    }
+    entries_.push_back(std::move(entry));
+  }
+}
+
+std::vector<std::string> Timeline::left_undone(Time end) const {
+  std::vector<std::string> undone;
+  for (const auto& entry : entries_) {
+    if (entry.acted) continue;
+    undone.push_back(
+        entry.when ? fmt::format("the timeline's entry of line {} never happened: its `when` did not "
+                                 "come true in {} s",
+                                 entry.line, seconds_text(end))
+                   : fmt::format("the timeline's entry of line {} never happened: it is due at {} s, the "
+                                 "run ended at {} s",
+                                 entry.line, seconds_text(*entry.due), seconds_text(end)));
+  }
+  return undone;
+}
+
+void Timeline::work(Time now, Recording& recording) {
+  if (now >= next_look_) {
+    trigger(now);
+    next_look_ = now + look_every_;
+  }
+  for (auto& entry : entries_) {
+    if (entry.due && *entry.due <= now) act(entry, now, recording);
+  }
+  move_ramps(now);
+  next_ = next_after(now);
+}
+
+void Timeline::trigger(Time now) {
+  if (watch_.empty()) return;
+  watch_.update();
+  for (auto& entry : entries_) {
+    if (entry.when && now >= entry.from && entry.when->evaluate().holds) {
+      entry.when.reset();
+      entry.due = now + entry.after;
+    }
+  }
+}
+
+void Timeline::act(Entry& entry, Time now, Recording& recording) {
+  const auto tell = [&](const char* event, const std::string& text) {
+    recording.happened({now, 0, "timeline", event, {}, text});
+  };
+  for (const auto& set : entry.sets) {
+    // A ramp of the same target that is still under way ends here.
+    std::erase_if(ramps_, [&](const Ramp& ramp) { return ramp.target.name == set.target.name; });
+    set.target.write(set.value);
+    tell("set", set.text);
+  }
+  for (const auto& ramp : entry.ramps) {
+    std::erase_if(ramps_, [&](const Ramp& other) { return other.target.name == ramp.target.name; });
+    ramps_.push_back({ramp.target, ramp.target.read(), ramp.value, now, entry.over});
+    tell("ramp", fmt::format("{} over {} s", ramp.text, seconds_text(entry.over)));
+  }
+  for (const auto& fault : entry.faults) {
+    fault.act(fault.value);
+    tell("fault", fault.text);
+  }
+  if (entry.power) {
+    controller_->power(*entry.power);
+    tell("power", *entry.power ? "on" : "off");
+  }
+  entry.acted = true;
+  entry.due = entry.every ? std::optional(*entry.due + *entry.every) : std::nullopt;
+}
+
+void Timeline::move_ramps(Time now) {
+  for (const auto& ramp : ramps_) {
+    const auto done = std::min(now - ramp.start, ramp.over);
+    const double fraction = static_cast<double>(done) / static_cast<double>(ramp.over);
+    ramp.target.write(ramp.from + (ramp.to - ramp.from) * fraction);
+  }
+  std::erase_if(ramps_, [&](const Ramp& ramp) { return now - ramp.start >= ramp.over; });
+}
+
+Time Timeline::next_after(Time now) const {
+  if (!ramps_.empty()) return now + 1;
+  Time next = never;
+  for (const auto& entry : entries_) {
+    if (entry.due) next = std::min(next, *entry.due);
+    if (entry.when) next = std::min(next, std::max(entry.from, next_look_));
+  }
+  return next;
+}
+
+}  // namespace drycut::sim

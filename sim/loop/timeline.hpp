@@ -1,0 +1,77 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/loop/names.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/scenario/expression.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim {
+
+/// Works the stimuli of a scenario: sets, ramps, faults, power. Conditions (`when`) are looked at every
+/// millisecond, or every step if that is longer; everything else acts at the first step at or after its time.
+class Timeline {
+ public:
+  /// Binds names and converts quantities; what does not fit is reported with its place in the scenario.
+  Timeline(const Scenario& scenario, Names& names, devices::Controller* controller, Problems& problems);
+
+  /// Acts on everything due at `now`; what was done is told to `record`.
+  void run(Time now, Recording& recording) {
+    if (now >= next_) work(now, recording);
+  }
+
+  /// What did not happen in a run that ended at `end`, a line each: a fault that never came proves nothing.
+  [[nodiscard]] std::vector<std::string> left_undone(Time end) const;
+
+ private:
+  struct Write {
+    Target target;
+    double value = 0;  ///< in what the target's write takes
+    std::string text;  ///< "web.speed = 80 m/min"
+  };
+  struct FaultWrite {
+    std::function<void(double)> act;
+    double value = 0;
+    std::string text;
+  };
+  struct Entry {
+    std::optional<Expression> when;  ///< still waited for
+    Time from = 0;                   ///< `when` is not looked at before
+    std::optional<Time> due;         ///< acts then
+    Time after = 0;
+    std::optional<Time> every;
+    Time over = 0;
+    std::vector<Write> sets;
+    std::vector<Write> ramps;
+    std::vector<FaultWrite> faults;
+    std::optional<bool> power;
+    int line = 0;  ///< of the scenario
+    bool acted = false;
+  };
+  struct Ramp {
+    Target target;
+    double from = 0;
+    double to = 0;
+    Time start = 0;
+    Time over = 0;
+  };
+
+  void work(Time now, Recording& recording);
+  void trigger(Time now);
+  void act(Entry& entry, Time now, Recording& recording);
+  void move_ramps(Time now);
+  [[nodiscard]] Time next_after(Time now) const;
+
+  Watch watch_;
+  devices::Controller* controller_;
+  Time look_every_;
+  Time next_look_ = 0;
+  Time next_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<Ramp> ramps_;
+};
+
+}  // namespace drycut::sim

@@ -1,0 +1,24 @@
+#include "sim/loop/watch.hpp"
+
+#include <cmath>
+
+namespace drycut::sim {
+
+const double* Watch::slot(const std::string& name) {
+  if (const auto found = index_.find(name); found != index_.end()) return &slots_[found->second];
+  auto reading = names_.reading(name);
+  if (!reading) return nullptr;
+  index_.emplace(name, readings_.size());
+  readings_.push_back(std::move(*reading));
+  slots_.push_back(readings_.back().read());
+  return &slots_.back();
+}
+
+std::string Watch::not_finite() const {
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    if (!std::isfinite(slots_[i])) return readings_[i].name;
+  }
+  return "";
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,38 @@
+#pragma once
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/loop/names.hpp"
+
+namespace drycut::sim {
+
+/// A set of readings with a slot each. `update` takes all of them at one instant; expressions, recorder and
+/// captions look at the slots. Slots do not move.
+class Watch {
+ public:
+  explicit Watch(Names& names) : names_(names) {}
+
+  /// The slot of a reading, added at first use; nullptr if nothing has this name.
+  const double* slot(const std::string& name);
+  /// Unit of a reading that has a slot.
+  [[nodiscard]] const std::string& unit(const std::string& name) const {
+    return readings_[index_.at(name)].unit;
+  }
+
+  void update() {
+    for (std::size_t i = 0; i < readings_.size(); ++i) slots_[i] = readings_[i].read();
+  }
+  [[nodiscard]] bool empty() const { return readings_.empty(); }
+  /// The first reading that is not a finite number, or "".
+  [[nodiscard]] std::string not_finite() const;
+
+ private:
+  Names& names_;
+  std::map<std::string, std::size_t> index_;
+  std::vector<Reading> readings_;
+  std::deque<double> slots_;
+};
+
+}  // namespace drycut::sim

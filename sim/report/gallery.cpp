@@ -1,0 +1,416 @@
+#include "sim/report/gallery.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "renders/caption_bar.hpp"
+#include "renders/decimate.hpp"
+#include "renders/filmstrip.hpp"
+#include "renders/mesh.hpp"
+#include "renders/part_models.hpp"
+#include "renders/pictures.hpp"
+#include "renders/process.hpp"
+#include "renders/video.hpp"
+#include "sim/controllers/kinds.hpp"
+#include "sim/file.hpp"
+#include "sim/report/gallery_plots.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/results.hpp"
+#include "sim/scenario/axis_units.hpp"
+#include "sim/scenario/parameter_text.hpp"
+#include "sim/studies/half_step.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+constexpr auto* frames_folder = "frames";
+constexpr auto* cams_folder = "cams";
+constexpr auto* video_file = "film.mp4";
+constexpr auto* strip_file = "filmstrip.png";
+
+/// Models that are used more than once are read once, those of one size stretched once.
+class Models {
+ public:
+  std::shared_ptr<const renders::Mesh> stretched(const plants::Part& part) {
+    if (part.model.empty()) return nullptr;
+    auto& mesh = stretched_[{part.model, part.size}];
+    if (mesh) return mesh;
+    auto found = read_.find(part.model);
+    if (found == read_.end()) found = read_.emplace(part.model, renders::part_model(part.model)).first;
+    mesh = std::make_shared<const renders::Mesh>(renders::stretched(found->second, renders::vec(part.size)));
+    return mesh;
+  }
+
+ private:
+  std::map<std::string, renders::Mesh> read_;
+  std::map<std::pair<std::string, std::array<double, 3>>, std::shared_ptr<const renders::Mesh>> stretched_;
+};
+
+renders::SolidPart solid(const std::string& plant, const plants::Part& part) {
+  const auto shape = part.shape == plants::Part::Shape::box        ? renders::SolidPart::Shape::box
+                     : part.shape == plants::Part::Shape::cylinder ? renders::SolidPart::Shape::cylinder
+                                                                   : renders::SolidPart::Shape::wedge;
+  renders::SolidPart drawn{plant + "." + part.name, shape, renders::vec(part.size), part.colour,
+                           part.material};
+  if (part.tip) drawn.tip = renders::vec(*part.tip);
+  return drawn;
+}
+
+/// A caption's number with as many digits as an operator's panel would show.
+std::string caption_number(double number, const std::string& unit) {
+  const double size = std::abs(number);
+  const int digits = size >= 1000 ? 0 : size >= 10 ? 1 : 2;
+  const bool whole = unit.empty() || unit == "counts" || unit == "bits x4";
+  auto text = fmt::format("{:.{}f}", number, whole && number == std::round(number) ? 0 : digits);
+  if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-')
+    text.erase(0, 1);  // no "-0.00"
+  return unit.empty() ? text : text + " " + unit;
+}
+
+/// Takes the rows of a table as they come; of very many the first and the last stay.
+class TableRows {
+ public:
+  explicit TableRows(renders::ReportTable& table) : table_(table) {}
+  void add(renders::ReportRow row) {
+    if (count_ < 2 * most)
+      table_.rows.push_back(std::move(row));
+    else
+      table_.rows[most + count_ % most] = std::move(row);
+    ++count_;
+  }
+  void finish() {
+    if (count_ <= 2 * most) return;
+    const auto oldest = static_cast<std::ptrdiff_t>(most + count_ % most);
+    std::rotate(table_.rows.begin() + most, table_.rows.begin() + oldest, table_.rows.end());
+    table_.title +=
+        fmt::format(": the first {0} and the last {0} of {1}, all are in events.csv", most, count_);
+  }
+
+ private:
+  static constexpr std::size_t most = 1000;
+  renders::ReportTable& table_;
+  std::size_t count_ = 0;
+};
+
+renders::ReportTable event_table(const Recording& recording, const KnownEvent& known) {
+  renders::ReportTable table{fmt::format("{} of {}", known.name, known.source), {"time [s]"}, {}, true};
+  for (const auto& [name, unit] : known.values) {
+    table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
+  }
+  TableRows rows(table);
+  for (const auto& event : recording.events()) {
+    if (event.source != known.source || event.event != known.name) continue;
+    renders::ReportRow row{{fmt::format("{:.6f}", event.at_seconds())}};
+    for (const auto& [name, unit] : known.values) {
+      const auto* value = event.find(name);
+      row.cells.push_back(value == nullptr ? "" : fmt::format("{:.6g}", without_noise(value->number)));
+    }
+    rows.add(std::move(row));
+  }
+  rows.finish();
+  return table;
+}
+
+renders::ReportTable parameter_table(const PlantEntry& entry) {
+  renders::ReportTable table{fmt::format("Parameters of {} ({})", entry.name.text, entry.type.text),
+                             {"parameter", "value", "meaning", "from"},
+                             {},
+                             true};
+  const auto given = [&](const std::string& name) {
+    return std::any_of(entry.places.begin(), entry.places.end(),
+                       [&](const auto& p) { return p.first == name; });
+  };
+  for (const auto& parameter : entry.definition->parameters()) {
+    table.rows.push_back({{parameter.name, value_text(parameter), std::string(parameter.meaning),
+                           given(parameter.name) ? "the scenario" : std::string(parameter.source)}});
+  }
+  return table;
+}
+
+renders::ReportTable axis_table(const PlcopenSection::Axis& axis) {
+  renders::ReportTable table{fmt::format("Parameters of axis {} at the start", axis.name.text),
+                             {"parameter", "value", "meaning", "from"},
+                             {},
+                             true};
+  const auto& [name, parameters, measure] = axis.configuration;
+  for (const auto& row : devices::plcopen::axis_parameter_table()) {
+    const bool given = std::any_of(axis.places.begin(), axis.places.end(),
+                                   [&](const auto& p) { return p.first == row.name; });
+    table.rows.push_back({{std::string(row.name), axis_value_text(row, parameters, measure),
+                           std::string(row.meaning), given ? "the scenario" : std::string(row.number)}});
+  }
+  return table;
+}
+
+/// What the controller holds at the end: device parameters, states, program variables.
+renders::ReportTable controller_table(Simulation& simulation) {
+  renders::ReportTable table{"Controller at the end of the run", {"value", "", "unit"}, {}, true};
+  for (const auto& reading : simulation.controller_values()) {
+    table.rows.push_back({{reading.name, fmt::format("{:.10g}", reading.read()), reading.unit}});
+  }
+  return table;
+}
+
+std::string units_note(double simulated) { return fmt::format("{:g} s", simulated); }
+
+constexpr std::size_t report_frames = 6;
+constexpr std::size_t strip_frames = 8;
+
+/// So many frames from the last full cycle between two cuts, or from the whole film: what the machine does,
+/// at a glance.
+std::vector<std::size_t> chosen_frames(const Simulation& simulation, std::size_t wanted) {
+  const auto& snapshots = simulation.snapshots();
+  if (snapshots.size() <= wanted) {
+    std::vector<std::size_t> all(snapshots.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    return all;
+  }
+  double from = seconds(snapshots.front().time);
+  double until = seconds(snapshots.back().time);
+  std::vector<double> cuts;
+  for (const auto& event : simulation.recording().events()) {
+    if (event.event == "cut" && event.at_seconds() >= from && event.at_seconds() <= until)
+      cuts.push_back(event.at_seconds());
+  }
+  if (cuts.size() >= 2 && !simulation.frames_event()) {
+    until = cuts.back();
+    from = cuts[cuts.size() - 2];
+  }
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const double at = from + (until - from) * static_cast<double>(i) / static_cast<double>(wanted - 1);
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < snapshots.size(); ++k) {
+      if (std::abs(seconds(snapshots[k].time) - at) < std::abs(seconds(snapshots[nearest].time) - at))
+        nearest = k;
+    }
+    if (chosen.empty() || chosen.back() != nearest) chosen.push_back(nearest);
+  }
+  return chosen;
+}
+
+std::string frame_label(const Simulation& simulation, std::size_t index) {
+  const double time = seconds(simulation.snapshots()[index].time);
+  const auto event = simulation.frames_event();
+  if (!event) return fmt::format("{:.3f} s", time);
+  return fmt::format("{:.3f} s ({:+.1f} ms)", time, (time - *event) * 1e3);
+}
+
+/// The film as the camera sees it: of one plant only its own parts, or one part, unless it shows the whole
+/// line. A camera that goes along needs no room for what the machine does later.
+renders::Film shown(const renders::Film& film, const std::string& camera) {
+  auto view = film;
+  if (film.follow && !film.frames.empty()) view.frames.resize(1);
+  if (camera == "operator") return view;
+  for (std::size_t i = 0; i < view.parts.size(); ++i) {
+    if (view.parts[i].name == camera || view.parts[i].name.starts_with(camera + ".")) continue;
+    for (auto& frame : view.frames) frame.placements[i].visible = false;
+  }
+  return view;
+}
+
+std::vector<renders::Callout> chosen_callouts(const PicturesSection::Overlays& overlays,
+                                              const std::vector<plants::Callout>& callouts) {
+  std::vector<renders::Callout> chosen;
+  for (const auto& [kind, text, at, to] : callouts) {
+    const bool length = kind == plants::Callout::Kind::length;
+    if (length ? !overlays.lengths : !overlays.forces) continue;
+    chosen.push_back({length ? renders::Callout::Kind::length : renders::Callout::Kind::force, text,
+                      renders::vec(at), renders::vec(to)});
+  }
+  return chosen;
+}
+
+/// Of a long run only what a short film of it shows.
+std::vector<renders::LiveCurve> live_curves(const PicturesSection& pictures, const Recording& recording,
+                                            const renders::Film& film) {
+  Rows rows{0, recording.times().size()};
+  if (rows.count() > renders::kMostSamples && !film.frames.empty()) {
+    const auto ns = [](double time) { return static_cast<Time>(std::max(0.0, time) * second); };
+    rows = rows_between(recording, ns(film.frames.front().time_s - film.live_window_s),
+                        ns(film.frames.back().time_s));
+  }
+  std::vector<renders::LiveCurve> curves;
+  for (const auto& name : pictures.live) {
+    const auto* column = recording.column(name.text);
+    auto& curve = curves.emplace_back(renders::LiveCurve{name.text, column->unit, {}, {}});
+    for (auto row = rows.first; row < rows.end; ++row) {
+      curve.times_s.push_back(seconds(recording.times()[row]));
+      curve.values.push_back(column->values[row]);
+    }
+  }
+  return curves;
+}
+
+std::optional<std::size_t> part_number(const renders::Film& film, const std::string& part) {
+  for (std::size_t i = 0; i < film.parts.size(); ++i)
+    if (film.parts[i].name == part) return i;
+  return std::nullopt;
+}
+
+/// A camera that looks at one part stands back, to show what the part works on.
+renders::Camera named_camera(const renders::Film& film, const std::string& name) {
+  constexpr double room = 1.8;
+  auto camera = renders::operator_camera(shown(film, name));
+  if (!part_number(film, name)) return camera;
+  camera.eye = camera.target + room * (camera.eye - camera.target);
+  return camera;
+}
+
+renders::Camera own_camera(const PicturesSection::Eye& eye) {
+  return {renders::vec(eye.eye), renders::vec(eye.target), eye.field_of_view * 180 / std::numbers::pi};
+}
+
+/// What a film in slow motion about an event tells beside the channels.
+std::vector<renders::CaptionItem> film_caption(const PicturesSection& pictures,
+                                               std::optional<double> event_at, double at) {
+  std::vector<renders::CaptionItem> items;
+  if (event_at) {
+    items.push_back({fmt::format("from {}[{}]", pictures.around->event.text, pictures.around->number),
+                     fmt::format("{:+.1f} ms", (at - *event_at) * 1e3)});
+  }
+  if (pictures.slow > 1) items.push_back({"slowed down", fmt::format("{} x", pictures.slow)});
+  return items;
+}
+
+}  // namespace
+
+renders::Film film_of(const Scenario& scenario, const Simulation& simulation, const PartMeshes& meshes) {
+  renders::Film film;
+  film.title = scenario.scene.title;
+  film.width = scenario.pictures.width;
+  film.height = scenario.pictures.height;
+  Models models;
+  for (const auto& [name, plant] : simulation.plants()) {
+    for (const auto& part : plant->parts()) {
+      auto& drawn = film.parts.emplace_back(solid(name, part));
+      const auto own = meshes.find(drawn.name);
+      drawn.mesh = own == meshes.end() ? models.stretched(part) : own->second;
+    }
+  }
+  for (const auto& shot : simulation.snapshots()) {
+    renders::Frame frame;
+    frame.time_s = seconds(shot.time);
+    for (const auto& pose : shot.poses) {
+      const auto& turn = pose.pose.rotation;
+      frame.placements.push_back({renders::vec(pose.pose.position),
+                                  {turn[0], turn[1], turn[2], turn[3]},
+                                  renders::vec(pose.scale),
+                                  pose.visible});
+    }
+    frame.caption = film_caption(scenario.pictures, simulation.frames_event(), frame.time_s);
+    const auto& numbers = scenario.pictures.caption;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      frame.caption.push_back(
+          {numbers[i].text, caption_number(shot.caption[i], simulation.caption_units()[i])});
+    for (std::size_t i = numbers.size(); i < shot.caption.size(); ++i)
+      frame.caption.push_back({scenario.pictures.lamps[i - numbers.size()].text, "", shot.caption[i] != 0});
+    frame.callouts = chosen_callouts(scenario.pictures.overlays, shot.callouts);
+    film.frames.push_back(std::move(frame));
+  }
+  film.follow = part_number(film, scenario.pictures.follow.text);
+  film.trails = scenario.pictures.overlays.trail;
+  film.live_window_s /= scenario.pictures.slow;
+  film.live = live_curves(scenario.pictures, simulation.recording(), film);
+  film.camera = scenario.pictures.own_camera ? own_camera(*scenario.pictures.own_camera)
+                                             : named_camera(film, scenario.pictures.camera);
+  return film;
+}
+
+renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
+                          const Drawn& drawn) {
+  renders::Report report;
+  report.title = scenario.scene.title.empty() ? scenario.file.stem().string() : scenario.scene.title;
+  report.scenario = scenario.file.filename().string();
+  report.passed = outcome.passed();
+  report.verdict = verdict_text(outcome);
+  report.facts = {{{"simulated", units_note(seconds(outcome.end))}},
+                  {{"physics step", fmt::format("{:g} us", static_cast<double>(scenario.scene.step) / 1e3)}},
+                  {{"seed", fmt::format("{}", scenario.scene.seed)}},
+                  {{"drycut", DRYCUT_VERSION}}};
+  add_overrides(scenario.overrides, report);
+  if (const auto samples = simulation.recording().times().size(); samples > renders::kMostSamples)
+    report.facts.push_back(
+        {{"note", fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
+                              "highest of {} stretches of equal length; all are in trace.csv",
+                              samples, renders::kStretches)}});
+  for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
+  add_checks(outcome.checks, report);
+  if (outcome.half_step) report.summary.push_back(margin_table(outcome, scenario.scene.step));
+  if (!drawn.frames.empty()) {
+    for (const auto index : chosen_frames(simulation, report_frames))
+      report.frames.push_back({drawn.frames.at(index), frame_label(simulation, index)});
+  }
+  report.video = drawn.video;
+  for (const auto& known : simulation.known_events()) {
+    auto table = event_table(simulation.recording(), known);
+    if (!table.rows.empty()) report.tables.push_back(std::move(table));
+  }
+  renders::ReportTable others{"Other events", {"time [s]", "source", "event", "what"}, {}, false};
+  TableRows rows(others);
+  for (const auto& event : simulation.recording().events()) {
+    const auto is_known = [&](const KnownEvent& k) {
+      return k.source == event.source && k.name == event.event;
+    };
+    if (std::any_of(simulation.known_events().begin(), simulation.known_events().end(), is_known)) continue;
+    rows.add({{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, values_text(event)}});
+  }
+  rows.finish();
+  if (!others.rows.empty()) report.tables.push_back(std::move(others));
+  if (auto table = controller_table(simulation); !table.rows.empty())
+    report.tables.push_back(std::move(table));
+  if (const auto* plcopen = controller_of<PlcopenSection>(scenario))
+    for (const auto& axis : plcopen->axes) report.tables.push_back(axis_table(axis));
+  for (const auto& entry : scenario.plants) report.tables.push_back(parameter_table(entry));
+  report.scenario_expanded = expand(scenario);
+  return report;
+}
+
+std::string write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
+                           const Outcome& outcome, OutputFolder& folder, int threads,
+                           const std::function<void(const char*, double)>& progress) {
+  Drawn drawn;
+  std::string left_out;
+  if (!film.frames.empty()) {
+    const auto count = static_cast<double>(film.frames.size());
+    const auto frames = folder.add(frames_folder, renders::frame_names(film));
+    drawn.frames = renders::draw_film(
+        film, frames, [&](int done) { progress("drawing", done / count); }, threads);
+    std::vector<renders::StripFrame> strip;
+    for (const auto index : chosen_frames(simulation, strip_frames))
+      strip.push_back({drawn.frames.at(index), frame_label(simulation, index)});
+    renders::draw_filmstrip(strip, renders::CaptionLayout(film).height(), folder.add(strip_file));
+    if (scenario.pictures.video) {
+      progress("filming", 1);
+      try {
+        const auto video = folder.add(video_file);
+        renders::encode_video(frames, scenario.pictures.every, video);
+        drawn.video = video;
+      } catch (const renders::HelperFailed& failed) {
+        left_out = failed.what();
+      }
+    }
+  }
+  auto report = report_of(scenario, simulation, outcome, drawn);
+  if (!left_out.empty()) report.facts.push_back({{"left out", left_out}});
+  auto plots = plots_of(scenario, simulation.recording());
+  const auto cams = cams_of(scenario, simulation);
+  for (const auto& cam : cams) {
+    plots.insert(plots.end(), cam.plots.begin(), cam.plots.end());
+    write_file(folder.add(cams_folder, {cam.name + ".csv"}) / (cam.name + ".csv"), cam.table);
+  }
+  add_plots(std::move(plots), folder, report);
+  report.sections = cam_sections(cams, report.plots);
+  renders::write_report(report, folder.add(report_file));
+  return left_out;
+}
+
+}  // namespace drycut::sim

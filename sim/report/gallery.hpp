@@ -1,0 +1,53 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "renders/plots.hpp"
+#include "renders/report.hpp"
+#include "renders/scene3d.hpp"
+#include "sim/cams/page.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report/part_meshes.hpp"
+
+namespace drycut::sim {
+
+// From what was recorded to what is shown: fills the structs of renders/.
+
+/// The frames of a run, with captions. A part is drawn by the user's mesh, else by its model.
+renders::Film film_of(const Scenario& scenario, const Simulation& simulation, const PartMeshes& meshes = {});
+
+/// The plots that the scenario asks for; where it asks for none, one with the recorded channels, a panel a
+/// unit.
+std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& recording);
+
+/// Picture files made for a report.
+struct Drawn {
+  std::vector<std::filesystem::path> frames;  ///< one a snapshot
+  std::filesystem::path video;                ///< "" = none
+};
+
+/// The cams that the run played, or held ready; of a PLCopen controller that played none its tables.
+std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulation);
+
+/// The report's sections of the cams; takes their figures, which come last, out of `plots`.
+std::vector<renders::ReportSection> cam_sections(const std::vector<CamPage>& cams,
+                                                 std::vector<renders::ReportFigure>& plots);
+
+/// The report but for its plots and the sections of cams.
+renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
+                          const Drawn& drawn);
+
+/// What is drawn of a run.
+inline const std::vector<std::string> picture_files = {"report.html", "film.mp4", "filmstrip.png",
+                                                       "frames/",     "plots/",   "cams/"};
+/// Everything that is drawn of a run and its `film`: frames/, film.mp4, filmstrip.png, plots/, cams/ and
+/// report.html in `folder`. Returns what is left out because a helper program is missing, and what to
+/// install; "" = nothing. `progress` is told what is being done and which share of it is. Throws
+/// std::runtime_error if something cannot be drawn or written.
+std::string write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
+                           const Outcome& outcome, OutputFolder& folder, int threads,
+                           const std::function<void(const char*, double)>& progress);
+
+}  // namespace drycut::sim

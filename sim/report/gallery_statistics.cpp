@@ -1,0 +1,218 @@
+// Histograms of event values and the operating points of motors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "plants/servo_drive.hpp"
+#include "renders/decimate.hpp"
+#include "sim/report/gallery_plots.hpp"
+#include "sim/report/statistics.hpp"
+#include "sim/scenario/units.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+// ---- histogram ----
+
+/// The next of 1, 2, 5 times a power of ten.
+double round_width(double width) {
+  const double decade = std::pow(10, std::floor(std::log10(width)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (width <= factor * decade * (1 + 1e-9)) return factor * decade;
+  }
+  return 10 * decade;
+}
+
+/// Bars of equal width around multiples of it, so that a round number lies inside a bar and not between two.
+renders::Curve bars_of(const std::vector<double>& numbers, double low, double high) {
+  constexpr int wanted = 40;
+  const double size = std::max(std::abs(low), std::abs(high));
+  const double width = round_width(std::max((high - low) / wanted, std::max(size, 1e-9) * 1e-9));
+  const auto bar = [&](double number) { return std::llround(number / width); };
+  std::map<long long, int> counts;
+  for (const double number : numbers) ++counts[bar(number)];
+  renders::Curve curve;
+  curve.style = renders::Curve::Style::area;
+  for (auto k = bar(low); k <= bar(high); ++k) {
+    const auto found = counts.find(k);
+    const double count = found == counts.end() ? 0 : found->second;
+    const double left = (static_cast<double>(k) - 0.5) * width;
+    curve.x.insert(curve.x.end(), {left, left, left + width, left + width});
+    curve.y.insert(curve.y.end(), {0, count, count, 0});
+  }
+  return curve;
+}
+
+std::string capability_text(double value) { return value > 100 ? "above 100" : fmt::format("{:.2f}", value); }
+
+std::string statistics_text(const EventNumbers& series,
+                            const std::optional<std::pair<double, double>>& limits) {
+  const auto figures = statistics(series.numbers);
+  const auto [mean, least, greatest, sd, slope, slope_error] = figures;
+  const auto unit = series.unit.empty() ? "" : " " + series.unit;
+  auto text = fmt::format("{} values, mean {:.7g}{}, from {:.7g} to {:.7g}, standard deviation {:.3g}{}",
+                          series.numbers.size(), mean, unit, least, greatest, sd, unit);
+  if (!limits) return text;
+  const bool beyond = least < limits->first || greatest > limits->second;
+  if (series.numbers.size() < 2) return text + ", too few for a Cpk";
+  const auto found = capability(figures, limits->first, limits->second);
+  if (!found) return text + (beyond ? ", beyond a limit" : ", no spread");
+  return text + fmt::format(", Cp {}, Cpk {}", capability_text(found->cp), capability_text(found->cpk));
+}
+
+// ---- motor ----
+
+/// The data sheet of a plant's servo motor, as far as its limits go.
+std::optional<plants::ServoData> motor_data(const Scenario& scenario, const std::string& plant) {
+  const auto entry = std::find_if(scenario.plants.begin(), scenario.plants.end(),
+                                  [&](const PlantEntry& one) { return one.name.text == plant; });
+  if (entry == scenario.plants.end()) return {};
+  plants::ServoData data;
+  int found = 0;
+  for (const auto& parameter : entry->definition->parameters()) {
+    const auto* const* number = std::get_if<double*>(&parameter.value);
+    const auto dot = parameter.name.rfind('.');
+    if (number == nullptr || dot == std::string::npos || !parameter.name.substr(0, dot).ends_with("servo"))
+      continue;
+    const auto name = parameter.name.substr(dot + 1);
+    const auto take = [&](const char* wanted, double& value) {
+      if (name != wanted) return;
+      value = **number;
+      ++found;
+    };
+    take("rated_torque", data.rated_torque);
+    take("peak_torque", data.peak_torque);
+    take("torque_at_max_speed", data.torque_at_max_speed);
+    take("rated_speed", data.rated_speed);
+    take("max_speed", data.max_speed);
+  }
+  return found == 5 ? std::optional(data) : std::nullopt;
+}
+
+/// The border of what the motor can do, from -max_speed or 0 to max_speed and back; in the channels' units.
+renders::Curve peak_curve(const plants::ServoData& data, bool both_ways, double speed_unit,
+                          double torque_unit) {
+  // The law has its corners at rated and at largest speed and is straight between them.
+  std::vector<double> corners = {0, data.rated_speed, data.max_speed};
+  if (both_ways) corners.insert(corners.begin(), {-data.max_speed, -data.rated_speed});
+  const auto driving = [&](double speed) { return plants::driving_torque_limit(data, speed); };
+  renders::Curve curve;
+  curve.label = "peak torque";
+  const auto add = [&](double speed, double torque) {
+    curve.x.push_back(speed / speed_unit);
+    curve.y.push_back(torque / torque_unit);
+  };
+  for (const double speed : corners) add(speed, speed > 0 ? driving(speed) : data.peak_torque);
+  std::reverse(corners.begin(), corners.end());
+  for (const double speed : corners) add(speed, speed < 0 ? -driving(speed) : -data.peak_torque);
+  if (both_ways) add(corners.back(), data.peak_torque);
+  return curve;
+}
+
+renders::Curve rated_curve(const plants::ServoData& data, bool both_ways, double speed_unit,
+                           double torque_unit) {
+  const double speed = data.rated_speed / speed_unit;
+  const double torque = data.rated_torque / torque_unit;
+  const double first = both_ways ? -speed : 0;
+  renders::Curve curve;
+  curve.label = "rated torque, up to rated speed";
+  curve.x = {first, speed, speed, first};
+  curve.y = {torque, torque, -torque, -torque};
+  if (both_ways) {
+    curve.x.push_back(first);
+    curve.y.push_back(torque);
+  }
+  return curve;
+}
+
+}  // namespace
+
+void draw_histogram(const Recording& recording, const PlotRequest& request, renders::Plot& plot) {
+  const auto& panel = request.panels.front();
+  const auto series = event_numbers(recording.events(), panel.event.text, panel.values.front().text, request);
+  renders::Panel shown;
+  shown.y_label = panel.event.text + " events";
+  shown.title = panel.title;
+  plot.x_label = axis_label(panel.values.front().text, {series.unit});
+  if (!series.numbers.empty()) {
+    auto [low, high] = std::minmax_element(series.numbers.begin(), series.numbers.end());
+    double from = *low;
+    double until = *high;
+    if (panel.limits) {
+      from = std::min(from, panel.limits->first);
+      until = std::max(until, panel.limits->second);
+      plot.marks.push_back({panel.limits->first, fmt::format("{:g}", panel.limits->first), true});
+      plot.marks.push_back({panel.limits->second, fmt::format("{:g}", panel.limits->second), true});
+    }
+    plot.marks.push_back({statistics(series.numbers)[0], "mean"});
+    std::stable_sort(plot.marks.begin(), plot.marks.end(),
+                     [](const auto& a, const auto& b) { return a.x < b.x; });
+    shown.curves.push_back(bars_of(series.numbers, from, until));
+    const auto& counts = shown.curves.front().y;
+    shown.y_range = {0, 1.08 * *std::max_element(counts.begin(), counts.end())};
+    shown.title += (shown.title.empty() ? "" : ": ") + statistics_text(series, panel.limits);
+  }
+  plot.panel_height = 360;
+  plot.panels.push_back(std::move(shown));
+}
+
+std::vector<std::string> motor_channels(const std::string& plant) {
+  return {plant + ".motor.speed", plant + ".motor.torque"};
+}
+
+bool has_motor_limits(const Scenario& scenario, const std::string& plant) {
+  return motor_data(scenario, plant).has_value();
+}
+
+void draw_motor(const Scenario& scenario, const Recording& recording, const PlotRequest& request,
+                renders::Plot& plot) {
+  const auto& panel = request.panels.front();
+  const auto names = motor_channels(panel.motor.text);
+  const auto& speed = *recording.column(names[0]);
+  const auto& torque = *recording.column(names[1]);
+  const auto data = *motor_data(scenario, panel.motor.text);
+  const double speed_unit = to_si(1, speed.unit);
+  const double torque_unit = to_si(1, torque.unit);
+
+  renders::Curve points;
+  points.label = "operating points";
+  points.style = renders::Curve::Style::points;
+  double squares = 0;
+  double largest_torque = 0;
+  double largest_speed = 0;
+  bool both_ways = false;
+  const auto rows = rows_between(recording, request.from, request.until);
+  for (auto row = rows.first; row < rows.end; ++row) {
+    squares += torque.values[row] * torque.values[row];
+    largest_torque = std::max(largest_torque, std::abs(torque.values[row]));
+    largest_speed = std::max(largest_speed, std::abs(speed.values[row]));
+    both_ways = both_ways || speed.values[row] * speed_unit < -0.02 * data.max_speed;
+  }
+  renders::Cloud cloud(rows.count(), {-largest_speed, largest_speed, -largest_torque, largest_torque}, false);
+  for (auto row = rows.first; row < rows.end; ++row) cloud.add(speed.values[row], torque.values[row]);
+  auto kept = cloud.take();
+  points.x = std::move(kept.x);
+  points.y = std::move(kept.y);
+  const double rms = rows.count() == 0 ? 0 : std::sqrt(squares / static_cast<double>(rows.count()));
+  renders::Panel shown;
+  shown.title = fmt::format(
+      "{}{}rms torque {:.3g} {} ({:.0f} % of rated), largest {:.3g} {} ({:.0f} % of peak torque), "
+      "speed up to {:.4g} {} ({:.0f} % of max_speed)",
+      panel.title, panel.title.empty() ? "" : ": ", rms, torque.unit,
+      100 * rms * torque_unit / data.rated_torque, largest_torque, torque.unit,
+      100 * largest_torque * torque_unit / data.peak_torque, largest_speed, speed.unit,
+      100 * largest_speed * speed_unit / data.max_speed);
+  shown.y_label = axis_label(torque.name, {torque.unit});
+  plot.x_label = axis_label(speed.name, {speed.unit});
+  plot.panel_height = 520;
+  shown.curves.push_back(std::move(points));
+  shown.curves.push_back(peak_curve(data, both_ways, speed_unit, torque_unit));
+  shown.curves.push_back(rated_curve(data, both_ways, speed_unit, torque_unit));
+  plot.panels.push_back(std::move(shown));
+}
+
+}  // namespace drycut::sim

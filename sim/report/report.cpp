@@ -1,0 +1,44 @@
+#include "sim/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "sim/report/results.hpp"
+
+namespace drycut::sim {
+
+void add_checks(const std::vector<CheckResult>& checks, renders::Report& report) {
+  for (const auto& check : checks)
+    report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
+}
+
+void add_overrides(const std::vector<Override>& overrides, renders::Report& report) {
+  for (const auto& [path, value] : overrides)
+    report.facts.push_back({{"--set", fmt::format("{} = {}", path, value)}});
+}
+
+void add_plots(std::vector<renders::Plot> plots, OutputFolder& folder, renders::Report& report) {
+  if (plots.empty()) return;
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (auto& plot : plots) {
+    while (!taken.insert(plot.name).second) plot.name += '_';
+    names.push_back(plot.name + ".png");
+  }
+  for (const auto& png : renders::draw_plots(plots, folder.add(plots_folder, names)))
+    report.plots.push_back({png, fmt::format("{}/{}", plots_folder, png.filename().string())});
+  report.live = std::move(plots);
+}
+
+void write_report(renders::Report report, std::vector<renders::Plot> plots, OutputFolder& folder) {
+  add_plots(std::move(plots), folder, report);
+  renders::write_report(report, folder.add(report_file));
+}
+
+void draw_png(renders::Plot plot, const std::filesystem::path& png) {
+  plot.name = png.stem().string();
+  renders::draw_plots({plot}, png.has_parent_path() ? png.parent_path() : std::filesystem::path("."));
+}
+
+}  // namespace drycut::sim

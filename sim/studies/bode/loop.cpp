@@ -1,0 +1,210 @@
+#include "sim/studies/bode/loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "sim/loop/recorder.hpp"
+#include "sim/scenario/units.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+void check_number(const char* option, const std::optional<double>& value, double least, double most,
+                  const char* unit, Problems& problems) {
+  if (!value || (*value >= least && *value <= most)) return;  // not NaN either
+  problems.push_back({option, 1, 1, fmt::format("{} is out of range", *value),
+                      fmt::format("give {} to {} {}", least, most, unit)});
+}
+
+/// The time of --at; nullopt if it is not given, or no time from 0 to 1e6 s.
+std::optional<Time> time_of(const LoopRequest& request) {
+  if (!request.at) return {};
+  auto at = parse_quantity(*request.at);
+  if (at && at->unit.empty()) at->unit = "s";
+  if (!at || !is_unit(at->unit) || !same_dimension(at->unit, "s")) return {};
+  const double time = to_si(at->number, at->unit);
+  if (!(time >= 0 && time <= 1e6)) return {};
+  return std::llround(time * 1e9);
+}
+
+/// The wire to measure at; nullopt and a problem if it is not clear which.
+std::optional<std::size_t> choose_wire(const LoopRequest& request, const Scenario& scenario,
+                                       Simulation& simulation, Problems& problems) {
+  const auto& wires = simulation.bus().analogue_wires();
+  std::vector<std::string> plugs;
+  std::string all;
+  for (const auto& wire : wires) {
+    plugs.push_back(wire.plug);
+    all += (all.empty() ? "" : ", ") + wire.plug;
+  }
+  if (wires.empty()) {
+    problems.push_back({scenario.file.string(), 1, 1, "no analogue output is wired",
+                        "a position loop needs one, such as 2.AN01: knife.servo.reference"});
+    return {};
+  }
+  if (request.wire.empty()) {
+    if (wires.size() == 1) return 0;
+    problems.push_back(
+        {"--wire", 1, 1, "the scenario has more than one analogue reference", "give one of: " + all});
+    return {};
+  }
+  const auto found = std::find(plugs.begin(), plugs.end(), request.wire);
+  if (found != plugs.end()) return static_cast<std::size_t>(found - plugs.begin());
+  problems.push_back({"--wire", 1, 1, fmt::format("there is no analogue reference '{}'", request.wire),
+                      "give one of: " + all});
+  return {};
+}
+
+/// The channel of the motor's speed: the one asked for, or what the plant at the wire calls so.
+std::string choose_speed(const LoopRequest& request, const std::string& plug, Simulation& simulation,
+                         Problems& problems) {
+  auto& names = simulation.names();
+  if (!request.speed.empty()) {
+    if (names.reading(request.speed)) return request.speed;
+    problems.push_back({"--speed", 1, 1, fmt::format("there is no channel '{}'", request.speed),
+                        names.suggest_reading(request.speed)});
+    return "";
+  }
+  const auto plant = plug.substr(0, plug.find('.'));
+  for (const auto* channel : {".motor.speed", ".speed"})
+    if (names.reading(plant + channel)) return plant + channel;
+  return "";
+}
+
+/// Where and how to measure; nullopt and problems if the options do not fit the scenario.
+std::optional<SweepPlan> plan_of(const LoopRequest& request, const Scenario& scenario, Simulation& simulation,
+                                 Problems& problems) {
+  const auto before = problems.size();
+  const auto wire = choose_wire(request, scenario, simulation, problems);
+  if (!wire) return {};
+  const auto& at_wire = simulation.bus().analogue_wires()[*wire];
+  SweepPlan plan;
+  plan.wire = *wire;
+  plan.speed = choose_speed(request, at_wire.plug, simulation, problems);
+  plan.at = time_of(request).value_or(scenario.scene.duration);
+  plan.step = scenario.scene.step;
+  plan.sampling = std::max(simulation.output_period(at_wire.terminal), plan.step);
+  plan.amplitude = request.amplitude;
+  plan.settle = request.settle;
+  const double highest = 0.5 / seconds(plan.sampling);
+  const double to = request.to.value_or(highest);
+  const double from = request.from.value_or(std::min(1.0, to / 100));
+  if (to > highest)
+    problems.push_back({"--to", 1, 1,
+                        fmt::format("{} Hz is above half the sampling frequency of {} ms", to,
+                                    seconds(plan.sampling) * 1000),
+                        fmt::format("give at most {} Hz", highest)});
+  if (from >= to)
+    problems.push_back(
+        {"--from", 1, 1, fmt::format("{} Hz is not below --to, {} Hz", from, to), "give a lower frequency"});
+  constexpr double window = 2;     // long enough for tens of periods where a loop crosses over [s]
+  constexpr double lowest = 0.02;  // a crossover below it takes minutes to measure [Hz]
+  if (!request.from) plan.lowest = lowest;
+  if (problems.size() == before) plan.tones = plan_tones(from, to, request.points, plan.sampling, window);
+  return plan;
+}
+
+/// The two runs and the plan for them.
+struct Preparation {
+  std::unique_ptr<Simulation> excited;
+  std::unique_ptr<Simulation> still;
+  std::optional<SweepPlan> plan;
+};
+Preparation prepare(const Scenario& scenario, const LoopRequest& request, Problems& problems) {
+  const auto before = problems.size();
+  Preparation prepared;
+  prepared.excited = std::make_unique<Simulation>(scenario, problems);
+  if (problems.size() == before) prepared.plan = plan_of(request, scenario, *prepared.excited, problems);
+  if (problems.size() == before) prepared.still = std::make_unique<Simulation>(scenario, problems);
+  return prepared;
+}
+
+}  // namespace
+
+std::string hertz_text(double frequency) { return fmt::format("{:.4g} Hz", frequency); }
+
+void check_request(const LoopRequest& request, Problems& problems) {
+  if (request.at && !time_of(request))
+    problems.push_back(
+        {"--at", 1, 1, fmt::format("'{}' is no time from 0 to 1e6 s", *request.at), "such as 6 s"});
+  check_number("--settle", request.settle, 0, 1000, "s", problems);
+  check_number("--amplitude", request.amplitude, 0.001, 10, "V", problems);
+  check_number("--from", request.from, 0.001, 1e6, "Hz", problems);
+  check_number("--to", request.to, 0.001, 1e6, "Hz", problems);
+  if (request.points < 2 || request.points > 1000)
+    problems.push_back(
+        {"--points", 1, 1, fmt::format("{} is out of range", request.points), "give 2 to 1000"});
+}
+
+void check_loop(const Scenario& scenario, const LoopRequest& request, Problems& problems) {
+  (void)prepare(scenario, request, problems);
+}
+
+std::optional<LoopResult> measure_loop(const Scenario& scenario, const LoopRequest& request,
+                                       Problems& problems, const std::function<void(double)>& progress) {
+  const auto prepared = prepare(scenario, request, problems);
+  if (!prepared.still) return {};
+  LoopResult result;
+  result.scenario = scenario.file.stem().string();
+  result.file = scenario.file.filename().string();
+  result.plan = *prepared.plan;
+  const auto& wire = prepared.excited->bus().analogue_wires()[result.plan.wire];
+  result.wire = wire.plug;
+  result.terminal = wire.terminal_name;
+  result.speed = result.plan.speed;
+  if (!result.speed.empty()) result.speed_unit = prepared.excited->names().reading(result.speed)->unit;
+  result.sweep = measure(*prepared.excited, *prepared.still, result.plan, progress);
+  result.margins = margins_of(result.sweep.points);
+  return result;
+}
+
+std::vector<std::string> loop_doubts(const LoopResult& result) {
+  std::vector<std::string> doubts;
+  if (!result.sweep.failure.empty()) doubts.push_back("the simulation stopped: " + result.sweep.failure);
+  if (result.sweep.loop == Sweep::Loop::open)
+    doubts.push_back(
+        fmt::format("{} does not answer to {} V at {} s: either the loop is open there (let the program do "
+                    "REGON before, or choose another --at), or the axis sits in play or stiction (take more "
+                    "--amplitude)",
+                    result.terminal, result.plan.amplitude, seconds_text(result.plan.at)));
+  if (result.sweep.loop == Sweep::Loop::restless)
+    doubts.push_back(
+        fmt::format("the loop has not come to rest within {} s after the push: wait longer (--settle) or "
+                    "push harder (--amplitude)",
+                    result.sweep.waited));
+  if (result.sweep.loop == Sweep::Loop::runaway)
+    doubts.push_back(
+        fmt::format("the loop runs away to the limit of {} after a push: look at the directions of count and "
+                    "reference",
+                    result.terminal));
+  if (result.sweep.loop == Sweep::Loop::unstable)
+    doubts.emplace_back("the loop is not stable: after a push it swings on; lower the gain");
+  const auto tell = [&](const std::string& what, const auto& doubted) {
+    int count = 0;
+    const BodePoint* first = nullptr;
+    for (const auto& point : result.sweep.points) {
+      if (!doubted(point)) continue;
+      if (first == nullptr) first = &point;
+      ++count;
+    }
+    if (count == 0) return;
+    doubts.push_back(fmt::format("at {} of {} frequencies, the first {}, {}", count,
+                                 result.sweep.points.size(), hertz_text(first->frequency), what));
+  };
+  tell(result.terminal + " stood at its limit of 10 V: take less --amplitude",
+       [](const BodePoint& point) { return point.saturated; });
+  tell(result.terminal + " does not answer: the motion stays in play or stiction; take more --amplitude",
+       [](const BodePoint& point) { return point.silent; });
+  tell(fmt::format(
+           "the answer is lost in what else moves (error above {:.0f} %): measure while the axis stands or "
+           "runs evenly (--at), or with another --amplitude",
+           bode_error_limit * 100),
+       [](const BodePoint& point) { return !point.silent && !(point.doubt() <= bode_error_limit); });
+  return doubts;
+}
+
+}  // namespace drycut::sim

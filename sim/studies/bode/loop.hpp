@@ -1,0 +1,51 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "sim/scenario/scenario.hpp"
+#include "sim/studies/bode/sweep.hpp"
+
+namespace drycut::sim {
+
+/// Where and how a loop is to be measured, as a user says it.
+struct LoopRequest {
+  std::string wire;               ///< plug of the analogue reference, "" = the only one
+  std::string speed;              ///< channel of the motor's speed, "" = motor.speed or speed of the plant
+  std::optional<std::string> at;  ///< "6 s", "6" = 6 s; absent = the end of the scenario
+  std::optional<double> from;  ///< [Hz], absent = 1 (a hundredth of `to` if less), and lower to the crossover
+  std::optional<double> to;    ///< [Hz], absent = half the sampling frequency
+  int points = 40;
+  double amplitude = 0.1;  ///< [V]
+  double settle = 0.5;     ///< [s]
+};
+
+/// A measurement with what its text needs.
+struct LoopResult {
+  std::string scenario;  ///< name of the file without extension
+  std::string file;      ///< with it
+  std::string wire;      ///< "knife.servo.reference"
+  std::string terminal;  ///< "2.AN01"
+  std::string speed;     ///< channel, "" = none
+  std::string speed_unit;
+  SweepPlan plan;
+  Sweep sweep;
+  Margins margins;
+};
+
+/// Doubt of a point (BodePoint::doubt) above which it is not to be trusted.
+inline constexpr double bode_error_limit = 0.05;
+
+/// Numbers of the request that no scenario allows, by the names of the options.
+void check_request(const LoopRequest& request, Problems& problems);
+/// What of the request does not fit the scenario.
+void check_loop(const Scenario& scenario, const LoopRequest& request, Problems& problems);
+/// Runs `scenario` twice and measures; nullopt and problems if the request does not fit it.
+std::optional<LoopResult> measure_loop(const Scenario& scenario, const LoopRequest& request,
+                                       Problems& problems, const std::function<void(double)>& progress = {});
+/// "12.34 Hz".
+std::string hertz_text(double frequency);
+/// What keeps the measurement from being trusted, a line each; empty if nothing does.
+std::vector<std::string> loop_doubts(const LoopResult& result);
+
+}  // namespace drycut::sim

@@ -1,0 +1,293 @@
+#include "sim/studies/bode/report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "renders/report.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/report/report.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// A response over all points: gain [dB] and phase [deg].
+struct BodeColumns {
+  std::vector<double> gain;
+  std::vector<double> phase;
+};
+
+BodeColumns columns_of(const std::vector<BodePoint>& points,
+                       const std::function<std::complex<double>(const BodePoint&)>& response) {
+  std::vector<std::complex<double>> values;
+  BodeColumns columns;
+  for (const auto& point : points) {
+    values.push_back(response(point));
+    columns.gain.push_back(decibels(values.back()));
+  }
+  columns.phase = phases(values);
+  return columns;
+}
+
+struct Table {
+  BodeColumns open;
+  BodeColumns closed;
+  BodeColumns sensitivity;
+  BodeColumns speed;  ///< empty if not measured
+};
+
+/// The points where the loop answered.
+std::vector<BodePoint> heard(const LoopResult& result) {
+  auto points = result.sweep.points;
+  std::erase_if(points, [](const BodePoint& point) { return point.silent; });
+  return points;
+}
+
+Table table_of(const LoopResult& result) {
+  const auto points = heard(result);
+  Table table;
+  table.open = columns_of(points, [](const BodePoint& p) { return p.open_loop; });
+  table.closed = columns_of(points, [](const BodePoint& p) { return p.closed_loop(); });
+  table.sensitivity = columns_of(points, [](const BodePoint& p) { return p.sensitivity(); });
+  if (!result.speed.empty()) table.speed = columns_of(points, [](const BodePoint& p) { return *p.speed; });
+  return table;
+}
+
+/// What the loop is judged by: name and value in words.
+std::vector<renders::ReportRow> margin_rows(const LoopResult& result) {
+  const auto& margins = result.margins;
+  const std::string absent = "not between these frequencies";
+  const auto factor = [](const AtFrequency& margin) { return std::pow(10, margin.value / 20); };
+  std::vector<renders::ReportRow> rows;
+  const auto row = [&](const char* name, std::string value) { rows.push_back({{name, std::move(value)}}); };
+  row("phase margin", margins.phase ? fmt::format("{:.1f} deg at the crossover of {}", margins.phase->value,
+                                                  hertz_text(margins.phase->frequency))
+                                    : "no crossover between these frequencies");
+  row("gain margin", margins.gain ? fmt::format("{:.2f} dB at {}: unstable from {:.3g} times the gain on",
+                                                margins.gain->value, hertz_text(margins.gain->frequency),
+                                                factor(*margins.gain))
+                                  : absent);
+  if (margins.gain_down)
+    row("gain margin downwards",
+        fmt::format("{:.2f} dB at {}: unstable below {:.3g} times the gain", margins.gain_down->value,
+                    hertz_text(margins.gain_down->frequency), factor(*margins.gain_down)));
+  if (margins.sensitivity)
+    row("largest sensitivity",
+        fmt::format("{:.2f} at {}", margins.sensitivity->value, hertz_text(margins.sensitivity->frequency)));
+  row("position loop -3 dB", margins.closed_bandwidth ? hertz_text(*margins.closed_bandwidth) : absent);
+  if (!result.speed.empty())
+    row("speed loop -3 dB", margins.speed_bandwidth ? hertz_text(*margins.speed_bandwidth) : absent);
+  return rows;
+}
+
+std::string table_text(const LoopResult& result) {
+  const auto points = heard(result);
+  const auto table = table_of(result);
+  const bool speed = !result.speed.empty();
+  std::string text = fmt::format("{:>10}{:>20}{:>20}{:>20}{:>9}\n{:>10}{:>20}{:>20}{:>20}{:>9}\n",
+                                 "frequency", "open loop", "closed loop", speed ? result.speed : "", "error",
+                                 "Hz", "dB    deg", "dB    deg", speed ? "dB    deg" : "", "%");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto pair = [&](const BodeColumns& columns) {
+      // Of the speed only the change counts: it begins at 0 dB.
+      const double zero = &columns == &table.speed ? columns.gain.front() : 0;
+      return fmt::format("{:>12.2f}{:>8.1f}", columns.gain[i] - zero, columns.phase[i]);
+    };
+    text += fmt::format("{:>10.4g}{}{}{:>20}{:>9.2f}\n", points[i].frequency, pair(table.open),
+                        pair(table.closed), speed ? pair(table.speed) : "", points[i].error * 100);
+  }
+  return text;
+}
+
+renders::ReportTable response_table(const LoopResult& result) {
+  const auto table = table_of(result);
+  renders::ReportTable made{"Response", {"frequency [Hz]"}, {}, true};
+  std::vector<const BodeColumns*> all = {&table.open, &table.closed, &table.sensitivity};
+  std::vector<std::string> names = {"open loop", "position loop", "sensitivity"};
+  if (!result.speed.empty()) {
+    all.push_back(&table.speed);
+    names.push_back(fmt::format("{}, of its first value", result.speed));
+  }
+  for (const auto& name : names) {
+    made.headings.push_back(name + " [dB]");
+    made.headings.push_back(name + " [deg]");
+  }
+  const auto points = heard(result);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    renders::ReportRow row{{fmt::format("{:.4g}", points[i].frequency)}};
+    for (const auto* columns : all) {
+      const double zero = columns == &table.speed ? columns->gain.front() : 0;
+      row.cells.push_back(fmt::format("{:.2f}", columns->gain[i] - zero));
+      row.cells.push_back(fmt::format("{:.1f}", columns->phase[i]));
+    }
+    made.rows.push_back(std::move(row));
+  }
+  return made;
+}
+
+/// What was measured, in one line.
+std::string subject(const LoopResult& result) {
+  const auto& plan = result.plan;
+  return fmt::format("{}: {} from {}, sampled every {} ms; a sine of {:.3g} V added from {} s on",
+                     result.scenario, result.wire, result.terminal, seconds(plan.sampling) * 1000,
+                     plan.amplitude, seconds_text(plan.at));
+}
+
+/// Where a limit cycle begins, in a sentence.
+std::string verdict_of(const LimitCycle& cycle) {
+  if (!cycle.least) return "Limit cycle: no gain margin was found at any amplitude.";
+  const auto& least = cycle.margins[*cycle.least];
+  return fmt::format(
+      "Limit cycle from {:.3g} times the gain on: {} at about {:.2g} V; a smaller disturbance may die out.{}",
+      factor_of(*least.gain), hertz_text(least.gain->frequency), least.amplitude(),
+      cycle.at_end ? " This lies at an end of the amplitudes: beyond it may be less." : "");
+}
+
+renders::ReportTable amplitude_table(const LimitCycle& cycle) {
+  renders::ReportTable table{
+      "Gain margin over the amplitude of the sine", {"amplitude", "gain margin", "times the gain"}, {}};
+  for (const auto& margin : cycle.margins)
+    table.rows.push_back({{fmt::format("{:.3g} V", margin.amplitude()),
+                           margin.gain ? fmt::format("{:.2f} dB", margin.gain->value) : "unknown",
+                           margin.gain ? fmt::format("{:.3g}", factor_of(*margin.gain)) : ""}});
+  return table;
+}
+
+renders::Plot amplitude_plot(const LimitCycle& cycle) {
+  const auto& least = cycle.margins[*cycle.least];
+  renders::Plot plot{"limit_cycle",
+                     fmt::format("Limit cycle from {:.3g} times the gain on", factor_of(*least.gain)),
+                     "amplitude of the sine [V]",
+                     {}};
+  plot.log_x = true;
+  renders::Panel panel;
+  panel.title = "gain margin";
+  panel.y_label = "[dB]";
+  renders::Curve curve{"measured", {}, {}, renders::Curve::Style::points};
+  for (const auto& margin : cycle.margins) {
+    if (!margin.gain) continue;
+    curve.x.push_back(margin.amplitude());
+    curve.y.push_back(margin.gain->value);
+  }
+  panel.curves.push_back(std::move(curve));
+  plot.marks.push_back({least.amplitude(), "least margin"});
+  plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+std::string faded_text(const LoopResult& result) {
+  return fmt::format("From {} on nothing answers to {:.3g} V: it would be finer than count and DAC resolve.",
+                     hertz_text(result.sweep.faded_from), result.plan.amplitude);
+}
+
+constexpr std::string_view reading =
+    "Gains and phases are those of the simulated loop, the delay of sampling and hold included.";
+
+}  // namespace
+
+std::string bode_report(const LoopResult& result) {
+  auto text = subject(result) + '\n';
+  if (!heard(result).empty()) {
+    text += '\n' + table_text(result) + '\n';
+    for (const auto& row : margin_rows(result)) text += fmt::format("{:<24}{}\n", row.cells[0], row.cells[1]);
+    if (result.sweep.faded_from > 0) text += fmt::format("{}\n", faded_text(result));
+    text += fmt::format("{}\n", reading);
+  }
+  for (const auto& doubt : loop_doubts(result)) text += doubt + '\n';
+  return text;
+}
+
+std::string limit_cycle_text(const LimitCycle& cycle) {
+  const auto table = amplitude_table(cycle);
+  std::string text = table.title + "\n";
+  for (const auto& row : table.rows)
+    text += fmt::format("{:>10}{:>12}{:>14}\n", row.cells[0], row.cells[1], row.cells[2]);
+  return text + verdict_of(cycle) + "\n";
+}
+
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                       const std::vector<std::string>& faults, const std::string& expanded,
+                       OutputFolder& folder) {
+  std::vector<renders::Plot> plots;
+  renders::Report report;
+  report.title = "Frequency response: " + result.wire;
+  report.scenario = result.file;
+  report.passed = faults.empty();
+  report.verdict =
+      faults.empty() ? "measured, nothing against it" : fmt::format("{}", fmt::join(faults, "; "));
+  report.facts = {
+      {{"measured", subject(result)}}, {{"reading", std::string(reading)}}, {{"drycut", DRYCUT_VERSION}}};
+  if (!heard(result).empty()) {
+    report.summary = {{"Margins", {"", ""}, margin_rows(result)}};
+    report.tables = {response_table(result)};
+    plots.push_back(bode_plot(result, "bode"));
+  }
+  if (cycle != nullptr) {
+    report.facts.insert(report.facts.begin(), {{"limit cycle", verdict_of(*cycle)}});
+    report.summary.insert(report.summary.begin(), amplitude_table(*cycle));
+    if (cycle->least) plots.push_back(amplitude_plot(*cycle));
+  }
+  report.scenario_expanded = expanded;
+  write_report(std::move(report), std::move(plots), folder);
+}
+
+std::string bode_csv(const LoopResult& result) {
+  const auto table = table_of(result);
+  const bool speed = !result.speed.empty();
+  std::string text =
+      "frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],closed_loop.phase "
+      "[deg],"
+      "sensitivity.gain [dB],error";
+  if (speed) text += fmt::format(",{0}.gain [{1}/V],{0}.phase [deg]", result.speed, result.speed_unit);
+  text += '\n';
+  const auto points = heard(result);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    text +=
+        fmt::format("{},{},{},{},{},{},{}", points[i].frequency, table.open.gain[i], table.open.phase[i],
+                    table.closed.gain[i], table.closed.phase[i], table.sensitivity.gain[i], points[i].error);
+    if (speed) text += fmt::format(",{},{}", std::abs(*points[i].speed), table.speed.phase[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
+  const auto table = table_of(result);
+  std::vector<double> x;
+  for (const auto& point : heard(result)) x.push_back(point.frequency);
+  renders::Plot plot;
+  plot.name = name;
+  plot.title = fmt::format("{}: {}", result.scenario, result.wire);
+  plot.x_label = "frequency [Hz]";
+  plot.log_x = true;
+  plot.panel_height = 340;
+  renders::Panel gain;
+  gain.title = "gain";
+  gain.y_label = "[dB]";
+  gain.bands = {{"0 dB", 0, 0}};
+  renders::Panel phase;
+  phase.title = "phase";
+  phase.y_label = "[deg]";
+  phase.bands = {{"-180 deg", -180, -180}};
+  const auto draw = [&](const std::string& label, const BodeColumns& columns, double zero) {
+    auto gains = columns.gain;
+    for (double& value : gains) value -= zero;
+    gain.curves.push_back({label, x, gains});
+    phase.curves.push_back({label, x, columns.phase});
+  };
+  draw("open loop", table.open, 0);
+  draw("position loop", table.closed, 0);
+  if (!result.speed.empty()) draw("speed loop", table.speed, table.speed.gain.front());
+  plot.panels = {gain, phase};
+  const auto& margins = result.margins;
+  if (margins.phase)
+    plot.marks.push_back({margins.phase->frequency, fmt::format("margin {:.1f}°", margins.phase->value)});
+  if (margins.gain)
+    plot.marks.push_back({margins.gain->frequency, fmt::format("margin {:.1f} dB", margins.gain->value)});
+  if (plot.marks.size() == 2 && plot.marks[0].x > plot.marks[1].x) std::swap(plot.marks[0], plot.marks[1]);
+  return plot;
+}
+
+}  // namespace drycut::sim

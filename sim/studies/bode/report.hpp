@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renders/plots.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/studies/bode/limit_cycle.hpp"
+#include "sim/studies/bode/loop.hpp"
+
+namespace drycut::sim {
+
+/// Table and margins as text.
+std::string bode_report(const LoopResult& result);
+/// The gain margin over the amplitude, and where a limit cycle begins.
+std::string limit_cycle_text(const LimitCycle& cycle);
+/// What may be written into the folder of a measurement.
+inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "plots/"};
+/// Writes report.html and plots/ into `folder`; `faults` are what fails it, `expanded` is the scenario with
+/// every default; `cycle` may be null. Throws std::runtime_error if something cannot be written.
+void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
+                       const std::vector<std::string>& faults, const std::string& expanded,
+                       OutputFolder& folder);
+/// One row a frequency: gains and phases of open loop, closed loop, sensitivity and speed.
+std::string bode_csv(const LoopResult& result);
+/// Gain and phase over the logarithm of the frequency.
+renders::Plot bode_plot(const LoopResult& result, const std::string& name);
+
+}  // namespace drycut::sim

@@ -1,0 +1,140 @@
+#include "sim/studies/compare/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "sim/report/results.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+std::ptrdiff_t changed_checks(const Comparison& comparison) {
+  return std::count_if(comparison.checks.begin(), comparison.checks.end(),
+                       [](const CheckRow& row) { return !row.change.empty(); });
+}
+
+std::ptrdiff_t changed_channels(const Comparison& comparison) {
+  return std::count_if(comparison.channels.begin(), comparison.channels.end(),
+                       [](const ChannelRow& row) { return row.difference > 0; });
+}
+
+bool end_alike(const Comparison& comparison) {
+  const auto& first = comparison.runs.front();
+  return std::all_of(comparison.runs.begin(), comparison.runs.end(), [&](const RunFolder& run) {
+    return run.end == first.end && run.failure == first.failure &&
+           run.recording.times() == first.recording.times();
+  });
+}
+
+std::string counted(std::size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+class CsvText {
+ public:
+  void row(const std::string& what, const std::string& name, const std::string& unit,
+           const std::vector<std::string>& cells) {
+    text_ += fmt::format("{},{},{}", csv_cell(what), csv_cell(name), csv_cell(unit));
+    for (const auto& cell : cells) text_ += "," + csv_cell(cell);
+    text_ += "\n";
+  }
+  void numbers(const std::string& what, const std::string& name, const std::string& unit,
+               const std::vector<double>& numbers) {
+    std::vector<std::string> cells;
+    for (const double number : numbers)
+      cells.push_back(std::isnan(number) ? "" : fmt::format("{:.9g}", without_noise(number)));
+    row(what, name, unit, cells);
+  }
+  [[nodiscard]] std::string text() && { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+template <typename Text>
+std::vector<std::string> of_runs(const Comparison& comparison, Text text) {
+  std::vector<std::string> cells;
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) cells.push_back(text(i));
+  return cells;
+}
+
+}  // namespace
+
+Comparison compare(std::vector<RunFolder> runs, std::optional<double> from) {
+  Comparison comparison;
+  comparison.runs = std::move(runs);
+  comparison.from = from;
+  comparison.checks = compare_checks(comparison.runs);
+  comparison.events = compare_events(comparison.runs, from);
+  comparison.channels = compare_channels(comparison.runs, from);
+  comparison.unmatched = unmatched_channels(comparison.runs);
+  comparison.event_differences = differing_events(comparison.runs, comparison.events_looked_at);
+  comparison.parameters = differing_parameters(comparison.runs);
+  return comparison;
+}
+
+bool same(const Comparison& comparison) {
+  return changed_checks(comparison) == 0 && changed_channels(comparison) == 0 &&
+         comparison.unmatched.empty() && comparison.event_differences.empty() &&
+         comparison.parameters.empty() && end_alike(comparison);
+}
+
+std::string difference_text(const Comparison& comparison) {
+  std::vector<std::string> parts;
+  if (const auto changed = changed_checks(comparison); changed > 0)
+    parts.push_back(fmt::format("{} of {}", changed, counted(comparison.checks.size(), "check")));
+  if (!comparison.parameters.empty()) parts.push_back(counted(comparison.parameters.size(), "parameter"));
+  if (!comparison.event_differences.empty())
+    parts.push_back(fmt::format("{} of {}", comparison.event_differences.size(),
+                                counted(comparison.events_looked_at, "event")));
+  if (const auto changed = changed_channels(comparison); changed > 0)
+    parts.push_back(fmt::format("{} of {}", changed, counted(comparison.channels.size(), "shared channel")));
+  if (!comparison.unmatched.empty())
+    parts.push_back(counted(comparison.unmatched.size(), "channel") + " of one run only");
+  if (!end_alike(comparison)) parts.emplace_back("instants or end of the run");
+  return parts.empty() ? "no difference" : fmt::format("different: {}", fmt::join(parts, ", "));
+}
+
+std::string result_text(const std::optional<CheckResult>& result) {
+  if (!result) return "-";
+  const auto margin = margin_text(*result);
+  return fmt::format("{}{}{}", result->passed ? "passed" : "FAILED", margin.empty() ? "" : ", ", margin);
+}
+
+std::string comparison_csv(const Comparison& comparison, const std::vector<Figure>& figures) {
+  CsvText csv;
+  const auto& runs = comparison.runs;
+  csv.row("what", "name", "unit", of_runs(comparison, [&](auto i) { return runs[i].label; }));
+  csv.row("run", "drycut", "", of_runs(comparison, [&](auto i) { return runs[i].version; }));
+  csv.row("run", "passed", "", of_runs(comparison, [&](auto i) { return runs[i].passed ? "yes" : "no"; }));
+  csv.row("run", "simulated", "s",
+          of_runs(comparison, [&](auto i) { return fmt::format("{}", runs[i].end); }));
+  for (const auto& figure : figures) csv.numbers("figure", figure.name, figure.unit, figure.numbers);
+  for (const auto& row : comparison.checks) {
+    const auto& results = row.results;
+    csv.row("check", row.name, "", of_runs(comparison, [&](auto i) -> std::string {
+              return results[i] ? results[i]->passed ? "passed" : "failed" : "";
+            }));
+    const auto known =
+        std::find_if(results.begin(), results.end(), [](const auto& r) { return r && r->margin; });
+    if (known == results.end()) continue;
+    csv.row("margin", row.name, (*known)->unit, of_runs(comparison, [&](auto i) {
+              return results[i] && results[i]->margin ? fmt::format("{:.9g}", *results[i]->margin) : "";
+            }));
+  }
+  for (const auto& figure : comparison.events) csv.numbers("event", figure.name, figure.unit, figure.numbers);
+  for (const auto& row : comparison.channels) {
+    csv.numbers("channel", row.name + ": rms", row.unit, row.rms);
+    csv.numbers("channel", row.name + ": peak", row.unit, row.peak);
+  }
+  for (const auto& row : comparison.parameters)
+    csv.row("parameter", row.path, "",
+            of_runs(comparison, [&](auto i) { return row.values[i].value_or(""); }));
+  return std::move(csv).text();
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,38 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/studies/compare/differences.hpp"
+
+namespace drycut::sim {
+
+/// Several runs beside each other.
+struct Comparison {
+  std::vector<RunFolder> runs;  ///< two at least
+  std::optional<double> from;   ///< [s] figures look from here on; absent: see compare_events
+  std::vector<CheckRow> checks;
+  std::vector<Figure> events;
+  std::vector<ChannelRow> channels;
+  std::vector<std::string> unmatched;  ///< channels
+  std::vector<EventRow> event_differences;
+  std::size_t events_looked_at = 0;
+  std::vector<ParameterRow> parameters;
+};
+
+Comparison compare(std::vector<RunFolder> runs, std::optional<double> from);
+
+/// True if the runs ended alike, with the same checks, events, channels and parameters. Versions do not
+/// count.
+bool same(const Comparison& comparison);
+
+/// "no difference", or what differs: "1 of 9 checks, 2 parameters, 10 of 12 channels".
+std::string difference_text(const Comparison& comparison);
+
+/// "passed, 0.053 mm left, at 7.204 s", "FAILED", "-" where a run has no such check.
+std::string result_text(const std::optional<CheckResult>& result);
+
+/// One row a fact: what, name, unit, a column a run. Numbers with nine digits.
+std::string comparison_csv(const Comparison& comparison, const std::vector<Figure>& figures);
+
+}  // namespace drycut::sim

@@ -1,0 +1,70 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/studies/compare/run_folder.hpp"
+
+namespace drycut::sim {
+
+// What several runs have in common and where they differ. Every row has an entry a run, in the order of the
+// runs; what a run does not have is absent, or NaN among numbers.
+
+/// A number that is told of every run.
+struct Figure {
+  std::string name;  ///< "knife.cut length: mean"
+  std::string unit;
+  std::vector<double> numbers;  ///< NaN: the run has none
+};
+/// True if the runs have not all the same number, or not all one.
+bool differs(const Figure& figure);
+
+/// A check, matched by its name.
+struct CheckRow {
+  std::string name;
+  std::vector<std::optional<CheckResult>> results;
+  /// "" = the same everywhere; else "only in A", "verdict", "expectation", "margin" and, of two runs, by how
+  /// much.
+  std::string change;
+};
+std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs);
+
+/// Events with values that any run has: number, mean, standard deviation (of a sample), least, greatest,
+/// slope from one to the next; where a plot of a run states limits: the limits, the value nearest to a limit
+/// or farthest beyond it, Cpk. From `from` [s] on if it is given, else in the window of the plot that states
+/// the limits, else over the whole run.
+std::vector<Figure> compare_events(const std::vector<RunFolder>& runs, std::optional<double> from);
+
+/// A channel that two runs at least have in the same unit.
+struct ChannelRow {
+  std::string name;
+  std::string unit;
+  std::vector<double> rms;
+  std::vector<double> peak;  ///< largest absolute value
+  /// Largest difference to the first run that has it, over the instants that both have recorded.
+  double difference = 0;
+  double at = 0;       ///< [s] where that is
+  std::size_t in = 0;  ///< and in which run
+};
+std::vector<ChannelRow> compare_channels(const std::vector<RunFolder>& runs, std::optional<double> from);
+/// Channels that only one run has, or that have another unit there: "LX3VP: DD1025 [-]".
+std::vector<std::string> unmatched_channels(const std::vector<RunFolder>& runs);
+
+/// The same event of each run: the n-th of its source.
+struct EventRow {
+  std::string name;                              ///< "knife.cut 3"
+  std::vector<std::optional<std::string>> told;  ///< "5.218000 s: length=800 mm; ..."
+};
+/// Events that are not the same in all runs; `all` is how many were looked at.
+std::vector<EventRow> differing_events(const std::vector<RunFolder>& runs, std::size_t& all);
+
+/// A parameter in force, by its path in the scenario.
+struct ParameterRow {
+  std::string path;
+  std::vector<std::optional<std::string>> values;
+};
+/// Parameters that have not the same value in all runs.
+std::vector<ParameterRow> differing_parameters(const std::vector<RunFolder>& runs);
+
+}  // namespace drycut::sim

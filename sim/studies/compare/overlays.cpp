@@ -1,0 +1,189 @@
+#include "sim/studies/compare/overlays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "sim/loop/known_events.hpp"
+#include "sim/report/gallery.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// When the event of that number happened [s].
+std::optional<double> time_of(const RunFolder& run, const PicturesSection::Around& around) {
+  int number = 0;
+  for (const auto& event : run.recording.events())
+    if (names_event(around.event.text, event.source, event.event) && ++number == around.number)
+      return event.at_seconds();
+  return {};
+}
+
+Time to_time(double seconds_) { return std::max<Time>(0, static_cast<Time>(seconds_ * second)); }
+
+/// The request as this run can show it: without the channels that it has not.
+PlotRequest request_for(const RunFolder& run, const OverlayRequest& request, std::optional<double> origin) {
+  auto plot = request.plot;
+  for (auto& panel : plot.panels) {
+    const auto lacking = [&](const Text& name) { return run.recording.column(name.text) == nullptr; };
+    std::erase_if(panel.channels, lacking);
+    std::erase_if(panel.lanes, lacking);
+  }
+  if (origin) {
+    plot.from = to_time(*origin - seconds(request.around->before));
+    plot.until = to_time(*origin + seconds(request.around->after));
+  }
+  return plot;
+}
+
+renders::Plot plot_of(const RunFolder& run, const OverlayRequest& request) {
+  const auto origin = request.around ? time_of(run, *request.around) : std::nullopt;
+  Scenario view;
+  view.pictures.plots.push_back(request_for(run, request, origin));
+  auto plot = plots_of(view, run.recording).front();
+  if (request.around && !origin)
+    for (auto& panel : plot.panels) panel.curves.clear();
+  if (!origin) return plot;
+  for (auto& panel : plot.panels)
+    for (auto& curve : panel.curves)
+      for (auto& x : curve.x) x -= *origin;
+  for (auto& mark : plot.marks) mark.x -= *origin;
+  return plot;
+}
+
+void add_panel(renders::Panel& to, renders::Panel from, const std::string& label) {
+  const bool alone = from.curves.size() == 1;
+  for (auto& curve : from.curves) {
+    curve.label = alone ? label : fmt::format("{}: {}", label, curve.label);
+    if (to.curves.empty()) to.y_label = from.y_label;
+    to.curves.push_back(std::move(curve));
+  }
+  for (auto& lane : from.lanes) {
+    lane.label = fmt::format("{}: {}", label, lane.label);
+    to.lanes.push_back(std::move(lane));
+  }
+}
+
+void add_marks(renders::Plot& to, const renders::Plot& from, const std::string& label) {
+  for (auto mark : from.marks) {
+    mark.label = fmt::format("{}: {}", label, mark.label);
+    to.marks.push_back(std::move(mark));
+  }
+  std::stable_sort(to.marks.begin(), to.marks.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+}
+
+renders::Plot overlay(const std::vector<RunFolder>& runs, const OverlayRequest& request) {
+  renders::Plot whole;
+  for (const auto& run : runs) {
+    auto plot = plot_of(run, request);
+    if (&run == &runs.front()) {
+      whole = plot;
+      whole.marks.clear();
+      for (auto& panel : whole.panels) {
+        panel.curves.clear();
+        panel.lanes.clear();
+      }
+      if (request.around)
+        whole.x_label =
+            fmt::format("time from {} {} [s]", request.around->event.text, request.around->number);
+    }
+    for (std::size_t i = 0; i < plot.panels.size(); ++i)
+      add_panel(whole.panels[i], std::move(plot.panels[i]), run.label);
+    add_marks(whole, plot, run.label);
+  }
+  return whole;
+}
+
+/// What stands before the first dot: the plant, the device.
+std::string part_of(const std::string& channel) {
+  const auto dot = channel.find('.');
+  return dot == std::string::npos ? "controller" : channel.substr(0, dot);
+}
+
+std::string file_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return text;
+}
+
+OverlayRequest& request_of(std::vector<OverlayRequest>& requests, const std::string& name,
+                           std::string title) {
+  const auto found = std::find_if(requests.begin(), requests.end(), [&](const OverlayRequest& request) {
+    return request.plot.name.text == name;
+  });
+  if (found != requests.end()) return *found;
+  auto& made = requests.emplace_back();
+  made.plot.name.text = name;
+  made.plot.title = std::move(title);
+  return made;
+}
+
+/// The limits if all runs state the same ones.
+const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const RecordedEvent& event,
+                                  const std::string& value) {
+  const Tolerance* common = nullptr;
+  for (const auto& run : runs) {
+    const auto* found = run.tolerance(event.source, event.event, value);
+    if (found == nullptr) return nullptr;
+    if (common != nullptr && (common->low != found->low || common->high != found->high)) return nullptr;
+    common = found;
+  }
+  return common;
+}
+
+/// From where on every run judges the values of this event [s].
+double window_begin(const std::vector<RunFolder>& runs, const RecordedEvent& event) {
+  double begin = 0;
+  for (const auto& run : runs)
+    for (const auto& tolerance : run.tolerances)
+      if (names_event(tolerance.event, event.source, event.event)) begin = std::max(begin, tolerance.from);
+  return begin;
+}
+
+void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparison,
+               const RecordedEvent& event) {
+  const auto name = event.source + "." + event.event;
+  auto& plot = request_of(requests, "events_" + file_name(name),
+                          fmt::format("Every {} of {}", event.event, event.source))
+                   .plot;
+  plot.against_number = true;
+  plot.from = to_time(comparison.from ? *comparison.from : window_begin(comparison.runs, event));
+  for (const auto& value : event.values) {
+    const bool there = std::any_of(plot.panels.begin(), plot.panels.end(),
+                                   [&](const auto& panel) { return panel.title == value.name; });
+    if (there) continue;
+    auto& panel = plot.panels.emplace_back();
+    panel.title = value.name;
+    panel.event.text = name;
+    panel.values.push_back({value.name, {}});
+    if (const auto* tolerance = common_tolerance(comparison.runs, event, value.name))
+      panel.limits = {tolerance->low, tolerance->high};
+  }
+}
+
+}  // namespace
+
+std::vector<renders::Plot> overlay(const std::vector<RunFolder>& runs,
+                                   const std::vector<OverlayRequest>& requests) {
+  std::vector<renders::Plot> plots;
+  for (const auto& request : requests) plots.push_back(overlay(runs, request));
+  return plots;
+}
+
+std::vector<OverlayRequest> usual_overlays(const Comparison& comparison) {
+  std::vector<OverlayRequest> requests;
+  for (const auto& run : comparison.runs)
+    for (const auto& event : run.recording.events())
+      if (!event.values.empty()) add_event(requests, comparison, event);
+  for (const auto& row : comparison.channels) {
+    const auto part = part_of(row.name);
+    auto& plot = request_of(requests, "overlay_" + file_name(part), "Channels of " + part).plot;
+    plot.panels.emplace_back().title = row.name;
+    plot.panels.back().channels.push_back({row.name, {}});
+  }
+  return requests;
+}
+
+}  // namespace drycut::sim

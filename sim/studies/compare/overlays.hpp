@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "renders/plots.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim/studies/compare/comparison.hpp"
+
+namespace drycut::sim {
+
+/// A plot of a run, to be drawn of several over each other.
+struct OverlayRequest {
+  PlotRequest plot;
+  /// Instead of the plot's window: about an event of each run, from where its time then counts.
+  std::optional<PicturesSection::Around> around;
+};
+
+/// The plots with the curves of every run that has what they show, named by the run.
+std::vector<renders::Plot> overlay(const std::vector<RunFolder>& runs,
+                                   const std::vector<OverlayRequest>& requests);
+
+/// What is overlaid without a request: channels that runs share, a plot for each part of the machine; the
+/// values of each kind of event against their number.
+std::vector<OverlayRequest> usual_overlays(const Comparison& comparison);
+
+}  // namespace drycut::sim

@@ -1,0 +1,213 @@
+#include "sim/studies/compare/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renders/report.hpp"
+#include "sim/file.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/results.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+using renders::ReportTable;
+
+constexpr auto* csv_file = "comparison.csv";
+constexpr std::size_t most_rows = 200;  ///< of events that differ; a page must stay readable
+
+/// Seven digits at most, four of them behind the point where that tells a thousandth.
+std::string number_text(double number) {
+  if (std::isnan(number)) return "";
+  const double shown = std::abs(number) < 0.1 ? number : std::round(number * 1e4) / 1e4;
+  return fmt::format("{:.{}g}", without_noise(shown), std::abs(number) < 0.1 ? 3 : 7);
+}
+
+std::vector<std::string> headings(const Comparison& comparison, std::vector<std::string> first) {
+  for (const auto& run : comparison.runs) first.push_back(run.label);
+  return first;
+}
+
+/// Of two runs also by how much the second has more.
+ReportTable figure_table(const Comparison& comparison, const std::string& title,
+                         const std::vector<Figure>& figures) {
+  ReportTable table{title, headings(comparison, {"", "unit"}), {}};
+  const bool two = comparison.runs.size() == 2;
+  if (two) table.headings.emplace_back("difference");
+  for (const auto& figure : figures) {
+    renders::ReportRow row{{figure.name, figure.unit}};
+    for (const double number : figure.numbers) row.cells.push_back(number_text(number));
+    if (two) {
+      const double difference = figure.numbers[1] - figure.numbers[0];
+      row.cells.push_back(std::isnan(difference)           ? ""
+                          : without_noise(difference) == 0 ? "0"
+                                                           : fmt::format("{:+.4g}", difference));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string run_cell(const RunFolder& run) {
+  const auto failed =
+      std::count_if(run.checks.begin(), run.checks.end(), [](const auto& c) { return !c.passed; });
+  const auto what = !run.failure.empty() ? "stopped: " + run.failure
+                    : failed > 0         ? fmt::format("{} of {} checks failed", failed, run.checks.size())
+                                         : fmt::format("{} checks", run.checks.size());
+  return fmt::format("{} {}", run.passed ? "PASS" : "FAIL", what);
+}
+
+std::string check_cell(const std::optional<CheckResult>& result) {
+  if (!result) return "-";
+  return fmt::format("{} {}\n{}; {}", result->passed ? "PASS" : "FAIL", margin_text(*result),
+                     result->expectation, result->detail);
+}
+
+ReportTable verdict_table(const Comparison& comparison) {
+  ReportTable table{"Verdicts", headings(comparison, {"check"}), {}, false, true};
+  table.headings.emplace_back("what changed");
+  renders::ReportRow whole{{"the run"}};
+  for (const auto& run : comparison.runs) whole.cells.push_back(run_cell(run));
+  const auto& first = comparison.runs.front();
+  const bool alike = std::all_of(comparison.runs.begin(), comparison.runs.end(),
+                                 [&](const RunFolder& run) { return run.passed == first.passed; });
+  whole.cells.emplace_back(alike ? "" : "verdict");
+  table.rows.push_back(std::move(whole));
+  for (const auto& check : comparison.checks) {
+    renders::ReportRow row{{check.name}};
+    for (const auto& result : check.results) row.cells.push_back(check_cell(result));
+    row.cells.push_back(check.change);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable parameter_table(const Comparison& comparison) {
+  ReportTable table{"Parameters in force that differ", headings(comparison, {"parameter"}), {}};
+  table.folded = comparison.parameters.size() > most_rows / 10;
+  for (const auto& parameter : comparison.parameters) {
+    renders::ReportRow row{{parameter.path}};
+    for (const auto& value : parameter.values) row.cells.push_back(value.value_or("-"));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable channel_table(const Comparison& comparison) {
+  ReportTable table{"Channels that runs share", {"channel", "unit"}, {}, true};
+  for (const auto& run : comparison.runs) {
+    table.headings.push_back(run.label + ": rms");
+    table.headings.push_back(run.label + ": peak");
+  }
+  table.headings.emplace_back("largest difference");
+  table.headings.emplace_back("at");
+  for (const auto& channel : comparison.channels) {
+    renders::ReportRow row{{channel.name, channel.unit}};
+    for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+      row.cells.push_back(number_text(channel.rms[i]));
+      row.cells.push_back(number_text(channel.peak[i]));
+    }
+    row.cells.push_back(number_text(channel.difference));
+    row.cells.push_back(channel.difference == 0
+                            ? ""
+                            : fmt::format("{:.4f} s, {}", channel.at, comparison.runs[channel.in].label));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable event_table(const Comparison& comparison) {
+  const auto& rows = comparison.event_differences;
+  ReportTable table{rows.size() > most_rows
+                        ? fmt::format("Events that differ, the first {} of {}", most_rows, rows.size())
+                        : "Events that differ",
+                    headings(comparison, {"event"}),
+                    {},
+                    true};
+  for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
+    renders::ReportRow row{{rows[i].name}};
+    for (const auto& told : rows[i].told) row.cells.push_back(told.value_or("-"));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable unmatched_table(const Comparison& comparison) {
+  ReportTable table{"Channels of one run only", {"channel"}, {}, true};
+  for (const auto& name : comparison.unmatched) table.rows.push_back({{name}});
+  return table;
+}
+
+void add_tables(const Comparison& comparison, const ComparisonPage& page, renders::Report& report) {
+  const auto add = [&](ReportTable table) {
+    if (table.rows.empty()) return;
+    (table.folded ? report.tables : report.summary).push_back(std::move(table));
+  };
+  if (!page.figures.empty()) add(figure_table(comparison, "Compared", page.figures));
+  add(verdict_table(comparison));
+  add(parameter_table(comparison));
+  auto events = figure_table(comparison, "Cuts and other events", comparison.events);
+  events.folded = !page.figures.empty();
+  add(std::move(events));
+  add(channel_table(comparison));
+  add(event_table(comparison));
+  add(unmatched_table(comparison));
+}
+
+std::vector<renders::Plot> drawn_plots(const Comparison& comparison, const ComparisonPage& page) {
+  auto requests = page.overlays;
+  for (auto& usual : usual_overlays(comparison)) requests.push_back(std::move(usual));
+  return overlay(comparison.runs, requests);
+}
+
+renders::Report report_of(const Comparison& comparison, const ComparisonPage& page) {
+  renders::Report report;
+  report.title = page.title;
+  report.scenario = page.source;
+  report.passed = page.passed.value_or(true);
+  if (!page.passed) report.word = same(comparison) ? "SAME" : "DIFFERENT";
+  report.verdict = page.verdict;
+  for (const auto& run : comparison.runs)
+    report.facts.push_back({{run.label, fmt::format("{:g} s simulated, drycut {}", run.end, run.version)}});
+  if (comparison.from) report.facts.push_back({{"figures from", fmt::format("{:g} s", *comparison.from)}});
+  report.facts.push_back({{"compared by drycut", DRYCUT_VERSION}});
+  add_checks(page.checks, report);
+  add_tables(comparison, page, report);
+  return report;
+}
+
+}  // namespace
+
+void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                      bool pictures) {
+  write_file(folder.add(csv_file), comparison_csv(comparison, page.figures));
+  if (pictures) write_report(report_of(comparison, page), drawn_plots(comparison, page), folder);
+}
+
+std::string comparison_text(const Comparison& comparison) {
+  constexpr std::size_t most = 20;
+  auto text = difference_text(comparison) + "\n";
+  for (const auto& check : comparison.checks) {
+    if (check.change.empty()) continue;
+    text += fmt::format("  {}: {}", check.name, check.change);
+    for (std::size_t i = 0; i < check.results.size(); ++i)
+      text += fmt::format("; {} {}", comparison.runs[i].label, result_text(check.results[i]));
+    text += "\n";
+  }
+  for (std::size_t k = 0; k < std::min(most, comparison.parameters.size()); ++k) {
+    const auto& parameter = comparison.parameters[k];
+    text += fmt::format("  {}:", parameter.path);
+    for (std::size_t i = 0; i < parameter.values.size(); ++i)
+      text += fmt::format("{} {} {}", i == 0 ? "" : ";", comparison.runs[i].label,
+                          parameter.values[i].value_or("has none"));
+    text += "\n";
+  }
+  if (comparison.parameters.size() > most)
+    text += fmt::format("  and {} parameters more, in {}\n", comparison.parameters.size() - most, csv_file);
+  return text;
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,34 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/output_folder.hpp"
+#include "sim/studies/compare/comparison.hpp"
+#include "sim/studies/compare/overlays.hpp"
+
+namespace drycut::sim {
+
+/// What a comparison's page tells besides the comparison itself.
+struct ComparisonPage {
+  std::string title;
+  std::string source;               ///< what was compared: a scene's file, folders
+  std::vector<Figure> figures;      ///< asked for by name, shown first
+  std::vector<CheckResult> checks;  ///< over the figures of the runs
+  std::optional<bool> passed;       ///< absent: nothing is judged, only compared
+  std::string verdict;
+  std::vector<OverlayRequest> overlays;  ///< before the usual ones
+};
+
+/// What a comparison may write into its folder.
+inline const std::vector<std::string> comparison_files = {"comparison.csv", "report.html", "plots/"};
+
+/// Writes comparison.csv and, with `pictures`, plots/ and report.html into `folder`. Throws
+/// std::runtime_error if something cannot be written.
+void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
+                      bool pictures);
+
+/// What differs, for a terminal: a line a check, a parameter.
+std::string comparison_text(const Comparison& comparison);
+
+}  // namespace drycut::sim

@@ -1,0 +1,253 @@
+#include "sim/studies/compare/run_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/file.hpp"
+#include "sim/loop/known_events.hpp"
+#include "sim/report/results.hpp"
+#include "sim/scenario/yaml_node.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+#include "sim/studies/compare/recorded_csv.hpp"
+
+namespace drycut::sim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A file that is read where it lies: a trace may be larger than the memory.
+class MappedFile {
+ public:
+  explicit MappedFile(const fs::path& file) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const auto end = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
+    if (end > 0) place_ = mmap(nullptr, static_cast<std::size_t>(end), PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (place_ != MAP_FAILED) size_ = static_cast<std::size_t>(end);
+    if (descriptor >= 0) close(descriptor);
+  }
+  ~MappedFile() {
+    if (size_ > 0) munmap(place_, size_);
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  [[nodiscard]] std::string_view text() const { return {static_cast<const char*>(place_), size_}; }
+
+ private:
+  void* place_ = MAP_FAILED;
+  std::size_t size_ = 0;
+};
+
+void refuse_file(const fs::path& file, Problems& problems) {
+  problems.push_back({file.string(), 1, 1, "the file cannot be read, or is empty", run_again});
+}
+
+constexpr std::uintmax_t largest_record = std::uintmax_t{1} << 40U;  // [bytes]
+
+/// A whole file of a run; the events of a long one are many.
+std::optional<std::string> whole_file(const fs::path& file, Problems& problems) {
+  auto text = read_file(file, problems, largest_record);
+  if (!text || !text->empty()) return text;
+  refuse_file(file, problems);
+  return {};
+}
+
+/// "; did you mean out/rotary_knife?" where a run's folder lies one deeper.
+std::string nearest_run(const fs::path& folder) {
+  std::vector<std::string> runs;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (fs::exists(entry.path() / checks_file, ignored)) runs.push_back(entry.path().string());
+  std::sort(runs.begin(), runs.end());
+  if (runs.empty()) return "name a folder that drycut run made of a scenario, such as out/rotary_knife";
+  return fmt::format("the runs in it are {}", fmt::join(runs, ", "));
+}
+
+bool is_run(const fs::path& folder, Problems& problems) {
+  std::error_code ignored;
+  const auto refuse = [&](std::string what, std::string remedy) {
+    problems.push_back({folder.string(), 1, 1, std::move(what), std::move(remedy)});
+    return false;
+  };
+  if (!fs::exists(folder, ignored)) return refuse("there is no such folder", "check the path");
+  if (!fs::is_directory(folder, ignored))
+    return refuse("it is not a folder", "name a folder that drycut run made of a scenario");
+  std::vector<std::string> missing;
+  for (const auto* file : {trace_file, events_file, checks_file, scenario_file})
+    if (!fs::is_regular_file(folder / file, ignored)) missing.emplace_back(file);
+  if (missing.empty()) return true;
+  const auto what = fmt::format("it is not the folder of a run: there is no {}", fmt::join(missing, ", "));
+  // A folder of an older drycut has all but the scenario.
+  return refuse(what, missing.size() < 4 ? "run the scenario again: drycut run writes all of them"
+                                         : nearest_run(folder));
+}
+
+void place_of(const std::string& text, std::size_t byte, int& line, int& column) {
+  const auto before = std::string_view(text).substr(0, std::min(byte, text.size()));
+  line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+  column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
+}
+
+CheckResult check_of(const nlohmann::json& json) {
+  CheckResult check;
+  check.name = json.at("name").get<std::string>();
+  check.expectation = json.at("expectation").get<std::string>();
+  check.passed = json.at("passed").get<bool>();
+  check.unit = json.at("unit").get<std::string>();
+  check.detail = json.at("detail").get<std::string>();
+  if (const auto& margin = json.at("margin"); !margin.is_null()) check.margin = margin.get<double>();
+  if (const auto& at = json.at("at"); !at.is_null()) check.at = at.get<double>();
+  return check;
+}
+
+void read_checks_json(const std::string& text, const std::string& file, RunFolder& run, Problems& problems) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    run.version = json.at("drycut").get<std::string>();
+    run.passed = json.at("passed").get<bool>();
+    run.end = json.at("end").get<double>();
+    run.failure = json.at("failure").get<std::string>();
+    for (const auto& check : json.at("checks")) run.checks.push_back(check_of(check));
+  } catch (const nlohmann::json::parse_error& error) {
+    int line = 1;
+    int column = 1;
+    place_of(text, error.byte == 0 ? 0 : error.byte - 1, line, column);
+    problems.push_back({file, line, column, "this is no JSON", run_again});
+  } catch (const nlohmann::json::exception& error) {
+    const std::string what = error.what();
+    const auto bracket = what.find("] ");
+    problems.push_back({file, 1, 1,
+                        fmt::format("a check's result is missing or of another kind: {}",
+                                    bracket == std::string::npos ? what : what.substr(bracket + 2)),
+                        run_again});
+  }
+}
+
+bool all_scalars(const YamlNode& list) {
+  return std::all_of(list.items.begin(), list.items.end(),
+                     [](const YamlNode& item) { return item.kind == YamlNode::Kind::scalar; });
+}
+
+std::string list_text(const YamlNode& list) {
+  std::vector<std::string> texts;
+  for (const auto& item : list.items) texts.push_back(item.text.text);
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+void flatten(const YamlNode& node, const std::string& path,
+             std::vector<std::pair<std::string, std::string>>& values) {
+  if (node.kind == YamlNode::Kind::map) {
+    for (const auto& entry : node.entries)
+      flatten(entry.value, path.empty() ? entry.key.text : path + "." + entry.key.text, values);
+  } else if (node.kind == YamlNode::Kind::sequence && !all_scalars(node)) {
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const auto* name = child(node.items[i], "name");
+      flatten(node.items[i],
+              fmt::format("{}[{}]", path, name != nullptr ? name->text.text : std::to_string(i)), values);
+    }
+  } else {
+    values.emplace_back(path, node.kind == YamlNode::Kind::sequence ? list_text(node) : node.text.text);
+  }
+}
+
+/// Every panel of pictures.plots that states limits for the one value of an event that it shows.
+std::vector<Tolerance> tolerances_of(const PicturesSection& pictures) {
+  std::vector<Tolerance> found;
+  for (const auto& plot : pictures.plots) {
+    for (const auto& panel : plot.panels) {
+      if (!panel.limits || panel.values.size() != 1) continue;
+      std::optional<double> until;
+      if (plot.until) until = seconds(*plot.until);
+      found.push_back({panel.event.text, panel.values[0].text, panel.limits->first, panel.limits->second,
+                       seconds(plot.from), until});
+    }
+  }
+  return found;
+}
+
+void read_scenario_yaml(const std::string& text, const std::string& file, RunFolder& run,
+                        Problems& problems) {
+  Findings findings({file});
+  auto root = parse_yaml(text, 0, findings);
+  if (const auto* pictures = child(root, "pictures")) {
+    PicturesSection section;
+    MapReader reader(*pictures, "pictures", findings);
+    visit(reader, section);
+    reader.finish();
+    run.tolerances = tolerances_of(section);
+  }
+  std::erase_if(root.entries, [](const YamlNode::Entry& entry) { return entry.key.text == "pictures"; });
+  if (findings.empty() && root.kind != YamlNode::Kind::map)
+    refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);
+  flatten(root, "", run.parameters);
+  for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
+}
+
+}  // namespace
+
+const Tolerance* RunFolder::tolerance(const std::string& source, const std::string& event,
+                                      const std::string& value) const {
+  const auto found = std::find_if(tolerances.begin(), tolerances.end(), [&](const Tolerance& stated) {
+    return stated.value == value && names_event(stated.event, source, event);
+  });
+  return found == tolerances.end() ? nullptr : &*found;
+}
+
+const std::string* RunFolder::parameter(const std::string& path) const {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const auto& parameter) { return parameter.first == path; });
+  return found == parameters.end() ? nullptr : &found->second;
+}
+
+RunFolder read_run(const fs::path& folder, Problems& problems) {
+  RunFolder run;
+  run.folder = folder;
+  run.label = folder.string();
+  if (!is_run(folder, problems)) return run;
+  const auto name = [&](const char* file) { return (folder / file).string(); };
+  const MappedFile trace(folder / trace_file);
+  if (trace.text().empty())
+    refuse_file(folder / trace_file, problems);
+  else
+    run.recording = read_trace(trace.text(), name(trace_file), problems);
+  if (const auto text = whole_file(folder / events_file, problems))
+    read_events(*text, name(events_file), run.recording, problems);
+  if (const auto text = whole_file(folder / checks_file, problems))
+    read_checks_json(*text, name(checks_file), run, problems);
+  if (const auto text = whole_file(folder / scenario_file, problems))
+    read_scenario_yaml(*text, name(scenario_file), run, problems);
+  return run;
+}
+
+std::vector<std::string> labels_of(const std::vector<fs::path>& folders, Problems& problems) {
+  std::vector<std::vector<std::string>> parts;
+  std::set<fs::path> seen;
+  for (const auto& folder : folders) {
+    const auto place = (folder / "").lexically_normal().parent_path();
+    if (!seen.insert(place).second)
+      problems.push_back({folder.string(), 1, 1, "the folder is given twice", "give each run once"});
+    auto& own = parts.emplace_back();
+    for (const auto& part : place) own.push_back(part.string());
+  }
+  // What all paths begin and end with tells nothing; something of each stays.
+  const auto all = [&](const auto& holds) { return std::all_of(parts.begin(), parts.end(), holds); };
+  while (all([&](const auto& p) { return p.size() > 1 && p.front() == parts[0].front(); }))
+    for (auto& own : parts) own.erase(own.begin());
+  while (all([&](const auto& p) { return p.size() > 1 && p.back() == parts[0].back(); }))
+    for (auto& own : parts) own.pop_back();
+  std::vector<std::string> labels;
+  for (const auto& own : parts) {
+    fs::path label;
+    for (const auto& part : own) label /= part;
+    labels.push_back(label.string());
+  }
+  return labels;
+}
+
+}  // namespace drycut::sim

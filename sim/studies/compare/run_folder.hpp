@@ -1,0 +1,53 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/loop/checks.hpp"
+#include "sim/loop/recorder.hpp"
+
+namespace drycut::sim {
+
+/// The tolerance of an event's value, as a plot of the scenario states it: limits of a panel with one value.
+struct Tolerance {
+  std::string event;  ///< "cut" or "knife.cut"
+  std::string value;  ///< "length"
+  double low = 0;     ///< [the value's unit]
+  double high = 0;
+  double from = 0;              ///< [s] the plot's window: what it leaves out is not judged
+  std::optional<double> until;  ///< [s]
+};
+
+/// A run as its folder tells it.
+struct RunFolder {
+  std::string label;  ///< what the comparison calls it
+  std::filesystem::path folder;
+  std::string version;  ///< of the drycut that made it
+  bool passed = false;
+  double end = 0;       ///< [s] simulated until
+  std::string failure;  ///< why the simulation stopped, "" if it did not
+  std::vector<CheckResult> checks;
+  Recording recording;
+  /// The scenario with every default in force, path and value: "plants.web.speed", "60 m/min". Entries of a
+  /// list go by their name, "checks[cut length].expect", else by index. Pictures are left out.
+  std::vector<std::pair<std::string, std::string>> parameters;
+  std::vector<Tolerance> tolerances;
+
+  [[nodiscard]] const std::string* parameter(const std::string& path) const;
+  /// Of a value of "knife", "cut"; nullptr if the scenario states none.
+  [[nodiscard]] const Tolerance* tolerance(const std::string& source, const std::string& event,
+                                           const std::string& value) const;
+};
+
+/// Reads the folder that `drycut run` made of one scenario. Whatever is missing or broken in it is told in
+/// `problems` with file, line and column; then the result is not to be used.
+RunFolder read_run(const std::filesystem::path& folder, Problems& problems);
+
+/// What the runs are called: their paths without what all of these begin and end with, "a" and "b" for
+/// a/rotary_knife and b/rotary_knife. A folder that is given twice is a problem.
+std::vector<std::string> labels_of(const std::vector<std::filesystem::path>& folders, Problems& problems);
+
+}  // namespace drycut::sim

@@ -1,0 +1,108 @@
+#include "sim/studies/tune/patch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "sim/scenario/format.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+/// A value at its place in the scenario.
+struct Entry {
+  std::string path;
+  std::string value;
+  std::string who;
+};
+
+/// The keys of a path; what stands below `set` and `wiring` is one key, dots and all.
+std::vector<std::string> keys_of(const std::string& path) {
+  std::vector<std::string> keys;
+  for (std::size_t at = 0; at <= path.size();) {
+    const bool whole = !keys.empty() && (keys.back() == "set" || keys.back() == "wiring");
+    const auto dot = whole ? path.size() : std::min(path.find('.', at), path.size());
+    keys.push_back(path.substr(at, dot - at));
+    at = dot + 1;
+  }
+  return keys;
+}
+
+/// A list's entry cannot be pasted: the rest of the list is not known here.
+bool lies_in_a_list(const std::string& path) {
+  const auto keys = keys_of(path);
+  return std::any_of(keys.begin(), keys.end(), [](const std::string& key) {
+    return std::all_of(key.begin(), key.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  });
+}
+
+std::vector<Entry> entries_of(const Tuning& tuning) {
+  const auto& parameters = tuning.trials.parameters();
+  const auto& point = tuning.trials.at(tuning.best).point;
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& before = tuning.present[i];
+    entries.push_back({parameters[i].path, value_text(parameters[i], point[i]),
+                       before ? fmt::format("drycut tune; before: {}", value_text(parameters[i], *before))
+                              : std::string("drycut tune")});
+  }
+  for (const auto& override : tuning.study.set) {
+    const bool told = std::any_of(entries.begin(), entries.end(),
+                                  [&](const Entry& entry) { return entry.path == override.path; });
+    if (!told) entries.push_back({override.path, override.value, "--set"});
+  }
+  return entries;
+}
+
+std::string yaml_of(std::vector<Entry> entries) {
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.path < b.path; });
+  std::string text;
+  std::vector<std::string> open;  // keys of the line before
+  for (const auto& [path, value, who] : entries) {
+    auto keys = keys_of(path);
+    const auto same =
+        std::mismatch(keys.begin(), keys.end() - 1, open.begin(), open.end()).first - keys.begin();
+    for (auto i = static_cast<std::size_t>(same); i < keys.size(); ++i) {
+      const auto end = i + 1 == keys.size() ? fmt::format(" {}  # {}", value, who) : std::string();
+      text += fmt::format("{:{}}{}:{}\n", "", 2 * i, yaml_text(keys[i]), end);
+    }
+    open = std::move(keys);
+  }
+  return text;
+}
+
+std::string qcl_line(std::string name, double value) {
+  if (const auto dot = name.find('.'); dot != std::string::npos) name[dot] = ':';
+  return fmt::format("#   {} = {}{}\n", name, value < 0 ? "- " : "", std::abs(value));
+}
+
+}  // namespace
+
+std::string patch_text(const Tuning& tuning) {
+  auto entries = entries_of(tuning);
+  std::string arguments = "#  ";
+  for (const auto& entry : entries) arguments += fmt::format(" --set \"{}={}\"", entry.path, entry.value);
+  std::string qcl;
+  for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
+    const auto preset = preset_name(tuning.trials.parameters()[i].path);
+    if (preset && preset->section == "qmove")
+      qcl += qcl_line(preset->value, tuning.trials.at(tuning.best).point[i]);
+  }
+  std::string others;
+  for (const auto& [path, value, who] : entries)
+    if (lies_in_a_list(path)) others += fmt::format("#   {}: {} ({})\n", path, value, who);
+  std::erase_if(entries, [](const Entry& entry) { return lies_in_a_list(entry.path); });
+
+  std::string text;
+  if (const auto miss = miss_text(tuning); !miss.empty()) text += fmt::format("# {}\n", miss);
+  if (!entries.empty())
+    text += "# Into the scenario, beside what stands there\n" + yaml_of(std::move(entries));
+  if (!others.empty()) text += "# In lists of the scenario, at these paths\n" + others;
+  if (!qcl.empty()) text += "# Or in QCL, in the set-up of the axis\n" + qcl;
+  return text + "# Or for drycut run\n" + arguments + "\n";
+}
+
+}  // namespace drycut::sim

@@ -1,0 +1,171 @@
+#include "sim/studies/tune/plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renders/decimate.hpp"
+#include "sim/report/gallery_plots.hpp"
+
+namespace drycut::sim {
+
+namespace {
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+renders::Curve curve_of(const Recording& recording, const MetricName& name, Time from, std::string label,
+                        std::string& unit) {
+  renders::Curve curve;
+  curve.label = std::move(label);
+  if (!name.event.empty()) {
+    auto found = event_numbers(recording.events(), name.event, name.value, seconds(from));
+    renders::thin(found.times, found.numbers);
+    unit = found.unit;
+    curve.style = renders::Curve::Style::points;
+    curve.x = std::move(found.times);
+    curve.y = std::move(found.numbers);
+    return curve;
+  }
+  const auto* column = recording.column(name.text);
+  if (column == nullptr) return curve;
+  unit = column->unit;
+  auto of_time = channel_curve(recording, *column, rows_between(recording, from, {}));
+  of_time.label = std::move(curve.label);
+  return of_time;
+}
+
+renders::Plot before_after(const Tuning& tuning, std::size_t index) {
+  const auto& entry = tuning.study.cases[index];
+  renders::Plot plot;
+  const auto stem = entry.file.stem().string();
+  plot.name =
+      tuning.study.cases.size() == 1 ? "before_after" : fmt::format("before_after_{}_{}", index + 1, stem);
+  plot.title = fmt::format("Before and after: {}", stem);
+  const auto& times = tuning.runs_before[index].recording;
+  plot.x_label = time_label(times, rows_between(times, tuning.study.from, {}));
+  for (const auto& name : names_of(tuning.study, entry)) {
+    renders::Panel panel;
+    std::string unit;
+    for (const bool after : {false, true}) {
+      const auto& runs = after ? tuning.runs_after : tuning.runs_before;
+      auto curve = curve_of(runs[index].recording, name, tuning.study.from, after ? "after" : "before", unit);
+      if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+    }
+    panel.title = name.text;
+    panel.y_label = with_unit(name.text, unit);
+    if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  }
+  return plot;
+}
+
+renders::Plot way(const Tuning& tuning) {
+  renders::Curve all{"kept all limits", {}, {}, renders::Curve::Style::points};
+  renders::Curve refused{"beyond a limit", {}, {}, renders::Curve::Style::points};
+  renders::Curve least{"best so far", {}, {}, renders::Curve::Style::steps};
+  double best = std::numeric_limits<double>::infinity();
+  double number = 0;
+  for (const auto& trial : tuning.trials.trials()) {
+    ++number;
+    if (trial.verdict.stopped) continue;
+    auto& curve = trial.verdict.feasible() ? all : refused;
+    curve.x.push_back(number);
+    curve.y.push_back(trial.verdict.metric);
+    if (!trial.verdict.feasible()) continue;
+    best = std::min(best, trial.verdict.metric);
+    least.x.push_back(number);
+    least.y.push_back(best);
+  }
+  renders::Panel panel;
+  panel.title = tuning.study.minimise;
+  panel.y_label = tuning.study.minimise;
+  for (const auto* curve : {&least, &all, &refused})
+    if (!curve->x.empty()) panel.curves.push_back(*curve);
+  // The first samples, far off, would press the rest flat.
+  auto sorted = all.y;
+  std::sort(sorted.begin(), sorted.end());
+  if (!sorted.empty()) {
+    const double low = sorted.front();
+    const double most = sorted[(sorted.size() - 1) * 4 / 5];
+    const double room = (most - low) / 10;
+    if (room > 0) panel.y_range = {low - room, most + room};
+  }
+  renders::Plot plot{"search", "The way to the optimum", "trial", {}};
+  if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+renders::Plot surroundings(const Tuning& tuning) {
+  renders::Plot plot{"around",
+                     "Around the optimum, one parameter at a time",
+                     "change of the parameter [% of its range]",
+                     {}};
+  renders::Panel panel;
+  panel.title = panel.y_label = tuning.study.minimise;
+  const auto& optimum = tuning.trials.at(tuning.best);
+  renders::Curve refused{"beyond a limit", {}, {}, renders::Curve::Style::points};
+  for (std::size_t i = 0; i < tuning.trials.parameters().size(); ++i) {
+    const auto& parameter = tuning.trials.parameters()[i];
+    std::vector<std::pair<double, double>> places = {{0, optimum.verdict.metric}};
+    for (const auto& slice : tuning.slices) {
+      const auto& trial = tuning.trials.at(slice.trial);
+      if (slice.parameter != i || trial.verdict.stopped) continue;
+      const double moved = (trial.point[i] - optimum.point[i]) / (parameter.high - parameter.low);
+      places.emplace_back(moved * 100, trial.verdict.metric);
+      if (trial.verdict.feasible()) continue;
+      refused.x.push_back(moved * 100);
+      refused.y.push_back(trial.verdict.metric);
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    renders::Curve curve{short_name(parameter), {}, {}};
+    for (const auto& [x, y] : places) {
+      curve.x.push_back(x);
+      curve.y.push_back(y);
+    }
+    if (places.size() > 1) panel.curves.push_back(std::move(curve));
+  }
+  if (!refused.x.empty()) panel.curves.push_back(std::move(refused));
+  if (!optimum.verdict.stopped && !panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+renders::Plot spread(const Tuning& tuning) {
+  renders::Plot plot{
+      "spread", "The tuned values over the spread of the machine", "sample, best to worst", {}};
+  std::vector<double> kept;
+  std::vector<double> refused;
+  for (const auto& trial : tuning.spread->trials())
+    if (!trial.verdict.stopped) (trial.verdict.feasible() ? kept : refused).push_back(trial.verdict.metric);
+  renders::Panel panel;
+  panel.title = panel.y_label = tuning.study.minimise;
+  double number = 0;
+  for (auto* numbers : {&kept, &refused}) {
+    std::sort(numbers->begin(), numbers->end());
+    renders::Curve curve{
+        numbers == &kept ? "kept all limits" : "beyond a limit", {}, *numbers, renders::Curve::Style::points};
+    for (std::size_t i = 0; i < numbers->size(); ++i) curve.x.push_back(++number);
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+  const auto& tuned = tuning.trials.at(tuning.best).verdict;
+  if (!tuned.stopped) panel.bands.push_back({"tuned, nominal", tuned.metric, tuned.metric});
+  if (!panel.curves.empty()) plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+}  // namespace
+
+std::vector<renders::Plot> tuning_plots(const Tuning& tuning) {
+  std::vector<renders::Plot> plots;
+  for (std::size_t i = 0; i < tuning.runs_after.size(); ++i) plots.push_back(before_after(tuning, i));
+  plots.push_back(way(tuning));
+  plots.push_back(surroundings(tuning));
+  if (tuning.spread != nullptr) plots.push_back(spread(tuning));
+  std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
+  return plots;
+}
+
+}  // namespace drycut::sim

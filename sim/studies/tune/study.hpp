@@ -1,0 +1,74 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/loop/simulation.hpp"
+#include "sim/studies/bode/loop.hpp"
+#include "sim/studies/tune/metric.hpp"
+
+namespace drycut::sim {
+
+/// What is measured on which scenarios: all that a tuning holds fixed.
+struct Study {
+  struct Case {
+    std::filesystem::path file;
+    std::string text;                ///< of the file, read once
+    std::vector<KnownEvent> events;  ///< that its plants can report
+  };
+  std::vector<Case> cases;
+  std::vector<Override> set;  ///< applied before what the tuning changes
+  std::string minimise;
+  std::vector<std::string> constraints;
+  LoopRequest loop;         ///< how the figures of the loop are measured
+  bool needs_loop = false;  ///< a constraint limits one of them; found out by prepare()
+  Time from = 0;
+  bool ignore_checks = false;
+
+  /// Simulated runs that one set of values may take: two more a scenario where the loop is measured.
+  [[nodiscard]] int runs_of_a_trial() const { return static_cast<int>(cases.size()) * (needs_loop ? 3 : 1); }
+};
+
+/// What one set of values is worth, over all scenarios: the worst of each number.
+struct Verdict {
+  double metric = 0;         ///< NaN if it could not be measured
+  std::vector<double> room;  ///< one a constraint, negative beyond it; NaN = not measured
+  int failed_checks = 0;
+  bool stopped = false;  ///< a run ended early, could not begin or gave no number
+  double violation = 0;  ///< 0 = all limits kept; else their number and, below 1 each, how far beyond
+  int runs = 0;          ///< simulated runs that it took
+  std::string note;      ///< first thing that failed
+
+  [[nodiscard]] bool feasible() const { return !stopped && violation == 0; }
+  /// True if all that was measured keeps its limit, but a margin gave no number; `note` says why.
+  [[nodiscard]] bool unmeasured() const;
+  /// Smaller is better, always: what keeps all limits comes before what does not.
+  [[nodiscard]] double rank() const;
+};
+
+/// One run of one scenario, kept to be looked at.
+struct KeptRun {
+  Recording recording;
+  Outcome outcome;
+  std::string expanded;  ///< the scenario with every value in force
+};
+
+/// Runs all scenarios of `study` with `overrides` on top. The loop is measured last, and only where the
+/// values keep all other limits and their metric is less than `to_beat`: it takes longer than all the rest.
+Verdict measure(const Study& study, const std::vector<Override>& overrides,
+                double to_beat = std::numeric_limits<double>::infinity());
+/// The run of one scenario with the channels that metric and constraints look at; throws
+/// std::runtime_error if it cannot be built.
+KeptRun keep_run(const Study& study, const Study::Case& scenario, const std::vector<Override>& overrides);
+
+/// Every name that metric and constraints look at, once.
+std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario);
+
+/// Reads the scenarios' events into `study` and tells everything wrong with scenarios, --set, metric and
+/// constraints.
+void prepare(Study& study, Problems& problems);
+
+}  // namespace drycut::sim

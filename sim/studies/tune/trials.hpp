@@ -1,0 +1,72 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/studies/tune/parameter.hpp"
+#include "sim/studies/tune/study.hpp"
+
+namespace drycut::sim {
+
+struct CsvRow;
+
+/// Every set of values that was tried, in order, kept in a CSV file: a study that is run again takes from the
+/// file what it has and runs only the rest. The file does not depend on the number of jobs.
+class Trials {
+ public:
+  struct Trial {
+    std::string phase;  ///< "sample", "search", "around", "spread"
+    Point point;
+    Verdict verdict;
+  };
+  /// `fixed` is set before the point's values; `progress` is told the runs so far. Throws std::runtime_error
+  /// if the file cannot be written.
+  Trials(const Study& study, TunedParameters parameters, std::vector<Override> fixed,
+         std::filesystem::path file, int jobs, std::function<void(int)> progress = {});
+
+  /// Tries all of `points`, several at the same time; returns the index of each in trials(). `to_beat`: see
+  /// measure().
+  std::vector<std::size_t> run(const std::string& phase, const std::vector<Point>& points,
+                               double to_beat = std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] const std::vector<Trial>& trials() const { return trials_; }
+  [[nodiscard]] const Trial& at(std::size_t index) const { return trials_[index]; }
+  [[nodiscard]] bool has(const Point& point) const { return index_.contains(point); }
+  [[nodiscard]] const TunedParameters& parameters() const { return parameters_; }
+  /// Sets of values that were not found in the file.
+  [[nodiscard]] int simulated() const { return simulated_; }
+  /// Simulated runs of all trials, those in the file included.
+  [[nodiscard]] int runs() const;
+  /// Simulated runs that one more set of values may take.
+  [[nodiscard]] int runs_of_a_trial() const { return study_.runs_of_a_trial(); }
+  /// Index of the best so far; the earlier of two equals. There must be a trial.
+  [[nodiscard]] std::size_t best() const;
+
+ private:
+  void load();
+  [[nodiscard]] std::optional<Trial> trial_of(const CsvRow& row) const;
+  void append(const Trial& trial);
+  [[nodiscard]] std::string heading() const;
+  [[nodiscard]] std::string fingerprint() const;
+
+  const Study& study_;
+  TunedParameters parameters_;
+  std::vector<Override> fixed_;
+  std::filesystem::path file_;
+  int jobs_;
+  std::function<void(int)> progress_;
+  std::ofstream stream_;
+  std::map<Point, Verdict> kept_;  ///< of the file, not asked for yet
+  std::size_t rows_ = 0;           ///< in the file
+  std::vector<Trial> trials_;
+  std::map<Point, std::size_t> index_;
+  int simulated_ = 0;
+};
+
+}  // namespace drycut::sim

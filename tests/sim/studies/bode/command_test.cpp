@@ -1,0 +1,253 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "sim/cli/bode_command.hpp"
+#include "tests/sim/command_bench.hpp"
+#include "tests/sim/studies/bode/axis.hpp"
+
+namespace drycut::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+struct BodeCommand : CommandTest {
+  BodeCommand() {
+    options.scenario = folder.path / "axis.yaml";
+    options.loop.points = 12;
+    options.loop.amplitude = 1;
+  }
+  int run() {
+    return captured([&] { return measure_bode(options); });
+  }
+  /// Expects bad input told by `message`, and nothing else.
+  void refuses(const std::string& message) {
+    EXPECT_EQ(run(), bad_input);
+    EXPECT_EQ(err, message + "\n");
+    EXPECT_THAT(out, IsEmpty());
+  }
+
+  bode_axis::Folder folder;
+  BodeOptions options;
+};
+
+TEST_F(BodeCommand, JudgesTheLoop) {
+  options.min_phase_margin = 60;
+  options.min_gain_margin = 12;
+  EXPECT_EQ(run(), all_passed) << err;
+  EXPECT_THAT(
+      out,
+      StartsWith("axis: axis.reference from 2.AN01, sampled every 4 ms; a sine of 1 V added from 0.5 s"));
+  EXPECT_THAT(out, HasSubstr("phase margin            87.1 deg at the crossover of 3.9"));
+  EXPECT_THAT(out, HasSubstr("gain margin"));
+  EXPECT_THAT(out, HasSubstr("axis.speed"));
+  EXPECT_THAT(err, IsEmpty());
+}
+
+TEST_F(BodeCommand, FailsBelowALimit) {
+  options.min_phase_margin = 89;
+  options.min_gain_margin = 30;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("FAIL: the phase margin of 87.09 deg is below 89 deg"));
+  EXPECT_THAT(out, HasSubstr("FAIL: the gain margin of 26.04 dB is below 30 dB"));
+}
+
+TEST_F(BodeCommand, FailsOnAMarginThatItCannotKnow) {
+  options.loop.to = 20;
+  options.min_gain_margin = 6;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("FAIL: the gain margin is not known: it lies outside these frequencies"));
+}
+
+TEST_F(BodeCommand, FailsOnAnUnstableLoop) {
+  options.set = {"controller.qmove.set.Axis.pgain=2500"};
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("the loop is not stable"));
+}
+
+TEST_F(BodeCommand, FailsOnAnOpenLoop) {
+  options.loop.at = "0.001";
+  folder.file("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out,
+              HasSubstr("2.AN01 does not answer to 1 V at 0.001 s: either the loop is open there (let the "
+                        "program do REGON before, or choose another --at), or the axis sits in play or "
+                        "stiction (take more --amplitude)"));
+}
+
+TEST_F(BodeCommand, TakesATimeWithItsUnit) {
+  options.loop.at = "400 ms";
+  EXPECT_EQ(run(), all_passed) << out;
+  EXPECT_THAT(out, HasSubstr("added from 0.4 s"));
+  options.loop.at = "6 kg";
+  refuses("--at:1:1: '6 kg' is no time from 0 to 1e6 s; such as 6 s");
+}
+
+TEST_F(BodeCommand, ALoopOfLowGainIsNotUnstable) {
+  options.set = {"controller.qmove.set.Axis.pgain=1"};
+  options.loop.amplitude = 0.1;
+  run();
+  EXPECT_THAT(out, testing::Not(HasSubstr("not stable")));
+}
+
+TEST_F(BodeCommand, WritesTableAndPicture) {
+  options.csv = folder.path / "bode.csv";
+  options.png = folder.path / "bode.png";
+  EXPECT_EQ(run(), all_passed);
+  const auto csv = content(options.csv);
+  EXPECT_THAT(csv,
+              StartsWith("frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],"
+                         "closed_loop.phase [deg],sensitivity.gain [dB],error,axis.speed.gain [mm/s/V],"
+                         "axis.speed.phase [deg]\n"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
+  EXPECT_THAT(content(options.png), StartsWith("\x89PNG"));
+  const auto first = csv;
+  EXPECT_EQ(run(), all_passed);
+  EXPECT_EQ(content(options.csv), first);
+}
+
+TEST_F(BodeCommand, WritesAReport) {
+  options.out = folder.path / "results";
+  options.min_gain_margin = 30;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("report: " + (options.out / "report.html").string()));
+  const auto html = content(options.out / "report.html");
+  EXPECT_THAT(html, HasSubstr("the gain margin of 26.04 dB is below 30 dB"));
+  EXPECT_THAT(html, HasSubstr("87.1 deg at the crossover of 3.9"));
+  EXPECT_THAT(html, HasSubstr("speed_at_10v"));  // the scenario with its defaults
+  EXPECT_THAT(content(options.out / "plots/bode.png"), StartsWith("\x89PNG"));
+  EXPECT_THAT(content(options.out / "bode.csv"), StartsWith("frequency [Hz],"));
+}
+
+TEST_F(BodeCommand, SweepsTheAmplitudeForALimitCycle) {
+  options.limit_cycle = true;
+  options.out = folder.path / "results";
+  options.loop.from = 20;
+  options.loop.points = 4;
+  EXPECT_EQ(run(), all_passed) << out << err;
+  // A linear loop: the margin is that of any amplitude, a factor of 20 on pgain 100.
+  EXPECT_THAT(out, HasSubstr("Gain margin over the amplitude of the sine"));
+  EXPECT_THAT(out, testing::ContainsRegex("Limit cycle from (19|20)"));
+  EXPECT_THAT(content(options.out / "report.html"), HasSubstr("Gain margin over the amplitude"));
+  EXPECT_THAT(content(options.out / "plots/limit_cycle.png"), StartsWith("\x89PNG"));
+}
+
+TEST_F(BodeCommand, WithoutAnyMarginThereIsNoLimitCycle) {
+  options.limit_cycle = true;
+  options.loop.to = 20;
+  options.loop.points = 3;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("Limit cycle: no gain margin was found at any amplitude."));
+}
+
+TEST_F(BodeCommand, GoesDownToTheCrossover) {
+  options.set = {"controller.qmove.set.Axis.pgain=10"};
+  EXPECT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(out, HasSubstr("deg at the crossover of 0.39"));
+  options.loop.from = 1;
+  options.min_phase_margin = 30;
+  EXPECT_EQ(run(), check_failed);
+  EXPECT_THAT(out, HasSubstr("FAIL: the phase margin is not known: it lies outside these frequencies"));
+}
+
+TEST_F(BodeCommand, LeavesOutWhatIsFinerThanTheResolution) {
+  // 5 mV are 0.5 mm/s: less than a count of 0.01 mm from 16 Hz on.
+  options.loop.amplitude = 0.005;
+  EXPECT_EQ(run(), all_passed) << out;
+  EXPECT_THAT(out,
+              testing::ContainsRegex("From [0-9.]+ Hz on nothing answers to 0.005 V: it would be finer"));
+  EXPECT_THAT(out, testing::Not(HasSubstr("inf")));
+}
+
+TEST_F(BodeCommand, RefusesAFolderThatCannotBeMade) {
+  options.out = options.scenario / "results";
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, StartsWith("--out:1:1: the directory " + options.out.string() + " cannot be made"));
+}
+
+TEST_F(BodeCommand, PrintsTheTableForAProgram) {
+  options.csv = "-";
+  EXPECT_EQ(run(), all_passed);
+  EXPECT_THAT(out, StartsWith("frequency [Hz],"));
+  EXPECT_THAT(err, HasSubstr("phase margin"));
+}
+
+TEST_F(BodeCommand, RefusesNumbersOutOfRange) {
+  options.loop.amplitude = 11;
+  options.loop.settle = -1;
+  options.loop.points = 1;
+  options.min_phase_margin = 200;
+  refuses(
+      "--settle:1:1: -1 is out of range; give 0 to 1000 s\n"
+      "--amplitude:1:1: 11 is out of range; give 0.001 to 10 V\n"
+      "--points:1:1: 1 is out of range; give 2 to 1000\n"
+      "--min-phase-margin:1:1: 200 is out of range; give 0 to 180 deg");
+}
+
+TEST_F(BodeCommand, RefusesFrequenciesThatTheControllerCannotSee) {
+  options.loop.to = 200;
+  refuses("--to:1:1: 200 Hz is above half the sampling frequency of 4 ms; give at most 125 Hz");
+}
+
+TEST_F(BodeCommand, RefusesARangeUpsideDown) {
+  options.loop.from = 50;
+  options.loop.to = 20;
+  refuses("--from:1:1: 50 Hz is not below --to, 20 Hz; give a lower frequency");
+}
+
+TEST_F(BodeCommand, RefusesFilesThatAreDirectoriesOrTheSame) {
+  options.csv = folder.path;
+  options.png = folder.path / "x.png";
+  refuses("--csv:1:1: " + options.csv + " is a directory; name a file");
+  options.csv = options.png;
+  refuses("--png:1:1: it is the file of --csv; name another file");
+}
+
+TEST_F(BodeCommand, RefusesAnUnknownWire) {
+  options.loop.wire = "axis.servo";
+  refuses("--wire:1:1: there is no analogue reference 'axis.servo'; give one of: axis.reference");
+}
+
+TEST_F(BodeCommand, RefusesAnUnknownSpeed) {
+  options.loop.speed = "axis.sped";
+  refuses("--speed:1:1: there is no channel 'axis.sped'; did you mean axis.speed?");
+}
+
+TEST_F(BodeCommand, RefusesFilesThatItMustNotWrite) {
+  options.csv = options.scenario;
+  options.png = folder.path / "none" / "x.jpg";
+  refuses("--csv:1:1: " + options.scenario.string() +
+          " is the scenario itself; name another file\n--png:1:1: there is no directory " +
+          (folder.path / "none").string() + "; make it first or name another\n--png:1:1: " + options.png +
+          " does not end in .png; name it x.png");
+}
+
+TEST_F(BodeCommand, RefusesAnOverrideThatIsNone) {
+  options.set = {"pgain"};
+  refuses(
+      "--set:1:1: 'pgain' is not an assignment; write path=value, such as "
+      "\"plants.web.speed=80 m/min\"");
+}
+
+TEST_F(BodeCommand, RefusesAScenarioWithoutAnalogueOutput) {
+  auto text = bode_axis::Folder::scenario("");
+  text.replace(text.find(", 2.AN01: axis.reference"), 24, "");
+  folder.file("axis.yaml", text);
+  refuses(
+      options.scenario.string() +
+      ":1:1: no analogue output is wired; a position loop needs one, such as 2.AN01: knife.servo.reference");
+}
+
+TEST_F(BodeCommand, TellsProblemsOfTheScenario) {
+  folder.file("axis.yaml", bode_axis::Folder::scenario("cheks: []\n"));
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err, HasSubstr("axis.yaml:11:1: unknown key 'cheks'"));
+}
+
+}  // namespace
+}  // namespace drycut::sim

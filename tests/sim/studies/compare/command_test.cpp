@@ -1,0 +1,184 @@
+// drycut compare: exit status, what it prints and writes, what it refuses.
+#include <gmock/gmock.h>
+
+#include "sim/cli/compare_command.hpp"
+#include "tests/sim/studies/compare/bench.hpp"
+
+namespace drycut::sim::comparing {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct CompareCommand : Bench {
+  int run(const std::vector<fs::path>& runs) {
+    options.runs = runs;
+    options.out = folder / "out";
+    return captured([&] { return compare_runs(options); });
+  }
+  /// Refuses b when `texts` stand in it, with this message, and writes nothing.
+  void refuses(const RunTexts& texts, const std::string& file, const std::string& message) {
+    EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+    EXPECT_THAT(err, HasSubstr((folder / "b" / file).string() + ":" + message + "\n"));
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+  CompareOptions options;
+};
+
+TEST_F(CompareCommand, IdenticalRunsAreTheSame) {
+  options.fail_on_difference = true;
+  EXPECT_EQ(run({write("a", {}), write("b", {})}), all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("a against b: no difference\n"));
+  const auto page = content(folder / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("<strong>SAME</strong> <span>no difference</span>"));
+  EXPECT_THAT(page, Not(HasSubstr("<h2>Parameters in force that differ")));
+  EXPECT_TRUE(fs::exists(folder / "out/comparison.csv"));
+  EXPECT_TRUE(fs::exists(folder / "out/plots/overlay_AxisX.png"));
+}
+
+TEST_F(CompareCommand, DifferencesAreToldAndFailOnlyIfAsked) {
+  RunTexts other;
+  other.scenario = with(other.scenario, "speed: 60 m/min", "speed: 80 m/min");
+  other.checks = RunTexts::checks_json(-0.4, false);
+  const std::vector<fs::path> runs = {write("a", {}), write("b", other)};
+  EXPECT_EQ(run(runs), all_passed);
+  EXPECT_THAT(out, HasSubstr("different: 1 of 1 check, 1 parameter\n"));
+  EXPECT_THAT(out,
+              HasSubstr("  cut length: verdict; a passed, 0.053 mm left, at 0.1000 s; b FAILED, 0.4 mm too "
+                        "far, at 0.1000 s\n"));
+  EXPECT_THAT(out, HasSubstr("  plants.web.speed: a 60 m/min; b 80 m/min\n"));
+  const auto page = content(folder / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("<strong>DIFFERENT</strong>"));
+  EXPECT_THAT(
+      page,
+      HasSubstr(
+          "<td>plants.web.speed</td><td class=\"number\">60 m/min</td><td class=\"number\">80 m/min</td>"));
+  EXPECT_THAT(page, HasSubstr("<span class=\"badge fail\">FAIL</span> 0.4 mm too far"));
+  options.fail_on_difference = true;
+  EXPECT_EQ(run(runs), check_failed);
+}
+
+TEST_F(CompareCommand, TheSameRunsGiveTheSameBytes) {
+  RunTexts other;
+  other.trace = with(other.trace, "0.1,60,3", "0.1,60,5");
+  const std::vector<fs::path> runs = {write("a", {}), write("b", other)};
+  ASSERT_EQ(run(runs), all_passed);
+  const auto page = content(folder / "out/report.html");
+  ASSERT_EQ(run(runs), all_passed);
+  EXPECT_TRUE(page == content(folder / "out/report.html"));
+}
+
+TEST_F(CompareCommand, RunsAreCalledByWhatTellsTheirFoldersApart) {
+  options.pictures = false;
+  EXPECT_EQ(run({write("one/line", {}), write("two/line", {})}), all_passed) << err;
+  EXPECT_THAT(out, testing::StartsWith("one against two: "));
+  EXPECT_FALSE(fs::exists(folder / "out/report.html"));
+  EXPECT_EQ(run({write("one/line", {}), write("one/press", {}), write("two/line", {})}), all_passed) << err;
+  EXPECT_THAT(out, testing::StartsWith("one/line against one/press against two/line: "));
+}
+
+TEST_F(CompareCommand, WhatIsNoRunIsRefused) {
+  const auto a = write("a", {});
+  EXPECT_EQ(run({a}), bad_input);
+  EXPECT_THAT(err, HasSubstr(a.string() + ":1:1: one run alone is nothing to compare; "));
+  EXPECT_EQ(run({a, a / ""}), bad_input);
+  EXPECT_THAT(err, HasSubstr("the folder is given twice; give each run once"));
+  EXPECT_EQ(run({a, folder / "none"}), bad_input);
+  EXPECT_THAT(err, HasSubstr((folder / "none").string() + ":1:1: there is no such folder; check the path"));
+  EXPECT_EQ(run({a, a / "trace.csv"}), bad_input);
+  EXPECT_THAT(err, HasSubstr("it is not a folder; name a folder that drycut run made of a scenario"));
+  EXPECT_EQ(run({a, folder}), bad_input);
+  EXPECT_THAT(err, HasSubstr("it is not the folder of a run: there is no trace.csv, events.csv, checks.json, "
+                             "scenario.yaml; the runs in it are " +
+                             a.string()));
+  fs::remove(write("old", {}) / "scenario.yaml");
+  EXPECT_EQ(run({a, folder / "old"}), bad_input);
+  EXPECT_THAT(err, HasSubstr("there is no scenario.yaml; run the scenario again"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(CompareCommand, TheResultsMustNotReplaceARun) {
+  const auto out_run = write("out", {});
+  EXPECT_EQ(run({write("a", {}), out_run}), bad_input);
+  EXPECT_THAT(err, HasSubstr("--out:1:1: " + out_run.string() + " is one of the runs; "));
+}
+
+TEST_F(CompareCommand, AWrongTimeIsRefused) {
+  options.from = "4 m";
+  EXPECT_EQ(run({write("a", {}), write("b", {})}), bad_input);
+  EXPECT_THAT(err, HasSubstr("--from:1:"));
+}
+
+TEST_F(CompareCommand, TheEventsOfALongRunMayBeLargerThanAProgram) {
+  RunTexts texts;
+  constexpr std::size_t larger_than_any_program = 17U << 20U;
+  const std::string line = "0.200000000,timeline,set,panel.start = 1" + std::string(4000, ' ') + '\n';
+  while (texts.events.size() < larger_than_any_program) texts.events += line;
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), all_passed) << err;
+}
+
+TEST_F(CompareCommand, BrokenTracesAreToldWithTheirPlace) {
+  const auto again = std::string("; run the scenario again: drycut run writes the file");
+  RunTexts texts;
+  texts.trace = with(texts.trace, "0.1,60,3", "0.1,60,x3");
+  refuses(texts, "trace.csv", "3:8: 'x3' is not a number" + again);
+  texts.trace = with(RunTexts().trace, "0.1,60,3", "0.1,60");
+  refuses(texts, "trace.csv", "3:1: 2 cells, the header has 3" + again);
+  texts.trace = with(RunTexts().trace, "0.2,60", "0.1,60");
+  refuses(texts, "trace.csv", "4:1: the time does not rise" + again);
+  texts.trace = with(RunTexts().trace, "0.2,60", "-1,60");
+  refuses(texts, "trace.csv", "4:1: '-1' is no time of a run" + again);
+  texts.trace = with(RunTexts().trace, "knife.speed [m/min]", "knife.speed");
+  refuses(texts, "trace.csv",
+          "1:10: 'knife.speed' is no channel with its unit; the header has channel [unit], as drycut run "
+          "writes it");
+  texts.trace = with(RunTexts().trace, "knife.speed [m/min]", "AxisX.follerr [mm]");
+  refuses(texts, "trace.csv", "1:29: channel 'AxisX.follerr' stands twice" + again);
+  texts.trace = with(RunTexts().trace, "time [s]", "t");
+  refuses(texts, "trace.csv",
+          "1:1: the header does not begin with time [s]; the first line is time [s],channel [unit],...");
+  texts.trace = "";
+  refuses(texts, "trace.csv", "1:1: the file cannot be read, or is empty" + again);
+}
+
+TEST_F(CompareCommand, BrokenEventsAreToldWithTheirPlace) {
+  const auto again = std::string("; run the scenario again: drycut run writes the file");
+  RunTexts texts;
+  texts.events = with(texts.events, "0.100000000", "soon");
+  refuses(texts, "events.csv", "3:1: 'soon' is not a number" + again);
+  texts.events = RunTexts().events + "0.3,knife,cut,\"length=1 mm\n";
+  refuses(texts, "events.csv", "6:15: the quote is never closed" + again);
+  texts.events = RunTexts().events + "0.3,knife,cut,\"length\"=1\n";
+  refuses(texts, "events.csv", "6:15: text behind the closing quote" + again);
+  texts.events = RunTexts().events + "0.3,knife,cut\n";
+  refuses(texts, "events.csv", "6:1: 3 cells, the header has 4" + again);
+}
+
+TEST_F(CompareCommand, BrokenChecksAndScenariosAreToldWithTheirPlace) {
+  const auto again = std::string("; run the scenario again: drycut run writes the file");
+  RunTexts texts;
+  texts.checks = "{\n  \"passed\": tru }";
+  refuses(texts, "checks.json", "2:16: this is no JSON" + again);
+  texts.checks = with(RunTexts().checks, "\"end\": 0.2", "\"end\": \"late\"");
+  refuses(texts, "checks.json",
+          "1:1: a check's result is missing or of another kind: type must be number, but is string" + again);
+  texts = {};
+  texts.scenario = "[1, 2]\n";
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+  EXPECT_THAT(err, HasSubstr("scenario.yaml:1:1: a scenario must be a map, not a list"));
+  texts.scenario = "scene: [\n";
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+  EXPECT_THAT(err, HasSubstr("b/scenario.yaml:"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(CompareCommand, AllProblemsAreToldInOneRun) {
+  RunTexts texts;
+  texts.trace = with(texts.trace, "0.1,60,3", "0.1,sixty,x3");
+  texts.events = with(texts.events, "0.100000000", "soon");
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+  for (const auto* what : {"'sixty'", "'x3'", "'soon'"}) EXPECT_THAT(err, HasSubstr(what));
+}
+
+}  // namespace
+}  // namespace drycut::sim::comparing
