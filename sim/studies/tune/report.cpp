@@ -260,7 +260,9 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
   if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));
   report.tables.push_back(trials_table(tuning));
-  write_report(std::move(report), tuning_plots(tuning), folder);
+  add_plots(tuning_plots(tuning), folder, report);
+  report.live.clear();  // pictures only
+  renders::write_report(report, folder.add(report_file));
 }
 
 }  // namespace drycut::sim
