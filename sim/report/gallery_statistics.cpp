@@ -200,8 +200,8 @@ void draw_motor(const Scenario& scenario, const Recording& recording, const Plot
   const double rms = rows.count() == 0 ? 0 : std::sqrt(squares / static_cast<double>(rows.count()));
   renders::Panel shown;
   shown.title = fmt::format(
-      "{}{}rms torque {:.3g} {} ({:.0f} % of rated), largest {:.3g} {} ({:.0f} % of peak torque), "
-      "speed up to {:.4g} {} ({:.0f} % of max_speed)",
+      "{}{}rms {:.3g} {} ({:.0f} % of rated), largest {:.3g} {} ({:.0f} % of peak), "
+      "up to {:.4g} {} ({:.0f} % of max_speed)",
       panel.title, panel.title.empty() ? "" : ": ", rms, torque.unit,
       100 * rms * torque_unit / data.rated_torque, largest_torque, torque.unit,
       100 * largest_torque * torque_unit / data.peak_torque, largest_speed, speed.unit,
