@@ -200,7 +200,7 @@ void MapReader::alone(const Form& form) {
 }
 
 bool MapReader::instead(bool, const Form& form) {
-  if (node_.kind == YamlNode::Kind::scalar) alone(form);
+  if (node_.kind != YamlNode::Kind::map) alone(form);
   return is_alone_;
 }
 

