@@ -32,6 +32,21 @@ Locked lock_folder(const fs::path& folder, std::shared_ptr<void>& held) {
   return taken ? Locked::by_another : Locked::yes;
 }
 
+/// Makes a folder. The folders that were not there go again with the last owner of what is returned, if
+/// nothing has come into them.
+std::shared_ptr<void> make_folder(const fs::path& folder, std::error_code& error) {
+  std::vector<fs::path> made;
+  std::error_code ignored;
+  for (auto path = fs::absolute(folder, ignored).lexically_normal();
+       !path.empty() && !fs::exists(fs::symlink_status(path, ignored)); path = path.parent_path())
+    made.push_back(path);
+  fs::create_directories(folder, error);
+  return {nullptr, [made](void*) {
+            std::error_code not_empty;
+            for (const auto& path : made) fs::remove(path, not_empty);
+          }};
+}
+
 /// What a manifest lists; lines that lead out of the folder are not believed.
 std::set<std::string> read_manifest(const fs::path& manifest) {
   std::set<std::string> names;
@@ -67,7 +82,7 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& kind, const std::
     problems.push_back({"--out", 1, 1, what, remedy});
   };
   std::error_code error;
-  fs::create_directories(folder_, error);
+  made_ = make_folder(folder_, error);
   if (folder_.empty() || error || !fs::is_directory(folder_)) {
     refuse(fmt::format("the directory {} cannot be made{}{}", folder_.string(), error ? ": " : "",
                        error ? error.message() : ""),

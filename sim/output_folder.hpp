@@ -40,6 +40,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::filesystem::path manifest_;
   std::string kind_;
+  std::shared_ptr<void> made_;    ///< folders that were not there; they stay if they are used
   std::shared_ptr<void> lock_;    ///< held as long as somebody refers to it
   std::set<std::string> listed_;  ///< by the manifest, in the manner of "plots/motion.png"
 };

@@ -20,6 +20,23 @@ namespace {
 using namespace drycut;
 using namespace drycut::sim;
 
+/// Tells an option that the command does not have, with the nearest that it has; false if there is none.
+bool unknown_option(const CLI::App& app) {
+  for (const auto* command : app.get_subcommands()) {
+    std::vector<std::string> known;
+    for (const auto* option : command->get_options())
+      for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+    for (const auto& word : app.remaining(true)) {
+      if (!word.starts_with("--")) continue;
+      const auto option = word.substr(0, word.find('='));
+      fmt::print(stderr, "drycut {}: there is no option {}; {}\n", command->get_name(), option,
+                 did_you_mean(option, known));
+      return true;
+    }
+  }
+  return false;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
   app.require_subcommand(1);
@@ -45,6 +62,9 @@ int run(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    if (!unknown_option(app)) app.exit(error);
+    return bad_input;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? all_passed : bad_input;
   }

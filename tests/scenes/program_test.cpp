@@ -172,6 +172,17 @@ TEST_F(ProgramTest, AnUnknownCommandIsNamedWithTheNearest) {
   EXPECT_THAT(far.text, testing::HasSubstr("drycut: there is no command 'blah'; known: run, "));
 }
 
+TEST_F(ProgramTest, AnUnknownOptionIsNamedWithTheNearest) {
+  const auto close = call("run " + scenes + "rotary_knife.yaml --no-picture" + to());
+  EXPECT_EQ(close.status, 2);
+  EXPECT_THAT(close.text,
+              testing::HasSubstr("drycut run: there is no option --no-picture; did you mean --no-pictures?"));
+  const auto far = call("devices CAMMING4 --xyz=3");
+  EXPECT_EQ(far.status, 2);
+  EXPECT_THAT(far.text, testing::HasSubstr("drycut devices: there is no option --xyz; known: "));
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST_F(ProgramTest, CheckTakesOverrides) {
   const auto file = scenes + "backlash_motor_encoder.yaml";
   const auto sound = call("check --expand " + file + " --set controller.qmove.set.Axis.pgain=12");

@@ -52,6 +52,22 @@ struct OutputFolders : testing::Test {
   Problems problems;
 };
 
+TEST(MadeFolders, GoAgainWhereNothingCameIntoThem) {
+  const TestFolder folder;
+  const auto wanted = folder.path / "a" / "b";
+  Problems problems;
+  {
+    const OutputFolder refused(wanted, "run", {}, problems);
+    EXPECT_TRUE(fs::exists(wanted));
+  }
+  EXPECT_FALSE(fs::exists(folder / "a"));
+  OutputFolder(wanted, "run", {}, problems).begin();
+  EXPECT_TRUE(fs::exists(wanted));
+  fs::create_symlink("nowhere", folder / "link");
+  { const OutputFolder refused(folder / "link", "run", {}, problems); }
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+}
+
 TEST_F(OutputFolders, TheNextCommandRemovesWhatTheEarlierOneWroteAndNothingElse) {
   command();
   user("out/notes.txt");
