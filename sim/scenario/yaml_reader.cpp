@@ -35,7 +35,7 @@ std::string suggestion(const ParameterTable& table, const std::string& prefix, c
   if (const auto near = nearest(wanted, here); !near.empty()) return fmt::format("did you mean {}?", near);
   for (const auto& row : table.rows)
     if (row.name.ends_with("." + key)) return fmt::format("did you mean {}?", row.name);
-  return std::string(table.help);
+  return table.help;
 }
 
 }  // namespace

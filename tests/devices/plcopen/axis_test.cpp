@@ -41,7 +41,11 @@ struct One {
   template <typename Block>
   Peaks run(Block& block, const bool& reached) {
     Peaks peaks;
-    for (execute(block); !reached; peaks.take(axis().set())) cycle(block);
+    execute(block);
+    while (!reached) {
+      cycle(block);
+      peaks.take(axis().set());
+    }
     return peaks;
   }
   template <typename Block>
