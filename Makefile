@@ -113,7 +113,7 @@ tidy: setup
 	$(call install,$(LINT_PACKAGES) $(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD)-lint -DBUILD_TESTING=ON -DDRYCUT_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 	git log --since=1.day --name-only --format= --diff-filter=AM -- '*.cpp' | awk 'NF && !seen[$$0]++' | \
-	  while read -r f; do [ -f "$$f" ] && echo "$$f"; done | head -n $(TIDY_MOST) | \
+	  while read -r f; do [ -f "$$f" ] && grep -qF "/$$f\"" $(BUILD)-lint/compile_commands.json && echo "$$f"; done | head -n $(TIDY_MOST) | \
 	  xargs -r -P $(JOBS) -n 1 clang-tidy -quiet -p $(BUILD)-lint
 
 format:

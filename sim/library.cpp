@@ -23,6 +23,7 @@ namespace {
 
 sim::Scenario read(const std::filesystem::path& file, const std::map<std::string, std::string>& set) {
   std::vector<sim::Override> overrides;
+  overrides.reserve(set.size());
   for (const auto& [path, value] : set) overrides.push_back({path, value});
   Problems problems;
   auto scenario = sim::read_scenario(file, overrides, problems);
