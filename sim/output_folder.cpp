@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <system_error>
 
@@ -135,7 +136,7 @@ std::vector<std::string> OutputFolder::strangers(const std::vector<std::string>&
 
 void OutputFolder::begin(const std::vector<std::string>& kept) {
   std::set<std::string> staying;
-  std::set<fs::path> folders;
+  std::set<fs::path, std::greater<>> folders;  // the inner ones first
   for (const auto& name : listed_) {
     const auto file = folder_ / name;
     if (std::find(kept.begin(), kept.end(), name) != kept.end()) {
@@ -151,7 +152,7 @@ void OutputFolder::begin(const std::vector<std::string>& kept) {
       folders.insert(folder_ / parent);
   }
   std::error_code ignored;  // a folder in which something of the user's stands stays
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) fs::remove(*folder, ignored);
+  for (const auto& folder : folders) fs::remove(folder, ignored);
   auto text =
       fmt::format("# Written by drycut ({}). The next one removes these files and no others.\n", kind_);
   for (const auto& name : staying) text += name + '\n';
@@ -177,13 +178,13 @@ fs::path OutputFolder::add(const std::string& name) {
 }
 
 fs::path OutputFolder::add(const std::string& subfolder, const std::vector<std::string>& names) {
-  const auto place = subfolder.empty() ? folder_ : folder_ / subfolder;
+  auto place = subfolder.empty() ? folder_ : folder_ / subfolder;
   std::error_code error;
   fs::create_directories(place, error);
   require(!error, "make", place, error);
   std::vector<std::string> files;
   for (const auto& name : names) {
-    files.push_back(subfolder.empty() ? name : subfolder + '/' + name);
+    files.push_back(subfolder.empty() ? name : fmt::format("{}/{}", subfolder, name));
     if (!listed_.contains(files.back()) && fs::exists(fs::symlink_status(place / name, error)))
       throw std::runtime_error(
           fmt::format("{} is in the way: no earlier {} wrote it", (place / name).string(), kind_));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -51,6 +52,12 @@ class TestFolder {
 
   std::filesystem::path path;
 };
+
+/// Where programs are looked for.
+inline std::string search_path() {
+  const char* path = std::getenv("PATH");
+  return path == nullptr ? "" : path;
+}
 
 /// All of a file.
 inline std::string content(const std::filesystem::path& path) {

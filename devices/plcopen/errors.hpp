@@ -64,7 +64,7 @@ namespace drycut::devices::plcopen {
   ERROR(table_type_unknown, 240011, "the type of the table is not one of 1..7")                           \
   ERROR(table_id, 240013, "the id of a table is 1..65535 and belongs to one table")
 
-#define ERROR(name, number, meaning) name = number,
+#define ERROR(name, number, meaning) name = (number),
 /// What an ErrorID output or an axis reports. 0 = no error.
 enum class ErrorId : std::uint32_t { none = 0, DRYCUT_PLCOPEN_ERRORS };
 #undef ERROR

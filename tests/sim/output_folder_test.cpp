@@ -226,7 +226,7 @@ TEST_F(RunsIntoFolders, AKilledRunLeavesNoVerdictOfAnEarlierOne) {
 }
 
 TEST_F(RunsIntoFolders, PlotsNeedNoHelper) {
-  const std::string path = getenv("PATH");
+  const auto path = search_path();
   setenv("PATH", (folder / "nothing").c_str(), 1);
   options.pictures = true;
   const int status = run({scenario("line.yaml")});

@@ -66,7 +66,7 @@ struct One {
 AxisParameters servo() {
   AxisParameters parameters = Bench::virtual_axis();
   parameters.kind = AxisKind::drive;
-  parameters.homed_at_start = 0;
+  parameters.homed_at_start = false;
   return parameters;
 }
 

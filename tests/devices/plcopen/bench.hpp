@@ -53,8 +53,8 @@ struct Bench {
   static AxisParameters virtual_axis() {
     AxisParameters parameters;
     parameters.kind = AxisKind::virtual_axis;
-    parameters.homed_at_start = 1;
-    parameters.is_master = 1;
+    parameters.homed_at_start = true;
+    parameters.is_master = true;
     parameters.j_vel_sync = 100'000;
     parameters.v_phasing = 200'000;
     parameters.a_phasing = parameters.d_phasing = 2'000;

@@ -143,7 +143,7 @@ TEST(PlcopenSetPosition, GivesTheAxisAnotherValueWithoutMovingOrHomingIt) {
 
 TEST(PlcopenSetPosition, TheDriveDoesNotFeelIt) {
   AxisParameters parameters;
-  parameters.homed_at_start = 1;
+  parameters.homed_at_start = true;
   Bench b(parameters);
   b.kernel.cycle();
   auto set = b.make<McSetPosition>();

@@ -122,7 +122,7 @@ TEST(PlcopenCamOrders, WhatIsWrongWithAnOrderIsToldByItsNumber) {
   AxisParameters homed = usual;
   homed.kind = AxisKind::drive;
   AxisParameters unhomed = homed;
-  unhomed.homed_at_start = 0;
+  unhomed.homed_at_start = false;
   // What is changed on the bench before each order, and what the order says then.
   struct Step {
     std::function<void(Bench&)> change;

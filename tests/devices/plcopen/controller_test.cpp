@@ -48,7 +48,7 @@ struct Rig {
     knife.parameters.tr_min = 1'000;
     AxisConfiguration line{"Line", {}, Measure::length};
     line.parameters.kind = AxisKind::virtual_axis;
-    line.parameters.homed_at_start = 1;
+    line.parameters.homed_at_start = true;
     made.axes = {web, knife, line};
     CamTable table;
     table.file = "knife.tab";
@@ -323,9 +323,9 @@ END_PROGRAM
 
 TEST(PlcopenController, ARefusalNamesTheAxisThatItIsAbout) {
   Configuration made = Rig::configuration();
-  for (AxisConfiguration& axis : made.axes) axis.parameters.is_master = axis.name == "Line" ? 0 : 1;
+  for (AxisConfiguration& axis : made.axes) axis.parameters.is_master = axis.name != "Line";
   made.axes[0].parameters.modulo = 0;
-  made.axes[1].parameters.homed_at_start = 1;
+  made.axes[1].parameters.homed_at_start = true;
   Rig rig(R"(PROGRAM line
 VAR_EXTERNAL Web : AXIS_REF; Knife : AXIS_REF; Line : AXIS_REF; END_VAR
 VAR go : BOOL; Power : MC_Power; Off, Lawless, NoMaster : MC_CamIn; END_VAR
@@ -349,9 +349,9 @@ END_PROGRAM
 
 TEST(PlcopenController, ACamBehindALinearMasterNamesTheMaster) {
   Configuration made = Rig::configuration();
-  made.axes[0].parameters.is_master = 1;
+  made.axes[0].parameters.is_master = true;
   made.axes[0].parameters.modulo = 0;
-  made.axes[1].parameters.homed_at_start = 1;
+  made.axes[1].parameters.homed_at_start = true;
   made.tables[0].interpolation = Interpolation::poly5_line;
   constexpr const char* text = R"(PROGRAM line
 VAR_EXTERNAL Web : AXIS_REF; Knife : AXIS_REF; END_VAR
@@ -465,7 +465,7 @@ TEST(PlcopenController, WithoutPowerItsOutputsAreOffAndOnlyRetainVariablesAndMac
 
 TEST(PlcopenController, WithoutPowerItsVariablesAndAxesReadZero) {
   auto made = Rig::configuration();
-  made.axes[1].parameters.homed_at_start = 1;
+  made.axes[1].parameters.homed_at_start = true;
   Rig rig(turning_line, made);
   rig.input("IX0.0") = true;
   rig.run(1000);
@@ -491,7 +491,7 @@ TEST(PlcopenController, WithoutPowerItsVariablesAndAxesReadZero) {
 
 TEST(PlcopenController, AnAbsoluteEncoderKnowsWhereItIsAtPowerUp) {
   auto made = Rig::configuration();
-  made.axes[0].parameters.homed_at_start = 1;
+  made.axes[0].parameters.homed_at_start = true;
   Rig rig(turning_line, made);
   rig.count("Web.encoder") = 2500;
   rig.run(2);

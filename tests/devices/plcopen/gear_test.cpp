@@ -133,8 +133,8 @@ TEST(PlcopenGear, AGearedSlavesAccelerationIsLimitedAndTheWayCaughtUp) {
 
 TEST(PlcopenGear, AnEncoderLeadsWithItsActualValues) {
   AxisParameters wheel = axis_of(AxisKind::encoder);
-  wheel.is_master = 1;
-  wheel.average_filter = 1;
+  wheel.is_master = true;
+  wheel.average_filter = true;
   wheel.filter_cycles = 25;
   MotionKernel kernel;
   const AxisRef master = kernel.add_axis("Wheel", wheel);

@@ -446,7 +446,7 @@ TEST(PlcopenReadings, AxisInfoSaysWhatTheAxisIsReadyFor) {
 
 TEST(PlcopenReadings, AVirtualAxisThatIsNotHomedAtStartWaitsForMcHome) {
   AxisParameters virtual_axis = Bench::virtual_axis();
-  virtual_axis.homed_at_start = 0;
+  virtual_axis.homed_at_start = false;
   Bench b(virtual_axis);
   b.table(one_to_one());
   b.couple();

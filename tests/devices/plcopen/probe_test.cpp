@@ -153,7 +153,7 @@ TEST(PlcopenProbe, AnAbortionOrAnotherOrderEndsTheWaiting) {
 
 TEST(PlcopenProbe, MovementsDoNotTouchIt) {
   AxisParameters servo;
-  servo.homed_at_start = 1;
+  servo.homed_at_start = true;
   Bench b(servo);
   auto touch = b.make<McTouchProbe>();
   touch.Execute = true;
