@@ -80,7 +80,7 @@ TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
 }
 
 TEST_F(ProgramTest, WithoutHelpersTheVerdictStandsAndTheReportIsWritten) {
-  const auto path = search_path();
+  const auto path = drycut::search_path();
   setenv("PATH", "/nonexistent", 1);
   const auto result = call("run " + scenes +
                            "rotary_knife_short.yaml --set scene.duration='5 s' --set pictures.video=true "
@@ -103,7 +103,7 @@ TEST_F(ProgramTest, TheVerdictIsWrittenLast) {
   std::ofstream(ffmpeg) << "#!/bin/sh\ncp '" << (out / "rotary_knife_short/checks.json").string() << "' '"
                         << (out / "seen.json").string() << "'\nexit 1\n";
   fs::permissions(ffmpeg, fs::perms::owner_all);
-  const auto path = search_path();
+  const auto path = drycut::search_path();
   setenv("PATH", ((out / "bin").string() + ":" + path).c_str(), 1);
   call("run " + scenes +
        "rotary_knife_short.yaml --set scene.duration='5 s' --set pictures.video=true "
