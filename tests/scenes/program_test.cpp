@@ -9,6 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/test_folder.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -134,7 +134,7 @@ TEST(PlcopenCamOrders, WhatIsWrongWithAnOrderIsToldByItsNumber) {
     std::vector<Step> steps;
   };
   const auto nothing = [](Bench&) {};
-  const auto pairs = [](std::vector<double> values) {
+  const auto pairs = [](const std::vector<double>& values) {
     return [values](Bench& b) { b.table(values, 7, Interpolation::poly5_line); };
   };
   const std::vector<Row> rows{

@@ -71,6 +71,7 @@ inline std::vector<std::string> problems_of(const std::string& text) {
 /// problem is told.
 inline void expect_problems(const std::string& text, const std::vector<std::string>& beginnings) {
   std::vector<testing::Matcher<std::string>> matchers;
+  matchers.reserve(beginnings.size());
   for (const std::string& told : beginnings)
     matchers.push_back(told.ends_with('$') ? testing::Matcher<std::string>(told.substr(0, told.size() - 1))
                                            : testing::StartsWith(told));
@@ -84,7 +85,7 @@ inline std::optional<Fault> fault_in_first_scan(const std::string& text) {
   Runtime runtime(compile(text, "f", problems), kernel);
   for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
   runtime.scan(0);
-  const auto fault = runtime.fault();
+  auto fault = runtime.fault();
   runtime.scan(1);
   runtime.cold_start();
   EXPECT_FALSE(runtime.fault());
