@@ -21,12 +21,13 @@ namespace {
   throw BadInput(lines);
 }
 
-sim::Scenario read(const std::filesystem::path& file, const std::map<std::string, std::string>& set) {
-  std::vector<sim::Override> overrides;
+sim::scenario::Scenario read(const std::filesystem::path& file,
+                             const std::map<std::string, std::string>& set) {
+  std::vector<sim::scenario::Override> overrides;
   overrides.reserve(set.size());
   for (const auto& [path, value] : set) overrides.push_back({path, value});
   Problems problems;
-  auto scenario = sim::read_scenario(file, overrides, problems);
+  auto scenario = sim::scenario::read_scenario(file, overrides, problems);
   if (!problems.empty()) refuse(problems);
   scenario.pictures = {};
   scenario.record.channels.clear();
@@ -41,7 +42,7 @@ struct Simulation::Run {
     if (!problems.empty()) refuse(problems);
   }
 
-  const sim::Reading& reading(const std::string& name) {
+  const sim::loop::Reading& reading(const std::string& name) {
     const auto known = readings.find(name);
     if (known != readings.end()) return known->second;
     auto found = simulation.names().reading(name);
@@ -51,7 +52,7 @@ struct Simulation::Run {
     return readings.emplace(name, std::move(*found)).first->second;
   }
 
-  const sim::Target& target(const std::string& name) {
+  const sim::loop::Target& target(const std::string& name) {
     const auto known = targets.find(name);
     if (known != targets.end()) return known->second;
     auto found = simulation.names().target(name);
@@ -66,10 +67,10 @@ struct Simulation::Run {
   }
 
   Problems problems;
-  sim::Scenario scenario;
-  sim::Simulation simulation;
-  std::unordered_map<std::string, sim::Reading> readings;
-  std::unordered_map<std::string, sim::Target> targets;
+  sim::scenario::Scenario scenario;
+  sim::loop::Simulation simulation;
+  std::unordered_map<std::string, sim::loop::Reading> readings;
+  std::unordered_map<std::string, sim::loop::Target> targets;
   std::size_t events_taken = 0;
 };
 
@@ -106,7 +107,7 @@ void Simulation::write(const std::string& name, double value) {
   const auto& target = run_->target(name);
   const auto fault = target.range ? devices::misfit(name, *target.range, value, target.unit) : std::nullopt;
   if (fault) throw BadInput(fault->what + "; " + fault->remedy);
-  target.write(target.unit.empty() ? value : sim::to_si(value, target.unit));
+  target.write(target.unit.empty() ? value : sim::scenario::to_si(value, target.unit));
 }
 
 std::vector<Event> Simulation::take_events() {

@@ -6,7 +6,7 @@
 
 #include "sim/cams/reach.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -127,4 +127,4 @@ std::vector<CamPoint> sample_cam_at(const CamCourse& course, std::vector<double>
   return points;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -5,7 +5,7 @@
 #include "devices/cam/law.hpp"
 #include "sim/cams/points.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// What a cam is judged at. Speeds are in the table's own unit: of CAMMING4 10^decpt Um (the unit that the
 /// decimal point makes) per unitvel time, as the device's maxvel; of LX3VP pulses per second; of MC_CamIn deg
@@ -46,4 +46,4 @@ std::vector<CamPoint> sample_cam(const CamCourse& course, bool both_sides = fals
 /// that it begins.
 std::vector<CamPoint> sample_cam_at(const CamCourse& course, std::vector<double> masters);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -255,4 +255,4 @@ void Header::check_width(const std::vector<Cell>& cells, int line, TableProblems
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -11,7 +11,7 @@
 #include "base/problem.hpp"
 #include "devices/cam/travel.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 // What the cam tables of all devices share as texts: cells with their columns, settings `# key: value` above
 // the header, problems with line and column.
@@ -120,4 +120,4 @@ class Header {
   std::size_t width_ = 0;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -88,4 +88,4 @@ CamRemedy slower_master(const std::string& words, double most, const std::string
 
 std::string whole(double value) { return fmt::format("{:.0f}", value); }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

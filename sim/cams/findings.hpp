@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// A number that cures a finding when it is put in.
 struct CamCure {
@@ -61,4 +61,4 @@ CamRemedy slower_master(const std::string& words, double most, const std::string
 /// A whole number with all of its digits.
 std::string whole(double value);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

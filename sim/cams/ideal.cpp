@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 void repeat(IdealCam& ideal, const CamCourse& course, MasterRange range, const std::vector<CamZone>& zones) {
   constexpr double most = 1e6;
@@ -35,4 +35,4 @@ void repeat(IdealCam& ideal, const CamCourse& course, MasterRange range, const s
   };
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

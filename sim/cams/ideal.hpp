@@ -7,7 +7,7 @@
 #include "sim/cams/course.hpp"
 #include "sim/cams/zone.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// Master positions that a run of a cam came over.
 struct MasterRange {
@@ -37,4 +37,4 @@ struct IdealCam {
 /// of the first one. After a million cycles the rest is left out.
 void repeat(IdealCam& ideal, const CamCourse& course, MasterRange range, const std::vector<CamZone>& zones);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

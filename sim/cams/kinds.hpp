@@ -3,7 +3,7 @@
 
 // What each kind of cam has of its own: how its tables are read and written, and what its manual says of
 // them.
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 using CammingTable = devices::camming4::CamTable;
 using devices::lx3vp::EcamTable;
@@ -24,4 +24,4 @@ CamStudy study_of(const CamFile& cam, const CamRequest& request, Problems& probl
 IdealCam ideal_of(const CamFile& cam, MasterRange range);
 std::string file_of(CamFile& cam, const std::string& file);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

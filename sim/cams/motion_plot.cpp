@@ -7,7 +7,7 @@
 
 #include "sim/cams/findings.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -115,4 +115,4 @@ CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zone
   return drawing;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

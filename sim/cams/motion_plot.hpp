@@ -8,7 +8,7 @@
 #include "sim/cams/course.hpp"
 #include "sim/cams/zone.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// Velocity, acceleration or jerk as it is drawn, with what it must not pass to both sides.
 struct CamQuantity {
@@ -56,4 +56,4 @@ struct CamDrawing {
 CamDrawing motion_plot(const CamCourse& course, const std::vector<CamZone>& zones, const MotionPlot& how,
                        const std::string& name);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -11,7 +11,7 @@
 #include "sim/cams/findings.hpp"
 #include "sim/cams/motion_plot.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -242,4 +242,4 @@ renders::Plot overlay_plot(const PlayedCam& played, const IdealCam& ideal, const
   return plot;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -7,7 +7,7 @@
 #include "sim/cams/ideal.hpp"
 #include "sim/cams/played.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// A stretch of samples inside one cycle of the cam.
 struct PlayedCycle {
@@ -46,4 +46,4 @@ renders::Plot overlay_plot(const PlayedCam& played, const IdealCam& ideal, const
                            const std::vector<PlayedCycle>& cycles, const PlayedCycle& shown,
                            const std::string& name);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

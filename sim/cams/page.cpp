@@ -11,7 +11,7 @@
 #include "sim/cams/overlay.hpp"
 #include "sim/cams/study.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::vector<CamPage> cam_pages(const std::vector<PlayedCam>& played) {
   return pages;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -6,7 +6,7 @@
 #include "renders/report.hpp"
 #include "sim/cams/played.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// What the report shows of one cam table that an axis played: the cam, how feasible it is at the fastest
 /// master of the run, and how near to it the axis was.
@@ -26,4 +26,4 @@ std::vector<CamPage> cam_pages(const std::vector<PlayedCam>& played);
 /// it never was so long, or stood.
 double fastest_master(const PlayedCam& played);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -5,7 +5,7 @@
 
 #include "devices/cam/table.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::vector<PlayedCam> CamRecorder::played() const {
   return played;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

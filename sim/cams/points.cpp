@@ -7,7 +7,7 @@
 #include "sim/cams/findings.hpp"
 #include "sim/cams/report.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> master_per_s) {
   std::string text = "master,slave,velocity,acceleration,jerk,sector";
@@ -37,4 +37,4 @@ std::string cam_samples_text(const std::vector<CamPoint>& points) {
   return columns.text();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

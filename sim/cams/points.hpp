@@ -5,7 +5,7 @@
 
 #include "devices/cam/law.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// A cam at one master position: full precision, before any quantisation. Positions in the table's unit (Um,
 /// pulses, increments).
@@ -21,4 +21,4 @@ std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> m
 /// The samples of `--at` as a table.
 std::string cam_samples_text(const std::vector<CamPoint>& points);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

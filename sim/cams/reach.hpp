@@ -5,7 +5,7 @@
 
 #include "devices/cam/law.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// Largest absolute value over pieces.
 inline double peak_of(const std::vector<devices::CamPiece>& pieces, devices::CamOrder order) {
@@ -38,4 +38,4 @@ struct CamWorst {
   }
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -7,7 +7,7 @@
 
 #include "base/sheet.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 std::string plain(double value) { return number_text(std::abs(value) < 1e-9 ? 0 : value, 6); }
 
@@ -48,4 +48,4 @@ std::string cam_report(const CamText& text, const std::vector<CamFinding>& findi
   return text.heading + '\n' + sections + '\n' + findings_text(findings) + text.totals;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

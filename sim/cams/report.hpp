@@ -6,7 +6,7 @@
 #include "sim/cams/course.hpp"
 #include "sim/cams/findings.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// Of a report's pieces and knots.
 inline constexpr std::size_t most_lines = 60;
@@ -53,4 +53,4 @@ std::string totals_text(const CamCourse& course, const std::string& master_unit,
 /// What `drycut cam` prints: the cam in words with the findings before the totals.
 std::string cam_report(const CamText& text, const std::vector<CamFinding>& findings);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

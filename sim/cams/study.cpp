@@ -10,7 +10,7 @@
 #include "sim/cams/csv.hpp"
 #include "sim/cams/kinds.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -144,4 +144,4 @@ std::string_view header_line(std::string_view text) {
   return {};
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

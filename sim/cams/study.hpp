@@ -10,7 +10,7 @@
 #include "sim/cams/motion_plot.hpp"
 #include "sim/cams/report.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// What is asked of a cam table.
 struct CamRequest {
@@ -66,4 +66,4 @@ std::string cam_file(devices::CamTable& table, const std::string& file);
 /// The first words of the header line: what is neither empty nor a comment, "" if there is nothing.
 std::string_view header_line(std::string_view text);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::vector<TravelFault> travel_faults(const devices::CamTravel& travel, double 
   return faults;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -6,7 +6,7 @@
 #include "devices/cam/travel.hpp"
 #include "sim/cams/findings.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// How a table calls the travel.
 struct TravelWords {
@@ -28,4 +28,4 @@ struct TravelFault {
 std::vector<TravelFault> travel_faults(const devices::CamTravel& travel, double low, double high,
                                        const TravelWords& words);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 constexpr double same = 1e-9;
@@ -18,4 +18,4 @@ std::string motion_name(double entry, double exit, bool steady) {
   return "compensation";
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

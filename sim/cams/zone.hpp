@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// A stretch of a cam: a sector, a phase, a segment.
 struct CamZone {
@@ -17,4 +17,4 @@ std::string motion_name(double entry, double exit, bool steady);
 /// True at the speed of the master itself.
 bool is_master_speed(double speed);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -6,7 +6,7 @@
 
 #include "sim/file.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace fs = std::filesystem;
 
@@ -29,8 +29,8 @@ void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help)
       "--no-pictures", [&pictures] { pictures = false; }, help);
 }
 
-std::vector<Override> overrides_of(const std::vector<std::string>& set, Problems& problems) {
-  std::vector<Override> overrides;
+std::vector<scenario::Override> overrides_of(const std::vector<std::string>& set, Problems& problems) {
+  std::vector<scenario::Override> overrides;
   for (const auto& text : set) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -70,4 +70,4 @@ void check_outputs(const std::string& csv, const std::string& png, const InputFi
   if (png == csv) problems.push_back({"--png", 1, 1, "it is the file of --csv", "name another file"});
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 // Options that several commands have.
 
@@ -24,7 +24,7 @@ void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help)
 // Arguments that several commands take. What is wrong goes to `problems`, by the name of the option.
 
 /// The texts of `--set` as overrides; one that is no assignment path=value is a problem.
-std::vector<Override> overrides_of(const std::vector<std::string>& set, Problems& problems);
+std::vector<scenario::Override> overrides_of(const std::vector<std::string>& set, Problems& problems);
 
 /// A file that a command reads, which its results must not overwrite.
 struct InputFile {
@@ -38,4 +38,4 @@ void check_output(const char* option, const std::string& file, const InputFile& 
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
                    Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -11,7 +11,7 @@
 #include "sim/report/report.hpp"
 #include "sim/studies/bode/report.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -23,17 +23,17 @@ void check_limit(const char* option, const std::optional<double>& value, double 
 }
 
 void check_options(const BodeOptions& options, Problems& problems) {
-  check_request(options.loop, problems);
+  studies::check_request(options.loop, problems);
   check_limit("--min-phase-margin", options.min_phase_margin, 180, "deg", problems);
   check_limit("--min-gain-margin", options.min_gain_margin, 200, "dB", problems);
   check_outputs(options.csv, options.png, {options.scenario, "scenario"}, problems);
 }
 
 /// What falls below the limits of the options, a line each.
-std::vector<std::string> shortfalls(const BodeOptions& options, const Margins& margins) {
+std::vector<std::string> shortfalls(const BodeOptions& options, const studies::Margins& margins) {
   std::vector<std::string> lines;
   const auto judge = [&](const char* name, const std::optional<double>& limit,
-                         const std::optional<AtFrequency>& margin, const char* unit) {
+                         const std::optional<studies::AtFrequency>& margin, const char* unit) {
     if (!limit) return;
     if (!margin) {
       lines.push_back(fmt::format("FAIL: the {} is not known: it lies outside these frequencies", name));
@@ -48,17 +48,18 @@ std::vector<std::string> shortfalls(const BodeOptions& options, const Margins& m
 }
 
 /// All that was asked for; `folder` may be null; `faults` are the lines that fail the measurement.
-void write(const BodeOptions& options, const Scenario& scenario, const LoopResult& result,
-           const LimitCycle* cycle, const std::vector<std::string>& faults, OutputFolder* folder) {
-  if (folder != nullptr) write_bode_report(result, cycle, faults, expand(scenario), *folder);
+void write(const BodeOptions& options, const scenario::Scenario& scenario, const studies::LoopResult& result,
+           const studies::LimitCycle* cycle, const std::vector<std::string>& faults, OutputFolder* folder) {
+  if (folder != nullptr)
+    studies::write_bode_report(result, cycle, faults, scenario::expand(scenario), *folder);
   if (result.sweep.points.empty()) return;
   if (folder != nullptr) write_file(folder->add("bode.csv"), bode_csv(result));
   if (options.csv == "-") {
-    fmt::print("{}", bode_csv(result));
+    fmt::print("{}", studies::bode_csv(result));
   } else if (!options.csv.empty()) {
     write_file(options.csv, bode_csv(result));
   }
-  if (!options.png.empty()) draw_png(bode_plot(result, "bode"), options.png);
+  if (!options.png.empty()) report::draw_png(studies::bode_plot(result, "bode"), options.png);
 }
 
 }  // namespace
@@ -67,23 +68,24 @@ int measure_bode(const BodeOptions& options) {
   Problems problems;
   check_options(options, problems);
   const auto overrides = overrides_of(options.set, problems);
-  auto scenario = read_scenario(options.scenario, overrides, problems);
+  auto scenario = scenario::read_scenario(options.scenario, overrides, problems);
   scenario.pictures.frames = false;  // nothing draws them
-  if (scenario.buildable) check_loop(scenario, options.loop, problems);
+  if (scenario.buildable) studies::check_loop(scenario, options.loop, problems);
   std::optional<OutputFolder> folder;
-  if (problems.empty() && !options.out.empty()) folder.emplace(options.out, "bode", bode_files, problems);
+  if (problems.empty() && !options.out.empty())
+    folder.emplace(options.out, "bode", studies::bode_files, problems);
   if (problems.empty() && folder) folder->begin();
-  std::optional<LoopResult> result;
-  std::optional<LimitCycle> cycle;
+  std::optional<studies::LoopResult> result;
+  std::optional<studies::LimitCycle> cycle;
   if (problems.empty() && options.limit_cycle) {
     Progress bar;
-    cycle = find_limit_cycle(scenario, options.loop, problems, [&](double done) {
+    cycle = studies::find_limit_cycle(scenario, options.loop, problems, [&](double done) {
       bar.show("measuring " + options.scenario.stem().string(), done);
     });
     if (cycle) result = cycle->margins[cycle->least.value_or(cycle->margins.size() / 2)].loop;
   } else if (problems.empty()) {
     Progress bar;
-    result = measure_loop(scenario, options.loop, problems, [&](double done) {
+    result = studies::measure_loop(scenario, options.loop, problems, [&](double done) {
       bar.show("measuring " + options.scenario.stem().string(), done);
     });
   }
@@ -91,10 +93,10 @@ int measure_bode(const BodeOptions& options) {
     print_problems(problems);
     return bad_input;
   }
-  const auto doubts = loop_doubts(*result);
+  const auto doubts = studies::loop_doubts(*result);
   auto faults = shortfalls(options, result->margins);
-  auto text = bode_report(*result);
-  if (cycle) text += '\n' + limit_cycle_text(*cycle);
+  auto text = studies::bode_report(*result);
+  if (cycle) text += '\n' + studies::limit_cycle_text(*cycle);
   for (const auto& line : faults) text += line + '\n';
   // A response on standard output is for a program: it must find nothing else there.
   fmt::print(options.csv == "-" ? stderr : stdout, "{}", text);
@@ -139,4 +141,4 @@ void add_bode(CLI::App& app, int& status) {
   bode->callback([chosen, &status] { status = measure_bode(*chosen); });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -7,11 +7,11 @@
 #include "sim/cli/commands.hpp"
 #include "sim/studies/bode/loop.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 struct BodeOptions {
   std::filesystem::path scenario;
-  LoopRequest loop;
+  studies::LoopRequest loop;
   bool limit_cycle = false;                ///< sweeps the amplitude too; shows the one with the least margin
   std::optional<double> min_phase_margin;  ///< [deg], less fails
   std::optional<double> min_gain_margin;   ///< [dB], less fails
@@ -24,4 +24,4 @@ struct BodeOptions {
 /// simulation failed
 int measure_bode(const BodeOptions& options);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -10,7 +10,7 @@
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -40,16 +40,16 @@ void check_options(const CamOptions& options, bool speed_known, Problems& proble
     problems.push_back({"--table", 1, 1, "it is the file of another option", "name another file"});
 }
 
-void write(const CamOptions& options, const CamStudy& study) {
+void write(const CamOptions& options, const cams::CamStudy& study) {
   if (!options.csv.empty()) {
-    const auto text = cam_csv(study.points, study.course.master_speed);
+    const auto text = cams::cam_csv(study.points, study.course.master_speed);
     if (options.csv == "-")
       fmt::print("{}", text);
     else
       write_file(options.csv, text);
   }
   if (!options.rows.empty() && !study.table.empty()) write_file(options.rows, study.table);
-  if (!options.png.empty() && !study.plot.panels.empty()) draw_png(study.plot, options.png);
+  if (!options.png.empty() && !study.plot.panels.empty()) report::draw_png(study.plot, options.png);
 }
 
 }  // namespace
@@ -57,14 +57,14 @@ void write(const CamOptions& options, const CamStudy& study) {
 int validate_cam(const CamOptions& options) {
   Problems problems;
   const auto text = read_file(options.table, problems);
-  const auto& kind = cam_kind(options.device, text.value_or(""));
+  const auto& kind = cams::cam_kind(options.device, text.value_or(""));
   const auto table = text ? kind.read(*text, options.table.string(), problems) : devices::CamTable();
-  check_options(options, gives_master_speed(table), problems);
-  CamStudy study;
+  check_options(options, cams::gives_master_speed(table), problems);
+  cams::CamStudy study;
   if (problems.empty()) {
-    const CamRequest request{options.duty, options.at, options.loops,
-                             std::filesystem::path(options.png).stem().string()};
-    study = study_cam(table, request, problems);
+    const cams::CamRequest request{options.duty, options.at, options.loops,
+                                   std::filesystem::path(options.png).stem().string()};
+    study = cams::study_cam(table, request, problems);
   }
   if (problems.empty() && !options.rows.empty() && study.rows_are_given)
     problems.push_back({"--table", 1, 1, "the table's rows were given, not made", "leave it out"});
@@ -72,12 +72,12 @@ int validate_cam(const CamOptions& options) {
     print_problems(problems);
     return bad_input;
   }
-  auto report = cam_report(study.text, study.findings);
-  if (!options.at.empty() && options.csv.empty()) report += '\n' + cam_samples_text(study.points);
+  auto report = cams::cam_report(study.text, study.findings);
+  if (!options.at.empty() && options.csv.empty()) report += '\n' + cams::cam_samples_text(study.points);
   // Samples on standard output are for a program: it must find nothing else there.
   fmt::print(options.csv == "-" ? stderr : stdout, "{}", report);
   write(options, study);
-  return is_unsound(study.findings, options.strict) ? check_failed : all_passed;
+  return cams::is_unsound(study.findings, options.strict) ? check_failed : all_passed;
 }
 
 void add_cam(CLI::App& app, int& status) {
@@ -92,7 +92,7 @@ void add_cam(CLI::App& app, int& status) {
       "Exit status: 0 sound (warnings are printed), 1 an error or a violated limit, 2 bad input");
   std::string headers;
   std::vector<std::string> devices;
-  for (const auto& kind : cam_kinds()) {
+  for (const auto& kind : cams::cam_kinds()) {
     headers += (headers.empty() ? "" : "; ") + std::string(kind.header);
     devices.emplace_back(kind.name);
   }
@@ -117,4 +117,4 @@ void add_cam(CLI::App& app, int& status) {
   cam->callback([chosen, &status] { status = validate_cam(*chosen); });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

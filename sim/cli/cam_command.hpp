@@ -6,12 +6,12 @@
 #include "sim/cams/course.hpp"
 #include "sim/cli/commands.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 struct CamOptions {
   std::filesystem::path table;
   std::string device = {};  ///< "" = by the table's header
-  CamDuty duty;
+  cams::CamDuty duty;
   std::vector<double> at;  ///< master positions, empty = 1000 a pass and every boundary
   std::string csv;         ///< "" = none, "-" = standard output
   std::string png;         ///< "" = none
@@ -22,4 +22,4 @@ struct CamOptions {
 /// drycut cam: 0 sound, 1 an error or a violated limit, 2 bad input
 int validate_cam(const CamOptions& options);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

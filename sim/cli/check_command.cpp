@@ -21,7 +21,7 @@
 #include "sim/scenario/json_schema.hpp"
 #include "sim/studies/compare/scene_run.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -52,7 +52,7 @@ class Checker {
       if (const auto text = read_file(file, problems_)) check_table(*text, file.string());
     } else if (kind == ".tab") {
       if (const auto text = read_file(file, problems_))
-        cam_kind("mc_camin", *text).read(*text, file.string(), problems_);
+        cams::cam_kind("mc_camin", *text).read(*text, file.string(), problems_);
     } else {
       problems_.push_back(
           {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
@@ -66,42 +66,42 @@ class Checker {
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  void take_notes(const std::string& of, const Simulation& simulation) {
+  void take_notes(const std::string& of, const loop::Simulation& simulation) {
     for (const auto& note : simulation.notes_of_setup()) notes_.push_back(fmt::format("{}: {}", of, note));
   }
 
   /// A comparing scene: its members, then what it asks of them.
-  void check_comparing(const ComparisonScene& scene) {
-    std::vector<MemberNames> names;
+  void check_comparing(const studies::ComparisonScene& scene) {
+    std::vector<studies::MemberNames> names;
     for (const auto& member : scene.members) {
       Problems own;
-      const auto scenario = read_member(scene, member, overrides_, own);
+      const auto scenario = studies::read_member(scene, member, overrides_, own);
       if (scenario.buildable) {
-        const Simulation simulation(scenario, own);
-        load_part_meshes(scenario, simulation.plants(), own);
+        const loop::Simulation simulation(scenario, own);
+        report::load_part_meshes(scenario, simulation.plants(), own);
         take_notes(member.name.text, simulation);
-        if (own.empty()) names.push_back(names_of(simulation));
+        if (own.empty()) names.push_back(studies::names_of(simulation));
       }
-      place_in_scene(scene, member, own);
+      studies::place_in_scene(scene, member, own);
       problems_.insert(problems_.end(), own.begin(), own.end());
     }
-    if (names.size() == scene.members.size()) sim::check_comparison(scene, names, problems_);
+    if (names.size() == scene.members.size()) sim::studies::check_comparison(scene, names, problems_);
   }
 
   void check_scenario(const std::filesystem::path& file) {
     const auto before = problems_.size();
-    if (const auto scene = read_comparison(file, problems_)) {
+    if (const auto scene = studies::read_comparison(file, problems_)) {
       if (problems_.size() == before) check_comparing(*scene);
-      if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(*scene));
+      if (expand_ && problems_.size() == before) fmt::print("{}", sim::studies::expand(*scene));
       return;
     }
-    const auto scenario = read_scenario(file, overrides_, problems_);
+    const auto scenario = scenario::read_scenario(file, overrides_, problems_);
     if (scenario.buildable) {
-      const Simulation simulation(scenario, problems_);
-      load_part_meshes(scenario, simulation.plants(), problems_);
+      const loop::Simulation simulation(scenario, problems_);
+      report::load_part_meshes(scenario, simulation.plants(), problems_);
       take_notes(file.string(), simulation);
     }
-    if (expand_ && problems_.size() == before) fmt::print("{}", sim::expand(scenario));
+    if (expand_ && problems_.size() == before) fmt::print("{}", sim::scenario::expand(scenario));
   }
 
   /// Registers or a program of the LX3VP, or a cam table, as its lines say.
@@ -111,7 +111,7 @@ class Checker {
     else if (devices::lx3vp::is_register_file(text, ','))
       devices::lx3vp::read_register_values(text, file, ',', problems_);
     else
-      cam_kind("", text).read(text, file, problems_);
+      cams::cam_kind("", text).read(text, file, problems_);
   }
 
   void check_configuration(const std::filesystem::path& file) {
@@ -142,7 +142,7 @@ class Checker {
   bool expand_;
   std::vector<std::string> notes_;
   Problems problems_;
-  std::vector<Override> overrides_;
+  std::vector<scenario::Override> overrides_;
   std::optional<qmove::Configuration> configuration_;
   bool configuration_given_ = false;
 };
@@ -178,10 +178,10 @@ void add_check(CLI::App& app, int& status) {
   check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
   check->callback([chosen, files, &status] {
-    if (chosen->schema) return fmt::print("{}\n", json_schema());
+    if (chosen->schema) return fmt::print("{}\n", scenario::json_schema());
     if (chosen->files.empty()) throw CLI::RequiredError(files->get_name());
     status = check_files(*chosen);
   });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

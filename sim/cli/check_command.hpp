@@ -5,7 +5,7 @@
 
 #include "sim/cli/commands.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 struct CheckOptions {
   std::vector<std::filesystem::path> files;
@@ -17,4 +17,4 @@ struct CheckOptions {
 /// them), instruction lists (.il), cam tables and registers (.csv)
 int check_files(const CheckOptions& options);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

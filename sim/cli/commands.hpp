@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 /// Exit status of the program (design §6).
 enum ExitStatus : int {
@@ -37,4 +37,4 @@ int list_plants(const std::string& name, bool json);
 /// Prints problems in order on standard error; says how many.
 void print_problems(const Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -9,7 +9,7 @@
 #include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/compare/report.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -17,26 +17,27 @@ namespace fs = std::filesystem;
 
 std::optional<double> from_of(const CompareOptions& options, Problems& problems) {
   if (options.from.empty()) return {};
-  Findings findings({"--from"});
-  const auto time = read_time({options.from, {1, 1}}, "--from", Sign::not_negative, findings);
+  scenario::Findings findings({"--from"});
+  const auto time =
+      scenario::read_time({options.from, {1, 1}}, "--from", scenario::Sign::not_negative, findings);
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
   if (!time) return {};
   return seconds(*time);
 }
 
-std::vector<RunFolder> read_runs(const CompareOptions& options, Problems& problems) {
+std::vector<studies::RunFolder> read_runs(const CompareOptions& options, Problems& problems) {
   if (options.runs.size() < 2) {
     problems.push_back({options.runs.empty() ? "compare" : options.runs[0].string(), 1, 1,
                         "one run alone is nothing to compare", "name two folders of runs or more"});
   }
-  const auto labels = labels_of(options.runs, problems);
-  std::vector<RunFolder> runs;
+  const auto labels = studies::labels_of(options.runs, problems);
+  std::vector<studies::RunFolder> runs;
   for (std::size_t i = 0; i < options.runs.size(); ++i) {
     std::error_code ignored;
     if (fs::equivalent(options.out, options.runs[i], ignored))
       problems.push_back({"--out", 1, 1, fmt::format("{} is one of the runs", options.out.string()),
                           "the comparison would replace its report; name another folder"});
-    runs.push_back(read_run(options.runs[i], problems));
+    runs.push_back(studies::read_run(options.runs[i], problems));
     runs.back().label = labels[i];
   }
   return runs;
@@ -49,29 +50,29 @@ int compare_runs(const CompareOptions& options) {
   auto runs = read_runs(options, problems);
   const auto from = from_of(options, problems);
   std::optional<OutputFolder> folder;
-  if (problems.empty()) folder.emplace(options.out, "compare", comparison_files, problems);
+  if (problems.empty()) folder.emplace(options.out, "compare", studies::comparison_files, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
-  const auto comparison = compare(std::move(runs), from);
-  ComparisonPage page;
+  const auto comparison = studies::compare(std::move(runs), from);
+  studies::ComparisonPage page;
   for (const auto& run : comparison.runs) {
     page.title += (page.title.empty() ? "" : " against ") + run.label;
     page.source += (page.source.empty() ? "" : ", ") + run.folder.string();
   }
-  page.verdict = difference_text(comparison);
+  page.verdict = studies::difference_text(comparison);
   try {
     folder->begin();
-    write_comparison(comparison, page, *folder, options.pictures);
+    studies::write_comparison(comparison, page, *folder, options.pictures);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;
   }
-  fmt::print("{}: {}", page.title, comparison_text(comparison));
+  fmt::print("{}: {}", page.title, studies::comparison_text(comparison));
   fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
                                         : "results: " + options.out.string());
-  return options.fail_on_difference && !same(comparison) ? check_failed : all_passed;
+  return options.fail_on_difference && !studies::same(comparison) ? check_failed : all_passed;
 }
 
 void add_compare(CLI::App& app, int& status) {
@@ -95,4 +96,4 @@ void add_compare(CLI::App& app, int& status) {
   compare->callback([chosen, &status] { status = compare_runs(*chosen); });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

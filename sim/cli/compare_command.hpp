@@ -5,7 +5,7 @@
 
 #include "sim/cli/commands.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 struct CompareOptions {
   std::vector<std::filesystem::path> runs;  ///< folders that drycut run made of scenarios, two or more
@@ -17,4 +17,4 @@ struct CompareOptions {
 /// drycut compare: 0 compared, 1 different and --fail-on-difference, 2 bad input, 3 cannot be written
 int compare_runs(const CompareOptions& options);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

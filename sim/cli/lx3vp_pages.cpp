@@ -11,7 +11,7 @@
 #include "devices/lx3vp/il_operands.hpp"
 #include "sim/cli/pages.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -127,4 +127,4 @@ Page lx3vp_page() {
 
 std::vector<Page> lx3vp_pages() { return {decam_page(), ecamtbx_page(), lx3vp_page()}; }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -18,7 +18,7 @@
 namespace {
 
 using namespace drycut;
-using namespace drycut::sim;
+using namespace drycut::sim::cli;
 
 /// Tells an option that the command does not have, with the nearest that it has; false if there is none.
 bool unknown_option(const CLI::App& app) {
@@ -30,7 +30,7 @@ bool unknown_option(const CLI::App& app) {
       if (!word.starts_with("--")) continue;
       const auto option = word.substr(0, word.find('='));
       fmt::print(stderr, "drycut {}: there is no option {}; {}\n", command->get_name(), option,
-                 did_you_mean(option, known));
+                 sim::scenario::did_you_mean(option, known));
       return true;
     }
   }
@@ -51,7 +51,8 @@ int run(int argc, char** argv) {
   for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' &&
       std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
-    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1], did_you_mean(argv[1], commands));
+    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1],
+               sim::scenario::did_you_mean(argv[1], commands));
     return bad_input;
   }
   for (int i = 1; i < argc; ++i) {

@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -97,4 +97,4 @@ void add_plants(CLI::App& app, int& status) {
             "Plant type, such as rotary_knife");
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -4,7 +4,7 @@
 
 #include "base/sheet.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 /// What `drycut devices NAME` or `drycut plants NAME` shows.
 struct Page {
@@ -29,4 +29,4 @@ std::vector<Page> device_pages();
 /// A page for each plant type.
 std::vector<Page> plant_pages();
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -11,7 +11,7 @@
 #include "sim/cli/pages.hpp"
 #include "sim/scenario/parameter_text.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -179,7 +179,7 @@ Page plant_page(const plants::PlantType& type) {
     const auto range = range_text(p);
     const bool in_unit = !p.unit.empty() && !range.empty();
     parameters.add({p.name,
-                    value_text(p),
+                    scenario::value_text(p),
                     p.unit,
                     {range, in_unit ? fmt::format("{} {}", range, p.unit) : range},
                     p.meaning,
@@ -220,4 +220,4 @@ std::vector<Page> plant_pages() {
   return pages;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -15,7 +15,7 @@
 #include "sim/cli/pages.hpp"
 #include "sim/scenario/axis_units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -29,7 +29,8 @@ std::string either(std::string_view length, std::string_view angle) {
 
 /// By what people write.
 std::string people_unit(const plcopen::AxisParameter& parameter) {
-  return either(axis_unit(parameter, Measure::length).unit, axis_unit(parameter, Measure::angle).unit);
+  return either(scenario::axis_unit(parameter, Measure::length).unit,
+                scenario::axis_unit(parameter, Measure::angle).unit);
 }
 
 std::string value_unit(const plcopen::AxisValue& value) {
@@ -37,7 +38,7 @@ std::string value_unit(const plcopen::AxisValue& value) {
 }
 
 std::string default_text(const plcopen::AxisParameter& parameter) {
-  return axis_value_text(parameter, {}, Measure::angle);
+  return scenario::axis_value_text(parameter, {}, Measure::angle);
 }
 
 std::string range_text(const plcopen::AxisParameter& parameter) {
@@ -49,7 +50,7 @@ std::string offered_by(const plcopen::AxisTerminal& terminal) {
   std::vector<std::string> kinds;
   for (const auto kind :
        {plcopen::AxisKind::drive, plcopen::AxisKind::virtual_axis, plcopen::AxisKind::encoder})
-    if (terminal.offered_by(kind)) kinds.emplace_back(axis_kind_text(kind));
+    if (terminal.offered_by(kind)) kinds.emplace_back(scenario::axis_kind_text(kind));
   return listed(kinds);
 }
 
@@ -128,4 +129,4 @@ std::vector<Page> plcopen_pages() {
   return pages;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

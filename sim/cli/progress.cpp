@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
@@ -35,4 +35,4 @@ void Progress::clear() {
   shown_ = -1;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

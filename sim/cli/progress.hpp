@@ -2,7 +2,7 @@
 #include <mutex>
 #include <string>
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 /// A progress bar on standard error, where that is a terminal; nothing elsewhere. Safe to use from several
 /// threads.
@@ -25,4 +25,4 @@ class Progress {
   std::string label_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -9,7 +9,7 @@
 #include "devices/qmove/language.hpp"
 #include "sim/cli/pages.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -136,4 +136,4 @@ std::vector<Page> qmove_pages() {
   return pages;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -10,7 +10,7 @@
 #include "sim/cli/pages.hpp"
 #include "sim/file.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -190,4 +190,4 @@ void add_reference(CLI::App& app, int& status) {
   reference->callback([&app, &status, folder] { status = write_reference(app, *folder); });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -25,7 +25,7 @@
 #include "sim/studies/compare/scene_run.hpp"
 #include "sim/studies/half_step.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -33,11 +33,11 @@ constexpr auto* junit_file = "junit.xml";
 
 /// One scenario on its way from file to report.
 struct Job {
-  Scenario scenario;
-  std::optional<Scenario> half;  ///< the same at half its step, with --verify-step
-  std::unique_ptr<Simulation> simulation;
-  PartMeshes meshes;
-  RunResult result;
+  scenario::Scenario scenario;
+  std::optional<scenario::Scenario> half;  ///< the same at half its step, with --verify-step
+  std::unique_ptr<loop::Simulation> simulation;
+  report::PartMeshes meshes;
+  report::RunResult result;
   std::optional<OutputFolder> folder;
   std::string trouble;          ///< a result could not be written
   std::string left_out;         ///< because a helper program is missing, and what to install
@@ -46,10 +46,10 @@ struct Job {
 
 /// A scene that compares some of the jobs.
 struct Group {
-  ComparisonScene scene;
+  studies::ComparisonScene scene;
   std::vector<Job*> members;
-  std::vector<MemberNames> names;
-  RunResult result;
+  std::vector<studies::MemberNames> names;
+  report::RunResult result;
   std::optional<OutputFolder> folder;
   std::string trouble;
 };
@@ -93,11 +93,12 @@ class Claims {
 bool put_together(Job& job, const std::string& name, const RunOptions& options, Claims& claims,
                   Problems& problems) {
   if (options.seed) job.scenario.scene.seed = *options.seed;
-  if (const auto kept = retentive_file(job.scenario)) claims.retentive(*kept, job.scenario.file, problems);
+  if (const auto kept = loop::retentive_file(job.scenario))
+    claims.retentive(*kept, job.scenario.file, problems);
   if (options.gltf) job.scenario.pictures.frames = true;
   if (job.scenario.buildable) {
-    job.simulation = std::make_unique<Simulation>(job.scenario, problems);
-    job.meshes = load_part_meshes(job.scenario, job.simulation->plants(), problems);
+    job.simulation = std::make_unique<loop::Simulation>(job.scenario, problems);
+    job.meshes = report::load_part_meshes(job.scenario, job.simulation->plants(), problems);
   } else if (problems.empty()) {
     throw std::logic_error("a scenario that cannot be built has no problem");
   }
@@ -108,10 +109,11 @@ bool put_together(Job& job, const std::string& name, const RunOptions& options, 
 }
 
 /// Reads a sound scenario once more, at half its step.
-void read_half(Job& job, std::vector<Override> overrides, const RunOptions& options,
-               const std::function<Scenario(const std::vector<Override>&)>& read, Problems& problems) {
+void read_half(Job& job, std::vector<scenario::Override> overrides, const RunOptions& options,
+               const std::function<scenario::Scenario(const std::vector<scenario::Override>&)>& read,
+               Problems& problems) {
   if (!options.verify_step || !problems.empty()) return;
-  const auto half = halved_step(job.scenario, problems);
+  const auto half = studies::halved_step(job.scenario, problems);
   if (!half) return;
   overrides.push_back(*half);
   job.half = read(overrides);
@@ -119,25 +121,26 @@ void read_half(Job& job, std::vector<Override> overrides, const RunOptions& opti
 }
 
 /// The members of a comparing scene as jobs, in a folder of its own each inside the scene's.
-void prepare_members(ComparisonScene scene, const std::vector<Override>& overrides, const RunOptions& options,
-                     Claims& claims, Work& work, Problems& problems) {
+void prepare_members(studies::ComparisonScene scene, const std::vector<scenario::Override>& overrides,
+                     const RunOptions& options, Claims& claims, Work& work, Problems& problems) {
   auto& group = work.groups.emplace_back();
   const auto stem = scene.file.stem().string();
   bool sound = true;
   for (const auto& member : scene.members) {
     auto job = std::make_unique<Job>();
     Problems own;
-    job->scenario = read_member(scene, member, overrides, own);
+    job->scenario = studies::read_member(scene, member, overrides, own);
     sound = put_together(*job, stem + "/" + member.name.text, options, claims, own) && sound;
     read_half(
-        *job, overrides, options, [&](const auto& set) { return read_member(scene, member, set, own); }, own);
-    place_in_scene(scene, member, own);
+        *job, overrides, options,
+        [&](const auto& set) { return studies::read_member(scene, member, set, own); }, own);
+    studies::place_in_scene(scene, member, own);
     problems.insert(problems.end(), own.begin(), own.end());
     group.members.push_back(job.get());
-    if (sound) group.names.push_back(names_of(*job->simulation));
+    if (sound) group.names.push_back(studies::names_of(*job->simulation));
     work.jobs.push_back(std::move(job));
   }
-  if (sound) check_comparison(scene, group.names, problems);
+  if (sound) studies::check_comparison(scene, group.names, problems);
   group.result.name = stem;
   group.result.scenario = scene.file;
   group.result.directory = options.out / stem;
@@ -152,14 +155,15 @@ Work prepare(const RunOptions& options, Problems& problems) {
   for (const auto& file : options.scenarios) {
     claims.results(file.stem().string(), file, problems);
     Problems own;
-    if (auto scene = read_comparison(file, own)) {
+    if (auto scene = studies::read_comparison(file, own)) {
       if (own.empty()) prepare_members(std::move(*scene), overrides, options, claims, work, own);
     } else {
       auto job = std::make_unique<Job>();
-      job->scenario = read_scenario(file, overrides, own);
+      job->scenario = scenario::read_scenario(file, overrides, own);
       put_together(*job, file.stem().string(), options, claims, own);
       read_half(
-          *job, overrides, options, [&](const auto& set) { return read_scenario(file, set, own); }, own);
+          *job, overrides, options, [&](const auto& set) { return scenario::read_scenario(file, set, own); },
+          own);
       work.jobs.push_back(std::move(job));
     }
     problems.insert(problems.end(), own.begin(), own.end());
@@ -173,10 +177,12 @@ std::string scene_file_of(const Job& job) { return job.result.directory.filename
 void open_folders(Work& work, const RunOptions& options, Problems& problems) {
   work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file}, problems);
   for (auto& group : work.groups)
-    group.folder.emplace(group.result.directory, "compare", comparison_files, problems);
+    group.folder.emplace(group.result.directory, "compare", studies::comparison_files, problems);
   for (auto& job : work.jobs) {
-    auto names = picture_files;
-    for (const auto* name : {trace_file, events_file, checks_file, scenario_file}) names.emplace_back(name);
+    auto names = report::picture_files;
+    for (const auto* name :
+         {report::trace_file, report::events_file, report::checks_file, report::scenario_file})
+      names.emplace_back(name);
     names.push_back(scene_file_of(*job));
     job->folder.emplace(job->result.directory, "run", names, problems);
   }
@@ -188,7 +194,7 @@ void begin(Work& work) {
   for (auto& group : work.groups) group.folder->begin();
   for (auto& job : work.jobs) {
     job->folder->begin();
-    write_checks(outcome_to_come(), job->folder->add(checks_file));
+    report::write_checks(report::outcome_to_come(), job->folder->add(report::checks_file));
   }
 }
 
@@ -198,28 +204,29 @@ void run_job(Job& job, const RunOptions& options, int threads,
   const auto duration = static_cast<double>(job.scenario.scene.duration);
   if (options.pictures) job.simulation->follow_cams();
   if (!options.pictures && !options.gltf) job.simulation->keep_nothing();
-  job.simulation->write_to(folder.add(trace_file), folder.add(events_file));
+  job.simulation->write_to(folder.add(report::trace_file), folder.add(report::events_file));
   job.result.outcome =
       job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
   if (job.half)
-    job.result.outcome.half_step = run_half_step(std::move(*job.half), [&](Time now) {
+    job.result.outcome.half_step = studies::run_half_step(std::move(*job.half), [&](Time now) {
       progress("at half the step", static_cast<double>(now) / duration);
     });
-  write_scenario(job.scenario, folder.add(scenario_file));
-  if (const auto kept = retentive_file(job.scenario)) {
+  report::write_scenario(job.scenario, folder.add(report::scenario_file));
+  if (const auto kept = loop::retentive_file(job.scenario)) {
     write_file(*kept, job.simulation->retentive_state());
   }
-  const auto finished = [&] { write_checks(job.result.outcome, folder.add(checks_file)); };
+  const auto finished = [&] { report::write_checks(job.result.outcome, folder.add(report::checks_file)); };
   if (!options.pictures && !options.gltf) return finished();
-  const auto film = job.simulation->snapshots().empty() ? renders::Film{}
-                                                        : film_of(job.scenario, *job.simulation, job.meshes);
+  const auto film = job.simulation->snapshots().empty()
+                        ? renders::Film{}
+                        : report::film_of(job.scenario, *job.simulation, job.meshes);
   if (options.gltf && !film.frames.empty()) {
     job.scene = folder.add(scene_file_of(job));
     renders::write_gltf(film, job.scene, job.scenario.pictures.slow);
   }
   if (!options.pictures) return finished();
-  job.left_out =
-      write_pictures(job.scenario, *job.simulation, film, job.result.outcome, folder, threads, progress);
+  job.left_out = report::write_pictures(job.scenario, *job.simulation, film, job.result.outcome, folder,
+                                        threads, progress);
   job.result.has_report = true;
   finished();
 }
@@ -251,16 +258,16 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
 /// Compares the members of a scene from the files that they left.
 void run_group(Group& group, bool pictures) {
   Problems problems;
-  std::vector<RunFolder> runs;
+  std::vector<studies::RunFolder> runs;
   for (std::size_t i = 0; i < group.members.size(); ++i) {
-    runs.push_back(read_run(group.members[i]->result.directory, problems));
+    runs.push_back(studies::read_run(group.members[i]->result.directory, problems));
     runs.back().label = group.scene.members[i].name.text;
     if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
     group.result.outcome.end = std::max(group.result.outcome.end, group.members[i]->result.outcome.end);
   }
-  auto compared = compare_members(group.scene, group.names, std::move(runs));
+  auto compared = studies::compare_members(group.scene, group.names, std::move(runs));
   group.result.outcome.checks = compared.page.checks;
-  write_comparison(compared.comparison, compared.page, *group.folder, pictures);
+  studies::write_comparison(compared.comparison, compared.page, *group.folder, pictures);
   group.result.has_report = pictures;
 }
 
@@ -274,15 +281,15 @@ void run_groups(std::vector<Group>& groups, bool pictures) {
   }
 }
 
-void print_checks(const std::vector<CheckResult>& checks) {
+void print_checks(const std::vector<loop::CheckResult>& checks) {
   for (const auto& check : checks) {
-    const auto margin = margin_text(check);
+    const auto margin = report::margin_text(check);
     fmt::print("  {} {}: {}{}{}\n", check.passed ? "ok  " : "FAIL", printable(check.name),
                printable(check.detail), margin.empty() ? "" : "; ", margin);
   }
 }
 
-void print_place(const RunResult& result) {
+void print_place(const report::RunResult& result) {
   fmt::print("  {}: {}\n", result.has_report ? "report" : "results",
              (result.has_report ? result.directory / "report.html" : result.directory).string());
 }
@@ -290,10 +297,10 @@ void print_place(const RunResult& result) {
 void print_group(const Group& group) {
   const auto& outcome = group.result.outcome;
   fmt::print("{}: {}\n", printable(group.result.name),
-             !group.trouble.empty() ? group.trouble
-             : outcome.checks.empty()
-                 ? fmt::format("compared {} runs", group.members.size())
-                 : fmt::format("{}, {}", outcome.passed() ? "passed" : "FAILED", verdict_text(outcome)));
+             !group.trouble.empty()   ? group.trouble
+             : outcome.checks.empty() ? fmt::format("compared {} runs", group.members.size())
+                                      : fmt::format("{}, {}", outcome.passed() ? "passed" : "FAILED",
+                                                    report::verdict_text(outcome)));
   print_checks(outcome.checks);
   if (group.trouble.empty()) print_place(group.result);
 }
@@ -304,11 +311,11 @@ void print_result(const Job& job) {
                     : result.outcome.passed()                               ? "passed"
                                                                             : "FAILED";
   fmt::print("{}: {}, {} ({} s simulated)\n", printable(result.name), word,
-             job.trouble.empty() ? verdict_text(result.outcome) : job.trouble,
-             seconds_text(result.outcome.end));
+             job.trouble.empty() ? report::verdict_text(result.outcome) : job.trouble,
+             loop::seconds_text(result.outcome.end));
   print_checks(result.outcome.checks);
   if (result.outcome.half_step) {
-    const auto margins = margin_table(result.outcome, job.scenario.scene.step);
+    const auto margins = studies::margin_table(result.outcome, job.scenario.scene.step);
     if (!margins.rows.empty())
       fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
   }
@@ -320,7 +327,7 @@ void print_result(const Job& job) {
 
 int status_of(const Work& work) {
   int status = all_passed;
-  const auto take = [&](const std::string& trouble, const Outcome& outcome) {
+  const auto take = [&](const std::string& trouble, const loop::Outcome& outcome) {
     if (!trouble.empty() || !outcome.failure.empty()) {
       status = simulation_failed;
     } else if (!outcome.passed() && status == all_passed) {
@@ -353,8 +360,8 @@ int run_scenarios(const RunOptions& options) {
   begin(work);
   run_all(work.jobs, options);
   run_groups(work.groups, options.pictures);
-  std::vector<RunResult> results;
-  const auto keep = [&](const RunResult& result, const std::string& trouble) {
+  std::vector<report::RunResult> results;
+  const auto keep = [&](const report::RunResult& result, const std::string& trouble) {
     results.push_back(result);
     if (!trouble.empty()) results.back().outcome.failure = trouble;
   };
@@ -367,7 +374,7 @@ int run_scenarios(const RunOptions& options) {
     keep(group.result, group.trouble);
   }
   try {
-    write_junit(results, work.folder->add(junit_file));
+    report::write_junit(results, work.folder->add(junit_file));
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;
@@ -394,4 +401,4 @@ void add_run(CLI::App& app, int& status) {
   run->callback([chosen, &status] { status = run_scenarios(*chosen); });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -7,7 +7,7 @@
 
 #include "sim/cli/commands.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 struct RunOptions {
   std::vector<std::filesystem::path> scenarios;
@@ -22,4 +22,4 @@ struct RunOptions {
 /// drycut run
 int run_scenarios(const RunOptions& options);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

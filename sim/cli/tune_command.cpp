@@ -19,7 +19,7 @@
 #include "sim/studies/tune/study.hpp"
 #include "sim/studies/tune/trials.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 namespace {
 
@@ -29,35 +29,36 @@ constexpr auto* patch_file = "patch.txt";
 
 /// The command line, read and found sound.
 struct Plan {
-  Study study;
-  TunedParameters vary;
-  TunedParameters spread;
+  studies::Study study;
+  studies::TunedParameters vary;
+  studies::TunedParameters spread;
   std::vector<std::optional<double>> present;
 };
 
-void read_cases(const TuneOptions& options, Study& study, Problems& problems) {
+void read_cases(const TuneOptions& options, studies::Study& study, Problems& problems) {
   for (const auto& file : options.scenarios)
     if (auto text = read_file(file, problems)) study.cases.push_back({file, std::move(*text), {}});
 }
 
-void read_settings(const TuneOptions& options, Study& study, Problems& problems) {
+void read_settings(const TuneOptions& options, studies::Study& study, Problems& problems) {
   study.set = overrides_of(options.set, problems);
-  const auto from = parse_quantity(options.from);
-  if (!from || !(from->number >= 0) || !is_unit(from->unit) || !same_dimension(from->unit, "s") ||
-      to_si(from->number, from->unit) > 1e9) {
+  const auto from = scenario::parse_quantity(options.from);
+  if (!from || !(from->number >= 0) || !scenario::is_unit(from->unit) ||
+      !scenario::same_dimension(from->unit, "s") || scenario::to_si(from->number, from->unit) > 1e9) {
     problems.push_back({"--from", 1, 1, fmt::format("'{}' is no time", options.from), "such as 3 s"});
   } else {
-    study.from = static_cast<Time>(to_si(from->number, from->unit) * 1e9 + 0.5);
+    study.from = static_cast<Time>(scenario::to_si(from->number, from->unit) * 1e9 + 0.5);
   }
 }
 
 void read_parameters(const std::vector<std::string>& texts, const std::string& option, bool relative,
-                     TunedParameters& parameters, Problems& problems) {
+                     studies::TunedParameters& parameters, Problems& problems) {
   for (const auto& text : texts) {
-    auto parameter = parse_parameter(text, option, relative, problems);
+    auto parameter = studies::parse_parameter(text, option, relative, problems);
     if (!parameter) continue;
-    const bool twice = std::any_of(parameters.begin(), parameters.end(),
-                                   [&](const TunedParameter& p) { return p.path == parameter->path; });
+    const bool twice =
+        std::any_of(parameters.begin(), parameters.end(),
+                    [&](const studies::TunedParameter& p) { return p.path == parameter->path; });
     if (twice) {
       problems.push_back({option, 1, 1, parameter->path + " is given twice", "keep one"});
     } else {
@@ -67,7 +68,7 @@ void read_parameters(const std::vector<std::string>& texts, const std::string& o
 }
 
 /// --spread PATH=±30% around what the scenario says.
-bool place_relative(TunedParameter& parameter, std::optional<double> present, Problems& problems) {
+bool place_relative(studies::TunedParameter& parameter, std::optional<double> present, Problems& problems) {
   if (!parameter.relative) return true;
   if (!present || *present == 0) {
     problems.push_back({parameter.option, 1, parameter.low_column,
@@ -86,14 +87,15 @@ bool place_relative(TunedParameter& parameter, std::optional<double> present, Pr
 }
 
 /// Both ends of the range must be values that the scenario takes.
-void try_bounds(const TunedParameter& parameter, const Study& study, const Study::Case& entry,
-                Problems& problems) {
+void try_bounds(const studies::TunedParameter& parameter, const studies::Study& study,
+                const studies::Study::Case& entry, Problems& problems) {
   for (const bool upper : {false, true}) {
     auto overrides = study.set;
-    overrides.push_back({parameter.path, value_text(parameter, upper ? parameter.high : parameter.low)});
+    overrides.push_back(
+        {parameter.path, studies::value_text(parameter, upper ? parameter.high : parameter.low)});
     Problems own;
-    const auto scenario = read_scenario_text(entry.text, entry.file, overrides, own);
-    if (own.empty()) const Simulation probe(scenario, own);
+    const auto scenario = scenario::read_scenario_text(entry.text, entry.file, overrides, own);
+    if (own.empty()) const loop::Simulation probe(scenario, own);
     for (auto& problem : own) {
       problem.file = parameter.option;
       problem.line = 1;
@@ -107,19 +109,19 @@ void try_bounds(const TunedParameter& parameter, const Study& study, const Study
   }
 }
 
-void check_parameter(TunedParameter& parameter, const Study& study, std::optional<double>& present,
-                     Problems& problems) {
+void check_parameter(studies::TunedParameter& parameter, const studies::Study& study,
+                     std::optional<double>& present, Problems& problems) {
   const auto told = problems.size();
   for (const auto& entry : study.cases) {
     const auto before = problems.size();
     Problems ignored;
-    const auto scenario = read_scenario_text(entry.text, entry.file, study.set, ignored);
+    const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, ignored);
     if (!ignored.empty()) return;
-    const auto value = present_value(parameter, scenario);
+    const auto value = studies::present_value(parameter, scenario);
     if (&entry == &study.cases.front()) present = value;
     if (!place_relative(parameter, value, problems)) return;
     try_bounds(parameter, study, entry, problems);
-    if (problems.size() == before) check_against_controller(parameter, scenario, problems);
+    if (problems.size() == before) studies::check_against_controller(parameter, scenario, problems);
   }
   if (problems.size() == told && parameter.integer &&
       (parameter.low != std::rint(parameter.low) || parameter.high != std::rint(parameter.high)))
@@ -135,8 +137,8 @@ Plan make_plan(const TuneOptions& options, Problems& problems) {
   plan.study.constraints = options.constraints;
   plan.study.ignore_checks = options.ignore_checks;
   plan.study.loop = options.loop;
-  check_request(plan.study.loop, problems);
-  prepare(plan.study, problems);
+  studies::check_request(plan.study.loop, problems);
+  studies::prepare(plan.study, problems);
   if (problems.empty() && !plan.study.needs_loop && !options.loop.wire.empty())
     problems.push_back({"--wire", 1, 1, "no constraint is on the loop",
                         "add --constraint \"phase_margin >= 45\", or leave it out"});
@@ -157,8 +159,8 @@ Plan make_plan(const TuneOptions& options, Problems& problems) {
 }
 
 /// The scenario's own values as a place to start, where it says them all and they lie in the ranges.
-std::optional<Point> start_of(const Plan& plan) {
-  Point point;
+std::optional<studies::Point> start_of(const Plan& plan) {
+  studies::Point point;
   for (std::size_t i = 0; i < plan.vary.size(); ++i) {
     const auto& value = plan.present[i];
     const auto& p = plan.vary[i];
@@ -172,27 +174,27 @@ int tune(const TuneOptions& options, const Plan& plan, OutputFolder& folder) {
   folder.begin({evaluations_file, spread_file});
   const auto& study = plan.study;
   Progress bar;
-  Trials trials(study, plan.vary, {}, folder.add(evaluations_file), options.jobs, [&](int runs) {
+  studies::Trials trials(study, plan.vary, {}, folder.add(evaluations_file), options.jobs, [&](int runs) {
     bar.show("tuning", std::min(1.0, static_cast<double>(runs) / options.budget));
   });
-  Tuning tuning{study, trials, plan.present, measure(study, {}), 0, {}, nullptr, {}, {}};
-  tuning.best = search(trials, start_of(plan), options.budget, options.seed);
+  studies::Tuning tuning{study, trials, plan.present, studies::measure(study, {}), 0, {}, nullptr, {}, {}};
+  tuning.best = studies::search(trials, start_of(plan), options.budget, options.seed);
   const int searched = trials.runs();
-  tuning.slices = look_around(trials, tuning.best);
+  tuning.slices = studies::look_around(trials, tuning.best);
 
-  const auto tuned = overrides_of(plan.vary, trials.at(tuning.best).point);
-  std::optional<Trials> spread;
+  const auto tuned = studies::overrides_of(plan.vary, trials.at(tuning.best).point);
+  std::optional<studies::Trials> spread;
   if (!plan.spread.empty()) {
     const double all = options.spread_runs * study.runs_of_a_trial();
     spread.emplace(study, plan.spread, tuned, folder.add(spread_file), options.jobs,
                    [&](int runs) { bar.show("spreading", std::min(1.0, runs / all)); });
-    spread->run("spread", latin_hypercube(plan.spread, options.spread_runs,
-                                          plants::Random(options.seed, "drycut tune spread")));
+    spread->run("spread", studies::latin_hypercube(plan.spread, options.spread_runs,
+                                                   plants::Random(options.seed, "drycut tune spread")));
     tuning.spread = &*spread;
   }
   bar.clear();
   write_file(folder.add(patch_file), patch_text(tuning));
-  fmt::print("{}", summary_text(tuning));
+  fmt::print("{}", studies::summary_text(tuning));
   const auto now = trials.simulated() + (spread ? spread->simulated() : 0);
   fmt::print("\n{} sets of values tried, {} simulated now; {}\n", trials.trials().size(), now,
              (options.out / evaluations_file).string());
@@ -200,10 +202,10 @@ int tune(const TuneOptions& options, const Plan& plan, OutputFolder& folder) {
              spread ? fmt::format(", spread {}", spread->runs()) : "");
   if (options.pictures && !trials.at(tuning.best).verdict.stopped) {
     for (const auto& entry : study.cases) {
-      tuning.runs_before.push_back(keep_run(study, entry, {}));
-      tuning.runs_after.push_back(keep_run(study, entry, tuned));
+      tuning.runs_before.push_back(studies::keep_run(study, entry, {}));
+      tuning.runs_after.push_back(studies::keep_run(study, entry, tuned));
     }
-    write_tuning_report(tuning, folder);
+    studies::write_tuning_report(tuning, folder);
     fmt::print("report: {}\n", (options.out / "report.html").string());
   }
   const auto& best = trials.at(tuning.best).verdict;
@@ -284,4 +286,4 @@ void add_tune(CLI::App& app, int& status) {
   tune->callback([chosen, &status] { status = tune_scenarios(*chosen); });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

@@ -7,14 +7,14 @@
 #include "sim/cli/commands.hpp"
 #include "sim/studies/bode/loop.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 
 struct TuneOptions {
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> vary;         ///< "controller.qmove.set.AxisX.pgain=1..100"
   std::string minimise;                  ///< "rms(AxisX.follerr)"
   std::vector<std::string> constraints;  ///< "max(abs(knife.motor.torque)) <= 20", "phase_margin >= 45"
-  LoopRequest loop;                      ///< how stability margins in the constraints are measured
+  studies::LoopRequest loop;             ///< how stability margins in the constraints are measured
   std::string from = "0 s";              ///< metric and constraints look from here on
   bool ignore_checks = false;            ///< failed checks of the scenarios do not count
   int budget = 100;                 ///< simulated runs of the search, those that measure margins included
@@ -30,4 +30,4 @@ struct TuneOptions {
 /// could be simulated or written
 int tune_scenarios(const TuneOptions& options);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

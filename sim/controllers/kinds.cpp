@@ -6,12 +6,12 @@
 #include "sim/file.hpp"
 #include "sim/scenario/forms.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::controllers {
 
 namespace {
 
 template <typename Section>
-std::unique_ptr<ControllerSection> make() {
+std::unique_ptr<scenario::ControllerSection> make() {
   return std::make_unique<Section>();
 }
 
@@ -31,14 +31,17 @@ const ControllerKind* controller_kind(std::string_view name) {
   return found == kinds.end() ? nullptr : found;
 }
 
-void visit_memory(Archive& archive, ControllerSection& section) {
-  archive.value({"retentive", "a file that keeps retentive values from run to run"}, form(section.retentive));
-  archive.value({"set", "values before power-up, as the controller counts them"}, form(section.set));
+void visit_memory(scenario::Archive& archive, scenario::ControllerSection& section) {
+  archive.value({"retentive", "a file that keeps retentive values from run to run"},
+                scenario::form(section.retentive));
+  archive.value({"set", "values before power-up, as the controller counts them"},
+                scenario::form(section.set));
 }
 
-std::optional<std::string> read_named(const Text& path, const Scenario& scenario, Problems& problems) {
+std::optional<std::string> read_named(const scenario::Text& path, const scenario::Scenario& scenario,
+                                      Problems& problems) {
   return read_file(scenario.file.parent_path() / path.text, problems,
-                   problem_at(scenario, path.place, "", ""));
+                   scenario::problem_at(scenario, path.place, "", ""));
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::controllers

@@ -9,13 +9,13 @@
 #include "devices/plcopen/axis_parameters.hpp"
 #include "sim/scenario/archive.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::controllers {
 
 /// A kind of controller that a scenario can name.
 struct ControllerKind {
   std::string_view name;     ///< "qmove"
   std::string_view example;  ///< of its section: "{configuration: ...}"
-  std::unique_ptr<ControllerSection> (*make)();
+  std::unique_ptr<scenario::ControllerSection> (*make)();
 };
 
 /// All of them: what drycut can load is in this list and nowhere else.
@@ -26,79 +26,81 @@ const ControllerKind* controller_kind(std::string_view name);
 // What each of them is in a scenario: its keys, its files, how it is loaded; one a file of this folder.
 
 /// controller: qmove: ...
-struct QmoveSection final : ControllerSection {
-  Text configuration;            ///< path of the .CNF, relative to the scenario
-  std::vector<Text> tasks;       ///< paths of the QCL units, one task each
-  Time cycle = 2 * millisecond;  ///< a round of all tasks begins every `cycle`
+struct QmoveSection final : scenario::ControllerSection {
+  scenario::Text configuration;       ///< path of the .CNF, relative to the scenario
+  std::vector<scenario::Text> tasks;  ///< paths of the QCL units, one task each
+  Time cycle = 2 * millisecond;       ///< a round of all tasks begins every `cycle`
 
   [[nodiscard]] std::string_view kind() const override { return "qmove"; }
-  void visit(Archive& archive) override;
+  void visit(scenario::Archive& archive) override;
   [[nodiscard]] Period period() const override { return {"cycle", cycle}; }
-  [[nodiscard]] std::vector<Text> files() const override;
+  [[nodiscard]] std::vector<scenario::Text> files() const override;
   [[nodiscard]] std::string_view settable() const override;
-  std::unique_ptr<devices::Controller> load(const Scenario& scenario, Problems& problems,
+  std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
                                             std::vector<std::string>* notes) const override;
 };
 
 /// controller: lx3vp: ...
-struct Lx3vpSection final : ControllerSection {
-  Text program;                 ///< path of the instruction list, relative to the scenario
-  Text registers;               ///< path of a CSV with register values before power-up, "" = none
+struct Lx3vpSection final : scenario::ControllerSection {
+  scenario::Text program;       ///< path of the instruction list, relative to the scenario
+  scenario::Text registers;     ///< path of a CSV with register values before power-up, "" = none
   Time scan = 1 * millisecond;  ///< a scan of the program begins every `scan`
 
   [[nodiscard]] std::string_view kind() const override { return "lx3vp"; }
-  void visit(Archive& archive) override;
+  void visit(scenario::Archive& archive) override;
   [[nodiscard]] Period period() const override { return {"scan", scan}; }
-  [[nodiscard]] std::vector<Text> files() const override;
+  [[nodiscard]] std::vector<scenario::Text> files() const override;
   [[nodiscard]] std::string_view settable() const override;
-  std::unique_ptr<devices::Controller> load(const Scenario& scenario, Problems& problems,
+  std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
                                             std::vector<std::string>* notes) const override;
 };
 
 /// controller: plcopen: ...
-struct PlcopenSection final : ControllerSection {
-  Text program;                       ///< path of the Structured Text, relative to the scenario
+struct PlcopenSection final : scenario::ControllerSection {
+  scenario::Text program;             ///< path of the Structured Text, relative to the scenario
   Time cycle = 2 * millisecond;       ///< of the axes
   Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
   struct Axis {
-    Text name;
+    scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};
-    std::vector<std::pair<std::string, Place>> places = {};  ///< of the parameters that the file gives
+    std::vector<std::pair<std::string, scenario::Place>> places =
+        {};  ///< of the parameters that the file gives
   };
   std::vector<Axis> axes;
   struct Table {
-    Text file;   ///< .tab or .csv, relative to the scenario
-    int id = 0;  ///< in place of the file's own; 0 = that
+    scenario::Text file;  ///< .tab or .csv, relative to the scenario
+    int id = 0;           ///< in place of the file's own; 0 = that
   };
   std::vector<Table> tables;
   struct Task {
-    Text name;
-    Time cycle = 0;              ///< a whole multiple of the axes' `cycle`
-    int priority = 0;            ///< 0 runs first
-    std::vector<Text> programs;  ///< of the program's file
+    scenario::Text name;
+    Time cycle = 0;                        ///< a whole multiple of the axes' `cycle`
+    int priority = 0;                      ///< 0 runs first
+    std::vector<scenario::Text> programs;  ///< of the program's file
   };
   std::vector<Task> tasks;  ///< of several PROGRAMs; others run every `task_cycle`
 
   [[nodiscard]] std::string_view kind() const override { return "plcopen"; }
-  void visit(Archive& archive) override;
+  void visit(scenario::Archive& archive) override;
   [[nodiscard]] Period period() const override { return {"cycle", cycle}; }
-  [[nodiscard]] std::vector<Text> files() const override;
+  [[nodiscard]] std::vector<scenario::Text> files() const override;
   [[nodiscard]] std::string_view settable() const override;
-  std::unique_ptr<devices::Controller> load(const Scenario& scenario, Problems& problems,
+  std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
                                             std::vector<std::string>* notes) const override;
 };
-void visit(Archive& archive, PlcopenSection::Axis& axis);
-void visit(Archive& archive, PlcopenSection::Table& table);
+void visit(scenario::Archive& archive, PlcopenSection::Axis& axis);
+void visit(scenario::Archive& archive, PlcopenSection::Table& table);
 
 /// The scenario's controller if it is of this kind, else nullptr.
 template <typename Section>
-const Section* controller_of(const Scenario& scenario) {
+const Section* controller_of(const scenario::Scenario& scenario) {
   return dynamic_cast<const Section*>(scenario.controller.get());
 }
 
 /// The keys that every kind has: its retentive file and the values before power-up.
-void visit_memory(Archive& archive, ControllerSection& section);
+void visit_memory(scenario::Archive& archive, scenario::ControllerSection& section);
 /// Reads the file that a section names; one that cannot be read is a problem at its name.
-std::optional<std::string> read_named(const Text& path, const Scenario& scenario, Problems& problems);
+std::optional<std::string> read_named(const scenario::Text& path, const scenario::Scenario& scenario,
+                                      Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::controllers

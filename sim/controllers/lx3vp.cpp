@@ -2,19 +2,22 @@
 #include "sim/controllers/kinds.hpp"
 #include "sim/scenario/forms.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::controllers {
 
 namespace lx3vp = devices::lx3vp;
 
-void Lx3vpSection::visit(Archive& archive) {
-  archive.value({"program", "path of the instruction list, relative to the scenario"}, form(program));
+void Lx3vpSection::visit(scenario::Archive& archive) {
+  archive.value({"program", "path of the instruction list, relative to the scenario"},
+                scenario::form(program));
   archive.require("program", "add program: programs/saw.il");
-  archive.value({"registers", "path of a CSV with register values before power-up"}, form(registers));
-  archive.value({"scan", "a scan of the program begins this often"}, form(scan, Sign::positive));
+  archive.value({"registers", "path of a CSV with register values before power-up"},
+                scenario::form(registers));
+  archive.value({"scan", "a scan of the program begins this often"},
+                scenario::form(scan, scenario::Sign::positive));
   visit_memory(archive, *this);
 }
 
-std::vector<Text> Lx3vpSection::files() const {
+std::vector<scenario::Text> Lx3vpSection::files() const {
   if (registers.text.empty()) return {program};
   return {program, registers};
 }
@@ -23,10 +26,12 @@ std::string_view Lx3vpSection::settable() const {
   return "name a register: D10, DD10 (32 bit), FD10 (float), D10.A, M0, S0, T0 or C0";
 }
 
-std::unique_ptr<devices::Controller> Lx3vpSection::load(const Scenario& scenario, Problems& problems,
-                                                        std::vector<std::string>*) const {
+std::unique_ptr<devices::Controller> Lx3vpSection::load(const scenario::Scenario& scenario,
+                                                        Problems& problems, std::vector<std::string>*) const {
   const auto before = problems.size();
-  const auto path_of = [&](const Text& path) { return (scenario.file.parent_path() / path.text).string(); };
+  const auto path_of = [&](const scenario::Text& path) {
+    return (scenario.file.parent_path() / path.text).string();
+  };
   lx3vp::il::Program compiled;
   if (const auto text = read_named(program, scenario, problems))
     compiled = lx3vp::il::compile(*text, path_of(program), problems);
@@ -41,4 +46,4 @@ std::unique_ptr<devices::Controller> Lx3vpSection::load(const Scenario& scenario
   return controller;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::controllers

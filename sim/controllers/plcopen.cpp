@@ -10,29 +10,31 @@
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::controllers {
 
 namespace plcopen = devices::plcopen;
 
 namespace {
 
-void check_multiple(MapReader& reader, std::string_view key, Time time, Time cycle) {
+void check_multiple(scenario::MapReader& reader, std::string_view key, Time time, Time cycle) {
   if (time % cycle == 0) return;
-  reader.refuse(key,
-                fmt::format("{} {} is not a whole multiple of the cycle {}", reader.full(key),
-                            format_time(time), format_time(cycle)),
-                fmt::format("for example {}", format_time(std::max<Time>(1, time / cycle) * cycle)));
+  reader.refuse(
+      key,
+      fmt::format("{} {} is not a whole multiple of the cycle {}", reader.full(key),
+                  scenario::format_time(time), scenario::format_time(cycle)),
+      fmt::format("for example {}", scenario::format_time(std::max<Time>(1, time / cycle) * cycle)));
 }
 
 // tasks: {fast: {cycle: 2 ms, priority: 1, programs: [Main]}}
-void visit_task(Archive& archive, PlcopenSection& section, std::size_t number) {
+void visit_task(scenario::Archive& archive, PlcopenSection& section, std::size_t number) {
   constexpr int last_priority = 65535;
   auto& task = section.tasks[number];
   archive.in_line();
-  archive.value({"cycle", "a whole multiple of the axes' cycle"}, form(task.cycle, Sign::positive));
-  archive.value({"priority", "0 runs first"}, form(task.priority, 0, last_priority));
-  archive.value({"programs", "its PROGRAMs, in the order in which they run"}, form(task.programs));
-  archive.judge([&section, number](MapReader& reader) {
+  archive.value({"cycle", "a whole multiple of the axes' cycle"},
+                scenario::form(task.cycle, scenario::Sign::positive));
+  archive.value({"priority", "0 runs first"}, scenario::form(task.priority, 0, last_priority));
+  archive.value({"programs", "its PROGRAMs, in the order in which they run"}, scenario::form(task.programs));
+  archive.judge([&section, number](scenario::MapReader& reader) {
     const auto& judged = section.tasks[number];
     if (judged.programs.empty()) reader.missing("programs", "name its PROGRAMs: programs: [Main]");
     check_multiple(reader, "cycle", judged.cycle, section.cycle);
@@ -46,7 +48,7 @@ void visit_task(Archive& archive, PlcopenSection& section, std::size_t number) {
   });
 }
 
-void judge_axis_names(const std::vector<PlcopenSection::Axis>& axes, Findings& findings) {
+void judge_axis_names(const std::vector<PlcopenSection::Axis>& axes, scenario::Findings& findings) {
   for (auto axis = axes.begin(); axis != axes.end(); ++axis) {
     const auto& name = axis->name;
     const auto same = std::find_if(axes.begin(), axis, [&](const PlcopenSection::Axis& other) {
@@ -66,7 +68,7 @@ void judge_axis_names(const std::vector<PlcopenSection::Axis>& axes, Findings& f
 /// The cam tables, each under its file's name and its own id.
 std::vector<plcopen::CamTable> load_tables(const PlcopenSection& section,
                                            const std::vector<plcopen::AxisConfiguration>& axes,
-                                           const Scenario& scenario, Problems& problems) {
+                                           const scenario::Scenario& scenario, Problems& problems) {
   std::vector<plcopen::CamTable> tables;
   std::vector<plcopen::MasterTurn> masters;
   for (const auto& [name, parameters, measure] : axes)
@@ -74,7 +76,8 @@ std::vector<plcopen::CamTable> load_tables(const PlcopenSection& section,
   for (const auto& entry : section.tables) {
     const auto path = scenario.file.parent_path() / entry.file.text;
     const auto complain = [&](std::string what, std::string remedy) {
-      problems.push_back(problem_at(scenario, entry.file.place, std::move(what), std::move(remedy)));
+      problems.push_back(
+          scenario::problem_at(scenario, entry.file.place, std::move(what), std::move(remedy)));
     };
     if (path.extension() != ".tab" && path.extension() != ".csv") {
       complain(fmt::format("'{}' is no kind of cam table that is known", entry.file.text),
@@ -136,13 +139,14 @@ void check_names(const plcopen::st::Program& program, const std::string& file,
 /// The scenario's tasks name programs that are there; several programs need tasks, the CONFIGURATION's own
 /// fit the axes' cycle.
 void check_tasks(const plcopen::st::Program& program, const std::string& file, const PlcopenSection& section,
-                 const Scenario& scenario, Problems& problems) {
+                 const scenario::Scenario& scenario, Problems& problems) {
   for (const auto& task : program.tasks())
     if (task.interval_ns % section.cycle != 0)
-      problems.push_back({file, task.line, task.column,
-                          fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}",
-                                      task.name, format_time(task.interval_ns), format_time(section.cycle)),
-                          "change INTERVAL or controller.plcopen.cycle"});
+      problems.push_back(
+          {file, task.line, task.column,
+           fmt::format("the task {} runs every {}, not a whole multiple of the cycle {}", task.name,
+                       scenario::format_time(task.interval_ns), scenario::format_time(section.cycle)),
+           "change INTERVAL or controller.plcopen.cycle"});
   if (section.tasks.empty()) {
     if (program.has_configuration() || program.instances().size() < 2) return;
     const auto& second = program.instances()[1];
@@ -154,9 +158,9 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
     return;
   }
   if (program.has_configuration()) {
-    problems.push_back(problem_at(scenario, section.tasks.front().name.place,
-                                  "the program's CONFIGURATION has the tasks",
-                                  "leave out controller.plcopen.tasks, or the CONFIGURATION"));
+    problems.push_back(scenario::problem_at(scenario, section.tasks.front().name.place,
+                                            "the program's CONFIGURATION has the tasks",
+                                            "leave out controller.plcopen.tasks, or the CONFIGURATION"));
     return;
   }
   std::vector<std::string> names;
@@ -165,27 +169,27 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
     for (const auto& wanted : task.programs)
       if (std::none_of(names.begin(), names.end(),
                        [&](const std::string& name) { return same_word(name, wanted.text); }))
-        problems.push_back(problem_at(scenario, wanted.place,
-                                      fmt::format("there is no PROGRAM '{}'", wanted.text),
-                                      did_you_mean(wanted.text, names)));
+        problems.push_back(scenario::problem_at(scenario, wanted.place,
+                                                fmt::format("there is no PROGRAM '{}'", wanted.text),
+                                                scenario::did_you_mean(wanted.text, names)));
 }
 
 /// True if the scenario sets the value, before power-up or in its timeline.
-bool sets(const Scenario& scenario, const PlcopenSection& section, const std::string& value) {
+bool sets(const scenario::Scenario& scenario, const PlcopenSection& section, const std::string& value) {
   const auto names_it = [&](const auto& list) {
     return std::any_of(list.begin(), list.end(),
                        [&](const auto& entry) { return same_word(entry.first.text, value); });
   };
-  return names_it(section.set) ||
-         std::any_of(scenario.timeline.begin(), scenario.timeline.end(), [&](const Stimulus& stimulus) {
-           return names_it(stimulus.set) || names_it(stimulus.ramp);
-         });
+  return names_it(section.set) || std::any_of(scenario.timeline.begin(), scenario.timeline.end(),
+                                              [&](const scenario::Stimulus& stimulus) {
+                                                return names_it(stimulus.set) || names_it(stimulus.ramp);
+                                              });
 }
 
 /// The kernel's own v_phasing is so slow that a slave seems to hang on its way to the cam. MC_GearIn does not
 /// need it: a gear has no place to go to.
 void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection& section,
-                       const Scenario& scenario, std::vector<std::string>& notes) {
+                       const scenario::Scenario& scenario, std::vector<std::string>& notes) {
   if (!program.has_motion_block("MC_CamIn")) return;
   const auto& phasing = *plcopen::find_axis_parameter("cam_gear.v_phasing");
   for (const auto& axis : section.axes) {
@@ -198,49 +202,50 @@ void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection
     notes.push_back(fmt::format(
         "{} is at its default, {}: MC_CamIn will hardly reach its cam; give v_phasing, a_phasing, "
         "d_phasing and j_phasing",
-        name, axis_value_text(phasing, parameters, axis.configuration.measure)));
+        name, scenario::axis_value_text(phasing, parameters, axis.configuration.measure)));
   }
 }
 
 }  // namespace
 
 // tables: [cams/knife.tab, {file: cams/eject.csv, id: 2}]
-void visit(Archive& archive, PlcopenSection::Table& table) {
+void visit(scenario::Archive& archive, PlcopenSection::Table& table) {
   constexpr int last_id = 65535;
-  if (archive.instead(table.id == 0, form(table.file))) return;
+  if (archive.instead(table.id == 0, scenario::form(table.file))) return;
   archive.in_line();
-  archive.value({"file", "a table of the kernel (.tab) or a cam as CSV"}, form(table.file));
-  archive.value({"id", "in place of the file's own"}, form(table.id, 1, last_id));
+  archive.value({"file", "a table of the kernel (.tab) or a cam as CSV"}, scenario::form(table.file));
+  archive.value({"id", "in place of the file's own"}, scenario::form(table.id, 1, last_id));
   archive.require("file", "add file: cams/knife.tab");
 }
 
-void PlcopenSection::visit(Archive& archive) {
-  archive.value({"program", "path of the Structured Text, relative to the scenario"}, form(program));
+void PlcopenSection::visit(scenario::Archive& archive) {
+  archive.value({"program", "path of the Structured Text, relative to the scenario"},
+                scenario::form(program));
   archive.require("program", "add program: programs/knife.st");
-  archive.value({"cycle", "of the axes"}, form(cycle, Sign::positive));
+  archive.value({"cycle", "of the axes"}, scenario::form(cycle, scenario::Sign::positive));
   if (archive.reads()) task_cycle = cycle;
   archive.value({"task_cycle", "of the program, a whole multiple of cycle"},
-                form(task_cycle, Sign::positive));
-  archive.names(
-      {"tasks", "of several PROGRAMs"},
-      {tasks.size(), [this](std::size_t i) { return tasks[i].name.text; },
-       [this](const Text& name) {
-         tasks.push_back({name, task_cycle, 0, {}});
-       },
-       [this] { tasks.pop_back(); }, [this](Archive& inner, std::size_t i) { visit_task(inner, *this, i); }});
+                scenario::form(task_cycle, scenario::Sign::positive));
+  archive.names({"tasks", "of several PROGRAMs"},
+                {tasks.size(), [this](std::size_t i) { return tasks[i].name.text; },
+                 [this](const scenario::Text& name) {
+                   tasks.push_back({name, task_cycle, 0, {}});
+                 },
+                 [this] { tasks.pop_back(); },
+                 [this](scenario::Archive& inner, std::size_t i) { visit_task(inner, *this, i); }});
   archive.names({"axes", "by the names that the program has for them; 'drycut devices AXIS'"}, axes,
                 &Axis::name, true);
   archive.list({"tables", "cam tables: a path, or a path and an id"}, tables, true);
   if (archive.reads()) std::erase_if(tables, [](const Table& table) { return table.file.text.empty(); });
   visit_memory(archive, *this);
-  archive.judge([this](MapReader& reader) {
+  archive.judge([this](scenario::MapReader& reader) {
     check_multiple(reader, "task_cycle", task_cycle, cycle);
     judge_axis_names(axes, reader.findings());
   });
 }
 
-std::vector<Text> PlcopenSection::files() const {
-  std::vector<Text> files = {program};
+std::vector<scenario::Text> PlcopenSection::files() const {
+  std::vector<scenario::Text> files = {program};
   for (const auto& table : tables) files.push_back(table.file);
   return files;
 }
@@ -249,7 +254,8 @@ std::string_view PlcopenSection::settable() const {
   return "name a variable of the program, or a value or parameter of an axis (drycut devices AXIS)";
 }
 
-std::unique_ptr<devices::Controller> PlcopenSection::load(const Scenario& scenario, Problems& problems,
+std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenario& scenario,
+                                                          Problems& problems,
                                                           std::vector<std::string>* notes) const {
   const auto before = problems.size();
   const auto file = (scenario.file.parent_path() / program.text).string();
@@ -275,4 +281,4 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const Scenario& scenar
   return std::make_unique<plcopen::PlcopenController>(std::move(compiled), file, std::move(configuration));
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::controllers

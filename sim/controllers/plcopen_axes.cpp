@@ -9,7 +9,7 @@
 #include "sim/scenario/forms.hpp"
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::controllers {
 
 namespace plcopen = devices::plcopen;
 using plcopen::AxisParameter;
@@ -29,21 +29,22 @@ class AxisUnits {
   }
 
   // A bare number is in the kernel's own unit.
-  void assign(const AxisParameter& parameter, const Text& text, const std::string& full, Findings& findings) {
-    if (parameter.is_switch() && !parse_quantity(text.text)) {
-      if (const auto on = read_switch(text, full, findings))
+  void assign(const AxisParameter& parameter, const scenario::Text& text, const std::string& full,
+              scenario::Findings& findings) {
+    if (parameter.is_switch() && !scenario::parse_quantity(text.text)) {
+      if (const auto on = scenario::read_switch(text, full, findings))
         plcopen::set_parameter(parameters_, parameter, *on ? 1 : 0);
       return;
     }
-    const auto quantity = read_quantity(text, full, findings);
+    const auto quantity = scenario::read_quantity(text, full, findings);
     if (!quantity) return;
-    AxisUnit people;
+    scenario::AxisUnit people;
     double value = quantity->number;
     if (!quantity->unit.empty()) {
       const auto unit = unit_for(parameter, *quantity, text, full, findings);
       if (!unit) return;
       people = *unit;
-      value = to_kernel(quantity->number, quantity->unit, people);
+      value = scenario::to_kernel(quantity->number, quantity->unit, people);
     }
     if (plcopen::set_parameter(parameters_, parameter, value)) return;
     const bool in_range = value >= parameter.min && value <= parameter.max;
@@ -60,38 +61,41 @@ class AxisUnits {
  private:
   // The unit in which people give the parameter; nullopt if `quantity` is of another dimension. An axis
   // measures lengths or angles, not both.
-  std::optional<AxisUnit> unit_for(const AxisParameter& parameter, const Quantity& quantity, const Text& text,
-                                   const std::string& full, Findings& findings) {
-    const AxisUnit length = axis_unit(parameter, Measure::length);
-    const AxisUnit angle = axis_unit(parameter, Measure::angle);
-    const auto place = text.at(parse_quantity(text.text)->unit_offset);
-    const bool is_length = !length.unit.empty() && same_dimension(quantity.unit, length.unit);
-    const bool is_angle = !angle.unit.empty() && same_dimension(quantity.unit, angle.unit);
+  std::optional<scenario::AxisUnit> unit_for(const AxisParameter& parameter,
+                                             const scenario::Quantity& quantity, const scenario::Text& text,
+                                             const std::string& full, scenario::Findings& findings) {
+    const scenario::AxisUnit length = scenario::axis_unit(parameter, Measure::length);
+    const scenario::AxisUnit angle = scenario::axis_unit(parameter, Measure::angle);
+    const auto place = text.at(scenario::parse_quantity(text.text)->unit_offset);
+    const bool is_length = !length.unit.empty() && scenario::same_dimension(quantity.unit, length.unit);
+    const bool is_angle = !angle.unit.empty() && scenario::same_dimension(quantity.unit, angle.unit);
     if (!is_length && !is_angle) {
-      const auto wanted = length.unit.empty()         ? std::string("a pure number")
-                          : length.unit == angle.unit ? dimension_name(length.unit)
-                                                      : fmt::format("{} or {}", dimension_name(length.unit),
-                                                                    dimension_name(angle.unit));
-      findings.add(
-          place,
-          fmt::format("{} is {}, not {} ({})", full, wanted, dimension_name(quantity.unit), quantity.unit),
-          length.unit.empty()         ? std::string("write a number without unit")
-          : length.unit == angle.unit ? fmt::format("for example 1 {}", length.unit)
-                                      : fmt::format("for example 1 {} or 1 {}", length.unit, angle.unit));
+      const auto wanted = length.unit.empty() ? std::string("a pure number")
+                          : length.unit == angle.unit
+                              ? scenario::dimension_name(length.unit)
+                              : fmt::format("{} or {}", scenario::dimension_name(length.unit),
+                                            scenario::dimension_name(angle.unit));
+      findings.add(place,
+                   fmt::format("{} is {}, not {} ({})", full, wanted, scenario::dimension_name(quantity.unit),
+                               quantity.unit),
+                   length.unit.empty() ? std::string("write a number without unit")
+                   : length.unit == angle.unit
+                       ? fmt::format("for example 1 {}", length.unit)
+                       : fmt::format("for example 1 {} or 1 {}", length.unit, angle.unit));
       return {};
     }
     if (length.unit == angle.unit) return length;
     const Measure measure = is_length ? Measure::length : Measure::angle;
     if (measured_by_ && measure != measure_) {
       findings.add(place,
-                   fmt::format("{} is {}, but {} is {}", full, dimension_name(quantity.unit), *measured_by_,
-                               measured_unit_),
+                   fmt::format("{} is {}, but {} is {}", full, scenario::dimension_name(quantity.unit),
+                               *measured_by_, measured_unit_),
                    "an axis measures lengths or angles: give all its quantities in one of them");
       return {};
     }
     if (!measured_by_) {
       measured_by_ = parameter.name;
-      measured_unit_ = dimension_name(quantity.unit);
+      measured_unit_ = scenario::dimension_name(quantity.unit);
     }
     measure_ = measure;
     return is_length ? length : angle;
@@ -103,29 +107,34 @@ class AxisUnits {
   std::string measured_unit_;
 };
 
-Form parameter_form(const AxisParameter& parameter, plcopen::AxisConfiguration& axis,
-                    const std::shared_ptr<AxisUnits>& units) {
-  if (parameter.is(&AxisParameters::kind)) return choice_form(axis_kinds(), axis.parameters.kind);
-  auto made =
-      single([&parameter, units](const Text& text, const std::string& name,
-                                 Findings& findings) { units->assign(parameter, text, name, findings); },
-             [&parameter, &axis] { return axis_value_text(parameter, axis.parameters, axis.measure); }, "");
+scenario::Form parameter_form(const AxisParameter& parameter, plcopen::AxisConfiguration& axis,
+                              const std::shared_ptr<AxisUnits>& units) {
+  if (parameter.is(&AxisParameters::kind))
+    return scenario::choice_form(scenario::axis_kinds(), axis.parameters.kind);
+  auto made = scenario::single(
+      [&parameter, units](const scenario::Text& text, const std::string& name, scenario::Findings& findings) {
+        units->assign(parameter, text, name, findings);
+      },
+      [&parameter, &axis] { return scenario::axis_value_text(parameter, axis.parameters, axis.measure); },
+      "");
   made.schema = [&parameter] {
     return std::string(parameter.is_switch()
                            ? R"({"enum": [0, 1, true, false, "on", "off", "true", "false"]})"
-                           : number_schema);
+                           : scenario::number_schema);
   };
   return made;
 }
 
 // path: [500 mm, 10000], the way of so many counts.
-ParameterTable::Row path_row(const std::shared_ptr<AxisUnits>& units) {
+scenario::ParameterTable::Row path_row(const std::shared_ptr<AxisUnits>& units) {
   const auto& way = *plcopen::find_axis_parameter("path_increments");
   const auto& counts = *plcopen::find_axis_parameter("path_counts");
-  const auto read = [&way, &counts, units](const YamlNode& node, const Form::Name& name, Findings& findings) {
+  const auto read = [&way, &counts, units](const scenario::YamlNode& node, const scenario::Form::Name& name,
+                                           scenario::Findings& findings) {
     const auto& items = node.items;
-    const bool pair = node.kind == YamlNode::Kind::sequence && items.size() == 2 &&
-                      items[0].kind == YamlNode::Kind::scalar && items[1].kind == YamlNode::Kind::scalar;
+    const bool pair = node.kind == scenario::YamlNode::Kind::sequence && items.size() == 2 &&
+                      items[0].kind == scenario::YamlNode::Kind::scalar &&
+                      items[1].kind == scenario::YamlNode::Kind::scalar;
     if (!pair) {
       findings.add(node.text.place, fmt::format("{} is not a way and its counts", name.full),
                    "write [500 mm, 10000]: the way of so many counts (x4) of the encoder");
@@ -136,7 +145,7 @@ ParameterTable::Row path_row(const std::shared_ptr<AxisUnits>& units) {
   };
   return {"path",
           [] { return "the way of so many counts (x4) of the encoder: [500 mm, 10000]"; },
-          {read, {}, [] { return std::string(pair_schema); }},
+          {read, {}, [] { return std::string(scenario::pair_schema); }},
           {std::string(way.name), std::string(counts.name)}};
 }
 
@@ -146,7 +155,7 @@ bool is_given(const PlcopenSection::Axis& axis, std::string_view parameter) {
 }
 
 // Equal limits are none.
-void judge_software_limits(MapReader& reader, const PlcopenSection::Axis& axis) {
+void judge_software_limits(scenario::MapReader& reader, const PlcopenSection::Axis& axis) {
   const auto& parameters = axis.configuration.parameters;
   if (parameters.swe_neg <= parameters.swe_pos) return;
   const auto& low = *plcopen::find_axis_parameter("kenngr.swe_neg");
@@ -157,25 +166,25 @@ void judge_software_limits(MapReader& reader, const PlcopenSection::Axis& axis) 
   });
   reader.findings().add(place->second,
                         fmt::format("{}: {} {} is above {} {}", reader.name(), low.name,
-                                    axis_value_text(low, parameters, Measure::length), high.name,
-                                    axis_value_text(high, parameters, Measure::length)),
+                                    scenario::axis_value_text(low, parameters, Measure::length), high.name,
+                                    scenario::axis_value_text(high, parameters, Measure::length)),
                         "give the lower limit as kenngr.swe_neg; equal limits are none");
 }
 
 std::string described(const AxisParameter& parameter) {
-  const auto people = axis_unit(parameter, Measure::length).unit;
+  const auto people = scenario::axis_unit(parameter, Measure::length).unit;
   return fmt::format("{}{}; a bare number{}; default {}", parameter.meaning,
                      people.empty() ? "" : fmt::format(" [{}]", people),
                      parameter.unit.empty() ? "" : fmt::format(" is in {}", parameter.unit),
-                     axis_value_text(parameter, {}, Measure::angle));
+                     scenario::axis_value_text(parameter, {}, Measure::angle));
 }
 
 }  // namespace
 
-void visit(Archive& archive, PlcopenSection::Axis& axis) {
+void visit(scenario::Archive& archive, PlcopenSection::Axis& axis) {
   auto& configuration = axis.configuration;
   const auto units = std::make_shared<AxisUnits>(configuration.parameters);
-  ParameterTable table;
+  scenario::ParameterTable table;
   table.help = "'drycut devices AXIS' lists the parameters";
   table.nested = false;
   table.places = &axis.places;
@@ -186,7 +195,7 @@ void visit(Archive& archive, PlcopenSection::Axis& axis) {
                           parameter_form(parameter, configuration, units)});
   archive.table(table);
   if (archive.reads()) configuration.name = axis.name.text;
-  archive.judge([&axis, units](MapReader& reader) {
+  archive.judge([&axis, units](scenario::MapReader& reader) {
     auto& [name, parameters, measure] = axis.configuration;
     if (reader.is_sound()) judge_software_limits(reader, axis);
     // A virtual axis has no zero to look for, unless the scenario wants it to be homed by the program.
@@ -199,4 +208,4 @@ void visit(Archive& archive, PlcopenSection::Axis& axis) {
   });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::controllers

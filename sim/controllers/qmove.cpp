@@ -5,19 +5,21 @@
 #include "sim/controllers/kinds.hpp"
 #include "sim/scenario/forms.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::controllers {
 
 namespace qmove = devices::qmove;
 
-void QmoveSection::visit(Archive& archive) {
-  archive.value({"configuration", "path of the .CNF, relative to the scenario"}, form(configuration));
+void QmoveSection::visit(scenario::Archive& archive) {
+  archive.value({"configuration", "path of the .CNF, relative to the scenario"},
+                scenario::form(configuration));
   archive.require("configuration", "add configuration: programs/line.cnf");
-  archive.value({"tasks", "paths of the QCL units, one task each"}, form(tasks));
-  archive.value({"cycle", "a round of all tasks begins this often"}, form(cycle, Sign::positive));
+  archive.value({"tasks", "paths of the QCL units, one task each"}, scenario::form(tasks));
+  archive.value({"cycle", "a round of all tasks begins this often"},
+                scenario::form(cycle, scenario::Sign::positive));
   visit_memory(archive, *this);
 }
 
-std::vector<Text> QmoveSection::files() const {
+std::vector<scenario::Text> QmoveSection::files() const {
   auto files = tasks;
   files.push_back(configuration);
   return files;
@@ -27,7 +29,8 @@ std::string_view QmoveSection::settable() const {
   return "name a program variable or a device parameter (drycut devices)";
 }
 
-std::unique_ptr<devices::Controller> QmoveSection::load(const Scenario& scenario, Problems& problems,
+std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario& scenario,
+                                                        Problems& problems,
                                                         std::vector<std::string>* notes) const {
   const auto before = problems.size();
   const auto folder = scenario.file.parent_path();
@@ -52,4 +55,4 @@ std::unique_ptr<devices::Controller> QmoveSection::load(const Scenario& scenario
                                                   devices::catalogue(), cycle);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::controllers

@@ -7,7 +7,7 @@
 
 #include "sim/report/gallery_plots.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 namespace {
 
@@ -32,20 +32,20 @@ class Binder {
   }
 
  private:
-  void fault(const Place& place, std::string what, std::string remedy) {
-    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  void fault(const scenario::Place& place, std::string what, std::string remedy) {
+    problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
-  void no_channel(const Text& name) {
+  void no_channel(const scenario::Text& name) {
     fault(name.place, fmt::format("there is no channel '{}'", name.text),
           lookup_.names.suggest_reading(name.text));
   }
 
-  void add_channel(const Text& name) {
+  void add_channel(const scenario::Text& name) {
     if (!recording_.add(lookup_.watch, name.text)) no_channel(name);
   }
 
   /// A lane shows a state: a quantity with a unit is none.
-  void add_lane(const Text& name) {
+  void add_lane(const scenario::Text& name) {
     add_channel(name);
     const auto* column = recording_.column(name.text);
     if (column != nullptr && !column->unit.empty())
@@ -53,15 +53,16 @@ class Binder {
             "show it in a panel of channels");
   }
 
-  void add_motor(const Text& plant) {
-    bool known = has_motor_limits(scenario_, plant.text);
-    for (const auto& name : motor_channels(plant.text)) known = known && recording_.add(lookup_.watch, name);
+  void add_motor(const scenario::Text& plant) {
+    bool known = report::has_motor_limits(scenario_, plant.text);
+    for (const auto& name : report::motor_channels(plant.text))
+      known = known && recording_.add(lookup_.watch, name);
     if (!known)
       fault(plant.place, fmt::format("'{}' is no plant with a servo motor", plant.text),
             "name a plant with parameters servo.rated_torque, servo.peak_torque, ...");
   }
 
-  void add_captions(const std::vector<Text>& names, Captions& captions) {
+  void add_captions(const std::vector<scenario::Text>& names, Captions& captions) {
     for (const auto& name : names) {
       const auto* slot = lookup_.watch.slot(name.text);
       if (slot == nullptr) {
@@ -73,7 +74,7 @@ class Binder {
     }
   }
 
-  void add_plot(const PlotRequest& plot) {
+  void add_plot(const scenario::PlotRequest& plot) {
     for (const auto& panel : plot.panels) {
       check_event(panel);
       for (const auto& name : panel.lanes) add_lane(name);
@@ -86,7 +87,7 @@ class Binder {
     for (const auto& mark : *plot.marks) find_event(lookup_.all_events, mark, scenario_, problems_);
   }
 
-  void check_event(const PlotRequest::Panel& panel) {
+  void check_event(const scenario::PlotRequest::Panel& panel) {
     if (panel.event.text.empty()) return;
     const auto* known = find_event(lookup_.plant_events, panel.event, scenario_, problems_);
     if (known == nullptr) return;
@@ -122,8 +123,8 @@ class Binder {
   }
 
   const Lookup& lookup_;
-  const Scenario& scenario_;
-  const PicturesSection& pictures_;
+  const scenario::Scenario& scenario_;
+  const scenario::PicturesSection& pictures_;
   Recording& recording_;
   Problems& problems_;
 };
@@ -134,4 +135,4 @@ Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& pr
   return Binder(lookup, recording, problems).bind();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

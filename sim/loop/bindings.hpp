@@ -9,11 +9,11 @@
 #include "sim/loop/watch.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// Where the names that a scenario wants recorded and drawn are looked up.
 struct Lookup {
-  const Scenario& scenario;
+  const scenario::Scenario& scenario;
   const std::vector<NamedPlant>& plants;
   const Names& names;
   Watch& watch;
@@ -31,4 +31,4 @@ struct Captions {
 /// the pictures does not fit, goes to `problems`.
 Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

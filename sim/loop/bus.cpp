@@ -6,7 +6,7 @@
 
 #include "sim/loop/names.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 using devices::Address;
 using devices::Kind;
@@ -62,7 +62,7 @@ void Panel::set(const std::string& name, bool on) {
 /// Connects one scenario's wires; keeps what the messages need.
 class Connector {
  public:
-  Connector(Bus& bus, const Scenario& scenario, devices::Controller& controller,
+  Connector(Bus& bus, const scenario::Scenario& scenario, devices::Controller& controller,
             const std::vector<NamedPlant>& plants, Problems& problems)
       : bus_(bus), scenario_(scenario), controller_(controller), problems_(problems) {
     for (const auto& [name, plant] : plants) {
@@ -72,7 +72,7 @@ class Connector {
     }
   }
 
-  void connect(const Wire& wire) {
+  void connect(const scenario::Wire& wire) {
     const auto address = terminal(wire.terminal);
     if (!address) return;
     if (!bus_.wired_.insert(*address).second) {
@@ -91,12 +91,12 @@ class Connector {
   }
 
  private:
-  void problem(const Place& place, std::string what, std::string remedy) {
-    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  void problem(const scenario::Place& place, std::string what, std::string remedy) {
+    problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 
   /// The terminal, if it is one of the controller.
-  std::optional<Address> terminal(const Text& text) {
+  std::optional<Address> terminal(const scenario::Text& text) {
     const auto found = controller_.terminal(text.text);
     if (const auto* address = std::get_if<Address>(&found)) return *address;
     const auto& fault = std::get<devices::TerminalFault>(found);
@@ -105,14 +105,14 @@ class Connector {
   }
 
   /// A plug that is no plug of a plant but a terminal of the controller itself.
-  std::optional<Address> own_terminal(const Text& plug) {
+  std::optional<Address> own_terminal(const scenario::Text& plug) {
     if (ports_.contains(plug.text)) return {};
     const auto found = controller_.terminal(plug.text);
     const auto* address = std::get_if<Address>(&found);
     return address == nullptr ? std::nullopt : std::optional(*address);
   }
 
-  const plants::Port* plug(const Text& text) {
+  const plants::Port* plug(const scenario::Text& text) {
     if (const auto found = ports_.find(text.text); found != ports_.end()) return &found->second;
     const auto plant = text.text.substr(0, text.text.find('.'));
     // The plugs of one plant stand together.
@@ -149,7 +149,7 @@ class Connector {
   }
 
   /// A pulse output of the controller, counted by one of its own counters: the manual's way to have a master.
-  void connect_loop(const Address& address, const Wire& wire, const Address& from) {
+  void connect_loop(const Address& address, const scenario::Wire& wire, const Address& from) {
     auto& cards = controller_.cards();
     if (!cards.pulse_outputs.contains(from)) {
       problem(wire.plug.place,
@@ -162,7 +162,7 @@ class Connector {
     bus_.looped_.insert(from);
   }
 
-  void connect_pulses(const Address& address, const Wire& wire, plants::PulsePort* port) {
+  void connect_pulses(const Address& address, const scenario::Wire& wire, plants::PulsePort* port) {
     auto& trains = controller_.cards().pulse_outputs;
     if (const auto found = trains.find(address); found == trains.end()) {
       problem(wire.plug.place,
@@ -176,7 +176,7 @@ class Connector {
     }
   }
 
-  void connect_plant(const Address& address, const Wire& wire, const plants::Port& port) {
+  void connect_plant(const Address& address, const scenario::Wire& wire, const plants::Port& port) {
     if (address.kind == Kind::output && port.plug.index() == pulse_plug)
       return connect_pulses(address, wire, std::get<plants::PulsePort*>(port.plug));
     if (port.plug.index() != plug_for(address.kind)) {
@@ -216,7 +216,7 @@ class Connector {
     bus_.interrupts_.push_back({from, line, &controller_.cards().interrupt_lines[line]});
   }
 
-  void connect_panel(const Address& address, const Wire& wire) {
+  void connect_panel(const Address& address, const scenario::Wire& wire) {
     const auto name = wire.plug.text.substr(panel_name.size() + 1);
     auto& cards = controller_.cards();
     auto& panel = bus_.panel_;
@@ -246,7 +246,7 @@ class Connector {
   }
 
   /// Notes who drives the plug; false if another terminal does already.
-  bool sole_driver(const Address& address, const Wire& wire) {
+  bool sole_driver(const Address& address, const scenario::Wire& wire) {
     const auto [at, fresh] = drivers_.emplace(wire.plug.text, address);
     if (!fresh) {
       problem(wire.plug.place,
@@ -257,7 +257,7 @@ class Connector {
   }
 
   Bus& bus_;
-  const Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   devices::Controller& controller_;
   Problems& problems_;
   std::map<std::string, plants::Port> ports_;
@@ -267,7 +267,7 @@ class Connector {
   std::map<std::string, Address> drivers_;
 };
 
-void Bus::connect(const Scenario& scenario, devices::Controller& controller,
+void Bus::connect(const scenario::Scenario& scenario, devices::Controller& controller,
                   const std::vector<NamedPlant>& plants, Problems& problems) {
   controller_ = &controller;
   Connector connector(*this, scenario, controller, plants, problems);
@@ -332,4 +332,4 @@ void Bus::deliver_interrupts() {
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -9,7 +9,7 @@
 #include "plants/plant.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// A plant of the running scenario, by its name there.
 struct NamedPlant {
@@ -35,7 +35,7 @@ struct Panel {
 class Bus {
  public:
   /// Makes the scenario's wires; what cannot be connected is reported with its place and left out.
-  void connect(const Scenario& scenario, devices::Controller& controller,
+  void connect(const scenario::Scenario& scenario, devices::Controller& controller,
                const std::vector<NamedPlant>& plants, Problems& problems);
 
   /// Terminals that the controller uses and nothing is wired to.
@@ -109,4 +109,4 @@ class Bus {
   friend class Connector;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

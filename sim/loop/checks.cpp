@@ -8,13 +8,13 @@
 
 #include "sim/report/statistics.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 namespace {
 
 constexpr int shown_digits = 6;
 
-std::string window_text(const Check& check) {
+std::string window_text(const scenario::Check& check) {
   std::string text;
   if (check.from > 0) text += fmt::format(", from {} s", seconds_text(check.from));
   if (check.until) text += fmt::format(", until {} s", seconds_text(*check.until));
@@ -22,29 +22,29 @@ std::string window_text(const Check& check) {
   return text;
 }
 
-std::string expectation_text(const Check& check) {
+std::string expectation_text(const scenario::Check& check) {
   switch (check.kind) {
-    case Check::Kind::each:
+    case scenario::Check::Kind::each:
       return fmt::format("each {}: {}{}", check.event.text, check.expression.text, window_text(check));
-    case Check::Kind::all:
+    case scenario::Check::Kind::all:
       return fmt::format("all {}: {}{}", check.event.text, check.expression.text, window_text(check));
-    case Check::Kind::always:
+    case scenario::Check::Kind::always:
       return fmt::format("always {}{}", check.expression.text, window_text(check));
-    case Check::Kind::eventually:
+    case scenario::Check::Kind::eventually:
       return fmt::format("eventually {}{}", check.expression.text, window_text(check));
-    case Check::Kind::never:
+    case scenario::Check::Kind::never:
       return fmt::format("never {}{}", check.event.text, window_text(check));
   }
   return "";
 }
 
-bool in_window(const Check& check, double at) {
+bool in_window(const scenario::Check& check, double at) {
   return at >= seconds(check.from) && (!check.until || at <= seconds(*check.until));
 }
 
 }  // namespace
 
-Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
+Checks::Checks(const scenario::Scenario& scenario, Watch& watch, const Names& names,
                const std::vector<KnownEvent>& events, Problems& problems) {
   auto known = names.reading_names();
   for (const auto& check : scenario.checks) {
@@ -55,30 +55,31 @@ Checks::Checks(const Scenario& scenario, Watch& watch, const Names& names,
 }
 
 /// Finds the event of a check and makes the slots of its values or statistics.
-const KnownEvent* Checks::bind_event(State& state, const Scenario& scenario,
+const KnownEvent* Checks::bind_event(State& state, const scenario::Scenario& scenario,
                                      const std::vector<KnownEvent>& events, Problems& problems) {
   const auto& check = state.check;
   const auto* found = find_event(events, check.event, scenario, problems);
   if (found == nullptr) return nullptr;
   for (const auto& [name, unit] : found->values) {
-    if (check.kind == Check::Kind::all) {
+    if (check.kind == scenario::Check::Kind::all) {
       state.series.push_back({name, unit, {}});
-      for (const auto* statistic : statistic_names) {
+      for (const auto* statistic : report::statistic_names) {
         state.slots.push_back({fmt::format("{}_{}", statistic, name), unit, 0.0});
       }
     } else {
       state.slots.push_back({name, unit, 0.0});
     }
   }
-  if (check.kind == Check::Kind::all) state.slots.push_back({"count", "", 0.0});
+  if (check.kind == scenario::Check::Kind::all) state.slots.push_back({"count", "", 0.0});
   return found;
 }
 
-void Checks::bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
-                  const std::vector<KnownEvent>& events, Problems& problems) {
+void Checks::bind(State& state, const scenario::Scenario& scenario, Watch& watch,
+                  std::vector<std::string>& known, const std::vector<KnownEvent>& events,
+                  Problems& problems) {
   const auto& check = state.check;
   if (!check.event.text.empty() && bind_event(state, scenario, events, problems) == nullptr) return;
-  if (check.kind == Check::Kind::never) return;
+  if (check.kind == scenario::Check::Kind::never) return;
 
   // The values of the event come before channels of the same name.
   std::set<std::string> units;
@@ -103,7 +104,7 @@ void Checks::bind(State& state, const Scenario& scenario, Watch& watch, std::vec
   };
   const auto of_all = known.size();
   for (const auto& slot : state.slots) known.push_back(slot.name);
-  state.expression = Expression::compile(check.expression, scenario, resolve, known, problems);
+  state.expression = scenario::Expression::compile(check.expression, scenario, resolve, known, problems);
   known.resize(of_all);
   units.erase("");
   if (units.size() == 1) state.unit = *units.begin();
@@ -143,7 +144,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
     ++state.failed;
     state.last_failed_at = at;
   }
-  const bool eventually = state.check.kind == Check::Kind::eventually;
+  const bool eventually = state.check.kind == scenario::Check::Kind::eventually;
   if (eventually && evaluation.holds && !state.held_at) state.held_at = at;
   // For "eventually" the moment that counts is the best one, for the others the worst. Without margins it is
   // the first that decided.
@@ -158,7 +159,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (decisive) {
     state.worst_at = at;
     state.worst_values = values;
-    if (state.check.kind == Check::Kind::always && !evaluation.margin) {
+    if (state.check.kind == scenario::Check::Kind::always && !evaluation.margin) {
       note_operands(state);
       state.worst_values = operands_text(state);
     }
@@ -170,8 +171,8 @@ void Checks::sample(Time now) {
   const double at = seconds(now);
   for (auto& state : states_) {
     const auto kind = state.check.kind;
-    if (kind == Check::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
-    if (kind == Check::Kind::eventually && now >= state.check.from && !state.held_at &&
+    if (kind == scenario::Check::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
+    if (kind == scenario::Check::Kind::eventually && now >= state.check.from && !state.held_at &&
         (!state.check.within || now <= state.check.from + *state.check.within)) {
       evaluate(state, at, "");
     }
@@ -182,26 +183,26 @@ void Checks::happened(const RecordedEvent& event) {
   for (auto& state : states_) {
     if (!concerns(state, event)) continue;
     switch (state.check.kind) {
-      case Check::Kind::each:
+      case scenario::Check::Kind::each:
         for (auto& slot : state.slots) {
           if (const auto* value = event.find(slot.name)) slot.number = value->number;
         }
         evaluate(state, event.at_seconds(), values_text(event, shown_digits));
         break;
-      case Check::Kind::all:
+      case scenario::Check::Kind::all:
         ++state.count;
         for (auto& series : state.series) {
           if (const auto* value = event.find(series.value)) series.numbers.push_back(value->number);
         }
         break;
-      case Check::Kind::never:
+      case scenario::Check::Kind::never:
         if (state.count++ == 0) {
           state.worst_at = event.at_seconds();
           state.worst_values = values_text(event, shown_digits);
         }
         break;
-      case Check::Kind::always:
-      case Check::Kind::eventually:
+      case scenario::Check::Kind::always:
+      case scenario::Check::Kind::eventually:
         break;
     }
   }
@@ -216,10 +217,10 @@ void Checks::finish_statistics(State& state) {
   set("count", state.count);
   std::string values;
   for (const auto& series : state.series) {
-    const auto numbers = statistics(series.numbers);
-    for (std::size_t i = 0; i < statistic_names.size(); ++i) {
-      set(fmt::format("{}_{}", statistic_names[i], series.value), numbers[i]);
-      const auto name = fmt::format("{}_{}", statistic_names[i], series.value);
+    const auto numbers = report::statistics(series.numbers);
+    for (std::size_t i = 0; i < report::statistic_names.size(); ++i) {
+      set(fmt::format("{}_{}", report::statistic_names[i], series.value), numbers[i]);
+      const auto name = fmt::format("{}_{}", report::statistic_names[i], series.value);
       if (state.check.expression.text.find(name) == std::string::npos) continue;
       values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", name, without_noise(numbers[i]),
                             series.unit.empty() ? "" : " ", series.unit);
@@ -239,7 +240,7 @@ std::vector<CheckResult> Checks::results(Time end) {
 CheckResult Checks::result(State& state, Time end) {
   const auto& check = state.check;
   CheckResult result{check.name.text, expectation_text(check), false, {}, state.unit, {}, ""};
-  const bool by_event = check.kind == Check::Kind::each || check.kind == Check::Kind::all;
+  const bool by_event = check.kind == scenario::Check::Kind::each || check.kind == scenario::Check::Kind::all;
   if (by_event && state.count < check.at_least) {
     result.detail = fmt::format("only {} {} events in the time looked at, at least {} expected", state.count,
                                 check.event.text, check.at_least);
@@ -248,11 +249,11 @@ CheckResult Checks::result(State& state, Time end) {
   const auto never_looked_at = [&] {
     return fmt::format("never looked at: the run ended at {} s", seconds_text(end));
   };
-  if (check.kind == Check::Kind::never && check.from > end) {
+  if (check.kind == scenario::Check::Kind::never && check.from > end) {
     result.detail = never_looked_at();
     return result;
   }
-  if (check.kind == Check::Kind::never) {
+  if (check.kind == scenario::Check::Kind::never) {
     result.passed = state.count == 0;
     result.detail = state.count == 0
                         ? "none"
@@ -262,13 +263,13 @@ CheckResult Checks::result(State& state, Time end) {
     if (state.count > 0) result.at = state.worst_at;
     return result;
   }
-  if (check.kind == Check::Kind::all) finish_statistics(state);
+  if (check.kind == scenario::Check::Kind::all) finish_statistics(state);
   if (state.count == 0) {
     result.detail = never_looked_at();
     return result;
   }
   result.margin = state.worst;
-  if (check.kind == Check::Kind::eventually) {
+  if (check.kind == scenario::Check::Kind::eventually) {
     result.passed = state.held_at.has_value();
     result.at = state.held_at ? *state.held_at : state.worst ? state.worst_at : state.last_at;
     result.detail = state.held_at ? fmt::format("first true at {:.4f} s", *state.held_at)
@@ -283,20 +284,22 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   result.passed = state.failed == 0;
-  if (check.kind != Check::Kind::all && (state.worst || state.failed > 0)) result.at = state.worst_at;
+  if (check.kind != scenario::Check::Kind::all && (state.worst || state.failed > 0))
+    result.at = state.worst_at;
   const auto looked_at =
-      check.kind == Check::Kind::always ? std::string("instants") : check.event.text + " events";
-  if (!state.worst && state.failed > 0 && check.kind != Check::Kind::all) {
+      check.kind == scenario::Check::Kind::always ? std::string("instants") : check.event.text + " events";
+  if (!state.worst && state.failed > 0 && check.kind != scenario::Check::Kind::all) {
     result.detail = fmt::format("{} {}{}", state.count, looked_at, failed_text(state));
     return result;
   }
   result.detail = fmt::format(
       "{} {}{}{}", state.count, looked_at,
-      state.failed > 0 && check.kind != Check::Kind::all ? fmt::format(", {} failed", state.failed) : "",
+      state.failed > 0 && check.kind != scenario::Check::Kind::all ? fmt::format(", {} failed", state.failed)
+                                                                   : "",
       state.worst_values.empty()
           ? ""
-          : (check.kind == Check::Kind::all ? ": " : ", worst: ") + state.worst_values);
+          : (check.kind == scenario::Check::Kind::all ? ": " : ", worst: ") + state.worst_values);
   return result;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -12,7 +12,7 @@
 #include "sim/scenario/expression.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// What a check came to.
 struct CheckResult {
@@ -29,8 +29,8 @@ struct CheckResult {
 /// others at every event; an expression has a channel's number in the unit of its trace.csv column.
 class Checks : public Observer {
  public:
-  Checks(const Scenario& scenario, Watch& watch, const Names& names, const std::vector<KnownEvent>& events,
-         Problems& problems);
+  Checks(const scenario::Scenario& scenario, Watch& watch, const Names& names,
+         const std::vector<KnownEvent>& events, Problems& problems);
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -59,8 +59,8 @@ class Checks : public Observer {
     double noted = 0;  ///< the number at an instant to tell of
   };
   struct State {
-    Check check;
-    std::optional<Expression> expression;
+    scenario::Check check;
+    std::optional<scenario::Expression> expression;
     std::vector<Operand> operands;  ///< what the expression names
     std::deque<Slot> slots;         ///< event values or statistics, by name in the expression
     std::vector<Series> series;     ///< all: the numbers behind the statistics
@@ -76,9 +76,9 @@ class Checks : public Observer {
   };
 
   /// `known`: the names that may be suggested; left as it was.
-  void bind(State& state, const Scenario& scenario, Watch& watch, std::vector<std::string>& known,
+  void bind(State& state, const scenario::Scenario& scenario, Watch& watch, std::vector<std::string>& known,
             const std::vector<KnownEvent>& events, Problems& problems);
-  static const KnownEvent* bind_event(State& state, const Scenario& scenario,
+  static const KnownEvent* bind_event(State& state, const scenario::Scenario& scenario,
                                       const std::vector<KnownEvent>& events, Problems& problems);
   static bool concerns(const State& state, const RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
@@ -91,4 +91,4 @@ class Checks : public Observer {
   std::deque<State> states_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

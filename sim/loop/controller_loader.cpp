@@ -4,24 +4,24 @@
 
 #include "sim/file.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 namespace {
 
 /// Values that the scenario sets before power-up.
-void set_values(const ControllerSection& section, const Scenario& scenario, devices::Controller& controller,
-                Problems& problems) {
+void set_values(const scenario::ControllerSection& section, const scenario::Scenario& scenario,
+                devices::Controller& controller, Problems& problems) {
   for (const auto& [name, number] : section.set) {
     const auto value = controller.find(name.text);
     if (value && value->write) {
       const auto fault =
           value->range ? devices::misfit(value->name, *value->range, number, value->unit) : std::nullopt;
-      if (fault) problems.push_back(problem_at(scenario, name.place, fault->what, fault->remedy));
+      if (fault) problems.push_back(scenario::problem_at(scenario, name.place, fault->what, fault->remedy));
       if (!fault) value->write(number);
       continue;
     }
     const auto near = nearest(name.text, controller.names());
-    problems.push_back(problem_at(
+    problems.push_back(scenario::problem_at(
         scenario, name.place,
         value ? fmt::format("'{}' can only be read", name.text)
               : fmt::format("the controller has nothing called '{}'", name.text),
@@ -30,12 +30,12 @@ void set_values(const ControllerSection& section, const Scenario& scenario, devi
 }
 
 /// Puts the values of the retentive file back, if there is one. It must be possible to write it at the end.
-void restore(const Text& retentive, const Scenario& scenario, devices::Controller& controller,
-             Problems& problems) {
+void restore(const scenario::Text& retentive, const scenario::Scenario& scenario,
+             devices::Controller& controller, Problems& problems) {
   const auto file = retentive_file(scenario);
   if (!file) return;
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
-    problems.push_back(problem_at(scenario, retentive.place, what, remedy));
+    problems.push_back(scenario::problem_at(scenario, retentive.place, what, remedy));
   };
   std::error_code ignored;
   const auto folder = file->has_parent_path() ? file->parent_path() : std::filesystem::path(".");
@@ -49,13 +49,13 @@ void restore(const Text& retentive, const Scenario& scenario, devices::Controlle
     return;
   }
   if (!std::filesystem::exists(*file)) return;
-  const auto kept = read_file(*file, problems, problem_at(scenario, retentive.place, "", ""));
+  const auto kept = read_file(*file, problems, scenario::problem_at(scenario, retentive.place, "", ""));
   if (kept) controller.restore(*kept, problems, file->string());
 }
 
 }  // namespace
 
-std::vector<Text> controller_files(const Scenario& scenario) {
+std::vector<scenario::Text> controller_files(const scenario::Scenario& scenario) {
   if (!scenario.controller) return {};
   auto files = scenario.controller->files();
   if (const auto& retentive = scenario.controller->retentive; !retentive.text.empty())
@@ -63,12 +63,12 @@ std::vector<Text> controller_files(const Scenario& scenario) {
   return files;
 }
 
-std::optional<std::filesystem::path> retentive_file(const Scenario& scenario) {
+std::optional<std::filesystem::path> retentive_file(const scenario::Scenario& scenario) {
   if (!scenario.controller || scenario.controller->retentive.text.empty()) return {};
   return scenario.file.parent_path() / scenario.controller->retentive.text;
 }
 
-std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, Problems& problems,
+std::unique_ptr<devices::Controller> load_controller(const scenario::Scenario& scenario, Problems& problems,
                                                      std::vector<std::string>* notes) {
   if (!scenario.controller) return nullptr;
   const auto& section = *scenario.controller;
@@ -79,4 +79,4 @@ std::unique_ptr<devices::Controller> load_controller(const Scenario& scenario, P
   return controller;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

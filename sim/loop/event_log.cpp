@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 const RecordedEvent::Value* RecordedEvent::find(const std::string& name) const {
   const auto found =
@@ -37,4 +37,4 @@ RecordedEvent EventLog::operator[](std::size_t i) const {
   return event;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

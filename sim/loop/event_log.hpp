@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/loop/series.hpp"
-#include "sim/loop/time.hpp"
+#include "sim/time.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// Something that happened: in a plant, in the controller, in the timeline.
 struct RecordedEvent {
@@ -73,4 +73,4 @@ class EventLog {
   std::vector<double> numbers_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

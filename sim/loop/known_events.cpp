@@ -4,7 +4,7 @@
 
 #include "sim/loop/names.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 std::vector<KnownEvent> events_of_every_run() {
   std::vector<KnownEvent> events;
@@ -21,8 +21,8 @@ bool names_event(const std::string& wanted, const std::string& source, const std
          wanted[source.size()] == '.' && wanted.ends_with(event);
 }
 
-const KnownEvent* find_event(const std::vector<KnownEvent>& events, const Text& wanted,
-                             const Scenario& scenario, Problems& problems) {
+const KnownEvent* find_event(const std::vector<KnownEvent>& events, const scenario::Text& wanted,
+                             const scenario::Scenario& scenario, Problems& problems) {
   for (const auto& event : events)
     if (names_event(wanted.text, event.source, event.name)) return &event;
   std::vector<std::string> known;
@@ -32,10 +32,10 @@ const KnownEvent* find_event(const std::vector<KnownEvent>& events, const Text& 
     known.push_back(event.source + "." + event.name);
   }
   const auto near = nearest(wanted.text, known);
-  problems.push_back(problem_at(
+  problems.push_back(scenario::problem_at(
       scenario, wanted.place, fmt::format("nothing here reports an event '{}'", wanted.text),
       near.empty() ? "events of plants are listed by drycut plants" : fmt::format("did you mean {}?", near)));
   return nullptr;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -6,7 +6,7 @@
 #include "base/problem.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// An event that something in the scenario can report, with its values and their units.
 struct KnownEvent {
@@ -22,7 +22,7 @@ std::vector<KnownEvent> events_of_every_run();
 bool names_event(const std::string& wanted, const std::string& source, const std::string& event);
 
 /// The first of `events` that `wanted` names; nullptr after a problem that tells the nearest one.
-const KnownEvent* find_event(const std::vector<KnownEvent>& events, const Text& wanted,
-                             const Scenario& scenario, Problems& problems);
+const KnownEvent* find_event(const std::vector<KnownEvent>& events, const scenario::Text& wanted,
+                             const scenario::Scenario& scenario, Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -6,7 +6,7 @@
 
 #include "devices/plcopen/terminals.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 namespace {
 
@@ -23,16 +23,17 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 devices::ValueRange range_of(const plants::Range& range) { return {range.min, range.max, range.whole}; }
 
 // As it is written: controllers find their names in any case, but `knife.angle` beside `Knife.posit` are two.
-void refuse_shared_names(const Scenario& scenario, devices::Controller& controller, Problems& problems) {
+void refuse_shared_names(const scenario::Scenario& scenario, devices::Controller& controller,
+                         Problems& problems) {
   std::set<std::string> taken;
   for (const auto& name : controller.names()) taken.insert(name.substr(0, name.find_first_of(".:[")));
   for (const auto& plant : scenario.plants) {
     const auto& name = plant.name.text;
     const auto value = controller.find(name);
     if (!taken.contains(name) && (!value || value->name != name)) continue;
-    problems.push_back(problem_at(scenario, plant.name.place,
-                                  fmt::format("plants.{0}: the controller has {0} too", name),
-                                  "give the plant a name of its own, or another spelling: knife and Knife"));
+    problems.push_back(scenario::problem_at(
+        scenario, plant.name.place, fmt::format("plants.{0}: the controller has {0} too", name),
+        "give the plant a name of its own, or another spelling: knife and Knife"));
   }
 }
 
@@ -50,7 +51,7 @@ Names::Names(const std::vector<NamedPlant>& plants, devices::Controller* control
   }
 }
 
-void Names::assume_controller(const std::vector<Wire>& wiring) {
+void Names::assume_controller(const std::vector<scenario::Wire>& wiring) {
   assumed_ = true;
   for (const auto& [terminal, plug] : wiring) {
     if (!plug.text.starts_with(panel_prefix)) continue;
@@ -185,4 +186,4 @@ std::string Names::suggest_fault(const std::string& component) const {
                       all.empty() ? "no plant here offers faults" : "components with faults: " + all);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

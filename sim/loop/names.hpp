@@ -11,7 +11,7 @@
 #include "sim/loop/bus.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// A number that can be recorded or used in an expression.
 struct Reading {
@@ -34,7 +34,8 @@ struct Target {
 devices::ValueRange range_of(const plants::Range& range);
 
 /// Says which plants are called like something of the controller: their names would mean two things.
-void refuse_shared_names(const Scenario& scenario, devices::Controller& controller, Problems& problems);
+void refuse_shared_names(const scenario::Scenario& scenario, devices::Controller& controller,
+                         Problems& problems);
 
 /// The nearest name is looked for so often at most, for it takes a look at all names: of ten thousand slips
 /// the first ones tell enough.
@@ -48,7 +49,7 @@ class Names {
   /// For a scenario whose controller has problems of its own: every name that no plant and no panel could
   /// have is taken for one of the controller's, and the panel has what `wiring` names, so that only what is
   /// wrong is told.
-  void assume_controller(const std::vector<Wire>& wiring);
+  void assume_controller(const std::vector<scenario::Wire>& wiring);
 
   /// What can be recorded or checked under this name.
   std::optional<Reading> reading(const std::string& name);
@@ -78,4 +79,4 @@ class Names {
   mutable std::size_t suggestions_ = 0;  ///< made so far
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

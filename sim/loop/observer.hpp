@@ -1,8 +1,8 @@
 #pragma once
 #include "sim/loop/event_log.hpp"
-#include "sim/loop/time.hpp"
+#include "sim/time.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// Looks at a run while it goes on and changes nothing of it. The watch has been updated before each call.
 class Observer {
@@ -20,4 +20,4 @@ class Observer {
   Observer& operator=(const Observer&) = default;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 bool Recording::add(Watch& watch, const std::string& name) {
   if (column(name) != nullptr) return true;
@@ -56,4 +56,4 @@ std::string values_text(const RecordedEvent& event, int digits) {
   return text;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -9,10 +9,10 @@
 
 #include "sim/loop/event_log.hpp"
 #include "sim/loop/series.hpp"
-#include "sim/loop/time.hpp"
 #include "sim/loop/watch.hpp"
+#include "sim/time.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// What a run leaves behind: channels over time and events. However long the run, it takes little memory:
 /// what is old waits in a file without a name.
@@ -68,4 +68,4 @@ double without_noise(double number);
 /// `name=number unit; ...` or the event's text, as events.csv and the report show it.
 std::string values_text(const RecordedEvent& event, int digits = 9);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

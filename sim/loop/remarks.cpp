@@ -4,7 +4,7 @@
 
 #include "sim/loop/recorder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 void Remarks::happened(const RecordedEvent& event) {
   constexpr std::size_t shown = 5;
@@ -27,4 +27,4 @@ std::vector<std::string> Remarks::notes() const {
   return notes;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -5,7 +5,7 @@
 
 #include "sim/loop/observer.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// Keeps the first of what the controller remarks during a run, for a reader who does not open events.csv.
 class Remarks : public Observer {
@@ -20,4 +20,4 @@ class Remarks : public Observer {
   std::size_t count_ = 0;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

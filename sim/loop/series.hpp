@@ -8,7 +8,7 @@
 
 #include "sim/loop/spool.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// Reads a container that gives its elements by value, one index after the other.
 template <typename Container>
@@ -110,4 +110,4 @@ class Series {
   mutable std::size_t held_number_ = 0;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -5,9 +5,9 @@
 
 #include "sim/loop/known_events.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
-Shutter::Shutter(const PicturesSection& pictures)
+Shutter::Shutter(const scenario::PicturesSection& pictures)
     : period_(pictures.every / pictures.slow),
       from_(pictures.from),
       until_(pictures.until),
@@ -49,4 +49,4 @@ void Shutter::happened(const RecordedEvent& event) {
   held_.clear();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

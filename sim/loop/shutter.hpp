@@ -8,7 +8,7 @@
 #include "sim/loop/recorder.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// Where every part was at the instant of a frame, and the captions' numbers.
 struct Snapshot {
@@ -22,7 +22,7 @@ struct Snapshot {
 /// knows beforehand when an event happens, the poses of the stretch `before` it are held until then.
 class Shutter : public Observer {
  public:
-  explicit Shutter(const PicturesSection& pictures);
+  explicit Shutter(const scenario::PicturesSection& pictures);
 
   /// No shots any more.
   void close();
@@ -47,7 +47,7 @@ class Shutter : public Observer {
   Time period_;
   Time from_;
   std::optional<Time> until_;
-  std::optional<PicturesSection::Around> around_;
+  std::optional<scenario::PicturesSection::Around> around_;
   Time next_;                  ///< never: nothing more is wanted
   std::deque<Snapshot> held_;  ///< not older than `before`
   std::vector<Snapshot> kept_;
@@ -55,4 +55,4 @@ class Shutter : public Observer {
   std::optional<Time> event_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -10,14 +10,14 @@
 
 #include "sim/loop/controller_loader.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 bool Outcome::passed() const {
   return failure.empty() &&
          std::all_of(checks.begin(), checks.end(), [](const CheckResult& c) { return c.passed; });
 }
 
-Simulation::Simulation(const Scenario& scenario, Problems& problems)
+Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
     : scenario_(scenario),
       step_(scenario.scene.step),
       h_(seconds(scenario.scene.step)),
@@ -52,7 +52,7 @@ Simulation::Simulation(const Scenario& scenario, Problems& problems)
 Simulation::~Simulation() = default;
 
 void Simulation::load_controller(Problems& problems) {
-  controller_ = sim::load_controller(scenario_, problems, &notes_of_setup_);
+  controller_ = loop::load_controller(scenario_, problems, &notes_of_setup_);
 }
 
 void Simulation::build_plants() {
@@ -72,10 +72,11 @@ void Simulation::check_periods(Problems& problems) const {
   const auto place = scenario_.scene.step_place;
   for (const auto& period : controller_->periods()) {
     if (period.ns % step_ == 0) continue;
-    problems.push_back(problem_at(scenario_, place,
-                                  fmt::format("{} of {} ns is not a whole multiple of the step of {} ns",
-                                              period.name, period.ns, step_),
-                                  "choose a step that divides it"));
+    problems.push_back(
+        scenario::problem_at(scenario_, place,
+                             fmt::format("{} of {} ns is not a whole multiple of the step of {} ns",
+                                         period.name, period.ns, step_),
+                             "choose a step that divides it"));
   }
 }
 
@@ -105,7 +106,7 @@ void Simulation::follow_cams() {
     }
     return {};
   };
-  cams_ = std::make_unique<CamRecorder>(controller_->cam_axes(), deviation);
+  cams_ = std::make_unique<cams::CamRecorder>(controller_->cam_axes(), deviation);
   observers_.push_back(cams_.get());
 }
 
@@ -256,4 +257,4 @@ Outcome Simulation::outcome() {
   return outcome;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -23,7 +23,7 @@
 #include "sim/loop/watch.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// What the checks came to at half the step.
 struct HalfStep {
@@ -47,7 +47,7 @@ class Simulation {
  public:
   /// Puts `scenario` together. Everything that does not fit is reported in `problems`; run() may be called
   /// only if there are none. `scenario` must outlive the simulation.
-  Simulation(const Scenario& scenario, Problems& problems);
+  Simulation(const scenario::Scenario& scenario, Problems& problems);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -59,7 +59,7 @@ class Simulation {
   /// Keeps what the controller's cams play, for pictures of it; before run().
   void follow_cams();
   /// What was kept; nullptr if nothing was asked for.
-  [[nodiscard]] const CamRecorder* cams() const { return cams_.get(); }
+  [[nodiscard]] const cams::CamRecorder* cams() const { return cams_.get(); }
 
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
   Outcome run(const std::function<void(Time)>& progress = {});
@@ -117,7 +117,7 @@ class Simulation {
   void record();
   void snapshot();
 
-  const Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   Time step_;
   double h_;  ///< [s]
   Time time_ = 0;
@@ -133,7 +133,7 @@ class Simulation {
   std::unique_ptr<Checks> checks_;
   Recording recording_;
   std::unique_ptr<TraceFiles> files_;
-  std::unique_ptr<CamRecorder> cams_;
+  std::unique_ptr<cams::CamRecorder> cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;
   Shutter shutter_;
@@ -148,4 +148,4 @@ class Simulation {
   std::string program_error_;  ///< first run-time error of the controller's program
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 namespace {
 
@@ -65,4 +65,4 @@ void Spool::read(std::int64_t place, void* bytes, std::size_t size) const {
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// A file without a name for what would fill the memory; it is gone when the program ends, however it ends.
 class Spool {
@@ -29,4 +29,4 @@ class Spool {
   std::int64_t size_ = 0;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -7,11 +7,11 @@
 
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 namespace {
 
-std::string text_of(const std::string& name, const Quantity& quantity, std::string_view sign) {
+std::string text_of(const std::string& name, const scenario::Quantity& quantity, std::string_view sign) {
   return fmt::format("{} {} {}{}{}", name, sign, quantity.number, quantity.unit.empty() ? "" : " ",
                      quantity.unit);
 }
@@ -19,29 +19,32 @@ std::string text_of(const std::string& name, const Quantity& quantity, std::stri
 /// Converts stimuli of one file and says what does not fit.
 class Binder {
  public:
-  Binder(Names& names, const Scenario& scenario, Problems& problems)
+  Binder(Names& names, const scenario::Scenario& scenario, Problems& problems)
       : names_(names), scenario_(scenario), problems_(problems) {}
 
-  void problem(const Place& place, std::string what, std::string remedy) {
-    problems_.push_back(problem_at(scenario_, place, std::move(what), std::move(remedy)));
+  void problem(const scenario::Place& place, std::string what, std::string remedy) {
+    problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
 
   /// The quantity as a setting or fault with `unit` and `range` takes it (SI); nullopt after a problem.
   std::optional<double> value(const std::string& name, std::string_view unit,
-                              const std::optional<devices::ValueRange>& range, const Quantity& quantity) {
+                              const std::optional<devices::ValueRange>& range,
+                              const scenario::Quantity& quantity) {
     const auto si = converted(name, unit, quantity);
     if (!si || !range) return si;
     // Another unit's conversion may miss a limit by its last digit.
-    const double number = quantity.unit == unit
-                              ? quantity.number
-                              : std::strtod(fmt::format("{:.12g}", from_si(*si, unit)).c_str(), nullptr);
+    const double number =
+        quantity.unit == unit
+            ? quantity.number
+            : std::strtod(fmt::format("{:.12g}", scenario::from_si(*si, unit)).c_str(), nullptr);
     const auto fault = devices::misfit(name, *range, number, unit);
     if (!fault) return si;
     problem(quantity.place, fault->what, fault->remedy);
     return {};
   }
 
-  std::optional<double> converted(const std::string& name, std::string_view unit, const Quantity& quantity) {
+  std::optional<double> converted(const std::string& name, std::string_view unit,
+                                  const scenario::Quantity& quantity) {
     if (unit.empty()) {
       if (quantity.unit.empty()) return quantity.number;
       problem(quantity.place, fmt::format("{} takes a plain number, not '{}'", name, quantity.unit),
@@ -53,12 +56,13 @@ class Binder {
               fmt::format("write for example {} {}", quantity.number, unit));
       return {};
     }
-    if (!is_unit(quantity.unit) || !same_dimension(quantity.unit, unit)) {
-      problem(quantity.place, fmt::format("{} is {}, '{}' is not", name, dimension_name(unit), quantity.unit),
+    if (!scenario::is_unit(quantity.unit) || !scenario::same_dimension(quantity.unit, unit)) {
+      problem(quantity.place,
+              fmt::format("{} is {}, '{}' is not", name, scenario::dimension_name(unit), quantity.unit),
               fmt::format("give it in {}", unit));
       return {};
     }
-    return to_si(quantity.number, quantity.unit);
+    return scenario::to_si(quantity.number, quantity.unit);
   }
 
   /// A controller's value is set as its device counts it, whatever scenarios call its unit elsewhere.
@@ -68,7 +72,7 @@ class Binder {
     return fmt::format("write the number of {} without the unit", reading->unit);
   }
 
-  std::optional<Target> target(const Text& name) {
+  std::optional<Target> target(const scenario::Text& name) {
     auto found = names_.target(name.text);
     if (!found) {
       problem(name.place, fmt::format("nothing called '{}' can be set", name.text),
@@ -77,7 +81,7 @@ class Binder {
     return found;
   }
 
-  std::optional<plants::Fault> fault(const Stimulus::FaultAction& action) {
+  std::optional<plants::Fault> fault(const scenario::Stimulus::FaultAction& action) {
     auto found = names_.fault(action.component.text, action.fault.text);
     if (!found) {
       problem(action.fault.place,
@@ -89,13 +93,13 @@ class Binder {
 
  private:
   Names& names_;
-  const Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   Problems& problems_;
 };
 
 }  // namespace
 
-Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* controller,
+Timeline::Timeline(const scenario::Scenario& scenario, Names& names, devices::Controller* controller,
                    Problems& problems)
     : watch_(names),
       controller_(controller),
@@ -113,7 +117,7 @@ Timeline::Timeline(const Scenario& scenario, Names& names, devices::Controller* 
     entry.from = stimulus.at.value_or(0);
     entry.line = stimulus.place.line;
     if (stimulus.when) {
-      entry.when = Expression::compile(*stimulus.when, scenario, slot, known, problems);
+      entry.when = scenario::Expression::compile(*stimulus.when, scenario, slot, known, problems);
     } else {
       entry.due = stimulus.at.value_or(0) + stimulus.after;
     }
@@ -228,4 +232,4 @@ Time Timeline::next_after(Time now) const {
   return next;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -9,14 +9,15 @@
 #include "sim/scenario/expression.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// Works the stimuli of a scenario: sets, ramps, faults, power. Conditions (`when`) are looked at every
 /// millisecond, or every step if that is longer; everything else acts at the first step at or after its time.
 class Timeline {
  public:
   /// Binds names and converts quantities; what does not fit is reported with its place in the scenario.
-  Timeline(const Scenario& scenario, Names& names, devices::Controller* controller, Problems& problems);
+  Timeline(const scenario::Scenario& scenario, Names& names, devices::Controller* controller,
+           Problems& problems);
 
   /// Acts on everything due at `now`; what was done is told to `record`.
   void run(Time now, Recording& recording) {
@@ -38,9 +39,9 @@ class Timeline {
     std::string text;
   };
   struct Entry {
-    std::optional<Expression> when;  ///< still waited for
-    Time from = 0;                   ///< `when` is not looked at before
-    std::optional<Time> due;         ///< acts then
+    std::optional<scenario::Expression> when;  ///< still waited for
+    Time from = 0;                             ///< `when` is not looked at before
+    std::optional<Time> due;                   ///< acts then
     Time after = 0;
     std::optional<Time> every;
     Time over = 0;
@@ -74,4 +75,4 @@ class Timeline {
   std::vector<Ramp> ramps_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -12,7 +12,7 @@
 
 #include "base/text.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 namespace {
 
@@ -98,4 +98,4 @@ void TraceFiles::finish() {
   events_.flush();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -6,7 +6,7 @@
 #include "sim/loop/observer.hpp"
 #include "sim/loop/recorder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// A text file that has its own name from its first line on and can be read while it grows. Lines go out
 /// whole, many at a time. Throws std::runtime_error when something cannot be written; what was written before
@@ -51,4 +51,4 @@ class TraceFiles : public Observer {
   Time next_flush_ = 0;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 const double* Watch::slot(const std::string& name) {
   if (const auto found = index_.find(name); found != index_.end()) return &slots_[found->second];
@@ -21,4 +21,4 @@ std::string Watch::not_finite() const {
   return "";
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -6,7 +6,7 @@
 
 #include "sim/loop/names.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 
 /// A set of readings with a slot each. `update` takes all of them at one instant; expressions, recorder and
 /// captions look at the slots. Slots do not move.
@@ -35,4 +35,4 @@ class Watch {
   std::deque<double> slots_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -27,7 +27,7 @@
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/studies/half_step.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
 namespace {
 
@@ -100,7 +100,7 @@ class TableRows {
   std::size_t count_ = 0;
 };
 
-renders::ReportTable event_table(const Recording& recording, const KnownEvent& known) {
+renders::ReportTable event_table(const loop::Recording& recording, const loop::KnownEvent& known) {
   renders::ReportTable table{fmt::format("{} of {}", known.name, known.source), {"time [s]"}, {}, true};
   for (const auto& [name, unit] : known.values) {
     table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
@@ -111,7 +111,7 @@ renders::ReportTable event_table(const Recording& recording, const KnownEvent& k
     renders::ReportRow row{{fmt::format("{:.6f}", event.at_seconds())}};
     for (const auto& [name, unit] : known.values) {
       const auto* value = event.find(name);
-      row.cells.push_back(value == nullptr ? "" : fmt::format("{:.6g}", without_noise(value->number)));
+      row.cells.push_back(value == nullptr ? "" : fmt::format("{:.6g}", loop::without_noise(value->number)));
     }
     rows.add(std::move(row));
   }
@@ -119,7 +119,7 @@ renders::ReportTable event_table(const Recording& recording, const KnownEvent& k
   return table;
 }
 
-renders::ReportTable parameter_table(const PlantEntry& entry) {
+renders::ReportTable parameter_table(const scenario::PlantEntry& entry) {
   renders::ReportTable table{fmt::format("Parameters of {} ({})", entry.name.text, entry.type.text),
                              {"parameter", "value", "meaning", "from"},
                              {},
@@ -129,13 +129,13 @@ renders::ReportTable parameter_table(const PlantEntry& entry) {
                        [&](const auto& p) { return p.first == name; });
   };
   for (const auto& parameter : entry.definition->parameters()) {
-    table.rows.push_back({{parameter.name, value_text(parameter), std::string(parameter.meaning),
+    table.rows.push_back({{parameter.name, scenario::value_text(parameter), std::string(parameter.meaning),
                            given(parameter.name) ? "the scenario" : std::string(parameter.source)}});
   }
   return table;
 }
 
-renders::ReportTable axis_table(const PlcopenSection::Axis& axis) {
+renders::ReportTable axis_table(const controllers::PlcopenSection::Axis& axis) {
   renders::ReportTable table{fmt::format("Parameters of axis {} at the start", axis.name.text),
                              {"parameter", "value", "meaning", "from"},
                              {},
@@ -144,14 +144,14 @@ renders::ReportTable axis_table(const PlcopenSection::Axis& axis) {
   for (const auto& row : devices::plcopen::axis_parameter_table()) {
     const bool given = std::any_of(axis.places.begin(), axis.places.end(),
                                    [&](const auto& p) { return p.first == row.name; });
-    table.rows.push_back({{std::string(row.name), axis_value_text(row, parameters, measure),
+    table.rows.push_back({{std::string(row.name), scenario::axis_value_text(row, parameters, measure),
                            std::string(row.meaning), given ? "the scenario" : std::string(row.number)}});
   }
   return table;
 }
 
 /// What the controller holds at the end: device parameters, states, program variables.
-renders::ReportTable controller_table(Simulation& simulation) {
+renders::ReportTable controller_table(loop::Simulation& simulation) {
   renders::ReportTable table{"Controller at the end of the run", {"value", "", "unit"}, {}, true};
   for (const auto& reading : simulation.controller_values()) {
     table.rows.push_back({{reading.name, fmt::format("{:.10g}", reading.read()), reading.unit}});
@@ -166,7 +166,7 @@ constexpr std::size_t strip_frames = 8;
 
 /// So many frames from the last full cycle between two cuts, or from the whole film: what the machine does,
 /// at a glance.
-std::vector<std::size_t> chosen_frames(const Simulation& simulation, std::size_t wanted) {
+std::vector<std::size_t> chosen_frames(const loop::Simulation& simulation, std::size_t wanted) {
   const auto& snapshots = simulation.snapshots();
   if (snapshots.size() <= wanted) {
     std::vector<std::size_t> all(snapshots.size());
@@ -197,7 +197,7 @@ std::vector<std::size_t> chosen_frames(const Simulation& simulation, std::size_t
   return chosen;
 }
 
-std::string frame_label(const Simulation& simulation, std::size_t index) {
+std::string frame_label(const loop::Simulation& simulation, std::size_t index) {
   const double time = seconds(simulation.snapshots()[index].time);
   const auto event = simulation.frames_event();
   if (!event) return fmt::format("{:.3f} s", time);
@@ -217,7 +217,7 @@ renders::Film shown(const renders::Film& film, const std::string& camera) {
   return view;
 }
 
-std::vector<renders::Callout> chosen_callouts(const PicturesSection::Overlays& overlays,
+std::vector<renders::Callout> chosen_callouts(const scenario::PicturesSection::Overlays& overlays,
                                               const std::vector<plants::Callout>& callouts) {
   std::vector<renders::Callout> chosen;
   for (const auto& [kind, text, at, to] : callouts) {
@@ -230,8 +230,8 @@ std::vector<renders::Callout> chosen_callouts(const PicturesSection::Overlays& o
 }
 
 /// Of a long run only what a short film of it shows.
-std::vector<renders::LiveCurve> live_curves(const PicturesSection& pictures, const Recording& recording,
-                                            const renders::Film& film) {
+std::vector<renders::LiveCurve> live_curves(const scenario::PicturesSection& pictures,
+                                            const loop::Recording& recording, const renders::Film& film) {
   Rows rows{0, recording.times().size()};
   if (rows.count() > renders::kMostSamples && !film.frames.empty()) {
     const auto ns = [](double time) { return static_cast<Time>(std::max(0.0, time) * second); };
@@ -265,12 +265,12 @@ renders::Camera named_camera(const renders::Film& film, const std::string& name)
   return camera;
 }
 
-renders::Camera own_camera(const PicturesSection::Eye& eye) {
+renders::Camera own_camera(const scenario::PicturesSection::Eye& eye) {
   return {renders::vec(eye.eye), renders::vec(eye.target), eye.field_of_view * 180 / std::numbers::pi};
 }
 
 /// What a film in slow motion about an event tells beside the channels.
-std::vector<renders::CaptionItem> film_caption(const PicturesSection& pictures,
+std::vector<renders::CaptionItem> film_caption(const scenario::PicturesSection& pictures,
                                                std::optional<double> event_at, double at) {
   std::vector<renders::CaptionItem> items;
   if (event_at) {
@@ -283,7 +283,8 @@ std::vector<renders::CaptionItem> film_caption(const PicturesSection& pictures,
 
 }  // namespace
 
-renders::Film film_of(const Scenario& scenario, const Simulation& simulation, const PartMeshes& meshes) {
+renders::Film film_of(const scenario::Scenario& scenario, const loop::Simulation& simulation,
+                      const PartMeshes& meshes) {
   renders::Film film;
   film.title = scenario.scene.title;
   film.width = scenario.pictures.width;
@@ -325,8 +326,8 @@ renders::Film film_of(const Scenario& scenario, const Simulation& simulation, co
   return film;
 }
 
-renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                          const Drawn& drawn) {
+renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& simulation,
+                          const loop::Outcome& outcome, const Drawn& drawn) {
   renders::Report report;
   report.title = scenario.scene.title.empty() ? scenario.file.stem().string() : scenario.scene.title;
   report.scenario = scenario.file.filename().string();
@@ -344,7 +345,7 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
                               samples, renders::kStretches)}});
   for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
   add_checks(outcome.checks, report);
-  if (outcome.half_step) report.summary.push_back(margin_table(outcome, scenario.scene.step));
+  if (outcome.half_step) report.summary.push_back(studies::margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
     for (const auto index : chosen_frames(simulation, report_frames))
       report.frames.push_back({drawn.frames.at(index), frame_label(simulation, index)});
@@ -357,26 +358,27 @@ renders::Report report_of(const Scenario& scenario, Simulation& simulation, cons
   renders::ReportTable others{"Other events", {"time [s]", "source", "event", "what"}, {}, false};
   TableRows rows(others);
   for (const auto& event : simulation.recording().events()) {
-    const auto is_known = [&](const KnownEvent& k) {
+    const auto is_known = [&](const loop::KnownEvent& k) {
       return k.source == event.source && k.name == event.event;
     };
     if (std::any_of(simulation.known_events().begin(), simulation.known_events().end(), is_known)) continue;
-    rows.add({{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, values_text(event)}});
+    rows.add(
+        {{fmt::format("{:.6f}", event.at_seconds()), event.source, event.event, loop::values_text(event)}});
   }
   rows.finish();
   if (!others.rows.empty()) report.tables.push_back(std::move(others));
   if (auto table = controller_table(simulation); !table.rows.empty())
     report.tables.push_back(std::move(table));
-  if (const auto* plcopen = controller_of<PlcopenSection>(scenario))
+  if (const auto* plcopen = controllers::controller_of<controllers::PlcopenSection>(scenario))
     for (const auto& axis : plcopen->axes) report.tables.push_back(axis_table(axis));
   for (const auto& entry : scenario.plants) report.tables.push_back(parameter_table(entry));
-  report.scenario_expanded = expand(scenario);
+  report.scenario_expanded = scenario::expand(scenario);
   return report;
 }
 
-std::string write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
-                           const Outcome& outcome, OutputFolder& folder, int threads,
-                           const std::function<void(const char*, double)>& progress) {
+std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation& simulation,
+                           const renders::Film& film, const loop::Outcome& outcome, OutputFolder& folder,
+                           int threads, const std::function<void(const char*, double)>& progress) {
   Drawn drawn;
   std::string left_out;
   if (!film.frames.empty()) {
@@ -413,4 +415,4 @@ std::string write_pictures(const Scenario& scenario, Simulation& simulation, con
   return left_out;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

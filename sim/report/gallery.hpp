@@ -11,16 +11,17 @@
 #include "sim/output_folder.hpp"
 #include "sim/report/part_meshes.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
 // From what was recorded to what is shown: fills the structs of renders/.
 
 /// The frames of a run, with captions. A part is drawn by the user's mesh, else by its model.
-renders::Film film_of(const Scenario& scenario, const Simulation& simulation, const PartMeshes& meshes = {});
+renders::Film film_of(const scenario::Scenario& scenario, const loop::Simulation& simulation,
+                      const PartMeshes& meshes = {});
 
 /// The plots that the scenario asks for; where it asks for none, one with the recorded channels, a panel a
 /// unit.
-std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& recording);
+std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording);
 
 /// Picture files made for a report.
 struct Drawn {
@@ -29,15 +30,15 @@ struct Drawn {
 };
 
 /// The cams that the run played, or held ready; of a PLCopen controller that played none its tables.
-std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulation);
+std::vector<cams::CamPage> cams_of(const scenario::Scenario& scenario, const loop::Simulation& simulation);
 
 /// The report's sections of the cams; takes their figures, which come last, out of `plots`.
-std::vector<renders::ReportSection> cam_sections(const std::vector<CamPage>& cams,
+std::vector<renders::ReportSection> cam_sections(const std::vector<cams::CamPage>& cams,
                                                  std::vector<renders::ReportFigure>& plots);
 
 /// The report but for its plots and the sections of cams.
-renders::Report report_of(const Scenario& scenario, Simulation& simulation, const Outcome& outcome,
-                          const Drawn& drawn);
+renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& simulation,
+                          const loop::Outcome& outcome, const Drawn& drawn);
 
 /// What is drawn of a run.
 inline const std::vector<std::string> picture_files = {"report.html", "film.mp4", "filmstrip.png",
@@ -46,8 +47,8 @@ inline const std::vector<std::string> picture_files = {"report.html", "film.mp4"
 /// report.html in `folder`. Returns what is left out because a helper program is missing, and what to
 /// install; "" = nothing. `progress` is told what is being done and which share of it is. Throws
 /// std::runtime_error if something cannot be drawn or written.
-std::string write_pictures(const Scenario& scenario, Simulation& simulation, const renders::Film& film,
-                           const Outcome& outcome, OutputFolder& folder, int threads,
-                           const std::function<void(const char*, double)>& progress);
+std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation& simulation,
+                           const renders::Film& film, const loop::Outcome& outcome, OutputFolder& folder,
+                           int threads, const std::function<void(const char*, double)>& progress);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

@@ -7,26 +7,26 @@
 #include "sim/file.hpp"
 #include "sim/report/gallery.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
-std::vector<CamPage> cams_of(const Scenario& scenario, const Simulation& simulation) {
+std::vector<cams::CamPage> cams_of(const scenario::Scenario& scenario, const loop::Simulation& simulation) {
   if (simulation.cams() == nullptr) return {};
   auto played = simulation.cams()->played();
-  const auto* plcopen = controller_of<PlcopenSection>(scenario);
+  const auto* plcopen = controllers::controller_of<controllers::PlcopenSection>(scenario);
   if (played.empty() && plcopen != nullptr) {
     Problems problems;
     for (const auto& table : plcopen->tables)
       if (auto text = read_file(scenario.file.parent_path() / table.file.text, problems))
         played.push_back({table.file.text, nullptr, {}, std::move(*text)});
   }
-  auto pages = cam_pages(played);
+  auto pages = cams::cam_pages(played);
   if (const auto untold = simulation.cams()->untold(); untold > 0 && !pages.empty())
     pages.back().notes.push_back(
         fmt::format("{} more starts, with tables that came later, are not shown.", untold));
   return pages;
 }
 
-std::vector<renders::ReportSection> cam_sections(const std::vector<CamPage>& cams,
+std::vector<renders::ReportSection> cam_sections(const std::vector<cams::CamPage>& cams,
                                                  std::vector<renders::ReportFigure>& plots) {
   std::size_t count = 0;
   for (const auto& cam : cams) count += cam.plots.size();
@@ -43,4 +43,4 @@ std::vector<renders::ReportSection> cam_sections(const std::vector<CamPage>& cam
   return sections;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

@@ -9,22 +9,23 @@
 #include "sim/report/gallery.hpp"
 #include "sim/report/gallery_plots.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
-EventNumbers event_numbers(const EventLog& events, const std::string& event, const std::string& value,
-                           const PlotRequest& plot) {
+EventNumbers event_numbers(const loop::EventLog& events, const std::string& event, const std::string& value,
+                           const scenario::PlotRequest& plot) {
   return plot.until ? event_numbers(events, event, value, seconds(plot.from), seconds(*plot.until))
                     : event_numbers(events, event, value, seconds(plot.from));
 }
 
-Rows rows_between(const Recording& recording, Time from, const std::optional<Time>& until) {
+Rows rows_between(const loop::Recording& recording, Time from, const std::optional<Time>& until) {
   const auto& times = recording.times();
   const auto first = std::lower_bound(times.begin(), times.end(), from);
   const auto end = until ? std::upper_bound(first, times.end(), *until) : times.end();
   return {static_cast<std::size_t>(first - times.begin()), static_cast<std::size_t>(end - times.begin())};
 }
 
-renders::Curve channel_curve(const Recording& recording, const Recording::Column& column, Rows rows) {
+renders::Curve channel_curve(const loop::Recording& recording, const loop::Recording::Column& column,
+                             Rows rows) {
   renders::Envelope envelope(rows.count());
   for (auto row = rows.first; row < rows.end; ++row)
     envelope.add(seconds(recording.times()[row]), column.values[row]);
@@ -32,7 +33,7 @@ renders::Curve channel_curve(const Recording& recording, const Recording::Column
   return {column.name, std::move(kept.x), std::move(kept.y)};
 }
 
-std::string time_label(const Recording& recording, Rows rows) {
+std::string time_label(const loop::Recording& recording, Rows rows) {
   const renders::Envelope envelope(rows.count());
   if (envelope.stretch() == 1) return "time [s]";
   const auto& times = recording.times();
@@ -45,7 +46,8 @@ std::string time_label(const Recording& recording, Rows rows) {
 namespace {
 
 /// Every change of a state, and its last instant; of a short run every instant.
-renders::Lane lane_of(const Recording& recording, const PlotRequest& plot, const std::string& name) {
+renders::Lane lane_of(const loop::Recording& recording, const scenario::PlotRequest& plot,
+                      const std::string& name) {
   const auto& values = recording.column(name)->values;
   const auto rows = rows_between(recording, plot.from, plot.until);
   renders::Lane lane{name, {}, {}};
@@ -61,9 +63,9 @@ renders::Lane lane_of(const Recording& recording, const PlotRequest& plot, const
 }
 
 /// The corners of all that two channels ever were together.
-renders::PixelGrid bounds_of(const Series<double>& x, const Series<double>& y) {
+renders::PixelGrid bounds_of(const loop::Series<double>& x, const loop::Series<double>& y) {
   renders::PixelGrid bounds;
-  const auto spread = [](const Series<double>& of, double& low, double& high) {
+  const auto spread = [](const loop::Series<double>& of, double& low, double& high) {
     if (of.empty()) return;
     low = high = of.front();
     for (const double number : of) {
@@ -78,8 +80,8 @@ renders::PixelGrid bounds_of(const Series<double>& x, const Series<double>& y) {
 }
 
 /// A path in a plane: one curve, or one for each whole value of the split channel.
-renders::Panel path_panel(const Recording& recording, const PlotRequest& plot,
-                          const PlotRequest::Panel& request) {
+renders::Panel path_panel(const loop::Recording& recording, const scenario::PlotRequest& plot,
+                          const scenario::PlotRequest::Panel& request) {
   const auto& x = *recording.column(request.x.text);
   const auto& y = *recording.column(request.y.text);
   const auto* split = request.split.text.empty() ? nullptr : recording.column(request.split.text);
@@ -114,8 +116,8 @@ renders::Panel path_panel(const Recording& recording, const PlotRequest& plot,
   return panel;
 }
 
-renders::Panel panel_of(const Recording& recording, const PlotRequest& plot,
-                        const PlotRequest::Panel& request) {
+renders::Panel panel_of(const loop::Recording& recording, const scenario::PlotRequest& plot,
+                        const scenario::PlotRequest::Panel& request) {
   renders::Panel panel;
   for (const auto& name : request.lanes) panel.lanes.push_back(lane_of(recording, plot, name.text));
   if (!panel.lanes.empty()) {
@@ -145,7 +147,7 @@ renders::Panel panel_of(const Recording& recording, const PlotRequest& plot,
 }
 
 /// What is written at the mark of an event: "cut 3", "power off", "lose_counts = 200".
-std::string mark_label(const RecordedEvent& event, int number) {
+std::string mark_label(const loop::RecordedEvent& event, int number) {
   if (event.source != "timeline") {
     return event.values.empty() ? event.event : fmt::format("{} {}", event.event, number);
   }
@@ -168,13 +170,13 @@ void thin(std::vector<renders::Mark>& marks) {
 }
 
 /// The events asked for, or faults and power changes, as marks in the plot's time.
-std::vector<renders::Mark> marks_of(const Recording& recording, const PlotRequest& plot) {
-  static const std::vector<Text> usual = {{"timeline.fault", {}}, {"timeline.power", {}}};
+std::vector<renders::Mark> marks_of(const loop::Recording& recording, const scenario::PlotRequest& plot) {
+  static const std::vector<scenario::Text> usual = {{"timeline.fault", {}}, {"timeline.power", {}}};
   std::vector<renders::Mark> marks;
   for (const auto& wanted : plot.marks ? *plot.marks : usual) {
     int number = 0;
     for (const auto& event : recording.events()) {
-      if (!names_event(wanted.text, event.source, event.event)) continue;
+      if (!loop::names_event(wanted.text, event.source, event.event)) continue;
       ++number;
       const double at = event.at_seconds();
       if (at < seconds(plot.from) || (plot.until && at > seconds(*plot.until))) continue;
@@ -187,8 +189,8 @@ std::vector<renders::Mark> marks_of(const Recording& recording, const PlotReques
 }
 
 /// A plot of one panel whose x is not time.
-void draw_own_x(const Scenario& scenario, const Recording& recording, const PlotRequest& request,
-                renders::Plot& plot) {
+void draw_own_x(const scenario::Scenario& scenario, const loop::Recording& recording,
+                const scenario::PlotRequest& request, renders::Plot& plot) {
   const auto& panel = request.panels.front();
   if (panel.histogram) {
     draw_histogram(recording, request, plot);
@@ -204,7 +206,7 @@ void draw_own_x(const Scenario& scenario, const Recording& recording, const Plot
 }
 
 /// Without a request: every recorded channel, channels of one unit together.
-renders::Plot overview(const Recording& recording) {
+renders::Plot overview(const loop::Recording& recording) {
   const Rows all{0, recording.times().size()};
   renders::Plot plot{"recorded", "Recorded channels", time_label(recording, all), {}, 1200, 260};
   for (const auto& column : recording.columns()) {
@@ -236,7 +238,7 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
   return fmt::format("{}{}[{}]", title, title.empty() ? "" : " ", text);
 }
 
-std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& recording) {
+std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording) {
   std::vector<renders::Plot> plots;
   for (const auto& request : scenario.pictures.plots) {
     renders::Plot plot;
@@ -256,4 +258,4 @@ std::vector<renders::Plot> plots_of(const Scenario& scenario, const Recording& r
   return plots;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

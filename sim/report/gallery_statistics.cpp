@@ -12,7 +12,7 @@
 #include "sim/report/statistics.hpp"
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
 namespace {
 
@@ -67,9 +67,9 @@ std::string statistics_text(const EventNumbers& series,
 // ---- motor ----
 
 /// The data sheet of a plant's servo motor, as far as its limits go.
-std::optional<plants::ServoData> motor_data(const Scenario& scenario, const std::string& plant) {
+std::optional<plants::ServoData> motor_data(const scenario::Scenario& scenario, const std::string& plant) {
   const auto entry = std::find_if(scenario.plants.begin(), scenario.plants.end(),
-                                  [&](const PlantEntry& one) { return one.name.text == plant; });
+                                  [&](const scenario::PlantEntry& one) { return one.name.text == plant; });
   if (entry == scenario.plants.end()) return {};
   plants::ServoData data;
   int found = 0;
@@ -131,7 +131,8 @@ renders::Curve rated_curve(const plants::ServoData& data, bool both_ways, double
 
 }  // namespace
 
-void draw_histogram(const Recording& recording, const PlotRequest& request, renders::Plot& plot) {
+void draw_histogram(const loop::Recording& recording, const scenario::PlotRequest& request,
+                    renders::Plot& plot) {
   const auto& panel = request.panels.front();
   const auto series = event_numbers(recording.events(), panel.event.text, panel.values.front().text, request);
   renders::Panel shown;
@@ -164,19 +165,19 @@ std::vector<std::string> motor_channels(const std::string& plant) {
   return {plant + ".motor.speed", plant + ".motor.torque"};
 }
 
-bool has_motor_limits(const Scenario& scenario, const std::string& plant) {
+bool has_motor_limits(const scenario::Scenario& scenario, const std::string& plant) {
   return motor_data(scenario, plant).has_value();
 }
 
-void draw_motor(const Scenario& scenario, const Recording& recording, const PlotRequest& request,
-                renders::Plot& plot) {
+void draw_motor(const scenario::Scenario& scenario, const loop::Recording& recording,
+                const scenario::PlotRequest& request, renders::Plot& plot) {
   const auto& panel = request.panels.front();
   const auto names = motor_channels(panel.motor.text);
   const auto& speed = *recording.column(names[0]);
   const auto& torque = *recording.column(names[1]);
   const auto data = *motor_data(scenario, panel.motor.text);
-  const double speed_unit = to_si(1, speed.unit);
-  const double torque_unit = to_si(1, torque.unit);
+  const double speed_unit = scenario::to_si(1, speed.unit);
+  const double torque_unit = scenario::to_si(1, torque.unit);
 
   renders::Curve points;
   points.label = "operating points";
@@ -215,4 +216,4 @@ void draw_motor(const Scenario& scenario, const Recording& recording, const Plot
   plot.panels.push_back(std::move(shown));
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

@@ -5,12 +5,12 @@
 
 #include "renders/mesh_file.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
 namespace {
 
 /// The nearest part, or what the plant that is named has.
-std::string remedy_for(const std::string& part, const std::vector<NamedPlant>& plants) {
+std::string remedy_for(const std::string& part, const std::vector<loop::NamedPlant>& plants) {
   constexpr std::size_t listed = 60;
   std::vector<std::string> all;
   std::vector<std::string> own;
@@ -30,7 +30,7 @@ std::string remedy_for(const std::string& part, const std::vector<NamedPlant>& p
   return fmt::format("parts: {}{}", fmt::join(own, ", "), cut ? ", ..." : "");
 }
 
-bool is_known(const Text& part, const std::vector<NamedPlant>& plants) {
+bool is_known(const scenario::Text& part, const std::vector<loop::NamedPlant>& plants) {
   for (const auto& [plant, machine] : plants) {
     for (const auto& one : machine->parts())
       if (part.text == fmt::format("{}.{}", plant, one.name)) return true;
@@ -40,13 +40,14 @@ bool is_known(const Text& part, const std::vector<NamedPlant>& plants) {
 
 }  // namespace
 
-PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPlant>& plants,
+PartMeshes load_part_meshes(const scenario::Scenario& scenario, const std::vector<loop::NamedPlant>& plants,
                             Problems& problems) {
   PartMeshes meshes;
-  const auto must_exist = [&](const Text& part) {
+  const auto must_exist = [&](const scenario::Text& part) {
     if (is_known(part, plants)) return true;
-    problems.push_back(problem_at(scenario, part.place, fmt::format("there is no part '{}'", part.text),
-                                  remedy_for(part.text, plants)));
+    problems.push_back(scenario::problem_at(scenario, part.place,
+                                            fmt::format("there is no part '{}'", part.text),
+                                            remedy_for(part.text, plants)));
     return false;
   };
   if (const auto& follow = scenario.pictures.follow; !follow.text.empty()) must_exist(follow);
@@ -58,9 +59,9 @@ PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPla
     auto loaded =
         renders::load_mesh(file, {request.scale, renders::vec(request.rotate), renders::vec(request.at)});
     if (const auto* problem = std::get_if<renders::MeshProblem>(&loaded)) {
-      problems.push_back(problem_at(scenario, request.file.place,
-                                    fmt::format("mesh {}: {}", file.string(), problem->what),
-                                    problem->remedy));
+      problems.push_back(scenario::problem_at(scenario, request.file.place,
+                                              fmt::format("mesh {}: {}", file.string(), problem->what),
+                                              problem->remedy));
       continue;
     }
     meshes[request.part.text] =
@@ -69,4 +70,4 @@ PartMeshes load_part_meshes(const Scenario& scenario, const std::vector<NamedPla
   return meshes;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

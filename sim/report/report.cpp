@@ -6,14 +6,14 @@
 
 #include "sim/report/results.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
-void add_checks(const std::vector<CheckResult>& checks, renders::Report& report) {
+void add_checks(const std::vector<loop::CheckResult>& checks, renders::Report& report) {
   for (const auto& check : checks)
     report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
 }
 
-void add_overrides(const std::vector<Override>& overrides, renders::Report& report) {
+void add_overrides(const std::vector<scenario::Override>& overrides, renders::Report& report) {
   for (const auto& [path, value] : overrides)
     report.facts.push_back({{"--set", fmt::format("{} = {}", path, value)}});
 }
@@ -41,4 +41,4 @@ void draw_png(renders::Plot plot, const std::filesystem::path& png) {
   renders::draw_plots({plot}, png.has_parent_path() ? png.parent_path() : std::filesystem::path("."));
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

@@ -8,7 +8,7 @@
 #include "sim/output_folder.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
 // What the reports of run, compare, tune and bode have in common.
 
@@ -17,10 +17,10 @@ inline constexpr auto* report_file = "report.html";
 inline constexpr auto* plots_folder = "plots";
 
 /// The checks with what is left of their limits.
-void add_checks(const std::vector<CheckResult>& checks, renders::Report& report);
+void add_checks(const std::vector<loop::CheckResult>& checks, renders::Report& report);
 
 /// What the command line changed, a fact each.
-void add_overrides(const std::vector<Override>& overrides, renders::Report& report);
+void add_overrides(const std::vector<scenario::Override>& overrides, renders::Report& report);
 
 /// Draws `plots` into the folder of plots and adds them, with their data, to the report. No two share a file:
 /// a later one with a name that is taken gets another. Throws std::runtime_error if something cannot be
@@ -33,4 +33,4 @@ void write_report(renders::Report report, std::vector<renders::Plot> plots, Outp
 /// Draws one plot as the file `png`. Throws std::runtime_error if it cannot be written.
 void draw_png(renders::Plot plot, const std::filesystem::path& png);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

@@ -11,7 +11,7 @@
 #include "sim/file.hpp"
 #include "sim/studies/half_step.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
 namespace {
 
@@ -25,16 +25,16 @@ nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
 
 }  // namespace
 
-std::string margin_text(const CheckResult& check) {
+std::string margin_text(const loop::CheckResult& check) {
   if (!check.margin) return "";
   const auto unit = check.unit.empty() ? "" : " " + check.unit;
-  const double room = without_noise(std::abs(*check.margin));
+  const double room = loop::without_noise(std::abs(*check.margin));
   auto text = fmt::format("{:.4g}{} {}", room, unit, *check.margin >= 0 ? "left" : "too far");
   if (check.at) text += fmt::format(", at {:.4f} s", *check.at);
   return text;
 }
 
-std::string verdict_text(const Outcome& outcome) {
+std::string verdict_text(const loop::Outcome& outcome) {
   if (!outcome.failure.empty()) return "the simulation stopped: " + outcome.failure;
   const auto failed =
       std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
@@ -44,11 +44,11 @@ std::string verdict_text(const Outcome& outcome) {
                                     : fmt::format("all {} checks passed", outcome.checks.size());
 }
 
-Outcome outcome_to_come() {
+loop::Outcome outcome_to_come() {
   return {0, "the run has not come to its end; it goes on, or it was ended from outside", {}};
 }
 
-void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
+void write_checks(const loop::Outcome& outcome, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["drycut"] = DRYCUT_VERSION;
   json["passed"] = outcome.passed();
@@ -70,12 +70,12 @@ void write_checks(const Outcome& outcome, const std::filesystem::path& file) {
     const auto& other = half->checks[i];
     json["checks"].back()["half_step"] = {{"passed", other.passed},
                                           {"margin", number_or_null(other.margin)},
-                                          {"moved", number_or_null(moved(check, other))}};
+                                          {"moved", number_or_null(studies::moved(check, other))}};
   }
   write_file(file, json.dump(2) + "\n");
 }
 
-void write_scenario(const Scenario& scenario, const std::filesystem::path& file) {
+void write_scenario(const scenario::Scenario& scenario, const std::filesystem::path& file) {
   write_file(
       file,
       "# The scenario of this run with every default in force. Paths are relative to the original file.\n" +
@@ -115,4 +115,4 @@ void write_junit(const std::vector<RunResult>& results, const std::filesystem::p
   out.finish();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

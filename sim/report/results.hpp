@@ -5,20 +5,20 @@
 
 #include "sim/loop/simulation.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 
 /// One scenario's outcome among others, for junit.xml and the closing lines.
 struct RunResult {
   std::string name;  ///< the scenario's file name without extension
   std::filesystem::path scenario;
   std::filesystem::path directory;  ///< where its files are
-  Outcome outcome;
+  loop::Outcome outcome;
   bool has_report = false;
 };
 
 /// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check; with
 /// --verify-step also what it came to at half the step.
-void write_checks(const Outcome& outcome, const std::filesystem::path& file);
+void write_checks(const loop::Outcome& outcome, const std::filesystem::path& file);
 
 /// The files of a run that a comparison reads.
 inline constexpr auto* trace_file = "trace.csv";
@@ -27,19 +27,19 @@ inline constexpr auto* checks_file = "checks.json";
 inline constexpr auto* scenario_file = "scenario.yaml";
 
 /// What an outcome says as long as its run has not come to its end.
-Outcome outcome_to_come();
+loop::Outcome outcome_to_come();
 
 /// scenario.yaml: the scenario as it ran, with every default and override in force, to be compared with other
 /// runs' and kept. Paths in it are relative to the scenario's own file.
-void write_scenario(const Scenario& scenario, const std::filesystem::path& file);
+void write_scenario(const scenario::Scenario& scenario, const std::filesystem::path& file);
 
 /// junit.xml over all scenarios: a suite a scenario, a case a check; a run that stopped is an error.
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file);
 
 /// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell.
-std::string margin_text(const CheckResult& check);
+std::string margin_text(const loop::CheckResult& check);
 
 /// "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ...".
-std::string verdict_text(const Outcome& outcome);
+std::string verdict_text(const loop::Outcome& outcome);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

@@ -8,7 +8,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/yaml_node.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 // The schema of scenarios is written once: each section has one `visit(Archive&, section)` that names its
 // keys, and what is done with them is an archive: reading (yaml_reader.hpp), writing (expand), a JSON Schema
@@ -141,4 +141,4 @@ void visit_window(Archive& archive, Time& from, std::optional<Time>& until,
 /// The sections of a scenario, in the order in which they are written.
 const std::vector<std::string>& section_names();
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

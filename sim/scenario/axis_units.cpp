@@ -8,7 +8,7 @@
 
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 using devices::plcopen::AxisParameter;
 using devices::plcopen::AxisParameters;
@@ -72,4 +72,4 @@ double to_kernel(double number, std::string_view unit, const AxisUnit& people) {
   return std::abs(exact - whole) <= rounding * std::max(1.0, std::abs(exact)) ? whole : exact;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

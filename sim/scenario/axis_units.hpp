@@ -5,7 +5,7 @@
 
 #include "devices/plcopen/axis_parameters.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 /// The unit in which people give a parameter of an axis: so many of the kernel's units are one of it.
 struct AxisUnit {
@@ -28,4 +28,4 @@ std::string axis_value_text(const devices::plcopen::AxisParameter& parameter,
 /// a whole number is one.
 double to_kernel(double number, std::string_view unit, const AxisUnit& people);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -10,7 +10,7 @@
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/format.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -203,4 +203,4 @@ std::string yaml_text(std::string_view text) {
   return bare || negative_number ? std::string(text) : yaml_quoted(text);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -14,7 +14,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -285,4 +285,4 @@ Evaluation Expression::evaluate() const {
 const std::vector<std::string>& Expression::terms() const { return compiled_->texts; }
 bool Expression::has_margin() const { return compiled_->has_margin; }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -8,7 +8,7 @@
 
 #include "base/problem.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 struct Scenario;
 struct Text;
@@ -69,4 +69,4 @@ class Expression {
   std::unique_ptr<Compiled> compiled_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <charconv>
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -255,4 +255,4 @@ ExpressionTokens scan_expression(std::string_view text, std::vector<ExpressionFa
   return tokens;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -5,7 +5,7 @@
 
 #include "sim/scenario/expression.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 /// One word or sign of an expression.
 struct ExpressionToken {
@@ -25,4 +25,4 @@ ExpressionTokens scan_expression(std::string_view text, std::vector<ExpressionFa
 /// < <= > >=
 bool is_relation(const ExpressionToken& token);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/loop/time.hpp"
+#include "sim/time.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 class Archive;
 
@@ -24,4 +24,4 @@ std::string yaml_map(const std::vector<std::string>& entries);
 /// "[a, b]"
 std::string yaml_list(const std::vector<std::string>& items);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -13,7 +13,7 @@
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -340,4 +340,4 @@ Form choice_form(std::vector<std::string> words, std::function<std::size_t()> ge
       [words, get = std::move(get)] { return words.at(get()); }, std::move(schema));
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

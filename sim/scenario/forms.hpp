@@ -10,7 +10,7 @@
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 // The forms that values have in a scenario. Each is bound to what it reads and writes, which outlives it.
 
@@ -80,4 +80,4 @@ inline constexpr std::string_view pair_schema =
 /// Of a map of the user's names, each with an `item`.
 std::string map_schema(std::string_view item);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

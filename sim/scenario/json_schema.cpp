@@ -8,7 +8,7 @@
 #include "sim/scenario/archive.hpp"
 #include "sim/studies/compare/scene.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -69,7 +69,7 @@ class SchemaWriter final : public Archive {
 
   void controller(const Key& key, std::unique_ptr<ControllerSection>&) override {
     Json kinds = Json::object();
-    for (const auto& kind : controller_kinds()) {
+    for (const auto& kind : controllers::controller_kinds()) {
       const auto scratch = kind.make();
       kinds[std::string(kind.name)] = of([&](Archive& archive) { scratch->visit(archive); });
     }
@@ -141,8 +141,8 @@ std::string json_schema() {
     visit(archive, scratch);
   });
   const auto comparison = SchemaWriter::of([](Archive& archive) {
-    ComparisonScene scratch;
-    visit(archive, scratch);
+    studies::ComparisonScene scratch;
+    studies::visit(archive, scratch);
   });
   const Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                        {"title", "Drycut scenario"},
@@ -152,4 +152,4 @@ std::string json_schema() {
   return schema.dump(1);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

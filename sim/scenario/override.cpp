@@ -7,7 +7,7 @@
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -118,4 +118,4 @@ void apply_override(YamlNode& root, const Override& override, int source, Findin
   OverrideSetter(override, source, findings).apply(root);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

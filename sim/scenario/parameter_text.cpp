@@ -4,7 +4,7 @@
 
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -23,4 +23,4 @@ std::string value_text(const plants::Parameter& parameter) {
   return std::visit([&](const auto* bound) { return text_of(parameter, *bound); }, parameter.value);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -8,7 +8,7 @@
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -197,4 +197,4 @@ void visit(Archive& archive, PicturesSection& pictures) {
   });
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -10,7 +10,7 @@
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/sections.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -233,4 +233,4 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
   return order;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

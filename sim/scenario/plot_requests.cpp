@@ -6,7 +6,7 @@
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -182,4 +182,4 @@ void visit(Archive& archive, PlotRequest& plot, std::optional<PicturesSection::A
   visit_plot(archive, plot, &around);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -11,7 +11,7 @@
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -44,12 +44,12 @@ class ScenarioReader final : public MapReader {
     refuse_duplicates(node, "controller", findings());
     std::vector<std::string> known;
     std::vector<std::string> examples;
-    for (const auto& kind : controller_kinds()) {
+    for (const auto& kind : controllers::controller_kinds()) {
       known.emplace_back(kind.name);
       examples.push_back(fmt::format("{{{}: {}}}", kind.name, kind.example));
     }
     for (const auto& entry : node.entries) {
-      const auto* const kind = controller_kind(entry.key.text);
+      const auto* const kind = controllers::controller_kind(entry.key.text);
       if (kind == nullptr) {
         findings().add(entry.key.place, fmt::format("unknown controller '{}'", entry.key.text),
                        fmt::format("known: {}", fmt::join(known, ", ")));
@@ -219,4 +219,4 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<Over
   return read_scenario_text(*text, file, overrides, problems, types);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -12,9 +12,9 @@
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
-#include "sim/loop/time.hpp"
+#include "sim/time.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 // A scenario file as plain structs with defaults: the schema, the reader's target and the writer's source
 // (design §5). Everything that can be wrong later (a name that no plant has) keeps its place in the file.
@@ -274,4 +274,4 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
 /// The scenario as YAML with every default in force; reading it back gives the same scenario.
 std::string expand(const Scenario& scenario);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -9,7 +9,7 @@
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -284,4 +284,4 @@ const std::vector<std::string>& section_names() {
   return names;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

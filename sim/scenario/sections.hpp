@@ -4,7 +4,7 @@
 
 #include "sim/scenario/archive.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 // The steps of read_scenario.
 
@@ -16,4 +16,4 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
 /// missing keys added where a default stands.
 void apply_override(YamlNode& root, const Override& override, int source, Findings& findings);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

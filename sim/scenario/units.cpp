@@ -12,7 +12,7 @@
 #include <memory>
 #include <mutex>
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -231,4 +231,4 @@ std::string format_quantity(double si, std::string_view unit) {
   return fmt::format("{} {}", si, si_unit(unit));
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 /// Units of measure by UDUNITS-2, with the field's spellings added (deg, rev, Nm). Angle is a dimension of
 /// its own where UDUNITS keeps it ("rad"); "" is the pure number. Safe to call from several threads.
@@ -34,4 +34,4 @@ std::optional<ParsedQuantity> parse_quantity(std::string_view text);
 /// `si` as a text in `unit`, shortest that reads back to the very same value.
 std::string format_quantity(double si, std::string_view unit);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

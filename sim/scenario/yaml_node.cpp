@@ -11,7 +11,7 @@
 
 #include "base/plain_text.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -391,4 +391,4 @@ std::string_view name_of(YamlNode::Kind kind) {
   return "";
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

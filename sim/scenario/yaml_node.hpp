@@ -7,7 +7,7 @@
 #include "base/problem.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 /// A YAML document as a plain tree in which everything keeps its place. Scalars stay text: what a text means
 /// is the reader's business.
@@ -64,4 +64,4 @@ const YamlNode* child(const YamlNode& node, std::string_view key);
 /// What kind of node it is, for messages: "a map", "a list", "a text", "nothing".
 std::string_view name_of(YamlNode::Kind kind);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

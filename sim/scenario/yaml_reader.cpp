@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -244,4 +244,4 @@ bool MapReader::finish() {
   return true;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -7,12 +7,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sim/loop/time.hpp"
 #include "sim/scenario/archive.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/yaml_node.hpp"
+#include "sim/time.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 /// What a duration may be.
 enum class Sign { not_negative, positive };
@@ -122,4 +122,4 @@ void refuse_same_name(const std::vector<Item>& items, std::string_view what, std
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -10,7 +10,7 @@
 #include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 namespace {
 
@@ -151,4 +151,4 @@ void check_expression(const Text& text, Findings& findings) {
   for (const auto& fault : faults) findings.add(text.at(fault.offset), fault.what, fault.remedy);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -7,7 +7,7 @@
 
 #include "sim/scenario/format.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -15,48 +15,48 @@ std::string number(double value, const std::string& unit) {
   return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
-std::string cell(const CheckResult& check) {
+std::string cell(const loop::CheckResult& check) {
   return fmt::format("{}{}", check.passed ? "PASS" : "FAIL",
                      check.margin ? " " + number(*check.margin, check.unit) : "");
 }
 
 }  // namespace
 
-std::optional<Override> halved_step(const Scenario& scenario, Problems& problems) {
+std::optional<scenario::Override> halved_step(const scenario::Scenario& scenario, Problems& problems) {
   const auto& scene = scenario.scene;
-  if (scene.step % 2 == 0) return Override{"scene.step", format_time(scene.step / 2)};
-  problems.push_back(
-      problem_at(scenario, scene.step_place,
-                 fmt::format("--verify-step: half of scene.step {} is no whole number of nanoseconds",
-                             format_time(scene.step)),
-                 "choose an even number of nanoseconds"));
+  if (scene.step % 2 == 0) return scenario::Override{"scene.step", scenario::format_time(scene.step / 2)};
+  problems.push_back(scenario::problem_at(
+      scenario, scene.step_place,
+      fmt::format("--verify-step: half of scene.step {} is no whole number of nanoseconds",
+                  scenario::format_time(scene.step)),
+      "choose an even number of nanoseconds"));
   return {};
 }
 
-HalfStep run_half_step(Scenario scenario, const std::function<void(Time)>& progress) {
+loop::HalfStep run_half_step(scenario::Scenario scenario, const std::function<void(Time)>& progress) {
   scenario.pictures = {};
   scenario.record.channels.clear();
   Problems problems;
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   if (!problems.empty()) throw std::runtime_error("at half the step: " + to_string(problems.front()));
   simulation.keep_nothing();
   auto outcome = simulation.run(progress);
   return {scenario.scene.step, std::move(outcome.failure), std::move(outcome.checks)};
 }
 
-std::optional<double> moved(const CheckResult& check, const CheckResult& at_half) {
+std::optional<double> moved(const loop::CheckResult& check, const loop::CheckResult& at_half) {
   if (!check.margin || !at_half.margin) return {};
   return *at_half.margin - *check.margin;
 }
 
-renders::ReportTable margin_table(const Outcome& outcome, Time step) {
+renders::ReportTable margin_table(const loop::Outcome& outcome, Time step) {
   const auto& half = outcome.half_step.value();
-  renders::ReportTable table{
-      "Margins at half the step",
-      {"check", "margin at " + format_time(step), "margin at " + format_time(half.step), "moved by"},
-      {},
-      false,
-      true};
+  renders::ReportTable table{"Margins at half the step",
+                             {"check", "margin at " + scenario::format_time(step),
+                              "margin at " + scenario::format_time(half.step), "moved by"},
+                             {},
+                             false,
+                             true};
   for (std::size_t i = 0; i < outcome.checks.size() && i < half.checks.size(); ++i) {
     const auto& check = outcome.checks[i];
     const auto& other = half.checks[i];
@@ -70,4 +70,4 @@ renders::ReportTable margin_table(const Outcome& outcome, Time step) {
   return table;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -35,11 +35,11 @@ double seconds_of(const std::function<void()>& run) {
 /// The default line, its closed loop with devices, program, checks and recording, without pictures.
 void run_line() {
   Problems problems;
-  const std::vector<sim::Override> overrides = {{"scene.duration", fmt::format("{} s", simulated)},
-                                                {"pictures", "{}"}};
+  const std::vector<sim::scenario::Override> overrides = {{"scene.duration", fmt::format("{} s", simulated)},
+                                                          {"pictures", "{}"}};
   const auto scenario =
-      sim::read_scenario(DRYCUT_SOURCE_DIR "/scenes/rotary_knife.yaml", overrides, problems);
-  sim::Simulation simulation(scenario, problems);
+      sim::scenario::read_scenario(DRYCUT_SOURCE_DIR "/scenes/rotary_knife.yaml", overrides, problems);
+  sim::loop::Simulation simulation(scenario, problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_string(problem));
   if (problems.empty()) simulation.run();
 }

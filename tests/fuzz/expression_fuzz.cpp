@@ -9,8 +9,9 @@ DRYCUT_FUZZ(text) {
   const auto resolve = [](const std::string& name) -> const double* {
     return name == "x" ? nullptr : &value;
   };
-  std::vector<sim::ExpressionFault> faults;
-  const auto formula = sim::Expression::compile(text, resolve, {"AxisX.posit", "knife.angle"}, faults);
+  std::vector<sim::scenario::ExpressionFault> faults;
+  const auto formula =
+      sim::scenario::Expression::compile(text, resolve, {"AxisX.posit", "knife.angle"}, faults);
   if (!formula && faults.empty()) fuzz::broken("a formula that does not compile has a fault");
   for (const auto& fault : faults)
     if (fault.offset > text.size() || fault.what.empty()) fuzz::broken("a fault stands in the text");

@@ -14,11 +14,11 @@ class BacklashGap : public testing::TestWithParam<const char*> {};
 TEST_P(BacklashGap, IsTheDifferenceOfTheTwoDirectionsWithinAPercent) {
   Problems problems;
   auto scenario =
-      read_scenario(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/backlash_motor_encoder.yaml",
-                    {{"plants.axis.gap", std::string(GetParam()) + " mm"}}, problems);
+      scenario::read_scenario(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/backlash_motor_encoder.yaml",
+                              {{"plants.axis.gap", std::string(GetParam()) + " mm"}}, problems);
   scenario.pictures.frames = false;
   scenario.checks.clear();
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   ASSERT_EQ(simulation.run().failure, "");
   const auto& step = simulation.recording().column("gbStep")->values;

@@ -26,37 +26,38 @@ const std::filesystem::path root = DRYCUT_SOURCE_DIR;
 /// A scene to its end, with what its cams did.
 struct Played {
   Problems problems;
-  Scenario scenario;
-  std::unique_ptr<Simulation> simulation;
-  Outcome outcome;
+  scenario::Scenario scenario;
+  std::unique_ptr<loop::Simulation> simulation;
+  loop::Outcome outcome;
   /// `more` goes into its timeline.
-  explicit Played(const std::string& name, const std::vector<Override>& overrides = {},
+  explicit Played(const std::string& name, const std::vector<scenario::Override>& overrides = {},
                   const std::string& more = "")
       : scenario(read(root / "scenes" / (name + ".yaml"), overrides, more, problems)) {
     scenario.pictures.frames = false;
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-    simulation = std::make_unique<Simulation>(scenario, problems);
+    simulation = std::make_unique<loop::Simulation>(scenario, problems);
     for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
     simulation->follow_cams();
     outcome = simulation->run();
   }
-  static Scenario read(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                       const std::string& more, Problems& problems) {
+  static scenario::Scenario read(const std::filesystem::path& file,
+                                 const std::vector<scenario::Override>& overrides, const std::string& more,
+                                 Problems& problems) {
     auto text = read_file(file, problems).value_or("");
     const std::string timeline = "\ntimeline:\n";
     if (const auto place = text.find(timeline); place != std::string::npos)
       text.insert(place + timeline.size(), more);
-    return read_scenario_text(text, file, overrides, problems);
+    return scenario::read_scenario_text(text, file, overrides, problems);
   }
-  [[nodiscard]] std::vector<CamPage> pages() const { return cams_of(scenario, *simulation); }
-  [[nodiscard]] std::vector<PlayedCam> cams() const { return simulation->cams()->played(); }
+  [[nodiscard]] std::vector<cams::CamPage> pages() const { return report::cams_of(scenario, *simulation); }
+  [[nodiscard]] std::vector<cams::PlayedCam> cams() const { return simulation->cams()->played(); }
 };
 
-CamErrors errors_of(const PlayedCam& cam) {
-  MasterRange range;
+cams::CamErrors errors_of(const cams::PlayedCam& cam) {
+  cams::MasterRange range;
   for (const auto& sample : cam.samples)
     range = {std::min(range.first, sample.master), std::max(range.last, sample.master)};
-  return errors_of(cam, ideal_cam(*cam.table, range));
+  return cams::errors_of(cam, cams::ideal_cam(*cam.table, range));
 }
 
 /// A scene, how many cams it plays, and how far set and ideal may be apart in the device's unit.
@@ -78,11 +79,11 @@ TEST_P(SceneCams, ArePlayedAsTheirTablesSay) {
   EXPECT_EQ(cams.size(), GetParam().cams);
   for (const auto& cam : cams) {
     const auto errors = errors_of(cam);
-    const auto set = figures_of(errors.set);
+    const auto set = cams::figures_of(errors.set);
     EXPECT_GT(set.count, 100U) << cam.axis;
     EXPECT_EQ(set.count, cam.samples.size()) << cam.axis;
     EXPECT_LE(set.largest, GetParam().set) << cam.axis;
-    EXPECT_EQ(figures_of(errors.behind).count, cam.samples.size()) << cam.axis;
+    EXPECT_EQ(cams::figures_of(errors.behind).count, cam.samples.size()) << cam.axis;
   }
   for (const auto& page : run.pages()) {
     EXPECT_EQ(page.plots.size(), 2U) << page.title;
@@ -109,9 +110,9 @@ TEST(CamPagesOfScenes, ASectorChangedWhileTheCamRunsIsSeen) {
   const auto cams = run.cams();
   ASSERT_EQ(cams.size(), 1U);
   auto changed = *cams[0].table;
-  EXPECT_THAT(cam_file(changed, "changed.csv"), HasSubstr("4,234,7400,5400"));
-  EXPECT_GT(figures_of(errors_of(cams[0]).set).largest, 400 * 40960.0 / 6000 - 1);
-  EXPECT_LT(figures_of(errors_of(cams[0]).behind).largest, 100);
+  EXPECT_THAT(cams::cam_file(changed, "changed.csv"), HasSubstr("4,234,7400,5400"));
+  EXPECT_GT(cams::figures_of(errors_of(cams[0]).set).largest, 400 * 40960.0 / 6000 - 1);
+  EXPECT_LT(cams::figures_of(errors_of(cams[0]).behind).largest, 100);
 }
 
 TEST(CamPagesOfScenes, AMachineWithoutACamHasNone) {
@@ -137,9 +138,10 @@ TEST_P(Reports, HaveAPageForTheCamItsPlotsAndItsTable) {
   const TestFolder folder;
   const std::filesystem::path out = folder / "out";
   Problems problems;
-  OutputFolder results(out, "run", picture_files, problems);
+  OutputFolder results(out, "run", report::picture_files, problems);
   results.begin();
-  write_pictures(run.scenario, *run.simulation, {}, run.outcome, results, 1, [](const char*, double) {});
+  report::write_pictures(run.scenario, *run.simulation, {}, run.outcome, results, 1,
+                         [](const char*, double) {});
   const auto report = read_file(out / "report.html", problems).value_or("");
   EXPECT_THAT(report, HasSubstr("<h2>" + title + "</h2>"));
   EXPECT_THAT(report, HasSubstr("set less ideal position"));
@@ -149,7 +151,7 @@ TEST_P(Reports, HaveAPageForTheCamItsPlotsAndItsTable) {
   // The table that was kept is a cam table like any other.
   const auto table = read_file(out / "cams" / (page.name + ".csv"), problems).value_or("");
   EXPECT_EQ(table, page.table);
-  std::ignore = cam_kind("", table).read(table, page.name, problems);
+  std::ignore = cams::cam_kind("", table).read(table, page.name, problems);
   EXPECT_THAT(problems, IsEmpty());
   results.begin();
   EXPECT_FALSE(std::filesystem::exists(out / "cams"));

@@ -33,9 +33,9 @@ void run(const std::string& name) {
     text.replace(at, placeholder.size(), examples().string());
   }
   Problems problems;
-  const auto scenario = read_scenario_text(text, file, {}, problems);
+  const auto scenario = scenario::read_scenario_text(text, file, {}, problems);
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   const auto outcome = simulation.run();
   EXPECT_EQ(outcome.failure, "");

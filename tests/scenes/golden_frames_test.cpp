@@ -31,16 +31,16 @@ constexpr Golden kGolden[] = {
 
 renders::Film film_for(const Golden& golden) {
   Problems problems;
-  const auto scenario = read_scenario(
+  const auto scenario = scenario::read_scenario(
       std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes" / (std::string(golden.scene) + ".yaml"),
       {{"pictures.frames.from", golden.from},
        {"pictures.frames.until", golden.until},
        {"pictures.frames.size", "320x180"}},
       problems);
   for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   simulation.run();
-  auto film = film_of(scenario, simulation);
+  auto film = report::film_of(scenario, simulation);
   EXPECT_FALSE(film.frames.empty());
   film.frames.resize(1);
   return film;

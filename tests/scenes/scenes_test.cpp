@@ -24,7 +24,7 @@ std::vector<std::string> scenarios(const fs::path& folder, bool comparing = fals
   Problems ignored;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".yaml" &&
-        read_comparison(entry.path(), ignored).has_value() == comparing)
+        studies::read_comparison(entry.path(), ignored).has_value() == comparing)
       names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -33,14 +33,14 @@ std::vector<std::string> scenarios(const fs::path& folder, bool comparing = fals
 /// A run to the end; the pictures are left out.
 struct Played {
   Problems problems;
-  Scenario scenario;
-  std::unique_ptr<Simulation> simulation;
-  Outcome outcome;
+  scenario::Scenario scenario;
+  std::unique_ptr<loop::Simulation> simulation;
+  loop::Outcome outcome;
   explicit Played(const fs::path& file, const fs::path& out = "")
-      : scenario(read_scenario(file, {}, problems)) {
+      : scenario(scenario::read_scenario(file, {}, problems)) {
     scenario.pictures.frames = false;
     if (!problems.empty()) return;
-    simulation = std::make_unique<Simulation>(scenario, problems);
+    simulation = std::make_unique<loop::Simulation>(scenario, problems);
     if (!problems.empty()) return;
     if (!out.empty()) simulation->write_to(out / "trace.csv", out / "events.csv");
     outcome = simulation->run();
@@ -63,11 +63,11 @@ class ComparingScenes : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ComparingScenes, PassTheirChecks) {
   const fs::path out = fs::path(::testing::TempDir()) / ("drycut_comparing_" + GetParam());
-  RunOptions options;
+  cli::RunOptions options;
   options.scenarios = {source_root / "scenes" / (GetParam() + ".yaml")};
   options.out = out;
   options.pictures = false;
-  EXPECT_EQ(run_scenarios(options), all_passed);
+  EXPECT_EQ(cli::run_scenarios(options), cli::all_passed);
   EXPECT_TRUE(fs::exists(out / GetParam() / "comparison.csv"));
   fs::remove_all(out);
 }

@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Runs `scenario` to its end; a line for each check: its name and verdict.
-std::vector<std::string> verdicts(Scenario& scenario) {
+std::vector<std::string> verdicts(scenario::Scenario& scenario) {
   scenario.pictures.frames = false;
   Problems problems;
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   EXPECT_EQ(lines_of(problems), "");
   if (!problems.empty()) return {};
   std::vector<std::string> lines;
@@ -42,9 +42,10 @@ std::vector<std::string> scenes_of_several_tasks() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(source_root / "scenes")) {
     Problems problems;
-    if (entry.path().extension() != ".yaml" || read_comparison(entry.path(), problems)) continue;
-    const Scenario scenario = read_scenario(entry.path(), {}, problems);
-    const auto* qmove = controller_of<QmoveSection>(scenario);
+    if (entry.path().extension() != ".yaml" || studies::read_comparison(entry.path(), problems))
+      continue;
+    const scenario::Scenario scenario = scenario::read_scenario(entry.path(), {}, problems);
+    const auto* qmove = controllers::controller_of<controllers::QmoveSection>(scenario);
     if (qmove && qmove->tasks.size() > 1) names.push_back(entry.path().stem().string());
   }
   std::ranges::sort(names);
@@ -55,9 +56,10 @@ class TaskOrder : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(TaskOrder, OfAShippedSceneChangesNoVerdict) {
   Problems problems;
-  Scenario scenario = read_scenario(source_root / "scenes" / (GetParam() + ".yaml"), {}, problems);
+  scenario::Scenario scenario =
+      scenario::read_scenario(source_root / "scenes" / (GetParam() + ".yaml"), {}, problems);
   ASSERT_EQ(lines_of(problems), "");
-  auto& tasks = dynamic_cast<QmoveSection&>(*scenario.controller).tasks;
+  auto& tasks = dynamic_cast<controllers::QmoveSection&>(*scenario.controller).tasks;
   const auto as_shipped = tasks;
   std::vector<std::string> expected;
   for (const auto& order : orders(tasks.size())) {
@@ -91,7 +93,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 /// scenes/flying_saw.yaml for 8 s, with `tasks` in a folder of the test's own beside its configuration.
-Scenario saw(const TestFolder& folder, const std::vector<std::string>& tasks) {
+scenario::Scenario saw(const TestFolder& folder, const std::vector<std::string>& tasks) {
   const fs::path programs = source_root / "scenes/programs";
   folder.file("saw.cnf", replaced(content(programs / "flying_saw.cnf"), "GLOBAL\n",
                                   "GLOBAL\nglShown L\nglHmi L\nglLamp L\n"));
@@ -112,7 +114,7 @@ Scenario saw(const TestFolder& folder, const std::vector<std::string>& tasks) {
                   "  - {name: the lamp has 490 turns a second, eventually: glLamp >= 3920, within: 8 s}\n"
                   "  - {name: the HMI is fresh, always: abs(glShown - AxisX.posit) <= 40, from: 100 ms}\n");
   Problems problems;
-  Scenario scenario = read_scenario(folder.file("saw.yaml", text), {}, problems);
+  scenario::Scenario scenario = scenario::read_scenario(folder.file("saw.yaml", text), {}, problems);
   EXPECT_EQ(lines_of(problems), "");
   return scenario;
 }
@@ -122,7 +124,7 @@ TEST(FlyingSawOfThreeTasks, WorksInEveryOrder) {
   for (const auto& order : orders(names.size())) {
     const TestFolder folder;
     const std::vector<std::string> tasks = {names[order[0]], names[order[1]], names[order[2]]};
-    Scenario scenario = saw(folder, tasks);
+    scenario::Scenario scenario = saw(folder, tasks);
     const auto found = verdicts(scenario);
     EXPECT_GE(found.size(), 11U);
     EXPECT_THAT(found, ::testing::Each(::testing::EndsWith(": passed"))) << tasks[0] << " " << tasks[1];

@@ -42,7 +42,7 @@ struct TuneScenes : testing::TestWithParam<Line> {
     options.jobs = jobs;
     options.out = folder / std::to_string(jobs);
     testing::internal::CaptureStdout();
-    EXPECT_EQ(tune_scenarios(options), all_passed);
+    EXPECT_EQ(cli::tune_scenarios(options), cli::all_passed);
     return testing::internal::GetCapturedStdout();
   }
   /// Number `column` of the row of the summary that begins with `name`.
@@ -54,7 +54,7 @@ struct TuneScenes : testing::TestWithParam<Line> {
   }
 
   TestFolder folder;
-  TuneOptions options;
+  cli::TuneOptions options;
 };
 
 TEST_P(TuneScenes, AThirdOfTheFollowingErrorAtMostWithinTheLimits) {

@@ -4,7 +4,7 @@
 
 #include "tests/sim/fakes.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 using devices::Address;
@@ -40,7 +40,7 @@ struct BusTest : testing::Test {
     return problems.empty() ? "" : to_string(problems.front());
   }
 
-  Scenario scenario;
+  scenario::Scenario scenario;
   fakes::FakeController controller;
   fakes::FakePlant plant;
   Bus bus;
@@ -160,4 +160,4 @@ TEST_F(BusTest, PanelTakesNoCounterAndNoNameTwice) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -6,7 +6,7 @@
 #include "sim/report/statistics.hpp"
 #include "tests/sim/fakes.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 using fakes::text;
@@ -17,7 +17,7 @@ struct ChecksTest : testing::Test {
     scenario.sources = {"line.yaml"};
     controller.values["error"] = 0;
   }
-  Check& add(Check::Kind kind, const std::string& event, const std::string& expression) {
+  scenario::Check& add(scenario::Check::Kind kind, const std::string& event, const std::string& expression) {
     auto& check = scenario.checks.emplace_back();
     check.name = text("the check");
     check.kind = kind;
@@ -40,7 +40,7 @@ struct ChecksTest : testing::Test {
   }
   CheckResult result() { return checks->results(10 * second).front(); }
 
-  Scenario scenario;
+  scenario::Scenario scenario;
   fakes::FakeController controller;
   Panel panel;
   Names names{{}, &controller, panel};
@@ -52,7 +52,7 @@ struct ChecksTest : testing::Test {
 };
 
 TEST_F(ChecksTest, EachTellsTheWorstEventAndItsMargin) {
-  add(Check::Kind::each, "cut", "abs(length - 800) <= 0.2").from = second;
+  add(scenario::Check::Kind::each, "cut", "abs(length - 800) <= 0.2").from = second;
   start();
   cut(500 * millisecond, 700);  // before the time looked at
   cut(2 * second, 800.05);
@@ -65,30 +65,30 @@ TEST_F(ChecksTest, EachTellsTheWorstEventAndItsMargin) {
   EXPECT_DOUBLE_EQ(*r.at, 3.0);
   EXPECT_EQ(r.expectation, "each cut: abs(length - 800) <= 0.2, from 1.0 s");
   EXPECT_EQ(r.detail, "3 cut events, worst: length=799.85 mm; force=130 N");
-  EXPECT_EQ(margin_text(r), "0.05 mm left, at 3.0000 s");
+  EXPECT_EQ(report::margin_text(r), "0.05 mm left, at 3.0000 s");
 }
 
 TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
-  add(Check::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
+  add(scenario::Check::Kind::each, "knife.cut", "abs(length - 800) <= 0.2");
   start();
   cut(2 * second, 800.5);
   cut(3 * second, 800.0);
   const auto r = result();
   EXPECT_FALSE(r.passed);
   EXPECT_NEAR(*r.margin, -0.3, 1e-9);
-  EXPECT_EQ(margin_text(r), "0.3 mm too far, at 2.0000 s");
+  EXPECT_EQ(report::margin_text(r), "0.3 mm too far, at 2.0000 s");
   EXPECT_EQ(r.detail, "2 knife.cut events, 1 failed, worst: length=800.5 mm; force=130 N");
 }
 
 TEST_F(ChecksTest, EachWithoutAnEventFails) {
-  add(Check::Kind::each, "cut", "length > 0");
+  add(scenario::Check::Kind::each, "cut", "length > 0");
   start();
   EXPECT_FALSE(result().passed);
   EXPECT_EQ(result().detail, "only 0 cut events in the time looked at, at least 1 expected");
 }
 
 TEST_F(ChecksTest, AllLooksAtStatistics) {
-  add(Check::Kind::all, "cut", "abs(slope_length) * count <= 0.5 && mean_length > 800");
+  add(scenario::Check::Kind::all, "cut", "abs(slope_length) * count <= 0.5 && mean_length > 800");
   start();
   for (int i = 0; i < 10; ++i) cut((i + 1) * second, 800 + 0.01 * i);
   const auto r = result();
@@ -98,7 +98,7 @@ TEST_F(ChecksTest, AllLooksAtStatistics) {
 }
 
 TEST_F(ChecksTest, AlwaysFindsTheWorstInstantInItsWindow) {
-  auto& check = add(Check::Kind::always, "", "error < 100");
+  auto& check = add(scenario::Check::Kind::always, "", "error < 100");
   check.from = second;
   check.until = 3 * second;
   start();
@@ -115,7 +115,7 @@ TEST_F(ChecksTest, AlwaysFindsTheWorstInstantInItsWindow) {
 }
 
 TEST_F(ChecksTest, AlwaysWithoutMarginTellsTheFirstFailure) {
-  add(Check::Kind::always, "", "error == 0 || error == 7");
+  add(scenario::Check::Kind::always, "", "error == 0 || error == 7");
   start();
   sample(second, 7);
   sample(2 * second, 3);
@@ -128,7 +128,7 @@ TEST_F(ChecksTest, AlwaysWithoutMarginTellsTheFirstFailure) {
 }
 
 TEST_F(ChecksTest, EachWithoutMarginTellsTheFirstFailure) {
-  add(Check::Kind::each, "cut", "length == 800 || force == 0");
+  add(scenario::Check::Kind::each, "cut", "length == 800 || force == 0");
   start();
   cut(2 * second, 800);
   cut(3 * second, 801);
@@ -136,7 +136,7 @@ TEST_F(ChecksTest, EachWithoutMarginTellsTheFirstFailure) {
 }
 
 TEST_F(ChecksTest, AlwaysNeverLookedAtFails) {
-  add(Check::Kind::always, "", "error < 100").from = 20 * second;
+  add(scenario::Check::Kind::always, "", "error < 100").from = 20 * second;
   start();
   sample(second, 0);
   EXPECT_FALSE(result().passed);
@@ -144,7 +144,7 @@ TEST_F(ChecksTest, AlwaysNeverLookedAtFails) {
 }
 
 TEST_F(ChecksTest, EventuallyTellsWhenAndTheTimeLeft) {
-  add(Check::Kind::eventually, "", "error > 5").within = 3 * second;
+  add(scenario::Check::Kind::eventually, "", "error > 5").within = 3 * second;
   start();
   sample(second, 1);
   sample(2 * second, 6);
@@ -157,7 +157,7 @@ TEST_F(ChecksTest, EventuallyTellsWhenAndTheTimeLeft) {
 }
 
 TEST_F(ChecksTest, EventuallyTooLateFails) {
-  add(Check::Kind::eventually, "", "error > 5").within = second;
+  add(scenario::Check::Kind::eventually, "", "error > 5").within = second;
   start();
   sample(second, 1);
   sample(2 * second, 6);
@@ -165,7 +165,7 @@ TEST_F(ChecksTest, EventuallyTooLateFails) {
 }
 
 TEST_F(ChecksTest, EventuallyNeverTrueTellsTheValueAtTheEnd) {
-  add(Check::Kind::eventually, "", "error == 7").within = 3 * second;
+  add(scenario::Check::Kind::eventually, "", "error == 7").within = 3 * second;
   start();
   sample(second, 1);
   sample(2 * second, 6);
@@ -177,7 +177,7 @@ TEST_F(ChecksTest, EventuallyNeverTrueTellsTheValueAtTheEnd) {
 }
 
 TEST_F(ChecksTest, RoundingNoiseIsPrintedAsZero) {
-  add(Check::Kind::each, "cut", "length >= -1");
+  add(scenario::Check::Kind::each, "cut", "length >= -1");
   start();
   cut(2 * second, -1.8e-12);
   EXPECT_EQ(result().detail, "1 cut events, worst: length=0 mm; force=130 N");
@@ -186,13 +186,13 @@ TEST_F(ChecksTest, RoundingNoiseIsPrintedAsZero) {
   CheckResult noise;
   noise.margin = 1e-13;
   noise.unit = "mm";
-  EXPECT_EQ(margin_text(noise), "0 mm left");
+  EXPECT_EQ(report::margin_text(noise), "0 mm left");
   noise.margin = -1e-13;
-  EXPECT_EQ(margin_text(noise), "0 mm too far");
+  EXPECT_EQ(report::margin_text(noise), "0 mm too far");
 }
 
 TEST_F(ChecksTest, NeverCountsEvents) {
-  add(Check::Kind::never, "cut", "");
+  add(scenario::Check::Kind::never, "cut", "");
   start();
   EXPECT_TRUE(result().passed);
   cut(2 * second, 800);
@@ -201,7 +201,7 @@ TEST_F(ChecksTest, NeverCountsEvents) {
 }
 
 TEST_F(ChecksTest, NeverOfATimeThatDidNotComeFails) {
-  add(Check::Kind::never, "cut", "");
+  add(scenario::Check::Kind::never, "cut", "");
   scenario.checks.back().from = 99 * second;
   start();
   EXPECT_FALSE(result().passed);
@@ -209,8 +209,8 @@ TEST_F(ChecksTest, NeverOfATimeThatDidNotComeFails) {
 }
 
 TEST_F(ChecksTest, UnknownNamesAreProblems) {
-  add(Check::Kind::never, "tearr", "");
-  add(Check::Kind::each, "cut", "lenght > 3");
+  add(scenario::Check::Kind::never, "tearr", "");
+  add(scenario::Check::Kind::each, "cut", "lenght > 3");
   Checks bad(scenario, watch, names, events, problems);
   ASSERT_EQ(problems.size(), 2U);
   EXPECT_EQ(to_string(problems[0]),
@@ -223,24 +223,24 @@ TEST_F(ChecksTest, UnknownNamesAreProblems) {
 TEST(Statistics, AgreesWithClosedForms) {
   std::vector<double> line;
   for (int i = 0; i < 101; ++i) line.push_back(5 + 0.25 * i);
-  const auto [mean, low, high, sd, slope, slope_error] = statistics(line);
+  const auto [mean, low, high, sd, slope, slope_error] = report::statistics(line);
   EXPECT_DOUBLE_EQ(mean, 17.5);
   EXPECT_DOUBLE_EQ(low, 5);
   EXPECT_DOUBLE_EQ(high, 30);
   EXPECT_NEAR(sd, 0.25 * std::sqrt(101.0 * 102 / 12), 1e-12);
   EXPECT_NEAR(slope, 0.25, 1e-14);
   EXPECT_NEAR(slope_error, 0, 1e-7);
-  EXPECT_EQ(statistics({})[0], 0);
-  EXPECT_EQ(statistics({3})[3], 0);
+  EXPECT_EQ(report::statistics({})[0], 0);
+  EXPECT_EQ(report::statistics({3})[3], 0);
 }
 
 TEST(Statistics, SlopeErrorOfAlternatingNoise) {
   // y = +-1: residual sum n(1 - small), closed form by hand for n = 4: slope -0.4, S = 4 - 0.8, error
   // sqrt(1.6/5).
-  const auto s = statistics({1, -1, 1, -1});
+  const auto s = report::statistics({1, -1, 1, -1});
   EXPECT_NEAR(s[4], -0.4, 1e-15);
   EXPECT_NEAR(s[5], std::sqrt(3.2 / 2 / 5), 1e-15);
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -31,7 +31,7 @@ struct CommandTest : testing::Test {
 /// What `drycut devices NAME` prints.
 inline std::string printed(const std::string& name, bool json) {
   testing::internal::CaptureStdout();
-  EXPECT_EQ(list_devices(name, json), all_passed);
+  EXPECT_EQ(cli::list_devices(name, json), cli::all_passed);
   return testing::internal::GetCapturedStdout();
 }
 

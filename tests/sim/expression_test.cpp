@@ -9,7 +9,7 @@
 
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using Numbers = std::map<std::string, double>;
@@ -270,4 +270,4 @@ TEST(Expression, NoTextCrashesIt) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

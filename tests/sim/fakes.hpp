@@ -86,7 +86,7 @@ class FakePlant : public plants::Plant {
   double lost = 0;
 };
 
-inline Text text(std::string words, int line = 1, int column = 1) {
+inline scenario::Text text(std::string words, int line = 1, int column = 1) {
   return {std::move(words), {line, column}};
 }
 

@@ -32,7 +32,7 @@ struct Files : CommandTest {
     return "";
   }
   int check(const std::vector<fs::path>& files) {
-    return captured([&] { return check_files({files, false, {}}); });
+    return captured([&] { return cli::check_files({files, false, {}}); });
   }
   TestFolder folder;
 };
@@ -89,8 +89,9 @@ TEST_F(Files, TheNewFileIsAsOpenToOthersAsTheOldOne) {
 TEST_F(Files, OptionsThatNameSuchFilesAreRefusedBeforeAnythingRuns) {
   const auto file = folder.file("kept.csv", "old");
   fs::permissions(file, fs::perms::owner_read);
-  const CamOptions options{std::string(DRYCUT_SOURCE_DIR) + "/scenes/cams/fly_cut.csv", {}, {}, {}, file, ""};
-  EXPECT_EQ(captured([&] { return validate_cam(options); }), bad_input);
+  const cli::CamOptions options{
+      std::string(DRYCUT_SOURCE_DIR) + "/scenes/cams/fly_cut.csv", {}, {}, {}, file, ""};
+  EXPECT_EQ(captured([&] { return cli::validate_cam(options); }), cli::bad_input);
   EXPECT_EQ(err, "--csv:1:1: " + file.string() + " cannot be written: it is read-only; name another file\n");
 }
 
@@ -102,11 +103,11 @@ TEST_F(Files, AByteOrderMarkIsNoMatterInAnyKindOfFile) {
                            "cams/ecam_s_curve.csv", "cams/mc_stroke_80.csv", "cams/mc_rotary_knife.tab"}) {
     files.push_back(folder.file(fs::path(name).filename().string(), mark + content(scenes / name)));
   }
-  folder.file("axis.cnf", mark + tuning::configuration);
-  folder.file("axis.mod", mark + tuning::program);
-  files.push_back(folder.file("axis.yaml", mark + tuning::scenario));
+  folder.file("axis.cnf", mark + studies::tuning::configuration);
+  folder.file("axis.mod", mark + studies::tuning::program);
+  files.push_back(folder.file("axis.yaml", mark + studies::tuning::scenario));
   files.push_back(folder.file("registers.csv", mark + "D10,5\n"));
-  EXPECT_EQ(check(files), all_passed) << err;
+  EXPECT_EQ(check(files), cli::all_passed) << err;
 }
 
 TEST_F(Files, TextsOfSixteenBitsAreReadInBothOrders) {
@@ -114,7 +115,7 @@ TEST_F(Files, TextsOfSixteenBitsAreReadInBothOrders) {
     std::string wide = low_first ? "\xFF\xFE" : "\xFE\xFF";
     for (const char c : std::string("LD X0\nOUTT Y0\nEND\n"))
       wide += low_first ? std::string{c, '\0'} : std::string{'\0', c};
-    EXPECT_EQ(check({folder.file("wide.il", wide)}), bad_input);
+    EXPECT_EQ(check({folder.file("wide.il", wide)}), cli::bad_input);
     EXPECT_THAT(err, HasSubstr(":2:1: there is no instruction 'OUTT'"));
   }
 }
@@ -122,29 +123,29 @@ TEST_F(Files, TextsOfSixteenBitsAreReadInBothOrders) {
 TEST_F(Files, WhatIsNoTextIsRefusedInAnyKindOfFileWithItsPlace) {
   for (const auto* name : {"a.cnf", "a.il", "a.st", "a.csv", "a.tab", "a.yaml"}) {
     const auto file = folder.file(name, "x\n; m\xE8\n");
-    EXPECT_EQ(check({file}), bad_input) << name;
+    EXPECT_EQ(check({file}), cli::bad_input) << name;
     EXPECT_THAT(err, HasSubstr(file.string() + ":2:4: byte 0xe8 is no text; ")) << name;
     folder.file(name, std::string("\xFF\xFEx\0\0\xD8", 6));  // ends in half a character
-    EXPECT_EQ(check({file}), bad_input) << name;
+    EXPECT_EQ(check({file}), cli::bad_input) << name;
     EXPECT_THAT(err,
                 HasSubstr(file.string() + ":1:1: this is broken UTF-16; save it as plain text in UTF-8\n"));
   }
 }
 
 TEST_F(Files, EscapesOfAScenarioCanMakeACharacterButNoControlCharacter) {
-  folder.file("axis.cnf", tuning::configuration);
-  folder.file("axis.mod", tuning::program);
+  folder.file("axis.cnf", studies::tuning::configuration);
+  folder.file("axis.mod", studies::tuning::program);
   const auto file = [&](const std::string& name) {
-    return folder.file("axis.yaml", std::string(tuning::scenario) + "checks: [{name: \"" + name +
+    return folder.file("axis.yaml", std::string(studies::tuning::scenario) + "checks: [{name: \"" + name +
                                         "\", eventually: axis.position > 1}]\n");
   };
-  EXPECT_EQ(check({file("half\\_way")}), all_passed) << err;
-  EXPECT_EQ(check({file("half\\Nway")}), bad_input);
+  EXPECT_EQ(check({file("half\\_way")}), cli::all_passed) << err;
+  EXPECT_EQ(check({file("half\\Nway")}), cli::bad_input);
   EXPECT_THAT(err,
               HasSubstr("axis.yaml:8:17: an escape makes what is no text: U+0085 is no text; leave it out"));
-  EXPECT_EQ(check({file("\\e[31mred")}), bad_input);
+  EXPECT_EQ(check({file("\\e[31mred")}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("axis.yaml:8:17: an escape makes what is no text: byte 0x1b is no text"));
-  EXPECT_EQ(check({file("\\uD800")}), bad_input);
+  EXPECT_EQ(check({file("\\uD800")}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("axis.yaml:8:"));
 }
 

@@ -9,7 +9,7 @@
 #include "tests/sim/fakes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 namespace {
 
 using ::testing::ElementsAre;
@@ -50,10 +50,10 @@ struct GalleryPlots : ::testing::Test {
   }
 
   fakes::FakePlant web;
-  Panel panel;
-  Names names{{{"web", &web}}, nullptr, panel};
-  Watch watch{names};
-  Recording recording;
+  loop::Panel panel;
+  loop::Names names{{{"web", &web}}, nullptr, panel};
+  loop::Watch watch{names};
+  loop::Recording recording;
 };
 
 TEST_F(GalleryPlots, OfALongRunThePeaksAndTheChangesAreShownAndTheAxisSaysSo) {
@@ -184,13 +184,13 @@ TEST_F(Histogram, ABeyondTheLimitIsANegativeCpk) {
 
 TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
   Problems problems;
-  const auto scenario = read_scenario_text(
+  const auto scenario = scenario::read_scenario_text(
       "scene: {duration: 500 ms}\nplants: {w: {type: web}, k: {type: rotary_knife, web: w, servo: "
       "{rated_speed: 1500 "
       "rpm}}}\n"
       "pictures: {plots: [{name: m, panels: [{title: drum, motor: k}]}]}\n",
       "line.yaml", {}, problems);
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   simulation.run();
   const auto plots = plots_of(scenario, simulation.recording());
@@ -216,9 +216,9 @@ TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
 
 std::vector<std::string> binding_problems(const std::string& pictures) {
   Problems problems;
-  const auto scenario = read_scenario_text("scene: {duration: 1 s}\nplants: {w: {type: web}}\n" + pictures,
-                                           "line.yaml", {}, problems);
-  const Simulation simulation(scenario, problems);
+  const auto scenario = scenario::read_scenario_text(
+      "scene: {duration: 1 s}\nplants: {w: {type: web}}\n" + pictures, "line.yaml", {}, problems);
+  const loop::Simulation simulation(scenario, problems);
   std::vector<std::string> list;
   for (const auto& problem : problems) list.push_back(to_string(problem));
   return list;
@@ -253,11 +253,11 @@ TEST(PicturesBinding, WhatTheMachineDoesNotHave) {
 
 TEST(PicturesBinding, FramesAboutAnEventThatNeverComesAreNoted) {
   Problems problems;
-  const auto scenario = read_scenario_text(
+  const auto scenario = scenario::read_scenario_text(
       "scene: {duration: 100 ms}\nplants: {w: {type: web}}\ntimeline: [{at: 10 ms, fault: {w.wheel: "
       "{lose_counts: 3}}}]\npictures: {frames: {around: \"fault[2]\"}}\n",
       "line.yaml", {}, problems);
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
   simulation.run();
   EXPECT_TRUE(simulation.snapshots().empty());
@@ -265,4 +265,4 @@ TEST(PicturesBinding, FramesAboutAnEventThatNeverComesAreNoted) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

@@ -6,7 +6,7 @@
 #include "sim/cli/run_command.hpp"
 #include "tests/sim/command_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 namespace {
 
 using testing::HasSubstr;
@@ -27,29 +27,29 @@ struct HalfStepTest : CommandTest {
     options.pictures = false;
   }
   int run() {
-    return captured([&] { return run_scenarios(options); });
+    return captured([&] { return cli::run_scenarios(options); });
   }
   [[nodiscard]] nlohmann::json results() const {
     return nlohmann::json::parse(content(folder / "out" / "line" / "checks.json"));
   }
 
   TestFolder folder;
-  RunOptions options;
+  cli::RunOptions options;
 };
 
 TEST_F(HalfStepTest, TellsHowFarEveryMarginMoved) {
   write(100);
-  ASSERT_EQ(run(), all_passed) << err;
+  ASSERT_EQ(run(), cli::all_passed) << err;
   const auto plain = results();
   EXPECT_FALSE(plain.contains("half_step"));
   EXPECT_THAT(out, Not(HasSubstr("margin at")));
   options.set = {"scene.step=50 us"};
-  ASSERT_EQ(run(), all_passed) << err;
+  ASSERT_EQ(run(), cli::all_passed) << err;
   const auto fine = results();
   options.set = {};
   options.verify_step = true;
   options.pictures = true;
-  ASSERT_EQ(run(), all_passed) << err;
+  ASSERT_EQ(run(), cli::all_passed) << err;
   auto verified = results();
   EXPECT_EQ(verified["half_step"]["step"], 50e-6);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -74,12 +74,12 @@ TEST_F(HalfStepTest, TellsHowFarEveryMarginMoved) {
 TEST_F(HalfStepTest, AVerdictThatHangsOnTheStepIsTold) {
   options.verify_step = true;
   write(100);
-  ASSERT_EQ(run(), all_passed) << err;
+  ASSERT_EQ(run(), cli::all_passed) << err;
   const auto check = results()["checks"][0];
   const double moved = check["half_step"]["moved"];
   write(100 - check["margin"].get<double>() - moved / 2);
   const bool passes = moved < 0;  // more room at the step itself
-  EXPECT_EQ(run(), passes ? all_passed : check_failed) << "the scenario's own step judges";
+  EXPECT_EQ(run(), passes ? cli::all_passed : cli::check_failed) << "the scenario's own step judges";
   EXPECT_EQ(results()["checks"][0]["half_step"]["passed"], !passes);
   EXPECT_THAT(out, HasSubstr("the verdict hangs on the step"));
 }
@@ -87,13 +87,13 @@ TEST_F(HalfStepTest, AVerdictThatHangsOnTheStepIsTold) {
 TEST_F(HalfStepTest, AStepWithoutAHalfIsRefused) {
   write(100, "100.001 us");
   options.verify_step = true;
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err,
               HasSubstr("line.yaml:1:15: --verify-step: half of scene.step 100.001 us is no whole number of "
                         "nanoseconds; choose an even number of nanoseconds"));
   options.verify_step = false;
-  EXPECT_EQ(run(), all_passed) << err;
+  EXPECT_EQ(run(), cli::all_passed) << err;
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

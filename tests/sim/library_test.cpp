@@ -34,8 +34,8 @@ TEST(Library, ALineGoesAsTheProgramRunsIt) {
   EXPECT_THAT(line.take_events(), SizeIs(0));
 
   Problems problems;
-  const auto scenario = sim::read_scenario(scenes / "rotary_knife.yaml", {}, problems);
-  sim::Simulation same(scenario, problems);
+  const auto scenario = sim::scenario::read_scenario(scenes / "rotary_knife.yaml", {}, problems);
+  sim::loop::Simulation same(scenario, problems);
   const auto outcome = same.run();
   ASSERT_EQ(events.size(), same.recording().events().size());
   for (std::size_t i = 0; i < events.size(); ++i) {

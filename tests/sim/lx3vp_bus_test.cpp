@@ -5,7 +5,7 @@
 #include "sim/loop/bus.hpp"
 #include "tests/sim/fakes.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 using devices::parse_base_terminal;
@@ -50,7 +50,7 @@ struct Lx3vpBus : testing::Test {
     return texts;
   }
 
-  Scenario scenario;
+  scenario::Scenario scenario;
   devices::lx3vp::Lx3vpController controller{program(), 1'000'000};
   PulsePlant plant;
   Bus bus;
@@ -119,4 +119,4 @@ TEST_F(Lx3vpBus, WhatDoesNotFitIsTold) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -9,7 +9,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 using testing::Contains;
@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-struct Lx3vpScenario : ScenarioFolder {
+struct Lx3vpScenario : scenario::ScenarioFolder {
   Lx3vpScenario() {
     write("saw.il", "LD M8000\nOUT C251 K0\nDECAM C251 D2000 X2 Y0 Y4\nLD X0\nOUT Y10\nEND\n");
     write("saw.csv",
@@ -77,10 +77,10 @@ TEST_F(Lx3vpScenario, RunsAgainstTheBench) {
 
 TEST_F(Lx3vpScenario, IsWrittenBackWhole) {
   const auto scenario = read(line);
-  const auto text = expand(scenario);
+  const auto text = scenario::expand(scenario);
   EXPECT_THAT(text, HasSubstr("  lx3vp:\n    program: saw.il\n    registers: saw.csv\n    scan: 1 ms\n    "
                               "retentive: \"\"\n    set: {D100: 5, DD102: -70000, FD104: 1.5}\n"));
-  EXPECT_EQ(expand(read(text)), text);
+  EXPECT_EQ(scenario::expand(read(text)), text);
   EXPECT_THAT(told(), IsEmpty());
 }
 
@@ -216,4 +216,4 @@ TEST_F(Lx3vpScenario, RetentiveRegistersOutliveTheRun) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -162,20 +162,20 @@ struct RunsIntoFolders : CommandTest {
   RunsIntoFolders() {
     options.out = folder / "out";
     options.pictures = false;
-    folder.file("axis.cnf", tuning::configuration);
-    folder.file("axis.mod", tuning::program);
+    folder.file("axis.cnf", studies::tuning::configuration);
+    folder.file("axis.mod", studies::tuning::program);
   }
   fs::path scenario(const std::string& name) const {
-    return folder.file(
-        name, std::string(tuning::scenario) + "checks: [{name: moves, eventually: axis.position > 1}]\n");
+    return folder.file(name, std::string(studies::tuning::scenario) +
+                                 "checks: [{name: moves, eventually: axis.position > 1}]\n");
   }
   int run(const std::vector<fs::path>& scenarios) {
     options.scenarios = scenarios;
-    return captured([&] { return run_scenarios(options); });
+    return captured([&] { return cli::run_scenarios(options); });
   }
 
   TestFolder folder;
-  RunOptions options;
+  cli::RunOptions options;
 };
 
 TEST_F(RunsIntoFolders, ARunDoesNotOverwriteItsOwnInput) {
@@ -184,19 +184,19 @@ TEST_F(RunsIntoFolders, ARunDoesNotOverwriteItsOwnInput) {
   const auto file = scenario("scenario/scenario.yaml");
   const auto text = content(file);
   options.out = folder / "scenario" / "..";
-  EXPECT_EQ(run({file}), bad_input) << out;
+  EXPECT_EQ(run({file}), cli::bad_input) << out;
   EXPECT_THAT(err, HasSubstr("stands what no earlier run wrote: scenario.yaml; "));
   EXPECT_EQ(content(file), text);
 }
 
 TEST_F(RunsIntoFolders, OldVerdictsGoBeforeAnythingRuns) {
   const auto first = scenario("first.yaml");
-  ASSERT_EQ(run({first}), all_passed) << err << out;
+  ASSERT_EQ(run({first}), cli::all_passed) << err << out;
   ASSERT_THAT(content(folder / "out/first/checks.json"), HasSubstr("\"passed\": true"));
   // The second's folder holds something of the user's: nothing is run, and the first's results stay.
   fs::create_directories(folder / "out/second");
   folder.file("out/second/trace.csv", "the user's");
-  EXPECT_EQ(run({first, scenario("second.yaml")}), bad_input);
+  EXPECT_EQ(run({first, scenario("second.yaml")}), cli::bad_input);
   EXPECT_THAT(content(folder / "out/first/checks.json"), HasSubstr("\"passed\": true"));
   EXPECT_TRUE(fs::exists(folder / "out/junit.xml"));
 }
@@ -204,14 +204,14 @@ TEST_F(RunsIntoFolders, OldVerdictsGoBeforeAnythingRuns) {
 /// A file-size limit ends the child in the midst of writing its trace, as a kill would.
 TEST_F(RunsIntoFolders, AKilledRunLeavesNoVerdictOfAnEarlierOne) {
   const auto file = scenario("line.yaml");
-  ASSERT_EQ(run({file}), all_passed) << err << out;
+  ASSERT_EQ(run({file}), cli::all_passed) << err << out;
   const auto child = fork();
   if (child == 0) {
     const rlimit few{2048, 2048};
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     setrlimit(RLIMIT_FSIZE, &few);
-    run_scenarios(options);
+    cli::run_scenarios(options);
     _exit(0);
   }
   int status = 0;
@@ -221,7 +221,7 @@ TEST_F(RunsIntoFolders, AKilledRunLeavesNoVerdictOfAnEarlierOne) {
   EXPECT_THAT(checks, HasSubstr("\"passed\": false"));
   EXPECT_THAT(checks, HasSubstr("the run has not come to its end"));
   EXPECT_FALSE(fs::exists(folder / "out/junit.xml"));
-  EXPECT_EQ(run({file}), all_passed) << "the next one takes over; " << err;
+  EXPECT_EQ(run({file}), cli::all_passed) << "the next one takes over; " << err;
   EXPECT_THAT(content(folder / "out/line/checks.json"), HasSubstr("\"passed\": true"));
 }
 
@@ -231,7 +231,7 @@ TEST_F(RunsIntoFolders, PlotsNeedNoHelper) {
   options.pictures = true;
   const int status = run({scenario("line.yaml")});
   setenv("PATH", path.c_str(), 1);
-  EXPECT_EQ(status, all_passed);
+  EXPECT_EQ(status, cli::all_passed);
   EXPECT_THAT(out, HasSubstr("line: passed, all 2 checks passed"));
   EXPECT_EQ(err, "");
   EXPECT_THAT(content(folder / "out/line/report.html"), HasSubstr("data-plot=\"0\""));
@@ -239,26 +239,26 @@ TEST_F(RunsIntoFolders, PlotsNeedNoHelper) {
 }
 
 TEST_F(RunsIntoFolders, NamesThatCannotNameAFolderOfResultsAreRefused) {
-  EXPECT_EQ(run({scenario("...yaml")}), bad_input);
+  EXPECT_EQ(run({scenario("...yaml")}), cli::bad_input);
   EXPECT_THAT(
       err, HasSubstr("...yaml:1:1: its results cannot be called '..'; give the scenario another file name"));
-  EXPECT_EQ(run({scenario("..yaml")}), bad_input);
+  EXPECT_EQ(run({scenario("..yaml")}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("..yaml:1:1: its results cannot be called '.'; "));
-  EXPECT_EQ(run({scenario("junit.xml.yaml")}), bad_input);
+  EXPECT_EQ(run({scenario("junit.xml.yaml")}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("its results cannot be called 'junit.xml'; "));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(RunsIntoFolders, PlotsOfOneNameHaveAFileEach) {
   Problems problems;
-  OutputFolder results(folder / "out", "run", picture_files, problems);
+  OutputFolder results(folder / "out", "run", report::picture_files, problems);
   results.begin();
   renders::Plot plot;
   plot.name = "cam_AxisX";
   plot.panels.push_back({});
   plot.panels[0].curves.push_back({"a", {0, 1}, {0, 1}});
   renders::Report report;
-  add_plots({plot, plot}, results, report);
+  report::add_plots({plot, plot}, results, report);
   ASSERT_EQ(report.plots.size(), 2U);
   EXPECT_EQ(report.plots[0].png, folder / "out/plots/cam_AxisX.png");
   EXPECT_EQ(report.plots[1].png, folder / "out/plots/cam_AxisX_.png");
@@ -268,7 +268,7 @@ TEST_F(RunsIntoFolders, PlotsOfOneNameHaveAFileEach) {
 TEST_F(RunsIntoFolders, TheSecondOfTwoProcessesIsRefused) {
   Problems problems;
   const OutputFolder other(folder / "out", "runs", {"junit.xml"}, problems);
-  EXPECT_EQ(run({scenario("line.yaml")}), bad_input);
+  EXPECT_EQ(run({scenario("line.yaml")}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("another drycut is writing into "));
   EXPECT_FALSE(fs::exists(folder / "out/junit.xml"));
 }

@@ -3,7 +3,7 @@
 
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using testing::ElementsAre;
@@ -62,4 +62,4 @@ TEST(Override, WhatItMadeUpIsRefusedByTheReaders) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

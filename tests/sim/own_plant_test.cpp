@@ -68,9 +68,9 @@ checks: [{name: it slows down, eventually: wheel.speed < 1}]
 
 TEST(APlantOfOnesOwn, IsReadRunRecordedSetAndChecked) {
   Problems problems;
-  const auto scenario = read_scenario_text(text, "wheel.yaml", {}, problems, types);
+  const auto scenario = scenario::read_scenario_text(text, "wheel.yaml", {}, problems, types);
   EXPECT_EQ(lines_of(problems), "");
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   ASSERT_EQ(lines_of(problems), "");
   EXPECT_TRUE(simulation.run().passed());
   const auto& speed = simulation.recording().column("wheel.speed")->values;
@@ -81,14 +81,15 @@ TEST(APlantOfOnesOwn, IsReadRunRecordedSetAndChecked) {
 
 TEST(APlantOfOnesOwn, IsWrittenOutWithItsDefaults) {
   Problems problems;
-  const auto scenario = read_scenario_text(text, "wheel.yaml", {}, problems, types);
-  EXPECT_THAT(expand(scenario), HasSubstr("decay: 2 s"));
+  const auto scenario = scenario::read_scenario_text(text, "wheel.yaml", {}, problems, types);
+  EXPECT_THAT(scenario::expand(scenario), HasSubstr("decay: 2 s"));
 }
 
 TEST(APlantOfOnesOwn, IsCheckedLikeAnyOther) {
   Problems problems;
-  read_scenario_text("scene: {title: A wheel}\nplants: {wheel: {type: flywheel, decy: 1 s, speed: 2 m}}\n",
-                     "wheel.yaml", {}, problems, types);
+  scenario::read_scenario_text(
+      "scene: {title: A wheel}\nplants: {wheel: {type: flywheel, decy: 1 s, speed: 2 m}}\n", "wheel.yaml", {},
+      problems, types);
   EXPECT_THAT(lines_of(problems), HasSubstr("wheel.yaml:2:34: "));
   EXPECT_THAT(lines_of(problems), HasSubstr("did you mean decay?"));
   EXPECT_THAT(lines_of(problems), HasSubstr("speed"));

@@ -10,7 +10,7 @@
 #include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cli {
 namespace {
 
 using nlohmann::json;
@@ -83,4 +83,4 @@ TEST_F(Pages, FitTheirWidth) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cli

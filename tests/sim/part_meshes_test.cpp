@@ -14,7 +14,7 @@
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::report {
 namespace {
 
 using fakes::problems_of;
@@ -30,7 +30,7 @@ TEST(MeshRequests, AreReadAndWritten) {
       "deg, 0 deg]}, web.table: {file: t.obj}}}\n",
       problems);
   EXPECT_THAT(problems, IsEmpty());
-  const auto check = [](const PicturesSection& pictures) {
+  const auto check = [](const scenario::PicturesSection& pictures) {
     ASSERT_EQ(pictures.meshes.size(), 2U);
     const auto& drum = pictures.meshes[0];
     EXPECT_EQ(drum.part.text, "knife.drum");
@@ -77,13 +77,13 @@ class PartMeshesTest : public ::testing::Test {
  protected:
   PartMeshes load(const std::string& meshes) {
     Problems problems;
-    scenario_ = read_scenario_text(
+    scenario_ = scenario::read_scenario_text(
         "scene: {duration: 100 ms}\n"
         "plants: {web: {type: web}, knife: {type: rotary_knife, web: web}}\n"
         "pictures: {frames: {every: 50 ms}, meshes: {" +
             meshes + "}}\n",
         folder_ / "line.yaml", {}, problems);
-    simulation_ = std::make_unique<Simulation>(scenario_, problems);
+    simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
     auto loaded = load_part_meshes(scenario_, simulation_->plants(), problems);
     problems_.clear();
     for (const auto& problem : problems) {
@@ -96,8 +96,8 @@ class PartMeshesTest : public ::testing::Test {
   }
 
   TestFolder folder_;
-  Scenario scenario_;
-  std::unique_ptr<Simulation> simulation_;
+  scenario::Scenario scenario_;
+  std::unique_ptr<loop::Simulation> simulation_;
   std::vector<std::string> problems_;
 };
 
@@ -163,4 +163,4 @@ TEST(PartModels, EveryModelThatAPlantNamesIsBuiltIn) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::report

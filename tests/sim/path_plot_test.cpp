@@ -4,7 +4,7 @@
 
 #include "tests/sim/scenario/fake_plants.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using fakes::problems_of;
@@ -68,4 +68,4 @@ TEST(PathPlot, WhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -15,7 +15,7 @@
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using fakes::problems_of;
@@ -33,7 +33,7 @@ struct KnifeLine {
     scenario = read_scenario_text(text + "pictures: {" + pictures + "}\n", file,
                                   {{"scene.duration", "3.5 s"}}, problems);
     simulation.emplace(scenario, problems);
-    load_part_meshes(scenario, simulation->plants(), problems);
+    report::load_part_meshes(scenario, simulation->plants(), problems);
   }
   /// "column: what; remedy" of every problem; all are in the line of `pictures`.
   std::vector<std::string> told() const {
@@ -49,7 +49,7 @@ struct KnifeLine {
   renders::Film film() {
     EXPECT_THAT(told(), IsEmpty());
     simulation->run();
-    return film_of(scenario, *simulation);
+    return report::film_of(scenario, *simulation);
   }
   /// What was recorded of a channel at a time.
   double recorded(const std::string& channel, double time) const {
@@ -63,7 +63,7 @@ struct KnifeLine {
 
   Problems problems;
   Scenario scenario;
-  std::optional<Simulation> simulation;
+  std::optional<loop::Simulation> simulation;
   std::ptrdiff_t first_line = 0;
 };
 
@@ -123,7 +123,7 @@ TEST(PicturesFilm, PiecesTellTheLengthOfTheirCutAndTheBladeItsForce) {
   KnifeLine line(second_cut);
   const auto film = line.film();
   const auto& events = line.simulation->recording().events();
-  std::vector<RecordedEvent> cuts;
+  std::vector<loop::RecordedEvent> cuts;
   for (const auto& event : events)
     if (event.event == "cut") cuts.push_back(event);
   ASSERT_GE(cuts.size(), 2U);
@@ -307,4 +307,4 @@ TEST(Pictures, CameraFollowLampsOverlaysAndLiveAreReadAndWritten) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

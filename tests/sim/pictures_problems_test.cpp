@@ -4,7 +4,7 @@
 
 #include "tests/sim/scenario/fake_plants.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using fakes::problems_of;
@@ -219,4 +219,4 @@ TEST(Pictures, AnEventWithoutNumberIsTheFirst) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

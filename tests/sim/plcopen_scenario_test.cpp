@@ -11,7 +11,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 namespace plcopen = devices::plcopen;
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-struct PlcopenScenario : ScenarioFolder {
+struct PlcopenScenario : scenario::ScenarioFolder {
   PlcopenScenario() {
     write("line.st", program);
     write("cam.csv", "# interpolation: POLYNOM_3\n# endless: positive\nslave\n0\n700000\n1800000\n2900000\n");
@@ -30,8 +30,8 @@ struct PlcopenScenario : ScenarioFolder {
   static std::string with(const std::string& lines) {
     return "scene: {step: 500 us, duration: 1 s}\ncontroller:\n  plcopen:\n" + lines;
   }
-  static const PlcopenSection& section(const Scenario& scenario) {
-    return *controller_of<PlcopenSection>(scenario);
+  static const controllers::PlcopenSection& section(const scenario::Scenario& scenario) {
+    return *controllers::controller_of<controllers::PlcopenSection>(scenario);
   }
   std::vector<std::string> build(const std::string& text) {
     const auto scenario = read(text);
@@ -161,8 +161,8 @@ TEST_F(PlcopenScenario, QuantitiesAreConvertedAndBareNumbersAreTheKernels) {
 
 TEST_F(PlcopenScenario, EveryParameterWithAUnitTellsWhichOne) {
   for (const auto& row : plcopen::axis_parameter_table()) {
-    const auto length = axis_unit(row, plcopen::Measure::length);
-    const auto angle = axis_unit(row, plcopen::Measure::angle);
+    const auto length = scenario::axis_unit(row, plcopen::Measure::length);
+    const auto angle = scenario::axis_unit(row, plcopen::Measure::angle);
     const bool bare = row.unit.empty() || row.unit == "counts x4" || row.unit == "cycles";
     EXPECT_EQ(length.unit.empty(), bare) << row.name << " is in " << row.unit;
     EXPECT_EQ(angle.unit.empty(), bare) << row.name;
@@ -257,7 +257,7 @@ TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
                "    cycle: 2 ms\n    tasks: {slow: {cycle: 20 ms, priority: 3, programs: [line]}}");
   const auto scenario = read(text, {{"controller.plcopen.set.speed", "5"}});
   ASSERT_THAT(told(), IsEmpty());
-  const auto expanded = expand(scenario);
+  const auto expanded = scenario::expand(scenario);
   EXPECT_THAT(expanded,
               HasSubstr("    axes:\n      Line:\n        kind: virtual\n        modulo: 360 deg\n"));
   EXPECT_THAT(expanded, HasSubstr("        cam_gear.v_phasing: 50 deg/s\n"));
@@ -267,7 +267,7 @@ TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
   EXPECT_THAT(expanded, HasSubstr("    tasks:\n      slow: {cycle: 20 ms, priority: 3, programs: [line]}\n"));
   const auto again = read(expanded);
   ASSERT_THAT(told(), IsEmpty());
-  EXPECT_EQ(expand(again), expanded);
+  EXPECT_EQ(scenario::expand(again), expanded);
   for (const auto& row : plcopen::axis_parameter_table())
     for (std::size_t i = 0; i < 2; ++i)
       EXPECT_EQ(row.value(section(again).axes[i].configuration.parameters),
@@ -422,7 +422,7 @@ TEST_F(PlcopenScenario, ASlaveThatWouldCreepToItsCamIsNoted) {
     Simulation simulation(scenario, problems);
     EXPECT_THAT(told(), IsEmpty());
     EXPECT_THAT(simulation.notes(), testing::IsSupersetOf(simulation.notes_of_setup()));
-    const auto again = read(expand(scenario));
+    const auto again = read(scenario::expand(scenario));
     EXPECT_EQ(Simulation(again, problems).notes(), simulation.notes()) << "as it is written back";
     return simulation.notes_of_setup();
   };
@@ -503,4 +503,4 @@ TEST_F(PlcopenScenario, RetainVariablesComeFromTheirFile) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

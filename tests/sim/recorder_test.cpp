@@ -12,7 +12,7 @@
 #include "tests/sim/fakes.hpp"
 #include "tests/test_folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 namespace fs = std::filesystem;
@@ -176,13 +176,13 @@ TEST_F(RecorderTest, JunitAndChecksJsonTellTheSame) {
   outcome.end = 10 * second;
   outcome.checks = {{"good", "always x < 1", true, 0.25, "mm", 3.5, "9 instants"},
                     {"bad & worse", "always y < 1", false, -2, "N", 4.5, "9 instants, 1 failed"}};
-  write_checks(outcome, folder / "checks.json");
+  report::write_checks(outcome, folder / "checks.json");
   EXPECT_THAT(contents(folder / "checks.json"),
               testing::AllOf(testing::HasSubstr("\"passed\": false"), testing::HasSubstr("\"margin\": 0.25"),
                              testing::HasSubstr("\"bad & worse\"")));
   Outcome stopped = outcome;
   stopped.failure = "it <diverged>";
-  write_junit(
+  report::write_junit(
       {{"line", "line.yaml", folder, outcome, false}, {"other", "other.yaml", folder, stopped, false}},
       folder / "junit.xml");
   const auto xml = contents(folder / "junit.xml");
@@ -194,15 +194,15 @@ TEST_F(RecorderTest, JunitAndChecksJsonTellTheSame) {
 
 TEST(Verdict, SaysHowItEnded) {
   Outcome outcome;
-  EXPECT_EQ(verdict_text(outcome), "the scenario states no checks");
+  EXPECT_EQ(report::verdict_text(outcome), "the scenario states no checks");
   outcome.checks = {{"a", "", true, {}, "", {}, ""}, {"b", "", false, {}, "", {}, ""}};
-  EXPECT_EQ(verdict_text(outcome), "1 of 2 checks failed");
+  EXPECT_EQ(report::verdict_text(outcome), "1 of 2 checks failed");
   outcome.checks[1].passed = true;
-  EXPECT_EQ(verdict_text(outcome), "all 2 checks passed");
+  EXPECT_EQ(report::verdict_text(outcome), "all 2 checks passed");
   outcome.failure = "diverged";
-  EXPECT_EQ(verdict_text(outcome), "the simulation stopped: diverged");
+  EXPECT_EQ(report::verdict_text(outcome), "the simulation stopped: diverged");
   EXPECT_FALSE(outcome.passed());
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

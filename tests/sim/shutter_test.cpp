@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 using ::testing::ElementsAre;
@@ -16,7 +16,7 @@ struct Happening {
 };
 
 /// Times [ms] of the frames of a run of that length with steps of 1 ms.
-std::vector<Time> frames(const PicturesSection& pictures, Time duration,
+std::vector<Time> frames(const scenario::PicturesSection& pictures, Time duration,
                          const std::vector<Happening>& happenings = {}) {
   Shutter shutter(pictures);
   for (Time now = millisecond; now <= duration; now += millisecond) {
@@ -47,14 +47,14 @@ std::vector<Time> frames(const PicturesSection& pictures, Time duration,
   return times;
 }
 
-PicturesSection every(Time ms) {
-  PicturesSection pictures;
+scenario::PicturesSection every(Time ms) {
+  scenario::PicturesSection pictures;
   pictures.frames = true;
   pictures.every = ms * millisecond;
   return pictures;
 }
 
-PicturesSection around(std::string event, int number, Time before, Time after) {
+scenario::PicturesSection around(std::string event, int number, Time before, Time after) {
   auto pictures = every(10);
   pictures.around = {{std::move(event), {}, {}}, number, before * millisecond, after * millisecond};
   return pictures;
@@ -108,4 +108,4 @@ TEST(Shutter, AFaultIsAnEventLikeAnyOther) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

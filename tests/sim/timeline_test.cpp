@@ -4,7 +4,7 @@
 
 #include "tests/sim/fakes.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::loop {
 namespace {
 
 using fakes::text;
@@ -18,17 +18,19 @@ struct TimelineTest : testing::Test {
     panel.switches["start"];
   }
   Timeline make() { return {scenario, names, &controller, problems}; }
-  Stimulus& at(Time time) {
+  scenario::Stimulus& at(Time time) {
     scenario.timeline.emplace_back().at = time;
     return scenario.timeline.back();
   }
-  static Quantity quantity(double number, std::string unit = "") { return {number, std::move(unit), {7, 9}}; }
+  static scenario::Quantity quantity(double number, std::string unit = "") {
+    return {number, std::move(unit), {7, 9}};
+  }
   /// Runs the timeline over [from, until) in steps.
   void run(Timeline& timeline, Time from, Time until) {
     for (Time now = from; now < until; now += scenario.scene.step) timeline.run(now, recording);
   }
 
-  Scenario scenario;
+  scenario::Scenario scenario;
   fakes::FakeController controller;
   fakes::FakePlant plant;
   Panel panel;
@@ -184,4 +186,4 @@ TEST_F(TimelineTest, SaysWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::loop

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 TEST(Units, ConvertsTheUnitsOfTheField) {
@@ -152,4 +152,4 @@ TEST(Units, MayBeAskedByManyThreads) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -4,7 +4,7 @@
 #include "sim/loop/simulation.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using ::testing::ElementsAre;
@@ -36,7 +36,7 @@ END
   }
   std::vector<std::string> built(const std::string& text, const std::vector<Override>& overrides = {}) {
     const auto scenario = read(text, overrides);
-    if (scenario.buildable) Simulation(scenario, problems);
+    if (scenario.buildable) loop::Simulation(scenario, problems);
     return told();
   }
 
@@ -126,7 +126,7 @@ TEST_F(ValueRanges, RegistersAreNotWrapped) {
 
 TEST_F(ValueRanges, EveryValueThatCanBeSetHasARange) {
   const auto scenario = read(qmove);
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   ASSERT_THAT(told(), IsEmpty());
   for (const auto& reading : simulation.controller_values()) {
     const auto target = simulation.names().target(reading.name);
@@ -180,4 +180,4 @@ TEST_F(ValueRanges, StiffPairsAreJudgedAtTheScenariosStep) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

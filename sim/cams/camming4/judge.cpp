@@ -11,7 +11,7 @@
 #include "sim/cams/camming4/remedies.hpp"
 #include "sim/cams/travel.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -315,4 +315,4 @@ std::vector<CamFinding> judge(const CammingTable& table, const CamDuty& duty, co
   return CammingJudge(table, duty, run).findings();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

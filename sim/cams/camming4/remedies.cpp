@@ -9,7 +9,7 @@
 #include "devices/camming4/messages.hpp"
 #include "sim/cams/findings.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -226,4 +226,4 @@ CamAdvice advice_on(const CamEngineEvent& event, const CamVisit* visit, int row_
   return on_warning(event, *visit, row_before, table, duty);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -4,7 +4,7 @@
 #include "sim/cams/camming4/run.hpp"
 #include "sim/cams/findings.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// What went wrong and what would be right, with the sector's own numbers.
 struct CamAdvice {
@@ -28,4 +28,4 @@ double least_master_space(const CammingTable& table, const CamDuty& duty, bool g
 /// Of a gradient of the slave that is too large by `peak` [1/Um], `most` allowed [Um/s2].
 CamRemedy gradient_remedy(const CamVisit& visit, const CammingTable& table, double peak, double most);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -6,7 +6,7 @@
 #include "devices/axis/speed.hpp"
 #include "sim/cams/reach.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -334,4 +334,4 @@ CamRun run_cam(const CammingTable& table, const CamDuty& duty, int passes) {
   return Walk(table, duty, passes).run();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

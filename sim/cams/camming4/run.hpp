@@ -6,7 +6,7 @@
 
 #include "sim/cams/kinds.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// A sector as it ran once, or the wait of sector 160. Positions count on from the start of the cam, whatever
 /// loops and counter updates do to the device's counts.
@@ -85,4 +85,4 @@ std::string speed_unit(const CammingTable& table);
 /// cam closes.
 CamRun run_cam(const CammingTable& table, const CamDuty& duty, int passes);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

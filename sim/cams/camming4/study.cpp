@@ -9,7 +9,7 @@
 
 #include "sim/cams/camming4/judge.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -245,4 +245,4 @@ IdealCam ideal_of(const CammingTable& table, MasterRange range) {
   return ideal;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

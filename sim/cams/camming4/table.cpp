@@ -11,7 +11,7 @@
 #include "sim/cams/csv.hpp"
 #include "sim/cams/kinds.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -220,4 +220,4 @@ std::string file_of(CammingTable& table, const std::string& file) {
   return text;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

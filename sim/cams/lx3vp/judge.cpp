@@ -10,7 +10,7 @@
 #include "sim/cams/reach.hpp"
 #include "sim/cams/travel.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -332,4 +332,4 @@ std::vector<CamFinding> judge_ecam(const EcamTable& table, const CamDuty& duty, 
   return EcamJudge(table, duty, run).findings();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -8,7 +8,7 @@
 #include "devices/lx3vp/cam_law.hpp"
 #include "sim/cams/reach.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 using devices::lx3vp::EcamError;
 using devices::lx3vp::EcamType;
@@ -154,4 +154,4 @@ CamRemedy top_speed_remedy(const EcamTable& table, double master_speed, double l
   return "give P2 less";
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -4,7 +4,7 @@
 
 #include "sim/cams/kinds.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// What no type of table has: "P6L 7", "P6H 4" or both; "" if both are known.
 std::string wrong_words(const EcamTable& table);
@@ -16,4 +16,4 @@ CamRemedy top_speed_remedy(const EcamTable& table, double master_speed, double l
 /// The P5 of a saw that keeps its law to a ratio, if there is one.
 CamRemedy ratio_limit_remedy(const EcamTable& table, double limit);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -8,7 +8,7 @@
 #include "devices/lx3vp/cam_law.hpp"
 #include "sim/cams/lx3vp/judge.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -226,4 +226,4 @@ IdealCam ideal_of(const EcamTable& table, MasterRange range) {
   return ideal;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -10,7 +10,7 @@
 #include "sim/cams/csv.hpp"
 #include "sim/cams/lx3vp/judge.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -317,4 +317,4 @@ std::string file_of(EcamTable& table, const std::string& file) {
   return text;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

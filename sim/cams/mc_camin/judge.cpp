@@ -8,7 +8,7 @@
 #include "sim/cams/reach.hpp"
 #include "sim/cams/travel.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -295,4 +295,4 @@ std::vector<CamFinding> judge_cam_in(const CamInRun& run, const CamDuty& duty) {
   return CamInJudge(run, duty).findings();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -5,7 +5,7 @@
 
 #include "sim/cams/kinds.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// Increments in a deg (0.0001 deg) or in a mm (0.1 um).
 inline constexpr double increments_per_unit = 10'000;
@@ -38,4 +38,4 @@ std::vector<CamFinding> judge_cam_in(const CamInRun& run, const CamDuty& duty);
 /// The slave's limits in force: those of the options before those of the file [deg or mm, s].
 devices::plcopen::CamLimits limits_of(const CamInRun& run, const CamDuty& duty);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -8,7 +8,7 @@
 
 #include "sim/cams/mc_camin/judge.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 namespace {
 
@@ -291,4 +291,4 @@ std::string file_of(CamFile& cam, const std::string& file) {
   return text;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

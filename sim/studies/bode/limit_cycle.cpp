@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -40,7 +40,7 @@ void find_least(LimitCycle& cycle) {
 
 double factor_of(const AtFrequency& margin) { return std::pow(10, margin.value / 20); }
 
-std::optional<LimitCycle> find_limit_cycle(const Scenario& scenario, const LoopRequest& request,
+std::optional<LimitCycle> find_limit_cycle(const scenario::Scenario& scenario, const LoopRequest& request,
                                            Problems& problems, const std::function<void(double)>& progress) {
   constexpr double all = octaves + 1 + 2 * refinements;
   LimitCycle cycle;
@@ -75,4 +75,4 @@ std::optional<LimitCycle> find_limit_cycle(const Scenario& scenario, const LoopR
   return cycle;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

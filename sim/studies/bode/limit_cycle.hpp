@@ -5,7 +5,7 @@
 
 #include "sim/studies/bode/loop.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 // Where a limit cycle begins. Play, stiction and limits make the response depend on the amplitude of the
 // sine. Measured at one amplitude after the other it is the describing function of the whole loop, and the
@@ -28,11 +28,11 @@ struct LimitCycle {
 
 /// Measures `scenario` with amplitudes from 0.05 V to 6.4 V in octaves, then twice between the neighbours of
 /// the least. nullopt and problems if the request does not fit; its amplitude is not looked at.
-std::optional<LimitCycle> find_limit_cycle(const Scenario& scenario, const LoopRequest& request,
+std::optional<LimitCycle> find_limit_cycle(const scenario::Scenario& scenario, const LoopRequest& request,
                                            Problems& problems,
                                            const std::function<void(double)>& progress = {});
 
 /// How many times the gain in force.
 double factor_of(const AtFrequency& margin);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

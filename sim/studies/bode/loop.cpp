@@ -9,7 +9,7 @@
 #include "sim/loop/recorder.hpp"
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -23,17 +23,17 @@ void check_number(const char* option, const std::optional<double>& value, double
 /// The time of --at; nullopt if it is not given, or no time from 0 to 1e6 s.
 std::optional<Time> time_of(const LoopRequest& request) {
   if (!request.at) return {};
-  auto at = parse_quantity(*request.at);
+  auto at = scenario::parse_quantity(*request.at);
   if (at && at->unit.empty()) at->unit = "s";
-  if (!at || !is_unit(at->unit) || !same_dimension(at->unit, "s")) return {};
-  const double time = to_si(at->number, at->unit);
+  if (!at || !scenario::is_unit(at->unit) || !scenario::same_dimension(at->unit, "s")) return {};
+  const double time = scenario::to_si(at->number, at->unit);
   if (!(time >= 0 && time <= 1e6)) return {};
   return std::llround(time * 1e9);
 }
 
 /// The wire to measure at; nullopt and a problem if it is not clear which.
-std::optional<std::size_t> choose_wire(const LoopRequest& request, const Scenario& scenario,
-                                       Simulation& simulation, Problems& problems) {
+std::optional<std::size_t> choose_wire(const LoopRequest& request, const scenario::Scenario& scenario,
+                                       loop::Simulation& simulation, Problems& problems) {
   const auto& wires = simulation.bus().analogue_wires();
   std::vector<std::string> plugs;
   std::string all;
@@ -60,7 +60,7 @@ std::optional<std::size_t> choose_wire(const LoopRequest& request, const Scenari
 }
 
 /// The channel of the motor's speed: the one asked for, or what the plant at the wire calls so.
-std::string choose_speed(const LoopRequest& request, const std::string& plug, Simulation& simulation,
+std::string choose_speed(const LoopRequest& request, const std::string& plug, loop::Simulation& simulation,
                          Problems& problems) {
   auto& names = simulation.names();
   if (!request.speed.empty()) {
@@ -76,8 +76,8 @@ std::string choose_speed(const LoopRequest& request, const std::string& plug, Si
 }
 
 /// Where and how to measure; nullopt and problems if the options do not fit the scenario.
-std::optional<SweepPlan> plan_of(const LoopRequest& request, const Scenario& scenario, Simulation& simulation,
-                                 Problems& problems) {
+std::optional<SweepPlan> plan_of(const LoopRequest& request, const scenario::Scenario& scenario,
+                                 loop::Simulation& simulation, Problems& problems) {
   const auto before = problems.size();
   const auto wire = choose_wire(request, scenario, simulation, problems);
   if (!wire) return {};
@@ -110,16 +110,16 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const Scenario& sce
 
 /// The two runs and the plan for them.
 struct Preparation {
-  std::unique_ptr<Simulation> excited;
-  std::unique_ptr<Simulation> still;
+  std::unique_ptr<loop::Simulation> excited;
+  std::unique_ptr<loop::Simulation> still;
   std::optional<SweepPlan> plan;
 };
-Preparation prepare(const Scenario& scenario, const LoopRequest& request, Problems& problems) {
+Preparation prepare(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems) {
   const auto before = problems.size();
   Preparation prepared;
-  prepared.excited = std::make_unique<Simulation>(scenario, problems);
+  prepared.excited = std::make_unique<loop::Simulation>(scenario, problems);
   if (problems.size() == before) prepared.plan = plan_of(request, scenario, *prepared.excited, problems);
-  if (problems.size() == before) prepared.still = std::make_unique<Simulation>(scenario, problems);
+  if (problems.size() == before) prepared.still = std::make_unique<loop::Simulation>(scenario, problems);
   return prepared;
 }
 
@@ -140,11 +140,11 @@ void check_request(const LoopRequest& request, Problems& problems) {
         {"--points", 1, 1, fmt::format("{} is out of range", request.points), "give 2 to 1000"});
 }
 
-void check_loop(const Scenario& scenario, const LoopRequest& request, Problems& problems) {
+void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems) {
   (void)prepare(scenario, request, problems);
 }
 
-std::optional<LoopResult> measure_loop(const Scenario& scenario, const LoopRequest& request,
+std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                        Problems& problems, const std::function<void(double)>& progress) {
   const auto prepared = prepare(scenario, request, problems);
   if (!prepared.still) return {};
@@ -170,7 +170,7 @@ std::vector<std::string> loop_doubts(const LoopResult& result) {
         fmt::format("{} does not answer to {} V at {} s: either the loop is open there (let the program do "
                     "REGON before, or choose another --at), or the axis sits in play or stiction (take more "
                     "--amplitude)",
-                    result.terminal, result.plan.amplitude, seconds_text(result.plan.at)));
+                    result.terminal, result.plan.amplitude, loop::seconds_text(result.plan.at)));
   if (result.sweep.loop == Sweep::Loop::restless)
     doubts.push_back(
         fmt::format("the loop has not come to rest within {} s after the push: wait longer (--settle) or "
@@ -207,4 +207,4 @@ std::vector<std::string> loop_doubts(const LoopResult& result) {
   return doubts;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -6,7 +6,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/studies/bode/sweep.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// Where and how a loop is to be measured, as a user says it.
 struct LoopRequest {
@@ -39,13 +39,13 @@ inline constexpr double bode_error_limit = 0.05;
 /// Numbers of the request that no scenario allows, by the names of the options.
 void check_request(const LoopRequest& request, Problems& problems);
 /// What of the request does not fit the scenario.
-void check_loop(const Scenario& scenario, const LoopRequest& request, Problems& problems);
+void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems);
 /// Runs `scenario` twice and measures; nullopt and problems if the request does not fit it.
-std::optional<LoopResult> measure_loop(const Scenario& scenario, const LoopRequest& request,
+std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                        Problems& problems, const std::function<void(double)>& progress = {});
 /// "12.34 Hz".
 std::string hertz_text(double frequency);
 /// What keeps the measurement from being trusted, a line each; empty if nothing does.
 std::vector<std::string> loop_doubts(const LoopResult& result);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -9,7 +9,7 @@
 #include "sim/loop/recorder.hpp"
 #include "sim/report/report.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -132,7 +132,7 @@ std::string subject(const LoopResult& result) {
   const auto& plan = result.plan;
   return fmt::format("{}: {} from {}, sampled every {} ms; a sine of {:.3g} V added from {} s on",
                      result.scenario, result.wire, result.terminal, seconds(plan.sampling) * 1000,
-                     plan.amplitude, seconds_text(plan.at));
+                     plan.amplitude, loop::seconds_text(plan.at));
 }
 
 /// Where a limit cycle begins, in a sentence.
@@ -230,7 +230,7 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
     if (cycle->least) plots.push_back(amplitude_plot(*cycle));
   }
   report.scenario_expanded = expanded;
-  write_report(std::move(report), std::move(plots), folder);
+  report::write_report(std::move(report), std::move(plots), folder);
 }
 
 std::string bode_csv(const LoopResult& result) {
@@ -290,4 +290,4 @@ renders::Plot bode_plot(const LoopResult& result, const std::string& name) {
   return plot;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

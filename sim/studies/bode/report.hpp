@@ -8,7 +8,7 @@
 #include "sim/studies/bode/limit_cycle.hpp"
 #include "sim/studies/bode/loop.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// Table and margins as text.
 std::string bode_report(const LoopResult& result);
@@ -26,4 +26,4 @@ std::string bode_csv(const LoopResult& result);
 /// Gain and phase over the logarithm of the frequency.
 renders::Plot bode_plot(const LoopResult& result, const std::string& name);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -131,4 +131,4 @@ Margins margins_of(const std::vector<BodePoint>& all) {
   return margins;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

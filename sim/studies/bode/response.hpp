@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 // The frequency response of a closed loop as numbers, without a machine: correlation and margins.
 
@@ -76,4 +76,4 @@ struct Margins {
 /// frequency. Points in ascending order of frequency; silent ones do not count.
 Margins margins_of(const std::vector<BodePoint>& points);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

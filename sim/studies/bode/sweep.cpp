@@ -5,14 +5,14 @@
 #include <numeric>
 #include <span>
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
 /// The two runs of a scenario in step, and what they differ by at the wire.
 class Twins {
  public:
-  Twins(Simulation& excited, Simulation& still, const SweepPlan& plan)
+  Twins(loop::Simulation& excited, loop::Simulation& still, const SweepPlan& plan)
       : excited_(excited),
         still_(still),
         wire_(excited.bus().analogue_wires().at(plan.wire)),
@@ -40,10 +40,10 @@ class Twins {
   }
 
  private:
-  Simulation& excited_;
-  Simulation& still_;
-  Bus::AnalogueWire& wire_;
-  Bus::AnalogueWire& still_wire_;
+  loop::Simulation& excited_;
+  loop::Simulation& still_;
+  loop::Bus::AnalogueWire& wire_;
+  loop::Bus::AnalogueWire& still_wire_;
   std::function<double()> speed_;
   std::function<double()> still_speed_;
 };
@@ -205,7 +205,7 @@ std::vector<Tone> plan_tones(double from, double to, int points, Time sampling, 
   return tones;
 }
 
-Sweep measure(Simulation& excited, Simulation& still, const SweepPlan& plan,
+Sweep measure(loop::Simulation& excited, loop::Simulation& still, const SweepPlan& plan,
               const std::function<void(double)>& progress) {
   Sweep sweep;
   Twins twins(excited, still, plan);
@@ -231,4 +231,4 @@ Sweep measure(Simulation& excited, Simulation& still, const SweepPlan& plan,
   return sweep;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -7,7 +7,7 @@
 #include "sim/loop/simulation.hpp"
 #include "sim/studies/bode/response.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// One frequency of a sweep: `cycles` whole periods in `samples` samplings of the controller.
 struct Tone {
@@ -58,7 +58,7 @@ struct Sweep {
 /// `excited` and `still` are the same scenario twice: what they differ by is what the sine does, so that a
 /// machine in motion can be measured. Open loop L = -output / total at the wire, at the sampling instants:
 /// the loop that the controller closes, sampling and hold included.
-Sweep measure(Simulation& excited, Simulation& still, const SweepPlan& plan,
+Sweep measure(loop::Simulation& excited, loop::Simulation& still, const SweepPlan& plan,
               const std::function<void(double)>& progress = {});
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

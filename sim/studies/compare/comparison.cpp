@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "sim/report/results.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -46,7 +46,7 @@ class CsvText {
                const std::vector<double>& numbers) {
     std::vector<std::string> cells;
     for (const double number : numbers)
-      cells.push_back(std::isnan(number) ? "" : fmt::format("{:.9g}", without_noise(number)));
+      cells.push_back(std::isnan(number) ? "" : fmt::format("{:.9g}", loop::without_noise(number)));
     row(what, name, unit, cells);
   }
   [[nodiscard]] std::string text() && { return std::move(text_); }
@@ -99,9 +99,9 @@ std::string difference_text(const Comparison& comparison) {
   return parts.empty() ? "no difference" : fmt::format("different: {}", fmt::join(parts, ", "));
 }
 
-std::string result_text(const std::optional<CheckResult>& result) {
+std::string result_text(const std::optional<loop::CheckResult>& result) {
   if (!result) return "-";
-  const auto margin = margin_text(*result);
+  const auto margin = report::margin_text(*result);
   return fmt::format("{}{}{}", result->passed ? "passed" : "FAILED", margin.empty() ? "" : ", ", margin);
 }
 
@@ -137,4 +137,4 @@ std::string comparison_csv(const Comparison& comparison, const std::vector<Figur
   return std::move(csv).text();
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -5,7 +5,7 @@
 
 #include "sim/studies/compare/differences.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// Several runs beside each other.
 struct Comparison {
@@ -30,9 +30,9 @@ bool same(const Comparison& comparison);
 std::string difference_text(const Comparison& comparison);
 
 /// "passed, 0.053 mm left, at 7.204 s", "FAILED", "-" where a run has no such check.
-std::string result_text(const std::optional<CheckResult>& result);
+std::string result_text(const std::optional<loop::CheckResult>& result);
 
 /// One row a fact: what, name, unit, a column a run. Numbers with nine digits.
 std::string comparison_csv(const Comparison& comparison, const std::vector<Figure>& figures);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -9,7 +9,7 @@
 
 #include "sim/report/results.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -36,7 +36,7 @@ bool all_same(const std::vector<std::optional<T>>& items, Same same) {
 /// What rounding leaves of a margin that did not change [its unit].
 constexpr double margin_noise = 1e-8;
 
-bool same_margin(const CheckResult& a, const CheckResult& b) {
+bool same_margin(const loop::CheckResult& a, const loop::CheckResult& b) {
   if (!a.margin || !b.margin) return a.margin.has_value() == b.margin.has_value();
   return *a.margin == *b.margin || std::abs(*a.margin - *b.margin) <= margin_noise;
 }
@@ -47,11 +47,12 @@ std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs) {
     if (row.results[i]) having.push_back(runs[i].label);
   if (having.size() < runs.size()) return fmt::format("only in {}", fmt::join(having, ", "));
   const auto same = [&](auto field) {
-    return all_same(row.results,
-                    [&](const CheckResult& a, const CheckResult& b) { return field(a) == field(b); });
+    return all_same(row.results, [&](const loop::CheckResult& a, const loop::CheckResult& b) {
+      return field(a) == field(b);
+    });
   };
-  if (!same([](const CheckResult& c) { return c.passed; })) return "verdict";
-  if (!same([](const CheckResult& c) { return c.expectation; })) return "expectation";
+  if (!same([](const loop::CheckResult& c) { return c.passed; })) return "verdict";
+  if (!same([](const loop::CheckResult& c) { return c.expectation; })) return "expectation";
   if (all_same(row.results, same_margin)) return "";
   const auto& first = *row.results[0];
   const auto& last = *row.results[1];
@@ -60,8 +61,8 @@ std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs) {
                      first.unit);
 }
 
-std::string event_text(const RecordedEvent& event) {
-  const auto values = values_text(event);
+std::string event_text(const loop::RecordedEvent& event) {
+  const auto values = loop::values_text(event);
   return fmt::format("{:.6f} s{}{}", event.at_seconds(), values.empty() ? "" : ": ", values);
 }
 
@@ -76,7 +77,7 @@ std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs) {
     CheckRow row{name, {}, ""};
     for (const auto& run : runs) {
       const auto found = std::find_if(run.checks.begin(), run.checks.end(),
-                                      [&](const CheckResult& check) { return check.name == name; });
+                                      [&](const loop::CheckResult& check) { return check.name == name; });
       row.results.push_back(found == run.checks.end() ? std::nullopt : std::optional(*found));
     }
     row.change = change_of(row, runs);
@@ -122,4 +123,4 @@ std::vector<ParameterRow> differing_parameters(const std::vector<RunFolder>& run
   return rows;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -6,7 +6,7 @@
 
 #include "sim/studies/compare/run_folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 // What several runs have in common and where they differ. Every row has an entry a run, in the order of the
 // runs; what a run does not have is absent, or NaN among numbers.
@@ -23,7 +23,7 @@ bool differs(const Figure& figure);
 /// A check, matched by its name.
 struct CheckRow {
   std::string name;
-  std::vector<std::optional<CheckResult>> results;
+  std::vector<std::optional<loop::CheckResult>> results;
   /// "" = the same everywhere; else "only in A", "verdict", "expectation", "margin" and, of two runs, by how
   /// much.
   std::string change;
@@ -67,4 +67,4 @@ struct ParameterRow {
 /// Parameters that have not the same value in all runs.
 std::vector<ParameterRow> differing_parameters(const std::vector<RunFolder>& runs);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

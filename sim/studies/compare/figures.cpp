@@ -9,7 +9,7 @@
 #include "sim/report/statistics.hpp"
 #include "sim/studies/compare/differences.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -38,9 +38,9 @@ std::vector<double> numbers_of(const RunFolder& run, const ValueName& name, cons
                                std::optional<double> from) {
   constexpr double end = std::numeric_limits<double>::infinity();
   const bool window = !from && tolerance != nullptr;
-  return event_numbers(run.recording.events(), name.source + "." + name.event, name.value,
-                       window ? tolerance->from : from.value_or(0),
-                       window ? tolerance->until.value_or(end) : end)
+  return report::event_numbers(run.recording.events(), name.source + "." + name.event, name.value,
+                               window ? tolerance->from : from.value_or(0),
+                               window ? tolerance->until.value_or(end) : end)
       .numbers;
 }
 
@@ -66,7 +66,7 @@ struct ValueFigures {
   }
 
   void add(const std::vector<double>& numbers, const Tolerance* tolerance) {
-    const auto statistic = statistics(numbers);
+    const auto statistic = report::statistics(numbers);
     const bool any = !numbers.empty();
     const bool two = numbers.size() > 1;
     number.numbers.push_back(static_cast<double>(numbers.size()));
@@ -81,7 +81,8 @@ struct ValueFigures {
     const auto nearer = [&](double a, double b) { return room(*tolerance, a) < room(*tolerance, b); };
     worst.numbers.push_back(judged && any ? *std::min_element(numbers.begin(), numbers.end(), nearer)
                                           : nothing);
-    const auto found = judged ? sim::capability(statistic, tolerance->low, tolerance->high) : std::nullopt;
+    const auto found =
+        judged ? sim::report::capability(statistic, tolerance->low, tolerance->high) : std::nullopt;
     capability.numbers.push_back(found ? found->cpk : nothing);
   }
 
@@ -206,4 +207,4 @@ std::vector<std::string> unmatched_channels(const std::vector<RunFolder>& runs) 
   return names;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

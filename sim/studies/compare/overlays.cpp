@@ -8,15 +8,15 @@
 #include "sim/loop/known_events.hpp"
 #include "sim/report/gallery.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
 /// When the event of that number happened [s].
-std::optional<double> time_of(const RunFolder& run, const PicturesSection::Around& around) {
+std::optional<double> time_of(const RunFolder& run, const scenario::PicturesSection::Around& around) {
   int number = 0;
   for (const auto& event : run.recording.events())
-    if (names_event(around.event.text, event.source, event.event) && ++number == around.number)
+    if (loop::names_event(around.event.text, event.source, event.event) && ++number == around.number)
       return event.at_seconds();
   return {};
 }
@@ -24,10 +24,13 @@ std::optional<double> time_of(const RunFolder& run, const PicturesSection::Aroun
 Time to_time(double seconds_) { return std::max<Time>(0, static_cast<Time>(seconds_ * second)); }
 
 /// The request as this run can show it: without the channels that it has not.
-PlotRequest request_for(const RunFolder& run, const OverlayRequest& request, std::optional<double> origin) {
+scenario::PlotRequest request_for(const RunFolder& run, const OverlayRequest& request,
+                                  std::optional<double> origin) {
   auto plot = request.plot;
   for (auto& panel : plot.panels) {
-    const auto lacking = [&](const Text& name) { return run.recording.column(name.text) == nullptr; };
+    const auto lacking = [&](const scenario::Text& name) {
+      return run.recording.column(name.text) == nullptr;
+    };
     std::erase_if(panel.channels, lacking);
     std::erase_if(panel.lanes, lacking);
   }
@@ -40,9 +43,9 @@ PlotRequest request_for(const RunFolder& run, const OverlayRequest& request, std
 
 renders::Plot plot_of(const RunFolder& run, const OverlayRequest& request) {
   const auto origin = request.around ? time_of(run, *request.around) : std::nullopt;
-  Scenario view;
+  scenario::Scenario view;
   view.pictures.plots.push_back(request_for(run, request, origin));
-  auto plot = plots_of(view, run.recording).front();
+  auto plot = report::plots_of(view, run.recording).front();
   if (request.around && !origin)
     for (auto& panel : plot.panels) panel.curves.clear();
   if (!origin) return plot;
@@ -121,7 +124,7 @@ OverlayRequest& request_of(std::vector<OverlayRequest>& requests, const std::str
 }
 
 /// The limits if all runs state the same ones.
-const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const RecordedEvent& event,
+const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const loop::RecordedEvent& event,
                                   const std::string& value) {
   const Tolerance* common = nullptr;
   for (const auto& run : runs) {
@@ -134,16 +137,17 @@ const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const Reco
 }
 
 /// From where on every run judges the values of this event [s].
-double window_begin(const std::vector<RunFolder>& runs, const RecordedEvent& event) {
+double window_begin(const std::vector<RunFolder>& runs, const loop::RecordedEvent& event) {
   double begin = 0;
   for (const auto& run : runs)
     for (const auto& tolerance : run.tolerances)
-      if (names_event(tolerance.event, event.source, event.event)) begin = std::max(begin, tolerance.from);
+      if (loop::names_event(tolerance.event, event.source, event.event))
+        begin = std::max(begin, tolerance.from);
   return begin;
 }
 
 void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparison,
-               const RecordedEvent& event) {
+               const loop::RecordedEvent& event) {
   const auto name = event.source + "." + event.event;
   auto& plot = request_of(requests, "events_" + file_name(name),
                           fmt::format("Every {} of {}", event.event, event.source))
@@ -186,4 +190,4 @@ std::vector<OverlayRequest> usual_overlays(const Comparison& comparison) {
   return requests;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

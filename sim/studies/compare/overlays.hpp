@@ -5,13 +5,13 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/studies/compare/comparison.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// A plot of a run, to be drawn of several over each other.
 struct OverlayRequest {
-  PlotRequest plot;
+  scenario::PlotRequest plot;
   /// Instead of the plot's window: about an event of each run, from where its time then counts.
-  std::optional<PicturesSection::Around> around;
+  std::optional<scenario::PicturesSection::Around> around;
 };
 
 /// The plots with the curves of every run that has what they show, named by the run.
@@ -22,4 +22,4 @@ std::vector<renders::Plot> overlay(const std::vector<RunFolder>& runs,
 /// values of each kind of event against their number.
 std::vector<OverlayRequest> usual_overlays(const Comparison& comparison);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 bool CsvRows::next(CsvRow& row) {
   if (at_ >= text_.size()) return false;
@@ -63,7 +63,7 @@ std::optional<double> number_of(std::string_view text) {
 
 namespace {
 
-std::optional<double> number_in(const CsvRow::Cell& cell, int line, TableProblems& problems) {
+std::optional<double> number_in(const CsvRow::Cell& cell, int line, cams::TableProblems& problems) {
   const auto number = number_of(cell.text);
   if (!number)
     problems.add(line, cell.column, fmt::format("{} is not a number", in_quotes(cell.text)), run_again);
@@ -71,7 +71,7 @@ std::optional<double> number_in(const CsvRow::Cell& cell, int line, TableProblem
 }
 
 /// A time that a simulation can have reached, to the nanosecond.
-std::optional<Time> time_of(const CsvRow::Cell& cell, int line, TableProblems& problems) {
+std::optional<Time> time_of(const CsvRow::Cell& cell, int line, cams::TableProblems& problems) {
   const auto number = number_in(cell, line, problems);
   if (!number) return {};
   if (*number >= 0 && *number < 1e9) return std::llround(*number * static_cast<double>(second));
@@ -79,7 +79,7 @@ std::optional<Time> time_of(const CsvRow::Cell& cell, int line, TableProblems& p
   return {};
 }
 
-bool has_width(const CsvRow& row, std::size_t width, TableProblems& problems) {
+bool has_width(const CsvRow& row, std::size_t width, cams::TableProblems& problems) {
   if (row.cells.size() == width) return true;
   problems.add(
       row.line, 1,
@@ -89,7 +89,7 @@ bool has_width(const CsvRow& row, std::size_t width, TableProblems& problems) {
 }
 
 /// "knife.angle [deg]"
-void add_column(const CsvRow::Cell& cell, Recording& recording, TableProblems& problems) {
+void add_column(const CsvRow::Cell& cell, loop::Recording& recording, cams::TableProblems& problems) {
   const auto open = cell.text.rfind(" [");
   if (open == std::string::npos || open == 0 || !cell.text.ends_with(']')) {
     problems.add(1, cell.column, fmt::format("{} is no channel with its unit", in_quotes(cell.text)),
@@ -114,7 +114,7 @@ std::string_view take_piece(std::string_view& rest) {
 }
 
 /// "length=800.012 mm"; nothing if the piece is the event's text.
-std::optional<RecordedEvent::Value> value_of(std::string_view piece) {
+std::optional<loop::RecordedEvent::Value> value_of(std::string_view piece) {
   const auto equals = piece.find('=');
   const auto name = piece.substr(0, equals);
   if (equals == std::string_view::npos || name.empty() || name.find(' ') != std::string_view::npos) return {};
@@ -122,12 +122,12 @@ std::optional<RecordedEvent::Value> value_of(std::string_view piece) {
   const auto blank = std::min(rest.find(' '), rest.size());
   const auto number = number_of(rest.substr(0, blank));
   if (!number) return {};
-  return RecordedEvent::Value{std::string(name), *number,
-                              std::string(rest.substr(std::min(rest.size(), blank + 1)))};
+  return loop::RecordedEvent::Value{std::string(name), *number,
+                                    std::string(rest.substr(std::min(rest.size(), blank + 1)))};
 }
 
 /// What follows the first piece that is no value is the event's text.
-void take_values(std::string_view rest, RecordedEvent& event) {
+void take_values(std::string_view rest, loop::RecordedEvent& event) {
   while (!rest.empty()) {
     const auto before = rest;
     auto value = value_of(take_piece(rest));
@@ -139,7 +139,7 @@ void take_values(std::string_view rest, RecordedEvent& event) {
   }
 }
 
-bool read_header(CsvRows& rows, CsvRow& row, std::string_view wanted, TableProblems& problems) {
+bool read_header(CsvRows& rows, CsvRow& row, std::string_view wanted, cams::TableProblems& problems) {
   if (rows.next(row) && row.cells[0].text == "time [s]") return true;
   problems.add(1, 1, "the header does not begin with time [s]", fmt::format("the first line is {}", wanted));
   return false;
@@ -147,12 +147,12 @@ bool read_header(CsvRows& rows, CsvRow& row, std::string_view wanted, TableProbl
 
 }  // namespace
 
-Recording read_trace(std::string_view text, const std::string& file, Problems& problems) {
-  TableProblems found(file, problems);
+loop::Recording read_trace(std::string_view text, const std::string& file, Problems& problems) {
+  cams::TableProblems found(file, problems);
   CsvRows rows(text, found);
   CsvRow row;
   if (!read_header(rows, row, "time [s],channel [unit],...", found)) return {};
-  Recording recording;
+  loop::Recording recording;
   for (std::size_t i = 1; i < row.cells.size(); ++i) add_column(row.cells[i], recording, found);
   const auto width = row.cells.size();
   std::vector<double> numbers(width - 1);
@@ -169,8 +169,9 @@ Recording read_trace(std::string_view text, const std::string& file, Problems& p
   return recording;
 }
 
-void read_events(std::string_view text, const std::string& file, Recording& recording, Problems& problems) {
-  TableProblems found(file, problems);
+void read_events(std::string_view text, const std::string& file, loop::Recording& recording,
+                 Problems& problems) {
+  cams::TableProblems found(file, problems);
   CsvRows rows(text, found);
   CsvRow row;
   if (!read_header(rows, row, "time [s],source,event,values", found)) return;
@@ -179,10 +180,10 @@ void read_events(std::string_view text, const std::string& file, Recording& reco
   while (!found.full() && rows.next(row)) {
     if (!has_width(row, width, found)) continue;
     const auto time = time_of(row.cells[0], row.line, found);
-    RecordedEvent event{time.value_or(0), 0, row.cells[1].text, row.cells[2].text, {}, ""};
+    loop::RecordedEvent event{time.value_or(0), 0, row.cells[1].text, row.cells[2].text, {}, ""};
     take_values(row.cells[3].text, event);
     recording.happened(std::move(event));
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -8,7 +8,7 @@
 #include "sim/cams/csv.hpp"
 #include "sim/loop/recorder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// The remedy for a file of results that is not as it was written.
 inline constexpr auto* run_again = "run the scenario again: drycut run writes the file";
@@ -27,7 +27,7 @@ struct CsvRow {
 /// ends.
 class CsvRows {
  public:
-  CsvRows(std::string_view text, TableProblems& problems) : text_(text), problems_(problems) {}
+  CsvRows(std::string_view text, cams::TableProblems& problems) : text_(text), problems_(problems) {}
   /// False at the end.
   bool next(CsvRow& row);
 
@@ -36,7 +36,7 @@ class CsvRows {
   CsvRow::Cell quoted_cell(CsvRow::Cell cell);
 
   std::string_view text_;
-  TableProblems& problems_;
+  cams::TableProblems& problems_;
   std::size_t at_ = 0;
   std::size_t begin_ = 0;  ///< of the row
   int line_ = 1;
@@ -49,8 +49,9 @@ std::optional<double> number_of(std::string_view text);
 // what is wrong goes to `problems`, and then the result is not to be used.
 
 /// The channels of a run: first column `time [s]`, ascending, then `channel [unit]`.
-Recording read_trace(std::string_view text, const std::string& file, Problems& problems);
+loop::Recording read_trace(std::string_view text, const std::string& file, Problems& problems);
 /// Adds the events of a run to its recording. Times have nine digits behind the point, values nine in all.
-void read_events(std::string_view text, const std::string& file, Recording& recording, Problems& problems);
+void read_events(std::string_view text, const std::string& file, loop::Recording& recording,
+                 Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -10,7 +10,7 @@
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -23,7 +23,7 @@ constexpr std::size_t most_rows = 200;  ///< of events that differ; a page must 
 std::string number_text(double number) {
   if (std::isnan(number)) return "";
   const double shown = std::abs(number) < 0.1 ? number : std::round(number * 1e4) / 1e4;
-  return fmt::format("{:.{}g}", without_noise(shown), std::abs(number) < 0.1 ? 3 : 7);
+  return fmt::format("{:.{}g}", loop::without_noise(shown), std::abs(number) < 0.1 ? 3 : 7);
 }
 
 std::vector<std::string> headings(const Comparison& comparison, std::vector<std::string> first) {
@@ -42,9 +42,9 @@ ReportTable figure_table(const Comparison& comparison, const std::string& title,
     for (const double number : figure.numbers) row.cells.push_back(number_text(number));
     if (two) {
       const double difference = figure.numbers[1] - figure.numbers[0];
-      row.cells.push_back(std::isnan(difference)           ? ""
-                          : without_noise(difference) == 0 ? "0"
-                                                           : fmt::format("{:+.4g}", difference));
+      row.cells.push_back(std::isnan(difference)                 ? ""
+                          : loop::without_noise(difference) == 0 ? "0"
+                                                                 : fmt::format("{:+.4g}", difference));
     }
     table.rows.push_back(std::move(row));
   }
@@ -60,9 +60,9 @@ std::string run_cell(const RunFolder& run) {
   return fmt::format("{} {}", run.passed ? "PASS" : "FAIL", what);
 }
 
-std::string check_cell(const std::optional<CheckResult>& result) {
+std::string check_cell(const std::optional<loop::CheckResult>& result) {
   if (!result) return "-";
-  return fmt::format("{} {}\n{}; {}", result->passed ? "PASS" : "FAIL", margin_text(*result),
+  return fmt::format("{} {}\n{}; {}", result->passed ? "PASS" : "FAIL", report::margin_text(*result),
                      result->expectation, result->detail);
 }
 
@@ -174,7 +174,7 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
     report.facts.push_back({{run.label, fmt::format("{:g} s simulated, drycut {}", run.end, run.version)}});
   if (comparison.from) report.facts.push_back({{"figures from", fmt::format("{:g} s", *comparison.from)}});
   report.facts.push_back({{"compared by drycut", DRYCUT_VERSION}});
-  add_checks(page.checks, report);
+  report::add_checks(page.checks, report);
   add_tables(comparison, page, report);
   return report;
 }
@@ -184,7 +184,7 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
 void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
                       bool pictures) {
   write_file(folder.add(csv_file), comparison_csv(comparison, page.figures));
-  if (pictures) write_report(report_of(comparison, page), drawn_plots(comparison, page), folder);
+  if (pictures) report::write_report(report_of(comparison, page), drawn_plots(comparison, page), folder);
 }
 
 std::string comparison_text(const Comparison& comparison) {
@@ -210,4 +210,4 @@ std::string comparison_text(const Comparison& comparison) {
   return text;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -7,15 +7,15 @@
 #include "sim/studies/compare/comparison.hpp"
 #include "sim/studies/compare/overlays.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// What a comparison's page tells besides the comparison itself.
 struct ComparisonPage {
   std::string title;
-  std::string source;               ///< what was compared: a scene's file, folders
-  std::vector<Figure> figures;      ///< asked for by name, shown first
-  std::vector<CheckResult> checks;  ///< over the figures of the runs
-  std::optional<bool> passed;       ///< absent: nothing is judged, only compared
+  std::string source;                     ///< what was compared: a scene's file, folders
+  std::vector<Figure> figures;            ///< asked for by name, shown first
+  std::vector<loop::CheckResult> checks;  ///< over the figures of the runs
+  std::optional<bool> passed;             ///< absent: nothing is judged, only compared
   std::string verdict;
   std::vector<OverlayRequest> overlays;  ///< before the usual ones
 };
@@ -31,4 +31,4 @@ void write_comparison(const Comparison& comparison, const ComparisonPage& page, 
 /// What differs, for a terminal: a line a check, a parameter.
 std::string comparison_text(const Comparison& comparison);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

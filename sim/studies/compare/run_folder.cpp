@@ -16,7 +16,7 @@
 #include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace fs = std::filesystem;
 
@@ -63,7 +63,7 @@ std::string nearest_run(const fs::path& folder) {
   std::vector<std::string> runs;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (fs::exists(entry.path() / checks_file, ignored)) runs.push_back(entry.path().string());
+    if (fs::exists(entry.path() / report::checks_file, ignored)) runs.push_back(entry.path().string());
   std::sort(runs.begin(), runs.end());
   if (runs.empty()) return "name a folder that drycut run made of a scenario, such as out/rotary_knife";
   return fmt::format("the runs in it are {}", fmt::join(runs, ", "));
@@ -79,7 +79,8 @@ bool is_run(const fs::path& folder, Problems& problems) {
   if (!fs::is_directory(folder, ignored))
     return refuse("it is not a folder", "name a folder that drycut run made of a scenario");
   std::vector<std::string> missing;
-  for (const auto* file : {trace_file, events_file, checks_file, scenario_file})
+  for (const auto* file :
+       {report::trace_file, report::events_file, report::checks_file, report::scenario_file})
     if (!fs::is_regular_file(folder / file, ignored)) missing.emplace_back(file);
   if (missing.empty()) return true;
   const auto what = fmt::format("it is not the folder of a run: there is no {}", fmt::join(missing, ", "));
@@ -94,8 +95,8 @@ void place_of(const std::string& text, std::size_t byte, int& line, int& column)
   column = static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1;
 }
 
-CheckResult check_of(const nlohmann::json& json) {
-  CheckResult check;
+loop::CheckResult check_of(const nlohmann::json& json) {
+  loop::CheckResult check;
   check.name = json.at("name").get<std::string>();
   check.expectation = json.at("expectation").get<std::string>();
   check.passed = json.at("passed").get<bool>();
@@ -129,35 +130,37 @@ void read_checks_json(const std::string& text, const std::string& file, RunFolde
   }
 }
 
-bool all_scalars(const YamlNode& list) {
-  return std::all_of(list.items.begin(), list.items.end(),
-                     [](const YamlNode& item) { return item.kind == YamlNode::Kind::scalar; });
+bool all_scalars(const scenario::YamlNode& list) {
+  return std::all_of(list.items.begin(), list.items.end(), [](const scenario::YamlNode& item) {
+    return item.kind == scenario::YamlNode::Kind::scalar;
+  });
 }
 
-std::string list_text(const YamlNode& list) {
+std::string list_text(const scenario::YamlNode& list) {
   std::vector<std::string> texts;
   for (const auto& item : list.items) texts.push_back(item.text.text);
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-void flatten(const YamlNode& node, const std::string& path,
+void flatten(const scenario::YamlNode& node, const std::string& path,
              std::vector<std::pair<std::string, std::string>>& values) {
-  if (node.kind == YamlNode::Kind::map) {
+  if (node.kind == scenario::YamlNode::Kind::map) {
     for (const auto& entry : node.entries)
       flatten(entry.value, path.empty() ? entry.key.text : path + "." + entry.key.text, values);
-  } else if (node.kind == YamlNode::Kind::sequence && !all_scalars(node)) {
+  } else if (node.kind == scenario::YamlNode::Kind::sequence && !all_scalars(node)) {
     for (std::size_t i = 0; i < node.items.size(); ++i) {
-      const auto* name = child(node.items[i], "name");
+      const auto* name = scenario::child(node.items[i], "name");
       flatten(node.items[i],
               fmt::format("{}[{}]", path, name != nullptr ? name->text.text : std::to_string(i)), values);
     }
   } else {
-    values.emplace_back(path, node.kind == YamlNode::Kind::sequence ? list_text(node) : node.text.text);
+    values.emplace_back(path,
+                        node.kind == scenario::YamlNode::Kind::sequence ? list_text(node) : node.text.text);
   }
 }
 
 /// Every panel of pictures.plots that states limits for the one value of an event that it shows.
-std::vector<Tolerance> tolerances_of(const PicturesSection& pictures) {
+std::vector<Tolerance> tolerances_of(const scenario::PicturesSection& pictures) {
   std::vector<Tolerance> found;
   for (const auto& plot : pictures.plots) {
     for (const auto& panel : plot.panels) {
@@ -173,18 +176,19 @@ std::vector<Tolerance> tolerances_of(const PicturesSection& pictures) {
 
 void read_scenario_yaml(const std::string& text, const std::string& file, RunFolder& run,
                         Problems& problems) {
-  Findings findings({file});
-  auto root = parse_yaml(text, 0, findings);
-  if (const auto* pictures = child(root, "pictures")) {
-    PicturesSection section;
-    MapReader reader(*pictures, "pictures", findings);
-    visit(reader, section);
+  scenario::Findings findings({file});
+  auto root = scenario::parse_yaml(text, 0, findings);
+  if (const auto* pictures = scenario::child(root, "pictures")) {
+    scenario::PicturesSection section;
+    scenario::MapReader reader(*pictures, "pictures", findings);
+    scenario::visit(reader, section);
     reader.finish();
     run.tolerances = tolerances_of(section);
   }
-  std::erase_if(root.entries, [](const YamlNode::Entry& entry) { return entry.key.text == "pictures"; });
-  if (findings.empty() && root.kind != YamlNode::Kind::map)
-    refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);
+  std::erase_if(root.entries,
+                [](const scenario::YamlNode::Entry& entry) { return entry.key.text == "pictures"; });
+  if (findings.empty() && root.kind != scenario::YamlNode::Kind::map)
+    scenario::refuse_kind(root, "a scenario", scenario::YamlNode::Kind::map, findings);
   flatten(root, "", run.parameters);
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
 }
@@ -194,7 +198,7 @@ void read_scenario_yaml(const std::string& text, const std::string& file, RunFol
 const Tolerance* RunFolder::tolerance(const std::string& source, const std::string& event,
                                       const std::string& value) const {
   const auto found = std::find_if(tolerances.begin(), tolerances.end(), [&](const Tolerance& stated) {
-    return stated.value == value && names_event(stated.event, source, event);
+    return stated.value == value && loop::names_event(stated.event, source, event);
   });
   return found == tolerances.end() ? nullptr : &*found;
 }
@@ -211,17 +215,17 @@ RunFolder read_run(const fs::path& folder, Problems& problems) {
   run.label = folder.string();
   if (!is_run(folder, problems)) return run;
   const auto name = [&](const char* file) { return (folder / file).string(); };
-  const MappedFile trace(folder / trace_file);
+  const MappedFile trace(folder / report::trace_file);
   if (trace.text().empty())
-    refuse_file(folder / trace_file, problems);
+    refuse_file(folder / report::trace_file, problems);
   else
-    run.recording = read_trace(trace.text(), name(trace_file), problems);
-  if (const auto text = whole_file(folder / events_file, problems))
-    read_events(*text, name(events_file), run.recording, problems);
-  if (const auto text = whole_file(folder / checks_file, problems))
-    read_checks_json(*text, name(checks_file), run, problems);
-  if (const auto text = whole_file(folder / scenario_file, problems))
-    read_scenario_yaml(*text, name(scenario_file), run, problems);
+    run.recording = read_trace(trace.text(), name(report::trace_file), problems);
+  if (const auto text = whole_file(folder / report::events_file, problems))
+    read_events(*text, name(report::events_file), run.recording, problems);
+  if (const auto text = whole_file(folder / report::checks_file, problems))
+    read_checks_json(*text, name(report::checks_file), run, problems);
+  if (const auto text = whole_file(folder / report::scenario_file, problems))
+    read_scenario_yaml(*text, name(report::scenario_file), run, problems);
   return run;
 }
 
@@ -250,4 +254,4 @@ std::vector<std::string> labels_of(const std::vector<fs::path>& folders, Problem
   return labels;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

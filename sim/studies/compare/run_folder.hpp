@@ -9,7 +9,7 @@
 #include "sim/loop/checks.hpp"
 #include "sim/loop/recorder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// The tolerance of an event's value, as a plot of the scenario states it: limits of a panel with one value.
 struct Tolerance {
@@ -29,8 +29,8 @@ struct RunFolder {
   bool passed = false;
   double end = 0;       ///< [s] simulated until
   std::string failure;  ///< why the simulation stopped, "" if it did not
-  std::vector<CheckResult> checks;
-  Recording recording;
+  std::vector<loop::CheckResult> checks;
+  loop::Recording recording;
   /// The scenario with every default in force, path and value: "plants.web.speed", "60 m/min". Entries of a
   /// list go by their name, "checks[cut length].expect", else by index. Pictures are left out.
   std::vector<std::pair<std::string, std::string>> parameters;
@@ -50,4 +50,4 @@ RunFolder read_run(const std::filesystem::path& folder, Problems& problems);
 /// a/rotary_knife and b/rotary_knife. A folder that is given twice is a problem.
 std::vector<std::string> labels_of(const std::vector<std::filesystem::path>& folders, Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

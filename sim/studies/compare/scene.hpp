@@ -9,7 +9,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/studies/compare/overlays.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 // A scene that runs several scenarios and compares them: `compare` in place of plants and controller.
 
@@ -17,33 +17,33 @@ struct ComparisonScene {
   std::filesystem::path file;
   std::string title;
   struct Channel {
-    Text name;  ///< what all runs call it
-    Text of;    ///< an expression over what this run records
+    scenario::Text name;  ///< what all runs call it
+    scenario::Text of;    ///< an expression over what this run records
     std::string unit;
   };
   struct Member {
-    Text name;      ///< of the run: its folder, its label, its name in checks; default: the file's
-    Text scenario;  ///< path, relative to the scene
-    std::vector<std::pair<Override, Place>> set;
+    scenario::Text name;      ///< of the run: its folder, its label, its name in checks; default: the file's
+    scenario::Text scenario;  ///< path, relative to the scene
+    std::vector<std::pair<scenario::Override, scenario::Place>> set;
     std::vector<Channel> channels;
   };
   std::vector<Member> members;
   std::optional<Time> from;  ///< figures look from here on; absent: the whole run
   struct FigureRequest {
-    Text name;          ///< in checks: RUN.name
-    std::string title;  ///< default: the name
-    Text of;            ///< terms as in `drycut tune`
+    scenario::Text name;  ///< in checks: RUN.name
+    std::string title;    ///< default: the name
+    scenario::Text of;    ///< terms as in `drycut tune`
     std::string unit;
   };
   std::vector<FigureRequest> figures;
   std::vector<OverlayRequest> plots;
   struct Check {
-    Text name;
-    Text expect;  ///< over RUN.figure and RUN.passed (1 or 0)
+    scenario::Text name;
+    scenario::Text expect;  ///< over RUN.figure and RUN.passed (1 or 0)
   };
   std::vector<Check> checks;
 
-  [[nodiscard]] Problem problem(const Place& place, std::string what, std::string remedy) const {
+  [[nodiscard]] Problem problem(const scenario::Place& place, std::string what, std::string remedy) const {
     return {file.string(), place.line, place.column, std::move(what), std::move(remedy)};
   }
 };
@@ -52,15 +52,15 @@ struct ComparisonScene {
 /// read_scenario tells them.
 std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file, Problems& problems);
 
-void visit(Archive& archive, ComparisonScene& scene);
+void visit(scenario::Archive& archive, ComparisonScene& scene);
 
 /// The scene as YAML with every default in force.
 std::string expand(const ComparisonScene& scene);
 
 /// The scenario of a member with what the scene sets, then what the command line sets.
-Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                     const std::vector<Override>& overrides, Problems& problems);
+scenario::Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member& member,
+                               const std::vector<scenario::Override>& overrides, Problems& problems);
 /// Gives problems of a member's settings their place in the scene.
 void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member& member, Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -8,12 +8,12 @@
 #include "sim/scenario/forms.hpp"
 #include "sim/studies/compare/scene.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
 /// A name that an expression can hold: letters, digits and underscores.
-void require_name(const Text& name, const std::string& what, Findings& findings) {
+void require_name(const scenario::Text& name, const std::string& what, scenario::Findings& findings) {
   const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   const bool begins = !name.text.empty() && std::isdigit(static_cast<unsigned char>(name.text[0])) == 0;
   if (begins && std::all_of(name.text.begin(), name.text.end(), fits)) return;
@@ -23,7 +23,7 @@ void require_name(const Text& name, const std::string& what, Findings& findings)
 
 constexpr std::string_view same_name_remedy = "give it a name of its own; the first is at line {}";
 
-void judge_members(MapReader& reader, std::vector<ComparisonScene::Member>& members) {
+void judge_members(scenario::MapReader& reader, std::vector<ComparisonScene::Member>& members) {
   for (std::size_t i = 0; i < members.size(); ++i) {
     auto& [name, scenario, set, channels] = members[i];
     const auto full = fmt::format("{}.{}", reader.full("scenarios"), i);
@@ -37,26 +37,28 @@ void judge_members(MapReader& reader, std::vector<ComparisonScene::Member>& memb
   if (members.size() < 2)
     reader.refuse("scenarios", "compare.scenarios needs two scenarios at least",
                   "write scenarios: [rotary_knife.yaml, rotary_knife_lx3vp.yaml]");
-  refuse_same_name(members, "runs", same_name_remedy, reader.findings());
+  scenario::refuse_same_name(members, "runs", same_name_remedy, reader.findings());
 }
 
-void visit_compare(Archive& archive, ComparisonScene& scene) {
+void visit_compare(scenario::Archive& archive, ComparisonScene& scene) {
   archive.list({"scenarios", "paths, or maps with what is particular to a run"}, scene.members);
-  archive.value({"from", "figures look from here on"}, form(scene.from, Sign::not_negative));
+  archive.value({"from", "figures look from here on"},
+                scenario::form(scene.from, scenario::Sign::not_negative));
   archive.list({"figures", "numbers of each run, side by side"}, scene.figures);
   archive.list({"plots", "as pictures.plots, the runs over each other"}, scene.plots);
-  archive.judge([&scene](MapReader& reader) {
+  archive.judge([&scene](scenario::MapReader& reader) {
     judge_members(reader, scene.members);
-    refuse_same_name(scene.figures, "figures", same_name_remedy, reader.findings());
+    scenario::refuse_same_name(scene.figures, "figures", same_name_remedy, reader.findings());
   });
 }
 
 }  // namespace
 
 // set: {scene.duration: 2 s}
-void visit(Archive& archive, std::pair<Override, Place>& setting) {
-  auto value = form(setting.first.value);
-  value.read = [&setting, read = value.read](const YamlNode& node, const auto& name, auto& findings) {
+void visit(scenario::Archive& archive, std::pair<scenario::Override, scenario::Place>& setting) {
+  auto value = scenario::form(setting.first.value);
+  value.read = [&setting, read = value.read](const scenario::YamlNode& node, const auto& name,
+                                             auto& findings) {
     setting.second = node.text.place;
     read(node, name, findings);
   };
@@ -64,52 +66,53 @@ void visit(Archive& archive, std::pair<Override, Place>& setting) {
 }
 
 // channels: {following_error: {of: AxisX.follerr * 0.1, unit: mm}}
-void visit(Archive& archive, ComparisonScene::Channel& channel) {
+void visit(scenario::Archive& archive, ComparisonScene::Channel& channel) {
   archive.in_line();
-  archive.value({"of", "an expression over what this run records"}, quoted_form(channel.of));
+  archive.value({"of", "an expression over what this run records"}, scenario::quoted_form(channel.of));
   archive.require("of", "add of: AxisX.follerr * 0.1 or the like");
-  archive.value({"unit", ""}, form(channel.unit));
+  archive.value({"unit", ""}, scenario::form(channel.unit));
 }
 
 // A path, or a map with the path and what is particular to this run.
-void visit(Archive& archive, ComparisonScene::Member& member) {
-  if (archive.instead(false, form(member.scenario))) return;
-  archive.value({"name", "its folder, its label, its name in checks"}, form(member.name));
-  archive.value({"scenario", "path, relative to the scene"}, form(member.scenario));
+void visit(scenario::Archive& archive, ComparisonScene::Member& member) {
+  if (archive.instead(false, scenario::form(member.scenario))) return;
+  archive.value({"name", "its folder, its label, its name in checks"}, scenario::form(member.name));
+  archive.value({"scenario", "path, relative to the scene"}, scenario::form(member.scenario));
   archive.require("scenario", "add scenario: rotary_knife.yaml");
   auto& set = member.set;
-  archive.names({"set", "as --set of the command line", !set.empty()},
-                {set.size(), [&](std::size_t i) { return set[i].first.path; },
-                 [&](const Text& path) {
-                   set.push_back({{path.text, ""}, {}});
-                 },
-                 [&] { set.pop_back(); }, [&](Archive& inner, std::size_t i) { visit(inner, set[i]); }});
+  archive.names(
+      {"set", "as --set of the command line", !set.empty()},
+      {set.size(), [&](std::size_t i) { return set[i].first.path; },
+       [&](const scenario::Text& path) {
+         set.push_back({{path.text, ""}, {}});
+       },
+       [&] { set.pop_back(); }, [&](scenario::Archive& inner, std::size_t i) { visit(inner, set[i]); }});
   archive.names({"channels", "names that all runs share", !member.channels.empty()}, member.channels,
                 &ComparisonScene::Channel::name);
-  archive.judge([&member](MapReader& reader) {
+  archive.judge([&member](scenario::MapReader& reader) {
     for (const auto& channel : member.channels)
       require_name(channel.name, reader.full("channels") + ":", reader.findings());
   });
 }
 
-void visit(Archive& archive, ComparisonScene::FigureRequest& figure) {
+void visit(scenario::Archive& archive, ComparisonScene::FigureRequest& figure) {
   archive.in_line();
-  archive.value({"name", "in checks: RUN.name"}, form(figure.name));
+  archive.value({"name", "in checks: RUN.name"}, scenario::form(figure.name));
   archive.require("name", "checks name it: mean_length");
   if (archive.reads()) figure.title = figure.name.text;
-  archive.value({"title", "the name unless given"}, form(figure.title));
-  archive.value({"of", "terms as of drycut tune: mean(cut.length)"}, quoted_form(figure.of));
+  archive.value({"title", "the name unless given"}, scenario::form(figure.title));
+  archive.value({"of", "terms as of drycut tune: mean(cut.length)"}, scenario::quoted_form(figure.of));
   archive.require("of", "add of: mean(cut.length) or the like");
-  archive.value({"unit", ""}, form(figure.unit));
-  archive.judge([&figure](MapReader& reader) {
+  archive.value({"unit", ""}, scenario::form(figure.unit));
+  archive.judge([&figure](scenario::MapReader& reader) {
     if (reader.has("name")) require_name(figure.name, reader.name() + ":", reader.findings());
   });
 }
 
 // As one of pictures.plots, and with a window about an event of each run.
-void visit(Archive& archive, OverlayRequest& request) {
-  visit(archive, request.plot, request.around);
-  archive.judge([&request](MapReader& reader) {
+void visit(scenario::Archive& archive, OverlayRequest& request) {
+  scenario::visit(archive, request.plot, request.around);
+  archive.judge([&request](scenario::MapReader& reader) {
     const auto& panels = request.plot.panels;
     if (std::any_of(panels.begin(), panels.end(), [](const auto& panel) { return panel.has_own_x(); }))
       reader.findings().add(reader.place(),
@@ -124,29 +127,30 @@ void visit(Archive& archive, OverlayRequest& request) {
   });
 }
 
-void visit(Archive& archive, ComparisonScene::Check& check) {
+void visit(scenario::Archive& archive, ComparisonScene::Check& check) {
   archive.in_line();
-  archive.value({"name", "what reports call it"}, form(check.name));
+  archive.value({"name", "what reports call it"}, scenario::form(check.name));
   archive.require("name", "a check needs a name of its own");
-  archive.value({"expect", "over RUN.figure and RUN.passed"}, expression_form(check.expect));
+  archive.value({"expect", "over RUN.figure and RUN.passed"}, scenario::expression_form(check.expect));
   archive.require("expect", "add expect: \"abs(A.mean_length - B.mean_length) <= 0.1\" or the like");
 }
 
-void visit(Archive& archive, ComparisonScene& scene) {
-  archive.section({"scene", ""}, [&](Archive& inner) {
-    inner.value({"title", "what reports call it"}, form(scene.title));
+void visit(scenario::Archive& archive, ComparisonScene& scene) {
+  archive.section({"scene", ""}, [&](scenario::Archive& inner) {
+    inner.value({"title", "what reports call it"}, scenario::form(scene.title));
   });
   archive.section({"compare", "scenarios that are run and laid over each other"},
-                  [&](Archive& inner) { visit_compare(inner, scene); });
+                  [&](scenario::Archive& inner) { visit_compare(inner, scene); });
   archive.list({"checks", "what must hold between the runs"}, scene.checks);
-  archive.judge([&scene](MapReader& reader) {
-    refuse_same_name(scene.checks, "checks", same_name_remedy, reader.findings());
+  archive.judge([&scene](scenario::MapReader& reader) {
+    scenario::refuse_same_name(scene.checks, "checks", same_name_remedy, reader.findings());
   });
 }
 
 std::string expand(const ComparisonScene& scene) {
   // A visit takes what an archive may fill; this one fills nothing.
-  return yaml_of([&](Archive& archive) { visit(archive, const_cast<ComparisonScene&>(scene)); });
+  return scenario::yaml_of(
+      [&](scenario::Archive& archive) { visit(archive, const_cast<ComparisonScene&>(scene)); });
 }
 
 std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file, Problems& problems) {
@@ -154,21 +158,21 @@ std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file
   Problems ignored;
   const auto text = read_file(file, ignored);
   if (!text) return {};
-  Findings findings({file.string()});
-  const auto root = parse_yaml(*text, 0, findings);
-  if (!findings.empty() || child(root, "compare") == nullptr) return {};
+  scenario::Findings findings({file.string()});
+  const auto root = scenario::parse_yaml(*text, 0, findings);
+  if (!findings.empty() || scenario::child(root, "compare") == nullptr) return {};
   ComparisonScene scene;
   scene.file = file;
-  MapReader reader(root, "", findings);
+  scenario::MapReader reader(root, "", findings);
   visit(reader, scene);
   reader.finish();
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
   return scene;
 }
 
-Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                     const std::vector<Override>& overrides, Problems& problems) {
-  std::vector<Override> all;
+scenario::Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member& member,
+                               const std::vector<scenario::Override>& overrides, Problems& problems) {
+  std::vector<scenario::Override> all;
   for (const auto& [override, place] : member.set) all.push_back(override);
   all.insert(all.end(), overrides.begin(), overrides.end());
   const auto path = scene.file.parent_path() / member.scenario.text;
@@ -177,7 +181,7 @@ Scenario read_member(const ComparisonScene& scene, const ComparisonScene::Member
                                      "check the path; it is relative to the file that names it"));
     return {};
   }
-  return read_scenario(path, all, problems);
+  return scenario::read_scenario(path, all, problems);
 }
 
 void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member& member, Problems& problems) {
@@ -190,4 +194,4 @@ void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member&
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -10,7 +10,7 @@
 #include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/tune/metric.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -28,8 +28,9 @@ std::vector<std::string> names_only(const Names& channels) {
   return names;
 }
 
-void tell(const ComparisonScene& scene, const Text& text, const std::vector<ExpressionFault>& faults,
-          const std::string& prefix, Problems& problems) {
+void tell(const ComparisonScene& scene, const scenario::Text& text,
+          const std::vector<scenario::ExpressionFault>& faults, const std::string& prefix,
+          Problems& problems) {
   for (const auto& fault : faults) {
     auto problem = scene.problem(text.at(fault.offset), prefix + fault.what, fault.remedy);
     const bool said = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
@@ -47,22 +48,22 @@ std::string not_recorded(const ComparisonScene::Member& member) {
 /// A formula over channels: its number at one instant.
 class Formula {
  public:
-  Formula(const std::string& text, const Names& channels, std::vector<ExpressionFault>& faults) {
+  Formula(const std::string& text, const Names& channels, std::vector<scenario::ExpressionFault>& faults) {
     const auto resolve = [&](const std::string& name) -> const double* {
       if (unit_of(channels, name) == nullptr) return nullptr;
       slots_.push_back({name, 0});
       return &slots_.back().number;
     };
-    std::vector<ExpressionFault> own;
-    expression_ = Expression::compile("(" + text + ") >= 0", resolve, names_only(channels), own);
+    std::vector<scenario::ExpressionFault> own;
+    expression_ = scenario::Expression::compile("(" + text + ") >= 0", resolve, names_only(channels), own);
     for (auto& fault : own) {
       fault.offset -= std::min<std::size_t>(fault.offset, 1);
       faults.push_back(std::move(fault));
     }
   }
 
-  void over(const Recording& recording, Series<double>& numbers) {
-    std::vector<const Recording::Column*> columns;
+  void over(const loop::Recording& recording, loop::Series<double>& numbers) {
+    std::vector<const loop::Recording::Column*> columns;
     for (const auto& slot : slots_) columns.push_back(recording.column(slot.name));
     for (std::size_t row = 0; row < recording.times().size(); ++row) {
       for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].number = columns[i]->values[row];
@@ -76,7 +77,7 @@ class Formula {
     double number = 0;
   };
   std::deque<Slot> slots_;
-  std::optional<Expression> expression_;
+  std::optional<scenario::Expression> expression_;
 };
 
 /// What a member records, and what the scene makes of it.
@@ -96,7 +97,7 @@ void check_channels(const ComparisonScene& scene, const ComparisonScene::Member&
                         "give it another name"));
     }
     if (channel.of.text.empty()) continue;
-    std::vector<ExpressionFault> faults;
+    std::vector<scenario::ExpressionFault> faults;
     const Formula formula(channel.of.text, names.channels, faults);
     tell(scene, channel.of, faults, member.name.text + ": ", problems);
   }
@@ -107,7 +108,7 @@ void check_figures(const ComparisonScene& scene, const ComparisonScene::Member& 
   const auto channels = channels_of(member, names);
   for (const auto& figure : scene.figures) {
     if (figure.of.text.empty()) continue;
-    std::vector<ExpressionFault> faults;
+    std::vector<scenario::ExpressionFault> faults;
     const auto metric = Metric::compile(figure.of.text, Metric::Kind::number, names.events, faults);
     tell(scene, figure.of, faults, "", problems);
     if (!metric) continue;
@@ -121,14 +122,14 @@ void check_figures(const ComparisonScene& scene, const ComparisonScene::Member& 
 }
 
 bool has_value(const MemberNames& names, const std::string& event, const std::string& value) {
-  return std::any_of(names.events.begin(), names.events.end(), [&](const KnownEvent& known) {
-    return names_event(event, known.source, known.name) &&
+  return std::any_of(names.events.begin(), names.events.end(), [&](const loop::KnownEvent& known) {
+    return loop::names_event(event, known.source, known.name) &&
            (value.empty() || unit_of(known.values, value) != nullptr);
   });
 }
 
 void check_panel(const ComparisonScene& scene, const ComparisonScene::Member& member,
-                 const MemberNames& names, const PlotRequest::Panel& panel, Problems& problems) {
+                 const MemberNames& names, const scenario::PlotRequest::Panel& panel, Problems& problems) {
   const auto channels = channels_of(member, names);
   for (const auto* list : {&panel.channels, &panel.lanes}) {
     for (const auto& name : *list) {
@@ -177,10 +178,10 @@ std::deque<CheckOperand> operands_of(const ComparisonScene& scene) {
   return operands;
 }
 
-std::optional<Expression> compile_check(const ComparisonScene::Check& check,
-                                        const std::deque<CheckOperand>& operands,
-                                        std::vector<const CheckOperand*>& used,
-                                        std::vector<ExpressionFault>& faults) {
+std::optional<scenario::Expression> compile_check(const ComparisonScene::Check& check,
+                                                  const std::deque<CheckOperand>& operands,
+                                                  std::vector<const CheckOperand*>& used,
+                                                  std::vector<scenario::ExpressionFault>& faults) {
   std::vector<std::string> known;
   for (const auto& operand : operands) known.push_back(operand.name);
   const auto resolve = [&](const std::string& name) -> const double* {
@@ -191,21 +192,22 @@ std::optional<Expression> compile_check(const ComparisonScene::Check& check,
     }
     return nullptr;
   };
-  return Expression::compile(check.expect.text, resolve, known, faults);
+  return scenario::Expression::compile(check.expect.text, resolve, known, faults);
 }
 
 std::string operand_text(const CheckOperand& operand) {
   if (std::isnan(operand.number)) return fmt::format("{} has no value in the time looked at", operand.name);
-  return fmt::format("{}={:.6g}{}{}", operand.name, without_noise(operand.number),
+  return fmt::format("{}={:.6g}{}{}", operand.name, loop::without_noise(operand.number),
                      operand.unit.empty() ? "" : " ", operand.unit);
 }
 
-CheckResult result_of(const ComparisonScene::Check& check, const std::deque<CheckOperand>& operands) {
+loop::CheckResult result_of(const ComparisonScene::Check& check, const std::deque<CheckOperand>& operands) {
   std::vector<const CheckOperand*> used;
-  std::vector<ExpressionFault> faults;
+  std::vector<scenario::ExpressionFault> faults;
   const auto expression = compile_check(check, operands, used, faults);
-  const auto evaluation = expression ? expression->evaluate() : Evaluation{};
-  CheckResult result{check.name.text, check.expect.text, evaluation.holds, evaluation.margin, "", {}, ""};
+  const auto evaluation = expression ? expression->evaluate() : scenario::Evaluation{};
+  loop::CheckResult result{
+      check.name.text, check.expect.text, evaluation.holds, evaluation.margin, "", {}, ""};
   for (const auto* operand : used) {
     result.detail += (result.detail.empty() ? "" : "; ") + operand_text(*operand);
     const bool mixed = operand != used.front() && operand->unit != result.unit;
@@ -220,7 +222,7 @@ CheckResult result_of(const ComparisonScene::Check& check, const std::deque<Chec
 /// The run with the channels that the scene makes of what it recorded.
 void add_channels(const ComparisonScene::Member& member, const MemberNames& names, RunFolder& run) {
   for (const auto& channel : member.channels) {
-    std::vector<ExpressionFault> faults;
+    std::vector<scenario::ExpressionFault> faults;
     Formula formula(channel.of.text, names.channels, faults);
     formula.over(run.recording, run.recording.add(channel.name.text, channel.unit).values);
   }
@@ -228,17 +230,17 @@ void add_channels(const ComparisonScene::Member& member, const MemberNames& name
 
 double number_of(const ComparisonScene::FigureRequest& figure, const ComparisonScene& scene,
                  const MemberNames& names, const RunFolder& run) {
-  std::vector<ExpressionFault> faults;
+  std::vector<scenario::ExpressionFault> faults;
   auto metric = Metric::compile(figure.of.text, Metric::Kind::number, names.events, faults);
   return metric ? metric->value(run.recording, scene.from.value_or(0))
                 : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string verdict_of(const Comparison& comparison, const std::vector<CheckResult>& checks) {
+std::string verdict_of(const Comparison& comparison, const std::vector<loop::CheckResult>& checks) {
   const auto runs = std::count_if(comparison.runs.begin(), comparison.runs.end(),
                                   [](const RunFolder& run) { return !run.passed; });
-  const auto failed =
-      std::count_if(checks.begin(), checks.end(), [](const CheckResult& check) { return !check.passed; });
+  const auto failed = std::count_if(checks.begin(), checks.end(),
+                                    [](const loop::CheckResult& check) { return !check.passed; });
   const auto of_runs = runs == 0 ? std::string("every run passed")
                                  : fmt::format("{} of {} runs failed", runs, comparison.runs.size());
   if (checks.empty()) return of_runs;
@@ -250,7 +252,7 @@ std::string verdict_of(const Comparison& comparison, const std::vector<CheckResu
 
 }  // namespace
 
-MemberNames names_of(const Simulation& simulation) {
+MemberNames names_of(const loop::Simulation& simulation) {
   MemberNames names;
   for (const auto& column : simulation.recording().columns())
     names.channels.emplace_back(column.name, column.unit);
@@ -269,7 +271,7 @@ void check_comparison(const ComparisonScene& scene, const std::vector<MemberName
   for (const auto& check : scene.checks) {
     if (check.expect.text.empty()) continue;
     std::vector<const CheckOperand*> used;
-    std::vector<ExpressionFault> faults;
+    std::vector<scenario::ExpressionFault> faults;
     compile_check(check, operands, used, faults);
     tell(scene, check.expect, faults, "", problems);
   }
@@ -306,4 +308,4 @@ ComparedScene compare_members(const ComparisonScene& scene, const std::vector<Me
   return result;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -8,14 +8,14 @@
 #include "sim/studies/compare/report.hpp"
 #include "sim/studies/compare/scene.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// What a member of a comparison can be asked for.
 struct MemberNames {
   std::vector<std::pair<std::string, std::string>> channels;  ///< recorded: name, unit
-  std::vector<KnownEvent> events;
+  std::vector<loop::KnownEvent> events;
 };
-MemberNames names_of(const Simulation& simulation);
+MemberNames names_of(const loop::Simulation& simulation);
 
 /// Tells in `problems` what of the scene's channels, figures, plots and checks its members cannot give;
 /// `names` in the order of the members.
@@ -32,4 +32,4 @@ struct ComparedScene {
 ComparedScene compare_members(const ComparisonScene& scene, const std::vector<MemberNames>& names,
                               std::vector<RunFolder> runs);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -12,15 +12,15 @@
 #include "sim/report/statistics.hpp"
 #include "sim/scenario/expression_scan.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
-using Token = ExpressionToken::Kind;
+using Token = scenario::ExpressionToken::Kind;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// The value of an expression that was compiled as "(text) >= 0".
-double number_of(const Expression& expression) {
+double number_of(const scenario::Expression& expression) {
   const auto margin = expression.evaluate().margin;
   return margin ? *margin : nothing;
 }
@@ -33,7 +33,7 @@ double LoopFigures::*figure_of(std::string_view name) {
   return nullptr;
 }
 
-std::string list_of_values(const KnownEvent& event) {
+std::string list_of_values(const loop::KnownEvent& event) {
   std::string list;
   for (const auto& [name, unit] : event.values) list += (list.empty() ? "" : ", ") + name;
   return list;
@@ -45,12 +45,13 @@ std::string list_of_values(const KnownEvent& event) {
 // faults keep their place.
 class Metric::Compiler {
  public:
-  Compiler(std::string_view text, const std::vector<KnownEvent>& events, std::vector<ExpressionFault>& faults)
+  Compiler(std::string_view text, const std::vector<loop::KnownEvent>& events,
+           std::vector<scenario::ExpressionFault>& faults)
       : text_(text), formula_(text), events_(events), faults_(faults) {}
 
   std::optional<Metric> run(Metric::Kind kind) {
     const auto before = faults_.size();
-    tokens_ = scan_expression(text_, faults_);
+    tokens_ = scenario::scan_expression(text_, faults_);
     if (faults_.size() != before) return {};
     Metric metric;
     bool figures = false;
@@ -139,8 +140,8 @@ class Metric::Compiler {
       term.slots.push_back({named(text), 0});
       return &term.slots.back().number;
     };
-    std::vector<ExpressionFault> own;
-    term.expression = Expression::compile(wrapped, resolve, {}, own);
+    std::vector<scenario::ExpressionFault> own;
+    term.expression = scenario::Expression::compile(wrapped, resolve, {}, own);
     for (auto& found : own) {
       found.offset += begin;
       found.offset -= std::min<std::size_t>(found.offset, 1);
@@ -175,8 +176,9 @@ class Metric::Compiler {
       }
     }
     for (const auto& event : events_) {
-      const bool a_plant = std::any_of(events_.begin(), events_.end(),
-                                       [&](const KnownEvent& other) { return other.source == event.name; });
+      const bool a_plant = std::any_of(events_.begin(), events_.end(), [&](const loop::KnownEvent& other) {
+        return other.source == event.name;
+      });
       if (a_plant || !text.starts_with(event.name + ".")) continue;
       fault(text_.find(text),
             fmt::format("the event {} has no value '{}'", event.name, text.substr(event.name.size() + 1)),
@@ -187,8 +189,8 @@ class Metric::Compiler {
   }
 
   void read_band(Term& term, std::size_t begin, std::size_t end) {
-    std::vector<ExpressionFault> own;
-    const auto band = Expression::compile(
+    std::vector<scenario::ExpressionFault> own;
+    const auto band = scenario::Expression::compile(
         fmt::format("({}) >= 0", text_.substr(begin, end - begin)),
         [](const std::string&) -> const double* { return nullptr; }, {}, own);
     if (band) term.band = number_of(*band);
@@ -196,7 +198,7 @@ class Metric::Compiler {
       fault(begin, "the band of settling is no number from 0 on", "for example settling(AxisX.follerr, 10)");
   }
 
-  std::optional<Expression> outer(Metric& metric, Metric::Kind kind) {
+  std::optional<scenario::Expression> outer(Metric& metric, Metric::Kind kind) {
     const bool number = kind == Metric::Kind::number;
     const auto resolve = [&](const std::string& name) -> const double* {
       for (std::size_t i = 0; i < metric.terms_.size(); ++i)
@@ -206,13 +208,14 @@ class Metric::Compiler {
     };
     if (number) {
       for (const auto& token : tokens_)
-        if (is_relation(token) || token.text == "==" || token.text == "&&" || token.text == "||") {
+        if (scenario::is_relation(token) || token.text == "==" || token.text == "&&" || token.text == "||") {
           fault(token.offset, "a metric is a number, not a comparison", "put limits into --constraint");
           return {};
         }
     }
-    std::vector<ExpressionFault> own;
-    auto made = Expression::compile(number ? "(" + formula_ + ") >= 0" : formula_, resolve, {}, own);
+    std::vector<scenario::ExpressionFault> own;
+    auto made =
+        scenario::Expression::compile(number ? "(" + formula_ + ") >= 0" : formula_, resolve, {}, own);
     for (auto& found : own) {
       if (number) found.offset -= std::min<std::size_t>(found.offset, 1);
       faults_.push_back(std::move(found));
@@ -226,13 +229,14 @@ class Metric::Compiler {
 
   std::string_view text_;
   std::string formula_;
-  const std::vector<KnownEvent>& events_;
-  std::vector<ExpressionFault>& faults_;
-  ExpressionTokens tokens_;
+  const std::vector<loop::KnownEvent>& events_;
+  std::vector<scenario::ExpressionFault>& faults_;
+  scenario::ExpressionTokens tokens_;
 };
 
-std::optional<Metric> Metric::compile(std::string_view text, Kind kind, const std::vector<KnownEvent>& events,
-                                      std::vector<ExpressionFault>& faults) {
+std::optional<Metric> Metric::compile(std::string_view text, Kind kind,
+                                      const std::vector<loop::KnownEvent>& events,
+                                      std::vector<scenario::ExpressionFault>& faults) {
   return Compiler(text, events, faults).run(kind);
 }
 
@@ -245,16 +249,16 @@ std::vector<MetricName> Metric::names() const {
   return all;
 }
 
-Metric::Numbers Metric::series_of(Term& term, const Recording& recording, Time from) {
+Metric::Numbers Metric::series_of(Term& term, const loop::Recording& recording, Time from) {
   Numbers series;
   const auto add = [&](double time) {
     series.times.push_back(time);
     series.numbers.push_back(number_of(*term.expression));
   };
   if (!term.slots[0].name.event.empty()) {
-    std::vector<EventNumbers> values;
+    std::vector<report::EventNumbers> values;
     for (const auto& [name, number] : term.slots)
-      values.push_back(event_numbers(recording.events(), name.event, name.value, seconds(from)));
+      values.push_back(report::event_numbers(recording.events(), name.event, name.value, seconds(from)));
     const auto rows = std::ranges::min(values, {}, [](const auto& v) { return v.times.size(); }).times.size();
     for (std::size_t row = 0; row < rows; ++row) {
       for (std::size_t i = 0; i < values.size(); ++i) term.slots[i].number = values[i].numbers[row];
@@ -262,7 +266,7 @@ Metric::Numbers Metric::series_of(Term& term, const Recording& recording, Time f
     }
     return series;
   }
-  std::vector<const Series<double>*> columns;
+  std::vector<const loop::Series<double>*> columns;
   for (const auto& slot : term.slots) {
     const auto* column = recording.column(slot.name.text);
     if (column == nullptr) return {};
@@ -291,7 +295,7 @@ double Metric::reduce(const Term& term, const Numbers& series, double from) {
     case Function::rms:
       return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0) / n);
     case Function::sd:
-      return x.size() < 2 ? nothing : statistics(x)[3];
+      return x.size() < 2 ? nothing : report::statistics(x)[3];
     case Function::settling:
     case Function::count:
       break;
@@ -305,7 +309,7 @@ double Metric::reduce(const Term& term, const Numbers& series, double from) {
 
 bool Metric::needs_loop() const { return !figures_.empty(); }
 
-double Metric::value(const Recording& recording, Time from, const LoopFigures& loop) {
+double Metric::value(const loop::Recording& recording, Time from, const LoopFigures& loop) {
   for (auto& figure : figures_) {
     figure.number = loop.*figure.figure;
     if (std::isnan(figure.number)) return nothing;
@@ -317,4 +321,4 @@ double Metric::value(const Recording& recording, Time from, const LoopFigures& l
   return number_of(*formula_);
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

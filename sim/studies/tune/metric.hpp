@@ -10,7 +10,7 @@
 #include "sim/loop/recorder.hpp"
 #include "sim/scenario/expression.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// What a metric looks at: a channel, or a value of every event.
 struct MetricName {
@@ -45,12 +45,12 @@ class Metric {
   /// Compiles `text`; what is wrong is added to `faults`, and then nothing is returned. Channels are not
   /// looked up here.
   static std::optional<Metric> compile(std::string_view text, Kind kind,
-                                       const std::vector<KnownEvent>& events,
-                                       std::vector<ExpressionFault>& faults);
+                                       const std::vector<loop::KnownEvent>& events,
+                                       std::vector<scenario::ExpressionFault>& faults);
 
   /// A number: its value. A limit: the room left, negative beyond it. Over instants and events from `from`
   /// on; the channels must have been recorded. NaN where a term has nothing to look at.
-  [[nodiscard]] double value(const Recording& recording, Time from, const LoopFigures& loop = {});
+  [[nodiscard]] double value(const loop::Recording& recording, Time from, const LoopFigures& loop = {});
   /// True if a figure of the loop is in it.
   [[nodiscard]] bool needs_loop() const;
   /// Every name, once.
@@ -65,7 +65,7 @@ class Metric {
   struct Term {
     Function function = Function::max;
     std::deque<Slot> slots;
-    std::optional<Expression> expression;  ///< margin = the value
+    std::optional<scenario::Expression> expression;  ///< margin = the value
     double band = 0;
     double result = 0;
   };
@@ -79,12 +79,12 @@ class Metric {
   };
   class Compiler;
 
-  static Numbers series_of(Term& term, const Recording& recording, Time from);
+  static Numbers series_of(Term& term, const loop::Recording& recording, Time from);
   static double reduce(const Term& term, const Numbers& series, double from);
 
   std::deque<Term> terms_;
   std::deque<Figure> figures_;
-  std::optional<Expression> formula_;
+  std::optional<scenario::Expression> formula_;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -13,7 +13,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/scenario/units.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -57,7 +57,7 @@ class Reader {
     }
     const bool is_percent = rest.ends_with('%');
     if (is_percent) rest.remove_suffix(1);
-    const auto number = parse_quantity(rest);
+    const auto number = scenario::parse_quantity(rest);
     if (!is_percent || !number || !number->unit.empty() || !(number->number > 0) ||
         !std::isfinite(number->number)) {
       return refuse(offset, fmt::format("'{}' is no spread", range), "write ±30% or LO..HI");
@@ -75,8 +75,8 @@ class Reader {
                     relative ? "write ±30% or LO..HI" : "write LO..HI, such as 1..100 or 100..400 rad/s");
     }
     const auto high_at = offset + dots + 2;
-    const auto low = parse_quantity(trimmed(range.substr(0, dots)));
-    const auto high = parse_quantity(trimmed(range.substr(dots + 2)));
+    const auto low = scenario::parse_quantity(trimmed(range.substr(0, dots)));
+    const auto high = scenario::parse_quantity(trimmed(range.substr(dots + 2)));
     if (!low || !std::isfinite(low->number))
       return refuse(offset, fmt::format("'{}' is no number", range.substr(0, dots)), "such as 1 or 0.5");
     if (!high || !std::isfinite(high->number))
@@ -104,7 +104,7 @@ class Reader {
 };
 
 /// What the scenario sets before power-up; nullptr without a controller.
-const std::vector<std::pair<Text, double>>* preset_of(const Scenario& scenario) {
+const std::vector<std::pair<scenario::Text, double>>* preset_of(const scenario::Scenario& scenario) {
   return scenario.controller ? &scenario.controller->set : nullptr;
 }
 
@@ -113,9 +113,9 @@ struct StartValue {
   std::unique_ptr<devices::Controller> controller;
   std::optional<devices::ControllerValue> value;
 };
-StartValue value_at_start(const Scenario& scenario, const std::string& name) {
+StartValue value_at_start(const scenario::Scenario& scenario, const std::string& name) {
   Problems ignored;  // the scenario's own problems have been told
-  StartValue start{load_controller(scenario, ignored), {}};
+  StartValue start{loop::load_controller(scenario, ignored), {}};
   if (start.controller) start.value = start.controller->find(name);
   return start;
 }
@@ -126,7 +126,7 @@ struct PlantValue {
   double si = 0;
   bool integer = false;
 };
-std::optional<PlantValue> plant_value(const std::string& path, const Scenario& scenario) {
+std::optional<PlantValue> plant_value(const std::string& path, const scenario::Scenario& scenario) {
   for (const auto& plant : scenario.plants) {
     const auto prefix = "plants." + plant.name.text + ".";
     if (!path.starts_with(prefix)) continue;
@@ -134,7 +134,7 @@ std::optional<PlantValue> plant_value(const std::string& path, const Scenario& s
       if (row.name != path.substr(prefix.size())) continue;
       if (const auto* number = std::get_if<double*>(&row.value)) return PlantValue{row, **number, false};
       if (const auto* number = std::get_if<int*>(&row.value))
-        return PlantValue{row, to_si(static_cast<double>(**number), row.unit), true};
+        return PlantValue{row, scenario::to_si(static_cast<double>(**number), row.unit), true};
     }
   }
   return {};
@@ -151,15 +151,15 @@ std::string value_text(const TunedParameter& parameter, double value) {
   return parameter.unit.empty() ? fmt::format("{}", value) : fmt::format("{} {}", value, parameter.unit);
 }
 
-std::vector<Override> overrides_of(const TunedParameters& parameters, const Point& point) {
-  std::vector<Override> overrides;
+std::vector<scenario::Override> overrides_of(const TunedParameters& parameters, const Point& point) {
+  std::vector<scenario::Override> overrides;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     overrides.push_back({parameters[i].path, value_text(parameters[i], point[i])});
   return overrides;
 }
 
 std::optional<PresetName> preset_name(const std::string& path) {
-  for (const auto& kind : controller_kinds()) {
+  for (const auto& kind : controllers::controller_kinds()) {
     const auto prefix = fmt::format("controller.{}.set.", kind.name);
     if (path.starts_with(prefix)) return PresetName{std::string(kind.name), path.substr(prefix.size())};
   }
@@ -172,12 +172,13 @@ std::string short_name(const TunedParameter& parameter) {
   return parameter.path.starts_with(plants) ? parameter.path.substr(plants.size()) : parameter.path;
 }
 
-std::optional<double> present_value(TunedParameter& parameter, const Scenario& scenario) {
+std::optional<double> present_value(TunedParameter& parameter, const scenario::Scenario& scenario) {
   if (const auto found = plant_value(parameter.path, scenario)) {
     if (found->integer) parameter.integer = true;
     if (parameter.unit.empty()) parameter.unit = found->row.unit;
-    if (!is_unit(parameter.unit) || !same_dimension(parameter.unit, found->row.unit)) return {};
-    return from_si(found->si, parameter.unit);
+    if (!scenario::is_unit(parameter.unit) || !scenario::same_dimension(parameter.unit, found->row.unit))
+      return {};
+    return scenario::from_si(found->si, parameter.unit);
   }
   const auto preset = preset_name(parameter.path);
   const auto* values = preset ? preset_of(scenario) : nullptr;
@@ -190,7 +191,8 @@ std::optional<double> present_value(TunedParameter& parameter, const Scenario& s
   return start.value ? std::optional(start.value->read()) : std::nullopt;
 }
 
-void check_against_controller(TunedParameter& parameter, const Scenario& scenario, Problems& problems) {
+void check_against_controller(TunedParameter& parameter, const scenario::Scenario& scenario,
+                              Problems& problems) {
   const auto preset = preset_name(parameter.path);
   if (!preset) return;
   const auto [controller, value] = value_at_start(scenario, preset->value);
@@ -240,4 +242,4 @@ std::vector<Point> latin_hypercube(const TunedParameters& parameters, int count,
   return points;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

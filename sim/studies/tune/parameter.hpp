@@ -7,7 +7,7 @@
 #include "plants/random.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// A value of the scenario that the tuning may change, by its override path.
 struct TunedParameter {
@@ -34,7 +34,7 @@ std::optional<TunedParameter> parse_parameter(const std::string& text, const std
 /// "87", "250 rad/s": as `--set` and the scenario take it.
 std::string value_text(const TunedParameter& parameter, double value);
 /// `point` as overrides of the scenario.
-std::vector<Override> overrides_of(const TunedParameters& parameters, const Point& point);
+std::vector<scenario::Override> overrides_of(const TunedParameters& parameters, const Point& point);
 /// A value of the controller that a path names: below the `set` of its section.
 struct PresetName {
   std::string section;  ///< "qmove", "lx3vp", "plcopen"
@@ -47,9 +47,10 @@ std::string short_name(const TunedParameter& parameter);
 /// The parameter's value in the scenario as it stands, in its unit (which is filled in from the plant's table
 /// if none was given); nullopt if the scenario does not say it (a gain that the QCL sets). Also makes an
 /// integer of a parameter that is one.
-std::optional<double> present_value(TunedParameter& parameter, const Scenario& scenario);
+std::optional<double> present_value(TunedParameter& parameter, const scenario::Scenario& scenario);
 /// Tells bounds that the controller's variable does not take: its range, its size, read-only.
-void check_against_controller(TunedParameter& parameter, const Scenario& scenario, Problems& problems);
+void check_against_controller(TunedParameter& parameter, const scenario::Scenario& scenario,
+                              Problems& problems);
 
 /// Point of the unit cube to values, integers rounded.
 Point from_unit(const TunedParameters& parameters, const std::vector<double>& unit);
@@ -58,4 +59,4 @@ std::vector<double> to_unit(const TunedParameters& parameters, const Point& poin
 /// parts, and each part is met once.
 std::vector<Point> latin_hypercube(const TunedParameters& parameters, int count, plants::Random random);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -8,7 +8,7 @@
 
 #include "sim/scenario/format.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -67,7 +67,7 @@ std::string yaml_of(std::vector<Entry> entries) {
         std::mismatch(keys.begin(), keys.end() - 1, open.begin(), open.end()).first - keys.begin();
     for (auto i = static_cast<std::size_t>(same); i < keys.size(); ++i) {
       const auto end = i + 1 == keys.size() ? fmt::format(" {}  # {}", value, who) : std::string();
-      text += fmt::format("{:{}}{}:{}\n", "", 2 * i, yaml_text(keys[i]), end);
+      text += fmt::format("{:{}}{}:{}\n", "", 2 * i, scenario::yaml_text(keys[i]), end);
     }
     open = std::move(keys);
   }
@@ -105,4 +105,4 @@ std::string patch_text(const Tuning& tuning) {
   return text + "# Or for drycut run\n" + arguments + "\n";
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -9,7 +9,7 @@
 #include "renders/decimate.hpp"
 #include "sim/report/gallery_plots.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -17,12 +17,12 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
-renders::Curve curve_of(const Recording& recording, const MetricName& name, Time from, std::string label,
-                        std::string& unit) {
+renders::Curve curve_of(const loop::Recording& recording, const MetricName& name, Time from,
+                        std::string label, std::string& unit) {
   renders::Curve curve;
   curve.label = std::move(label);
   if (!name.event.empty()) {
-    auto found = event_numbers(recording.events(), name.event, name.value, seconds(from));
+    auto found = report::event_numbers(recording.events(), name.event, name.value, seconds(from));
     renders::thin(found.times, found.numbers);
     unit = found.unit;
     curve.style = renders::Curve::Style::points;
@@ -33,7 +33,7 @@ renders::Curve curve_of(const Recording& recording, const MetricName& name, Time
   const auto* column = recording.column(name.text);
   if (column == nullptr) return curve;
   unit = column->unit;
-  auto of_time = channel_curve(recording, *column, rows_between(recording, from, {}));
+  auto of_time = report::channel_curve(recording, *column, report::rows_between(recording, from, {}));
   of_time.label = std::move(curve.label);
   return of_time;
 }
@@ -46,7 +46,7 @@ renders::Plot before_after(const Tuning& tuning, std::size_t index) {
       tuning.study.cases.size() == 1 ? "before_after" : fmt::format("before_after_{}_{}", index + 1, stem);
   plot.title = fmt::format("Before and after: {}", stem);
   const auto& times = tuning.runs_before[index].recording;
-  plot.x_label = time_label(times, rows_between(times, tuning.study.from, {}));
+  plot.x_label = report::time_label(times, report::rows_between(times, tuning.study.from, {}));
   for (const auto& name : names_of(tuning.study, entry)) {
     renders::Panel panel;
     std::string unit;
@@ -168,4 +168,4 @@ std::vector<renders::Plot> tuning_plots(const Tuning& tuning) {
   return plots;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

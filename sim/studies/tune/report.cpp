@@ -12,7 +12,7 @@
 #include "sim/studies/tune/patch.hpp"
 #include "sim/studies/tune/plots.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -247,11 +247,11 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
       fmt::format("{}{} from {} to {}; limits: {}", miss.empty() ? "" : miss + "; ", tuning.study.minimise,
                   metric_text(tuning.before), metric_text(after), limits_text(after));
   report.facts = {{{"trials", fmt::format("{}", tuning.trials.trials().size())}},
-                  {{"measured from", fmt::format("{} s", seconds_text(tuning.study.from))}},
+                  {{"measured from", fmt::format("{} s", loop::seconds_text(tuning.study.from))}},
                   {{"drycut", DRYCUT_VERSION}}};
-  add_overrides(tuning.study.set, report);
+  report::add_overrides(tuning.study.set, report);
   for (const auto& run : tuning.runs_after) {
-    add_checks(run.outcome.checks, report);
+    report::add_checks(run.outcome.checks, report);
     report.scenario_expanded += run.expanded;
   }
   report.summary = {before_after(tuning), values(tuning)};
@@ -260,9 +260,9 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder) {
   if (tuning.spread != nullptr) report.tables.push_back(spread_table(tuning));
   if (auto why = reasons_table(tuning); !why.rows.empty()) report.tables.push_back(std::move(why));
   report.tables.push_back(trials_table(tuning));
-  add_plots(tuning_plots(tuning), folder, report);
+  report::add_plots(tuning_plots(tuning), folder, report);
   report.live.clear();  // pictures only
-  renders::write_report(report, folder.add(report_file));
+  renders::write_report(report, folder.add(report::report_file));
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

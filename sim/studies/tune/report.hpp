@@ -9,7 +9,7 @@
 #include "sim/studies/tune/study.hpp"
 #include "sim/studies/tune/trials.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// All that a tuning found out.
 struct Tuning {
@@ -34,4 +34,4 @@ void write_tuning_report(const Tuning& tuning, OutputFolder& folder);
 /// Index of the worst trial of the spread.
 std::size_t worst_of(const Trials& spread);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

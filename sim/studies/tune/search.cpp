@@ -7,7 +7,7 @@
 #include <nlopt.hpp>
 #include <numeric>
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<Slice> look_around(Trials& trials, std::size_t& best) {
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

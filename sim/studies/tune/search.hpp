@@ -4,7 +4,7 @@
 
 #include "sim/studies/tune/trials.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// Looks for the values with the least metric that keep all limits: a Latin hypercube over two fifths of
 /// `budget` (and `start`, where known and inside), several runs at the same time; then subplex (NLopt) from
@@ -23,4 +23,4 @@ struct Slice {
 /// there, `best` moves and the surroundings are tried again (at most eight times).
 std::vector<Slice> look_around(Trials& trials, std::size_t& best);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

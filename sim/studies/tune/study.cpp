@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -21,7 +21,7 @@ struct Gauge {
 std::vector<Gauge> gauges(const Study& study, const Study::Case& scenario, Problems& problems) {
   std::vector<Gauge> made;
   const auto add = [&](const std::string& option, const std::string& text, Metric::Kind kind) {
-    std::vector<ExpressionFault> faults;
+    std::vector<scenario::ExpressionFault> faults;
     auto metric = Metric::compile(text, kind, scenario.events, faults);
     for (auto& fault : faults)
       problems.push_back({option, 1, static_cast<int>(fault.offset) + 1, fault.what, fault.remedy});
@@ -33,24 +33,24 @@ std::vector<Gauge> gauges(const Study& study, const Study::Case& scenario, Probl
 }
 
 /// Records what the gauges look at; a channel that does not exist is told at its place in the gauge.
-void record_names(Scenario& scenario, const std::vector<Gauge>& all) {
+void record_names(scenario::Scenario& scenario, const std::vector<Gauge>& all) {
   for (const auto& gauge : all) {
     const auto source = static_cast<int>(scenario.sources.size());
     scenario.sources.push_back(gauge.option);
     for (const auto& name : gauge.metric.names()) {
       if (!name.event.empty()) continue;
-      const Place place{1, static_cast<int>(name.offset) + 1, source};
+      const scenario::Place place{1, static_cast<int>(name.offset) + 1, source};
       scenario.record.channels.push_back({name.text, place});
     }
   }
 }
 
 /// A scenario of the study, ready to run: only what is measured is recorded, nothing is drawn.
-Scenario read_case(const Study& study, const Study::Case& scenario, const std::vector<Override>& overrides,
-                   Problems& problems) {
+scenario::Scenario read_case(const Study& study, const Study::Case& scenario,
+                             const std::vector<scenario::Override>& overrides, Problems& problems) {
   auto all = study.set;
   all.insert(all.end(), overrides.begin(), overrides.end());
-  auto read = read_scenario_text(scenario.text, scenario.file, all, problems);
+  auto read = scenario::read_scenario_text(scenario.text, scenario.file, all, problems);
   read.pictures = {};
   read.record.channels.clear();
   return read;
@@ -70,7 +70,7 @@ void stop(Verdict& verdict, std::string why) {
   if (verdict.note.empty()) verdict.note = std::move(why);
 }
 
-void judge_checks(const Outcome& outcome, Verdict& verdict) {
+void judge_checks(const loop::Outcome& outcome, Verdict& verdict) {
   for (const auto& check : outcome.checks) {
     if (check.passed) continue;
     ++verdict.failed_checks;
@@ -87,8 +87,8 @@ void judge_limit(const Gauge& gauge, double room, double& worst, Verdict& verdic
 }
 
 /// Measures the loop and judges the constraints on it.
-void judge_loop(const Study& study, const Scenario& scenario, std::vector<Gauge>& all,
-                const Recording& recording, Verdict& verdict) {
+void judge_loop(const Study& study, const scenario::Scenario& scenario, std::vector<Gauge>& all,
+                const loop::Recording& recording, Verdict& verdict) {
   Problems problems;
   const auto loop = measure_loop(scenario, study.loop, problems);
   if (!loop) return stop(verdict, to_string(problems.front()));
@@ -123,15 +123,15 @@ void judge_loop(const Study& study, const Scenario& scenario, std::vector<Gauge>
   }
 }
 
-void measure_case(const Study& study, const Study::Case& entry, const std::vector<Override>& overrides,
-                  double to_beat, Verdict& verdict) {
+void measure_case(const Study& study, const Study::Case& entry,
+                  const std::vector<scenario::Override>& overrides, double to_beat, Verdict& verdict) {
   Problems problems;
   auto scenario = read_case(study, entry, overrides, problems);
   auto all = gauges(study, entry, problems);
   record_names(scenario, all);
   if (!scenario.buildable || !problems.empty())
     return stop(verdict, problems.empty() ? "cannot be built" : to_string(problems.front()));
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   if (!problems.empty()) return stop(verdict, to_string(problems.front()));
   ++verdict.runs;
   const auto outcome = simulation.run();
@@ -165,7 +165,7 @@ double Verdict::rank() const {
   return metric / (1 + std::abs(metric));  // monotone, in (-1, 1)
 }
 
-Verdict measure(const Study& study, const std::vector<Override>& overrides, double to_beat) {
+Verdict measure(const Study& study, const std::vector<scenario::Override>& overrides, double to_beat) {
   Verdict verdict;
   verdict.metric = std::numeric_limits<double>::quiet_NaN();
   verdict.room.assign(study.constraints.size(), std::numeric_limits<double>::quiet_NaN());
@@ -173,18 +173,19 @@ Verdict measure(const Study& study, const std::vector<Override>& overrides, doub
   return verdict;
 }
 
-KeptRun keep_run(const Study& study, const Study::Case& entry, const std::vector<Override>& overrides) {
+KeptRun keep_run(const Study& study, const Study::Case& entry,
+                 const std::vector<scenario::Override>& overrides) {
   Problems problems;
   auto scenario = read_case(study, entry, overrides, problems);
   record_names(scenario, gauges(study, entry, problems));
   if (!problems.empty() || !scenario.buildable)
     throw std::runtime_error(problems.empty() ? "cannot be built" : to_string(problems.front()));
-  Simulation simulation(scenario, problems);
+  loop::Simulation simulation(scenario, problems);
   if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
   KeptRun kept;
   kept.outcome = simulation.run();
   kept.recording = simulation.take_recording();
-  kept.expanded = expand(scenario);
+  kept.expanded = scenario::expand(scenario);
   return kept;
 }
 
@@ -202,9 +203,9 @@ void prepare(Study& study, Problems& problems) {
   for (auto& entry : study.cases) {
     // As it stands first: everything that is wrong with the scenario itself.
     const auto before = problems.size();
-    const auto scenario = read_scenario_text(entry.text, entry.file, study.set, problems);
+    const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, problems);
     if (!scenario.buildable) continue;
-    const Simulation simulation(scenario, problems);
+    const loop::Simulation simulation(scenario, problems);
     entry.events = simulation.known_events();
     if (problems.size() != before) continue;
     if (study.from >= scenario.scene.duration)
@@ -216,7 +217,7 @@ void prepare(Study& study, Problems& problems) {
     Problems of_gauges;
     const auto all = gauges(study, entry, of_gauges);
     record_names(measured, all);
-    const Simulation probe(measured, of_gauges);
+    const loop::Simulation probe(measured, of_gauges);
     study.needs_loop = study.needs_loop || std::any_of(all.begin(), all.end(), [](const Gauge& gauge) {
                          return gauge.metric.needs_loop();
                        });
@@ -228,4 +229,4 @@ void prepare(Study& study, Problems& problems) {
   }
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

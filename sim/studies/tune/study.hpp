@@ -10,17 +10,17 @@
 #include "sim/studies/bode/loop.hpp"
 #include "sim/studies/tune/metric.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 /// What is measured on which scenarios: all that a tuning holds fixed.
 struct Study {
   struct Case {
     std::filesystem::path file;
-    std::string text;                ///< of the file, read once
-    std::vector<KnownEvent> events;  ///< that its plants can report
+    std::string text;                      ///< of the file, read once
+    std::vector<loop::KnownEvent> events;  ///< that its plants can report
   };
   std::vector<Case> cases;
-  std::vector<Override> set;  ///< applied before what the tuning changes
+  std::vector<scenario::Override> set;  ///< applied before what the tuning changes
   std::string minimise;
   std::vector<std::string> constraints;
   LoopRequest loop;         ///< how the figures of the loop are measured
@@ -51,18 +51,19 @@ struct Verdict {
 
 /// One run of one scenario, kept to be looked at.
 struct KeptRun {
-  Recording recording;
-  Outcome outcome;
+  loop::Recording recording;
+  loop::Outcome outcome;
   std::string expanded;  ///< the scenario with every value in force
 };
 
 /// Runs all scenarios of `study` with `overrides` on top. The loop is measured last, and only where the
 /// values keep all other limits and their metric is less than `to_beat`: it takes longer than all the rest.
-Verdict measure(const Study& study, const std::vector<Override>& overrides,
+Verdict measure(const Study& study, const std::vector<scenario::Override>& overrides,
                 double to_beat = std::numeric_limits<double>::infinity());
 /// The run of one scenario with the channels that metric and constraints look at; throws
 /// std::runtime_error if it cannot be built.
-KeptRun keep_run(const Study& study, const Study::Case& scenario, const std::vector<Override>& overrides);
+KeptRun keep_run(const Study& study, const Study::Case& scenario,
+                 const std::vector<scenario::Override>& overrides);
 
 /// Every name that metric and constraints look at, once.
 std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario);
@@ -71,4 +72,4 @@ std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario
 /// constraints.
 void prepare(Study& study, Problems& problems);
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

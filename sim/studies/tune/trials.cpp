@@ -16,7 +16,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 namespace {
 
@@ -58,7 +58,7 @@ std::string row_of(std::size_t number, const Trials::Trial& trial) {
 
 }  // namespace
 
-Trials::Trials(const Study& study, TunedParameters parameters, std::vector<Override> fixed,
+Trials::Trials(const Study& study, TunedParameters parameters, std::vector<scenario::Override> fixed,
                std::filesystem::path file, int jobs, std::function<void(int)> progress)
     : study_(study),
       parameters_(std::move(parameters)),
@@ -83,9 +83,9 @@ std::string Trials::fingerprint() const {
   for (const auto& override : fixed_) hash.add(override.path + "=" + override.value);
   for (const auto& entry : study_.cases) {
     Problems problems;
-    const auto scenario = read_scenario_text(entry.text, entry.file, study_.set, problems);
+    const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study_.set, problems);
     hash.add(expand(scenario));
-    for (const auto& name : controller_files(scenario)) {
+    for (const auto& name : loop::controller_files(scenario)) {
       const auto text = read_file(entry.file.parent_path() / name.text, problems);
       hash.add(text ? *text : "");
     }
@@ -113,7 +113,7 @@ void Trials::load() {
   if (all.starts_with(first)) {
     const auto rest = std::string_view(all).substr(first.size(), all.rfind('\n') + 1 - first.size());
     Problems ignored;
-    TableProblems broken(file_.string(), ignored);
+    cams::TableProblems broken(file_.string(), ignored);
     CsvRows rows(rest, broken);
     for (CsvRow row; rows.next(row);) {
       const auto trial = trial_of(row);
@@ -219,4 +219,4 @@ std::size_t Trials::best() const {
   return best;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -12,7 +12,7 @@
 #include "sim/studies/tune/parameter.hpp"
 #include "sim/studies/tune/study.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 
 struct CsvRow;
 
@@ -27,7 +27,7 @@ class Trials {
   };
   /// `fixed` is set before the point's values; `progress` is told the runs so far. Throws std::runtime_error
   /// if the file cannot be written.
-  Trials(const Study& study, TunedParameters parameters, std::vector<Override> fixed,
+  Trials(const Study& study, TunedParameters parameters, std::vector<scenario::Override> fixed,
          std::filesystem::path file, int jobs, std::function<void(int)> progress = {});
 
   /// Tries all of `points`, several at the same time; returns the index of each in trials(). `to_beat`: see
@@ -57,7 +57,7 @@ class Trials {
 
   const Study& study_;
   TunedParameters parameters_;
-  std::vector<Override> fixed_;
+  std::vector<scenario::Override> fixed_;
   std::filesystem::path file_;
   int jobs_;
   std::function<void(int)> progress_;
@@ -69,4 +69,4 @@ class Trials {
   int simulated_ = 0;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -8,7 +8,7 @@
 #include "sim/cams/mc_camin/judge.hpp"
 #include "tests/sim/cams/told.hpp"
 
-namespace drycut::sim::camin {
+namespace drycut::sim::cams::camin {
 
 /// Reads a table that has no fault.
 inline CamFile table(const std::string& text) {
@@ -38,4 +38,4 @@ inline std::string knife(const std::string& settings = "# endless: positive\n") 
          "master,slave\n0,0\n1200000,720000\n";
 }
 
-}  // namespace drycut::sim::camin
+}  // namespace drycut::sim::cams::camin

@@ -7,7 +7,7 @@
 #include "tests/sim/cams/camin_bench.hpp"
 #include "tests/sim/cams/command_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 namespace fs = std::filesystem;
@@ -16,10 +16,10 @@ using testing::Not;
 
 struct CamInCommand : CamCommandTest {
   /// The samples at these master positions, line by line, without the header.
-  std::vector<std::vector<double>> samples(CamOptions made, std::vector<double> at) {
+  std::vector<std::vector<double>> samples(cli::CamOptions made, std::vector<double> at) {
     made.csv = "-";
     made.at = std::move(at);
-    EXPECT_NE(run(made), bad_input) << err;
+    EXPECT_NE(run(made), cli::bad_input) << err;
     std::istringstream lines(out);
     std::string line;
     std::getline(lines, line);
@@ -49,9 +49,9 @@ TEST_F(CamInCommand, TheShippedCamsAreSoundAtTheirSpeed) {
         Shipped{"mc_flying_saw_2m.csv", 667, "200 rows, POLYNOM_3_KOEFF, one pass"}}) {
     auto made = options(shipped_cams / cam.name);
     made.strict = true;
-    EXPECT_EQ(run(made), all_passed) << out << err;
+    EXPECT_EQ(run(made), cli::all_passed) << out << err;
     made.duty.master_speed = cam.speed;
-    EXPECT_EQ(run(made), all_passed) << out << err;
+    EXPECT_EQ(run(made), cli::all_passed) << out << err;
     EXPECT_THAT(out, HasSubstr(cam.says));
   }
 }
@@ -101,7 +101,7 @@ TEST_F(CamInCommand, TheKnifesSamplesAreTheClosedForm) {
 TEST_F(CamInCommand, TheReportNamesPiecesAndKnots) {
   auto made = options(shipped_cams / "mc_rotary_knife.tab");
   made.duty.master_speed = 1000;
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_THAT(out,
               HasSubstr("master turn 8000000 (800 mm), slave turn 3600000 (360 deg); master at 1000 mm/s\n"));
   EXPECT_THAT(out, testing::ContainsRegex("1 +0 +0  line +600 +600 +600 +0 +0\n"));
@@ -113,71 +113,71 @@ TEST_F(CamInCommand, TheReportNamesPiecesAndKnots) {
 }
 
 TEST_F(CamInCommand, AMastersTurnThatTheFileDoesNotGiveIsSaidToBeAssumed) {
-  EXPECT_EQ(run(options_of("slave\n0\n1000\n")), all_passed);
+  EXPECT_EQ(run(options_of("slave\n0\n1000\n")), cli::all_passed);
   EXPECT_THAT(
       out, HasSubstr("master turn 3600000 (360 deg) assumed, for there is no # master_modulo, slave turn"));
   out.clear();
-  EXPECT_EQ(run(options_of("# master_modulo: 3600000\nslave\n0\n1000\n")), all_passed);
+  EXPECT_EQ(run(options_of("# master_modulo: 3600000\nslave\n0\n1000\n")), cli::all_passed);
   EXPECT_THAT(out, HasSubstr("master turn 3600000 (360 deg), slave turn"));
 }
 
 TEST_F(CamInCommand, WhatRoundingLeavesIsNoJump) {
-  EXPECT_EQ(run(options_of("a0,a1,a2,a3\n0,0,0,0\n0.005,0,0,0\n")), all_passed);
+  EXPECT_EQ(run(options_of("a0,a1,a2,a3\n0,0,0,0\n0.005,0,0,0\n")), cli::all_passed);
   EXPECT_THAT(out, testing::ContainsRegex("2 +1800000 +C3 +0 +0 +0 +0\n"));
-  EXPECT_EQ(run(options_of("a0,a1,a2,a3\n0,0,0,0\n0.5,0,0,0\n")), all_passed);
+  EXPECT_EQ(run(options_of("a0,a1,a2,a3\n0,0,0,0\n0.5,0,0,0\n")), cli::all_passed);
   EXPECT_THAT(out, testing::ContainsRegex("2 +1800000 +jumps +0.5 +0 +0 +0\n"));
 }
 
 TEST_F(CamInCommand, ARefusedTableIsUnsoundAndDrawsNothing) {
   auto made = options_of("# interpolation: POLY5_LINE\nmaster,slave\n0,0\n500,0\n");
   made.png = folder / "cam.png";
-  EXPECT_EQ(run(made), check_failed);
+  EXPECT_EQ(run(made), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("nothing to run\n\nrow 2 (line 4): error 60260: masters must ascend"));
   EXPECT_FALSE(fs::exists(made.png));
 }
 
 TEST_F(CamInCommand, ALimitFailsWhatIsOnlyACautionFailsWithStrict) {
   auto made = options_of("slave\n0\n900000\n");
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   made.strict = true;
-  EXPECT_EQ(run(made), check_failed);
+  EXPECT_EQ(run(made), cli::check_failed);
   auto fast = options_of(camin::knife());
   fast.duty = {.master_speed = 1000, .max_velocity = 599, .max_acceleration = {}};
-  EXPECT_EQ(run(fast), check_failed);
+  EXPECT_EQ(run(fast), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("limit: velocity 600 deg/s above 599"));
 }
 
 TEST_F(CamInCommand, BadInputIsToldAndNothingIsWritten) {
   auto made = options_of("# endless: up\nslave\nx\n");
   made.csv = folder / "samples.csv";
-  EXPECT_EQ(run(made), bad_input);
+  EXPECT_EQ(run(made), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("cam.csv:1:12: endless cannot be 'up'"));
   EXPECT_THAT(err, HasSubstr("cam.csv:3:1: 'x' is no number"));
   EXPECT_FALSE(fs::exists(made.csv));
   auto far = options_of(camin::knife());
   far.at = {8'000'001};
-  EXPECT_EQ(run(far), bad_input);
+  EXPECT_EQ(run(far), cli::bad_input);
   EXPECT_EQ(err,
             "--at:1:1: the cam has no master position 8000001; give positions from 0 to 8000000 0.1 um\n");
   far.loops = 2;
-  EXPECT_EQ(run(far), all_passed) << err;
+  EXPECT_EQ(run(far), cli::all_passed) << err;
 }
 
 TEST_F(CamInCommand, ThePictureIsDrawn) {
   auto made = options_of(camin::knife());
   made.png = folder / "knife.png";
   made.duty.master_speed = 1000;
-  EXPECT_EQ(run(made), all_passed) << err;
+  EXPECT_EQ(run(made), cli::all_passed) << err;
   EXPECT_GT(fs::file_size(made.png), 10'000u);
 }
 
 TEST_F(CamInCommand, CheckReadsTabFilesAndCsv) {
-  EXPECT_EQ(check(file("Tabletype = 9\n", "a.tab")), bad_input);
+  EXPECT_EQ(check(file("Tabletype = 9\n", "a.tab")), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("a.tab:1:13: '9' is out of range; write a whole number, 1 to 7"));
-  EXPECT_EQ(check(file(content(shipped_cams / "mc_rotary_knife.tab"), "b.tab")), all_passed);
-  EXPECT_EQ(check(file("slave\n1,2\n", "c.csv")), bad_input);
+  EXPECT_EQ(check(file(content(shipped_cams / "mc_rotary_knife.tab"), "b.tab")), cli::all_passed);
+  EXPECT_EQ(check(file("slave\n1,2\n", "c.csv")), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("c.csv:2:1: 2 numbers"));
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

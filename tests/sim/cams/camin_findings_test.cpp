@@ -8,7 +8,7 @@
 #include "tests/sim/cams/camin_bench.hpp"
 #include "tests/sim/command_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using testing::Contains;
@@ -213,4 +213,4 @@ TEST(CamInFindings, ARemarkSaysWhereTheTableBegins) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

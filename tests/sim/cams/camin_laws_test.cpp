@@ -6,7 +6,7 @@
 
 #include "tests/sim/cams/camin_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using testing::ElementsAre;
@@ -180,4 +180,4 @@ TEST(CamInSamples, CoefficientsAreTheLawThatTheySay) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -4,7 +4,7 @@
 #include "sim/cams/study.hpp"
 #include "tests/sim/cams/camin_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using devices::plcopen::Endless;
@@ -141,4 +141,4 @@ TEST(CamInTable, WhatMcCamInRefusesHasItsErrorAndItsRow) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

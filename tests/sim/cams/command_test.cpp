@@ -9,7 +9,7 @@
 #include "tests/sim/cams/bench.hpp"
 #include "tests/sim/cams/command_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,15 +23,15 @@ using CamCommand = CamCommandTest;
 TEST_F(CamCommand, TheShippedCamsAreSound) {
   for (const auto* name : {"introduction.csv", "wire_guide.csv", "fly_cut.csv", "rotary_knife.csv"}) {
     auto made = options(shipped_cams / name);
-    EXPECT_EQ(run(made), all_passed) << out << err;
+    EXPECT_EQ(run(made), cli::all_passed) << out << err;
     made.duty.master_speed = name == std::string("introduction.csv") ? 1000 : 36000;
-    EXPECT_EQ(run(made), all_passed) << out << err;
+    EXPECT_EQ(run(made), cli::all_passed) << out << err;
     EXPECT_THAT(out, Not(HasSubstr("warning")));
   }
 }
 
 TEST_F(CamCommand, PrintsTheSectorsAndTheTotals) {
-  EXPECT_EQ(run(options(shipped_cams / "introduction.csv")), all_passed);
+  EXPECT_EQ(run(options(shipped_cams / "introduction.csv")), cli::all_passed);
   EXPECT_THAT(out,
               HasSubstr("\n    3  134 RCC     160    120      1     1       1    0.00625  makes up a space"));
   EXPECT_THAT(out, HasSubstr("\n    6  136 END "));
@@ -42,7 +42,7 @@ TEST_F(CamCommand, PrintsTheSectorsAndTheTotals) {
 TEST_F(CamCommand, WithTheMastersSpeedAlsoInTime) {
   auto made = options_of("# decpt: 1\n# unitvel: 0\n" + cams::header + "1,132,100,50\n2,135,100,50\n3,136\n");
   made.duty.master_speed = 60;  // 10 Um/s
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_THAT(
       out,
       HasSubstr("master at 60 unit/min = 10 Um/s, sampled every 2 ms\nspeeds in units of 10 Um (decpt 1)"));
@@ -54,22 +54,22 @@ TEST_F(CamCommand, WithTheMastersSpeedAlsoInTime) {
 TEST_F(CamCommand, LoopsAreCountedInTheTable) {
   auto made = options(shipped_cams / "rotary_knife.csv");
   made.loops = 3;
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_THAT(out, HasSubstr("master total 28200 Um, slave total 20700 Um in 3 passes\n"));
   EXPECT_THAT(out, testing::ContainsRegex("\n +4  234 RCCE .* 3  makes up"));
 }
 
 TEST_F(CamCommand, ExitStatusTellsErrorsLimitsAndStrictness) {
-  EXPECT_EQ(run(options_of(cams::header + "1,133,100,0\n")), check_failed);
+  EXPECT_EQ(run(options_of(cams::header + "1,133,100,0\n")), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("sector 2: error 3: "));
   auto warned = options_of(cams::header + "1,131,100,50\n2,135,100,20\n3,136\n");
-  EXPECT_EQ(run(warned), all_passed);
+  EXPECT_EQ(run(warned), cli::all_passed);
   EXPECT_THAT(out, HasSubstr("sector 2 (135 DZC): warning 7: "));
   warned.strict = true;
-  EXPECT_EQ(run(warned), check_failed);
+  EXPECT_EQ(run(warned), cli::check_failed);
   warned.strict = false;
   warned.duty = {.master_speed = 100.0, .max_velocity = 99.0};
-  EXPECT_EQ(run(warned), check_failed);
+  EXPECT_EQ(run(warned), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("sector 1 (131 AZL): limit: velocity 100 Um/s above 99; "));
 }
 
@@ -77,7 +77,7 @@ TEST_F(CamCommand, BadInputWritesNothing) {
   auto made = options_of(cams::header + "1,999\n1,xx\n");
   made.csv = (folder / "out.csv").string();
   made.png = (folder / "out.png").string();
-  EXPECT_EQ(run(made), bad_input);
+  EXPECT_EQ(run(made), cli::bad_input);
   EXPECT_THAT(out, IsEmpty());
   EXPECT_THAT(err, HasSubstr("cam.csv:2:3: there is no codeG 999; "));
   EXPECT_THAT(err, HasSubstr("cam.csv:3:3: codeG 'xx' is not a whole number; "));
@@ -87,8 +87,8 @@ TEST_F(CamCommand, BadInputWritesNothing) {
 
 TEST_F(CamCommand, FaultsOfTheOptions) {
   auto made = options(shipped_cams / "introduction.csv");
-  const auto refused = [&](const CamOptions& wrong, const std::string& words) {
-    EXPECT_EQ(run(wrong), bad_input);
+  const auto refused = [&](const cli::CamOptions& wrong, const std::string& words) {
+    EXPECT_EQ(run(wrong), cli::bad_input);
     EXPECT_THAT(err, HasSubstr(words));
     EXPECT_THAT(out, IsEmpty());
   };
@@ -134,12 +134,12 @@ TEST_F(CamCommand, CsvGoesToAFileOrAloneToStandardOutput) {
   auto made = options(shipped_cams / "fly_cut.csv");
   made.duty.master_speed = 36000;
   made.csv = "-";
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_THAT(out, StartsWith("master,slave,velocity,acceleration,jerk,sector,time,velocity_t,"));
   EXPECT_THAT(err, HasSubstr("master total 11800 Um"));
   const auto printed = out;
   made.csv = (folder / "out.csv").string();
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_THAT(out, HasSubstr("master total 11800 Um"));
   EXPECT_EQ(content(made.csv), printed);
   EXPECT_FALSE(fs::exists(made.csv + ".part"));
@@ -148,10 +148,10 @@ TEST_F(CamCommand, CsvGoesToAFileOrAloneToStandardOutput) {
 TEST_F(CamCommand, AtPrintsOrWritesJustThesePositions) {
   auto made = options(shipped_cams / "introduction.csv");
   made.at = {655, 340};
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_THAT(out, HasSubstr("master   slave  velocity    acceleration  jerk  sector\n     340     285 "));
   made.csv = "-";
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_EQ(out,
             "master,slave,velocity,acceleration,jerk,sector\n340,285,0.75,-0.00625,0,3\n"
             "655,553.75,0.5,-0.011111111111111112,0,5\n");
@@ -161,11 +161,11 @@ TEST_F(CamCommand, DrawsTheSamePictureTwice) {
   auto made = options(shipped_cams / "fly_cut.csv");
   made.duty = {.master_speed = 36000.0, .max_velocity = 80000.0, .max_acceleration = 60000.0};
   made.png = (folder / "one.png").string();
-  EXPECT_EQ(run(made), all_passed) << out;
+  EXPECT_EQ(run(made), cli::all_passed) << out;
   const auto first = content(made.png);
   EXPECT_THAT(first, StartsWith("\x89PNG"));
   made.png = (folder / "two.png").string();
-  EXPECT_EQ(run(made), all_passed);
+  EXPECT_EQ(run(made), cli::all_passed);
   EXPECT_EQ(first, content(made.png));
 }
 
@@ -193,8 +193,8 @@ TEST_F(CamCommand, ThePlotHasFourPanelsMarksAndLimits) {
 }
 
 TEST_F(CamCommand, CheckParsesATableToo) {
-  EXPECT_EQ(check(shipped_cams / "introduction.csv"), all_passed);
-  EXPECT_EQ(check(file(cams::header + "1,999\n")), bad_input);
+  EXPECT_EQ(check(shipped_cams / "introduction.csv"), cli::all_passed);
+  EXPECT_EQ(check(file(cams::header + "1,999\n")), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("cam.csv:2:3: there is no codeG 999; "));
 }
 
@@ -205,9 +205,9 @@ TEST_F(CamCommand, ALargeTableEndsSoon) {
   text += "127,190,1,999999\n128,138\n";
   auto made = options_of(text);
   made.loops = 100;
-  EXPECT_THAT(run(made), testing::AnyOf(all_passed, check_failed));
+  EXPECT_THAT(run(made), testing::AnyOf(cli::all_passed, cli::check_failed));
   EXPECT_THAT(out, HasSubstr("the cam was left after 20000 sectors"));
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -8,7 +8,7 @@
 #include "sim/cams/lx3vp/judge.hpp"
 #include "tests/sim/cams/told.hpp"
 
-namespace drycut::sim::ecams {
+namespace drycut::sim::cams::ecams {
 
 /// Reads a table that has no fault.
 inline EcamTable table(const std::string& text) { return std::get<EcamTable>(sound(text, read_lx3vp)); }
@@ -39,4 +39,4 @@ inline std::string s_curve(const std::string& P1 = "10000") {
   return "# ecamtbx: K0\nparameter,value\nP1," + P1 + "\nP2,50000\nP4,100\nP5,100\nP6,200\n";
 }
 
-}  // namespace drycut::sim::ecams
+}  // namespace drycut::sim::cams::ecams

@@ -6,7 +6,7 @@
 #include "tests/sim/cams/bench.hpp"
 #include "tests/sim/cams/ecam_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using testing::Contains;
@@ -399,4 +399,4 @@ TEST(EcamPlot, DrawsTheLawAndWhatIsPlayed) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

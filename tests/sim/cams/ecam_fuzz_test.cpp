@@ -5,7 +5,7 @@
 #include "tests/sim/cams/bench.hpp"
 #include "tests/sim/cams/ecam_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 std::string random_text(std::mt19937& random) {
@@ -101,4 +101,4 @@ TEST(EcamFuzz, AnyRowsAreJudged) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -4,7 +4,7 @@
 #include "sim/cams/study.hpp"
 #include "tests/sim/cams/ecam_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using testing::ElementsAre;
@@ -172,4 +172,4 @@ TEST(EcamTable, SettingsWithoutAColon) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

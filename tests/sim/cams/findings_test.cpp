@@ -4,7 +4,7 @@
 
 #include "tests/sim/cams/bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using cams::findings;
@@ -333,4 +333,4 @@ TEST(CamFindings, SoundnessAndStrictness) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

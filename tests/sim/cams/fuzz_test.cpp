@@ -8,7 +8,7 @@
 #include "devices/camming4/codes.hpp"
 #include "tests/sim/cams/bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 class Tables {
@@ -85,4 +85,4 @@ TEST(CamFuzz, RandomTablesEndAndHangTogether) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -8,7 +8,7 @@
 #include "tests/sim/cams/bench.hpp"
 #include "tests/sim/cams/ecam_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using testing::ElementsAre;
@@ -165,4 +165,4 @@ TEST(MotionName, SaysWhatTheSlaveDoes) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

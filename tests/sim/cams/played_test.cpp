@@ -11,7 +11,7 @@
 #include "sim/cams/study.hpp"
 #include "tests/sim/cams/bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using testing::Contains;
@@ -365,4 +365,4 @@ TEST_F(CamPages, NumberTheTablesOfAnAxis) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -9,7 +9,7 @@
 #include "tests/sim/cams/camin_bench.hpp"
 #include "tests/sim/cams/ecam_bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using Findings = std::vector<CamFinding>;
@@ -423,4 +423,4 @@ INSTANTIATE_TEST_SUITE_P(All, CamRemedies, testing::ValuesIn(cases()),
                          [](const auto& given) { return given.param.name; });
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

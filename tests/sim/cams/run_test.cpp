@@ -7,7 +7,7 @@
 
 #include "tests/sim/cams/bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using cams::rows;
@@ -233,4 +233,4 @@ TEST(CamRun, TheSameTableRunsTheSameWay) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

@@ -8,7 +8,7 @@
 
 #include "tests/sim/cams/bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using cams::rows;
@@ -141,4 +141,4 @@ TEST(CamSamples, NoMinusZero) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

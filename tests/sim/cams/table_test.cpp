@@ -2,7 +2,7 @@
 
 #include "tests/sim/cams/bench.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 namespace {
 
 using cams::faults;
@@ -171,4 +171,4 @@ TEST(CamTable, AMessageQuotesLittleOfALongCell) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

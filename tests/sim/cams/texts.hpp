@@ -7,7 +7,7 @@
 
 #include "sim/cams/findings.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::cams {
 
 /// What `read` makes of a text that has no fault.
 template <typename Read>
@@ -37,4 +37,4 @@ inline std::vector<std::string> printed(const std::vector<CamFinding>& findings,
   return told;
 }
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::cams

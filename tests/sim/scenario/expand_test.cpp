@@ -7,7 +7,7 @@
 #include "sim/scenario/format.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using fakes::FakeKnife;
@@ -280,4 +280,4 @@ TEST(ScenarioExpand, NoTextCrashesTheReader) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -79,10 +79,10 @@ inline const std::array<plants::PlantType, 3> fake_types = {
 
 /// Reads a scenario from memory; the problems as "line:column: what; remedy", with "--set ...:" in front of
 /// those of an override.
-inline Scenario read(std::string_view text, std::vector<std::string>& problems,
-                     const std::vector<Override>& overrides = {}) {
+inline scenario::Scenario read(std::string_view text, std::vector<std::string>& problems,
+                               const std::vector<scenario::Override>& overrides = {}) {
   Problems found;
-  auto scenario = read_scenario_text(text, "line.yaml", overrides, found, fake_types);
+  auto scenario = scenario::read_scenario_text(text, "line.yaml", overrides, found, fake_types);
   const std::string file = "line.yaml:";
   for (const auto& problem : found) {
     const auto message = to_string(problem);
@@ -92,7 +92,7 @@ inline Scenario read(std::string_view text, std::vector<std::string>& problems,
 }
 
 inline std::vector<std::string> problems_of(std::string_view text,
-                                            const std::vector<Override>& overrides = {}) {
+                                            const std::vector<scenario::Override>& overrides = {}) {
   std::vector<std::string> problems;
   read(text, problems, overrides);
   return problems;

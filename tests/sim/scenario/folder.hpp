@@ -7,7 +7,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "tests/test_folder.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 
 /// A test of scenarios with the files that they name.
 struct ScenarioFolder : testing::Test {
@@ -30,4 +30,4 @@ struct ScenarioFolder : testing::Test {
   Problems problems;
 };
 
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

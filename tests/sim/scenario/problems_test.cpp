@@ -4,7 +4,7 @@
 
 #include "tests/sim/scenario/fake_plants.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using fakes::problems_of;
@@ -403,4 +403,4 @@ TEST(ScenarioProblems, BuildableSaysWhetherTheMachineCanBeBuilt) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

@@ -9,7 +9,7 @@
 #include "sim/controllers/kinds.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 using fakes::FakeKnife;
@@ -122,7 +122,7 @@ TEST(ScenarioRead, Controller) {
     retentive: knife.state
     set: {slLength: 8000, AxisX.pgain: -5.5}
 )");
-  const auto& qmove = *controller_of<QmoveSection>(scenario);
+  const auto& qmove = *controllers::controller_of<controllers::QmoveSection>(scenario);
   EXPECT_EQ(qmove.configuration.text, "programs/knife.cnf");
   EXPECT_EQ(qmove.configuration.place.line, 3);
   EXPECT_EQ(qmove.configuration.place.column, 20);
@@ -311,4 +311,4 @@ TEST(ScenarioRead, MissingFileAndFolderAreProblems) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

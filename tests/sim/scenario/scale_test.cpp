@@ -6,7 +6,7 @@
 
 #include "sim/loop/simulation.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::scenario {
 namespace {
 
 /// Processor time that it takes [s], whatever else the machine does.
@@ -23,11 +23,11 @@ constexpr double patience = 60;  // [s]
 struct LargeScenario : testing::Test {
   void read(const std::string& text) {
     scenario = read_scenario_text(text, "large.yaml", {}, problems);
-    if (scenario.buildable) simulation = std::make_unique<Simulation>(scenario, problems);
+    if (scenario.buildable) simulation = std::make_unique<loop::Simulation>(scenario, problems);
   }
   Problems problems;
   Scenario scenario;
-  std::unique_ptr<Simulation> simulation;
+  std::unique_ptr<loop::Simulation> simulation;
 };
 
 TEST_F(LargeScenario, OnOneLine) {
@@ -92,4 +92,4 @@ TEST_F(LargeScenario, WithAKeyGivenAThousandTimes) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::scenario

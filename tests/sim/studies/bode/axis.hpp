@@ -6,7 +6,7 @@
 
 #include "tests/sim/command_bench.hpp"
 
-namespace drycut::sim::bode_axis {
+namespace drycut::sim::studies::bode_axis {
 
 namespace fs = std::filesystem;
 
@@ -48,4 +48,4 @@ struct Folder : TestFolder {
   }
 };
 
-}  // namespace drycut::sim::bode_axis
+}  // namespace drycut::sim::studies::bode_axis

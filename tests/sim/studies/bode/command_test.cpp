@@ -8,7 +8,7 @@
 #include "tests/sim/command_bench.hpp"
 #include "tests/sim/studies/bode/axis.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,23 +23,23 @@ struct BodeCommand : CommandTest {
     options.loop.amplitude = 1;
   }
   int run() {
-    return captured([&] { return measure_bode(options); });
+    return captured([&] { return cli::measure_bode(options); });
   }
   /// Expects bad input told by `message`, and nothing else.
   void refuses(const std::string& message) {
-    EXPECT_EQ(run(), bad_input);
+    EXPECT_EQ(run(), cli::bad_input);
     EXPECT_EQ(err, message + "\n");
     EXPECT_THAT(out, IsEmpty());
   }
 
   bode_axis::Folder folder;
-  BodeOptions options;
+  cli::BodeOptions options;
 };
 
 TEST_F(BodeCommand, JudgesTheLoop) {
   options.min_phase_margin = 60;
   options.min_gain_margin = 12;
-  EXPECT_EQ(run(), all_passed) << err;
+  EXPECT_EQ(run(), cli::all_passed) << err;
   EXPECT_THAT(
       out,
       StartsWith("axis: axis.reference from 2.AN01, sampled every 4 ms; a sine of 1 V added from 0.5 s"));
@@ -52,7 +52,7 @@ TEST_F(BodeCommand, JudgesTheLoop) {
 TEST_F(BodeCommand, FailsBelowALimit) {
   options.min_phase_margin = 89;
   options.min_gain_margin = 30;
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("FAIL: the phase margin of 87.09 deg is below 89 deg"));
   EXPECT_THAT(out, HasSubstr("FAIL: the gain margin of 26.04 dB is below 30 dB"));
 }
@@ -60,20 +60,20 @@ TEST_F(BodeCommand, FailsBelowALimit) {
 TEST_F(BodeCommand, FailsOnAMarginThatItCannotKnow) {
   options.loop.to = 20;
   options.min_gain_margin = 6;
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("FAIL: the gain margin is not known: it lies outside these frequencies"));
 }
 
 TEST_F(BodeCommand, FailsOnAnUnstableLoop) {
   options.set = {"controller.qmove.set.Axis.pgain=2500"};
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("the loop is not stable"));
 }
 
 TEST_F(BodeCommand, FailsOnAnOpenLoop) {
   options.loop.at = "0.001";
   folder.file("axis.mod", bode_axis::Folder::program("LOOPOFF Axis\n"));
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out,
               HasSubstr("2.AN01 does not answer to 1 V at 0.001 s: either the loop is open there (let the "
                         "program do REGON before, or choose another --at), or the axis sits in play or "
@@ -82,7 +82,7 @@ TEST_F(BodeCommand, FailsOnAnOpenLoop) {
 
 TEST_F(BodeCommand, TakesATimeWithItsUnit) {
   options.loop.at = "400 ms";
-  EXPECT_EQ(run(), all_passed) << out;
+  EXPECT_EQ(run(), cli::all_passed) << out;
   EXPECT_THAT(out, HasSubstr("added from 0.4 s"));
   options.loop.at = "6 kg";
   refuses("--at:1:1: '6 kg' is no time from 0 to 1e6 s; such as 6 s");
@@ -98,7 +98,7 @@ TEST_F(BodeCommand, ALoopOfLowGainIsNotUnstable) {
 TEST_F(BodeCommand, WritesTableAndPicture) {
   options.csv = folder.path / "bode.csv";
   options.png = folder.path / "bode.png";
-  EXPECT_EQ(run(), all_passed);
+  EXPECT_EQ(run(), cli::all_passed);
   const auto csv = content(options.csv);
   EXPECT_THAT(csv,
               StartsWith("frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],"
@@ -107,14 +107,14 @@ TEST_F(BodeCommand, WritesTableAndPicture) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
   EXPECT_THAT(content(options.png), StartsWith("\x89PNG"));
   const auto first = csv;
-  EXPECT_EQ(run(), all_passed);
+  EXPECT_EQ(run(), cli::all_passed);
   EXPECT_EQ(content(options.csv), first);
 }
 
 TEST_F(BodeCommand, WritesAReport) {
   options.out = folder.path / "results";
   options.min_gain_margin = 30;
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("report: " + (options.out / "report.html").string()));
   const auto html = content(options.out / "report.html");
   EXPECT_THAT(html, HasSubstr("the gain margin of 26.04 dB is below 30 dB"));
@@ -129,7 +129,7 @@ TEST_F(BodeCommand, SweepsTheAmplitudeForALimitCycle) {
   options.out = folder.path / "results";
   options.loop.from = 20;
   options.loop.points = 4;
-  EXPECT_EQ(run(), all_passed) << out << err;
+  EXPECT_EQ(run(), cli::all_passed) << out << err;
   // A linear loop: the margin is that of any amplitude, a factor of 20 on pgain 100.
   EXPECT_THAT(out, HasSubstr("Gain margin over the amplitude of the sine"));
   EXPECT_THAT(out, testing::ContainsRegex("Limit cycle from (19|20)"));
@@ -141,24 +141,24 @@ TEST_F(BodeCommand, WithoutAnyMarginThereIsNoLimitCycle) {
   options.limit_cycle = true;
   options.loop.to = 20;
   options.loop.points = 3;
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("Limit cycle: no gain margin was found at any amplitude."));
 }
 
 TEST_F(BodeCommand, GoesDownToTheCrossover) {
   options.set = {"controller.qmove.set.Axis.pgain=10"};
-  EXPECT_EQ(run(), all_passed) << out << err;
+  EXPECT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, HasSubstr("deg at the crossover of 0.39"));
   options.loop.from = 1;
   options.min_phase_margin = 30;
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("FAIL: the phase margin is not known: it lies outside these frequencies"));
 }
 
 TEST_F(BodeCommand, LeavesOutWhatIsFinerThanTheResolution) {
   // 5 mV are 0.5 mm/s: less than a count of 0.01 mm from 16 Hz on.
   options.loop.amplitude = 0.005;
-  EXPECT_EQ(run(), all_passed) << out;
+  EXPECT_EQ(run(), cli::all_passed) << out;
   EXPECT_THAT(out,
               testing::ContainsRegex("From [0-9.]+ Hz on nothing answers to 0.005 V: it would be finer"));
   EXPECT_THAT(out, testing::Not(HasSubstr("inf")));
@@ -166,13 +166,13 @@ TEST_F(BodeCommand, LeavesOutWhatIsFinerThanTheResolution) {
 
 TEST_F(BodeCommand, RefusesAFolderThatCannotBeMade) {
   options.out = options.scenario / "results";
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err, StartsWith("--out:1:1: the directory " + options.out.string() + " cannot be made"));
 }
 
 TEST_F(BodeCommand, PrintsTheTableForAProgram) {
   options.csv = "-";
-  EXPECT_EQ(run(), all_passed);
+  EXPECT_EQ(run(), cli::all_passed);
   EXPECT_THAT(out, StartsWith("frequency [Hz],"));
   EXPECT_THAT(err, HasSubstr("phase margin"));
 }
@@ -245,9 +245,9 @@ TEST_F(BodeCommand, RefusesAScenarioWithoutAnalogueOutput) {
 
 TEST_F(BodeCommand, TellsProblemsOfTheScenario) {
   folder.file("axis.yaml", bode_axis::Folder::scenario("cheks: []\n"));
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("axis.yaml:11:1: unknown key 'cheks'"));
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -10,7 +10,7 @@
 #include "sim/studies/bode/report.hpp"
 #include "tests/sim/studies/bode/axis.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 namespace {
 
 using testing::HasSubstr;
@@ -52,7 +52,7 @@ struct BodeLimitCycle : testing::TestWithParam<Machine> {
     folder.file("axis.cnf", configuration);
     folder.file("axis.mod", program);
   }
-  [[nodiscard]] Scenario scenario(double gain, double lost, Problems& problems) const {
+  [[nodiscard]] scenario::Scenario scenario(double gain, double lost, Problems& problems) const {
     const auto text = "scene: {step: 100 us, duration: 2 s}\nplants:\n  axis: {type: backlash_axis, gap: " +
                       std::to_string(GetParam().gap) + " mm" + GetParam().more +
                       "}\ncontroller:\n  qmove: {configuration: axis.cnf, tasks: [axis.mod], set: "
@@ -62,13 +62,13 @@ struct BodeLimitCycle : testing::TestWithParam<Machine> {
                       "timeline: [{at: 300 ms, fault: {axis.scale: {lose_counts: " +
                       std::to_string(std::lround(lost)) +
                       "}}}]\nrecord: {every: 1 ms, channels: [axis.position]}\n";
-    return read_scenario_text(text, folder.path / "axis.yaml", {}, problems);
+    return scenario::read_scenario_text(text, folder.path / "axis.yaml", {}, problems);
   }
   /// True if the axis still swings at the end of the run.
   [[nodiscard]] bool hunts(double gain, double lost) const {
     Problems problems;
     const auto axis = scenario(gain, lost, problems);
-    Simulation simulation(axis, problems);
+    loop::Simulation simulation(axis, problems);
     EXPECT_TRUE(problems.empty()) << to_string(problems.front());
     EXPECT_EQ(simulation.run().failure, "");
     const auto& position = simulation.recording().column("axis.position")->values;
@@ -131,4 +131,4 @@ TEST(BodeLimitCycleText, TellsWhereItBegins) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -8,7 +8,7 @@
 
 #include "sim/studies/bode/sweep.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 namespace {
 
 using std::numbers::pi;
@@ -153,4 +153,4 @@ TEST(BodeTones, AreWholePeriodsWithoutCommonFactor) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

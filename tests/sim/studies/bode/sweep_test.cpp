@@ -7,7 +7,7 @@
 
 #include "tests/sim/studies/bode/axis.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 namespace {
 
 using std::numbers::pi;
@@ -18,10 +18,10 @@ struct BodeSweep : testing::Test {
               const std::string& speed = "axis.speed") {
     Problems problems;
     const auto scenario =
-        read_scenario_text(yaml, folder.path / "axis.yaml",
-                           {{"controller.qmove.set.Axis.pgain", std::to_string(pgain)}}, problems);
-    Simulation excited(scenario, problems);
-    Simulation still(scenario, problems);
+        scenario::read_scenario_text(yaml, folder.path / "axis.yaml",
+                                     {{"controller.qmove.set.Axis.pgain", std::to_string(pgain)}}, problems);
+    loop::Simulation excited(scenario, problems);
+    loop::Simulation still(scenario, problems);
     EXPECT_TRUE(problems.empty()) << to_string(problems.front());
     SweepPlan plan;
     plan.speed = speed;
@@ -124,4 +124,4 @@ TEST_F(BodeSweep, IsTheSameTwice) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

@@ -5,7 +5,7 @@
 
 #include "tests/sim/command_bench.hpp"
 
-namespace drycut::sim::comparing {
+namespace drycut::sim::studies::comparing {
 
 namespace fs = std::filesystem;
 
@@ -62,4 +62,4 @@ struct Bench : CommandTest {
   const fs::path& folder = test_folder.path;
 };
 
-}  // namespace drycut::sim::comparing
+}  // namespace drycut::sim::studies::comparing

@@ -4,7 +4,7 @@
 #include "sim/cli/compare_command.hpp"
 #include "tests/sim/studies/compare/bench.hpp"
 
-namespace drycut::sim::comparing {
+namespace drycut::sim::studies::comparing {
 namespace {
 
 using testing::HasSubstr;
@@ -14,20 +14,20 @@ struct CompareCommand : Bench {
   int run(const std::vector<fs::path>& runs) {
     options.runs = runs;
     options.out = folder / "out";
-    return captured([&] { return compare_runs(options); });
+    return captured([&] { return cli::compare_runs(options); });
   }
   /// Refuses b when `texts` stand in it, with this message, and writes nothing.
   void refuses(const RunTexts& texts, const std::string& file, const std::string& message) {
-    EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+    EXPECT_EQ(run({write("a", {}), write("b", texts)}), cli::bad_input);
     EXPECT_THAT(err, HasSubstr((folder / "b" / file).string() + ":" + message + "\n"));
     EXPECT_FALSE(fs::exists(folder / "out"));
   }
-  CompareOptions options;
+  cli::CompareOptions options;
 };
 
 TEST_F(CompareCommand, IdenticalRunsAreTheSame) {
   options.fail_on_difference = true;
-  EXPECT_EQ(run({write("a", {}), write("b", {})}), all_passed) << err;
+  EXPECT_EQ(run({write("a", {}), write("b", {})}), cli::all_passed) << err;
   EXPECT_THAT(out, HasSubstr("a against b: no difference\n"));
   const auto page = content(folder / "out/report.html");
   EXPECT_THAT(page, HasSubstr("<strong>SAME</strong> <span>no difference</span>"));
@@ -41,7 +41,7 @@ TEST_F(CompareCommand, DifferencesAreToldAndFailOnlyIfAsked) {
   other.scenario = with(other.scenario, "speed: 60 m/min", "speed: 80 m/min");
   other.checks = RunTexts::checks_json(-0.4, false);
   const std::vector<fs::path> runs = {write("a", {}), write("b", other)};
-  EXPECT_EQ(run(runs), all_passed);
+  EXPECT_EQ(run(runs), cli::all_passed);
   EXPECT_THAT(out, HasSubstr("different: 1 of 1 check, 1 parameter\n"));
   EXPECT_THAT(out,
               HasSubstr("  cut length: verdict; a passed, 0.053 mm left, at 0.1000 s; b FAILED, 0.4 mm too "
@@ -55,57 +55,58 @@ TEST_F(CompareCommand, DifferencesAreToldAndFailOnlyIfAsked) {
           "<td>plants.web.speed</td><td class=\"number\">60 m/min</td><td class=\"number\">80 m/min</td>"));
   EXPECT_THAT(page, HasSubstr("<span class=\"badge fail\">FAIL</span> 0.4 mm too far"));
   options.fail_on_difference = true;
-  EXPECT_EQ(run(runs), check_failed);
+  EXPECT_EQ(run(runs), cli::check_failed);
 }
 
 TEST_F(CompareCommand, TheSameRunsGiveTheSameBytes) {
   RunTexts other;
   other.trace = with(other.trace, "0.1,60,3", "0.1,60,5");
   const std::vector<fs::path> runs = {write("a", {}), write("b", other)};
-  ASSERT_EQ(run(runs), all_passed);
+  ASSERT_EQ(run(runs), cli::all_passed);
   const auto page = content(folder / "out/report.html");
-  ASSERT_EQ(run(runs), all_passed);
+  ASSERT_EQ(run(runs), cli::all_passed);
   EXPECT_TRUE(page == content(folder / "out/report.html"));
 }
 
 TEST_F(CompareCommand, RunsAreCalledByWhatTellsTheirFoldersApart) {
   options.pictures = false;
-  EXPECT_EQ(run({write("one/line", {}), write("two/line", {})}), all_passed) << err;
+  EXPECT_EQ(run({write("one/line", {}), write("two/line", {})}), cli::all_passed) << err;
   EXPECT_THAT(out, testing::StartsWith("one against two: "));
   EXPECT_FALSE(fs::exists(folder / "out/report.html"));
-  EXPECT_EQ(run({write("one/line", {}), write("one/press", {}), write("two/line", {})}), all_passed) << err;
+  EXPECT_EQ(run({write("one/line", {}), write("one/press", {}), write("two/line", {})}), cli::all_passed)
+      << err;
   EXPECT_THAT(out, testing::StartsWith("one/line against one/press against two/line: "));
 }
 
 TEST_F(CompareCommand, WhatIsNoRunIsRefused) {
   const auto a = write("a", {});
-  EXPECT_EQ(run({a}), bad_input);
+  EXPECT_EQ(run({a}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr(a.string() + ":1:1: one run alone is nothing to compare; "));
-  EXPECT_EQ(run({a, a / ""}), bad_input);
+  EXPECT_EQ(run({a, a / ""}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("the folder is given twice; give each run once"));
-  EXPECT_EQ(run({a, folder / "none"}), bad_input);
+  EXPECT_EQ(run({a, folder / "none"}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr((folder / "none").string() + ":1:1: there is no such folder; check the path"));
-  EXPECT_EQ(run({a, a / "trace.csv"}), bad_input);
+  EXPECT_EQ(run({a, a / "trace.csv"}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("it is not a folder; name a folder that drycut run made of a scenario"));
-  EXPECT_EQ(run({a, folder}), bad_input);
+  EXPECT_EQ(run({a, folder}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("it is not the folder of a run: there is no trace.csv, events.csv, checks.json, "
                              "scenario.yaml; the runs in it are " +
                              a.string()));
   fs::remove(write("old", {}) / "scenario.yaml");
-  EXPECT_EQ(run({a, folder / "old"}), bad_input);
+  EXPECT_EQ(run({a, folder / "old"}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("there is no scenario.yaml; run the scenario again"));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(CompareCommand, TheResultsMustNotReplaceARun) {
   const auto out_run = write("out", {});
-  EXPECT_EQ(run({write("a", {}), out_run}), bad_input);
+  EXPECT_EQ(run({write("a", {}), out_run}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--out:1:1: " + out_run.string() + " is one of the runs; "));
 }
 
 TEST_F(CompareCommand, AWrongTimeIsRefused) {
   options.from = "4 m";
-  EXPECT_EQ(run({write("a", {}), write("b", {})}), bad_input);
+  EXPECT_EQ(run({write("a", {}), write("b", {})}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--from:1:"));
 }
 
@@ -114,7 +115,7 @@ TEST_F(CompareCommand, TheEventsOfALongRunMayBeLargerThanAProgram) {
   constexpr std::size_t larger_than_any_program = 17U << 20U;
   const std::string line = "0.200000000,timeline,set,panel.start = 1" + std::string(4000, ' ') + '\n';
   while (texts.events.size() < larger_than_any_program) texts.events += line;
-  EXPECT_EQ(run({write("a", {}), write("b", texts)}), all_passed) << err;
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), cli::all_passed) << err;
 }
 
 TEST_F(CompareCommand, BrokenTracesAreToldWithTheirPlace) {
@@ -164,10 +165,10 @@ TEST_F(CompareCommand, BrokenChecksAndScenariosAreToldWithTheirPlace) {
           "1:1: a check's result is missing or of another kind: type must be number, but is string" + again);
   texts = {};
   texts.scenario = "[1, 2]\n";
-  EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("scenario.yaml:1:1: a scenario must be a map, not a list"));
   texts.scenario = "scene: [\n";
-  EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("b/scenario.yaml:"));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
@@ -176,9 +177,9 @@ TEST_F(CompareCommand, AllProblemsAreToldInOneRun) {
   RunTexts texts;
   texts.trace = with(texts.trace, "0.1,60,3", "0.1,sixty,x3");
   texts.events = with(texts.events, "0.100000000", "soon");
-  EXPECT_EQ(run({write("a", {}), write("b", texts)}), bad_input);
+  EXPECT_EQ(run({write("a", {}), write("b", texts)}), cli::bad_input);
   for (const auto* what : {"'sixty'", "'x3'", "'soon'"}) EXPECT_THAT(err, HasSubstr(what));
 }
 
 }  // namespace
-}  // namespace drycut::sim::comparing
+}  // namespace drycut::sim::studies::comparing

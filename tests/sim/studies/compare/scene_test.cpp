@@ -12,7 +12,7 @@
 #include "tests/sim/studies/compare/bench.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
 
-namespace drycut::sim::comparing {
+namespace drycut::sim::studies::comparing {
 namespace {
 
 using testing::HasSubstr;
@@ -54,18 +54,18 @@ struct CompareScene : CommandTest {
   int run(const std::string& scene, const std::string& to = "out") {
     options.scenarios = {test_folder.file("two.yaml", scene)};
     options.out = folder / to;
-    return captured([&] { return run_scenarios(options); });
+    return captured([&] { return cli::run_scenarios(options); });
   }
   int check(const std::string& scene, bool expanded = false) {
-    const CheckOptions checked{{test_folder.file("two.yaml", scene)}, expanded};
-    return captured([&] { return check_files(checked); });
+    const cli::CheckOptions checked{{test_folder.file("two.yaml", scene)}, expanded};
+    return captured([&] { return cli::check_files(checked); });
   }
   /// Both commands refuse the scene with this message, and nothing is written.
   void refuses(const std::string& scene, const std::string& message) {
     const auto told = (folder / "two.yaml").string() + ":" + message;
-    EXPECT_EQ(run(scene), bad_input) << out;
+    EXPECT_EQ(run(scene), cli::bad_input) << out;
     EXPECT_THAT(err, HasSubstr(told));
-    EXPECT_EQ(check(scene), bad_input);
+    EXPECT_EQ(check(scene), cli::bad_input);
     EXPECT_THAT(err, HasSubstr(told));
     EXPECT_FALSE(fs::exists(folder / "out"));
   }
@@ -78,11 +78,11 @@ struct CompareScene : CommandTest {
 
   TestFolder test_folder;
   const fs::path& folder = test_folder.path;
-  RunOptions options;
+  cli::RunOptions options;
 };
 
 TEST_F(CompareScene, MembersRunInFoldersOfTheirOwn) {
-  EXPECT_EQ(run(two), all_passed) << err << out;
+  EXPECT_EQ(run(two), cli::all_passed) << err << out;
   EXPECT_THAT(out, HasSubstr("two/good: passed, the one check passed"));
   EXPECT_THAT(out, HasSubstr("two: passed, all 2 checks passed"));
   for (const auto* name : {"good/trace.csv", "bad/scenario.yaml", "comparison.csv"})
@@ -95,7 +95,7 @@ TEST_F(CompareScene, MembersRunInFoldersOfTheirOwn) {
 }
 
 TEST_F(CompareScene, FiguresAreThoseOfTheTraces) {
-  ASSERT_EQ(run(two), all_passed) << err;
+  ASSERT_EQ(run(two), cli::all_passed) << err;
   const auto bad = read("bad");
   const auto& errors = bad.recording.column("AxisX.follerr")->values;
   double largest = 0;
@@ -123,7 +123,7 @@ TEST_F(CompareScene, FiguresAreThoseOfTheTraces) {
 
 TEST_F(CompareScene, AFailedCheckOfItsOwnIsStatusOneWithItsNumbers) {
   options.pictures = true;
-  EXPECT_EQ(run(with(two, "bad.largest / 10", "bad.largest / 1e9 - 0.5")), check_failed);
+  EXPECT_EQ(run(with(two, "bad.largest / 10", "bad.largest / 1e9 - 0.5")), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("two: FAILED, 1 of 2 checks failed"));
   EXPECT_THAT(
       out, testing::ContainsRegex("FAIL the good one follows: good.largest=.* mm; bad.largest=.* mm; .* mm "
@@ -135,7 +135,7 @@ TEST_F(CompareScene, AFailedCheckOfItsOwnIsStatusOneWithItsNumbers) {
 }
 
 TEST_F(CompareScene, AFigureWithoutAValueSaysSo) {
-  EXPECT_EQ(run(with(two, "from: 100 ms", "from: 1000 s")), check_failed);
+  EXPECT_EQ(run(with(two, "from: 100 ms", "from: 1000 s")), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("FAIL the good one follows: good.largest has no value in the time looked at; "
                              "bad.largest has no value in the time looked at"));
   EXPECT_THAT(out, Not(HasSubstr("nan")));
@@ -145,14 +145,14 @@ TEST_F(CompareScene, AFailedMemberFailsTheScene) {
   test_folder.file("axis.yaml", std::string(tuning::scenario) +
                                     "checks: [{name: still, always: abs(AxisX.follerr) < 100}]\n");
   EXPECT_EQ(run(with(two, "  - {name: both run, expect: good.passed + bad.passed == 2}\n", "")),
-            check_failed);
+            cli::check_failed);
   EXPECT_THAT(out, HasSubstr("two/bad: FAILED"));
   EXPECT_THAT(out, HasSubstr("two: passed")) << "its own check holds";
 }
 
 TEST_F(CompareScene, TheReportShowsFiguresChecksAndTheOverlay) {
   options.pictures = true;
-  ASSERT_EQ(run(two), all_passed) << err;
+  ASSERT_EQ(run(two), cli::all_passed) << err;
   const auto page = content(folder / "out/two/report.html");
   EXPECT_THAT(page, HasSubstr("<strong>PASS</strong> <span>every run passed, and so did the comparison"));
   EXPECT_THAT(page, HasSubstr("<h1>Two gains</h1>"));
@@ -164,9 +164,9 @@ TEST_F(CompareScene, TheReportShowsFiguresChecksAndTheOverlay) {
 
 TEST_F(CompareScene, SameBytesAtAnyNumberOfJobs) {
   options.pictures = true;
-  ASSERT_EQ(run(two, "one"), all_passed);
+  ASSERT_EQ(run(two, "one"), cli::all_passed);
   options.jobs = 2;
-  ASSERT_EQ(run(two, "other"), all_passed);
+  ASSERT_EQ(run(two, "other"), cli::all_passed);
   for (const auto* name : {"two/report.html", "two/comparison.csv", "two/bad/trace.csv", "junit.xml"}) {
     const auto first = content(folder / "one" / name);
     EXPECT_FALSE(first.empty()) << name;
@@ -176,11 +176,11 @@ TEST_F(CompareScene, SameBytesAtAnyNumberOfJobs) {
 
 TEST_F(CompareScene, SettingsOfTheCommandLineReachEveryMember) {
   options.set = {"scene.duration=500 ms"};
-  ASSERT_EQ(run(two), all_passed) << err;
+  ASSERT_EQ(run(two), cli::all_passed) << err;
   EXPECT_EQ(read("good").end, 0.5);
   EXPECT_EQ(read("bad").end, 0.5);
   options.set = {"scene.durations=500 ms"};
-  EXPECT_EQ(run(two), bad_input);
+  EXPECT_EQ(run(two), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--set scene.durations:1:1: unknown key 'durations'"));
 }
 
@@ -197,17 +197,17 @@ TEST_F(CompareScene, ExpandReadsBackAsItself) {
   const auto second = read_comparison(test_folder.file("second.yaml", text), problems);
   ASSERT_TRUE(second && problems.empty()) << text << (problems.empty() ? "" : to_string(problems[0]));
   EXPECT_EQ(expand(*second), text);
-  ASSERT_EQ(check(two, true), all_passed) << err;
+  ASSERT_EQ(check(two, true), cli::all_passed) << err;
   EXPECT_THAT(out, HasSubstr("controller.qmove.set.AxisX.feedfw: 1000"));
 }
 
 TEST_F(CompareScene, OtherCommandsSayThatItIsNoScenario) {
-  TuneOptions tune;
+  cli::TuneOptions tune;
   tune.scenarios = {test_folder.file("two.yaml", two)};
   tune.vary = {"controller.qmove.set.AxisX.pgain=1..2"};
   tune.minimise = "rms(AxisX.follerr)";
   tune.out = folder / "tune";
-  EXPECT_EQ(captured([&] { return tune_scenarios(tune); }), bad_input);
+  EXPECT_EQ(captured([&] { return cli::tune_scenarios(tune); }), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("two.yaml:2:1: this scene compares scenarios and is none itself; "));
 }
 
@@ -254,10 +254,10 @@ TEST_F(CompareScene, WhatIsWrongInItselfIsRefused) {
 
 TEST_F(CompareScene, AMemberMustBeAScenario) {
   test_folder.file("other.yaml", two);
-  EXPECT_EQ(run("compare: {scenarios: [axis.yaml, other.yaml]}\n"), bad_input);
+  EXPECT_EQ(run("compare: {scenarios: [axis.yaml, other.yaml]}\n"), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("other.yaml:2:1: this scene compares scenarios and is none itself; "));
   EXPECT_THAT(err, Not(HasSubstr("axis.yaml:")));
 }
 
 }  // namespace
-}  // namespace drycut::sim::comparing
+}  // namespace drycut::sim::studies::comparing

@@ -7,7 +7,7 @@
 #include "sim/studies/compare/overlays.hpp"
 #include "tests/sim/studies/compare/bench.hpp"
 
-namespace drycut::sim::comparing {
+namespace drycut::sim::studies::comparing {
 namespace {
 
 using testing::ElementsAre;
@@ -229,7 +229,7 @@ TEST_F(Compare, AWindowAboutAnEventCountsFromItInEachRun) {
   OverlayRequest request;
   request.plot.name.text = "one_cut";
   request.plot.panels.emplace_back().channels = {{"AxisX.follerr", {}}};
-  request.around = PicturesSection::Around{{"cut", {}}, 2, 30 * millisecond, 100 * millisecond};
+  request.around = scenario::PicturesSection::Around{{"cut", {}}, 2, 30 * millisecond, 100 * millisecond};
   const auto plot = overlay(comparison.runs, {request})[0];
   EXPECT_EQ(plot.x_label, "time from cut 2 [s]");
   ASSERT_EQ(plot.panels[0].curves.size(), 2U);
@@ -252,4 +252,4 @@ TEST_F(Compare, CsvTellsFiguresChecksAndParametersOfEachRun) {
 }
 
 }  // namespace
-}  // namespace drycut::sim::comparing
+}  // namespace drycut::sim::studies::comparing

@@ -9,7 +9,7 @@
 #include "sim/cli/tune_command.hpp"
 #include "tests/sim/command_bench.hpp"
 
-namespace drycut::sim::tuning {
+namespace drycut::sim::studies::tuning {
 
 namespace fs = std::filesystem;
 
@@ -74,12 +74,12 @@ struct Bench : CommandTest {
     options.out = folder / "out";
   }
   int run() {
-    return captured([&] { return tune_scenarios(options); });
+    return captured([&] { return cli::tune_scenarios(options); });
   }
 
   TestFolder test_folder;
   const fs::path& folder = test_folder.path;
-  TuneOptions options;
+  cli::TuneOptions options;
 };
 
-}  // namespace drycut::sim::tuning
+}  // namespace drycut::sim::studies::tuning

@@ -8,7 +8,7 @@
 #include "sim/studies/tune/study.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
 
-namespace drycut::sim::tuning {
+namespace drycut::sim::studies::tuning {
 namespace {
 
 using testing::HasSubstr;
@@ -25,7 +25,7 @@ struct TuneCommand : Bench {
 
 TEST_F(TuneCommand, FindsTheFeedForwardThatTheLawGives) {
   at_rest();
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 1000\n"));
   EXPECT_THAT(content(folder / "out/patch.txt"),
               HasSubstr("set:\n      AxisX.feedfw: 1000  # drycut tune; before: 900\n"));
@@ -35,19 +35,19 @@ TEST_F(TuneCommand, TunesThePlantAsWell) {
   options.set = {feedfw + "=1000"};
   options.vary = {"plants.axis.speed_at_10v=0.5..1.6 m/s"};
   options.budget = 60;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   const auto patch = content(folder / "out/patch.txt");
   const auto at = patch.find("speed_at_10v: ");
   ASSERT_NE(at, std::string::npos) << patch;
   EXPECT_NEAR(std::stod(patch.substr(at + 14)), 1.0, 0.002);
   EXPECT_THAT(patch, HasSubstr("controller:\n  qmove:\n    set:\n      AxisX.feedfw: 1000  # --set\n"));
   EXPECT_THAT(patch, HasSubstr("plants:\n  axis:\n    speed_at_10v: "));
-  Findings findings({"patch.txt"});
-  const auto root = parse_yaml(patch, 0, findings);
+  scenario::Findings findings({"patch.txt"});
+  const auto root = scenario::parse_yaml(patch, 0, findings);
   EXPECT_TRUE(findings.empty()) << to_string(findings.sorted()[0]);
   ASSERT_EQ(root.entries.size(), 2U) << "all else is comment: " << patch;
-  const auto* axis = child(*child(root, "plants"), "axis");
-  EXPECT_NEAR(std::stod(child(*axis, "speed_at_10v")->text.text), 1.0, 0.002);
+  const auto* axis = scenario::child(*scenario::child(root, "plants"), "axis");
+  EXPECT_NEAR(std::stod(scenario::child(*axis, "speed_at_10v")->text.text), 1.0, 0.002);
 }
 
 /// The loop of the bench is L(z) = pgain / 1000 / (z - 1).
@@ -68,14 +68,14 @@ struct TuneMargins : TuneCommand {
 
 TEST_F(TuneMargins, PhaseMarginStopsTheGainWhereTheLawDoes) {
   options.constraints = {"phase_margin >= 80"};
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   // |z - 1| = 2 sin(w T / 2) = pgain / 1000, and the phase there is -90 deg - w T / 2.
   EXPECT_NEAR(tuned(), 2000 * std::sin(10 * std::numbers::pi / 180), 10);
 }
 
 TEST_F(TuneMargins, GainMarginStopsTheGainWhereTheLawDoes) {
   options.constraints = {"gain_margin >= 14"};
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_NEAR(tuned(), 2000 / std::pow(10, 14.0 / 20), 10);
   EXPECT_THAT(out, HasSubstr("gain_margin >= 14"));
 }
@@ -83,14 +83,14 @@ TEST_F(TuneMargins, GainMarginStopsTheGainWhereTheLawDoes) {
 TEST_F(TuneMargins, SensitivityStopsTheGainWhereTheLawDoes) {
   // |1 / (1 + L)| is largest at half the sampling frequency: 1 / (1 - pgain / 2000).
   options.constraints = {"max_sensitivity <= 1.2"};
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_NEAR(tuned(), 2000 * (1 - 1 / 1.2), 10);
 }
 
 TEST_F(TuneMargins, TheBudgetIsOfSimulatedRunsMarginsIncluded) {
   options.constraints = {"phase_margin >= 80"};
   options.budget = 30;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   const auto at = out.find("simulated runs: search ");
   ASSERT_NE(at, std::string::npos) << out;
   const int runs = std::stoi(out.substr(at + 23));
@@ -101,19 +101,19 @@ TEST_F(TuneMargins, TheBudgetIsOfSimulatedRunsMarginsIncluded) {
 TEST_F(TuneMargins, SameAnswerForAnyJobsAndWhenResumed) {
   options.constraints = {"phase_margin >= 80", "max(axis.speed) <= 520"};
   options.budget = 30;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   const auto whole = content(folder / "out/evaluations.csv");
   options.jobs = 2;
   options.out = folder / "out2";
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_EQ(content(folder / "out2/evaluations.csv"), whole);
   std::ofstream(folder / "out2/evaluations.csv", std::ios::binary) << whole.substr(0, whole.size() / 2);
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_EQ(content(folder / "out2/evaluations.csv"), whole);
   EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
   // Measured in another way it is another study.
   options.loop.amplitude = 0.5;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
 }
 
@@ -121,7 +121,7 @@ TEST_F(TuneMargins, AnUnstableLoopIsBeyondEveryMargin) {
   options.vary = {pgain + "=2200..3000"};
   options.budget = 6;
   options.constraints = {"phase_margin >= 1"};
-  EXPECT_EQ(run(), check_failed) << out << err;
+  EXPECT_EQ(run(), cli::check_failed) << out << err;
   EXPECT_THAT(out,
               testing::StartsWith(
                   "No values tried keep all limits; the best miss is not measured: the loop is not stable"));
@@ -131,7 +131,7 @@ TEST_F(TuneMargins, AMarginThatIsNotMetIsNotKept) {
   options.loop.to = 20;
   options.constraints = {"gain_margin >= 1"};
   options.budget = 9;
-  EXPECT_EQ(run(), check_failed) << out << err;
+  EXPECT_EQ(run(), cli::check_failed) << out << err;
   EXPECT_THAT(
       out,
       HasSubstr("\n  after, not measured: not met between the measured frequencies: gain_margin >= 1\n"));
@@ -144,7 +144,7 @@ TEST_F(TuneMargins, WhereNothingKeepsTheLimitsThePatchSaysSo) {
   options.constraints = {"phase_margin >= 170"};
   options.spread = {"plants.axis.speed_at_10v=±10%"};
   options.spread_runs = 3;
-  EXPECT_EQ(run(), check_failed) << out << err;
+  EXPECT_EQ(run(), cli::check_failed) << out << err;
   const std::string miss = "o values tried keep all limits; the best miss is beyond phase_margin >= 170\n";
   EXPECT_THAT(out, testing::StartsWith("N" + miss));
   EXPECT_THAT(content(folder / "out/patch.txt"), testing::StartsWith("# n" + miss));
@@ -157,7 +157,7 @@ TEST_F(TuneMargins, AMarginWithoutANumberRanksBetweenNearlyKeptAndGrosslyBroken)
   const auto violation_of = [this](const std::string& constraint, std::optional<double> to) {
     Study study;
     study.cases.push_back({folder / "axis.yaml", scenario, {}});
-    study.set = {{sim::tuning::pgain, "100"}};
+    study.set = {{pgain, "100"}};
     study.minimise = "rms(AxisX.follerr)";
     study.constraints = {constraint};
     study.loop.points = 8;
@@ -182,7 +182,7 @@ TEST_F(TuneMargins, SpreadTellsTheLeastRoom) {
   options.budget = 30;
   options.spread = {"plants.axis.speed_at_10v=±30%"};
   options.spread_runs = 6;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   // Tuned to the very limit: a faster machine has less margin.
   EXPECT_THAT(out, testing::ContainsRegex("least room of phase_margin >= 80: [0-9.]+ too far"));
 }
@@ -192,18 +192,18 @@ TEST_F(TuneMargins, RefusesWhatCannotBeMeasured) {
   options.constraints = {"gain_margin >= 6"};
   options.loop.amplitude = 20;
   options.loop.wire = "axis.referenz";
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--amplitude:1:1: 20 is out of range; give 0.001 to 10 V"));
   EXPECT_THAT(err,
               HasSubstr("--minimise:1:1: phase_margin is measured for constraints only; put a limit into "
                         "--constraint"));
   options.minimise = "rms(AxisX.follerr)";
   options.loop.amplitude = 1;
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--wire:1:1: there is no analogue reference 'axis.referenz'; give one of: "
                              "axis.reference"));
   options.constraints.clear();
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--wire:1:1: no constraint is on the loop; add --constraint \"phase_margin >= "
                              "45\", or leave it out"));
   EXPECT_FALSE(fs::exists(folder / "out"));
@@ -211,48 +211,48 @@ TEST_F(TuneMargins, RefusesWhatCannotBeMeasured) {
 
 TEST_F(TuneCommand, TheNumberOfJobsChangesNothing) {
   options.vary.push_back(pgain + "=0..20");
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   const auto one = content(folder / "out/evaluations.csv") + content(folder / "out/patch.txt");
   options.jobs = 3;
   options.out = folder / "out3";
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_EQ(content(folder / "out3/evaluations.csv") + content(folder / "out3/patch.txt"), one);
   options.seed = 2;
   options.out = folder / "other";
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_NE(content(folder / "other/evaluations.csv") + content(folder / "other/patch.txt"), one);
 }
 
 TEST_F(TuneCommand, GoesOnWhereItWasInterrupted) {
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   const auto file = folder / "out/evaluations.csv";
   const auto whole = content(file);
   const auto cut = whole.size() / 2 + 3;  // within a line
   std::ofstream(file, std::ios::binary) << whole.substr(0, cut);
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_EQ(content(file), whole);
   EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, HasSubstr(" 0 simulated now"));
   EXPECT_EQ(content(file), whole);
 }
 
 TEST_F(TuneCommand, AnotherProgramIsAnotherStudy) {
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   std::string slower = program;
   slower.replace(slower.find("setvel = 30000"), 14, "setvel = 20000");
   std::ofstream(folder / "axis.mod") << slower;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
 }
 
 TEST_F(TuneCommand, AConstraintMovesTheOptimum) {
   // At setvel half of maxvel the speed is feedfw / 2 mm/s.
   options.constraints = {"max(axis.speed) <= 450.2"};
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
   options.constraints = {"max(axis.speed) <= 10"};
-  EXPECT_EQ(run(), check_failed);
+  EXPECT_EQ(run(), cli::check_failed);
   EXPECT_THAT(out, HasSubstr("beyond max(axis.speed) <= 10"));
 }
 
@@ -260,10 +260,10 @@ TEST_F(TuneCommand, FailedChecksOfTheScenarioCount) {
   at_rest();
   std::ofstream(folder / "axis.yaml", std::ios::app)
       << "checks: [{name: slow, always: axis.speed <= 450.2}]\n";
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
   options.ignore_checks = true;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 1000\n"));
 }
 
@@ -273,7 +273,7 @@ TEST_F(TuneCommand, TheWorstOfSeveralScenariosCounts) {
   std::ofstream(folder / "fast.yaml") << fast;
   options.scenarios.push_back(folder / "fast.yaml");
   options.budget = 100;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   const auto patch = content(folder / "out/patch.txt");
   const double tuned = std::stod(patch.substr(patch.find("feedfw = ") + 9));
   // The errors 1000 - f and 1.25 f - 1000 are equal at 888.9.
@@ -283,7 +283,7 @@ TEST_F(TuneCommand, TheWorstOfSeveralScenariosCounts) {
 TEST_F(TuneCommand, SpreadsTheMachineAndTellsTheWorst) {
   options.spread = {"plants.axis.speed_at_10v=±20%"};
   options.spread_runs = 8;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(out, HasSubstr("Spread of the machine: 8 samples, 0 beyond a limit; worst rms(AxisX.follerr)"));
   const auto csv = content(folder / "out/spread.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 10);
@@ -294,7 +294,7 @@ TEST_F(TuneCommand, WritesAReportWithPlots) {
   options.pictures = true;
   options.spread = {"plants.axis.speed_at_10v=0.9..1.1 m/s"};
   options.spread_runs = 4;
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   for (const auto* name : {"before_after", "search", "around", "spread"})
     EXPECT_GT(fs::file_size(folder / "out/plots" / (std::string(name) + ".png")), 1000u) << name;
   EXPECT_THAT(
@@ -318,7 +318,7 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
   options.from = "3 kg";
   options.set = {"x"};
   options.spread = {feedfw + "=30"};
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   for (const auto* told :
        {"--vary:1:35: the range 9..3 is empty; the lower end comes first",
         "--vary:1:1: 'nothing' gives no range to a path; write PATH=LO..HI",
@@ -337,7 +337,7 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
 
 TEST_F(TuneCommand, RefusesBoundsOutsideTheDocumentedRange) {
   options.vary = {pgain + "=-5..100", "controller.qmove.set.AxisX.rtype=0..7"};
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(
       err,
       HasSubstr(
@@ -349,7 +349,7 @@ TEST_F(TuneCommand, RefusesBoundsOutsideTheDocumentedRange) {
 
 TEST_F(TuneCommand, RefusesAFolderThatCannotBeMade) {
   options.out = folder / "axis.yaml" / "out";
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err,
               testing::StartsWith("--out:1:1: the directory " + options.out.string() + " cannot be made"));
 }
@@ -358,7 +358,7 @@ TEST_F(TuneCommand, RefusesWhatTheVariableCannotHold) {
   options.vary = {pgain + "=1..70000"};
   options.from = "1 s";
   options.spread = {pgain + "=±10%"};
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("--vary:1:37: controller.qmove.set.AxisX.pgain: AxisX.pgain does not hold "
                              "70000; write 0 to 32767"));
   EXPECT_THAT(err, HasSubstr("--from:1:1: 1 s is not before the end of"));
@@ -368,4 +368,4 @@ TEST_F(TuneCommand, RefusesWhatTheVariableCannotHold) {
 }
 
 }  // namespace
-}  // namespace drycut::sim::tuning
+}  // namespace drycut::sim::studies::tuning

@@ -8,12 +8,12 @@
 #include "sim/studies/tune/parameter.hpp"
 #include "tests/sim/fakes.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 namespace {
 
 using testing::HasSubstr;
 
-const std::vector<KnownEvent> events = {{"knife", "cut", {{"length", "mm"}, {"force", "N"}}}};
+const std::vector<loop::KnownEvent> events = {{"knife", "cut", {{"length", "mm"}, {"force", "N"}}}};
 
 /// follerr = 5 - t in steps of 1 s, 0 to 5; cuts of 100, 102, 104 mm at 1, 3, 5 s.
 struct TuneMetric : testing::Test {
@@ -33,13 +33,13 @@ struct TuneMetric : testing::Test {
     }
   }
   double number(const std::string& text, Time from = 0) {
-    std::vector<ExpressionFault> faults;
+    std::vector<scenario::ExpressionFault> faults;
     auto metric = Metric::compile(text, Metric::Kind::number, events, faults);
     for (const auto& fault : faults) ADD_FAILURE() << text << ": " << fault.what;
     return metric ? metric->value(recording, from) : NAN;
   }
   static std::string fault(const std::string& text, Metric::Kind kind = Metric::Kind::number) {
-    std::vector<ExpressionFault> faults;
+    std::vector<scenario::ExpressionFault> faults;
     EXPECT_FALSE(Metric::compile(text, kind, events, faults).has_value()) << text;
     return faults.empty()
                ? ""
@@ -47,10 +47,10 @@ struct TuneMetric : testing::Test {
   }
 
   fakes::FakeController controller;
-  Panel panel;
-  Names names;
-  Watch watch;
-  Recording recording;
+  loop::Panel panel;
+  loop::Names names;
+  loop::Watch watch;
+  loop::Recording recording;
 };
 
 TEST_F(TuneMetric, TermsAreWhatTheirNamesSay) {
@@ -84,7 +84,7 @@ TEST_F(TuneMetric, FormulasOverTermsAndPlainMax) {
 }
 
 TEST_F(TuneMetric, AConstraintHasItsRoom) {
-  std::vector<ExpressionFault> faults;
+  std::vector<scenario::ExpressionFault> faults;
   auto limit = Metric::compile("max(AxisX.follerr) <= 3 && mean(cut.length) > 100", Metric::Kind::limit,
                                events, faults);
   ASSERT_TRUE(limit.has_value());
@@ -93,7 +93,7 @@ TEST_F(TuneMetric, AConstraintHasItsRoom) {
 }
 
 TEST_F(TuneMetric, AConstraintMayLimitTheLoop) {
-  std::vector<ExpressionFault> faults;
+  std::vector<scenario::ExpressionFault> faults;
   auto limit = Metric::compile("phase_margin - 5 >= 40 && max(AxisX.follerr) <= 9", Metric::Kind::limit,
                                events, faults);
   ASSERT_TRUE(limit.has_value());
@@ -144,4 +144,4 @@ TEST(TuneParameter, AHypercubeMeetsEveryPartOfEveryRangeOnce) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies

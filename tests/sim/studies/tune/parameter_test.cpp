@@ -3,13 +3,13 @@
 
 #include "sim/studies/tune/parameter.hpp"
 
-namespace drycut::sim {
+namespace drycut::sim::studies {
 namespace {
 
-Scenario scene(const std::string& name) {
+scenario::Scenario scene(const std::string& name) {
   Problems problems;
-  auto scenario =
-      read_scenario(std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes" / (name + ".yaml"), {}, problems);
+  auto scenario = scenario::read_scenario(
+      std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes" / (name + ".yaml"), {}, problems);
   EXPECT_TRUE(problems.empty());
   return scenario;
 }
@@ -53,4 +53,4 @@ TEST(TuneParameter, BoundsOfAnAxisParameterAreChecked) {
 }
 
 }  // namespace
-}  // namespace drycut::sim
+}  // namespace drycut::sim::studies
