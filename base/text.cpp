@@ -14,6 +14,8 @@ namespace {
 char lower_char(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 char upper_char(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
+std::string question(const std::string& name) { return "did you mean " + name + "?"; }
+
 }  // namespace
 
 std::string lower(std::string_view text) {
@@ -65,12 +67,22 @@ std::string in_quotes(std::string_view text) {
   return result + (text.size() > longest ? "...'" : "'");
 }
 
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise) {
+  const std::string near = nearest(std::string(word), candidates);
+  return near.empty() ? otherwise : question(near);
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  return did_you_mean(word, candidates,
+                      candidates.empty() ? "nothing can stand here" : "known: " + listed(candidates));
+}
+
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates,
                        const std::string& otherwise) {
   constexpr std::size_t longest_name = 64;
-  if (word.size() > longest_name) return otherwise;
-  const std::string near = nearest(std::string(word), candidates);
-  return near.empty() ? otherwise : "did you mean " + in_quotes(near) + "?";
+  const std::string near = word.size() > longest_name ? "" : nearest(std::string(word), candidates);
+  return near.empty() ? otherwise : question(in_quotes(near));
 }
 
 std::string listed(const std::vector<std::string>& items) {

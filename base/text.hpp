@@ -28,7 +28,12 @@ std::vector<std::string_view> split_lines(std::string_view text);
 
 /// `text` between quotes for a message: cut if long, unprintable bytes as \xNN.
 std::string in_quotes(std::string_view text);
-/// "did you mean 'posit'?" for the nearest candidate, or `otherwise` if none is near.
+/// "did you mean posit?" for the nearest candidate, or `otherwise` if none is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise);
+/// The same, or all candidates if none is near: "known: posit, vel".
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+/// The same with the candidate in quotes, as the controllers' own tools have it: "did you mean 'posit'?".
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates,
                        const std::string& otherwise);
 /// "A, B, C".

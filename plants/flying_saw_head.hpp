@@ -49,7 +49,6 @@ class SawHead {
 
   [[nodiscard]] const Slide& body() const { return body_; }  ///< position: depth [m]
   [[nodiscard]] Slide& body() { return body_; }
-  [[nodiscard]] double cylinder_force() const { return force_; }  ///< downwards [N]
 
   /// Angle of the spinning blade as pictures show it [rad].
   [[nodiscard]] double blade_turn() const { return blade_turn_; }

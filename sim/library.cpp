@@ -42,14 +42,18 @@ struct Simulation::Run {
     if (!problems.empty()) refuse(problems);
   }
 
-  const sim::loop::Reading& reading(const std::string& name) {
+  /// nullptr if there is none of that name.
+  const sim::loop::Reading* find_reading(const std::string& name) {
     const auto known = readings.find(name);
-    if (known != readings.end()) return known->second;
+    if (known != readings.end()) return &known->second;
     auto found = simulation.names().reading(name);
-    if (!found)
-      throw BadInput(fmt::format("there is no channel {}; {}", in_quotes(name),
-                                 simulation.names().suggest_reading(name)));
-    return readings.emplace(name, std::move(*found)).first->second;
+    return found ? &readings.emplace(name, std::move(*found)).first->second : nullptr;
+  }
+
+  const sim::loop::Reading& reading(const std::string& name) {
+    if (const auto* found = find_reading(name)) return *found;
+    throw BadInput(
+        fmt::format("there is no channel {}; {}", in_quotes(name), simulation.names().suggest_reading(name)));
   }
 
   const sim::loop::Target& target(const std::string& name) {
@@ -99,7 +103,7 @@ std::vector<std::string> Simulation::names() const { return run_->simulation.nam
 double Simulation::read(const std::string& name) { return run_->reading(name).read(); }
 
 std::string Simulation::unit(const std::string& name) {
-  if (run_->simulation.names().reading(name)) return run_->reading(name).unit;
+  if (const auto* reading = run_->find_reading(name)) return reading->unit;
   return std::string(run_->target(name).unit);
 }
 

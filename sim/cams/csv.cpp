@@ -16,10 +16,6 @@ constexpr std::size_t most_problems = 1000;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-std::string joined(const std::vector<std::string>& words, std::string_view between) {
-  return fmt::format("{}", fmt::join(words, between));
-}
-
 /// True for "the guide in 0.1 mm" and for nothing: a value is a number or one word.
 bool is_prose(std::string_view value) {
   if (value.empty()) return true;
@@ -185,15 +181,14 @@ void Settings::refuse(const Cell& key, int line) {
   std::vector<std::string> names;
   names.reserve(settings_.size());
   for (const auto& [name, take] : settings_) names.push_back(name);
-  const auto near = nearest(std::string(key.text.substr(0, 40)), names);
   problems_.add(line, key.column, fmt::format("there is no setting {}", in_quotes(key.text)),
-                (near.empty() ? "there are " + joined(names, ", ") : fmt::format("did you mean {}?", near)) +
+                did_you_mean(key.text.substr(0, 40), names, "there are " + listed(names)) +
                     "; a remark begins with ##");
 }
 
 // Header.
 
-std::string Header::text() const { return joined(columns_, ","); }
+std::string Header::text() const { return fmt::format("{}", fmt::join(columns_, ",")); }
 
 bool Header::read(const std::vector<Cell>& cells, int line, TableProblems& problems) {
   places_.assign(columns_.size(), -1);
@@ -223,12 +218,10 @@ bool Header::read(const std::vector<Cell>& cells, int line, TableProblems& probl
 void Header::read_name(const Cell& cell, int place, int line, TableProblems& problems) {
   const auto found = std::find(columns_.begin(), columns_.end(), cell.text);
   if (found == columns_.end()) {
-    const auto near = nearest(std::string(cell.text.substr(0, 40)), columns_);
     const bool semicolons = cell.text.find(';') != std::string_view::npos;
     problems.add(line, cell.column, fmt::format("there is no column {}", in_quotes(cell.text)),
-                 semicolons     ? "separate the columns with commas"
-                 : near.empty() ? "the columns are " + text()
-                                : fmt::format("did you mean {}?", near));
+                 semicolons ? "separate the columns with commas"
+                            : did_you_mean(cell.text.substr(0, 40), columns_, "the columns are " + text()));
     return;
   }
   int& taken = places_[static_cast<std::size_t>(found - columns_.begin())];

@@ -119,8 +119,7 @@ class PageMaker {
       page_.table = cam_file(table_, file);
     }
     // Also of a table that was written just now: will drycut cam take the file?
-    const auto& kind = cam_kind(played.table ? kind_name(*played.table) : "mc_camin", page_.table);
-    auto read = kind.read(page_.table, file, problems_);
+    auto read = read_cam(played.table ? kind_name(*played.table) : "mc_camin", page_.table, file, problems_);
     if (!played.table) table_ = std::move(read);
   }
 

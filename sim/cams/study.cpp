@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 
 #include "base/text.hpp"
 #include "sim/cams/csv.hpp"
@@ -95,10 +96,19 @@ const CamKind& cam_kind(std::string_view name, std::string_view text) {
   const auto header = header_line(text);
   const bool numbers = !header.empty() && std::isdigit(static_cast<unsigned char>(header.front())) != 0;
   if (!name.empty() || header.empty() || numbers) return kinds.front();
-  const auto near = std::max_element(kinds.begin(), kinds.end(), [&](const CamKind& a, const CamKind& b) {
-    return near_columns(a, header) < near_columns(b, header);
-  });
-  return near_columns(*near, header) == 0 ? no_kind : *near;
+  const CamKind* nearest_kind = &no_kind;
+  std::ptrdiff_t most = 0;
+  for (const auto& kind : kinds) {
+    const auto columns = near_columns(kind, header);
+    if (columns > most) nearest_kind = &kind;
+    most = std::max(most, columns);
+  }
+  return *nearest_kind;
+}
+
+devices::CamTable read_cam(std::string_view device, std::string_view text, const std::string& file,
+                           Problems& problems) {
+  return cam_kind(device, text).read(text, file, problems);
 }
 
 std::string_view kind_name(const devices::CamTable& table) {

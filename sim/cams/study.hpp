@@ -50,6 +50,9 @@ std::span<const CamKind> cam_kinds();
 /// By the name of --device; "" = by the table's text, and a header that no kind knows has a kind without a
 /// name, which tells all of theirs.
 const CamKind& cam_kind(std::string_view name, std::string_view text);
+/// A table as `device` reads it, "" = as its text shows; it means nothing if problems were told.
+devices::CamTable read_cam(std::string_view device, std::string_view text, const std::string& file,
+                           Problems& problems);
 /// The name of a table's kind.
 std::string_view kind_name(const devices::CamTable& table);
 

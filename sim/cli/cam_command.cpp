@@ -57,8 +57,8 @@ void write(const CamOptions& options, const cams::CamStudy& study) {
 int validate_cam(const CamOptions& options) {
   Problems problems;
   const auto text = read_file(options.table, problems);
-  const auto& kind = cams::cam_kind(options.device, text.value_or(""));
-  const auto table = text ? kind.read(*text, options.table.string(), problems) : devices::CamTable();
+  const auto table =
+      text ? cams::read_cam(options.device, *text, options.table.string(), problems) : devices::CamTable();
   check_options(options, cams::gives_master_speed(table), problems);
   cams::CamStudy study;
   if (problems.empty()) {

@@ -52,7 +52,7 @@ class Checker {
       if (const auto text = read_file(file, problems_)) check_table(*text, file.string());
     } else if (kind == ".tab") {
       if (const auto text = read_file(file, problems_))
-        cams::cam_kind("mc_camin", *text).read(*text, file.string(), problems_);
+        cams::read_cam("mc_camin", *text, file.string(), problems_);
     } else {
       problems_.push_back(
           {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
@@ -111,7 +111,7 @@ class Checker {
     else if (devices::lx3vp::is_register_file(text, ','))
       devices::lx3vp::read_register_values(text, file, ',', problems_);
     else
-      cams::cam_kind("", text).read(text, file, problems_);
+      cams::read_cam("", text, file, problems_);
   }
 
   void check_configuration(const std::filesystem::path& file) {

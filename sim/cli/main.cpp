@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/plain_text.hpp"
+#include "base/text.hpp"
 #include "sim/cli/commands.hpp"
-#include "sim/scenario/yaml_reader.hpp"
 
 namespace {
 
@@ -30,7 +30,7 @@ bool unknown_option(const CLI::App& app) {
       if (!word.starts_with("--")) continue;
       const auto option = word.substr(0, word.find('='));
       fmt::print(stderr, "drycut {}: there is no option {}; {}\n", command->get_name(), option,
-                 sim::scenario::did_you_mean(option, known));
+                 did_you_mean(option, known));
       return true;
     }
   }
@@ -47,12 +47,13 @@ int run(int argc, char** argv) {
        {add_run, add_check, add_cam, add_tune, add_bode, add_compare, add_devices, add_plants, add_reference})
     add(app, status);
 
-  std::vector<std::string> commands;
-  for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());
-  if (argc > 1 && argv[1][0] != '-' &&
-      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
-    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1],
-               sim::scenario::did_you_mean(argv[1], commands));
+  const auto commands = app.get_subcommands({});
+  const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_named)) {
+    std::vector<std::string> names;
+    for (const auto* command : commands)
+      if (!command->get_group().empty()) names.push_back(command->get_name());
+    fmt::print(stderr, "drycut: there is no command '{}'; {}\n", argv[1], did_you_mean(argv[1], names));
     return bad_input;
   }
   for (int i = 1; i < argc; ++i) {

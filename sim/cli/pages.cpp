@@ -36,9 +36,8 @@ void print(const Page& page) {
 int unknown(const std::string& kind, const std::string& name, const std::vector<Page>& pages) {
   std::vector<std::string> names;
   for (const auto& page : pages) names.push_back(page.name);
-  const auto near = nearest(name, names);
   fmt::print(stderr, "drycut {}s: there is no {} type '{}'; {}\n", kind, kind, name,
-             near.empty() ? "there are: " + listed(names) : fmt::format("did you mean {}?", near));
+             did_you_mean(name, names, "there are: " + listed(names)));
   return bad_input;
 }
 

@@ -171,7 +171,7 @@ void check_tasks(const plcopen::st::Program& program, const std::string& file, c
                        [&](const std::string& name) { return same_word(name, wanted.text); }))
         problems.push_back(scenario::problem_at(scenario, wanted.place,
                                                 fmt::format("there is no PROGRAM '{}'", wanted.text),
-                                                scenario::did_you_mean(wanted.text, names)));
+                                                did_you_mean(wanted.text, names)));
 }
 
 /// True if the scenario sets the value, before power-up or in its timeline.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "sim/loop/names.hpp"
 
 namespace drycut::sim::loop {
@@ -123,17 +124,14 @@ class Connector {
       if (known_plant ? !port->first.starts_with(plant + ".") : problems_.size() > most_suggestions) break;
       candidates.push_back(port->first);
     }
-    const auto near = nearest(text.text, candidates);
     if (!known_plant) {
       problem(text.place, fmt::format("there is no plant '{}'", plant),
-              near.empty() ? fmt::format("plants: {}", list(plant_names_, "none"))
-                           : fmt::format("did you mean {}?", near));
+              did_you_mean(text.text, candidates, fmt::format("plants: {}", list(plant_names_, "none"))));
     } else {
       problem(text.place,
               fmt::format("plant '{}' has no plug '{}'", plant,
                           text.text.substr(std::min(text.text.size(), plant.size() + 1))),
-              near.empty() ? fmt::format("it has: {}", list(candidates, "no plugs"))
-                           : fmt::format("did you mean {}?", near));
+              did_you_mean(text.text, candidates, fmt::format("it has: {}", list(candidates, "no plugs"))));
     }
     return nullptr;
   }

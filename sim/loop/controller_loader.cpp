@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "sim/file.hpp"
 
 namespace drycut::sim::loop {
@@ -20,12 +21,12 @@ void set_values(const scenario::ControllerSection& section, const scenario::Scen
       if (!fault) value->write(number);
       continue;
     }
-    const auto near = nearest(name.text, controller.names());
-    problems.push_back(scenario::problem_at(
-        scenario, name.place,
-        value ? fmt::format("'{}' can only be read", name.text)
-              : fmt::format("the controller has nothing called '{}'", name.text),
-        near.empty() || value ? std::string(section.settable()) : fmt::format("did you mean {}?", near)));
+    problems.push_back(
+        scenario::problem_at(scenario, name.place,
+                             value ? fmt::format("'{}' can only be read", name.text)
+                                   : fmt::format("the controller has nothing called '{}'", name.text),
+                             did_you_mean(name.text, value ? std::vector<std::string>() : controller.names(),
+                                          std::string(section.settable()))));
   }
 }
 

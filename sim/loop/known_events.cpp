@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "sim/loop/names.hpp"
 
 namespace drycut::sim::loop {
@@ -31,10 +32,9 @@ const KnownEvent* find_event(const std::vector<KnownEvent>& events, const scenar
     known.push_back(event.name);
     known.push_back(event.source + "." + event.name);
   }
-  const auto near = nearest(wanted.text, known);
   problems.push_back(scenario::problem_at(
       scenario, wanted.place, fmt::format("nothing here reports an event '{}'", wanted.text),
-      near.empty() ? "events of plants are listed by drycut plants" : fmt::format("did you mean {}?", near)));
+      did_you_mean(wanted.text, known, "events of plants are listed by drycut plants")));
   return nullptr;
 }
 

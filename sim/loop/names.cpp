@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "base/text.hpp"
 #include "devices/plcopen/terminals.hpp"
 
 namespace drycut::sim::loop {
@@ -11,12 +12,6 @@ namespace drycut::sim::loop {
 namespace {
 
 constexpr std::string_view panel_prefix = "panel.";
-
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates,
-                         std::string_view else_say) {
-  const auto near = nearest(name, candidates);
-  return near.empty() ? std::string(else_say) : fmt::format("did you mean {}?", near);
-}
 
 }  // namespace
 

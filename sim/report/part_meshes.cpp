@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/text.hpp"
 #include "renders/mesh_file.hpp"
 
 namespace drycut::sim::report {
@@ -11,7 +12,7 @@ namespace {
 
 /// The nearest part, or what the plant that is named has.
 std::string remedy_for(const std::string& part, const std::vector<loop::NamedPlant>& plants) {
-  constexpr std::size_t listed = 60;
+  constexpr std::size_t most = 60;
   std::vector<std::string> all;
   std::vector<std::string> own;
   for (const auto& [plant, machine] : plants) {
@@ -23,11 +24,10 @@ std::string remedy_for(const std::string& part, const std::vector<loop::NamedPla
   }
   for (const auto& name : all)
     if (name.starts_with(part + " ")) return fmt::format("did you mean {}?", name);  // one of several
-  if (const auto near = nearest(part, all); !near.empty()) return fmt::format("did you mean {}?", near);
-  if (own.empty()) return "write PLANT.PART; `drycut plants TYPE` lists the parts";
-  const bool cut = own.size() > listed;
-  if (cut) own.resize(listed);
-  return fmt::format("parts: {}{}", fmt::join(own, ", "), cut ? ", ..." : "");
+  if (own.empty()) return did_you_mean(part, all, "write PLANT.PART; `drycut plants TYPE` lists the parts");
+  const bool cut = own.size() > most;
+  if (cut) own.resize(most);
+  return did_you_mean(part, all, "parts: " + listed(own) + (cut ? ", ..." : ""));
 }
 
 bool is_known(const scenario::Text& part, const std::vector<loop::NamedPlant>& plants) {

@@ -102,11 +102,9 @@ class Compiler {
   }
 
   static std::string suggest(const std::string& word, const std::vector<std::string>& candidates) {
-    const auto near = nearest(word, candidates);
-    if (!near.empty()) return fmt::format("did you mean {}?", near);
     constexpr std::size_t few = 30;
-    if (candidates.empty() || candidates.size() > few) return "";
-    return fmt::format("known: {}", fmt::join(candidates, ", "));
+    if (candidates.empty() || candidates.size() > few) return did_you_mean(word, candidates, "");
+    return did_you_mean(word, candidates);
   }
 
   // Takes a conjunction apart: parentheses around the whole fall away, terms of && stand alone.

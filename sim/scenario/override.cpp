@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/text.hpp"
 #include "sim/scenario/sections.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 

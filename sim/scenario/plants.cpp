@@ -6,6 +6,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/text.hpp"
 #include "sim/scenario/forms.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/sections.hpp"

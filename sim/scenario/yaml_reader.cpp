@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
+
 namespace drycut::sim::scenario {
 
 namespace {
@@ -18,7 +20,7 @@ bool is_group(const ParameterTable& table, const std::string& name) {
 }
 
 // A table that is written as nested maps is suggested by the names of this map, another by whole names.
-std::string suggestion(const ParameterTable& table, const std::string& prefix, const std::string& key) {
+std::string nearest_row(const ParameterTable& table, const std::string& prefix, const std::string& key) {
   const auto map = table.nested ? prefix : std::string();
   std::vector<std::string> here;
   for (const auto& row : table.rows) {
@@ -32,10 +34,11 @@ std::string suggestion(const ParameterTable& table, const std::string& prefix, c
     here.emplace_back(rest);
   }
   const auto wanted = table.nested ? key : below(prefix, key);
-  if (const auto near = nearest(wanted, here); !near.empty()) return fmt::format("did you mean {}?", near);
-  for (const auto& row : table.rows)
-    if (row.name.ends_with("." + key)) return fmt::format("did you mean {}?", row.name);
-  return table.help;
+  const auto elsewhere = std::find_if(table.rows.begin(), table.rows.end(),
+                                      [&](const auto& row) { return row.name.ends_with("." + key); });
+  return did_you_mean(
+      wanted, here,
+      elsewhere == table.rows.end() ? table.help : fmt::format("did you mean {}?", elsewhere->name));
 }
 
 }  // namespace
@@ -166,7 +169,7 @@ void MapReader::read_level(const ParameterTable& table, const YamlNode& node, co
       read_parameter(table, *row, entry);
     } else if (!is_group(table, name)) {
       findings_.add(key.place, fmt::format("unknown key '{}' in {}", key.text, where),
-                    suggestion(table, prefix, key.text));
+                    nearest_row(table, prefix, key.text));
     } else if (entry.value.kind != YamlNode::Kind::map) {
       refuse_kind(entry.value, full(name), YamlNode::Kind::map, findings_);
     } else {

@@ -39,9 +39,6 @@ bool read_choice(const Text& text, const std::string& name, const std::vector<st
 /// An expression's syntax; names are looked up later, when the scenario's machines are built.
 void check_expression(const Text& text, Findings& findings);
 
-/// The nearest of `candidates` as a remedy, or all of them.
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
-
 /// Reads one map of the file: every key that is visited is known, finish() refuses the others. Duplicate keys
 /// and nodes of another kind are refused. A value that is absent leaves the default.
 class MapReader : public Archive {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "sim/scenario/expression.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/units.hpp"
@@ -22,9 +23,7 @@ const std::vector<std::string> common_units = {
     "kW",    "count", "count/s", "N m s/rad", "kg/m^2", "rad/s^2"};
 
 std::string unit_remedy(const std::string& unit) {
-  const auto near = nearest(unit, common_units);
-  return near.empty() ? "units are written like mm, m/min, N m, kg m^2, rpm, deg, %"
-                      : fmt::format("did you mean {}?", near);
+  return did_you_mean(unit, common_units, "units are written like mm, m/min, N m, kg m^2, rpm, deg, %");
 }
 
 std::string example(std::string_view unit) { return fmt::format("for example 1 {}", unit); }
@@ -33,14 +32,6 @@ std::string example(std::string_view unit) { return fmt::format("for example 1 {
 
 bool needs_unit(std::string_view unit) {
   return !unit.empty() && (!same_dimension(unit, "") || to_si(1, unit) != 1);
-}
-
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
-  if (const auto near = nearest(word, candidates); !near.empty()) {
-    return fmt::format("did you mean {}?", near);
-  }
-  return candidates.empty() ? "nothing can stand here"
-                            : fmt::format("known: {}", fmt::join(candidates, ", "));
 }
 
 std::optional<Quantity> read_quantity(const Text& text, const std::string& name, Findings& findings) {

@@ -40,5 +40,15 @@ TEST(Text, QuotesShowBytesAndCutWhatIsLong) {
   EXPECT_EQ(in_quotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 
+TEST(Text, TheNearestNameIsSuggestedElseWhatThereIs) {
+  const std::vector<std::string> names = {"posit", "vel"};
+  EXPECT_EQ(did_you_mean("posti", names), "did you mean posit?");
+  EXPECT_EQ(did_you_mean("torque", names), "known: posit, vel");
+  EXPECT_EQ(did_you_mean("torque", {}), "nothing can stand here");
+  EXPECT_EQ(did_you_mean("torque", names, "see the table"), "see the table");
+  EXPECT_EQ(suggestion("posti", names, "see the table"), "did you mean 'posit'?");
+  EXPECT_EQ(suggestion(std::string(65, 'x'), {std::string(66, 'x')}, "see the table"), "see the table");
+}
+
 }  // namespace
 }  // namespace drycut

@@ -7,7 +7,7 @@ namespace drycut {
 DRYCUT_FUZZ(text) {
   for (const char* device : {"camming4", "lx3vp"}) {
     Problems problems;
-    const auto table = sim::cams::cam_kind(device, text).read(text, "f.csv", problems);
+    const auto table = sim::cams::read_cam(device, text, "f.csv", problems);
     fuzz::expect_placed(problems, text);
     if (!problems.empty()) continue;
     const auto study = sim::cams::study_cam(table, sim::cams::CamRequest{.duty = {}, .at = {0, 1}}, problems);

@@ -10,7 +10,7 @@ DRYCUT_FUZZ(text) {
   devices::plcopen::parse_tab(text, "f.tab", problems);
   fuzz::expect_placed(problems, text);
   problems.clear();
-  const auto table = sim::cams::cam_kind("mc_camin", text).read(text, "f.csv", problems);
+  const auto table = sim::cams::read_cam("mc_camin", text, "f.csv", problems);
   fuzz::expect_placed(problems, text);
   if (!problems.empty()) return;
   const auto study = sim::cams::study_cam(table, sim::cams::CamRequest{.duty = {}, .at = {0, 1}}, problems);

@@ -151,7 +151,7 @@ TEST_P(Reports, HaveAPageForTheCamItsPlotsAndItsTable) {
   // The table that was kept is a cam table like any other.
   const auto table = read_file(out / "cams" / (page.name + ".csv"), problems).value_or("");
   EXPECT_EQ(table, page.table);
-  std::ignore = cams::cam_kind("", table).read(table, page.name, problems);
+  std::ignore = cams::read_cam("", table, page.name, problems);
   EXPECT_THAT(problems, IsEmpty());
   results.begin();
   EXPECT_FALSE(std::filesystem::exists(out / "cams"));

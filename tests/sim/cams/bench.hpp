@@ -35,7 +35,7 @@ inline devices::CamMotion at(const CamVisit& visit, double m) {
 /// A table as a controller holds it.
 inline std::shared_ptr<const devices::CamTable> held(std::string_view kind, const std::string& text) {
   Problems problems;
-  return std::make_shared<const devices::CamTable>(cam_kind(kind, text).read(text, "", problems));
+  return std::make_shared<const devices::CamTable>(read_cam(kind, text, "", problems));
 }
 
 /// The study of a cam in which nothing is wrongly asked.

@@ -138,7 +138,7 @@ TEST(CamKinds, AreToldByTheHeader) {
 TEST(CamKinds, AHeaderOfNoneIsToldWithAllOfTheirs) {
   const std::string text = "# remark\n  foo,bar \n0,0\n";
   Problems problems;
-  cam_kind("", text).read(text, "a.csv", problems);
+  read_cam("", text, "a.csv", problems);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(
       to_string(problems[0]),

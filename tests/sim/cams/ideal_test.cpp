@@ -16,7 +16,7 @@ using testing::IsEmpty;
 
 IdealCam ideal(std::string_view kind, const std::string& text, MasterRange range) {
   Problems problems;
-  const auto table = cam_kind(kind, text).read(text, "", problems);
+  const auto table = read_cam(kind, text, "", problems);
   return problems.empty() ? ideal_cam(table, range) : IdealCam();
 }
 IdealCam camming4(const std::string& rows, MasterRange range, const std::string& settings = "") {

@@ -1,6 +1,7 @@
 #pragma once
-// What is told of cams, for tests: many cams, each with all that is told of it.
+// What is told of cams, for tests: texts that are read, and many cams, each with all that is told of it.
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
@@ -8,9 +9,36 @@
 
 #include "sim/cams/course.hpp"
 #include "sim/cams/findings.hpp"
-#include "tests/sim/cams/texts.hpp"
 
 namespace drycut::sim::cams {
+
+/// What `read` makes of a text that has no fault.
+template <typename Read>
+auto sound(const std::string& text, const Read& read) {
+  Problems problems;
+  auto made = read(text, "cam.csv", problems);
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  return made;
+}
+
+/// The faults that `read` tells of a text, as they are printed, without the file's name.
+template <typename Read>
+std::vector<std::string> faults_of(const std::string& text, const Read& read) {
+  Problems problems;
+  read(text, "cam.csv", problems);
+  std::vector<std::string> told;
+  for (const auto& problem : problems)
+    told.push_back(to_string(problem).substr(std::string("cam.csv:").size()));
+  return told;
+}
+
+/// Findings as they are printed; without the remarks unless they are asked for.
+inline std::vector<std::string> printed(const std::vector<CamFinding>& findings, bool remarks) {
+  std::vector<std::string> told;
+  for (const auto& finding : findings)
+    if (remarks || finding.grade != CamFinding::Grade::remark) told.push_back(to_string(finding));
+  return told;
+}
 
 /// A table or its text, all that is told of it in order, and for findings what it is judged at.
 template <typename Cam = std::string>
