@@ -107,12 +107,17 @@ double AxisDrive::torque() const {
   return std::visit([](const auto& drive) { return drive.torque(); }, drive_);
 }
 
+PowerStage& AxisDrive::power() {
+  return std::visit([](auto& drive) -> PowerStage& { return drive.power(); }, drive_);
+}
+
 double AxisDrive::rated_torque() const {
   return data_.kind == "servo" ? data_.servo.rated_torque : data_.motor.winding.rated_torque;
 }
 
 void AxisDrive::offer_ports(std::vector<Port>& ports) {
   std::visit([&ports](auto& drive) { offer(drive, ports); }, drive_);
+  power().offer_ports(ports, data_.kind == "servo" ? "servo" : "drive");
   if (data_.brake.torque > 0)
     ports.push_back({"brake.release", &brake_.release,
                      "releases the brake, with the drive unless brake.control says otherwise; strapped high "
@@ -123,7 +128,12 @@ void AxisDrive::offer_channels(std::vector<Channel>& channels) const {
   channels.push_back({"motor.torque", "N m", [this] { return torque(); }, "torque of the motor"});
   channels.push_back({"motor.utilisation", "%", [this] { return std::abs(torque()) / rated_torque() * 100; },
                       "motor torque over rated torque"});
-  std::visit([&channels](const auto& drive) { offer(drive, channels); }, drive_);
+  std::visit(
+      [&channels](const auto& drive) {
+        offer(drive, channels);
+        drive.power().offer_channels(channels);
+      },
+      drive_);
   if (data_.brake.torque > 0)
     channels.push_back(
         {"brake.engaged", "", [this] { return brake_.released() ? 0.0 : 1.0; }, "1 while the brake holds"});
@@ -136,16 +146,18 @@ void AxisDrive::offer_faults(std::vector<Fault>& faults) {
   if (data_.brake.torque > 0) brake_.offer_faults(faults);
 }
 
-std::optional<Event> AxisDrive::trip(const Shaft& rotor) const {
-  if (!just_tripped_) return {};
-  return Event{"trip", 0, {{"speed", rotor.speed_before * units::rpm, "rpm"}}};
+std::vector<Event> AxisDrive::take_events(const Shaft& rotor) {
+  std::vector<Event> events = power().take_events();
+  if (just_tripped_) events.push_back({"trip", 0, {{"speed", rotor.speed_before * units::rpm, "rpm"}}});
+  return events;
 }
 
-EventType AxisDrive::trip_event() {
-  return {"trip",
-          {{"speed", "rpm"}},
-          "inverter or breaker has switched the motor off: both contactors closed, a phase lost behind the "
-          "inverter, the fault trip; speed of the motor then"};
+void AxisDrive::offer_events(std::vector<EventType>& types) {
+  types.push_back({"trip",
+                   {{"speed", "rpm"}},
+                   "inverter or breaker has switched the motor off: both contactors closed, a phase lost "
+                   "behind the inverter, an overload, the fault trip; speed of the motor then"});
+  PowerStage::offer_events(types);
 }
 
 Parameters axis_drive_parameters(AxisDriveData& data, const AxisDriveSources& from) {
@@ -189,10 +201,15 @@ Objections axis_drive_objections(const AxisDriveData& data, double inertia, doub
   if (data.kind == "servo") return servo_objections(data.servo, inertia, h);
   Objections found;
   object_to_winding(data.motor.winding, "induction_motor.", inertia, h, found);
+  if (data.motor.no_load_current >= data.motor.rated_current)
+    found.push_back(
+        {"induction_motor.no_load_current", "it is not below rated_current", "30 to 60 % of rated_current"});
   if (data.kind == "contactors") {
     object_to_winding(data.contactors.slow, "contactors.slow.", inertia, h, found);
     return found;
   }
+  for (auto& objection : power_objections("inverter.", data.inverter.amplifier, data.inverter.supply))
+    found.push_back(std::move(objection));
   const auto frequency = [&](const char* name, double hertz) {
     if (hertz > data.motor.rated_frequency)
       found.push_back({name,

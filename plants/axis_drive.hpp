@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -47,18 +46,24 @@ class AxisDrive {
   void drive(Shaft& rotor, double h);
 
   [[nodiscard]] double torque() const;  ///< of the motor [N m]
+  [[nodiscard]] PowerStage& power();    ///< the electrical side
   [[nodiscard]] double brake_torque() const { return brake_.torque(); }
   [[nodiscard]] const HoldingBrake& brake() const { return brake_; }
   /// Neither the drive moves the motor nor may the brake be open.
   [[nodiscard]] bool at_rest() const { return !moves_ && brake_.commanded_to_hold(); }
-  /// The trip of the last step, if there was one.
-  [[nodiscard]] std::optional<Event> trip(const Shaft& rotor) const;
+  /// What happened to it since it was asked last.
+  [[nodiscard]] std::vector<Event> take_events(const Shaft& rotor);
+
+  /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
+  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia) {
+    return {{data_.kind == "servo" ? "servo" : "drive", &power(), load_inertia}};
+  }
 
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);
   void offer_channels(std::vector<Channel>& channels) const;
   void offer_faults(std::vector<Fault>& faults);
-  static EventType trip_event();
+  static void offer_events(std::vector<EventType>& types);
 
  private:
   [[nodiscard]] double rated_torque() const;

@@ -3,7 +3,8 @@
 namespace drycut::plants {
 
 ContactorDrive::ContactorDrive(const ContactorData& data, const InductionMotorData& motor)
-    : fast_(motor.winding),
+    : power_(motor_current(motor), motor.heat, ratings(motor, motor.winding.pullout_torque), {}, {}),
+      fast_(motor.winding),
       slow_winding_(data.slow),
       mains_(motor.rated_frequency),
       forward_contact_(data.close_delay, data.open_delay),
@@ -11,25 +12,33 @@ ContactorDrive::ContactorDrive(const ContactorData& data, const InductionMotorDa
       slow_contact_(data.close_delay, data.open_delay) {}
 
 void ContactorDrive::drive(Shaft& rotor, double h) {
+  power_.account(last_, rotor, h);
   const bool forwards = forward_contact_.update(forward.level, h);
   const bool backwards = backward_contact_.update(backward.level, h);
   const Winding& winding = slow_contact_.update(slow.level, h) ? slow_winding_ : fast_;
-  if (forwards && backwards)
+  if ((forwards && backwards) || power_.tripped())
     state_ = State::tripped;
   else if (state_ != State::tripped)
     state_ = forwards || backwards ? State::running : State::off;
 
   field_ = slip_ = torque_ = 0;
+  last_ = {};
   if (state_ == State::running) {
     field_ = forwards ? winding.data().synchronous_speed : -winding.data().synchronous_speed;
     slip_ = field_ - rotor.speed;
     torque_ = phase_lost_ ? winding.single_phase_torque(field_, rotor.speed) : winding.torque(slip_);
+    const double loss = phase_lost_ ? winding.single_phase_loss(field_, rotor.speed) : torque_ * slip_;
+    last_ = {torque_, loss, 0, true};
   }
   rotor.add_torque(torque_);
 }
 
 void ContactorDrive::offer_faults(std::vector<Fault>& faults) {
-  faults.push_back({"drive", "trip", "", [this](double v) { state_ = v != 0 ? State::tripped : State::off; },
+  faults.push_back({"drive", "trip", "",
+                    [this](double v) {
+                      state_ = v != 0 ? State::tripped : State::off;
+                      power_.reset();
+                    },
                     "1: the motor's breaker trips, the motor coasts; 0 resets it"});
   faults.push_back(
       fault_state("drive", "phase_lost", phase_lost_, "1: a phase is lost: less torque, none at standstill"));

@@ -19,7 +19,8 @@ struct ContactorData {
 Parameters contactor_parameters(ContactorData& data);
 
 /// A motor with a fast and a slow winding on the mains, switched by contactors forward, backward and slow (a
-/// change-over). With both directions closed the mains are short-circuited and the breaker trips.
+/// change-over). With both directions closed the mains are short-circuited and the breaker trips; its sensor
+/// in the winding trips it too.
 class ContactorDrive {
  public:
   ContactorDrive(const ContactorData& data, const InductionMotorData& motor);
@@ -50,7 +51,12 @@ class ContactorDrive {
   /// Faults for a plant's list, under "drive" and "drive.forward", ".backward", ".slow".
   void offer_faults(std::vector<Fault>& faults);
 
+  [[nodiscard]] PowerStage& power() { return power_; }  ///< the electrical side
+  [[nodiscard]] const PowerStage& power() const { return power_; }
+
  private:
+  PowerStage power_;
+  PowerStage::Step last_;
   Winding fast_;
   Winding slow_winding_;
   double mains_;  // [Hz]

@@ -81,7 +81,7 @@ void FlyingSaw::watch(const EndStop& stop, Crash& crash) {
 void FlyingSaw::sense(double h) {
   screw_.sense(h);
   servo_.sense(rotor());
-  if (auto trip = servo_.trip(rotor())) happened(std::move(*trip));
+  for (Event& event : servo_.take_events(rotor())) happened(std::move(event));
   head_.sense(h);
   clamp_.sense(carriage(), web_.material(), h);
   report(cut_.sense(head_.body(), carriage(), web_.material(), h));
@@ -110,25 +110,29 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
              {"number", static_cast<double>(cuts_), ""}}});
 }
 
+std::vector<DriveOfPlant> FlyingSaw::drives() { return servo_.drives(load_inertia(data_)); }
+
 std::vector<EventType> FlyingSaw::event_types() {
-  return {{"cut",
-           {{"length", "mm"},
-            {"slant", "mm"},
-            {"mismatch", "mm/s"},
-            {"pinch", "N"},
-            {"force", "N"},
-            {"time", "ms"},
-            {"number", ""}},
-           "the blade is through: length of the piece where the blade touched, how far the cut is out of "
-           "square, largest speed mismatch, largest sideways and cutting force, time from the touch, number"},
-          {"pinch",
-           {{"force", "N"}, {"displacement", "mm"}},
-           "the material and the carriage pinch the blade: sideways force, displacement since the touch"},
-          {"crash",
-           {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
-           "the carriage has been in an end stop: side -1 lower or 1 upper, speed when it touched, impulse "
-           "until it was off again (or 100 ms), largest force"},
-          ServoAxis::trip_event()};
+  std::vector<EventType> types = {
+      {"cut",
+       {{"length", "mm"},
+        {"slant", "mm"},
+        {"mismatch", "mm/s"},
+        {"pinch", "N"},
+        {"force", "N"},
+        {"time", "ms"},
+        {"number", ""}},
+       "the blade is through: length of the piece where the blade touched, how far the cut is out of "
+       "square, largest speed mismatch, largest sideways and cutting force, time from the touch, number"},
+      {"pinch",
+       {{"force", "N"}, {"displacement", "mm"}},
+       "the material and the carriage pinch the blade: sideways force, displacement since the touch"},
+      {"crash",
+       {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
+       "the carriage has been in an end stop: side -1 lower or 1 upper, speed when it touched, impulse "
+       "until it was off again (or 100 ms), largest force"}};
+  ServoAxis::offer_events(types);
+  return types;
 }
 
 std::vector<Port> FlyingSaw::ports() {

@@ -64,6 +64,7 @@ class FlyingSaw : public Plant {
   std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
+  std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
 

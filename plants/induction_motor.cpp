@@ -23,6 +23,27 @@ double Winding::slip(double torque) const {
   return std::copysign(pullout_slip_ * share_of_pullout_slip(ratio), torque);
 }
 
+MotorCurrent motor_current(const InductionMotorData& data) {
+  const WindingData& winding = data.winding;
+  const double rotor_loss = winding.rated_torque * (winding.synchronous_speed - winding.rated_speed);
+  const double load = data.rated_current * data.rated_current - data.no_load_current * data.no_load_current;
+  return {.per_rotor_loss = load / rotor_loss,
+          .no_load = data.no_load_current,
+          .resistance = 3 * data.stator_resistance,
+          .rated_rotor_loss = rotor_loss};
+}
+
+DriveRatings ratings(const InductionMotorData& data, double peak) {
+  const WindingData& winding = data.winding;
+  return {.rotor_inertia = data.rotor_inertia,
+          .stall_torque = winding.rated_torque,
+          .rated_torque = winding.rated_torque,
+          .peak_torque = peak,
+          .torque_at_max_speed = peak,
+          .rated_speed = winding.rated_speed,
+          .max_speed = winding.synchronous_speed};
+}
+
 Parameters winding_parameters(WindingData& data, std::string_view source) {
   return {
       row("synchronous_speed", "rpm", "speed of the field at rated frequency", data.synchronous_speed, 1, 1e5,
@@ -42,7 +63,15 @@ Parameters induction_motor_parameters(InductionMotorData& data) {
           row("rated_frequency", "Hz", "mains frequency for which it is made", data.rated_frequency, 10, 400,
               "Europe"),
       },
-      winding_parameters(data.winding, sheet));
+      winding_parameters(data.winding, sheet),
+      Parameters{
+          row("rated_current", "A", "rms current at rated torque", data.rated_current, 1e-2, 1e4, sheet),
+          row("no_load_current", "A", "rms current without load", data.no_load_current, 0, 1e4,
+              "estimate: half the rated current"),
+          row("stator_resistance", "ohm", "of a phase in star at 20 degC", data.stator_resistance, 1e-4, 1e4,
+              "estimate: 7 % of the rated power lost in the stator"),
+      },
+      motor_heat_parameters(data.heat, "estimate: frame 100 L"));
 }
 
 }  // namespace drycut::plants

@@ -2,7 +2,9 @@
 #include <numbers>
 #include <string>
 
+#include "plants/motor_heat.hpp"
 #include "plants/parameters.hpp"
+#include "plants/power_stage.hpp"
 
 namespace drycut::plants {
 
@@ -19,7 +21,15 @@ struct InductionMotorData {
   double rotor_inertia = 5e-3;  ///< [kg m2]
   double rated_frequency = 50;  ///< of the mains [Hz]
   WindingData winding;
+  double rated_current = 4.8;      ///< rms at rated torque [A]
+  double no_load_current = 2.5;    ///< rms without load [A]
+  double stator_resistance = 2.2;  ///< of a phase, star, cold (20 degC) [ohm]
+  MotorHeatData heat = {.winding_time_constant = 120, .housing_time_constant = 1800};
 };
+
+/// Current and losses of the motor, and its torque for ever and at most (`peak` [N m]).
+[[nodiscard]] MotorCurrent motor_current(const InductionMotorData& data);
+[[nodiscard]] DriveRatings ratings(const InductionMotorData& data, double peak);
 
 /// Rows of the group `induction_motor.`, and those of one winding; `source` is that of its defaults.
 Parameters induction_motor_parameters(InductionMotorData& data);
@@ -39,6 +49,10 @@ class Winding {
   /// Torque with one phase lost, when field and counter-field of half the power are left: none at standstill.
   [[nodiscard]] double single_phase_torque(double field, double speed) const {
     return 0.5 * (torque(field - speed) + torque(-field - speed));
+  }
+  /// What the rotor loses then [W].
+  [[nodiscard]] double single_phase_loss(double field, double speed) const {
+    return 0.5 * (torque(field - speed) * (field - speed) + torque(-field - speed) * (-field - speed));
   }
   /// Slip for a torque on the stable branch; of the pull-out torque for more than that.
   [[nodiscard]] double slip(double torque) const;

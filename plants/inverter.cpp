@@ -7,6 +7,8 @@ namespace drycut::plants {
 
 Inverter::Inverter(const InverterData& data, const InductionMotorData& motor)
     : data_(data),
+      power_(motor_current(motor), motor.heat, ratings(motor, data.torque_limit), data.amplifier,
+             data.supply),
       winding_(motor.winding),
       speed_per_hertz_(motor.winding.synchronous_speed / motor.rated_frequency),
       rated_field_(motor.winding.synchronous_speed),
@@ -62,26 +64,34 @@ void Inverter::advance(int direction, double h) {
 }
 
 void Inverter::drive(Shaft& rotor, double h) {
+  power_.account(last_, rotor, h);
   const int forwards = forward_filter_.update(forward.level, h) ? 1 : 0;
   const int backwards = backward_filter_.update(backward.level, h) ? 1 : 0;
   slow_filter_.update(slow.level, h);
   if (phase_lost_ && moving()) trip_ = true;
-  if (trip_) state_ = State::tripped;
+  if (power_.tripped() && forwards == 0 && backwards == 0) {
+    power_.reset();
+    state_ = State::off;
+  }
+  if (trip_ || power_.tripped()) state_ = State::tripped;
   if (state_ != State::tripped) advance(forwards - backwards, h);
 
   limited_ = false;
   slip_ = torque_ = 0;
+  last_ = {};
   if (moving() || state_ == State::holding) {
     const double wanted = field_ - rotor.speed;
     slip_ = std::clamp(wanted, -limit_slip_, limit_slip_);
     limited_ = slip_ != wanted;
     if (limited_) field_ = rotor.speed + slip_;
     torque_ = winding_.torque(slip_);
+    last_ = {torque_, torque_ * slip_, std::abs(wanted) / limit_slip_, true};
   } else {
     field_ = 0;
     if (state_ == State::dc_braking) {
       const double x = rotor.speed / winding_.pullout_slip();
       torque_ = -2 * data_.dc_brake_torque * x / (1 + x * x);
+      last_ = {torque_, -torque_ * rotor.speed, 0, true};
     }
   }
   rotor.add_torque(torque_);
@@ -105,13 +115,14 @@ void Inverter::offer_faults(std::vector<Fault>& faults) {
                     {0, 1e5, false}});
   faults.push_back(fault_state("drive", "phase_lost", phase_lost_,
                                "1: a phase of the motor is interrupted: the drive trips when it runs"));
+  power_.offer_faults(faults);
   forward_filter_.offer_faults(faults, "drive.forward");
   backward_filter_.offer_faults(faults, "drive.backward");
   slow_filter_.offer_faults(faults, "drive.slow");
 }
 
 Parameters inverter_parameters(InverterData& data) {
-  return {
+  Parameters rows = {
       row("fast", "Hz", "output frequency; at most the motor's rated frequency", data.fast, 0.1, 400,
           "rated frequency"),
       row("slow", "Hz", "output frequency while the input slow is on", data.slow, 0.1, 400, "a tenth"),
@@ -129,6 +140,8 @@ Parameters inverter_parameters(InverterData& data) {
           data.dc_brake_torque, 0, 1e5, "estimate: rated torque"),
       row("dc_brake_time", "ms", "duration of the DC brake", data.dc_brake_time, 0, 60000, "estimate"),
   };
+  return joined(std::move(rows), amplifier_parameters(data.amplifier, "usual: inverter of 2.2 kW"),
+                group("supply.", supply_parameters(data.supply)));
 }
 
 }  // namespace drycut::plants

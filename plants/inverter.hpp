@@ -20,6 +20,8 @@ struct InverterData {
   double hold_time = 0.1;       ///< at 0 Hz after a ramp, for the brake to engage [s]
   double dc_brake_torque = 15;  ///< largest torque of the DC brake [N m]
   double dc_brake_time = 0.5;   ///< [s]
+  AmplifierData amplifier = {.current = 5.6, .peak_current = 8.4, .overload_time = 60};
+  SupplyData supply = {.capacitance = 0.5e-3, .resistor = 100};
 };
 
 /// Rows of the group `inverter.`.
@@ -28,7 +30,7 @@ Parameters inverter_parameters(InverterData& data);
 /// Inverter with its motor. Its frequency reference is a ramp that knows nothing of the rotor; torque comes
 /// from slip at full flux, so that speed sinks under load. Where the slip would exceed the torque limit the
 /// frequency follows the rotor (stall prevention) and the ramp goes on from there. Both directions at once
-/// are none. It trips on a lost phase.
+/// are none. It trips on a lost phase, and by its power stage; both inputs off reset that.
 class Inverter {
  public:
   Inverter(const InverterData& data, const InductionMotorData& motor);
@@ -60,11 +62,16 @@ class Inverter {
   /// Faults for a plant's list, under "drive" and "drive.forward", ".backward", ".slow".
   void offer_faults(std::vector<Fault>& faults);
 
+  [[nodiscard]] PowerStage& power() { return power_; }  ///< the electrical side
+  [[nodiscard]] const PowerStage& power() const { return power_; }
+
  private:
   void advance(int direction, double h);
   void ramp(double target, double h);
 
   InverterData data_;
+  PowerStage power_;
+  PowerStage::Step last_;
   Winding winding_;
   double speed_per_hertz_;  // of the field [rad/s/Hz]
   double rated_field_;      // [rad/s]

@@ -31,7 +31,7 @@ void LinearAxis::sense(double h) {
   screw_.sense(h);
   for (EndStop& stop : screw_.stops)
     if (stop.stopped(carriage())) happened(stop.hit("end_stop"));
-  if (auto trip = drive_.trip(rotor())) happened(std::move(*trip));
+  for (Event& event : drive_.take_events(rotor())) happened(std::move(event));
   if (tool_.level && data_.tool == "pen") draw_ink();
 }
 
@@ -76,12 +76,16 @@ std::vector<Setting> LinearAxis::settings() {
            {-1e6, 1e6, false}}};
 }
 
+std::vector<DriveOfPlant> LinearAxis::drives() { return drive_.drives(load_inertia(data_)); }
+
 std::vector<EventType> LinearAxis::event_types() {
-  return {{"end_stop",
-           {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
-           "an end stop has stopped the carriage: side -1 lower or 1 upper, speed when it touched, impulse "
-           "taken until it stood, largest force"},
-          AxisDrive::trip_event()};
+  std::vector<EventType> types = {
+      {"end_stop",
+       {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
+       "an end stop has stopped the carriage: side -1 lower or 1 upper, speed when it touched, impulse "
+       "taken until it stood, largest force"}};
+  AxisDrive::offer_events(types);
+  return types;
 }
 
 std::vector<Fault> LinearAxis::faults() {

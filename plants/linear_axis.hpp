@@ -52,6 +52,7 @@ class LinearAxis : public Plant {
   std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
+  std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
 
   [[nodiscard]] Slide& carriage() const { return screw_.slide; }

@@ -15,6 +15,7 @@
 namespace drycut::plants {
 
 class World;
+class PowerStage;
 
 /// A plug of a plant: its name within the plant ("encoder", "servo.reference") and where it is.
 struct Port {
@@ -104,6 +105,13 @@ struct EventType {
   std::string_view meaning;
 };
 
+/// A drive of a plant, for whoever judges it.
+struct DriveOfPlant {
+  std::string name;         ///< within the plant: "servo", "drive"
+  PowerStage* stage;        ///< lives as long as the plant
+  double load_inertia = 0;  ///< all that the motor turns but its rotor, seen at the motor [kg m2]
+};
+
 /// A machine or a part of a line. Bodies live in the World; everything else that acts is explicit.
 /// Per step h: drive() of all plants, World::step(), sense() of all plants, in scenario order.
 class Plant {
@@ -124,6 +132,7 @@ class Plant {
   virtual std::vector<Setting> settings() { return {}; }
   virtual std::vector<Fault> faults() { return {}; }
   virtual std::vector<EventType> event_types() { return {}; }
+  virtual std::vector<DriveOfPlant> drives() { return {}; }
   virtual std::vector<Part> parts() { return {}; }
   /// Adds what a picture points out now; called only when a frame is taken.
   virtual void callouts(std::vector<Callout>& out) { (void)out; }

@@ -55,7 +55,7 @@ void RotaryKnife::drive(double h) {
 void RotaryKnife::sense(double h) {
   gear_.sense(rotor_, drum_, h);
   servo_.sense(rotor_);
-  if (auto trip = servo_.trip(rotor_)) happened(std::move(*trip));
+  for (Event& event : servo_.take_events(rotor_)) happened(std::move(event));
   encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_);
   home_.sense(drum_.part_before, drum_.part, h);
   const Cutter::Outcome outcome = cutter_.sense(drum_, web_.material(), h);
@@ -131,10 +131,16 @@ std::vector<EventType> RotaryKnife::event_types() {
                    "mismatch in the web, largest vertical force, number since the start; on a printed web "
                    "register, how far the cut lies behind the nearest mark"};
   if (web_.marks().printed()) cut.values.push_back({"register", "mm"});
-  return {cut,
-          {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
-          {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"},
-          ServoAxis::trip_event()};
+  std::vector<EventType> types = {
+      cut,
+      {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
+      {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"}};
+  ServoAxis::offer_events(types);
+  return types;
+}
+
+std::vector<DriveOfPlant> RotaryKnife::drives() {
+  return servo_.drives(data_.drum_inertia / (data_.gear.ratio * data_.gear.ratio));
 }
 
 std::vector<Fault> RotaryKnife::faults() {

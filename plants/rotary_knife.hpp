@@ -49,6 +49,7 @@ class RotaryKnife : public Plant {
   std::vector<Channel> channels() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
+  std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
 

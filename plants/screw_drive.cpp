@@ -25,6 +25,10 @@ double reflected_inertia(const ScrewDriveData& data) {
   return data.mass * metre_per_radian * metre_per_radian;
 }
 
+double load_inertia(const ScrewDriveData& data) {
+  return (data.screw_inertia + reflected_inertia(data)) / (data.gear.ratio * data.gear.ratio);
+}
+
 ScrewDrive::ScrewDrive(const ScrewDriveData& data, const std::string& name, double rotor_inertia,
                        SlideDefinition part, World& world, double twist)
     : rotor(world.add_shaft({.name = name + " motor",

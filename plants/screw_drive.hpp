@@ -32,6 +32,9 @@ struct ScrewDriveData {
 /// The part's mass, seen at the screw [kg m2].
 [[nodiscard]] double reflected_inertia(const ScrewDriveData& data);
 
+/// All that the motor turns but its rotor, seen there [kg m2].
+[[nodiscard]] double load_inertia(const ScrewDriveData& data);
+
 /// Rotor and part are bodies of their own; the rotor turns with the screw's inertia (reflected by the gear
 /// ratio squared). Between them is one spring with damper and play.
 class ScrewDrive {

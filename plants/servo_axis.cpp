@@ -21,23 +21,27 @@ void ServoAxis::sense(const Shaft& rotor) {
   if (pulses_) pulses_->sense(rotor);
 }
 
-std::optional<Event> ServoAxis::trip(const Shaft& rotor) const {
-  if (!pulses_ || !pulses_->just_tripped()) return {};
-  return Event{"following_error",
-               1,
-               {{"turns", pulses_->trip_turns(), ""}, {"speed", rotor.speed * units::rpm, "rpm"}}};
+std::vector<Event> ServoAxis::take_events(const Shaft& rotor) {
+  std::vector<Event> events = amplifier_.power().take_events();
+  if (pulses_ && pulses_->just_tripped())
+    events.push_back({"following_error",
+                      1,
+                      {{"turns", pulses_->trip_turns(), ""}, {"speed", rotor.speed * units::rpm, "rpm"}}});
+  return events;
 }
 
-EventType ServoAxis::trip_event() {
-  return {"following_error",
-          {{"turns", ""}, {"speed", "rpm"}},
-          "the drive's position loop has tripped: its deviation in turns of the motor, speed of the motor; "
-          "the motor coasts until reset"};
+void ServoAxis::offer_events(std::vector<EventType>& types) {
+  types.push_back({"following_error",
+                   {{"turns", ""}, {"speed", "rpm"}},
+                   "the drive's position loop has tripped: its deviation in turns of the motor, speed of the "
+                   "motor; the motor coasts until reset"});
+  PowerStage::offer_events(types);
 }
 
 void ServoAxis::offer_ports(std::vector<Port>& ports) {
   ports.push_back(
       {"servo.enable", &amplifier_.enable, "enable of the amplifier; strapped high unless wired"});
+  amplifier_.power().offer_ports(ports, "servo");
   if (!pulses_) {
     ports.push_back({"servo.reference", &amplifier_.reference, "speed reference, +-10 V"});
     return;
@@ -71,6 +75,7 @@ void ServoAxis::offer_channels(std::vector<Channel>& channels) const {
        pulses_ ? "speed that the position loop asks for" : "speed reference after offset, drift and filter"});
   channels.push_back({"servo.saturated", "", [this] { return amplifier_.saturated() ? 1.0 : 0.0; },
                       "1 while the torque limit acts"});
+  amplifier_.power().offer_channels(channels);
 }
 
 void ServoAxis::offer_faults(std::vector<Fault>& faults) {

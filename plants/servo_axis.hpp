@@ -37,16 +37,22 @@ class ServoAxis {
   /// Outputs after the step.
   void sense(const Shaft& rotor);
 
+  [[nodiscard]] ServoDrive& amplifier() { return amplifier_; }
   [[nodiscard]] const ServoDrive& amplifier() const { return amplifier_; }
   [[nodiscard]] const std::optional<PulseServo>& pulses() const { return pulses_; }  ///< where it takes them
+
+  /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
+  [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia) {
+    return {{"servo", &amplifier_.power(), load_inertia}};
+  }
 
   // What it adds to a plant's lists.
   void offer_ports(std::vector<Port>& ports);
   void offer_channels(std::vector<Channel>& channels) const;
   void offer_faults(std::vector<Fault>& faults);
-  static EventType trip_event();
-  /// The trip of the last step, if there was one.
-  [[nodiscard]] std::optional<Event> trip(const Shaft& rotor) const;
+  static void offer_events(std::vector<EventType>& types);
+  /// What happened to it since it was asked last.
+  [[nodiscard]] std::vector<Event> take_events(const Shaft& rotor);
 
  private:
   ServoDrive amplifier_;

@@ -7,14 +7,24 @@
 
 namespace drycut::plants {
 
-double driving_torque_limit(const ServoData& data, double speed) {
-  const double n = std::abs(speed);
-  if (n <= data.rated_speed) return data.peak_torque;
-  if (n <= data.max_speed)
-    return data.peak_torque + (data.torque_at_max_speed - data.peak_torque) * (n - data.rated_speed) /
-                                  (data.max_speed - data.rated_speed);
-  const double overspeed = (n / data.max_speed - 1) / 0.05;
-  return std::max(0.0, data.torque_at_max_speed * (1 - overspeed));
+DriveRatings ratings(const ServoData& data) {
+  const double most = data.torque_constant * data.amplifier.peak_current;
+  return {.rotor_inertia = data.rotor_inertia,
+          .stall_torque = data.stall_torque,
+          .rated_torque = data.rated_torque,
+          .peak_torque = std::min(data.peak_torque, most),
+          .torque_at_max_speed = std::min(data.torque_at_max_speed, most),
+          .rated_speed = data.rated_speed,
+          .max_speed = data.max_speed};
+}
+
+ServoDrive::ServoDrive(const ServoData& data, Random noise)
+    : data_(data),
+      power_({.per_torque_squared = 1 / (data.torque_constant * data.torque_constant),
+              .resistance = 1.5 * data.winding_resistance},
+             data.heat, ratings(data), data.amplifier, data.supply),
+      random_(noise) {
+  enable.level = true;
 }
 
 namespace {
@@ -42,6 +52,8 @@ std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, 
   if (data.torque_at_max_speed > data.peak_torque)
     found.push_back(
         {"servo.torque_at_max_speed", "it is above servo.peak_torque", "at most servo.peak_torque"});
+  for (auto& objection : power_objections("servo.", data.amplifier, data.supply))
+    found.push_back(std::move(objection));
   const double most = most_correction * inertia / (share_of(data.current_lag, h) * h);
   if (loop_gain(data) > most)
     found.push_back({"servo.speed_gain",
@@ -69,12 +81,15 @@ double ServoDrive::speed_loop(double speed, double h) {
   const double gain = loop_gain(data_);
   const double error = filtered_ - speed;
   const double wanted = gain * error + integral_;
-  double limit = std::abs(speed) > data_.rated_speed && wanted * speed > 0
-                     ? driving_torque_limit(data_, speed)
-                     : data_.peak_torque;
+  // With less voltage the motor has its torque up to less speed. Braking it has it at any.
+  const double as_rated = speed / power_.speed_share();
+  double limit = std::abs(as_rated) > data_.rated_speed && wanted * speed > 0
+                     ? power_.ratings().peak(as_rated)
+                     : power_.ratings().peak_torque;
   if (faults_.torque_limit > 0) limit = std::min(limit, faults_.torque_limit);
   const double command = std::clamp(wanted, -limit, limit);
   saturated_ = command != wanted;
+  if (saturated_) asked_ = limit > 0 ? std::abs(wanted) / limit : std::abs(wanted) / data_.rated_torque + 1;
   // Anti-windup: the integral stands while the limit acts and the error drives it further in.
   if (!saturated_ || wanted * error < 0) integral_ += gain / data_.integral_time * error * h;
   return command;
@@ -85,27 +100,40 @@ void ServoDrive::give(double command, Shaft& rotor) {
   rotor.add_torque(torque_);
 }
 
-void ServoDrive::drive(Shaft& rotor, double h) {
+// What the last step came to, and a trip that the enable takes back.
+void ServoDrive::begin(const Shaft& rotor, double h) {
   if (h != h_) prepare(h);
+  power_.account({torque_, 0, saturated_ ? asked_ : 0, energised_}, rotor, h);
+  if (enable.level && !enabled_before_) power_.reset();
+  enabled_before_ = enable.level;
+  energised_ = enabled();
+}
+
+void ServoDrive::drive(Shaft& rotor, double h) {
+  begin(rotor, h);
   faults_.drifted += faults_.drift * h;
   double input = faults_.stuck ? faults_.stuck_at : reference.volts;
   input += data_.offset + faults_.offset + faults_.drifted;
   if (faults_.noise > 0) input += faults_.noise * random_.gaussian();
   converted_ = convert(input);
-  if (!enabled()) return coast(rotor, h);
+  if (!energised_) return release(rotor);
   filtered_ += (converted_ * speed_per_volt_ - filtered_) * filter_share_;
   give(speed_loop(rotor.speed, h), rotor);
 }
 
 void ServoDrive::follow(double speed_reference, Shaft& rotor, double h) {
-  if (h != h_) prepare(h);
-  if (!enabled()) return coast(rotor, h);
+  begin(rotor, h);
+  if (!energised_) return release(rotor);
   filtered_ = speed_reference;
   give(speed_loop(rotor.speed, h), rotor);
 }
 
 void ServoDrive::coast(Shaft& rotor, double h) {
-  if (h != h_) prepare(h);
+  begin(rotor, h);
+  release(rotor);
+}
+
+void ServoDrive::release(Shaft& rotor) {
   filtered_ = rotor.speed;
   integral_ = 0;
   saturated_ = false;
@@ -142,11 +170,12 @@ void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::strin
       fault_state(component, "disabled", f.disabled, "1: the amplifier trips, the motor coasts"));
   faults.push_back(fault_value(component, "torque_limit", "N m", f.torque_limit,
                                "the torque is limited to this; 0 takes the limit away", {0, 1e5, false}));
+  power_.offer_faults(faults);
 }
 
 Parameters servo_parameters(ServoData& data, const ServoSources& from) {
   constexpr std::string_view sheet = "data sheet: Mitsubishi HG-SR202";
-  return {
+  Parameters rows = {
       row("rotor_inertia", "kg m2", "inertia of the rotor, a body of its own", data.rotor_inertia, 1e-7, 10,
           sheet),
       row("rated_torque", "N m", "continuous torque; utilisation is measured against it", data.rated_torque,
@@ -173,7 +202,16 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from) {
           from.inertia_ratio),
       row("current_lag", "ms", "time constant of the current loop, 0 = none", data.current_lag, 0, 100,
           "estimate: bandwidth of 300 Hz"),
+      row("stall_torque", "N m", "continuous torque at standstill", data.stall_torque, 1e-3, 1e4,
+          "estimate: as at rated speed"),
+      row("torque_constant", "N m/A", "torque over the rms current", data.torque_constant, 1e-3, 1e3,
+          "estimate: rated torque at 10.6 A"),
+      row("winding_resistance", "ohm", "between two phases at 20 degC", data.winding_resistance, 1e-4, 1e4,
+          "estimate: 118 W of copper loss at rated torque"),
   };
+  return joined(std::move(rows), motor_heat_parameters(data.heat, "estimate: usual in the class"),
+                amplifier_parameters(data.amplifier, "estimate: amplifier of the 2 kW class"),
+                group("supply.", supply_parameters(data.supply)));
 }
 
 }  // namespace drycut::plants

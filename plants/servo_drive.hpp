@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "plants/plant.hpp"
+#include "plants/power_stage.hpp"
 #include "plants/random.hpp"
 #include "plants/world.hpp"
 
@@ -30,7 +31,17 @@ struct ServoData {
   double integral_time = 20e-3;  ///< Ti [s]
   double inertia_ratio = 3.5;    ///< load to motor inertia, as set in the amplifier
   double current_lag = 0.5e-3;   ///< time constant of the current loop, 0 = none [s]
+  // Electrical side
+  double stall_torque = 9.5;        ///< for ever, at standstill [N m]
+  double torque_constant = 0.9;     ///< over the rms current [N m/A]
+  double winding_resistance = 0.7;  ///< between two phases, cold (20 degC) [ohm]
+  MotorHeatData heat = {};
+  AmplifierData amplifier = {};
+  SupplyData supply = {.voltage = 200, .capacitance = 2e-3};
 };
+
+/// The servo's curves of torque over speed: those of the motor, as far as the amplifier has current for them.
+[[nodiscard]] DriveRatings ratings(const ServoData& data);
 
 /// Where a machine's defaults are from.
 struct ServoSources {
@@ -44,16 +55,13 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from = {});
 /// seconds.
 std::vector<PlantDefinition::Objection> servo_objections(const ServoData& data, double inertia, double h);
 
-/// Largest torque of the motor [N m] while it drives at `speed` [rad/s, either sign]. Braking has the peak
-/// torque at any speed.
-[[nodiscard]] double driving_torque_limit(const ServoData& data, double speed);
-
 class ServoDrive {
  public:
-  ServoDrive(const ServoData& data, Random noise) : data_(data), random_(noise) { enable.level = true; }
+  ServoDrive(const ServoData& data, Random noise);
 
   ReferencePort reference;
-  CommandPort enable;  ///< high unless something is wired to it (strapped in the cabinet)
+  CommandPort enable;  ///< high unless something is wired to it (strapped in the cabinet); its rising edge
+                       ///< resets a trip of the power stage
 
   /// One step of the amplifier: torque on the rotor for the coming step of `h` seconds.
   void drive(Shaft& rotor, double h);
@@ -63,12 +71,14 @@ class ServoDrive {
   void coast(Shaft& rotor, double h);
 
   /// The amplifier drives the motor: enabled and not tripped.
-  [[nodiscard]] bool enabled() const { return enable.level && !faults_.disabled; }
+  [[nodiscard]] bool enabled() const { return enable.level && !faults_.disabled && !power_.tripped(); }
   [[nodiscard]] double torque() const { return torque_; }             ///< on the rotor [N m]
   [[nodiscard]] double speed_reference() const { return filtered_; }  ///< after the filter [rad/s]
   [[nodiscard]] double volts() const { return converted_; }           ///< as converted [V]
   [[nodiscard]] bool saturated() const { return saturated_; }         ///< the torque limit acts
   [[nodiscard]] double utilisation() const { return std::abs(torque_) / data_.rated_torque; }
+  [[nodiscard]] PowerStage& power() { return power_; }  ///< the electrical side
+  [[nodiscard]] const PowerStage& power() const { return power_; }
 
   /// Faults for a plant's list, under the component name `component`. A value of 0 clears each of them.
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
@@ -76,12 +86,15 @@ class ServoDrive {
   void offer_power_faults(std::vector<Fault>& faults, const std::string& component);
 
  private:
+  void begin(const Shaft& rotor, double h);
+  void release(Shaft& rotor);
   void prepare(double h);
   [[nodiscard]] double convert(double volts) const;
   [[nodiscard]] double speed_loop(double speed, double h);
   void give(double command, Shaft& rotor);
 
   ServoData data_;
+  PowerStage power_;
   Random random_;
   double h_ = 0;  // the step for which the coefficients below hold
   double filter_share_ = 1;
@@ -94,6 +107,9 @@ class ServoDrive {
   double integral_ = 0;
   double torque_ = 0;
   bool saturated_ = false;
+  double asked_ = 0;  // torque over what the limit let through
+  bool energised_ = false;
+  bool enabled_before_ = true;
 
   struct Faults {
     double offset = 0;   // [V]

@@ -54,7 +54,7 @@ void VerticalPress::sense(double h) {
   screw_.sense(h);
   report_contacts();
   watch_for_sag(h);
-  if (auto trip = drive_.trip(rotor())) happened(std::move(*trip));
+  for (Event& event : drive_.take_events(rotor())) happened(std::move(event));
 }
 
 void VerticalPress::report_contacts() {
@@ -125,19 +125,23 @@ std::vector<Setting> VerticalPress::settings() {
            {-1e7, 1e7, false}}};
 }
 
+std::vector<DriveOfPlant> VerticalPress::drives() { return drive_.drives(load_inertia(data_)); }
+
 std::vector<EventType> VerticalPress::event_types() {
-  return {{"end_stop",
-           {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
-           "an end stop has stopped the ram: side -1 lower or 1 upper, speed when it touched, impulse taken "
-           "until it stood, largest force"},
-          {"pressed",
-           {{"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
-           "the workpiece has stopped the ram: speed when it touched, impulse taken until it stood, largest "
-           "force"},
-          {"sag",
-           {{"speed", "mm/s"}, {"position", "mm"}},
-           "the ram goes down 0.5 s after drive and brake were told to hold it: once each time"},
-          AxisDrive::trip_event()};
+  std::vector<EventType> types = {
+      {"end_stop",
+       {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
+       "an end stop has stopped the ram: side -1 lower or 1 upper, speed when it touched, impulse taken "
+       "until it stood, largest force"},
+      {"pressed",
+       {{"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
+       "the workpiece has stopped the ram: speed when it touched, impulse taken until it stood, largest "
+       "force"},
+      {"sag",
+       {{"speed", "mm/s"}, {"position", "mm"}},
+       "the ram goes down 0.5 s after drive and brake were told to hold it: once each time"}};
+  AxisDrive::offer_events(types);
+  return types;
 }
 
 std::vector<Fault> VerticalPress::faults() {

@@ -56,6 +56,7 @@ class VerticalPress : public Plant {
   std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
+  std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
 
   [[nodiscard]] Slide& ram() const { return screw_.slide; }

@@ -46,7 +46,8 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   checks_ = std::make_unique<Checks>(scenario, *watch_, *names_, all_events_, problems);
   captions_ =
       bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems);
-  observers_ = {checks_.get(), &shutter_, &remarks_};
+  drives_ = std::make_unique<DriveJudge>(scenario, named_);
+  observers_ = {checks_.get(), drives_.get(), &shutter_, &remarks_};
 }
 
 Simulation::~Simulation() = default;
@@ -245,6 +246,7 @@ Outcome Simulation::outcome() {
   outcome.end = time_;
   outcome.failure = failure_;
   outcome.checks = checks_->results(time_);
+  for (auto& check : drives_->results()) outcome.checks.push_back(std::move(check));
   if (controller_) {
     outcome.checks.push_back({"the program runs",
                               "no run-time error stops the tasks",

@@ -13,6 +13,7 @@
 #include "sim/loop/bindings.hpp"
 #include "sim/loop/bus.hpp"
 #include "sim/loop/checks.hpp"
+#include "sim/loop/drive_judge.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/observer.hpp"
 #include "sim/loop/recorder.hpp"
@@ -94,6 +95,8 @@ class Simulation {
   [[nodiscard]] std::string retentive_state() const {
     return controller_ ? controller_->retentive_state() : "";
   }
+  /// What the drives came to beside their ratings.
+  [[nodiscard]] std::vector<DriveVerdict> drives() const { return drives_->verdicts(); }
   [[nodiscard]] const Recording& recording() const { return recording_; }
   /// The same, given away after run().
   [[nodiscard]] Recording take_recording() { return std::move(recording_); }
@@ -131,6 +134,7 @@ class Simulation {
   std::unique_ptr<Watch> watch_;
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
+  std::unique_ptr<DriveJudge> drives_;
   Recording recording_;
   std::unique_ptr<TraceFiles> files_;
   std::unique_ptr<cams::CamRecorder> cams_;

@@ -20,6 +20,7 @@
 #include "renders/video.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
+#include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
@@ -345,6 +346,8 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
                               samples, renders::kStretches)}});
   for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
   add_checks(outcome.checks, report);
+  if (auto drives = drive_table(simulation.drives()); !drives.rows.empty())
+    report.summary.push_back(std::move(drives));
   if (outcome.half_step) report.summary.push_back(studies::margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
     for (const auto index : chosen_frames(simulation, report_frames))
@@ -404,6 +407,7 @@ std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation&
   auto report = report_of(scenario, simulation, outcome, drawn);
   if (!left_out.empty()) report.facts.push_back({{"left out", left_out}});
   auto plots = plots_of(scenario, simulation.recording());
+  for (auto& plot : drive_plots(simulation.drives())) plots.push_back(std::move(plot));
   const auto cams = cams_of(scenario, simulation);
   for (const auto& cam : cams) {
     plots.insert(plots.end(), cam.plots.begin(), cam.plots.end());

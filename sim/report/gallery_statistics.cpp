@@ -8,6 +8,7 @@
 
 #include "plants/servo_drive.hpp"
 #include "renders/decimate.hpp"
+#include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
 #include "sim/report/statistics.hpp"
 #include "sim/scenario/units.hpp"
@@ -66,8 +67,9 @@ std::string statistics_text(const EventNumbers& series,
 
 // ---- motor ----
 
-/// The data sheet of a plant's servo motor, as far as its limits go.
-std::optional<plants::ServoData> motor_data(const scenario::Scenario& scenario, const std::string& plant) {
+/// The ratings of a plant's servo motor.
+std::optional<plants::DriveRatings> motor_ratings(const scenario::Scenario& scenario,
+                                                  const std::string& plant) {
   const auto entry = std::find_if(scenario.plants.begin(), scenario.plants.end(),
                                   [&](const scenario::PlantEntry& one) { return one.name.text == plant; });
   if (entry == scenario.plants.end()) return {};
@@ -89,44 +91,11 @@ std::optional<plants::ServoData> motor_data(const scenario::Scenario& scenario, 
     take("torque_at_max_speed", data.torque_at_max_speed);
     take("rated_speed", data.rated_speed);
     take("max_speed", data.max_speed);
+    take("stall_torque", data.stall_torque);
+    take("torque_constant", data.torque_constant);
+    take("amplifier_peak_current", data.amplifier.peak_current);
   }
-  return found == 5 ? std::optional(data) : std::nullopt;
-}
-
-/// The border of what the motor can do, from -max_speed or 0 to max_speed and back; in the channels' units.
-renders::Curve peak_curve(const plants::ServoData& data, bool both_ways, double speed_unit,
-                          double torque_unit) {
-  // The law has its corners at rated and at largest speed and is straight between them.
-  std::vector<double> corners = {0, data.rated_speed, data.max_speed};
-  if (both_ways) corners.insert(corners.begin(), {-data.max_speed, -data.rated_speed});
-  const auto driving = [&](double speed) { return plants::driving_torque_limit(data, speed); };
-  renders::Curve curve;
-  curve.label = "peak torque";
-  const auto add = [&](double speed, double torque) {
-    curve.x.push_back(speed / speed_unit);
-    curve.y.push_back(torque / torque_unit);
-  };
-  for (const double speed : corners) add(speed, speed > 0 ? driving(speed) : data.peak_torque);
-  std::reverse(corners.begin(), corners.end());
-  for (const double speed : corners) add(speed, speed < 0 ? -driving(speed) : -data.peak_torque);
-  if (both_ways) add(corners.back(), data.peak_torque);
-  return curve;
-}
-
-renders::Curve rated_curve(const plants::ServoData& data, bool both_ways, double speed_unit,
-                           double torque_unit) {
-  const double speed = data.rated_speed / speed_unit;
-  const double torque = data.rated_torque / torque_unit;
-  const double first = both_ways ? -speed : 0;
-  renders::Curve curve;
-  curve.label = "rated torque, up to rated speed";
-  curve.x = {first, speed, speed, first};
-  curve.y = {torque, torque, -torque, -torque};
-  if (both_ways) {
-    curve.x.push_back(first);
-    curve.y.push_back(torque);
-  }
-  return curve;
+  return found == 8 ? std::optional(plants::ratings(data)) : std::nullopt;
 }
 
 }  // namespace
@@ -166,7 +135,7 @@ std::vector<std::string> motor_channels(const std::string& plant) {
 }
 
 bool has_motor_limits(const scenario::Scenario& scenario, const std::string& plant) {
-  return motor_data(scenario, plant).has_value();
+  return motor_ratings(scenario, plant).has_value();
 }
 
 void draw_motor(const scenario::Scenario& scenario, const loop::Recording& recording,
@@ -175,7 +144,7 @@ void draw_motor(const scenario::Scenario& scenario, const loop::Recording& recor
   const auto names = motor_channels(panel.motor.text);
   const auto& speed = *recording.column(names[0]);
   const auto& torque = *recording.column(names[1]);
-  const auto data = *motor_data(scenario, panel.motor.text);
+  const auto data = *motor_ratings(scenario, panel.motor.text);
   const double speed_unit = scenario::to_si(1, speed.unit);
   const double torque_unit = scenario::to_si(1, torque.unit);
 
@@ -212,7 +181,7 @@ void draw_motor(const scenario::Scenario& scenario, const loop::Recording& recor
   plot.panel_height = 520;
   shown.curves.push_back(std::move(points));
   shown.curves.push_back(peak_curve(data, both_ways, speed_unit, torque_unit));
-  shown.curves.push_back(rated_curve(data, both_ways, speed_unit, torque_unit));
+  shown.curves.push_back(continuous_curve(data, both_ways, speed_unit, torque_unit));
   plot.panels.push_back(std::move(shown));
 }
 

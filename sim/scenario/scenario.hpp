@@ -127,6 +127,12 @@ struct RecordSection {
   Place place;
 };
 
+/// How the drives are judged by their ratings (sim/loop/drive_judge.hpp).
+struct DrivesSection {
+  Time cycle = 0;     ///< length of a machine cycle, 0 = from cut to cut
+  bool judge = true;  ///< the check "drive within its ratings" is among the checks
+};
+
 struct Check {
   enum class Kind {
     each,  ///< every event of this name satisfies `expect`
@@ -249,6 +255,7 @@ struct Scenario {
   std::vector<Wire> wiring;
   std::vector<Stimulus> timeline;
   RecordSection record;
+  DrivesSection drives;
   std::vector<Check> checks;
   PicturesSection pictures;
   /// True if the machine can be built: plants and controller have no problem and all periods are multiples

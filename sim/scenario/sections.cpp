@@ -199,6 +199,12 @@ void visit_record(Archive& archive, RecordSection& record) {
   });
 }
 
+void visit_drives(Archive& archive, DrivesSection& drives) {
+  archive.value({"cycle", "of the machine, for the ratings of its drives; 0 = from cut to cut"},
+                form(drives.cycle, Sign::not_negative));
+  archive.value({"judge", "the check \"drive within its ratings\" is among the checks"}, form(drives.judge));
+}
+
 }  // namespace
 
 void visit(Archive& archive, Wire& wire) {
@@ -270,6 +276,8 @@ void visit(Archive& archive, Scenario& scenario) {
       scenario.timeline);
   archive.section({"record", "what trace.csv holds"},
                   [&](Archive& inner) { visit_record(inner, scenario.record); });
+  archive.section({"drives", "how the drives are judged by their ratings"},
+                  [&](Archive& inner) { visit_drives(inner, scenario.drives); });
   archive.list({"checks", "what must hold for the run to pass", !scenario.checks.empty()}, scenario.checks);
   archive.section({"pictures", "frames, film and plots of the run"},
                   [&](Archive& inner) { visit(inner, scenario.pictures); });
@@ -279,8 +287,8 @@ void visit(Archive& archive, Scenario& scenario) {
 }
 
 const std::vector<std::string>& section_names() {
-  static const std::vector<std::string> names = {"scene",    "plants", "controller", "wiring",
-                                                 "timeline", "record", "checks",     "pictures"};
+  static const std::vector<std::string> names = {"scene",  "plants", "controller", "wiring",  "timeline",
+                                                 "record", "drives", "checks",     "pictures"};
   return names;
 }
 

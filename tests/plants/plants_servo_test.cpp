@@ -81,12 +81,12 @@ TEST(ServoDrive, AcceleratesAtPeakTorqueWithoutWindup) {
 
 TEST(ServoDrive, TorqueFollowsTheTorqueSpeedCurve) {
   const ServoData data;
-  EXPECT_EQ(driving_torque_limit(data, 0), data.peak_torque);
-  EXPECT_EQ(driving_torque_limit(data, -data.rated_speed), data.peak_torque);
-  EXPECT_NEAR(driving_torque_limit(data, (data.rated_speed + data.max_speed) / 2),
+  EXPECT_EQ(ratings(data).peak(0), data.peak_torque);
+  EXPECT_EQ(ratings(data).peak(-data.rated_speed), data.peak_torque);
+  EXPECT_NEAR(ratings(data).peak((data.rated_speed + data.max_speed) / 2),
               (data.peak_torque + data.torque_at_max_speed) / 2, 1e-9);
-  EXPECT_NEAR(driving_torque_limit(data, -data.max_speed), data.torque_at_max_speed, 1e-9);
-  EXPECT_EQ(driving_torque_limit(data, data.max_speed * 1.06), 0);
+  EXPECT_NEAR(ratings(data).peak(-data.max_speed), data.torque_at_max_speed, 1e-9);
+  EXPECT_EQ(ratings(data).peak(data.max_speed * 1.06), 0);
 
   // Pulled beyond its speed the drive brakes with peak torque, and drives with less.
   ServoData fast;

@@ -1,0 +1,241 @@
+#include "plants/power_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.hpp"
+
+namespace drycut::plants {
+
+namespace {
+
+constexpr double settles_every = 0.5e-3;  // [s]
+constexpr double saturation_gap = 10e-3;  // shorter gaps do not end a saturation [s]
+constexpr double percent = 100;
+
+double celsius(double kelvin) { return kelvin - 273.15; }
+
+double time_constant(const AmplifierData& data) {
+  const double ratio = data.current / data.peak_current;
+  return -data.overload_time / std::log1p(-ratio * ratio);
+}
+
+// The square of the current [A2] for means of torque squared and rotor loss, while there is current in
+// `energised` of the time.
+double amperes_squared(const MotorCurrent& motor, double torque_squared, double rotor_loss,
+                       double energised) {
+  return motor.no_load * motor.no_load * energised + torque_squared * motor.per_torque_squared +
+         rotor_loss * motor.per_rotor_loss;
+}
+
+// True where the level changes.
+bool put(SignalPort& port, bool level) {
+  if (level == port.level) return false;
+  port.level = level;
+  port.add_edge(level, 1);
+  return true;
+}
+
+}  // namespace
+
+double DriveRatings::continuous(double speed) const {
+  return stall_torque + (rated_torque - stall_torque) * std::min(1.0, std::abs(speed) / rated_speed);
+}
+
+double DriveRatings::peak(double speed) const {
+  const double n = std::abs(speed);
+  if (n <= rated_speed) return peak_torque;
+  if (n <= max_speed)
+    return peak_torque + (torque_at_max_speed - peak_torque) * (n - rated_speed) / (max_speed - rated_speed);
+  const double overspeed = (n / max_speed - 1) / 0.05;
+  return std::max(0.0, torque_at_max_speed * (1 - overspeed));
+}
+
+PowerStage::PowerStage(const MotorCurrent& current, const MotorHeatData& heat, const DriveRatings& ratings,
+                       const std::optional<AmplifierData>& amplifier, const std::optional<SupplyData>& link)
+    : ratings_(ratings),
+      amplifier_(amplifier),
+      current_(current),
+      heat_(heat,
+            current.resistance * amperes_squared(current, ratings.stall_torque * ratings.stall_torque,
+                                                 current.rated_rotor_loss, 1),
+            current.rated_rotor_loss),
+      limit_(heat.temperature_limit) {
+  if (link) link_.emplace(*link);
+  ready.level = mains_ok.level = true;
+}
+
+void PowerStage::prepare(double h) {
+  h_ = h;
+  every_ = std::max(1, static_cast<int>(std::lround(settles_every / h)));
+  if (amplifier_) i2t_share_ = -std::expm1(-every_ * h / time_constant(*amplifier_));
+}
+
+void PowerStage::saturate(double asked, double h) {
+  totals_.saturated += h;
+  const double now = totals_.time + steps_ * h;
+  if (!saturation_.on) saturation_ = {true, now, now, 0};
+  saturation_.end = now + h;
+  saturation_.asked = std::max(saturation_.asked, asked);
+}
+
+void PowerStage::end_saturation() {
+  saturation_.on = false;
+  events_.push_back({"saturated",
+                     1,
+                     {{"begin", saturation_.begin, "s"},
+                      {"end", saturation_.end, "s"},
+                      {"asked", saturation_.asked * percent, "%"}}});
+}
+
+// Heat, I2t and link over the steps that were summed up.
+void PowerStage::settle(double h) {
+  if (h != h_) prepare(h);
+  const double seconds = steps_ * h;
+  const double energised = sum_.energised / seconds;
+  const double rotor_loss = sum_.rotor_loss / seconds;
+  const double squared = amperes_squared(current_, sum_.torque_squared / seconds, rotor_loss, energised);
+  loss_ = current_.resistance * squared * heat_.resistance() + rotor_loss;
+  heat_.warm(loss_, seconds);
+  if (amplifier_) i2t_ += (squared / (amplifier_->current * amplifier_->current) - i2t_) * i2t_share_;
+
+  const double copper = loss_ * seconds;
+  if (link_) {
+    link_->carry(sum_.work + copper, seconds);
+    speed_share_ = link_->speed_share();
+    totals_.from_mains = link_->from_mains();
+    totals_.in_resistor = link_->in_resistor();
+    peaks_.voltage = std::max(peaks_.voltage, link_->voltage());
+  } else {
+    totals_.from_mains += sum_.work + copper;
+  }
+  totals_.time += seconds;
+  totals_.work += sum_.work;
+  totals_.copper += copper;
+  totals_.rotor_loss += sum_.rotor_loss;
+  totals_.current_squared += squared * seconds;
+  totals_.torque_squared += sum_.torque_squared;
+  totals_.travel += sum_.travel;
+  const double torque = std::abs(torque_);
+  peaks_.torque = std::max(peaks_.torque, torque);
+  peaks_.speed = std::max(peaks_.speed, std::abs(speed_));
+  const double available = torque_ * speed_ > 0 ? ratings_.peak(speed_) : ratings_.peak_torque;
+  if (torque > 0) peaks_.share = std::max(peaks_.share, available > 0 ? torque / available : 1);
+
+  if (saturation_.on && totals_.time - saturation_.end > saturation_gap) end_saturation();
+  watch(energised > 0);
+  show();
+  sum_ = {};
+  steps_ = 0;
+}
+
+void PowerStage::trip(std::string_view event, std::vector<Event::Value> values) {
+  tripped_ = true;
+  events_.push_back({event, 1, std::move(values)});
+}
+
+void PowerStage::watch(bool energised) {
+  if (tripped_ || !energised) return;
+  if (i2t_ > 1 || heat_.winding() > limit_ || (link_ && link_->resistor_load() >= 1))
+    trip("overload", {{"i2t", i2t_ * percent, "%"},
+                      {"temperature", celsius(heat_.winding()), "degC"},
+                      {"resistor", link_ ? link_->resistor_load() * percent : 0, "%"}});
+  else if (link_ && link_->over())
+    trip("bus_overvoltage", {{"voltage", link_->voltage(), "V"}});
+  else if (link_ && link_->under())
+    trip("bus_undervoltage", {{"voltage", link_->voltage(), "V"}});
+}
+
+void PowerStage::show() {
+  const bool fed = !link_ || (!link_->under() && !link_->over());
+  edge_ = put(ready, fed && !tripped_);
+  edge_ = put(mains_ok, !link_ || link_->mains_well()) || edge_;
+}
+
+void PowerStage::clear_edges() {
+  ready.edges.clear();
+  mains_ok.edges.clear();
+  edge_ = false;
+}
+
+void PowerStage::offer_ports(std::vector<Port>& ports, const std::string& drive) {
+  ports.push_back({drive + ".ready", &ready, "on while the drive is fed and has not tripped"});
+  if (link_)
+    ports.push_back({drive + ".mains_ok", &mains_ok,
+                     "mains monitor: on while all phases have at least 85 % of their voltage"});
+}
+
+void PowerStage::offer_channels(std::vector<Channel>& channels) const {
+  channels.insert(
+      channels.end(),
+      {{"motor.power", "W", [this] { return torque_ * speed_; }, "mechanical power of the motor"},
+       {"motor.copper_loss", "W", [this] { return loss_; }, "lost in the motor's windings and bars"},
+       {"motor.temperature", "degC", [this] { return celsius(heat_.winding()); },
+        "of the motor's winding; ambient is 40 degC"},
+       {"motor.housing_temperature", "degC", [this] { return celsius(heat_.housing()); },
+        "of the motor's housing"},
+       {"motor.energy", "J", [this] { return totals_.work; }, "work of the motor since the start"},
+       {"drive.energy", "J", [this] { return totals_.from_mains; }, "taken from the mains since the start"}});
+  if (amplifier_)
+    channels.push_back({"drive.i2t", "%", [this] { return i2t_ * percent; },
+                        "thermal load of the amplifier; it trips at 100 %"});
+  if (!link_) return;
+  channels.insert(
+      channels.end(),
+      {{"drive.bus_voltage", "V", [this] { return link_->voltage(); }, "of the DC link"},
+       {"drive.mains.power", "W", [this] { return link_->mains_power(); }, "taken from the mains"},
+       {"drive.resistor.power", "W", [this] { return link_->resistor_power(); }, "of the brake resistor"},
+       {"drive.resistor.temperature", "degC", [this] { return celsius(link_->resistor_temperature()); },
+        "of the brake resistor"}});
+}
+
+void PowerStage::offer_faults(std::vector<Fault>& faults) {
+  if (link_) link_->offer_faults(faults);
+}
+
+void PowerStage::offer_events(std::vector<EventType>& types) {
+  types.insert(types.end(),
+               {{"saturated",
+                 {{"begin", "s"}, {"end", "s"}, {"asked", "%"}},
+                 "the torque limit has acted from begin to end (gaps under 10 ms are none): the largest "
+                 "torque that the loop asked for over the limit"},
+                {"overload",
+                 {{"i2t", "%"}, {"temperature", "degC"}, {"resistor", "%"}},
+                 "the drive has tripped: I2t of the amplifier or load of the brake resistor at 100 %, or "
+                 "the winding at its limit; it is off until enabled anew"},
+                {"bus_overvoltage",
+                 {{"voltage", "V"}},
+                 "the drive has tripped: braking has lifted the DC link over its limit"},
+                {"bus_undervoltage",
+                 {{"voltage", "V"}},
+                 "the drive has tripped: the DC link has sunk below its limit"}});
+}
+
+std::vector<PlantDefinition::Objection> power_objections(const std::string& group,
+                                                         const AmplifierData& amplifier,
+                                                         const SupplyData& supply) {
+  std::vector<PlantDefinition::Objection> found;
+  if (amplifier.peak_current <= amplifier.current)
+    found.push_back({group + "amplifier_peak_current", "it is not above amplifier_current",
+                     "more than amplifier_current"});
+  if (supply.brake_voltage - supply.brake_hysteresis <= 1)
+    found.push_back({group + "supply.brake_hysteresis",
+                     "the brake resistor would stay on at the voltage of the mains",
+                     "less than supply.brake_voltage has above 100 %"});
+  if (supply.overvoltage <= supply.brake_voltage)
+    found.push_back({group + "supply.overvoltage", "it is not above supply.brake_voltage",
+                     "more than supply.brake_voltage"});
+  return found;
+}
+
+Parameters amplifier_parameters(AmplifierData& data, std::string_view source) {
+  return {
+      row("amplifier_current", "A", "rms current that the amplifier bears for ever", data.current, 1e-2, 1e4,
+          source),
+      row("amplifier_peak_current", "A", "its largest rms current", data.peak_current, 1e-2, 1e5, source),
+      row("overload_time", "s", "at the largest current from cold, then it trips", data.overload_time, 1e-2,
+          1e4, source),
+  };
+}
+
+}  // namespace drycut::plants

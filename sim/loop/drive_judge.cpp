@@ -1,0 +1,214 @@
+#include "sim/loop/drive_judge.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "base/units.hpp"
+
+namespace drycut::sim::loop {
+
+namespace {
+
+constexpr std::size_t cycles_in_a_row = 10;
+constexpr std::size_t most_points = 20000;
+constexpr double good = 0.9;             // of a rating; above, a figure warns
+constexpr double most_saturated = 0.01;  // of the time of cycles
+constexpr double percent = 100;
+
+double celsius(double kelvin) { return kelvin - 273.15; }
+
+constexpr std::array<std::string_view, 3> trip_events = {"overload", "bus_overvoltage", "bus_undervoltage"};
+
+}  // namespace
+
+void Thinned::add(double x, double y) {
+  if (seen_++ % stride_ != 0) return;
+  points_.emplace_back(x, y);
+  if (points_.size() < most_points) return;
+  for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
+  points_.resize((points_.size() + 1) / 2);
+  stride_ *= 2;
+}
+
+bool DriveVerdict::holds() const { return trips.empty() && tightest().share <= 1; }
+
+const DriveFigure& DriveVerdict::tightest() const {
+  return *std::max_element(figures.begin(), figures.end(),
+                           [](const auto& a, const auto& b) { return a.share < b.share; });
+}
+
+DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants)
+    : judged_(scenario.drives.judge), cycle_(scenario.drives.cycle) {
+  next_ = cycle_;
+  for (const auto& [name, plant] : plants)
+    for (const auto& drive : plant->drives()) {
+      drives_.push_back({name, drive.name, drive.stage, drive.load_inertia});
+      if (cycle_ > 0) begin_cycles(drives_.back());
+    }
+}
+
+void DriveJudge::begin_cycles(Drive& drive) {
+  drive.begun = true;
+  drive.begin = drive.stage->totals();
+  drive.ends = {drive.begin};
+  drive.stage->forget_peaks();
+}
+
+void DriveJudge::end_cycle(Drive& drive) {
+  const auto& now = drive.stage->totals();
+  const auto& last = drive.ends.back();
+  const double cycle = now.time - last.time;
+  if (cycle <= 0) return;
+  drive.cycle_points.add((now.travel - last.travel) / cycle,
+                         std::sqrt((now.torque_squared - last.torque_squared) / cycle));
+  ++drive.cycles;
+  drive.ends.push_back(now);
+  if (drive.ends.size() > cycles_in_a_row + 1) drive.ends.pop_front();
+  // Fewer than ten cycles are judged as they are; the first ones do not count twice.
+  const auto& from = drive.ends.front();
+  auto& worst = drive.worst;
+  if (drive.ends.size() <= cycles_in_a_row) worst = {};
+  const double time = now.time - from.time;
+  const double torque = std::sqrt((now.torque_squared - from.torque_squared) / time);
+  const double speed = (now.travel - from.travel) / time;
+  const double share = torque / drive.stage->ratings().continuous(speed);
+  if (share >= worst.share) {
+    worst.torque = torque;
+    worst.speed = speed;
+    worst.share = share;
+  }
+  const double current_squared = (now.current_squared - from.current_squared) / time;
+  if (current_squared >= worst.current_squared) {
+    worst.current_squared = current_squared;
+    worst.rotor_loss = (now.rotor_loss - from.rotor_loss) / time;
+  }
+  worst.resistor = std::max(worst.resistor, (now.in_resistor - from.in_resistor) / time);
+  worst.saturated = std::max(worst.saturated, (now.saturated - from.saturated) / time);
+}
+
+void DriveJudge::sample(Time now) {
+  const bool over = cycle_ > 0 && now >= next_;
+  while (cycle_ > 0 && now >= next_) next_ += cycle_;
+  for (auto& drive : drives_) {
+    if (over) end_cycle(drive);
+    drive.points.add(drive.stage->speed(), drive.stage->torque());
+  }
+}
+
+void DriveJudge::happened(const RecordedEvent& event) {
+  for (auto& drive : drives_) {
+    if (drive.plant != event.source) continue;
+    if (std::find(trip_events.begin(), trip_events.end(), event.event) != trip_events.end())
+      drive.trips.push_back(fmt::format("{} at {:.3f} s", event.event, event.at_seconds()));
+    if (cycle_ > 0 || event.event != "cut") continue;
+    if (drive.begun)
+      end_cycle(drive);
+    else
+      begin_cycles(drive);
+  }
+}
+
+DriveVerdict DriveJudge::verdict(Drive drive) const {
+  const auto& stage = *drive.stage;
+  DriveVerdict verdict;
+  verdict.drive = drive.plant + "." + drive.name;
+  verdict.ratings = stage.ratings();
+  const bool whole = drive.cycles == 0;
+  if (whole) {
+    // Without a cycle all that it did since the start is one.
+    drive.ends = {plants::DriveTotals{}};
+    end_cycle(drive);
+  }
+  verdict.cycles = whole        ? "the whole run"
+                   : cycle_ > 0 ? fmt::format("{} cycles of {} s", drive.cycles, seconds_text(cycle_))
+                                : fmt::format("{} cycles from cut to cut", drive.cycles);
+  const auto& worst = drive.worst;
+  const auto& peaks = stage.peaks();
+  const auto& ratings = verdict.ratings;
+  const auto add = [&](std::string name, double value, double rating, std::string unit, double power) {
+    const double share = rating > 0 ? value / rating : value > 0 ? 2 : 0;
+    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, power});
+  };
+  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", 2);
+  add("peak torque", peaks.torque, peaks.share > 0 ? peaks.torque / peaks.share : ratings.peak_torque, "N m",
+      2);
+  add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", 1);
+  const double ambient = celsius(plants::MotorHeat::ambient);
+  add("winding for ever, over 40 degC",
+      celsius(stage.steady_temperature(worst.current_squared, worst.rotor_loss)) - ambient,
+      celsius(stage.temperature_limit()) - ambient, "K", 4);
+  if (const auto& amplifier = stage.amplifier())
+    add("amplifier's rms current", std::sqrt(worst.current_squared), amplifier->current, "A", 2);
+  if (const auto& link = stage.link()) {
+    const double peak = std::sqrt(2.0) * link->data().voltage;
+    add("largest bus voltage", peaks.voltage, link->data().overvoltage * peak, "V", 0);
+    if (worst.resistor > 0) add("brake resistor", worst.resistor, link->data().resistor_power, "W", 3);
+  }
+  verdict.saturated = worst.saturated;
+  if (!whole && worst.saturated > 0)
+    add("torque limit acts", worst.saturated * percent, most_saturated * percent, "% of the time", 2);
+  verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
+  const auto& totals = stage.totals();
+  verdict.energy =
+      whole ? totals.from_mains : (drive.ends.back().from_mains - drive.begin.from_mains) / drive.cycles;
+  verdict.trips = drive.trips;
+  for (const auto& figure : verdict.figures)
+    if (figure.share > good && figure.power > 0)
+      verdict.advised = std::min(verdict.advised, std::pow(good / figure.share, 1 / figure.power));
+  verdict.cycle_points = drive.cycle_points.points();
+  verdict.points = drive.points.points();
+  return verdict;
+}
+
+std::vector<DriveVerdict> DriveJudge::verdicts() const {
+  std::vector<DriveVerdict> verdicts;
+  verdicts.reserve(drives_.size());
+  for (const auto& drive : drives_) verdicts.push_back(verdict(drive));
+  return verdicts;
+}
+
+std::string text_of(const DriveVerdict& verdict) {
+  const auto& figure = verdict.tightest();
+  auto text = fmt::format("{}: {}{} {:.4g} of {:.4g} {} ({:.0f} %)", verdict.drive,
+                          verdict.trips.empty() ? "" : fmt::format("{}; ", fmt::join(verdict.trips, ", ")),
+                          figure.name, figure.value, figure.rating, figure.unit, figure.share * percent);
+  std::vector<std::string> others;
+  for (const auto& other : verdict.figures)
+    if (&other != &figure && other.share > 1)
+      others.push_back(fmt::format("{} {:.0f} %", other.name, other.share * percent));
+  if (!others.empty()) text += fmt::format(", {}", fmt::join(others, ", "));
+  if (!verdict.holds() && verdict.advised < 1)
+    text += fmt::format(
+        "; at {:.0f} % of this speed it would be within 90 %, if torque goes with the speed squared",
+        std::floor(verdict.advised * percent));
+  return text;
+}
+
+std::vector<CheckResult> DriveJudge::results() const {
+  if (!judged_ || drives_.empty()) return {};
+  CheckResult result;
+  result.name = "drive within its ratings";
+  result.expectation =
+      "torque, speed, current, heat, bus voltage and brake resistor of every drive within their ratings, "
+      "over "
+      "the worst ten cycles in a row as if they went on for ever; no trip";
+  result.passed = true;
+  std::vector<std::string> details;
+  double largest = 0;
+  for (const auto& verdict : verdicts()) {
+    result.passed = result.passed && verdict.holds();
+    largest = std::max(largest, verdict.tightest().share);
+    details.push_back(text_of(verdict));
+  }
+  result.margin = (1 - largest) * percent;
+  result.unit = "%";
+  result.detail = fmt::format("{}", fmt::join(details, " | "));
+  return {result};
+}
+
+}  // namespace drycut::sim::loop

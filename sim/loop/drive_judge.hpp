@@ -1,0 +1,113 @@
+#pragma once
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plants/power_stage.hpp"
+#include "sim/loop/checks.hpp"
+#include "sim/loop/names.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim::loop {
+
+/// One number of a drive beside what it may be.
+struct DriveFigure {
+  std::string name;   ///< "rms torque", "winding, steady"
+  double value = 0;   ///< in `unit`
+  double rating = 0;  ///< in `unit`
+  std::string unit;
+  double share = 0;  ///< of what it may be, 1 = all; fails above, warns above 0.9
+  /// The share goes with this power of the machine's speed, where the torque goes with its square.
+  double power = 1;
+};
+
+/// What came of a drive over its machine cycles.
+struct DriveVerdict {
+  std::string drive;   ///< "knife.servo"
+  std::string cycles;  ///< "10 of 24 cycles, from cut to cut"
+  plants::DriveRatings ratings;
+  std::vector<DriveFigure> figures;
+  double inertia_ratio = 0;        ///< load over rotor
+  double energy = 0;               ///< from the mains, mean of a cycle [J]
+  double saturated = 0;            ///< share of the time in which the torque limit acted
+  std::vector<std::string> trips;  ///< "overload at 3.2 s"
+  /// At this share of the machine's speed all would be within 90 % of their ratings; 1 where they are.
+  double advised = 1;
+  std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
+  std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
+
+  [[nodiscard]] bool holds() const;
+  /// The figure with the largest share.
+  [[nodiscard]] const DriveFigure& tightest() const;
+};
+
+/// Points of a plane, at most so many: every second one goes when there are more.
+class Thinned {
+ public:
+  void add(double x, double y);
+  [[nodiscard]] const std::vector<std::pair<double, double>>& points() const { return points_; }
+
+ private:
+  std::vector<std::pair<double, double>> points_;
+  std::size_t stride_ = 1;
+  std::size_t seen_ = 0;
+};
+
+/// Judges the drives of all plants by their ratings: torque, current, heat and voltages of each machine
+/// cycle, over the worst ten cycles in a row as if they went on for ever. A cycle lasts from cut to cut of
+/// the drive's plant, or as long as the scenario says (drives.cycle); without either the whole run is one.
+/// What comes before the first cut is the start and is not judged, but for trips.
+class DriveJudge : public Observer {
+ public:
+  DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants);
+
+  void sample(Time now) override;
+  void happened(const RecordedEvent& event) override;
+  /// The verdicts as they stand, a drive each.
+  [[nodiscard]] std::vector<DriveVerdict> verdicts() const;
+  /// The check "drive within its ratings"; none without drives, or where the scenario switches it off.
+  [[nodiscard]] std::vector<CheckResult> results() const;
+
+ private:
+  /// What stretches of cycles came to, the worst of each.
+  struct Worst {
+    double torque = 0;  ///< rms [N m], where it is the largest share of S1
+    double speed = 0;   ///< mean size then [rad/s]
+    double share = 0;
+    double current_squared = 0;  ///< mean [A2]
+    double rotor_loss = 0;       ///< mean, then [W]
+    double resistor = 0;         ///< mean power [W]
+    double saturated = 0;        ///< share of the time
+  };
+  struct Drive {
+    std::string plant;
+    std::string name;
+    plants::PowerStage* stage = nullptr;
+    double load_inertia = 0;
+    bool begun = false;
+    plants::DriveTotals begin = {};  ///< of the first cycle
+    std::deque<plants::DriveTotals> ends =
+        {};  ///< of the last cycles, and the beginning of the first of them
+    int cycles = 0;
+    Worst worst = {};
+    std::vector<std::string> trips = {};
+    Thinned cycle_points = {};
+    Thinned points = {};
+  };
+
+  static void begin_cycles(Drive& drive);
+  static void end_cycle(Drive& drive);
+  [[nodiscard]] DriveVerdict verdict(Drive drive) const;
+
+  bool judged_;
+  Time cycle_;
+  Time next_ = 0;  ///< end of the cycle that runs, where the scenario names its length
+  std::vector<Drive> drives_;
+};
+
+/// "knife.servo: rms torque 6.1 of 9.5 N m (64 %)".
+std::string text_of(const DriveVerdict& verdict);
+
+}  // namespace drycut::sim::loop
