@@ -85,7 +85,7 @@ int measure_bode(const BodeOptions& options) {
     if (cycle) result = cycle->margins[cycle->least.value_or(cycle->margins.size() / 2)].loop;
   } else if (problems.empty()) {
     Progress bar;
-    result = studies::measure_loop(scenario, options.loop, problems, [&](double done) {
+    result = studies::measure_both(scenario, options.loop, problems, [&](double done) {
       bar.show("measuring " + options.scenario.stem().string(), done);
     });
   }

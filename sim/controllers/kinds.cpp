@@ -38,6 +38,13 @@ void visit_memory(scenario::Archive& archive, scenario::ControllerSection& secti
                 scenario::form(section.set));
 }
 
+void visit_compute_time(scenario::Archive& archive, scenario::ControllerSection& section) {
+  archive.value({"compute_time",
+                 "from the latch of the counters to the analogue output, at most the sampling "
+                 "time; 0: the output follows in the same step"},
+                scenario::form(section.compute_time, scenario::Sign::not_negative));
+}
+
 std::optional<std::string> read_named(const scenario::Text& path, const scenario::Scenario& scenario,
                                       Problems& problems) {
   return read_file(scenario.file.parent_path() / path.text, problems,

@@ -99,6 +99,8 @@ const Section* controller_of(const scenario::Scenario& scenario) {
 
 /// The keys that every kind has: its retentive file and the values before power-up.
 void visit_memory(scenario::Archive& archive, scenario::ControllerSection& section);
+/// The key of those with analogue outputs: how long they compute.
+void visit_compute_time(scenario::Archive& archive, scenario::ControllerSection& section);
 /// Reads the file that a section names; one that cannot be read is a problem at its name.
 std::optional<std::string> read_named(const scenario::Text& path, const scenario::Scenario& scenario,
                                       Problems& problems);

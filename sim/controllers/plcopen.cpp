@@ -237,6 +237,7 @@ void PlcopenSection::visit(scenario::Archive& archive) {
                 &Axis::name, true);
   archive.list({"tables", "cam tables: a path, or a path and an id"}, tables, true);
   if (archive.reads()) std::erase_if(tables, [](const Table& table) { return table.file.text.empty(); });
+  visit_compute_time(archive, *this);
   visit_memory(archive, *this);
   archive.judge([this](scenario::MapReader& reader) {
     check_multiple(reader, "task_cycle", task_cycle, cycle);

@@ -16,6 +16,7 @@ void QmoveSection::visit(scenario::Archive& archive) {
   archive.value({"tasks", "paths of the QCL units, one task each"}, scenario::form(tasks));
   archive.value({"cycle", "a round of all tasks begins this often"},
                 scenario::form(cycle, scenario::Sign::positive));
+  visit_compute_time(archive, *this);
   visit_memory(archive, *this);
 }
 

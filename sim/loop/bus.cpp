@@ -291,9 +291,28 @@ std::vector<std::string> Bus::unwired() const {
   return names;
 }
 
-void Bus::outputs_to_plants() const {
+namespace {
+
+// What was computed comes `steps` steps after the controller gave it.
+void put_out_late(Bus::AnalogueWire& wire, std::int64_t steps) {
+  if (wire.until > 0 && --wire.until == 0) wire.to->volts = wire.computed;
+  const double output = wire.output() + wire.added;
+  if (output == wire.computed) return;
+  if (wire.until > 0) wire.to->volts = wire.computed;
+  wire.computed = output;
+  wire.until = steps;
+}
+
+}  // namespace
+
+void Bus::outputs_to_plants() {
   for (const auto& wire : outputs_) wire.to->level = wire.from->level;
-  for (const auto& wire : analogue_outputs_) wire.to->volts = wire.output() + wire.added;
+  for (auto& wire : analogue_outputs_) {
+    if (compute_steps_ > 0)
+      put_out_late(wire, compute_steps_);
+    else
+      wire.to->volts = wire.output() + wire.added;
+  }
   for (const auto& wire : pulses_) wire.to->pulses = wire.from->count;
 }
 

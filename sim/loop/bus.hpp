@@ -41,8 +41,10 @@ class Bus {
   /// Terminals that the controller uses and nothing is wired to.
   [[nodiscard]] std::vector<std::string> unwired() const;
 
-  /// Controller outputs to plant commands and references.
-  void outputs_to_plants() const;
+  /// Controller outputs to plant commands and references; the references so many steps late, at most as many
+  /// as lie between two changes of them.
+  void outputs_to_plants();
+  void compute_for(std::int64_t steps) { compute_steps_ = steps; }
   /// Transducers and sensors to the controller; interrupt edges latch the counters and are passed on in order
   /// of their time inside the step.
   void plants_to_inputs();
@@ -56,6 +58,8 @@ class Bus {
     const devices::AnalogueOutput* from;
     plants::ReferencePort* to;
     double added = 0;                      ///< [V]
+    double computed = 0;                   ///< that is to come [V]
+    std::int64_t until = 0;                ///< steps until it does; 0: it has
     [[nodiscard]] double output() const {  ///< of the controller [V]
       return from->word * (devices::dac_full_scale_volts / devices::dac_full_scale);
     }
@@ -104,6 +108,7 @@ class Bus {
   std::vector<PulseWire> pulses_;
   std::vector<LoopWire> loops_;
   std::vector<AnalogueWire> analogue_outputs_;
+  std::int64_t compute_steps_ = 0;
   std::set<devices::Address> wired_;
   std::set<devices::Address> looped_;  ///< pulse outputs that a counter of the controller counts
   friend class Connector;

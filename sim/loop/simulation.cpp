@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "sim/loop/controller_loader.hpp"
+#include "sim/scenario/format.hpp"
 
 namespace drycut::sim::loop {
 
@@ -29,6 +30,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
     bus_.connect(scenario, *controller_, named_, problems);
     refuse_shared_names(scenario, *controller_, problems);
     check_periods(problems);
+    delay_outputs(problems);
   }
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
   if (!controller_ && scenario.controller) names_->assume_controller(scenario.wiring);
@@ -79,6 +81,21 @@ void Simulation::check_periods(Problems& problems) const {
                                          period.name, period.ns, step_),
                              "choose a step that divides it"));
   }
+}
+
+// The outputs come late by what the controller computes, at most until its next sample.
+void Simulation::delay_outputs(Problems& problems) {
+  const Time computing = scenario_.controller->compute_time;
+  for (const auto& wire : bus_.analogue_wires()) {
+    const Time period = controller_->output_period(wire.terminal);
+    if (period == 0 || computing <= period) continue;
+    problems.push_back(problem_at(
+        scenario_, scenario_.controller->place,
+        fmt::format("compute_time of {} is longer than the sampling time {} of {}",
+                    scenario::format_time(computing), scenario::format_time(period), wire.terminal_name),
+        fmt::format("at most {}", scenario::format_time(period))));
+  }
+  bus_.compute_for(computing / step_);
 }
 
 void Simulation::write_to(const std::filesystem::path& trace, const std::filesystem::path& events) {

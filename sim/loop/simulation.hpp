@@ -113,6 +113,7 @@ class Simulation {
   void load_controller(Problems& problems);
   void build_plants();
   void check_periods(Problems& problems) const;
+  void delay_outputs(Problems& problems);
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();

@@ -111,6 +111,8 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
   if (const auto& controller = scenario.controller) {
     const auto [key, time] = controller->period();
     require_multiple(root, {"controller", controller->kind(), key}, time, step, findings);
+    require_multiple(root, {"controller", controller->kind(), "compute_time"}, controller->compute_time, step,
+                     findings);
   }
   if (scenario.scene.duration < step) {
     findings.add(place_at(root, {"scene", "duration"}),

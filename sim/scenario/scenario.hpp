@@ -66,6 +66,9 @@ struct ControllerSection {
 
   Text retentive;  ///< file that keeps retentive values over power cycles and runs, "" = memory only
   std::vector<std::pair<Text, double>> set;  ///< values before power-up, after the retentive file
+  /// From the latch of the counters to the analogue output: what a device takes to compute. At most its
+  /// sampling time.
+  Time compute_time = 0;
   Place place;
 
   /// As the scenario writes it: "qmove".

@@ -159,5 +159,20 @@ TEST_F(BusTest, PanelTakesNoCounterAndNoNameTwice) {
   EXPECT_EQ(problems[1].what, "panel.run is both a switch and a lamp");
 }
 
+TEST_F(BusTest, WhatIsComputedComesLater) {
+  connect({{"2.AN01", "axis.reference"}});
+  auto& word = controller.cards().analogue_outputs.at({Kind::analogue, 2, 1}).word;
+  bus.compute_for(3);
+  const auto volts = [&](int given) {
+    word = static_cast<std::int16_t>(given);
+    bus.outputs_to_plants();
+    return std::lround(plant.reference.volts / 10 * 32767);
+  };
+  // A word each four steps comes three steps later and stays.
+  std::vector<long> seen;
+  for (int step = 0; step < 12; ++step) seen.push_back(volts(100 + step / 4));
+  EXPECT_THAT(seen, ElementsAre(0, 0, 0, 100, 100, 100, 100, 101, 101, 101, 101, 102));
+}
+
 }  // namespace
 }  // namespace drycut::sim::loop

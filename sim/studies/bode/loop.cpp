@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "sim/loop/recorder.hpp"
 #include "sim/scenario/units.hpp"
@@ -159,6 +160,17 @@ std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const
   if (!result.speed.empty()) result.speed_unit = prepared.excited->names().reading(result.speed)->unit;
   result.sweep = measure(*prepared.excited, *prepared.still, result.plan, progress);
   result.margins = margins_of(result.sweep.points);
+  return result;
+}
+
+std::optional<LoopResult> measure_both(scenario::Scenario& scenario, const LoopRequest& request,
+                                       Problems& problems, const std::function<void(double)>& progress) {
+  auto result = measure_loop(scenario, request, problems, progress);
+  if (!result || !scenario.controller || scenario.controller->compute_time == 0) return result;
+  const auto computing = std::exchange(scenario.controller->compute_time, 0);
+  if (const auto without = measure_loop(scenario, request, problems, progress))
+    result->without_computing = without->margins;
+  scenario.controller->compute_time = computing;
   return result;
 }
 

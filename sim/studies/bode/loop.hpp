@@ -31,6 +31,7 @@ struct LoopResult {
   SweepPlan plan;
   Sweep sweep;
   Margins margins;
+  std::optional<Margins> without_computing;  ///< the same with compute_time 0, where the scenario has one
 };
 
 /// Doubt of a point (BodePoint::doubt) above which it is not to be trusted.
@@ -40,6 +41,9 @@ inline constexpr double bode_error_limit = 0.05;
 void check_request(const LoopRequest& request, Problems& problems);
 /// What of the request does not fit the scenario.
 void check_loop(const scenario::Scenario& scenario, const LoopRequest& request, Problems& problems);
+/// The same with the controller's compute_time set to 0 besides, where the scenario has one.
+std::optional<LoopResult> measure_both(scenario::Scenario& scenario, const LoopRequest& request,
+                                       Problems& problems, const std::function<void(double)>& progress = {});
 /// Runs `scenario` twice and measures; nullopt and problems if the request does not fit it.
 std::optional<LoopResult> measure_loop(const scenario::Scenario& scenario, const LoopRequest& request,
                                        Problems& problems, const std::function<void(double)>& progress = {});

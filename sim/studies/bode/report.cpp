@@ -76,6 +76,14 @@ std::vector<renders::ReportRow> margin_rows(const LoopResult& result) {
   if (margins.sensitivity)
     row("largest sensitivity",
         fmt::format("{:.2f} at {}", margins.sensitivity->value, hertz_text(margins.sensitivity->frequency)));
+  if (const auto& without = result.without_computing) {
+    if (without->phase)
+      row("phase margin, compute_time 0",
+          fmt::format("{:.1f} deg at {}", without->phase->value, hertz_text(without->phase->frequency)));
+    if (without->gain)
+      row("gain margin, compute_time 0",
+          fmt::format("{:.2f} dB at {}", without->gain->value, hertz_text(without->gain->frequency)));
+  }
   row("position loop -3 dB", margins.closed_bandwidth ? hertz_text(*margins.closed_bandwidth) : absent);
   if (!result.speed.empty())
     row("speed loop -3 dB", margins.speed_bandwidth ? hertz_text(*margins.speed_bandwidth) : absent);

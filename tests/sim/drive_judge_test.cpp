@@ -1,0 +1,188 @@
+// The verdict on drives, against numbers taken step by step from the machine itself.
+#include "sim/loop/drive_judge.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/loop/simulation.hpp"
+
+namespace drycut::sim::loop {
+namespace {
+
+using testing::HasSubstr;
+
+const auto scenes = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes";
+
+/// A shipped line, run with some values of its own.
+struct Line {
+  Problems problems;
+  scenario::Scenario scenario;
+  std::unique_ptr<Simulation> simulation;
+  explicit Line(const std::string& scene, const std::map<std::string, std::string>& set) {
+    std::vector<scenario::Override> overrides;
+    for (const auto& [path, value] : set) overrides.push_back({path, value});
+    scenario = scenario::read_scenario(scenes / scene, overrides, problems);
+    simulation = std::make_unique<Simulation>(scenario, problems);
+    if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
+    simulation->keep_nothing();
+  }
+  [[nodiscard]] std::vector<CheckResult> ratings() const {
+    std::vector<CheckResult> found;
+    for (auto& check : simulation->outcome().checks)
+      if (check.name == "drive within its ratings") found.push_back(check);
+    return found;
+  }
+};
+
+const DriveFigure& figure(const DriveVerdict& verdict, const std::string& name) {
+  for (const auto& one : verdict.figures)
+    if (one.name == name) return one;
+  throw std::out_of_range(name);
+}
+
+TEST(DriveJudge, RmsOfTheWorstTenCyclesIsThatOfItsSteps) {
+  Line line("rotary_knife.yaml", {{"scene.duration", "12 s"}});
+  auto& simulation = *line.simulation;
+  const auto torque = simulation.names().reading("knife.motor.torque").value();
+  const auto cuts = simulation.names().reading("knife.cut.number").value();
+  std::vector<double> squares;     // of each cycle
+  std::vector<std::size_t> steps;  // in it
+  double last = 0;
+  while (simulation.time() < line.scenario.scene.duration) {
+    ASSERT_TRUE(simulation.advance());
+    if (cuts.read() != last) {
+      last = cuts.read();
+      squares.push_back(0);
+      steps.push_back(0);
+    }
+    if (squares.empty()) continue;
+    squares.back() += torque.read() * torque.read();
+    ++steps.back();
+  }
+  double worst = 0;
+  for (std::size_t i = 0; i + 11 <= squares.size(); ++i) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t k = i; k < i + 10; ++k) {
+      sum += squares[k];
+      count += steps[k];
+    }
+    worst = std::max(worst, std::sqrt(sum / static_cast<double>(count)));
+  }
+  const auto verdicts = simulation.drives();
+  ASSERT_EQ(verdicts.size(), 1U);
+  const auto& verdict = verdicts[0];
+  EXPECT_EQ(verdict.drive, "knife.servo");
+  EXPECT_EQ(verdict.cycles, std::to_string(squares.size() - 1) + " cycles from cut to cut");
+  // The stage sums up five steps at a time: a cycle may begin four steps late.
+  EXPECT_NEAR(figure(verdict, "rms torque").value, worst, 2e-3 * worst);
+  EXPECT_NEAR(verdict.inertia_ratio, 0.41 / 25 / 46.8e-4, 1e-9);
+  EXPECT_TRUE(verdict.holds());
+  ASSERT_EQ(line.ratings().size(), 1U);
+  EXPECT_TRUE(line.ratings()[0].passed);
+}
+
+TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
+  const std::map<std::string, std::string> small = {{"plants.knife.servo.rated_torque", "2 N m"},
+                                                    {"plants.knife.servo.stall_torque", "2 N m"},
+                                                    {"plants.knife.servo.amplifier_current", "8 A"}};
+  Line line("rotary_knife_short.yaml", small);
+  line.simulation->run();
+  const auto verdict = line.simulation->drives().at(0);
+  ASSERT_FALSE(verdict.holds()) << text_of(verdict);
+  EXPECT_GT(figure(verdict, "rms torque").share, 1);
+  const auto check = line.ratings().at(0);
+  EXPECT_FALSE(check.passed);
+  EXPECT_LT(*check.margin, 0);
+  EXPECT_THAT(check.detail, HasSubstr("rms torque"));
+  ASSERT_LT(verdict.advised, 1);
+
+  auto slower = small;
+  slower["plants.web.speed"] = std::to_string(60 * verdict.advised) + " m/min";
+  Line again("rotary_knife_short.yaml", slower);
+  again.simulation->run();
+  EXPECT_TRUE(again.simulation->drives().at(0).holds()) << text_of(again.simulation->drives().at(0));
+}
+
+TEST(DriveJudge, AScenarioNamesItsCycleOrSwitchesTheCheckOff) {
+  Line line("rotary_knife.yaml", {{"scene.duration", "4 s"}, {"drives.cycle", "800 ms"}});
+  line.simulation->run();
+  EXPECT_EQ(line.simulation->drives().at(0).cycles, "5 cycles of 0.8 s");
+  EXPECT_EQ(line.ratings().size(), 1U);
+  Line silent("rotary_knife.yaml", {{"scene.duration", "1 s"}, {"drives.judge", "false"}});
+  silent.simulation->run();
+  EXPECT_TRUE(silent.ratings().empty());
+  EXPECT_EQ(silent.simulation->drives().at(0).cycles, "the whole run");
+}
+
+TEST(DriveJudge, ATripFailsWhateverTheMeansAre) {
+  Line line("rotary_knife.yaml", {{"scene.duration", "6 s"},
+                                  {"plants.knife.servo.overload_time", "20 ms"},
+                                  {"plants.knife.servo.amplifier_current", "1 A"}});
+  line.simulation->run();
+  const auto verdict = line.simulation->drives().at(0);
+  ASSERT_FALSE(verdict.trips.empty());
+  EXPECT_THAT(verdict.trips[0], HasSubstr("overload at "));
+  EXPECT_FALSE(verdict.holds());
+  EXPECT_THAT(line.ratings().at(0).detail, HasSubstr("overload at "));
+}
+
+/// On every plant with a drive what the mains gave is found again: in work, heat, the resistor, the link.
+struct Machine {
+  std::string scene;
+  std::string motor;  ///< channels of its motor
+};
+class EnergyOfDrives : public testing::TestWithParam<Machine> {};
+
+TEST_P(EnergyOfDrives, ClosesAndItsWorkIsThatOfItsSteps) {
+  const auto& [scene, motor] = GetParam();
+  Line line(scene, {{"scene.duration", "6 s"}});
+  auto& simulation = *line.simulation;
+  const auto torque = simulation.names().reading(motor + ".torque").value();
+  const auto speed = simulation.names().reading(motor + ".speed").value();
+  constexpr double rpm = 2 * std::numbers::pi / 60;
+  const double h = seconds(line.scenario.scene.step);
+  double work = 0;
+  double before = speed.read();
+  while (simulation.time() < line.scenario.scene.duration) {
+    ASSERT_TRUE(simulation.advance());
+    work += torque.read() * 0.5 * (before + speed.read()) * rpm * h;
+    before = speed.read();
+  }
+  for (const auto& [name, plant] : simulation.plants())
+    for (const auto& drive : plant->drives()) {
+      if (name + ".motor" != motor) continue;
+      const auto& totals = drive.stage->totals();
+      const auto& link = drive.stage->link();
+      const double stored =
+          link ? link->stored() - link->data().capacitance * link->data().voltage * link->data().voltage : 0;
+      EXPECT_GT(totals.copper, 0);
+      EXPECT_NEAR(totals.from_mains, totals.work + totals.copper + totals.in_resistor + stored,
+                  1e-6 * (std::abs(totals.from_mains) + totals.copper));
+      EXPECT_NEAR(totals.work, work, 2e-3 * (std::abs(work) + totals.copper)) << "up to five steps behind";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Plants, EnergyOfDrives,
+                         testing::Values(Machine{"rotary_knife.yaml", "knife.motor"},
+                                         Machine{"flying_saw_2m.yaml", "saw.motor"},
+                                         Machine{"flying_saw_lx3vp_2m.yaml", "saw.motor"},
+                                         Machine{"backlash_motor_encoder.yaml", "axis.motor"},
+                                         Machine{"press_learning.yaml", "press.motor"},
+                                         Machine{"onoff_backlash.yaml", "axis.motor"}),
+                         [](const auto& name) {
+                           auto text = name.param.scene.substr(0, name.param.scene.find('.'));
+                           return text;
+                         });
+
+}  // namespace
+}  // namespace drycut::sim::loop
