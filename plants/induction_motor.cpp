@@ -41,7 +41,7 @@ DriveRatings ratings(const InductionMotorData& data, double peak) {
           .peak_torque = peak,
           .torque_at_max_speed = peak,
           .rated_speed = winding.rated_speed,
-          .max_speed = winding.synchronous_speed};
+          .max_speed = data.max_speed};
 }
 
 Parameters winding_parameters(WindingData& data, std::string_view source) {
@@ -65,6 +65,8 @@ Parameters induction_motor_parameters(InductionMotorData& data) {
       },
       winding_parameters(data.winding, sheet),
       Parameters{
+          row("max_speed", "rpm", "that the rotor bears", data.max_speed, 1, 1e5,
+              "IEC 60034-1: safe speed of 4 poles, frames up to 100"),
           row("rated_current", "A", "rms current at rated torque", data.rated_current, 1e-2, 1e4, sheet),
           row("no_load_current", "A", "rms current without load", data.no_load_current, 0, 1e4,
               "estimate: half the rated current"),

@@ -21,9 +21,10 @@ struct InductionMotorData {
   double rotor_inertia = 5e-3;  ///< [kg m2]
   double rated_frequency = 50;  ///< of the mains [Hz]
   WindingData winding;
-  double rated_current = 4.8;      ///< rms at rated torque [A]
-  double no_load_current = 2.5;    ///< rms without load [A]
-  double stator_resistance = 2.2;  ///< of a phase, star, cold (20 degC) [ohm]
+  double max_speed = 3600 * std::numbers::pi / 30;  ///< that the rotor bears [rad/s]
+  double rated_current = 4.8;                       ///< rms at rated torque [A]
+  double no_load_current = 2.5;                     ///< rms without load [A]
+  double stator_resistance = 2.2;                   ///< of a phase, star, cold (20 degC) [ohm]
   MotorHeatData heat = {.winding_time_constant = 120, .housing_time_constant = 1800};
 };
 

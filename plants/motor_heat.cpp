@@ -1,5 +1,6 @@
 #include "plants/motor_heat.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace drycut::plants {
@@ -25,6 +26,11 @@ double MotorHeat::steady(double cold_loss, double other) const {
   const double feedback = to_air * cold_loss * copper;
   if (feedback >= 1) return std::numeric_limits<double>::infinity();
   return ambient + to_air * (cold_loss * (1 + copper * (ambient - reference)) + other) / (1 - feedback);
+}
+
+double MotorHeat::cold_loss_for(double winding, double other) const {
+  const double loss = (winding - ambient) / (to_housing_ + to_air_) - other;
+  return std::max(0.0, loss / (1 + copper * (winding - reference)));
 }
 
 Parameters motor_heat_parameters(MotorHeatData& data, std::string_view source) {

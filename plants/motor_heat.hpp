@@ -36,6 +36,8 @@ class MotorHeat {
   /// Where the winding ends that has this loss when cold (20 degC) and `other` besides for ever [W]: [K],
   /// infinite where its resistance grows faster than it cools.
   [[nodiscard]] double steady(double cold_loss, double other) const;
+  /// The inverse: loss in the cold winding that ends at `winding` [K], at least 0.
+  [[nodiscard]] double cold_loss_for(double winding, double other) const;
 
  private:
   double to_housing_;  // thermal resistance [K/W]

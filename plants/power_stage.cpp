@@ -120,6 +120,8 @@ void PowerStage::settle(double h) {
   peaks_.torque = std::max(peaks_.torque, torque);
   peaks_.speed = std::max(peaks_.speed, std::abs(speed_));
   const double available = torque_ * speed_ > 0 ? ratings_.peak(speed_) : ratings_.peak_torque;
+  peaks_.i2t = std::max(peaks_.i2t, i2t_);
+  peaks_.winding = std::max(peaks_.winding, heat_.winding());
   if (torque > 0) peaks_.share = std::max(peaks_.share, available > 0 ? torque / available : 1);
 
   if (saturation_.on && totals_.time - saturation_.end > saturation_gap) end_saturation();

@@ -72,6 +72,8 @@ struct DrivePeaks {
   double speed = 0;    ///< size [rad/s]
   double share = 0;    ///< of the torque that the motor has at its speed
   double voltage = 0;  ///< of the link [V]
+  double i2t = 0;      ///< of the amplifier, 1 = it trips
+  double winding = 0;  ///< temperature [K]
 };
 
 /// The electrical side of a drive: current, loss and heat of its motor, the amplifier's I2t, DC link, brake
@@ -122,6 +124,10 @@ class PowerStage {
   /// Temperature of the winding with these means for ever [K]: current squared [A2], loss in the rotor [W].
   [[nodiscard]] double steady_temperature(double current_squared, double rotor_loss) const {
     return heat_.steady(current_.resistance * current_squared, rotor_loss);
+  }
+  /// Mean square of the current that brings the winding to its limit, with such a loss in the rotor [A2].
+  [[nodiscard]] double current_squared_for_ever(double rotor_loss) const {
+    return heat_.cold_loss_for(limit_, rotor_loss) / current_.resistance;
   }
   [[nodiscard]] double temperature_limit() const { return limit_; }  ///< of the winding [K]
   [[nodiscard]] double torque() const { return torque_; }            ///< of the last step [N m]

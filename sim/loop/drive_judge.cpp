@@ -20,8 +20,6 @@ constexpr double good = 0.9;             // of a rating; above, a figure warns
 constexpr double most_saturated = 0.01;  // of the time of cycles
 constexpr double percent = 100;
 
-double celsius(double kelvin) { return kelvin - 273.15; }
-
 constexpr std::array<std::string_view, 3> trip_events = {"overload", "bus_overvoltage", "bus_undervoltage"};
 
 }  // namespace
@@ -38,8 +36,9 @@ void Thinned::add(double x, double y) {
 bool DriveVerdict::holds() const { return trips.empty() && tightest().share <= 1; }
 
 const DriveFigure& DriveVerdict::tightest() const {
-  return *std::max_element(figures.begin(), figures.end(),
-                           [](const auto& a, const auto& b) { return a.share < b.share; });
+  return *std::max_element(figures.begin(), figures.end(), [](const auto& a, const auto& b) {
+    return (a.judged ? a.share : 0) < (b.judged ? b.share : 0);
+  });
 }
 
 DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants)
@@ -124,41 +123,51 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
     drive.ends = {plants::DriveTotals{}};
     end_cycle(drive);
   }
-  verdict.cycles = whole        ? "the whole run"
+  verdict.cycles = whole        ? "the whole run: no cycle from cut to cut, none named (drives.cycle)"
                    : cycle_ > 0 ? fmt::format("{} cycles of {} s", drive.cycles, seconds_text(cycle_))
                                 : fmt::format("{} cycles from cut to cut", drive.cycles);
   const auto& worst = drive.worst;
   const auto& peaks = stage.peaks();
   const auto& ratings = verdict.ratings;
-  const auto add = [&](std::string name, double value, double rating, std::string unit, double power) {
+  const auto add = [&](std::string name, double value, double rating, std::string unit, double power,
+                       bool judged = true) {
     const double share = rating > 0 ? value / rating : value > 0 ? 2 : 0;
-    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, power});
+    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, power, judged});
   };
-  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", 2);
+  const auto over_ambient = [](double kelvin) { return kelvin - plants::MotorHeat::ambient; };
+  const double winding_limit = over_ambient(stage.temperature_limit());
+  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", 2, !whole);
   add("peak torque", peaks.torque, peaks.share > 0 ? peaks.torque / peaks.share : ratings.peak_torque, "N m",
       2);
   add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", 1);
-  const double ambient = celsius(plants::MotorHeat::ambient);
-  add("winding for ever, over 40 degC",
-      celsius(stage.steady_temperature(worst.current_squared, worst.rotor_loss)) - ambient,
-      celsius(stage.temperature_limit()) - ambient, "K", 4);
-  if (const auto& amplifier = stage.amplifier())
-    add("amplifier's rms current", std::sqrt(worst.current_squared), amplifier->current, "A", 2);
+  const double current = std::sqrt(worst.current_squared);
+  add("rms current, for the winding", current, std::sqrt(stage.current_squared_for_ever(worst.rotor_loss)),
+      "A", 2, !whole);
+  const double steady = stage.steady_temperature(worst.current_squared, worst.rotor_loss);
+  if (std::isfinite(steady))
+    add("winding over 40 degC, for ever", over_ambient(steady), winding_limit, "K", 0, false);
+  add("winding over 40 degC, so far", over_ambient(peaks.winding), winding_limit, "K", 4);
+  if (const auto& amplifier = stage.amplifier()) {
+    add("rms current, for the amplifier", current, amplifier->current, "A", 2, !whole);
+    add("amplifier's I2t, so far", peaks.i2t * percent, percent, "%", 4);
+  }
   if (const auto& link = stage.link()) {
-    const double peak = std::sqrt(2.0) * link->data().voltage;
-    add("largest bus voltage", peaks.voltage, link->data().overvoltage * peak, "V", 0);
-    if (worst.resistor > 0) add("brake resistor", worst.resistor, link->data().resistor_power, "W", 3);
+    const double mains = std::sqrt(2.0) * link->data().voltage;
+    add("bus voltage over the mains'", std::max(0.0, peaks.voltage - mains),
+        (link->data().overvoltage - 1) * mains, "V", 0);
+    if (worst.resistor > 0)
+      add("brake resistor", worst.resistor, link->data().resistor_power, "W", 3, !whole);
   }
   verdict.saturated = worst.saturated;
-  if (!whole && worst.saturated > 0)
-    add("torque limit acts", worst.saturated * percent, most_saturated * percent, "% of the time", 2);
+  if (worst.saturated > 0)
+    add("torque limit acts", worst.saturated * percent, most_saturated * percent, "% of the time", 0, !whole);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
   const auto& totals = stage.totals();
   verdict.energy =
       whole ? totals.from_mains : (drive.ends.back().from_mains - drive.begin.from_mains) / drive.cycles;
   verdict.trips = drive.trips;
   for (const auto& figure : verdict.figures)
-    if (figure.share > good && figure.power > 0)
+    if (figure.judged && figure.share > good && figure.power > 0)
       verdict.advised = std::min(verdict.advised, std::pow(good / figure.share, 1 / figure.power));
   verdict.cycle_points = drive.cycle_points.points();
   verdict.points = drive.points.points();
@@ -179,7 +188,7 @@ std::string text_of(const DriveVerdict& verdict) {
                           figure.name, figure.value, figure.rating, figure.unit, figure.share * percent);
   std::vector<std::string> others;
   for (const auto& other : verdict.figures)
-    if (&other != &figure && other.share > 1)
+    if (&other != &figure && other.judged && other.share > 1)
       others.push_back(fmt::format("{} {:.0f} %", other.name, other.share * percent));
   if (!others.empty()) text += fmt::format(", {}", fmt::join(others, ", "));
   if (!verdict.holds() && verdict.advised < 1)

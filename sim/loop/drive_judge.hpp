@@ -21,6 +21,7 @@ struct DriveFigure {
   double share = 0;  ///< of what it may be, 1 = all; fails above, warns above 0.9
   /// The share goes with this power of the machine's speed, where the torque goes with its square.
   double power = 1;
+  bool judged = true;  ///< else it is only told
 };
 
 /// What came of a drive over its machine cycles.
@@ -57,8 +58,9 @@ class Thinned {
 
 /// Judges the drives of all plants by their ratings: torque, current, heat and voltages of each machine
 /// cycle, over the worst ten cycles in a row as if they went on for ever. A cycle lasts from cut to cut of
-/// the drive's plant, or as long as the scenario says (drives.cycle); without either the whole run is one.
-/// What comes before the first cut is the start and is not judged, but for trips.
+/// the drive's plant, or as long as the scenario says (drives.cycle). Without either, means over the whole
+/// run are told and not judged: who knows whether it goes on like that. What comes before the first cut is
+/// the start and is not judged, but for trips.
 class DriveJudge : public Observer {
  public:
   DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants);

@@ -12,8 +12,12 @@ namespace drycut::sim::report {
 
 namespace {
 
-std::string grade_text(double share) {
-  return fmt::format("{} {:.0f} %", share > 1 ? "FAIL" : share > 0.9 ? "close," : "PASS", 100 * share);
+std::string grade_text(const loop::DriveFigure& figure) {
+  const auto* word = !figure.judged       ? "not judged,"
+                     : figure.share > 1   ? "FAIL"
+                     : figure.share > 0.9 ? "close,"
+                                          : "PASS";
+  return fmt::format("{} {:.0f} %", word, 100 * figure.share);
 }
 
 renders::Curve points_of(const std::vector<std::pair<double, double>>& points, std::string label) {
@@ -72,9 +76,8 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
   for (const auto& verdict : verdicts) {
     auto name = verdict.drive + "\n" + verdict.cycles;
     for (const auto& figure : verdict.figures) {
-      table.rows.push_back(
-          {{name, figure.name, fmt::format("{:.4g} {}", figure.value, figure.unit),
-            fmt::format("{:.4g} {}", figure.rating, figure.unit), grade_text(figure.share)}});
+      table.rows.push_back({{name, figure.name, fmt::format("{:.4g} {}", figure.value, figure.unit),
+                             fmt::format("{:.4g} {}", figure.rating, figure.unit), grade_text(figure)}});
       name.clear();
     }
     table.rows.push_back(

@@ -60,11 +60,12 @@ inline Marks marks_of(std::FILE* output) {
   return covered;
 }
 
-/// Runs those of this program's tests that `filter` names, and gives what is `known` and none of them covers.
+/// Runs, in one process, those of this program's tests that `filter` names, and gives what is `known` and none of them covers.
 inline std::vector<std::string> missing(const Marks& known, const std::string& filter) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   const std::string command =
-      "DRYCUT_COVERS=1 '" + program + "' --gtest_color=no --gtest_filter='" + filter + "'";
+      "DRYCUT_COVERS=1 env -u GTEST_TOTAL_SHARDS -u GTEST_SHARD_INDEX '" + program +
+      "' --gtest_color=no --gtest_filter='" + filter + "'";
   std::FILE* output = popen(command.c_str(), "r");
   if (output == nullptr) return {"the tests do not run"};
   const Marks covered = marks_of(output);

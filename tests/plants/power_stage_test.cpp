@@ -58,6 +58,13 @@ TEST(MotorHeat, AWindingWarmsAgainstItsHousingWithItsTimeConstant) {
   EXPECT_NEAR(heat.winding() - MotorHeat::ambient, loss * resistance * (1 - std::exp(-1)), 0.01);
 }
 
+TEST(MotorHeat, TheLossForATemperatureIsTheInverse) {
+  const MotorHeat heat({}, 100, 20);
+  for (const double loss : {10.0, 60.0, 120.0})
+    EXPECT_NEAR(heat.cold_loss_for(heat.steady(loss, 20), 20), loss, 1e-9);
+  EXPECT_EQ(heat.cold_loss_for(MotorHeat::ambient + 1, 1000), 0);
+}
+
 TEST(MotorHeat, CopperThatHeatsItselfFasterThanItCoolsHasNoEnd) {
   const MotorHeat heat({}, 100, 0);
   EXPECT_TRUE(std::isinf(heat.steady(1000, 0)));

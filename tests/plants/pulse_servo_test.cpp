@@ -48,7 +48,8 @@ struct PulseAxis {
     rotor.add_torque(load_torque);
     world.step(h);
     servo.sense(rotor);
-    if (auto trip = servo.trip(rotor)) trips.push_back(*trip);
+    for (const Event& event : servo.take_events(rotor))
+      if (event.name == "following_error") trips.push_back(event);
   }
   void run(double seconds) {
     for (int i = 0; i < std::lround(seconds / h); ++i) step();

@@ -121,7 +121,7 @@ TEST(DriveJudge, AScenarioNamesItsCycleOrSwitchesTheCheckOff) {
   Line silent("rotary_knife.yaml", {{"scene.duration", "1 s"}, {"drives.judge", "false"}});
   silent.simulation->run();
   EXPECT_TRUE(silent.ratings().empty());
-  EXPECT_EQ(silent.simulation->drives().at(0).cycles, "the whole run");
+  EXPECT_THAT(silent.simulation->drives().at(0).cycles, testing::StartsWith("the whole run"));
 }
 
 TEST(DriveJudge, ATripFailsWhateverTheMeansAre) {
