@@ -203,7 +203,8 @@ Objections axis_drive_objections(const AxisDriveData& data, double inertia, doub
   object_to_winding(data.motor.winding, "induction_motor.", inertia, h, found);
   if (data.motor.max_speed <= data.motor.winding.rated_speed)
     found.push_back({"induction_motor.max_speed", "it is not above rated_speed", "more than rated_speed"});
-  if (data.motor.no_load_current >= data.motor.rated_current)
+  const InductionMotorData motor = electrical(data.motor);
+  if (motor.no_load_current >= motor.rated_current)
     found.push_back(
         {"induction_motor.no_load_current", "it is not below rated_current", "30 to 60 % of rated_current"});
   if (data.kind == "contactors") {

@@ -23,7 +23,19 @@ double Winding::slip(double torque) const {
   return std::copysign(pullout_slip_ * share_of_pullout_slip(ratio), torque);
 }
 
-MotorCurrent motor_current(const InductionMotorData& data) {
+InductionMotorData electrical(InductionMotorData data) {
+  const double power = data.winding.rated_torque * data.winding.rated_speed;
+  const auto estimate = [](double& value, double otherwise) {
+    if (value == 0) value = otherwise;
+  };
+  estimate(data.rated_current, power / (std::sqrt(3.0) * 400 * 0.66));
+  estimate(data.no_load_current, data.rated_current / 2);
+  estimate(data.stator_resistance, 0.07 * power / (3 * data.rated_current * data.rated_current));
+  return data;
+}
+
+MotorCurrent motor_current(const InductionMotorData& given) {
+  const InductionMotorData data = electrical(given);
   const WindingData& winding = data.winding;
   const double rotor_loss = winding.rated_torque * (winding.synchronous_speed - winding.rated_speed);
   const double load = data.rated_current * data.rated_current - data.no_load_current * data.no_load_current;
@@ -67,11 +79,13 @@ Parameters induction_motor_parameters(InductionMotorData& data) {
       Parameters{
           row("max_speed", "rpm", "that the rotor bears", data.max_speed, 1, 1e5,
               "IEC 60034-1: safe speed of 4 poles, frames up to 100"),
-          row("rated_current", "A", "rms current at rated torque", data.rated_current, 1e-2, 1e4, sheet),
-          row("no_load_current", "A", "rms current without load", data.no_load_current, 0, 1e4,
-              "estimate: half the rated current"),
-          row("stator_resistance", "ohm", "of a phase in star at 20 degC", data.stator_resistance, 1e-4, 1e4,
-              "estimate: 7 % of the rated power lost in the stator"),
+          row("rated_current", "A", "rms current at rated torque, 0 = estimated from the power",
+              data.rated_current, 0, 1e4, "estimate"),
+          row("no_load_current", "A", "rms current without load, 0 = half the rated current",
+              data.no_load_current, 0, 1e4, "estimate"),
+          row("stator_resistance", "ohm",
+              "of a phase in star at 20 degC, 0 = 7 % of the rated power is lost in it",
+              data.stator_resistance, 0, 1e4, "estimate"),
       },
       motor_heat_parameters(data.heat, "estimate: frame 100 L"));
 }

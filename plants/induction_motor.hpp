@@ -22,11 +22,16 @@ struct InductionMotorData {
   double rated_frequency = 50;  ///< of the mains [Hz]
   WindingData winding;
   double max_speed = 3600 * std::numbers::pi / 30;  ///< that the rotor bears [rad/s]
-  double rated_current = 4.8;                       ///< rms at rated torque [A]
-  double no_load_current = 2.5;                     ///< rms without load [A]
-  double stator_resistance = 2.2;                   ///< of a phase, star, cold (20 degC) [ohm]
+  // 0 = not known, estimated: see electrical()
+  double rated_current = 0;      ///< rms at rated torque [A]
+  double no_load_current = 0;    ///< rms without load [A]
+  double stator_resistance = 0;  ///< of a phase, star, cold (20 degC) [ohm]
   MotorHeatData heat = {.winding_time_constant = 120, .housing_time_constant = 1800};
 };
+
+/// The data with estimates for what is not known: at 400 V two thirds of the apparent power reach the shaft,
+/// half the rated current flows without load, 7 % of the rated power are lost in the cold stator.
+[[nodiscard]] InductionMotorData electrical(InductionMotorData data);
 
 /// Current and losses of the motor, and its torque for ever and at most (`peak` [N m]).
 [[nodiscard]] MotorCurrent motor_current(const InductionMotorData& data);

@@ -5,9 +5,21 @@
 
 namespace drycut::plants {
 
+namespace {
+
+// The next size above the motor's.
+AmplifierData amplifier_of(const InverterData& data, const InductionMotorData& motor) {
+  AmplifierData amplifier = data.amplifier;
+  if (amplifier.current == 0) amplifier.current = 1.15 * electrical(motor).rated_current;
+  if (amplifier.peak_current == 0) amplifier.peak_current = 1.5 * amplifier.current;
+  return amplifier;
+}
+
+}  // namespace
+
 Inverter::Inverter(const InverterData& data, const InductionMotorData& motor)
     : data_(data),
-      power_(motor_current(motor), motor.heat, ratings(motor, data.torque_limit), data.amplifier,
+      power_(motor_current(motor), motor.heat, ratings(motor, data.torque_limit), amplifier_of(data, motor),
              data.supply),
       winding_(motor.winding),
       speed_per_hertz_(motor.winding.synchronous_speed / motor.rated_frequency),

@@ -20,7 +20,7 @@ struct InverterData {
   double hold_time = 0.1;       ///< at 0 Hz after a ramp, for the brake to engage [s]
   double dc_brake_torque = 15;  ///< largest torque of the DC brake [N m]
   double dc_brake_time = 0.5;   ///< [s]
-  AmplifierData amplifier = {.current = 5.6, .peak_current = 8.4, .overload_time = 60};
+  AmplifierData amplifier = {.overload_time = 60};  ///< 0: 115 % of the motor's current, and half more
   SupplyData supply = {.capacitance = 0.5e-3, .resistor = 100};
 };
 

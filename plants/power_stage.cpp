@@ -217,7 +217,7 @@ std::vector<PlantDefinition::Objection> power_objections(const std::string& grou
                                                          const AmplifierData& amplifier,
                                                          const SupplyData& supply) {
   std::vector<PlantDefinition::Objection> found;
-  if (amplifier.peak_current <= amplifier.current)
+  if (amplifier.peak_current > 0 && amplifier.peak_current <= amplifier.current)
     found.push_back({group + "amplifier_peak_current", "it is not above amplifier_current",
                      "more than amplifier_current"});
   if (supply.brake_voltage - supply.brake_hysteresis <= 1)
@@ -232,9 +232,11 @@ std::vector<PlantDefinition::Objection> power_objections(const std::string& grou
 
 Parameters amplifier_parameters(AmplifierData& data, std::string_view source) {
   return {
-      row("amplifier_current", "A", "rms current that the amplifier bears for ever", data.current, 1e-2, 1e4,
-          source),
-      row("amplifier_peak_current", "A", "its largest rms current", data.peak_current, 1e-2, 1e5, source),
+      row("amplifier_current", "A",
+          "rms current that the amplifier bears for ever, 0 = what the motor's continuous torque takes",
+          data.current, 0, 1e4, source),
+      row("amplifier_peak_current", "A", "its largest rms current, 0 = what the motor's peak torque takes",
+          data.peak_current, 0, 1e5, source),
       row("overload_time", "s", "at the largest current from cold, then it trips", data.overload_time, 1e-2,
           1e4, source),
   };

@@ -15,8 +15,8 @@ namespace drycut::plants {
 
 /// What an amplifier or inverter bears.
 struct AmplifierData {
-  double current = 11;       ///< for ever, rms [A]
-  double peak_current = 33;  ///< [A]
+  double current = 0;        ///< for ever, rms; 0 = what the motor's continuous torque takes [A]
+  double peak_current = 0;   ///< rms; 0 = what the motor's peak torque takes [A]
   double overload_time = 3;  ///< at the peak current from cold, then it trips [s]
 };
 

@@ -7,7 +7,22 @@
 
 namespace drycut::plants {
 
-DriveRatings ratings(const ServoData& data) {
+ServoData electrical(ServoData data) {
+  const double rated_current = data.rated_torque / data.torque_constant;
+  const auto estimate = [](double& value, double otherwise) {
+    if (value == 0) value = otherwise;
+  };
+  estimate(data.stall_torque, data.rated_torque);
+  estimate(data.winding_resistance,
+           0.06 * data.rated_torque * data.rated_speed / (1.5 * rated_current * rated_current));
+  estimate(data.amplifier.current, std::max(rated_current, data.stall_torque / data.torque_constant));
+  estimate(data.amplifier.peak_current,
+           std::max(data.peak_torque / data.torque_constant, 1.1 * data.amplifier.current));
+  return data;
+}
+
+DriveRatings ratings(const ServoData& given) {
+  const ServoData data = electrical(given);
   const double most = data.torque_constant * data.amplifier.peak_current;
   return {.rotor_inertia = data.rotor_inertia,
           .stall_torque = data.stall_torque,
@@ -19,10 +34,10 @@ DriveRatings ratings(const ServoData& data) {
 }
 
 ServoDrive::ServoDrive(const ServoData& data, Random noise)
-    : data_(data),
+    : data_(electrical(data)),
       power_({.per_torque_squared = 1 / (data.torque_constant * data.torque_constant),
-              .resistance = 1.5 * data.winding_resistance},
-             data.heat, ratings(data), data.amplifier, data.supply),
+              .resistance = 1.5 * data_.winding_resistance},
+             data.heat, ratings(data), data_.amplifier, data.supply),
       random_(noise) {
   enable.level = true;
 }
@@ -202,12 +217,13 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from) {
           from.inertia_ratio),
       row("current_lag", "ms", "time constant of the current loop, 0 = none", data.current_lag, 0, 100,
           "estimate: bandwidth of 300 Hz"),
-      row("stall_torque", "N m", "continuous torque at standstill", data.stall_torque, 1e-3, 1e4,
-          "estimate: as at rated speed"),
+      row("stall_torque", "N m", "continuous torque at standstill, 0 = as at rated speed", data.stall_torque,
+          0, 1e4, "estimate"),
       row("torque_constant", "N m/A", "torque over the rms current", data.torque_constant, 1e-3, 1e3,
           "estimate: rated torque at 10.6 A"),
-      row("winding_resistance", "ohm", "between two phases at 20 degC", data.winding_resistance, 1e-4, 1e4,
-          "estimate: 118 W of copper loss at rated torque"),
+      row("winding_resistance", "ohm",
+          "between two phases at 20 degC, 0 = 6 % of the rated power is lost in it", data.winding_resistance,
+          0, 1e4, "estimate: usual in the class"),
   };
   return joined(std::move(rows), motor_heat_parameters(data.heat, "estimate: usual in the class"),
                 amplifier_parameters(data.amplifier, "estimate: amplifier of the 2 kW class"),

@@ -31,14 +31,18 @@ struct ServoData {
   double integral_time = 20e-3;  ///< Ti [s]
   double inertia_ratio = 3.5;    ///< load to motor inertia, as set in the amplifier
   double current_lag = 0.5e-3;   ///< time constant of the current loop, 0 = none [s]
-  // Electrical side
-  double stall_torque = 9.5;        ///< for ever, at standstill [N m]
-  double torque_constant = 0.9;     ///< over the rms current [N m/A]
-  double winding_resistance = 0.7;  ///< between two phases, cold (20 degC) [ohm]
+  // Electrical side; 0 = not known, estimated from the rest: see electrical()
+  double stall_torque = 0;        ///< for ever, at standstill [N m]
+  double torque_constant = 0.9;   ///< over the rms current [N m/A]
+  double winding_resistance = 0;  ///< between two phases, cold (20 degC) [ohm]
   MotorHeatData heat = {};
   AmplifierData amplifier = {};
-  SupplyData supply = {.voltage = 200, .capacitance = 2e-3};
+  SupplyData supply = {.voltage = 200, .capacitance = 2e-3, .resistor = 13};
 };
+
+/// The data with estimates for what is not known: as much torque at standstill as at rated speed, 6 % of the
+/// rated power lost in cold copper, an amplifier that has the current for the motor's torques.
+[[nodiscard]] ServoData electrical(ServoData data);
 
 /// The servo's curves of torque over speed: those of the motor, as far as the amplifier has current for them.
 [[nodiscard]] DriveRatings ratings(const ServoData& data);

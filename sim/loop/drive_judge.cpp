@@ -20,6 +20,28 @@ constexpr double good = 0.9;             // of a rating; above, a figure warns
 constexpr double most_saturated = 0.01;  // of the time of cycles
 constexpr double percent = 100;
 
+// The share of the speed at which a figure would be at 90 % of its rating. `constant`: the share of the
+// square of the torque that does not go with the speed.
+double advised_for(const DriveFigure& figure, double constant) {
+  const double wanted = good / figure.share;
+  const auto torque = [&](double square) {
+    return constant < 1 ? std::pow(std::max(0.0, (square - constant) / (1 - constant)), 0.25) : 0;
+  };
+  switch (figure.goes) {
+    case DriveFigure::Goes::as_the_speed:
+      return wanted;
+    case DriveFigure::Goes::as_the_torque:
+      return torque(wanted * wanted);
+    case DriveFigure::Goes::as_its_square:
+      return torque(wanted);
+    case DriveFigure::Goes::as_the_braking:
+      return std::cbrt(wanted);
+    case DriveFigure::Goes::not_with_it:
+      break;
+  }
+  return 1;
+}
+
 constexpr std::array<std::string_view, 3> trip_events = {"overload", "bus_overvoltage", "bus_undervoltage"};
 
 }  // namespace
@@ -80,6 +102,10 @@ void DriveJudge::end_cycle(Drive& drive) {
     worst.torque = torque;
     worst.speed = speed;
     worst.share = share;
+    // What accelerates and brakes again does no work over a cycle.
+    const double travel = now.travel - from.travel;
+    const double friction = travel > 0 ? (now.work - from.work) / travel : 0;
+    worst.constant = torque > 0 ? std::min(1.0, friction * friction / (torque * torque)) : 0;
   }
   const double current_squared = (now.current_squared - from.current_squared) / time;
   if (current_squared >= worst.current_squared) {
@@ -129,46 +155,48 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   const auto& worst = drive.worst;
   const auto& peaks = stage.peaks();
   const auto& ratings = verdict.ratings;
-  const auto add = [&](std::string name, double value, double rating, std::string unit, double power,
+  using Goes = DriveFigure::Goes;
+  const auto add = [&](std::string name, double value, double rating, std::string unit, Goes goes,
                        bool judged = true) {
     const double share = rating > 0 ? value / rating : value > 0 ? 2 : 0;
-    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, power, judged});
+    verdict.figures.push_back({std::move(name), value, rating, std::move(unit), share, goes, judged});
   };
   const auto over_ambient = [](double kelvin) { return kelvin - plants::MotorHeat::ambient; };
   const double winding_limit = over_ambient(stage.temperature_limit());
-  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", 2, !whole);
+  add("rms torque", worst.torque, ratings.continuous(worst.speed), "N m", Goes::as_the_torque, !whole);
   add("peak torque", peaks.torque, peaks.share > 0 ? peaks.torque / peaks.share : ratings.peak_torque, "N m",
-      2);
-  add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", 1);
+      Goes::as_the_torque);
+  add("largest speed", peaks.speed * units::rpm, ratings.max_speed * units::rpm, "rpm", Goes::as_the_speed);
   const double current = std::sqrt(worst.current_squared);
   add("rms current, for the winding", current, std::sqrt(stage.current_squared_for_ever(worst.rotor_loss)),
-      "A", 2, !whole);
+      "A", Goes::as_the_torque, !whole);
   const double steady = stage.steady_temperature(worst.current_squared, worst.rotor_loss);
   if (std::isfinite(steady))
-    add("winding over 40 degC, for ever", over_ambient(steady), winding_limit, "K", 0, false);
-  add("winding over 40 degC, so far", over_ambient(peaks.winding), winding_limit, "K", 4);
+    add("winding over 40 degC, for ever", over_ambient(steady), winding_limit, "K", Goes::not_with_it, false);
+  add("winding over 40 degC, so far", over_ambient(peaks.winding), winding_limit, "K", Goes::as_its_square);
   if (const auto& amplifier = stage.amplifier()) {
-    add("rms current, for the amplifier", current, amplifier->current, "A", 2, !whole);
-    add("amplifier's I2t, so far", peaks.i2t * percent, percent, "%", 4);
+    add("rms current, for the amplifier", current, amplifier->current, "A", Goes::as_the_torque, !whole);
+    add("amplifier's I2t, so far", peaks.i2t * percent, percent, "%", Goes::as_its_square);
   }
   if (const auto& link = stage.link()) {
     const double mains = std::sqrt(2.0) * link->data().voltage;
     add("bus voltage over the mains'", std::max(0.0, peaks.voltage - mains),
-        (link->data().overvoltage - 1) * mains, "V", 0);
+        (link->data().overvoltage - 1) * mains, "V", Goes::not_with_it);
     if (worst.resistor > 0)
-      add("brake resistor", worst.resistor, link->data().resistor_power, "W", 3, !whole);
+      add("brake resistor", worst.resistor, link->data().resistor_power, "W", Goes::as_the_braking, !whole);
   }
   verdict.saturated = worst.saturated;
   if (worst.saturated > 0)
-    add("torque limit acts", worst.saturated * percent, most_saturated * percent, "% of the time", 0, !whole);
+    add("torque limit acts", worst.saturated * percent, most_saturated * percent, "% of the time",
+        Goes::not_with_it, !whole);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
   const auto& totals = stage.totals();
   verdict.energy =
       whole ? totals.from_mains : (drive.ends.back().from_mains - drive.begin.from_mains) / drive.cycles;
   verdict.trips = drive.trips;
   for (const auto& figure : verdict.figures)
-    if (figure.judged && figure.share > good && figure.power > 0)
-      verdict.advised = std::min(verdict.advised, std::pow(good / figure.share, 1 / figure.power));
+    if (figure.judged && figure.share > good)
+      verdict.advised = std::min(verdict.advised, advised_for(figure, worst.constant));
   verdict.cycle_points = drive.cycle_points.points();
   verdict.points = drive.points.points();
   return verdict;
@@ -192,9 +220,8 @@ std::string text_of(const DriveVerdict& verdict) {
       others.push_back(fmt::format("{} {:.0f} %", other.name, other.share * percent));
   if (!others.empty()) text += fmt::format(", {}", fmt::join(others, ", "));
   if (!verdict.holds() && verdict.advised < 1)
-    text += fmt::format(
-        "; at {:.0f} % of this speed it would be within 90 %, if torque goes with the speed squared",
-        std::floor(verdict.advised * percent));
+    text += fmt::format("; within 90 % at {:.0f} % of this speed, if what accelerates goes with its square",
+                        std::floor(verdict.advised * percent));
   return text;
 }
 

@@ -19,8 +19,9 @@ struct DriveFigure {
   double rating = 0;  ///< in `unit`
   std::string unit;
   double share = 0;  ///< of what it may be, 1 = all; fails above, warns above 0.9
-  /// The share goes with this power of the machine's speed, where the torque goes with its square.
-  double power = 1;
+  /// How it goes with the machine's speed.
+  enum class Goes { not_with_it, as_the_speed, as_the_torque, as_its_square, as_the_braking };
+  Goes goes = Goes::as_the_speed;
   bool judged = true;  ///< else it is only told
 };
 
@@ -34,7 +35,9 @@ struct DriveVerdict {
   double energy = 0;               ///< from the mains, mean of a cycle [J]
   double saturated = 0;            ///< share of the time in which the torque limit acted
   std::vector<std::string> trips;  ///< "overload at 3.2 s"
-  /// At this share of the machine's speed all would be within 90 % of their ratings; 1 where they are.
+  /// At this share of the machine's speed all would be within 90 % of their ratings; 1 where they are, 0
+  /// where friction and load alone are too much. Taken for: what accelerates goes with the speed squared,
+  /// friction and load stay.
   double advised = 1;
   std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
   std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
@@ -78,6 +81,7 @@ class DriveJudge : public Observer {
     double torque = 0;  ///< rms [N m], where it is the largest share of S1
     double speed = 0;   ///< mean size then [rad/s]
     double share = 0;
+    double constant = 0;         ///< share of its square that friction and load have
     double current_squared = 0;  ///< mean [A2]
     double rotor_loss = 0;       ///< mean, then [W]
     double resistor = 0;         ///< mean power [W]

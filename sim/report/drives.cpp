@@ -90,7 +90,7 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
     if (verdict.advised < 1 && !verdict.holds())
       table.rows.push_back(
           {{"", "within 90 % of all",
-            fmt::format("at {:.0f} % of this speed\nwhere the torque goes with the speed squared",
+            fmt::format("at {:.0f} % of this speed\nif what accelerates goes with its square",
                         std::floor(100 * verdict.advised)),
             "", ""}});
   }

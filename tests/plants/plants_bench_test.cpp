@@ -188,7 +188,14 @@ double si(std::string_view unit) {
                                                            {"N s/m2", 1},
                                                            {"V", 1},
                                                            {"rad/s", 1},
-                                                           {"N m/rad", 1}};
+                                                           {"N m/rad", 1},
+                                                           {"N m/A", 1},
+                                                           {"A", 1},
+                                                           {"ohm", 1},
+                                                           {"W", 1},
+                                                           {"K", 1},
+                                                           {"degC", 1},
+                                                           {"uF", 1e-6}};
   const auto found = units.find(unit);
   EXPECT_NE(found, units.end()) << "unit " << unit;
   return found == units.end() ? 1 : found->second;
@@ -208,8 +215,9 @@ TEST(PlantTypes, TablesAreCompleteAndTheirDefaultsLegal) {
       EXPECT_FALSE(p.meaning.empty());
       if (const auto* number = std::get_if<double*>(&p.value)) {
         EXPECT_LT(p.min, p.max);
-        EXPECT_GE(**number, p.min * si(p.unit) * (1 - 1e-12) - 1e-15);
-        EXPECT_LE(**number, p.max * si(p.unit) * (1 + 1e-12));
+        const double zero = p.unit == "degC" ? 273.15 : 0;
+        EXPECT_GE(**number, zero + p.min * si(p.unit) * (1 - 1e-12) - 1e-15);
+        EXPECT_LE(**number, zero + p.max * si(p.unit) * (1 + 1e-12));
         EXPECT_FALSE(p.source.empty() && p.name != "gear.ratio");
       } else if (const auto* whole = std::get_if<int*>(&p.value)) {
         EXPECT_GE(**whole, p.min);

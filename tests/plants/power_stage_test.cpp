@@ -20,10 +20,10 @@ struct Stage {
   Shaft rotor;
   PowerStage stage;
   explicit Stage(const ServoData& d = {})
-      : data(d),
+      : data(electrical(d)),
         stage({.per_torque_squared = 1 / (d.torque_constant * d.torque_constant),
-               .resistance = 1.5 * d.winding_resistance},
-              d.heat, ratings(d), d.amplifier, d.supply) {}
+               .resistance = 1.5 * data.winding_resistance},
+              d.heat, ratings(d), data.amplifier, d.supply) {}
   /// So long at such a torque and speed [rad/s].
   void run(double seconds, double torque, double speed = 0) {
     rotor.speed = rotor.speed_before = speed;
@@ -97,7 +97,7 @@ TEST(DcLink, TheResistorTakesTheVoltageDownExponentially) {
               std::expm1(2e-3 / tau) * tau / 2e-3, 1e-9);
   for (int i = 0; i < 100; ++i) link.carry(0, 1e-3);
   EXPECT_EQ(link.resistor_power(), 0) << "off below brake_voltage less its hysteresis";
-  EXPECT_GT(link.voltage(), volts(link, 1.09));
+  EXPECT_GT(link.voltage(), volts(link, 1.07));
 }
 
 TEST(DcLink, WithoutMainsALoadEmptiesItInItsTime) {
@@ -158,7 +158,9 @@ TEST(DcLink, ADipAndALostPhaseLeaveWhatTheRectifierCanGive) {
 TEST(DcLink, AnOverloadedResistorIsSwitchedOff) {
   SupplyData data;
   data.resistor_time_constant = 1;
+  data.resistor = 2000;  // 270 W while it is on
   DcLink link(data);
+  link.carry(-(1.3 * 1.3 - 1) * data.capacitance * data.voltage * data.voltage, 1e-3);  // up to the brake
   double time = 0;
   while (link.resistor_load() < 1) {
     link.carry(-200e-3, 1e-3);  // twice its power for ever: 1 = 2 (1 - exp(-t))
@@ -171,7 +173,7 @@ TEST(DcLink, AnOverloadedResistorIsSwitchedOff) {
 }
 
 TEST(PowerStage, I2tTripsAfterTheOverloadTimeAtThePeakCurrent) {
-  const ServoData data;
+  const ServoData data = electrical(ServoData{});
   const double peak = data.torque_constant * data.amplifier.peak_current;
   Stage stage;
   stage.run(data.amplifier.overload_time - 0.01, peak);
@@ -190,25 +192,28 @@ TEST(PowerStage, I2tTripsAfterTheOverloadTimeAtThePeakCurrent) {
 }
 
 TEST(PowerStage, RatedCurrentForEverDoesNotTrip) {
-  const ServoData data;
+  const ServoData data = electrical(ServoData{});
   Stage stage;
   EXPECT_NEAR(stage.i2t_after(300, data.torque_constant * data.amplifier.current * 0.999), 0.998, 1e-3);
   EXPECT_FALSE(stage.stage.tripped());
 }
 
 TEST(PowerStage, CopperLossIsThatOfThreePhases) {
-  Stage stage;
+  ServoData data;
+  data.winding_resistance = 0.7;
+  Stage stage(data);
   stage.run(1, 9);  // 10 A at 0.9 N m/A
   const double cold = 1.5 * 0.7 * 100;
   EXPECT_NEAR(stage.stage.loss(), cold * stage.stage.heat().resistance(), 0.05);
-  EXPECT_NEAR(stage.stage.totals().current_squared, 100, 1e-9);
+  const auto& totals = stage.stage.totals();
+  EXPECT_NEAR(totals.current_squared, 100 * totals.time, 1e-9);
 }
 
 TEST(PowerStage, AWindingAtItsLimitTrips) {
   ServoData data;
   data.heat.temperature_limit = MotorHeat::ambient + 30;
   Stage stage(data);
-  stage.run(120, 9.4);
+  stage.run(600, 9.4);
   ASSERT_TRUE(stage.stage.tripped());
   const auto events = stage.stage.take_events();
   ASSERT_EQ(events.size(), 1U);
@@ -218,7 +223,7 @@ TEST(PowerStage, AWindingAtItsLimitTrips) {
 TEST(PowerStage, EnergyClosesOverAnyCycle) {
   Stage stage;
   const double before = stage.stage.link()->stored();
-  for (int i = 0; i < 400; ++i) stage.run(0.01, 20 * std::sin(i * 0.7), 150 * std::sin(i * 0.7 + 2));
+  for (int i = 0; i < 400; ++i) stage.run(0.05, 20 * std::sin(i * 0.7), 150 * std::sin(i * 0.7 + 1.2));
   const auto& totals = stage.stage.totals();
   const auto& link = *stage.stage.link();
   EXPECT_GT(totals.in_resistor, 1);
@@ -243,7 +248,7 @@ TEST(PowerStage, TheServosWorkIsTheRotorsKineticEnergy) {
 }
 
 TEST(PowerStage, AnInductionMotorLosesItsSlipInTheRotor) {
-  const InductionMotorData motor;
+  const InductionMotorData motor = electrical(InductionMotorData{});
   World world;
   Shaft& rotor = world.add_shaft({.name = "rotor", .inertia = 0.05});
   Inverter inverter({}, motor);
@@ -310,6 +315,22 @@ TEST(ServoDrive, ATripIsTakenBackByTheEnable) {
   EXPECT_TRUE(servo.power().ready.level);
 }
 
+TEST(ServoDrive, WhatIsNotKnownIsEstimatedFromTheRest) {
+  ServoData data;
+  data.rated_torque = 2;
+  const ServoData estimated = electrical(data);
+  EXPECT_EQ(estimated.stall_torque, 2);
+  EXPECT_NEAR(estimated.amplifier.current, 2 / 0.9, 1e-12);
+  EXPECT_NEAR(estimated.amplifier.peak_current, data.peak_torque / 0.9, 1e-12);
+  const double current = 2 / 0.9;
+  EXPECT_NEAR(1.5 * estimated.winding_resistance * current * current, 0.06 * 2 * data.rated_speed, 1e-9);
+  data.stall_torque = 3;
+  data.amplifier.peak_current = 20;
+  EXPECT_EQ(electrical(data).stall_torque, 3);
+  EXPECT_NEAR(ratings(data).peak_torque, 18, 1e-12) << "the amplifier has no more current";
+  EXPECT_NEAR(ratings(data).continuous(data.rated_speed / 2), 2.5, 1e-12);
+}
+
 TEST(PowerStage, AContradictionOfItsDataIsToldWithItsParameter) {
   const auto told = [](const ServoData& data) {
     const auto found = servo_objections(data, data.rotor_inertia, h);
@@ -317,7 +338,7 @@ TEST(PowerStage, AContradictionOfItsDataIsToldWithItsParameter) {
   };
   ServoData data;
   EXPECT_EQ(told(data), "0");
-  data.amplifier.peak_current = data.amplifier.current;
+  data.amplifier.current = data.amplifier.peak_current = 11;
   EXPECT_EQ(told(data), "servo.amplifier_peak_current");
   data = {};
   data.supply.overvoltage = data.supply.brake_voltage;

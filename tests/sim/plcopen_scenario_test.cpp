@@ -261,9 +261,8 @@ TEST_F(PlcopenScenario, WrittenBackItIsTheSame) {
   EXPECT_THAT(expanded,
               HasSubstr("    axes:\n      Line:\n        kind: virtual\n        modulo: 360 deg\n"));
   EXPECT_THAT(expanded, HasSubstr("        cam_gear.v_phasing: 50 deg/s\n"));
-  EXPECT_THAT(
-      expanded,
-      HasSubstr("    tables: [{file: cam.csv, id: 3}]\n    retentive: kept.txt\n    set: {speed: 5}"));
+  EXPECT_THAT(expanded, HasSubstr("    tables: [{file: cam.csv, id: 3}]\n    compute_time: 0 s\n    "
+                                  "retentive: kept.txt\n    set: {speed: 5}"));
   EXPECT_THAT(expanded, HasSubstr("    tasks:\n      slow: {cycle: 20 ms, priority: 3, programs: [line]}\n"));
   const auto again = read(expanded);
   ASSERT_THAT(told(), IsEmpty());

@@ -196,6 +196,9 @@ TEST(ScenarioExpand, SaysEveryDefaultInItsUnit) {
             "record:\n"
             "  every: 2 ms\n"
             "  channels: []\n"
+            "drives:\n"
+            "  cycle: 0 s\n"
+            "  judge: on\n"
             "pictures:\n"
             "  caption: []\n"
             "  plots: []\n");
