@@ -11,9 +11,6 @@ namespace {
 
 constexpr std::int64_t ns_per_ms = 1'000'000;
 
-// The first multiple of `period` after `time`.
-std::int64_t next_multiple(std::int64_t time, std::int64_t period) { return (time / period + 1) * period; }
-
 // What an instruction error leaves (FX: M8004, M8067, D8067, D8069).
 constexpr int error_relay = 8004;
 constexpr int instruction_error_relay = 8067;
@@ -33,7 +30,7 @@ bool is_pulse_output(const Address& address) {
 }  // namespace
 
 Lx3vpController::Lx3vpController(il::Program program, std::int64_t scan_ns)
-    : program_(std::move(program)), scanner_(program_), scan_ns_(scan_ns) {
+    : program_(std::move(program)), scanner_(program_), scan_{scan_ns} {
   assert(scan_ns > 0);
   add_used_terminals();
   add_names();
@@ -69,13 +66,12 @@ std::variant<Address, TerminalFault> Lx3vpController::terminal(const std::string
 }
 
 std::vector<Controller::Period> Lx3vpController::periods() const {
-  return {{"E-CAM tick", tick_ns}, {"scan", scan_ns_}};
+  return {{"E-CAM tick", tick_ns}, {"scan", scan_.period_ns}};
 }
 
 // Called every step of the simulation: most calls end at the first line.
 void Lx3vpController::run_devices(std::int64_t time_ns) {
-  if (time_ns < next_tick_ns_) return;
-  next_tick_ns_ = next_multiple(time_ns, tick_ns);
+  if (!tick_.take(time_ns)) return;
   if (!powered_) return;
   if (std::exchange(power_up_due_, false)) power_up_ns_ = time_ns;
   take_inputs();
@@ -88,8 +84,7 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
 }
 
 void Lx3vpController::run_tasks(std::int64_t time_ns) {
-  if (time_ns < next_scan_ns_) return;
-  next_scan_ns_ = next_multiple(time_ns, scan_ns_);
+  if (!scan_.take(time_ns)) return;
   if (!powered_ || stopped_) return;
   registers_.time_ns = time_ns - power_up_ns_;
   take_inputs();
@@ -196,7 +191,7 @@ void Lx3vpController::set_system_relays(std::int64_t time_ns) {
   m[8013] = clock(1000);
   m[8014] = clock(60'000);
   constexpr std::int64_t unit_ns = ns_per_ms / 10;
-  registers_.d[8010] = static_cast<std::uint16_t>(std::min<std::int64_t>(scan_ns_ / unit_ns, 0xFFFF));
+  registers_.d[8010] = static_cast<std::uint16_t>(std::min<std::int64_t>(scan_.period_ns / unit_ns, 0xFFFF));
 }
 
 void Lx3vpController::decam(int step, const DecamOperands& operands, bool powered) {

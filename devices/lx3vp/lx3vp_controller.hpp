@@ -10,6 +10,7 @@
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
+#include "devices/due.hpp"
 #include "devices/lx3vp/ecam_table.hpp"
 #include "devices/lx3vp/high_speed_counters.hpp"
 #include "devices/lx3vp/il_program.hpp"
@@ -91,7 +92,8 @@ class Lx3vpController : public Controller, private Instructions {
 
   il::Program program_;
   il::Scanner scanner_;
-  std::int64_t scan_ns_;
+  Due tick_{tick_ns};
+  Due scan_;
   Cards cards_;
   Registers registers_;
   HighSpeedCounters counters_;
@@ -104,8 +106,6 @@ class Lx3vpController : public Controller, private Instructions {
   bool stopped_ = false;  ///< by the watchdog, until power-up
   std::int64_t power_up_ns_ = 0;
   bool power_up_due_ = false;  ///< the next period is the first with power
-  std::int64_t next_tick_ns_ = 0;
-  std::int64_t next_scan_ns_ = 0;
   std::vector<std::string> names_;
   std::vector<ControllerEvent> events_;
   std::set<std::pair<int, std::string>> said_;  ///< since power-up, by step

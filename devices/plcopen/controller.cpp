@@ -172,8 +172,7 @@ std::int64_t PlcopenController::output_period(const Address& analogue) const {
 
 // Called every step of the simulation: most calls end at the first line.
 void PlcopenController::run_devices(std::int64_t time_ns) {
-  if (time_ns < next_cycle_ns_) return;
-  next_cycle_ns_ = (time_ns / configuration_.cycle_ns + 1) * configuration_.cycle_ns;
+  if (!cycle_.take(time_ns)) return;
   if (!powered_) return;
   if (std::exchange(power_up_due_, false)) latch_power_up();
   latch_inputs();

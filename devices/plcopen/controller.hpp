@@ -9,6 +9,7 @@
 
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
+#include "devices/due.hpp"
 #include "devices/plcopen/axis_values.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/program.hpp"
@@ -130,7 +131,7 @@ class PlcopenController : public Controller {
   std::map<std::string, std::size_t> symbols_;   ///< by name in lower case
   std::vector<ErrorPins> blocks_;
   std::vector<ControllerEvent> events_;
-  std::int64_t next_cycle_ns_ = 0;
+  Due cycle_{configuration_.cycle_ns};
   std::int64_t next_task_ns_ = 0;
   bool powered_ = true;
   bool power_up_due_ = true;

@@ -15,9 +15,6 @@ namespace {
 constexpr std::int64_t ns_per_ms = 1'000'000;
 constexpr std::int64_t long_turn_ns = 1'000'000'000;
 
-// The first multiple of `period` after `time`.
-std::int64_t next_multiple(std::int64_t time, std::int64_t period) { return (time / period + 1) * period; }
-
 std::string_view event_of(Diagnostic::Kind kind) {
   switch (kind) {
     case Diagnostic::Kind::command_refused:
@@ -40,7 +37,7 @@ QmoveController::QmoveController(Configuration configuration, std::vector<Progra
     : configuration_(std::move(configuration)),
       programs_(std::move(programs)),
       names_(configuration_),
-      cycle_ns_(cycle_ns) {
+      round_{cycle_ns} {
   assert(cycle_ns > 0);
   machine_.cells.assign(static_cast<std::size_t>(names_.cells()), 0);
   machine_.timers.assign(configuration_.timers.size(), 0);
@@ -74,7 +71,7 @@ std::vector<Controller::Period> QmoveController::periods() const {
   std::vector<Period> periods;
   for (std::size_t i = 0; i < device_due_.size(); ++i)
     periods.push_back({configuration_.devices[i].name + " TCamp", device_due_[i].period_ns});
-  periods.push_back({"task cycle", cycle_ns_});
+  periods.push_back({"task cycle", round_.period_ns});
   return periods;
 }
 
@@ -95,21 +92,16 @@ void QmoveController::run_devices(std::int64_t time_ns) {
   machine_.now = time_ns;
   next_device_ns_ = std::numeric_limits<std::int64_t>::max();
   for (std::size_t i = 0; i < device_due_.size(); ++i) {
-    Due& due = device_due_[i];
-    if (time_ns >= due.next_ns) {
-      due.next_ns = next_multiple(time_ns, due.period_ns);
-      if (powered_) {
-        machine_.devices[i]->sample();
-        collect_diagnostics(i);
-      }
+    if (device_due_[i].take(time_ns) && powered_) {
+      machine_.devices[i]->sample();
+      collect_diagnostics(i);
     }
-    next_device_ns_ = std::min(next_device_ns_, due.next_ns);
+    next_device_ns_ = std::min(next_device_ns_, device_due_[i].next_ns);
   }
 }
 
 void QmoveController::run_tasks(std::int64_t time_ns) {
-  if (time_ns < next_round_ns_) return;
-  next_round_ns_ = next_multiple(time_ns, cycle_ns_);
+  if (!round_.take(time_ns)) return;
   machine_.now = time_ns;
   if (!powered_ || mode_ != OsMode::run) return;
   // A task that waits for what others posted finishes that turn first: it costs it time, never a turn.

@@ -12,6 +12,7 @@
 #include "base/problem.hpp"
 #include "devices/catalogue.hpp"
 #include "devices/controller.hpp"
+#include "devices/due.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/machine.hpp"
 #include "devices/qmove/program.hpp"
@@ -110,7 +111,6 @@ class QmoveController : public Controller {
   Configuration configuration_;
   std::vector<Program> programs_;
   SymbolTable names_;
-  std::int64_t cycle_ns_;
   Cards cards_;
   Machine machine_;
   std::vector<Task> tasks_;
@@ -118,13 +118,9 @@ class QmoveController : public Controller {
   OsMode mode_ = OsMode::run;
   RunTimeError error_ = RunTimeError::none;
 
-  struct Due {
-    std::int64_t period_ns;
-    std::int64_t next_ns = 0;
-  };
+  Due round_;                        ///< of the tasks
   std::vector<Due> device_due_;      ///< by device
   std::int64_t next_device_ns_ = 0;  ///< the earliest of them
-  std::int64_t next_round_ns_ = 0;
 
   std::vector<ControllerEvent> events_;
   /// Diagnostics said since power-up: a program that repeats a refused command does not flood.

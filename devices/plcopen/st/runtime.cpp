@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/due.hpp"
 #include "devices/plcopen/st/arithmetic.hpp"
 #include "devices/plcopen/st/machine.hpp"
 
@@ -14,31 +15,24 @@ namespace drycut::devices::plcopen::st {
 namespace {
 
 /// A task and its programs.
-struct Due {
-  std::int64_t interval_ns = 0;
+struct Task {
+  Due due;
   int priority = 0;
   int single = -1;
   bool last = false;  ///< of SINGLE
-  std::int64_t next_ns = 0;
-  std::vector<std::size_t> programs;
-
-  /// Moves on to the next moment.
-  void advance(std::int64_t time_ns) {
-    if (interval_ns > 0) next_ns = (time_ns / interval_ns + 1) * interval_ns;
-  }
+  std::vector<std::size_t> programs = {};
 };
 
 /// The tasks by their priorities, the controller's own last.
-std::vector<Due> plan(const Compiled& code, const Schedule& schedule) {
+std::vector<Task> plan(const Compiled& code, const Schedule& schedule) {
   const bool given = !schedule.tasks.empty();
-  std::vector<Due> plan;
+  std::vector<Task> plan;
   const auto& tasks = given ? schedule.tasks : code.tasks;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const int single = given ? -1 : code.singles[i];
-    plan.push_back(
-        {single >= 0 ? schedule.cycle_ns : tasks[i].interval_ns, tasks[i].priority, single, false, 0, {}});
+    plan.push_back({{single >= 0 ? schedule.cycle_ns : tasks[i].interval_ns}, tasks[i].priority, single});
   }
-  plan.push_back({schedule.task_ns, std::numeric_limits<int>::max(), -1, false, 0, {}});
+  plan.push_back({{schedule.task_ns}, std::numeric_limits<int>::max()});
   for (std::size_t i = 0; i < code.instance_names.size() && i < code.instances.size(); ++i) {
     const Program::Instance& instance = code.instance_names[i];
     std::size_t task = instance.task < 0 || given ? tasks.size() : static_cast<std::size_t>(instance.task);
@@ -47,9 +41,9 @@ std::vector<Due> plan(const Compiled& code, const Schedule& schedule) {
         if (same_word(name, instance.name)) task = t;
     plan[task].programs.push_back(i);
   }
-  std::erase_if(plan, [](const Due& due) { return due.programs.empty(); });
+  std::erase_if(plan, [](const Task& task) { return task.programs.empty(); });
   std::stable_sort(plan.begin(), plan.end(),
-                   [](const Due& a, const Due& b) { return a.priority < b.priority; });
+                   [](const Task& a, const Task& b) { return a.priority < b.priority; });
   return plan;
 }
 
@@ -62,9 +56,8 @@ struct Runtime::State {
         tasks(plan(program.compiled(), schedule)) {}
 
   /// Whether a task runs now; an edge of its SINGLE is seen once.
-  bool is_due(Due& task, std::int64_t time_ns) const {
-    if (time_ns < task.next_ns) return false;
-    task.advance(time_ns);
+  bool is_due(Task& task, std::int64_t time_ns) const {
+    if (!task.due.take(time_ns)) return false;
     if (task.single < 0) return true;
     const bool before = std::exchange(task.last, machine.cell(task.single) != 0);
     return task.last && !before;
@@ -72,7 +65,7 @@ struct Runtime::State {
 
   Program program;
   Machine machine;
-  std::vector<Due> tasks;
+  std::vector<Task> tasks;
   std::optional<Fault> fault;
 };
 
@@ -85,7 +78,7 @@ Runtime::~Runtime() = default;
 void Runtime::cold_start(bool all) {
   state_->fault.reset();
   state_->machine.start(all);
-  for (Due& task : state_->tasks) task.last = false;
+  for (Task& task : state_->tasks) task.last = false;
 }
 
 void Runtime::scan(std::int64_t time_ns) {
@@ -93,7 +86,7 @@ void Runtime::scan(std::int64_t time_ns) {
   constexpr std::int64_t ns_per_ms = 1'000'000;
   const auto& instances = state_->program.compiled().instances;
   try {
-    for (Due& task : state_->tasks) {
+    for (Task& task : state_->tasks) {
       if (!state_->is_due(task, time_ns)) continue;
       for (const std::size_t program : task.programs)
         state_->machine.run(instances[program], time_ns / ns_per_ms);
@@ -104,13 +97,12 @@ void Runtime::scan(std::int64_t time_ns) {
 }
 
 void Runtime::pass(std::int64_t time_ns) {
-  for (Due& task : state_->tasks)
-    if (time_ns >= task.next_ns) task.advance(time_ns);
+  for (Task& task : state_->tasks) task.due.take(time_ns);
 }
 
 std::int64_t Runtime::next_ns() const {
   std::int64_t next = std::numeric_limits<std::int64_t>::max();
-  for (const Due& task : state_->tasks) next = std::min(next, task.next_ns);
+  for (const Task& task : state_->tasks) next = std::min(next, task.due.next_ns);
   return next;
 }
 
