@@ -37,10 +37,10 @@ bool same_word(std::string_view a, std::string_view b) {
 
 bool is_letter(char c) { return (lower_char(c) >= 'a' && lower_char(c) <= 'z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool in_name(char c) { return is_letter(c) || is_digit(c); }
 
 bool is_identifier(std::string_view text) {
-  if (text.empty() || !is_letter(text.front())) return false;
-  return std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
+  return !text.empty() && is_letter(text.front()) && std::all_of(text.begin(), text.end(), in_name);
 }
 
 std::vector<std::string_view> split_lines(std::string_view text) {
@@ -53,6 +53,17 @@ std::vector<std::string_view> split_lines(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return lines;
+}
+
+Words split_words(std::string_view line, Place begin, std::string_view gaps) {
+  Words words;
+  for (std::size_t at = line.find_first_not_of(gaps); at < line.size();) {
+    const std::size_t end = std::min(line.find_first_of(gaps, at), line.size());
+    words.push_back(
+        {std::string(line.substr(at, end - at)), {begin.line, begin.column + static_cast<int>(at)}});
+    at = line.find_first_not_of(gaps, end);
+  }
+  return words;
 }
 
 std::string in_quotes(std::string_view text) {

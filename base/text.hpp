@@ -1,6 +1,9 @@
 #pragma once
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -18,13 +21,36 @@ struct Place {
 std::string lower(std::string_view text);
 std::string upper(std::string_view text);
 bool same_word(std::string_view a, std::string_view b);
+bool is_one_of(const auto& words, std::string_view word) {
+  for (const std::string_view known : words)
+    if (same_word(known, word)) return true;
+  return false;
+}
 bool is_letter(char c);  ///< a..z, A..Z or _
 bool is_digit(char c);
+bool in_name(char c);  ///< a letter, digit or _
 /// A letter or _ followed by letters, digits and _.
 bool is_identifier(std::string_view text);
 
 /// The lines of a text, LF or CRLF, without their ends.
 std::vector<std::string_view> split_lines(std::string_view text);
+
+struct Word {
+  std::string text;
+  Place place;
+};
+using Words = std::vector<Word>;
+/// What stands between the `gaps` of a line that begins at `begin`.
+Words split_words(std::string_view line, Place begin, std::string_view gaps);
+
+/// All of `text` as a number; nothing if it is none or out of the type's range.
+template <typename Number>
+std::optional<Number> parsed(std::string_view text, auto... base) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number, base...);
+  return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
+}
 
 /// `text` between quotes for a message: cut if long, unprintable bytes as \xNN.
 std::string in_quotes(std::string_view text);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <utility>
 
+#include "base/text.hpp"
 #include "devices/contradictions.hpp"
 
 namespace drycut::devices {
@@ -16,22 +16,12 @@ namespace {
 constexpr int init_state = 0;
 constexpr int init_command = 0;
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
-}
-
 /// The row that `name` gives to a table variable called `base` ("codeQm17" -> 16), or nullopt.
 std::optional<int> row_of(std::string_view name, std::string_view base, int rows) {
   if (name.size() <= base.size() || !same_word(name.substr(0, base.size()), base)) return std::nullopt;
-  const std::string_view digits = name.substr(base.size());
-  int number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc{} || end != digits.data() + digits.size() || digits.front() == '-')
-    return std::nullopt;
-  if (number < 1 || number > rows) return std::nullopt;
-  return number - 1;
+  const std::optional<int> number = parsed<int>(name.substr(base.size()));
+  if (!number || *number < 1 || *number > rows) return std::nullopt;
+  return *number - 1;
 }
 
 std::optional<Symbol> find_exact(const DeviceType& type, std::string_view name) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/text.hpp"
+#include "base/scanner.hpp"
 #include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "devices/lx3vp/il_program.hpp"
@@ -23,21 +23,21 @@ bool needs_memory(const Step& step) {
          op == Op::stl || (step.spelling != nullptr && step.spelling->pulse);
 }
 
-class Compiler {
+class Compiler : private Complaints {
  public:
   Compiler(std::string_view text, const std::string& file, Problems& problems)
-      : text_(text), problems_(problems), before_(problems.size()) {
+      : Complaints(file, problems), text_(text) {
     program_.file = file;
   }
 
   Program compile() {
-    const auto tell = [this](int line, int column, std::string what, std::string remedy) {
-      problem_at(line, column, std::move(what), std::move(remedy));
+    const auto tell = [this](Place place, std::string what, std::string remedy) {
+      problem_at(place, std::move(what), std::move(remedy));
       refused_ = true;
     };
     for (const auto& words : statements_of(text_, tell)) {
       if (full_) break;
-      line_ = words.front().line;
+      line_ = words.front().place.line;
       read_statement(words);
     }
     if (!full_) finish();
@@ -46,22 +46,21 @@ class Compiler {
 
  private:
   void problem(int column, std::string what, std::string remedy) {
-    problem_at(std::max(line_, 1), column, std::move(what), std::move(remedy));
+    problem_at({std::max(line_, 1), column}, std::move(what), std::move(remedy));
   }
-  void problem_at(int line, int column, std::string what, std::string remedy) {
+  void problem_at(Place place, std::string what, std::string remedy) {
     if (full_) return;
-    problems_.push_back({program_.file, line, column, std::move(what), std::move(remedy)});
-    if (problems_.size() - before_ < most_problems) return;
+    complain(place, std::move(what), std::move(remedy));
+    if (told() < most_problems) return;
     full_ = true;
-    problems_.push_back({program_.file, line, column, "too many problems: the rest is not told",
-                         "is this an instruction list?"});
+    complain(place, "too many problems: the rest is not told", "is this an instruction list?");
   }
 
   // Statements.
 
   void read_statement(const Statement& words) {
     if (ended_) {
-      problem(words.front().column, "stands behind END", "END is the last instruction");
+      problem(words.front().place.column, "stands behind END", "END is the last instruction");
       full_ = true;
       return;
     }
@@ -77,7 +76,7 @@ class Compiler {
     Step step;
     step.spelling = spelling;
     step.line = line_;
-    step.column = words.front().column;
+    step.column = words.front().place.column;
     read_operands(step, words);
     add(std::move(step));
   }
@@ -93,22 +92,22 @@ class Compiler {
     ValueFault fault;
     auto operand = read_operand(text, fault);
     if (!operand) {
-      problem(words.front().column, std::move(fault.what), std::move(fault.remedy));
+      problem(words.front().place.column, std::move(fault.what), std::move(fault.remedy));
       refused_ = true;
       return;
     }
     if (words.size() > 1)
-      problem(words[1].column, fmt::format("{} stands behind a label", in_quotes(words[1].text)),
+      problem(words[1].place.column, fmt::format("{} stands behind a label", in_quotes(words[1].text)),
               "give a label a line of its own");
     const auto [first, fresh] = labels_.emplace(operand->number, Label{line_, program_.steps.size()});
     if (!fresh) {
-      problem(words.front().column, fmt::format("label {} is there twice", to_string(*operand)),
+      problem(words.front().place.column, fmt::format("label {} is there twice", to_string(*operand)),
               fmt::format("it was first given in line {}", first->second.line));
       return;
     }
     Step step;
     step.line = line_;
-    step.column = words.front().column;
+    step.column = words.front().place.column;
     step.operands.push_back(*operand);
     add(std::move(step));
   }
@@ -117,14 +116,14 @@ class Compiler {
     refused_ = true;
     rungs_.lose();
     if (is_not_simulated(word.text)) {
-      problem(word.column, fmt::format("{} is not simulated", word.text),
+      problem(word.place.column, fmt::format("{} is not simulated", word.text),
               "`drycut devices LX3VP` lists what is");
       return;
     }
     std::vector<std::string> names;
     for (const auto& spelling : spellings()) names.push_back(spelling.text);
     const auto near = nearest(word.text.substr(0, 24), names);
-    problem(word.column, fmt::format("there is no instruction {}", in_quotes(word.text)),
+    problem(word.place.column, fmt::format("there is no instruction {}", in_quotes(word.text)),
             near.empty() ? "one instruction a line: LD X0" : fmt::format("did you mean {}?", near));
   }
 
@@ -146,8 +145,8 @@ class Compiler {
         refuse(words[i], std::move(unread));
         continue;
       }
-      operand->line = words[i].line;
-      operand->column = words[i].column;
+      operand->line = words[i].place.line;
+      operand->column = words[i].place.column;
       step.indexed = step.indexed || operand->index != Operand::no_index;
       step.operands.push_back(*operand);
       const auto place = i - 1;
@@ -167,7 +166,7 @@ class Compiler {
     if (!fault) fault = misfit_together(step);
     if (!fault) return;
     const auto& last = step.operands.empty() || at != &words.front() ? *at : words.back();
-    problem_at(last.line, last.column, std::move(fault->what), std::move(fault->remedy));
+    problem_at(last.place, std::move(fault->what), std::move(fault->remedy));
   }
 
   static std::string operands_text(const std::string& kinds) {
@@ -275,15 +274,13 @@ class Compiler {
   }
 
   std::string_view text_;
-  Problems& problems_;
-  std::size_t before_;
   bool full_ = false;
   bool refused_ = false;  ///< an instruction could not be read
   Program program_;
   int line_ = 0;
   bool ended_ = false;
-  const TellLine tell_ = [this](int line, int column, std::string what, std::string remedy) {
-    problem_at(line, column, std::move(what), std::move(remedy));
+  const TellLine tell_ = [this](Place place, std::string what, std::string remedy) {
+    problem_at(place, std::move(what), std::move(remedy));
   };
   Rungs rungs_{tell_};
   Labels labels_;

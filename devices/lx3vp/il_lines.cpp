@@ -9,26 +9,13 @@ namespace drycut::devices::lx3vp::il {
 
 namespace {
 
-bool is_gap(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
-
-void append_words(std::string_view text, int line, int column, Statement& words) {
-  for (std::size_t i = 0; i < text.size();) {
-    if (is_gap(text[i])) {
-      ++i;
-      continue;
-    }
-    std::size_t end = i;
-    while (end < text.size() && !is_gap(text[end])) ++end;
-    words.push_back({std::string(text.substr(i, end - i)), line, column + static_cast<int>(i)});
-    i = end;
-  }
-}
+constexpr std::string_view gaps = " \t\r,";
 
 // Lines.
 
 bool is_step_number(std::string_view word) {
   if (word.ends_with(':')) word.remove_suffix(1);
-  return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return !word.empty() && std::all_of(word.begin(), word.end(), is_digit);
 }
 
 /// Takes brackets off around the words; they are told if they do not match.
@@ -38,22 +25,20 @@ void take_brackets(Statement& words, const TellLine& tell) {
   const bool closes = words.back().text.ends_with(']');
   if (!opens && !closes) return;
   if (opens != closes) {
-    tell(first.line, first.column, opens ? "'[' is not closed" : "']' was not opened", "write [MOV K5 D0]");
+    tell(first.place, opens ? "'[' is not closed" : "']' was not opened", "write [MOV K5 D0]");
     words.clear();
     return;
   }
   words.back().text.pop_back();
   words.front().text.erase(0, 1);
-  ++words.front().column;
+  ++words.front().place.column;
   std::erase_if(words, [](const Word& word) { return word.text.empty(); });
-  if (words.empty())
-    tell(first.line, first.column, "there is nothing between the brackets", "write [MOV K5 D0]");
+  if (words.empty()) tell(first.place, "there is nothing between the brackets", "write [MOV K5 D0]");
 }
 
 Statement statement_of(std::string_view line, int number, const TellLine& tell) {
   line = line.substr(0, std::min({line.find(';'), line.find("//"), line.size()}));
-  Statement words;
-  append_words(line, number, 1, words);
+  Statement words = split_words(line, {number, 1}, gaps);
   if (words.size() > 1 && is_step_number(words.front().text)) words.erase(words.begin());
   if (!words.empty()) take_brackets(words, tell);
   return words;
@@ -132,20 +117,21 @@ std::vector<Statement> rows_of(const std::vector<std::string_view>& lines, const
   for (std::size_t i = columns.heading + 1; i < lines.size(); ++i) {
     const auto cells = cells_of(lines[i], columns.separator);
     const int line = static_cast<int>(i) + 1;
-    const auto take = [&](std::size_t column, Statement& words) {
-      if (column < cells.size()) append_words(cells[column].text, line, cells[column].column, words);
-    };
     Statement words;
-    take(columns.instruction, words);
+    const auto take = [&](const Cell& cell) {
+      const Words more = split_words(cell.text, {line, cell.column}, gaps);
+      words.insert(words.end(), more.begin(), more.end());
+    };
+    if (columns.instruction < cells.size()) take(cells[columns.instruction]);
     const bool continues = words.empty();
-    for (auto c = columns.operand; c < std::min(columns.operand_end, cells.size()); ++c) take(c, words);
+    for (auto c = columns.operand; c < std::min(columns.operand_end, cells.size()); ++c) take(cells[c]);
     if (words.empty()) continue;  // a note or a title
     if (!continues)
       statements.push_back(std::move(words));
     else if (!statements.empty())
       statements.back().insert(statements.back().end(), words.begin(), words.end());
     else
-      tell(line, words.front().column, "an operand stands before the first instruction",
+      tell({line, words.front().place.column}, "an operand stands before the first instruction",
            "name the instruction in its column");
   }
   return statements;

@@ -4,19 +4,15 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.hpp"
+
 namespace drycut::devices::lx3vp::il {
 
-/// A word of an instruction and its place in the text.
-struct Word {
-  std::string text;
-  int line = 1;
-  int column = 1;
-};
 /// An instruction or a label with its operands; at least one word.
-using Statement = std::vector<Word>;
+using Statement = Words;
 
-/// Tells what is wrong at a line and a column, and what would be right.
-using TellLine = std::function<void(int line, int column, std::string what, std::string remedy)>;
+/// Tells what is wrong at a place, and what would be right.
+using TellLine = std::function<void(Place place, std::string what, std::string remedy)>;
 
 /// Takes a text apart, as it is written by hand or as editors export it:
 /// - lines `LD X0`, words by blanks, tabs or commas, comments behind ; or //; before them a step number

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "base/text.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/registers.hpp"
 
@@ -108,18 +108,20 @@ bool exists(const Family& family, int first, int count = 1) {
   });
 }
 
+std::string_view without_plus(std::string_view text) {
+  return text.substr(text.starts_with('+') && text.size() > 1 && text[1] != '-' ? 1 : 0);
+}
+
 template <typename Number>
-bool read_whole(std::string_view text, Number& number, int base = 10) {
-  if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
-  return !text.empty() && error == std::errc{} && end == text.data() + text.size();
+bool number_from(std::string_view text, Number& number, auto... base) {
+  const auto read = parsed<Number>(without_plus(text), base...);
+  number = read.value_or(number);
+  return read.has_value();
 }
 
 class Reader {
  public:
-  Reader(std::string_view text, ValueFault& fault) : fault_(fault) {
-    for (const char c : text) text_ += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  }
+  Reader(std::string_view text, ValueFault& fault) : text_(upper(text)), fault_(fault) {}
 
   std::optional<Operand> read() {
     const auto at = text_.find_first_of("VZ", 1);
@@ -165,7 +167,7 @@ class Reader {
       if (family_of(digits[i]) != nullptr)
         return read_bits(digits.substr(0, i), digits[i], digits.substr(i + 1));
     Operand operand;
-    if (!read_whole(digits, operand.value))
+    if (!number_from(digits, operand.value))
       return refuse("is no 32-bit number", "write K-2147483648 to K2147483647");
     return operand;
   }
@@ -177,7 +179,7 @@ class Reader {
     operand.of = static_cast<Kind>(letter);
     if (std::string_view("XYMS").find(letter) == std::string_view::npos)
       return refuse("groups no bits", "bits are grouped of X, Y, M or S: K4M0");
-    if (!read_whole(groups, operand.count) || operand.count < 1 || operand.count > 8)
+    if (!number_from(groups, operand.count) || operand.count < 1 || operand.count > 8)
       return refuse("has no such groups of bits", "group K1 (4 bits) to K8 (32 bits)");
     if (!read_number(family, digits, operand.number)) return std::nullopt;
     if (!exists(family, operand.number, 4 * operand.count))
@@ -187,7 +189,7 @@ class Reader {
 
   std::optional<Operand> read_hexadecimal(std::string_view digits) {
     std::uint32_t value = 0;
-    if (!read_whole(digits, value, 16)) return refuse("is no 32-bit number", "write H0 to HFFFFFFFF");
+    if (!number_from(digits, value, 16)) return refuse("is no 32-bit number", "write H0 to HFFFFFFFF");
     Operand operand;
     operand.value = static_cast<std::int32_t>(value);
     operand.hexadecimal = true;
@@ -197,10 +199,7 @@ class Reader {
   std::optional<Operand> read_real(std::string_view digits) {
     Operand operand;
     operand.kind = Kind::real;
-    if (digits.starts_with('+') && digits.size() > 1 && digits[1] != '-') digits.remove_prefix(1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), operand.real);
-    if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size() ||
-        !std::isfinite(operand.real))
+    if (!number_from(digits, operand.real) || !std::isfinite(operand.real))
       return refuse("is no 32-bit floating-point number", "write E1.5 or E-3.2E4");
     return operand;
   }
@@ -211,7 +210,7 @@ class Reader {
     const auto dot = digits.find('.');
     if (operand.kind == Kind::D && dot != std::string_view::npos) {
       operand.kind = Kind::word_bit;
-      if (!read_whole(digits.substr(dot + 1), operand.count, 16) || operand.count < 0 || operand.count > 15)
+      if (!number_from(digits.substr(dot + 1), operand.count, 16) || operand.count < 0 || operand.count > 15)
         return refuse("has no such bit", "a word has the bits 0 to F: D10.F");
       digits = digits.substr(0, dot);
     }
@@ -220,7 +219,7 @@ class Reader {
   }
 
   bool read_number(const Family& family, std::string_view digits, int& number) {
-    if (read_whole(digits, number, family.octal ? 8 : 10) && exists(family, number)) return true;
+    if (number_from(digits, number, family.octal ? 8 : 10) && exists(family, number)) return true;
     const bool decimal = family.octal && digits.find_first_of("89") != std::string_view::npos;
     refuse(decimal ? "is not octal" : "does not exist",
            decimal ? fmt::format("{0} count {0}0 to {0}7, {0}10 to {0}17 and on", family.letter)

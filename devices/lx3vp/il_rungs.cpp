@@ -90,7 +90,7 @@ void Rungs::lose() {
 }
 
 void Rungs::tell(const Step& step, std::string what, std::string remedy) {
-  if (!lost_) tell_(step.line, step.column, std::move(what), std::move(remedy));
+  if (!lost_) tell_({step.line, step.column}, std::move(what), std::move(remedy));
 }
 
 void Rungs::open(Step& step) {

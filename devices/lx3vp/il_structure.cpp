@@ -30,7 +30,7 @@ bool find_label(Step& step, const Labels& labels, int end_place, const TellLine&
     step.target = end_place;
     return true;
   }
-  tell(name.line, name.column, fmt::format("there is no label {}", to_string(name)),
+  tell({name.line, name.column}, fmt::format("there is no label {}", to_string(name)),
        "give it a line of its own");
   return false;
 }
@@ -70,7 +70,7 @@ class Structure {
   };
 
   void tell(const Step& step, std::string what, std::string remedy) {
-    tell_(step.line, step.column, std::move(what), std::move(remedy));
+    tell_({step.line, step.column}, std::move(what), std::move(remedy));
   }
 
   void visit(Step& step) {
@@ -239,7 +239,7 @@ class Structure {
     const auto found = labels_.find(name.number);
     if (found == labels_.end()) return;  // P63
     const auto refuse = [&](std::string what, std::string remedy) {
-      tell_(name.line, name.column, std::move(what), std::move(remedy));
+      tell_({name.line, name.column}, std::move(what), std::move(remedy));
     };
     const Place& from = places_[place_];
     const Place& to = places_[found->second.place];

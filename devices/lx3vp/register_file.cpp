@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -21,18 +20,12 @@ std::optional<double> read_number(std::string_view text) {
   const char first = text.empty() ? ' ' : text.front();
   const bool hexadecimal = first == 'H' || first == 'h';
   if (hexadecimal || first == 'K' || first == 'k') {
-    std::int64_t whole = 0;
-    const auto digits = text.substr(1);
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), whole, hexadecimal ? 16 : 10);
-    if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
-    return static_cast<double>(whole);
+    const auto whole = parsed<std::int64_t>(text.substr(1), hexadecimal ? 16 : 10);
+    return whole ? std::optional(static_cast<double>(*whole)) : std::nullopt;
   }
-  double number = 0;
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
+  const auto number = parsed<double>(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 // What a line says, without comment and blanks. A # inside a word is none: 16#1000 is refused, not 16.

@@ -15,7 +15,7 @@ constexpr int most_modulo = 2147483647;
 
 class CamReader {
  public:
-  CamReader(std::string file, Problems& problems) : reader_(std::move(file), problems) {}
+  CamReader(const std::string& file, Problems& problems) : reader_(file, problems) {}
 
   std::optional<CamFile> csv(std::string_view text) {
     cam_.table = {.file = {}, .name = {}, .id = 1, .type = 0, .values = {}};
@@ -61,26 +61,26 @@ class CamReader {
     int number = 0;
     for (const std::string_view line : split_lines(text)) {
       ++number;
-      const Word whole = trimmed(line, 0, line.size());
+      const Word whole = word_at(line, number, 0, line.size());
       if (whole.text.empty()) continue;
       if (whole.text.front() == '#') {
-        read_key(whole.text, whole.column - 1, number);
+        read_key(whole.text, whole.place.column - 1, number);
       } else if (!header) {
         header = true;
         cam_.header = number;
         separator = line.find(';') != std::string_view::npos ? ';' : ',';
-        cam_.table.type = type_of(split(line, separator));
+        cam_.table.type = type_of(split(line, number, separator));
         if (cam_.table.type == 0)
-          return reader_.fault(number, whole.column, fmt::format("unknown header '{}'", whole.text), columns);
+          return reader_.fault(whole.place, fmt::format("unknown header '{}'", whole.text), columns);
       } else {
-        reader_.row(cam_.table, split(line, separator), number, separator == ';');
+        reader_.row(cam_.table, split(line, number, separator), separator == ';');
       }
     }
-    if (!header) reader_.fault(std::max(number, 1), 1, "there is no header", columns);
+    if (!header) reader_.fault({std::max(number, 1), 1}, "there is no header", columns);
   }
 
   /// The table's type by its header; 0 if it is none.
-  static int type_of(const std::vector<Word>& header) {
+  static int type_of(const Words& header) {
     std::string joined;
     for (const Word& word : header) joined += lower(word.text) + ' ';
     if (joined == "slave ") return 3;
@@ -101,78 +101,76 @@ class CamReader {
   void read_key(std::string_view comment, int before, int line) {
     const std::size_t colon = comment.find(':');
     if (colon == std::string_view::npos || comment.starts_with("##")) return;
-    Word key = trimmed(comment, 1, colon);
-    Word value = trimmed(comment, colon + 1, comment.size());
-    key.column += before;
-    value.column += before;
+    Word key = word_at(comment, line, 1, colon);
+    Word value = word_at(comment, line, colon + 1, comment.size());
+    key.place.column += before;
+    value.place.column += before;
     const std::string name = lower(key.text);
     const auto known = keys();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      if (!tab_ && key.text.find(' ') == std::string_view::npos) refuse(key, known, line);
+      if (!tab_ && key.text.find(' ') == std::string_view::npos) refuse(key, known);
       return;
     }
     if (const auto [first, is_new] = seen_.try_emplace(name, line); !is_new)
-      return reader_.fault(line, key.column, fmt::format("a second {}", name),
+      return reader_.fault(key.place, fmt::format("a second {}", name),
                            fmt::format("the first is in line {}", first->second));
-    take(name, value, line);
+    take(name, value);
   }
 
-  void refuse(const Word& key, const std::vector<std::string>& known, int line) {
+  void refuse(const Word& key, const std::vector<std::string>& known) {
     const std::string guess = nearest(lower(key.text), known);
     std::string all;
     for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
-    reader_.fault(line, key.column, fmt::format("unknown key '{}'", key.text),
+    reader_.fault(key.place, fmt::format("unknown key '{}'", key.text),
                   (guess.empty() ? "known are " + all : fmt::format("did you mean {}?", guess)) +
                       "; a remark begins with ##");
   }
 
-  void take(const std::string& name, const Word& value, int line) {
+  void take(const std::string& name, const Word& value) {
     CamLimits& limits = cam_.limits;
     constexpr double most = 1e12;
-    if (name == "name") cam_.table.name = std::string(value.text);
-    if (name == "id")
-      cam_.table.id = static_cast<std::uint16_t>(reader_.whole(value, line, 1, 65535).value_or(1));
-    if (name == "master_modulo") take_modulo(value, line, 1, cam_.master_modulo);
-    if (name == "slave_modulo") take_modulo(value, line, 0, cam_.slave_modulo);
-    if (name == "endless") take_endless(value, line);
-    if (name == "periodic") cam_.periodic = one_of(name, value, line, {"yes", "no"}) != "no";
-    if (name == "master_unit") cam_.master_unit = one_of(name, value, line, {"deg", "mm"});
-    if (name == "slave_unit") cam_.slave_unit = one_of(name, value, line, {"deg", "mm"});
-    if (name == "maxvel") limits.velocity = reader_.real(value, line, 1e-9, most);
-    if (name == "maxacc") limits.acceleration = reader_.real(value, line, 1e-9, most);
-    if (name == "maxjerk") limits.jerk = reader_.real(value, line, 1e-9, most);
-    if (name == "minpos") limits.travel.least = reader_.real(value, line, -most, most);
-    if (name == "maxpos") limits.travel.most = reader_.real(value, line, -most, most);
-    if (name == "interpolation") take_interpolation(value, line);
+    if (name == "name") cam_.table.name = value.text;
+    if (name == "id") cam_.table.id = static_cast<std::uint16_t>(reader_.whole(value, 1, 65535).value_or(1));
+    if (name == "master_modulo") take_modulo(value, 1, cam_.master_modulo);
+    if (name == "slave_modulo") take_modulo(value, 0, cam_.slave_modulo);
+    if (name == "endless") take_endless(value);
+    if (name == "periodic") cam_.periodic = one_of(name, value, {"yes", "no"}) != "no";
+    if (name == "master_unit") cam_.master_unit = one_of(name, value, {"deg", "mm"});
+    if (name == "slave_unit") cam_.slave_unit = one_of(name, value, {"deg", "mm"});
+    if (name == "maxvel") limits.velocity = reader_.real(value, 1e-9, most);
+    if (name == "maxacc") limits.acceleration = reader_.real(value, 1e-9, most);
+    if (name == "maxjerk") limits.jerk = reader_.real(value, 1e-9, most);
+    if (name == "minpos") limits.travel.least = reader_.real(value, -most, most);
+    if (name == "maxpos") limits.travel.most = reader_.real(value, -most, most);
+    if (name == "interpolation") take_interpolation(value);
   }
 
-  void take_modulo(const Word& value, int line, int least, double& modulo) {
-    if (const auto number = reader_.whole(value, line, least, most_modulo)) modulo = *number;
+  void take_modulo(const Word& value, int least, double& modulo) {
+    if (const auto number = reader_.whole(value, least, most_modulo)) modulo = *number;
   }
 
-  void take_endless(const Word& value, int line) {
-    const std::string direction = one_of("endless", value, line, {"positive", "negative", "no"});
+  void take_endless(const Word& value) {
+    const std::string direction = one_of("endless", value, {"positive", "negative", "no"});
     if (direction == "positive") cam_.endless = Endless::positive;
     if (direction == "negative") cam_.endless = Endless::negative;
   }
 
-  void take_interpolation(const Word& value, int line) {
+  void take_interpolation(const Word& value) {
     const std::optional<Interpolation> type = parse_interpolation(value.text);
     if (!type || *type == Interpolation::table_defined)
-      reader_.fault(line, value.column, fmt::format("'{}' is no interpolation (error 42006)", value.text),
+      reader_.fault(value.place, fmt::format("'{}' is no interpolation (error 42006)", value.text),
                     "write STEP_DIRECT, LINEAR, POLYNOM_3, POLYNOM_3_KOEFF, LINE_POLY5 or POLY5_LINE");
     cam_.interpolation = type.value_or(Interpolation::linear);
   }
 
   /// The word in small letters; the first of the choice, with a fault, if it is none of them.
-  std::string one_of(std::string_view name, const Word& value, int line,
-                     const std::vector<std::string>& choice) {
+  std::string one_of(std::string_view name, const Word& value, const std::vector<std::string>& choice) {
     std::string word = lower(value.text);
     if (std::find(choice.begin(), choice.end(), word) != choice.end()) return word;
     std::string all;
     for (std::size_t i = 0; i < choice.size(); ++i)
       all += (i == 0 ? "" : i + 1 == choice.size() ? " or " : ", ") + choice[i];
-    reader_.fault(line, value.column, fmt::format("{} cannot be '{}'", name, value.text), "write " + all);
+    reader_.fault(value.place, fmt::format("{} cannot be '{}'", name, value.text), "write " + all);
     return choice.front();
   }
 
@@ -230,9 +228,9 @@ std::optional<CamFile> read_cam(std::string_view text, const std::string& file, 
   text = without_byte_order_mark(text);
   bool csv = true;
   for (const std::string_view line : split_lines(text)) {
-    const Word word = trimmed(line, 0, line.size());
-    if (word.text.empty() || word.text.front() == '#') continue;
-    csv = word.text.find('=') == std::string_view::npos && lower(word.text) != "begintable";
+    const std::string_view word = trimmed(line);
+    if (word.empty() || word.front() == '#') continue;
+    csv = word.find('=') == std::string_view::npos && lower(word) != "begintable";
     break;
   }
   CamReader reader(file, problems);

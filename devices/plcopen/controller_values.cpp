@@ -9,7 +9,6 @@
 
 #include "base/text.hpp"
 #include "devices/plcopen/controller.hpp"
-#include "devices/plcopen/table_text.hpp"
 
 namespace drycut::devices::plcopen {
 namespace {
@@ -171,12 +170,9 @@ std::string PlcopenController::retentive_state() const {
 bool PlcopenController::restore(const std::string& text, Problems& problems, const std::string& file_name) {
   const std::size_t before = problems.size();
   std::vector<std::pair<std::size_t, double>> kept;
-  std::string_view rest = without_byte_order_mark(text);
-  for (int number = 1; !rest.empty(); ++number) {
-    const auto end = rest.find('\n');
-    read_kept(rest.substr(0, end), number, file_name, kept, problems);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  }
+  int number = 0;
+  for (const std::string_view line : split_lines(without_byte_order_mark(text)))
+    read_kept(line, ++number, file_name, kept, problems);
   if (problems.size() > before) return false;
   for (const auto& [symbol, value] : kept) runtime_.write(symbol, value);
   return true;
@@ -186,16 +182,16 @@ bool PlcopenController::restore(const std::string& text, Problems& problems, con
 void PlcopenController::read_kept(std::string_view line, int number, const std::string& file,
                                   std::vector<std::pair<std::size_t, double>>& kept,
                                   Problems& problems) const {
-  const std::string_view content = drycut::trimmed(line.substr(0, line.find(';')));
+  const std::string_view content = trimmed(line.substr(0, line.find(';')));
   if (content.empty()) return;
   const auto complain = [&](std::string_view at, std::string what, std::string remedy) {
     problems.push_back(
         {file, number, static_cast<int>(at.data() - line.data()) + 1, std::move(what), std::move(remedy)});
   };
   const std::size_t equals = content.find('=');
-  const std::string_view name = drycut::trimmed(content.substr(0, equals));
+  const std::string_view name = trimmed(content.substr(0, equals));
   const std::string_view value_text =
-      equals == std::string_view::npos ? std::string_view() : drycut::trimmed(content.substr(equals + 1));
+      equals == std::string_view::npos ? std::string_view() : trimmed(content.substr(equals + 1));
   if (name.empty() || value_text.empty())
     return complain(content, fmt::format("'{}' is no value", content), "write: name = value");
   const auto found = symbols_.find(lower(name));
@@ -205,13 +201,11 @@ void PlcopenController::read_kept(std::string_view line, int number, const std::
   for (const auto& [other, value] : kept)
     if (other == found->second)
       return complain(name, fmt::format("'{}' is given twice", name), "remove one of the lines");
-  double value = 0;
-  const char* const end = value_text.data() + value_text.size();
-  const auto [stop, error] = std::from_chars(value_text.data(), end, value);
-  if (error != std::errc() || stop != end || !(value >= symbol->min && value <= symbol->max))
+  const std::optional<double> given = parsed<double>(value_text);
+  if (!given || !(*given >= symbol->min && *given <= symbol->max))
     return complain(value_text, fmt::format("{} cannot be '{}'", symbol->name, value_text),
                     fmt::format("write a number from {} to {}", symbol->min, symbol->max));
-  kept.emplace_back(found->second, value);
+  kept.emplace_back(found->second, *given);
 }
 
 }  // namespace drycut::devices::plcopen

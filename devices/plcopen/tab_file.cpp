@@ -20,38 +20,38 @@ const std::vector<std::string>& tab_keys() {
 void header_line(TableReader& reader, CamTable& table, std::map<std::string, int>& seen, int& count,
                  std::string_view line, int number) {
   const std::size_t sign = line.find('=');
-  const Word key = trimmed(line, 0, std::min(sign, line.size()));
+  const Word key = word_at(line, number, 0, std::min(sign, line.size()));
   const std::string name = lower(key.text);
   const auto known = std::find_if(tab_keys().begin(), tab_keys().end(),
                                   [&](const std::string& candidate) { return lower(candidate) == name; });
   if (known == tab_keys().end()) {
-    const std::string guess = nearest(std::string(key.text), tab_keys());
-    return reader.fault(number, key.column, fmt::format("unknown key '{}'", key.text),
+    const std::string guess = nearest(key.text, tab_keys());
+    return reader.fault(key.place, fmt::format("unknown key '{}'", key.text),
                         guess.empty() ? "known are Tablename, Tabletype, Table-ID, Functiontype, Lines"
                                       : fmt::format("did you mean {}?", guess));
   }
   if (sign == std::string_view::npos)
-    return reader.fault(number, key.column, fmt::format("'{}' without a value", key.text),
+    return reader.fault(key.place, fmt::format("'{}' without a value", key.text),
                         fmt::format("write {} = ...", *known));
   if (const auto [first, is_new] = seen.try_emplace(name, number); !is_new)
-    return reader.fault(number, key.column, fmt::format("a second {}", *known),
+    return reader.fault(key.place, fmt::format("a second {}", *known),
                         fmt::format("the first is in line {}", first->second));
-  const Word value = trimmed(line, sign + 1, line.size());
+  const Word value = word_at(line, number, sign + 1, line.size());
   if (name == "tablename") {
-    table.name = std::string(value.text);
+    table.name = value.text;
   } else if (name == "tabletype") {
-    table.type = reader.whole(value, number, 1, 7).value_or(0);
-    if (table.type == 6) reader.fault(number, value.column, "type 6 is of the maker only", "use 1..5 or 7");
+    table.type = reader.whole(value, 1, 7).value_or(0);
+    if (table.type == 6) reader.fault(value.place, "type 6 is of the maker only", "use 1..5 or 7");
   } else if (name == "table-id") {
-    table.id = static_cast<std::uint16_t>(reader.whole(value, number, 1, 65535).value_or(0));
+    table.id = static_cast<std::uint16_t>(reader.whole(value, 1, 65535).value_or(0));
   } else if (name == "functiontype") {
     const std::optional<Interpolation> type = parse_interpolation(value.text);
     if (!type || *type == Interpolation::table_defined)
-      reader.fault(number, value.column, fmt::format("'{}' is no interpolation (error 42006)", value.text),
+      reader.fault(value.place, fmt::format("'{}' is no interpolation (error 42006)", value.text),
                    "write 0 STEP_DIRECT .. 5 POLY5_LINE");
     table.interpolation = type.value_or(Interpolation::table_defined);
   } else if (name == "lines") {
-    count = reader.whole(value, number, 1, 1'000'000).value_or(-1);
+    count = reader.whole(value, 1, 1'000'000).value_or(-1);
   }
 }
 
@@ -69,33 +69,33 @@ std::optional<CamTable> parse_tab(std::string_view text, const std::string& file
   for (std::string_view line : split_lines(without_byte_order_mark(text))) {
     ++number;
     line = line.substr(0, std::min(line.find('#'), line.size()));
-    const std::vector<Word> words = words_of(line);
+    const Words words = split_words(line, {number, 1}, " \t\r");
     if (words.empty()) continue;
     const std::string first = lower(words.front().text);
     if (part == Part::after) {
-      reader.fault(number, words.front().column, "text after EndTable", "take it away");
+      reader.fault(words.front().place, "text after EndTable", "take it away");
       break;
     }
     if (part == Part::rows && first == "endtable") {
       part = Part::after;
     } else if (part == Part::rows) {
       ++rows;
-      reader.row(table, words, number, true);
+      reader.row(table, words, true);
     } else if (first == "begintable") {
       part = Part::rows;
       for (const char* key : {"tabletype", "table-id", "lines"})
         if (!seen.contains(key))
-          reader.fault(number, words.front().column, fmt::format("{} is missing above", key), "write it");
+          reader.fault(words.front().place, fmt::format("{} is missing above", key), "write it");
     } else {
       header_line(reader, table, seen, count, line, number);
     }
   }
   if (part == Part::header)
-    reader.fault(std::max(number, 1), 1, "Begintable is missing", "write it above the rows");
+    reader.fault({std::max(number, 1), 1}, "Begintable is missing", "write it above the rows");
   if (part == Part::rows)
-    reader.fault(std::max(number, 1), 1, "EndTable is missing", "write it below the rows");
+    reader.fault({std::max(number, 1), 1}, "EndTable is missing", "write it below the rows");
   if (part != Part::header && count >= 0 && rows != count)
-    reader.fault(seen.at("lines"), 1, fmt::format("Lines = {}, but there are {}", count, rows),
+    reader.fault({seen.at("lines"), 1}, fmt::format("Lines = {}, but there are {}", count, rows),
                  fmt::format("write {}", rows));
   if (!reader.sound()) return std::nullopt;
   if (lines != nullptr) *lines = reader.rows();

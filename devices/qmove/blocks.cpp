@@ -28,8 +28,7 @@ constexpr const BlockWords& words_of(Kind kind) {
 
 // IF e and WHILE e.
 void Compiler::open_condition(Block::Kind kind) {
-  const Place place = token().place;
-  advance();
+  const Place place = take().place;
   const int begin = here();
   condition();
   insert_barriers(begin);
@@ -37,8 +36,7 @@ void Compiler::open_condition(Block::Kind kind) {
 }
 
 void Compiler::else_block() {
-  const Place place = token().place;
-  advance();
+  const Place place = take().place;
   if (!blocks_.empty() && blocks_.back().kind == Block::Kind::else_) {
     complain(place, "a second ELSE in one IF",
              fmt::format("the IF of line {} has its ELSE in line {}", blocks_.back().place.line,
@@ -56,7 +54,7 @@ void Compiler::else_block() {
 void Compiler::close_block(Block::Kind kind) {
   const bool is_if = kind == Block::Kind::if_;
   const std::optional<Block> block = close(words_of(kind).closes, kind, is_if ? Block::Kind::else_ : kind);
-  advance();
+  take();
   if (!block) return;
   if (kind == Block::Kind::while_ || kind == Block::Kind::for_) emit(Op::jump, block->again);
   if (kind == Block::Kind::sub) emit(Op::back);
@@ -67,26 +65,25 @@ void Compiler::close_block(Block::Kind kind) {
 // before the body and is jumped over at the start.
 void Compiler::for_block() {
   static const std::string form = "write: FOR (i = 1, i LE 10, 1)";
-  const Place place = token().place;
-  advance();
+  const Place place = take().place;
   // The block is opened whatever its header is like, so that its NEXT is not a fault too.
   Block block{Block::Kind::for_, place, place, -1, here()};
   const NamedThing* variable = nullptr;
-  if (expect('(', form)) {
-    if (token().kind != Token::Kind::word)
-      syntax_error(token(), "FOR begins with an assignment, found " + found(token()), form);
+  if (expect("(", form)) {
+    if (peek().kind != Token::Kind::name)
+      syntax_error(peek(), "FOR begins with an assignment, found " + found(peek()), form);
     else
       variable = assignment();
   }
-  if (!line_failed_ && expect(',', form)) {
+  if (!line_failed_ && expect(",", form)) {
     const int test = here();
     condition();
     insert_barriers(test);
     block.exit = emit(Op::jump_if_zero);
     const int body = emit(Op::jump);
     block.again = here();
-    if (!line_failed_ && expect(',', form)) for_step(variable, form);
-    if (!line_failed_) expect(')', form);
+    if (!line_failed_ && expect(",", form)) for_step(variable, form);
+    if (!line_failed_) expect(")", form);
     emit(Op::jump, test);
     aim(body);
   }
@@ -95,16 +92,15 @@ void Compiler::for_block() {
 
 void Compiler::for_step(const NamedThing* variable, const std::string& form) {
   stack_ = 0;
-  const bool assigns = token().kind == Token::Kind::word &&
-                       std::any_of(line_.begin() + static_cast<std::ptrdiff_t>(at_), line_.end(),
-                                   [](const Token& token) { return is_sign(token, '='); });
+  const bool assigns = peek().kind == Token::Kind::name &&
+                       std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(at_), tokens_.end(),
+                                   [](const Token& token) { return token.is("="); });
   if (assigns) {
     assignment();
     return;
   }
   const bool counts = variable && variable->kind == NamedThing::Kind::scalar;
-  if (!counts)
-    return syntax_error(token(), "a step without assignment needs a plain variable to count", form);
+  if (!counts) return syntax_error(peek(), "a step without assignment needs a plain variable to count", form);
   const int begin = here();
   emit(Op::load, variable->index);
   const Type type = expression();
@@ -117,7 +113,7 @@ void Compiler::for_step(const NamedThing* variable, const std::string& form) {
 }
 
 void Compiler::sub_block() {
-  const Place place = token().place;
+  const Place place = peek().place;
   const Token* name = name_operand("SUB <name>");
   const bool nested = std::any_of(blocks_.begin(), blocks_.end(),
                                   [](const Block& block) { return block.kind == Block::Kind::sub; });
@@ -137,7 +133,7 @@ std::optional<Compiler::Block> Compiler::close(std::string_view closing, Block::
   });
   if (found == blocks_.rend()) {
     const std::string_view first = words_of(kind).opens;
-    complain(line_.front().place, fmt::format("{} without {}", closing, first),
+    complain(tokens_.front().place, fmt::format("{} without {}", closing, first),
              fmt::format("no {} is open here; remove it or write the missing {}", first, first));
     return std::nullopt;
   }

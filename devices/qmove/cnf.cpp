@@ -31,14 +31,11 @@ std::optional<std::int64_t> digits(std::string_view text) {
 
 Configuration parse_configuration(std::string_view text, const std::string& file_name,
                                   std::span<const CatalogueEntry> catalogue, Problems& problems) {
-  const std::size_t first = problems.size();
-  Configuration configuration = CnfParser(file_name, catalogue, problems).parse(text);
-  sort_from(problems, first);
-  return configuration;
+  return CnfParser(file_name, catalogue, problems).parse(text);
 }
 
-CnfParser::CnfParser(std::string file, std::span<const CatalogueEntry> catalogue, Problems& problems)
-    : file_(std::move(file)), catalogue_(catalogue), problems_(problems) {
+CnfParser::CnfParser(const std::string& file, std::span<const CatalogueEntry> catalogue, Problems& problems)
+    : Complaints(file, problems), catalogue_(catalogue) {
   configuration_.file = file_;
 }
 
@@ -62,7 +59,8 @@ std::vector<std::string> CnfParser::section_names() {
 Configuration CnfParser::parse(std::string_view text) {
   const std::vector<std::string_view> lines = split_lines(text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Words words = split_words(lines[i], static_cast<int>(i) + 1);
+    const std::string_view line = lines[i].substr(0, lines[i].find(';'));
+    const Words words = split_words(line, {static_cast<int>(i) + 1, 1}, " \t\r\f\v");
     if (words.empty()) continue;
     last_ = {words.back().place.line, words.back().place.column + static_cast<int>(words.back().text.size())};
     if (!keyword(words)) entry(words);
@@ -71,6 +69,7 @@ Configuration CnfParser::parse(std::string_view text) {
   if (section_ != Section::end)
     complain(last_, "the configuration has no END", "write END on a line of its own after the last entry");
   check_bus();
+  sort();
   return std::move(configuration_);
 }
 
@@ -95,7 +94,7 @@ void CnfParser::entry(const Words& words) {
   const bool lone_name_is_entry = section_ == Section::timers || section_ == Section::groups;
   if (section_ != Section::end && words.size() == 1 && !lone_name_is_entry && is_identifier(words[0].text) &&
       (section_ == Section::none || section_ == Section::unknown ||
-       !nearest(std::string(words[0].text.substr(0, 40)), section_names()).empty())) {
+       !nearest(words[0].text.substr(0, 40), section_names()).empty())) {
     complain(words[0].place, "unknown section " + in_quotes(words[0].text),
              suggestion(words[0].text, section_names(), "sections are " + listed(section_names())));
     section_ = Section::unknown;
@@ -158,7 +157,7 @@ void CnfParser::constant(const Words& words) {
              "write a decimal number, such as 100 or -2.5");
     return;
   }
-  Constant constant{std::string(words[0].text), 0, point != std::string_view::npos, words[0].place};
+  Constant constant{words[0].text, 0, point != std::string_view::npos, words[0].place};
   if (std::from_chars(number.data(), number.data() + number.size(), constant.value).ec != std::errc{})
     constant.value = std::numeric_limits<double>::infinity();
   if (negative) constant.value = -constant.value;
@@ -182,7 +181,7 @@ void CnfParser::scalar(const Words& words, bool retentive) {
   const bool named = declare(words[0]);
   const std::optional<Size> type = size(words[1]);
   if (named && type && reserve(1, words[0]))
-    configuration_.scalars.push_back({std::string(words[0].text), *type, retentive, words[0].place});
+    configuration_.scalars.push_back({words[0].text, *type, retentive, words[0].place});
 }
 
 void CnfParser::array(const Words& words, bool retentive) {
@@ -197,12 +196,12 @@ void CnfParser::array(const Words& words, bool retentive) {
   const std::optional<Size> type = size(words[1]);
   const std::optional<int> length = count(words[2], "the length of an array");
   if (named && type && length && reserve(*length, words[0]))
-    configuration_.arrays.push_back({std::string(words[0].text), *type, *length, retentive, words[0].place});
+    configuration_.arrays.push_back({words[0].text, *type, *length, retentive, words[0].place});
 }
 
 void CnfParser::timer(const Words& words) {
   no_more_than(words, 1, "<name>, a timer has no type");
-  if (declare(words[0])) configuration_.timers.push_back({std::string(words[0].text), words[0].place});
+  if (declare(words[0])) configuration_.timers.push_back({words[0].text, words[0].place});
 }
 
 void CnfParser::slot(const Words& words) {
@@ -257,11 +256,7 @@ void CnfParser::terminal(const Words& words, Kind kind) {
   slot_uses_.push_back({address->slot, words[2]});
   if (!named || type != Size::F) return;
   auto& terminals = kind == Kind::input ? configuration_.inputs : configuration_.outputs;
-  terminals.push_back({std::string(words[0].text), *address, words[0].place});
-}
-
-void CnfParser::complain(Place place, std::string what, std::string remedy) {
-  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+  terminals.push_back({words[0].text, *address, words[0].place});
 }
 
 bool CnfParser::no_more_than(const Words& words, std::size_t count, const std::string& form) {

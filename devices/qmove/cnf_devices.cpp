@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
@@ -44,7 +43,8 @@ TerminalKind terminal_kind(Field::Kind kind) {
 void CnfParser::device(const Words& words) {
   const bool named = declare(words[0]);
   if (words.size() < 2) {
-    complain(words[0].place, in_quotes(words[0].text) + " has no device type", "write: <name> <type> <fields>");
+    complain(words[0].place, in_quotes(words[0].text) + " has no device type",
+             "write: <name> <type> <fields>");
     return;
   }
   const std::optional<std::size_t> type_index = device_type(words[1]);
@@ -66,7 +66,7 @@ void CnfParser::device(const Words& words) {
                          in_quotes(words[0].text), type.fields.size(), fields.size()),
              "write: " + form_of(type));
   }
-  DeviceRecord record{std::string(words[0].text), *type_index, {}, words[0].place};
+  DeviceRecord record{words[0].text, *type_index, {}, words[0].place};
   bool sound = fields.size() == type.fields.size();
   for (std::size_t i = 0; i < std::min(fields.size(), type.fields.size()); ++i) {
     const std::optional<Resource> found = resource(type.fields[i], fields[i], type);
@@ -111,16 +111,14 @@ std::optional<Resource> CnfParser::number_resource(const Field& field, const Wor
                                                    const DeviceType& type) {
   const bool line = field.kind == Field::Kind::interrupt_line;
   if (line && same_word(word.text, "X")) return Resource{};
-  int value = -1;
-  const char* const end = word.text.data() + word.text.size();
-  const auto [stop, error] = std::from_chars(word.text.data(), end, value);
-  if (error != std::errc{} || stop != end || value < field.min || value > field.max) {
+  const std::optional<int> value = parsed<int>(word.text);
+  if (!value || *value < field.min || *value > field.max) {
     complain(word.place, fmt::format("{} of {} cannot be {}", field.name, type.name, in_quotes(word.text)),
              line ? fmt::format("write an interrupt line from {} to {}, or X if unused", field.min, field.max)
                   : fmt::format("write the sampling time in ms, from {} to {}", field.min, field.max));
     return std::nullopt;
   }
-  return Resource{value, std::nullopt};
+  return Resource{*value, std::nullopt};
 }
 
 // An address in a slot without a card is a slip. A text without BUS (a fragment) is not judged.

@@ -53,7 +53,7 @@ void CnfParser::group_line(const Words& words) {
 void CnfParser::group_name(const Words& words) {
   no_more_than(words, 1, "the datagroup's name alone, then DATAPROGRAM <recipes>");
   declare(words[0]);
-  configuration_.groups.push_back({std::string(words[0].text), 0, 0, {}, {}, words[0].place});
+  configuration_.groups.push_back({words[0].text, 0, 0, {}, {}, words[0].place});
   group_part_ = GroupPart::recipes;
 }
 
@@ -86,7 +86,7 @@ void CnfParser::group_variable(const Words& words) {
   // A faulty count has been named already; the variable is kept so that modules can be checked.
   const std::int64_t cells = std::int64_t{group.recipes} * (stepped ? group.steps : 1);
   if (cells > 0 && !reserve(cells, words[0])) return;
-  (stepped ? group.stepped : group.statics).push_back({std::string(words[0].text), *type, words[0].place});
+  (stepped ? group.stepped : group.statics).push_back({words[0].text, *type, words[0].place});
 }
 
 // Ends the open group: a group without its counts is not one.

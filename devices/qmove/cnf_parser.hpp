@@ -8,15 +8,16 @@
 #include <string_view>
 #include <vector>
 
+#include "base/scanner.hpp"
 #include "devices/qmove/cnf.hpp"
 
 namespace drycut::devices::qmove {
 
 /// Reads the lines of a .CNF one by one; a fault costs its line, never the rest. Used by
 /// parse_configuration.
-class CnfParser {
+class CnfParser : private Complaints {
  public:
-  CnfParser(std::string file, std::span<const CatalogueEntry> catalogue, Problems& problems);
+  CnfParser(const std::string& file, std::span<const CatalogueEntry> catalogue, Problems& problems);
   Configuration parse(std::string_view text);
 
  private:
@@ -65,16 +66,13 @@ class CnfParser {
   std::optional<Resource> number_resource(const Field& field, const Word& word, const DeviceType& type);
   void check_bus();
 
-  void complain(Place place, std::string what, std::string remedy);
   bool no_more_than(const Words& words, std::size_t count, const std::string& form);
   bool declare(const Word& name);
   std::optional<Size> size(const Word& word);
   std::optional<int> count(const Word& word, std::string_view of_what);
   bool reserve(std::int64_t cells, const Word& word);
 
-  std::string file_;
   std::span<const CatalogueEntry> catalogue_;
-  Problems& problems_;
   Configuration configuration_;
   Section section_ = Section::none;
   GroupPart group_part_ = GroupPart::name;

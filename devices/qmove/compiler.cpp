@@ -61,25 +61,24 @@ Program compile_module(std::string_view text, const std::string& file_name,
   return Compiler(file_name, configuration, catalogue, problems).compile(text);
 }
 
-Compiler::Compiler(std::string file, const Configuration& configuration,
+Compiler::Compiler(const std::string& file, const Configuration& configuration,
                    std::span<const CatalogueEntry> catalogue, Problems& problems)
-    : file_(std::move(file)),
+    : TokenReader(file, problems),
       configuration_(configuration),
       catalogue_(catalogue),
-      problems_(problems),
       names_(configuration) {}
 
 Program Compiler::compile(std::string_view text) {
-  const std::size_t first = problems_.size();
   program_.name = task_name(file_);
   program_.file = file_;
   const std::vector<std::string_view> lines = split_lines(text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    line_ = tokens_of(lines[i], static_cast<int>(i) + 1, file_, problems_);
-    if (line_.size() == 1) continue;
+    tokens_ = tokens_of(lines[i], static_cast<int>(i) + 1, file_, problems_);
+    if (tokens_.size() == 1) continue;
     at_ = 0;
+    stop_ = tokens_.size() - 1;
     line_failed_ = false;
-    last_ = line_.back().place;
+    last_ = tokens_.back().place;
     statement();
   }
   for (const Block& block : blocks_) unclosed(block);
@@ -87,67 +86,43 @@ Program Compiler::compile(std::string_view text) {
   emit(Op::end);
   resolve(labels_, "label", "write {}: where it leads");
   resolve(subs_, "subroutine", "write SUB {} .. ENDSUB");
-  sort_from(problems_, first);
-  if (problems_.size() > first) {
+  sort();
+  if (told() > 0) {
     program_.code.clear();
     program_.lines.clear();
   }
   return std::move(program_);
 }
 
-const Token& Compiler::after(std::size_t count) const {
-  return line_[std::min(at_ + count, line_.size() - 1)];
-}
-
-bool Compiler::is_sign(const Token& token, char sign) {
-  return token.kind == Token::Kind::sign && token.text[0] == sign;
-}
-
-bool Compiler::is_word(std::string_view word) const {
-  return token().kind == Token::Kind::word && same_word(token().text, word);
-}
-
-void Compiler::advance() { at_ = std::min(at_ + 1, line_.size() - 1); }
-
-bool Compiler::accept(char sign) {
-  if (!is_sign(sign)) return false;
-  advance();
-  return true;
-}
-
-bool Compiler::expect(char sign, const std::string& remedy) {
+bool Compiler::expect(std::string_view sign, const std::string& remedy) {
   if (accept(sign)) return true;
-  syntax_error(token(), fmt::format("expected '{}', found {}", sign, found(token())), remedy);
+  syntax_error(peek(), fmt::format("expected '{}', found {}", sign, found(peek())), remedy);
   return false;
 }
 
 void Compiler::end_of_statement() {
-  if (token().kind == Token::Kind::end_of_line) return;
-  if (is_sign('='))
-    syntax_error(token(), "unexpected '='", "EQ compares; an assignment stands alone on its line");
+  if (peek().kind == Token::Kind::end) return;
+  if (peek().is("="))
+    syntax_error(peek(), "unexpected '='", "EQ compares; an assignment stands alone on its line");
   else
-    syntax_error(token(), "unexpected " + found(token()), "one statement a line, comments after ';'");
-}
-
-void Compiler::complain(Place place, std::string what, std::string remedy) {
-  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+    syntax_error(peek(), "unexpected " + found(peek()), "one statement a line, comments after ';'");
 }
 
 // The rest of the line is given up: what follows a syntax fault would only be guessed at.
 void Compiler::syntax_error(const Token& at, std::string what, std::string remedy) {
   if (!line_failed_ && at.kind != Token::Kind::bad) complain(at.place, std::move(what), std::move(remedy));
   line_failed_ = true;
-  at_ = line_.size() - 1;
+  at_ = stop_;
 }
 
 std::string Compiler::found(const Token& token) {
-  return token.kind == Token::Kind::end_of_line ? "the end of the line" : in_quotes(token.text);
+  return token.kind == Token::Kind::end ? "the end of the line" : in_quotes(token.text);
 }
 
 int Compiler::emit(Op op, int a, int b) {
   stack_ += stack_effect(op);
   if (stack_ > max_depth)
-    syntax_error(token(), "the expression is nested too deep", "split it into several assignments");
+    syntax_error(peek(), "the expression is nested too deep", "split it into several assignments");
   program_.code.push_back({op, a, b});
   program_.lines.push_back(last_.line);
   return here() - 1;

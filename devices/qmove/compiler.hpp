@@ -17,26 +17,18 @@ namespace drycut::devices::qmove {
 
 /// Compiles one module line by line, by recursive descent, straight into code. A syntax fault gives up its
 /// line, an unknown name does not. Used by compile_module.
-class Compiler {
+class Compiler : public TokenReader<Token> {
  public:
-  Compiler(std::string file, const Configuration& configuration, std::span<const CatalogueEntry> catalogue,
-           Problems& problems);
+  Compiler(const std::string& file, const Configuration& configuration,
+           std::span<const CatalogueEntry> catalogue, Problems& problems);
   Program compile(std::string_view text);
 
  private:
   enum class Type : std::uint8_t { integer, real };
 
-  // Tokens of the present line (compiler.cpp).
-  [[nodiscard]] const Token& token() const { return line_[at_]; }
-  [[nodiscard]] const Token& after(std::size_t count) const;
-  [[nodiscard]] bool is_sign(char sign) const { return is_sign(token(), sign); }
-  [[nodiscard]] static bool is_sign(const Token& token, char sign);
-  [[nodiscard]] bool is_word(std::string_view word) const;
-  void advance();
-  bool accept(char sign);
-  bool expect(char sign, const std::string& remedy);
+  // The present line (compiler.cpp).
+  bool expect(std::string_view sign, const std::string& remedy);
   void end_of_statement();
-  void complain(Place place, std::string what, std::string remedy);
   void syntax_error(const Token& at, std::string what, std::string remedy);
   static std::string found(const Token& token);
 
@@ -117,15 +109,11 @@ class Compiler {
   void insert_barriers(int begin);
   int add_symbol(Symbol symbol);
 
-  std::string file_;
   const Configuration& configuration_;
   std::span<const CatalogueEntry> catalogue_;
-  Problems& problems_;
   SymbolTable names_;
   Program program_;
 
-  std::vector<Token> line_;
-  std::size_t at_ = 0;
   bool line_failed_ = false;
   int nesting_ = 0;             ///< of parentheses and signs, in the present expression
   int stack_ = 0;               ///< cells on the stack at this point of the code

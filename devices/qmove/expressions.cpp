@@ -46,7 +46,7 @@ constexpr std::array<Operator, 17> operators{{
 }};
 
 std::optional<std::size_t> operator_row(const Token& token) {
-  if (token.kind != Token::Kind::word && token.kind != Token::Kind::sign) return std::nullopt;
+  if (token.kind != Token::Kind::name && token.kind != Token::Kind::sign) return std::nullopt;
   for (std::size_t i = 0; i < operators.size(); ++i)
     if (same_word(operators[i].spelling, token.text)) return i;
   return std::nullopt;
@@ -58,10 +58,9 @@ std::optional<std::size_t> operator_row(const Token& token) {
 Compiler::Type Compiler::expression(int level) {
   Type type = unary();
   while (!line_failed_) {
-    const std::optional<std::size_t> row = operator_row(token());
+    const std::optional<std::size_t> row = operator_row(peek());
     if (!row || operators[*row].level < level) break;
-    const Token op = token();
-    advance();
+    const Token op = take();
     const Type right = expression(operators[*row].level + 1);
     binary(*row, type, right, op);
     const bool real = type == Type::real || right == Type::real;
@@ -90,25 +89,22 @@ void Compiler::binary(std::size_t row, Type left, Type right, const Token& op) {
 
 Compiler::Type Compiler::unary() {
   if (++nesting_ > max_depth)
-    syntax_error(token(), "the expression is nested too deep", "split it into several assignments");
+    syntax_error(peek(), "the expression is nested too deep", "split it into several assignments");
   Type type = Type::integer;
-  if (is_sign('-')) {
-    advance();
-    if (token().kind == Token::Kind::integer) {
+  if (accept("-")) {
+    if (peek().kind == Token::Kind::number && !peek().is_real) {
       // The most negative long has no positive counterpart that could be negated.
-      emit(Op::push, static_cast<std::int32_t>(-token().integer));
-      advance();
+      emit(Op::push, static_cast<std::int32_t>(-peek().integer));
+      take();
     } else {
       type = unary();
       emit(type == Type::real ? Op::negate_real : Op::negate);
     }
-  } else if (is_word("NOT")) {
-    advance();
+  } else if (accept_word("NOT")) {
     if (unary() == Type::real) emit(Op::to_flag_real);
     emit(Op::logic_not);
-  } else if (is_word("NOTB")) {
-    const Place place = token().place;
-    advance();
+  } else if (peek().word("NOTB")) {
+    const Place place = take().place;
     if (unary() == Type::real)
       complain(place, "NOTB works on whole numbers, not on a single", "assign the single to a long first");
     emit(Op::bit_not);
@@ -120,20 +116,17 @@ Compiler::Type Compiler::unary() {
 }
 
 Compiler::Type Compiler::primary() {
-  const Token& here = token();
+  const Token& here = peek();
   switch (here.kind) {
-    case Token::Kind::integer:
+    case Token::Kind::number:
       if (here.integer > std::numeric_limits<std::int32_t>::max())
         complain(here.place, in_quotes(here.text) + " is out of range",
                  "a long goes from -2147483648 to 2147483647");
-      emit(Op::push, static_cast<std::int32_t>(here.integer));
-      advance();
-      return Type::integer;
-    case Token::Kind::real:
-      emit(Op::push, std::bit_cast<std::int32_t>(here.real));
-      advance();
-      return Type::real;
-    case Token::Kind::word:
+      emit(Op::push,
+           here.is_real ? std::bit_cast<std::int32_t>(here.real) : static_cast<std::int32_t>(here.integer));
+      take();
+      return here.is_real ? Type::real : Type::integer;
+    case Token::Kind::name:
       if (!is_reserved(here.text)) return name_value();
       break;
     case Token::Kind::sign:
@@ -142,7 +135,7 @@ Compiler::Type Compiler::primary() {
     default:
       break;
   }
-  const bool at_end = here.kind == Token::Kind::end_of_line;
+  const bool at_end = here.kind == Token::Kind::end;
   syntax_error(here,
                at_end ? "missing operand at the end of the line" : "missing operand before " + found(here),
                "write a number, a name, Device:parameter or an expression in parentheses");
@@ -150,27 +143,23 @@ Compiler::Type Compiler::primary() {
 }
 
 Compiler::Type Compiler::parenthesis() {
-  advance();
+  take();
   const Type type = expression();
-  expect(')', "close the parenthesis");
+  expect(")", "close the parenthesis");
   return type;
 }
 
 // A name in an expression: something of the configuration, or Device:parameter.
 Compiler::Type Compiler::name_value() {
-  const Token name = token();
-  advance();
-  if (is_sign(':') || is_sign('.')) {
-    advance();
+  const Token name = take();
+  if (accept(":") || accept(".")) {
     const std::optional<int> device = find_device(name);
-    if (token().kind != Token::Kind::word) {
-      syntax_error(token(),
-                   fmt::format("expected a parameter after {}:, found {}", name.text, found(token())),
+    if (peek().kind != Token::Kind::name) {
+      syntax_error(peek(), fmt::format("expected a parameter after {}:, found {}", name.text, found(peek())),
                    "write Device:parameter");
       return Type::integer;
     }
-    const Token parameter = token();
-    advance();
+    const Token parameter = take();
     const std::optional<Symbol> symbol = device ? find_parameter(*device, parameter) : std::nullopt;
     if (device) devices_read_.insert(*device);
     emit(Op::load_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
@@ -179,7 +168,7 @@ Compiler::Type Compiler::name_value() {
   const NamedThing* thing = find_name(name);
   if (!thing) {
     // Read over the indexes of an unknown array, so that only the name is complained about.
-    if (is_sign('[')) indexes({}, name);
+    if (peek().is("[")) indexes({}, name);
     emit(Op::push);
     return Type::integer;
   }
@@ -223,27 +212,27 @@ void Compiler::indexes(const NamedThing& thing, const Token& name) {
   const std::string form = wanted == 2                                    ? "[recipe, step]"
                            : thing.kind == NamedThing::Kind::group_static ? "[recipe]"
                                                                           : "[index]";
-  if (!is_sign('[')) {
+  if (!peek().is("[")) {
     syntax_error(name, fmt::format("{} is {} and needs an index", in_quotes(name.text), name_of(thing.kind)),
                  fmt::format("write {}{}", name.text, form));
     return;
   }
   const int stack = stack_;
-  const Token open = token();
+  const Token open = peek();
   std::size_t count = 0;
   do {
-    advance();
-    const Place place = token().place;
+    take();
+    const Place place = peek().place;
     const int begin = here();
     if (expression() == Type::real) emit(Op::to_long);
     check_index(thing, count, begin, place);
     ++count;
-  } while (is_sign(',') && !line_failed_);
-  expect(']', "close the index");
+  } while (peek().is(",") && !line_failed_);
+  expect("]", "close the index");
   if (count != wanted && !thing.name.empty() && !line_failed_)
     complain(open.place,
-             fmt::format("{} takes {} index{}, found {}", in_quotes(name.text), wanted, wanted == 1 ? "" : "es",
-                         count),
+             fmt::format("{} takes {} index{}, found {}", in_quotes(name.text), wanted,
+                         wanted == 1 ? "" : "es", count),
              fmt::format("write {}{}", name.text, form));
   if (thing.kind == NamedThing::Kind::group_step) {
     program_.steps.push_back(thing);
@@ -305,15 +294,16 @@ std::optional<Symbol> Compiler::find_parameter(int device, const Token& name) {
   if (symbol) return symbol;
   const std::string& device_name = configuration_.devices[static_cast<std::size_t>(device)].name;
   // Print loses underscores: `Axis:st init`.
-  const std::string joined = fmt::format("{}_{}", name.text, token().text);
-  if (token().kind == Token::Kind::word && find_symbol(type, joined)) {
+  const std::string joined = fmt::format("{}_{}", name.text, peek().text);
+  if (peek().kind == Token::Kind::name && find_symbol(type, joined)) {
     complain(name.place, fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),
              "did you mean " + in_quotes(joined) + "?");
-    advance();
+    take();
     return std::nullopt;
   }
   if (const std::optional<int> command = find_command(type, name.text))
-    complain(name.place, fmt::format("{} is a command of {}, not a parameter", in_quotes(name.text), type.name),
+    complain(name.place,
+             fmt::format("{} is a command of {}, not a parameter", in_quotes(name.text), type.name),
              fmt::format("write {} {}", type.commands[static_cast<std::size_t>(*command)].name, device_name));
   else
     complain(name.place, fmt::format("{} has no parameter or state {}", type.name, in_quotes(name.text)),

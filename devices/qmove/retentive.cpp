@@ -1,5 +1,4 @@
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 
@@ -104,19 +103,17 @@ void QmoveController::read_kept(std::string_view line, int number, const std::st
     return complain(name, "the device of " + in_quotes(name) + " is initialised already",
                     "restore before the first run");
 
-  double value = 0;
-  const char* const end = value_text.data() + value_text.size();
-  const auto [stop, error] = std::from_chars(value_text.data(), end, value);
+  const std::optional<double> value = parsed<double>(value_text);
   const ValueRange range = range_of(location->size);
   // A single may have become infinite or not-a-number, and stays so.
-  const bool odd = location->size == Size::S && !std::isfinite(value);
-  const bool fits =
-      odd || (value >= range.low && value <= range.high && (!range.whole || std::trunc(value) == value));
-  if (error != std::errc{} || stop != end || !fits)
+  const bool odd = value && location->size == Size::S && !std::isfinite(*value);
+  const bool fits = odd || (value && *value >= range.low && *value <= range.high &&
+                            (!range.whole || std::trunc(*value) == *value));
+  if (!fits)
     return complain(value_text, fmt::format("{} cannot be {}", in_quotes(name), in_quotes(value_text)),
                     fmt::format("write a{} number from {:.10g} to {:.10g}", range.whole ? " whole" : "",
                                 range.low, range.high));
-  kept.push_back({*std::move(location), value});
+  kept.push_back({*std::move(location), *value});
 }
 
 bool QmoveController::is_retentive(const Location& location) const {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -13,10 +12,10 @@ void Compiler::statement() {
   nesting_ = 0;
   stack_ = 0;
   devices_read_.clear();
-  if (token().kind != Token::Kind::word)
-    syntax_error(token(), found(token()) + " does not begin a statement",
+  if (peek().kind != Token::Kind::name)
+    syntax_error(peek(), found(peek()) + " does not begin a statement",
                  "write a statement, or ';' before a comment");
-  else if (is_sign(after(1), ':') && after(2).kind == Token::Kind::end_of_line)
+  else if (peek(1).is(":") && peek(2).kind == Token::Kind::end)
     label();
   else
     word_statement();
@@ -46,11 +45,11 @@ void Compiler::word_statement() {
       {"RESOUT", [](Compiler& c) { c.set_output(false); }},
   }};
   for (const Row& row : table)
-    if (is_word(row.word)) return row.run(*this);
-  const Token& next = after(1);
-  if (next.kind == Token::Kind::word) return device_command();
+    if (peek().word(row.word)) return row.run(*this);
+  const Token& next = peek(1);
+  if (next.kind == Token::Kind::name) return device_command();
   const bool assigns = next.kind == Token::Kind::sign && std::string_view("=[:.").find(next.text[0]) < 4;
-  if (assigns && !is_reserved(token().text))
+  if (assigns && !is_reserved(peek().text))
     assignment();
   else
     unknown_statement();
@@ -59,23 +58,21 @@ void Compiler::word_statement() {
 // name = e, name[i] = e, name[i, j] = e, Device:parameter = e. Returns the name assigned to, if it is one.
 const NamedThing* Compiler::assignment() {
   const int begin = here();
-  const Token name = token();
-  advance();
+  const Token name = take();
   const std::string remedy = "write: name = value";
-  if (is_sign(':') || is_sign('.')) {
-    advance();
+  if (accept(":") || accept(".")) {
     const std::optional<int> device = find_device(name);
-    const Token parameter = token();
-    if (parameter.kind != Token::Kind::word) {
+    const Token parameter = peek();
+    if (parameter.kind != Token::Kind::name) {
       syntax_error(parameter,
                    fmt::format("expected a parameter after {}:, found {}", name.text, found(parameter)),
                    "write Device:parameter = value");
       return nullptr;
     }
-    advance();
+    take();
     const std::optional<Symbol> symbol = device ? find_parameter(*device, parameter) : std::nullopt;
     if (symbol) check_writable(*device, *symbol, parameter);
-    if (!expect('=', "write: Device:parameter = value")) return nullptr;
+    if (!expect("=", "write: Device:parameter = value")) return nullptr;
     if (expression() == Type::real) emit(Op::to_long);
     emit(Op::store_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
     insert_barriers(begin);
@@ -86,12 +83,12 @@ const NamedThing* Compiler::assignment() {
       thing && (thing->kind == NamedThing::Kind::array || thing->kind == NamedThing::Kind::group_static ||
                 thing->kind == NamedThing::Kind::group_step);
   if (thing) check_assignable(*thing, name);
-  if (indexed || (is_sign('[') && !thing)) indexes(indexed ? *thing : NamedThing{}, name);
-  if (thing && !indexed && is_sign('['))
-    syntax_error(token(),
+  if (indexed || (peek().is("[") && !thing)) indexes(indexed ? *thing : NamedThing{}, name);
+  if (thing && !indexed && peek().is("["))
+    syntax_error(peek(),
                  fmt::format("{} is {} and takes no index", in_quotes(name.text), name_of(thing->kind)),
                  remedy);
-  if (line_failed_ || !expect('=', remedy)) return thing;
+  if (line_failed_ || !expect("=", remedy)) return thing;
   const int value = here();
   const Type type = expression();
   if (thing) note_wrapping(*thing, type, value, name);
@@ -160,9 +157,8 @@ void Compiler::check_writable(int device, Symbol symbol, const Token& parameter)
 }
 
 void Compiler::label() {
-  const Token name = token();
-  advance();
-  advance();
+  const Token name = take();
+  take();
   if (is_reserved(name.text) || is_device(name.text)) {
     complain(name.place, fmt::format("{} cannot be a label", in_quotes(name.text)),
              is_reserved(name.text) ? "it is a word of the language"
@@ -173,7 +169,7 @@ void Compiler::label() {
 }
 
 void Compiler::wait() {
-  advance();
+  take();
   emit(Op::yield);
   const int begin = here();
   condition();
@@ -183,18 +179,16 @@ void Compiler::wait() {
 
 // The name after JUMP, CALL or SUB.
 const Token* Compiler::name_operand(const std::string& form) {
-  advance();
-  if (token().kind != Token::Kind::word || is_reserved(token().text)) {
-    syntax_error(token(), "expected a name, found " + found(token()), "write: " + form);
+  take();
+  if (peek().kind != Token::Kind::name || is_reserved(peek().text)) {
+    syntax_error(peek(), "expected a name, found " + found(peek()), "write: " + form);
     return nullptr;
   }
-  const Token* name = &token();
-  advance();
-  return name;
+  return &take();
 }
 
 void Compiler::end() {
-  advance();
+  take();
   ended_ = true;
   emit(Op::end);
 }
@@ -215,15 +209,12 @@ void Compiler::set_output(bool on) {
 
 // COMMAND Device: two words and nothing else.
 void Compiler::device_command() {
-  const Token word = token();
-  const Token name = after(1);
+  const Token word = peek();
+  const Token name = peek(1);
   const std::vector<std::string> commands = all_commands();
-  const bool is_command = std::any_of(commands.begin(), commands.end(), [&](const std::string& command) {
-    return same_word(command, word.text);
-  });
-  if (!is_device(name.text) && !is_command) return unknown_statement();
-  advance();
-  advance();
+  if (!is_device(name.text) && !is_one_of(commands, word.text)) return unknown_statement();
+  take();
+  take();
   const std::optional<int> device = find_device(name);
   if (!device) return;
   const DeviceType& type = type_of(*device);
@@ -244,21 +235,20 @@ void Compiler::unknown_statement() {
   words.insert(words.end(), commands.begin(), commands.end());
   for (const NamedThing& thing : names_.things()) words.push_back(thing.name);
   const std::string usual = "write an assignment, a command such as INIT Device, or IF, WAIT, JUMP, ...";
-  const NamedThing* thing = names_.find(token().text);
-  if (is_reserved(token().text))
-    syntax_error(token(), in_quotes(token().text) + " does not begin a statement", usual);
+  const NamedThing* thing = names_.find(peek().text);
+  if (is_reserved(peek().text))
+    syntax_error(peek(), in_quotes(peek().text) + " does not begin a statement", usual);
   else if (thing)
     syntax_error(
-        after(1), fmt::format("expected '=' after {}, found {}", in_quotes(token().text), found(after(1))),
-        thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter = value", token().text)
+        peek(1), fmt::format("expected '=' after {}, found {}", in_quotes(peek().text), found(peek(1))),
+        thing->kind == NamedThing::Kind::device ? fmt::format("write {}:parameter = value", peek().text)
                                                 : "write: name = value");
-  else if (std::any_of(commands.begin(), commands.end(),
-                       [&](const std::string& command) { return same_word(command, token().text); }))
-    syntax_error(token(), fmt::format("{} needs a device", in_quotes(token().text)),
-                 fmt::format("write {} Device", token().text));
+  else if (is_one_of(commands, peek().text))
+    syntax_error(peek(), fmt::format("{} needs a device", in_quotes(peek().text)),
+                 fmt::format("write {} Device", peek().text));
   else
-    syntax_error(token(), "unknown statement " + in_quotes(token().text),
-                 suggestion(token().text, words, usual));
+    syntax_error(peek(), "unknown statement " + in_quotes(peek().text),
+                 suggestion(peek().text, words, usual));
 }
 
 }  // namespace drycut::devices::qmove

@@ -50,5 +50,25 @@ TEST(Text, TheNearestNameIsSuggestedElseWhatThereIs) {
   EXPECT_EQ(suggestion(std::string(65, 'x'), {std::string(66, 'x')}, "see the table"), "see the table");
 }
 
+TEST(Text, WordsHaveTheirPlaces) {
+  const Words words = split_words(",a  bc,,\xC3\xA9 d", {3, 10}, " ,");
+  ASSERT_EQ(words.size(), 4U);
+  EXPECT_EQ(words[1].text, "bc");
+  for (const auto& [word, column] : {std::pair{0, 11}, {1, 14}, {2, 18}, {3, 21}}) {
+    EXPECT_EQ(words[static_cast<std::size_t>(word)].place.line, 3);
+    EXPECT_EQ(words[static_cast<std::size_t>(word)].place.column, column);
+  }
+  EXPECT_TRUE(split_words(" , ", {1, 1}, " ,").empty());
+  EXPECT_TRUE(split_words("", {1, 1}, " ,").empty());
+}
+
+TEST(Text, ANumberIsAllOfItsText) {
+  EXPECT_EQ(parsed<int>("-12"), -12);
+  EXPECT_EQ(parsed<unsigned>("1F", 16), 31U);
+  EXPECT_EQ(parsed<double>("1.5e3"), 1500);
+  for (const char* none : {"", "-", "12 ", " 12", "+12", "1.5", "2147483648"})
+    EXPECT_EQ(parsed<int>(none), std::nullopt) << none;
+}
+
 }  // namespace
 }  // namespace drycut

@@ -74,7 +74,7 @@ Expression Expressions::typed(const Tree& tree, const Type* wanted) {
 }
 
 Expression Expressions::literal(const Token& token) {
-  if (token.kind == Token::Kind::literal)
+  if (token.kind == Token::Kind::number)
     return constant(type_of(token.basic), token.value, token.place, is_number(token.basic));
   Expression text{type_of(Basic::string), token.place, literal_string(token.string, token.place)};
   text.string = token.string;
@@ -176,7 +176,7 @@ Expression Expressions::typed_literal(const Tree& tree) {
             "INT#5, WORD#16#FF, LREAL#1.5, T#1s");
   if (type->basic == Basic::boolean && (value.word("TRUE") || value.word("FALSE")))
     return constant(type, value.word("TRUE") ? 1 : 0, name.place);
-  if (value.kind != Token::Kind::literal || !is_number(value.basic))
+  if (value.kind != Token::Kind::number || !is_number(value.basic))
     give_up(value.place, fmt::format("{}# has no number", upper(name.text)), "INT#5, WORD#16#FF, LREAL#1.5");
   Expression number = literal(value);
   if (tree.negative && is_real(number.type->basic))

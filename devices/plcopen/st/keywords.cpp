@@ -1,18 +1,11 @@
 #include "devices/plcopen/st/keywords.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "base/text.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
-
-template <std::size_t count>
-bool is_one(const std::array<std::string_view, count>& words, std::string_view word) {
-  return std::any_of(words.begin(), words.end(),
-                     [word](std::string_view known) { return same_word(known, word); });
-}
 
 constexpr std::array<std::string_view, 9> closers{
     "END_IF", "END_CASE", "END_FOR", "END_WHILE", "END_REPEAT", "END_PROGRAM", "ELSE", "ELSIF", "UNTIL"};
@@ -36,10 +29,10 @@ constexpr std::array<std::string_view, 42> others{"IF",         "THEN",         
 }  // namespace
 
 bool is_keyword(std::string_view word) {
-  return is_one(others, word) || is_one(closers, word) || is_one(openers, word);
+  return is_one_of(others, word) || is_one_of(closers, word) || is_one_of(openers, word);
 }
-bool closes_block(std::string_view word) { return is_one(closers, word); }
-bool opens_unit(std::string_view word) { return is_one(openers, word); }
+bool closes_block(std::string_view word) { return is_one_of(closers, word); }
+bool opens_unit(std::string_view word) { return is_one_of(openers, word); }
 
 std::string_view standard_blocks() {
   return R"(

@@ -83,7 +83,7 @@ void Compiler::finish() {
     node.op = Op::address;
     node.imm += memory_;
   }
-  if (problems_.size() != first_problem_) {
+  if (told() > 0) {
     // Not to be run; who does finds a memory and nothing to do.
     code.instances.clear();
     code.image.assign(static_cast<std::size_t>(std::min(memory_, most_cells)), 0);

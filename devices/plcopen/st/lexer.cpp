@@ -1,5 +1,6 @@
 #include "devices/plcopen/st/lexer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
@@ -9,13 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "base/text.hpp"
 #include "devices/plcopen/st/pragmas.hpp"
 
 namespace drycut::devices::plcopen::st {
 namespace {
-
-bool belongs_to_name(char c) { return is_letter(c) || is_digit(c); }
 
 std::string without_underscores(std::string_view text) {
   std::string result(text);
@@ -23,70 +21,29 @@ std::string without_underscores(std::string_view text) {
   return result;
 }
 
-class Lexer {
+class StLexer : public Lexer<Token> {
  public:
-  Lexer(std::string_view text, const std::string& file, Problems& problems)
-      : text_(text), file_(file), problems_(problems), pragmas_(file, problems) {}
+  StLexer(std::string_view text, const std::string& file, Problems& problems)
+      : Lexer(without_byte_order_mark(text), file, problems), pragmas_(file, problems) {}
 
   std::vector<Token> run() {
-    at_ = text_.size() - without_byte_order_mark(text_).size();
-    line_start_ = at_;
-    while (skip_blank(), at_ < text_.size()) next();
+    while (skip_blank(), !at_end()) next();
     pragmas_.finish();
-    add(Token::Kind::end, 0);
+    add(Kind::end, 0);
     return std::move(tokens_);
   }
 
  private:
-  [[nodiscard]] char peek(std::size_t ahead = 0) const {
-    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
-  }
-  [[nodiscard]] bool starts(std::string_view sign) const { return text_.substr(at_).starts_with(sign); }
-  [[nodiscard]] Place place() const { return {line_, static_cast<int>(at_ - line_start_) + 1}; }
-
-  void advance(std::size_t count) {
-    for (; count > 0 && at_ < text_.size(); --count) {
-      if (text_[at_++] != '\n') continue;
-      ++line_;
-      line_start_ = at_;
-    }
-  }
-
-  template <typename Predicate>
-  [[nodiscard]] std::size_t length(Predicate belongs, std::size_t from = 0) const {
-    std::size_t end = at_ + from;
-    while (end < text_.size() && belongs(text_[end])) ++end;
-    return end - at_;
-  }
-
-  Token& add(Token::Kind kind, std::size_t size) {
-    Token token;
-    token.kind = kind;
-    token.text = text_.substr(at_, size);
-    token.place = place();
-    tokens_.push_back(std::move(token));
-    advance(size);
-    return tokens_.back();
-  }
-
   Token& literal(Basic basic, std::size_t size) {
-    Token& token = add(Token::Kind::literal, size);
+    Token& token = add(Kind::number, size);
     token.basic = basic;
     return token;
   }
 
-  void complain(Place at, const std::string& what, const std::string& remedy) {
-    problems_.push_back({file_, at.line, at.column, what, remedy});
-  }
-  void complain(Token& token, const std::string& what, const std::string& remedy) {
-    token.kind = Token::Kind::bad;
-    complain(token.place, what, remedy);
-  }
-
   void skip_blank() {
-    while (at_ < text_.size()) {
+    while (!at_end()) {
       const char c = peek();
-      if (c == ' ' || (c >= '\t' && c <= '\r'))
+      if (at_blank())
         advance(1);
       else if (starts("//"))
         advance(length([](char x) { return x != '\n'; }));
@@ -114,7 +71,7 @@ class Lexer {
   void skip_nested(std::string_view open, std::string_view close) {
     const Place begin = place();
     int depth = 0;
-    while (at_ < text_.size()) {
+    while (!at_end()) {
       if (starts(open)) {
         ++depth;
         advance(open.size());
@@ -137,44 +94,29 @@ class Lexer {
     else if (c == '\'')
       string();
     else if (c == '%')
-      add(Token::Kind::address, length([](char x) { return belongs_to_name(x) || x == '.' || x == '%'; }));
+      add(Kind::address, length([](char x) { return in_name(x) || x == '.' || x == '%'; }));
     else
       sign();
   }
 
   void sign() {
     constexpr std::array<std::string_view, 7> pairs{":=", "=>", "**", "<=", ">=", "<>", ".."};
-    for (const std::string_view pair : pairs)
-      if (starts(pair)) {
-        add(Token::Kind::sign, 2);
-        return;
-      }
-    if (std::string_view("()[],;:.+-*/<>=&#").find(peek()) != std::string_view::npos)
-      add(Token::Kind::sign, 1);
+    if (std::any_of(pairs.begin(), pairs.end(), [&](std::string_view pair) { return starts(pair); }))
+      add(Kind::sign, 2);
+    else if (std::string_view("()[],;:.+-*/<>=&#").find(peek()) != std::string_view::npos)
+      add(Kind::sign, 1);
     else
-      stranger();
-  }
-
-  void stranger() {
-    // Bytes of one non-ASCII character are one stranger.
-    const bool ascii = static_cast<unsigned char>(peek()) < 128;
-    const bool quote = peek() == '"';
-    const std::size_t size = ascii ? 1 : length([](char x) { return static_cast<unsigned char>(x) >= 128; });
-    Token& token = add(Token::Kind::bad, size);
-    complain(token, "unexpected character " + in_quotes(token.text),
-             quote ? "a string stands between single quotes" : "comments are (* ... *) or // ...");
+      stranger(peek() == '"' ? "a string stands between single quotes" : "comments are (* ... *) or // ...");
   }
 
   void word() {
-    const std::size_t size = length(belongs_to_name);
+    const std::size_t size = length(in_name);
     const std::string_view name = text_.substr(at_, size);
     const Basic basic = peek(size) == '#' ? clock_type(name) : Basic::unknown;
-    if (basic == Basic::time)
-      time_literal(size + 1);
-    else if (basic != Basic::unknown)
-      date_literal(basic, size + 1);
+    if (basic == Basic::unknown)
+      add(Kind::name, size);
     else
-      add(Token::Kind::name, size);
+      clock(basic, size + 1);
   }
 
   /// TIME, TOD, DATE or DT before a '#', by their short names too.
@@ -187,39 +129,18 @@ class Lexer {
 
   void number() {
     const auto digit = [](char x) { return is_digit(x) || x == '_'; };
-    std::size_t size = length(digit);
-    if (peek(size) == '#') {
-      based(size);
-      return;
-    }
-    bool real = false;
-    if (peek(size) == '.' && is_digit(peek(size + 1))) {
-      real = true;
-      size = length(digit, size + 1);
-    }
-    if (peek(size) == 'e' || peek(size) == 'E') {
-      const std::size_t sign = peek(size + 1) == '+' || peek(size + 1) == '-' ? 1 : 0;
-      if (is_digit(peek(size + 1 + sign))) {
-        real = true;
-        size = length(is_digit, size + 1 + sign);
-      }
-    }
-    const std::size_t whole = length(belongs_to_name, size);
-    Token& token = literal(Basic::lreal, whole);
-    if (whole != size) {
-      complain(token, in_quotes(token.text) + " is neither a number nor a name",
-               milliseconds(without_underscores(token.text))
-                   ? fmt::format("a TIME is written T#{}", token.text)
-                   : "names begin with a letter; 16#FF is hexadecimal");
-      return;
-    }
+    if (const std::size_t base = length(digit); peek(base) == '#') return based(base);
+    const Number found = number_ahead(digit, true);
+    Token& token = literal(Basic::lreal, found.whole);
     const std::string digits = without_underscores(token.text);
-    if (real) {
+    if (found.whole != found.size) {
+      complain(token, in_quotes(token.text) + " is neither a number nor a name",
+               milliseconds(digits) ? fmt::format("a TIME is written T#{}", token.text)
+                                    : "names begin with a letter; 16#FF is hexadecimal");
+    } else if (found.real) {
       double value = 0;
-      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+      read(token, digits, value, "an LREAL goes to 1.8e308");
       token.value = cell_of(value);
-      if (error != std::errc{})
-        complain(token, in_quotes(token.text) + " is out of range", "an LREAL goes to 1.8e308");
     } else {
       read_integer(token, digits, 10);
     }
@@ -227,12 +148,11 @@ class Lexer {
 
   void based(std::size_t base_size) {
     const std::string base = without_underscores(text_.substr(at_, base_size));
-    Token& token = literal(Basic::lint, length(belongs_to_name, base_size + 1));
-    if (base != "2" && base != "8" && base != "16") {
+    Token& token = literal(Basic::lint, length(in_name, base_size + 1));
+    if (base != "2" && base != "8" && base != "16")
       complain(token, in_quotes(token.text) + " has no base that is known", "2#1010, 8#17 or 16#FF");
-      return;
-    }
-    read_integer(token, without_underscores(token.text.substr(base_size + 1)), std::stoi(base));
+    else
+      read_integer(token, without_underscores(token.text.substr(base_size + 1)), std::stoi(base));
   }
 
   void read_integer(Token& token, const std::string& digits, int base) {
@@ -250,11 +170,25 @@ class Lexer {
     token.basic = token.value < 0 ? Basic::ulint : Basic::lint;
   }
 
-  void time_literal(std::size_t prefix) {
-    const std::size_t size =
-        length([](char x) { return belongs_to_name(x) || x == '.' || x == '-'; }, prefix);
-    Token& token = literal(Basic::time, size);
-    const std::optional<double> ms = milliseconds(without_underscores(token.text.substr(prefix)));
+  // T#1s500ms, D#1996-08-15, TOD#15:36:55.36, DT#1996-08-15-15:36:55.
+  void clock(Basic basic, std::size_t prefix) {
+    const bool time = basic == Basic::time;
+    const auto belongs = [&](char x) { return in_name(x) || x == '.' || x == '-' || (x == ':' && !time); };
+    Token& token = literal(basic, length(belongs, prefix));
+    const std::string text = without_underscores(token.text.substr(prefix));
+    if (time)
+      read_time(token, text);
+    else if (const std::optional<std::int64_t> number = clock_number(basic, text))
+      token.value = *number;
+    else
+      complain(token, in_quotes(token.text) + " is no " + type_of(basic)->name,
+               basic == Basic::tod    ? "TOD#00:00:00 to TOD#23:59:59.999"
+               : basic == Basic::date ? "D#1970-01-01 to D#2106-02-06"
+                                      : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15");
+  }
+
+  void read_time(Token& token, std::string_view text) {
+    const std::optional<double> ms = milliseconds(text);
     if (!ms)
       complain(token, in_quotes(token.text) + " is no time",
                "parts with d, h, m, s or ms, the largest first: T#1s500ms");
@@ -264,21 +198,6 @@ class Lexer {
       complain(token, in_quotes(token.text) + " is finer than a TIME", "a TIME counts whole milliseconds");
     else
       token.value = std::llround(*ms);
-  }
-
-  // D#1996-08-15, TOD#15:36:55.36, DT#1996-08-15-15:36:55.
-  void date_literal(Basic basic, std::size_t prefix) {
-    const std::size_t size =
-        length([](char x) { return belongs_to_name(x) || x == '.' || x == '-' || x == ':'; }, prefix);
-    Token& token = literal(basic, size);
-    const std::string text = without_underscores(token.text.substr(prefix));
-    if (const std::optional<std::int64_t> number = clock_number(basic, text))
-      token.value = *number;
-    else
-      complain(token, in_quotes(token.text) + " is no " + type_of(basic)->name,
-               basic == Basic::tod    ? "TOD#00:00:00 to TOD#23:59:59.999"
-               : basic == Basic::date ? "D#1970-01-01 to D#2106-02-06"
-                                      : "DT#1970-01-01-00:00:00 to DT#2106-02-06-06:28:15");
   }
 
   static std::optional<std::int64_t> clock_number(Basic basic, std::string_view text) {
@@ -300,12 +219,9 @@ class Lexer {
       const auto hours = leading(text, ':');
       const auto minutes = leading(text, text.find(':') == std::string_view::npos ? '\0' : ':');
       if (!hours || !minutes || *hours > 23 || *minutes > 59) return std::nullopt;
-      double rest = 0;
-      const auto [end, error] =
-          std::from_chars(text.data(), text.data() + text.size(), rest, std::chars_format::fixed);
-      const bool whole = text.empty() || (error == std::errc{} && end == text.data() + text.size());
-      if (!whole || rest < 0 || rest >= 60) return std::nullopt;
-      clock = static_cast<double>(*hours * 3600 + *minutes * 60) + rest;
+      const auto rest = text.empty() ? std::optional(0.0) : parsed<double>(text, std::chars_format::fixed);
+      if (!rest || *rest < 0 || *rest >= 60) return std::nullopt;
+      clock = static_cast<double>(*hours * 3600 + *minutes * 60) + *rest;
     }
     if (basic == Basic::tod) return std::llround(clock * 1000) % (day * 1000);
     seconds += static_cast<std::int64_t>(clock);
@@ -318,19 +234,12 @@ class Lexer {
     const std::size_t size = until == '\0' ? text.size() : text.find(until);
     constexpr std::size_t longest = 5;
     if (size > longest) return std::nullopt;
-    std::uint32_t number = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + size, number);
-    if (error != std::errc{} || stop != text.data() + size) return std::nullopt;
+    const auto number = parsed<std::uint32_t>(text.substr(0, size));
     text.remove_prefix(std::min(size + 1, text.size()));
     return number;
   }
 
   static std::optional<double> milliseconds(std::string_view text) {
-    struct Unit {
-      std::string_view name;
-      double ms;
-    };
-    constexpr std::array<Unit, 5> units{{{"d", 86400e3}, {"h", 3600e3}, {"m", 60e3}, {"s", 1e3}, {"ms", 1}}};
     if (text.empty()) return std::nullopt;
     double sum = 0;
     std::size_t largest = 0;
@@ -344,9 +253,9 @@ class Lexer {
       std::size_t letters = 0;
       while (letters < text.size() && is_letter(text[letters])) ++letters;
       std::size_t unit = largest;
-      while (unit < units.size() && !same_word(units[unit].name, text.substr(0, letters))) ++unit;
-      if (unit == units.size()) return std::nullopt;
-      sum += value * units[unit].ms;
+      while (unit < time_units.size() && !same_word(time_units[unit].name, text.substr(0, letters))) ++unit;
+      if (unit == time_units.size()) return std::nullopt;
+      sum += value * static_cast<double>(time_units[unit].ms);
       largest = unit + 1;
       text.remove_prefix(letters);
     }
@@ -366,17 +275,12 @@ class Lexer {
     const Place begin = place();
     const auto [whole, closed] = string_length();
     const std::size_t size = whole - 1;
-    Token& token = add(Token::Kind::string, whole);
+    Token& token = add(Kind::string, whole);
     if (!closed) {
       complain(token, "a string is not closed on its line", "end it with '");
       return;
     }
     unescape(token, token.text.substr(1, size - 1), begin);
-  }
-
-  /// Two hexadecimal digits.
-  static bool is_hex(const char* digits, unsigned char& code) {
-    return std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
   }
 
   void unescape(Token& token, std::string_view text, Place begin) {
@@ -388,36 +292,30 @@ class Lexer {
         continue;
       }
       const char c = i + 1 < text.size() ? text[i + 1] : '\0';
+      const auto code = parsed<unsigned char>(text.substr(i + 1, 2), 16);
       const std::size_t known = c == '\0' ? std::string_view::npos : names.find(c);
       if (known != std::string_view::npos) {
         token.string += values[known];
         ++i;
-      } else if (unsigned char code = 0; i + 2 < text.size() && is_hex(text.data() + i + 1, code)) {
-        token.string += static_cast<char>(code);
+      } else if (code && i + 2 < text.size()) {
+        token.string += static_cast<char>(*code);
         i += 2;
       } else {
         const Place at{begin.line, begin.column + 1 + static_cast<int>(i)};
-        token.kind = Token::Kind::bad;
+        token.kind = Kind::bad;
         complain(at, "'$' begins no character that is known", "$$, $', $L, $N, $P, $R, $T or $41");
         return;
       }
     }
   }
 
-  std::string_view text_;
-  const std::string& file_;
-  Problems& problems_;
   Pragmas pragmas_;
-  std::vector<Token> tokens_;
-  std::size_t at_ = 0;
-  std::size_t line_start_ = 0;
-  int line_ = 1;
 };
 
 }  // namespace
 
 std::vector<Token> tokens_of(std::string_view text, const std::string& file, Problems& problems) {
-  return Lexer(text, file, problems).run();
+  return StLexer(text, file, problems).run();
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -88,7 +88,7 @@ Tree Parser::primary_tree() {
   if (at_ >= stop_) give_up(behind(), "an expression is missing at the end", "a value stands here");
   const Token& token = peek();
   switch (token.kind) {
-    case Token::Kind::literal:
+    case Token::Kind::number:
     case Token::Kind::string:
       take();
       return leaf(Tree::Kind::literal, token);

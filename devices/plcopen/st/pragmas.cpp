@@ -12,7 +12,7 @@ std::vector<std::string> words_of(std::string_view text) {
   while (at < text.size()) {
     std::size_t end = at + 1;
     if (is_letter(text[at])) {
-      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
+      while (end < text.size() && in_name(text[end])) ++end;
       words.emplace_back(text.substr(at, end - at));
     } else if (text[at] == '\'') {
       end = std::min(text.find('\'', end), text.size());
@@ -83,10 +83,6 @@ struct Pragmas::Condition {
     return sound ? lower(words[at++]) : "";
   }
 };
-
-void Pragmas::complain(Place place, std::string what, std::string remedy) {
-  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
-}
 
 bool Pragmas::condition(const std::vector<std::string>& words, std::string_view text, Place place) {
   Condition reader{words, defined_};

@@ -4,17 +4,16 @@
 #include <string_view>
 #include <vector>
 
-#include "base/problem.hpp"
-#include "base/text.hpp"
+#include "base/scanner.hpp"
 
 namespace drycut::devices::plcopen::st {
 
 /// The pragmas of CODESYS that decide what is compiled: {define N}, {define N 'text'}, {undefine N}, {IF
 /// ...}, {ELSIF ...}, {ELSE}, {END_IF}, {error 'text'}. Conditions are defined(N), hasvalue(N, 'text'), NOT,
 /// AND, OR and parentheses; what asks for more is refused. Other pragmas are passed over.
-class Pragmas {
+class Pragmas : private Complaints {
  public:
-  Pragmas(const std::string& file, Problems& problems) : file_(file), problems_(problems) {}
+  using Complaints::Complaints;
 
   /// `text` is what stands between { and }, `place` where the { is.
   void read(std::string_view text, Place place);
@@ -36,10 +35,7 @@ class Pragmas {
   void next_part(std::string_view word, bool holds, Place place);
   void define(const std::vector<std::string>& words, Place place);
   bool condition(const std::vector<std::string>& words, std::string_view text, Place place);
-  void complain(Place place, std::string what, std::string remedy);
 
-  const std::string& file_;
-  Problems& problems_;
   std::map<std::string, std::string> defined_;  ///< by name in lower case
   std::vector<Branch> branches_;
 };

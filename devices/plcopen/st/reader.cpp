@@ -7,37 +7,11 @@
 namespace drycut::devices::plcopen::st {
 namespace {
 
-const Token no_more{};
-
 std::string found(const Token& token) {
   return token.kind == Token::Kind::end ? "the end of the file" : in_quotes(token.text);
 }
 
 }  // namespace
-
-const Token& Reader::peek(std::size_t ahead) const {
-  if (at_ + ahead < stop_) return tokens_[at_ + ahead];
-  // The END_ keyword of the unit, or the end of the file.
-  return stop_ < tokens_.size() ? tokens_[stop_] : no_more;
-}
-
-const Token& Reader::take() {
-  const Token& token = peek();
-  if (at_ < stop_) ++at_;
-  return token;
-}
-
-bool Reader::accept(std::string_view sign) {
-  if (at_ >= stop_ || !peek().is(sign)) return false;
-  ++at_;
-  return true;
-}
-
-bool Reader::accept_word(std::string_view keyword) {
-  if (at_ >= stop_ || !peek().word(keyword)) return false;
-  ++at_;
-  return true;
-}
 
 Place Reader::behind() const {
   if (at_ == 0) return peek().place;
@@ -48,11 +22,7 @@ Place Reader::behind() const {
 std::string Reader::suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
                               const std::string& otherwise) const {
   constexpr std::size_t enough = 50;
-  return problems_.size() - first_problem_ < enough ? suggestion(word, known(), otherwise) : otherwise;
-}
-
-void Reader::complain(Place place, std::string what, std::string remedy) {
-  problems_.push_back({file_, place.line, place.column, std::move(what), std::move(remedy)});
+  return told() < enough ? suggestion(word, known(), otherwise) : otherwise;
 }
 
 void Reader::give_up(Place place, std::string what, std::string remedy) {

@@ -23,20 +23,14 @@ class Nested {
   int& count_;
 };
 
-/// The tokens of a file, one after the other, and the problems of what they say.
-class Reader {
+/// The tokens of a file, which are read unit by unit.
+class Reader : public TokenReader<Token> {
  public:
-  Reader(const std::string& file, Problems& problems)
-      : file_(file), problems_(problems), first_problem_(problems.size()) {}
+  using TokenReader::TokenReader;
 
-  void complain(Place place, std::string what, std::string remedy);
   [[noreturn]] void give_up(Place place, std::string what, std::string remedy);
 
  protected:
-  [[nodiscard]] const Token& peek(std::size_t ahead = 0) const;
-  const Token& take();
-  bool accept(std::string_view sign);
-  bool accept_word(std::string_view keyword);
   void expect(std::string_view sign, std::string_view where);
   void expect_word(std::string_view keyword, std::string_view where);
   Token expect_name(const std::string& what);
@@ -53,13 +47,6 @@ class Reader {
   /// The remedy for a word that is not known; a file full of them is not searched for each.
   std::string suggested(std::string_view word, const std::function<std::vector<std::string>()>& known,
                         const std::string& otherwise) const;
-
-  const std::string& file_;
-  Problems& problems_;
-  std::size_t first_problem_;
-  std::vector<Token> tokens_;
-  std::size_t at_ = 0;
-  std::size_t stop_ = 0;  ///< end of the part that is being read
 };
 
 /// The names of what has a `name`, for messages.

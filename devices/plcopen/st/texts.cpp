@@ -17,14 +17,8 @@ std::size_t within(Cell number, std::size_t most) {
 }
 
 std::string time_text(Cell ms) {
-  struct Unit {
-    const char* name;
-    Cell ms;
-  };
-  constexpr std::array<Unit, 5> units{
-      {{"d", 86'400'000}, {"h", 3'600'000}, {"m", 60'000}, {"s", 1000}, {"ms", 1}}};
   std::string text = "T#";
-  for (const Unit& unit : units) {
+  for (const TimeUnit& unit : time_units) {
     if (ms >= unit.ms) text += fmt::format("{}{}", ms / unit.ms, unit.name);
     ms %= unit.ms;
   }
@@ -45,7 +39,7 @@ std::string clock_text(Cell seconds) {
 Cell time_value(Basic basic, std::string_view text) {
   Problems problems;
   const std::vector<Token> tokens = tokens_of(text, "", problems);
-  return tokens[0].kind == Token::Kind::literal && tokens[0].basic == basic ? tokens[0].value : 0;
+  return tokens[0].kind == Token::Kind::number && tokens[0].basic == basic ? tokens[0].value : 0;
 }
 
 }  // namespace

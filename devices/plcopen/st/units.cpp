@@ -41,7 +41,7 @@ std::shared_ptr<const Compiled> Compiler::run() {
   unit_ = nullptr;
   check_calls();
   finish();
-  sort_from(problems_, first_problem_);
+  sort();
   return code_;
 }
 
@@ -169,7 +169,7 @@ void Compiler::add_unit(Unit unit) {
 void Compiler::check_programs() {
   const auto is_program = [](const auto& unit) { return unit->kind == Unit::Kind::program; };
   // A PROGRAM that is there but could not be read has been told.
-  if (std::none_of(units_.begin(), units_.end(), is_program) && problems_.size() == first_problem_)
+  if (std::none_of(units_.begin(), units_.end(), is_program) && told() == 0)
     complain({1, 1}, "the file has no PROGRAM", "PROGRAM name ... END_PROGRAM is what the controller runs");
 }
 
