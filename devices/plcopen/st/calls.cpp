@@ -122,13 +122,16 @@ Expression Expressions::enabled(const Enable& enable, Expression value, const Ty
   return {value.type, value.place, add_node(Op::enabled, basic, value.place, list), value.depth + 1};
 }
 
+bool Expressions::names_function(const Tree& callee) {
+  if (callee.kind != Tree::Kind::name) return false;
+  // A FUNCTION's own name is its result, and with arguments a call of itself.
+  return find_unit(callee.token->text) == unit_ || !variable(*callee.token);
+}
+
 Expression Expressions::call(const Tree& tree, const Type* wanted) {
   const Tree& callee = tree.parts[0];
   const Token& name = *callee.token;
-  // A FUNCTION's own name is its result, and with arguments a call of itself.
-  const Unit* const unit = callee.kind == Tree::Kind::name ? find_unit(name.text) : nullptr;
-  const bool itself = unit != nullptr && unit == unit_;
-  if (callee.kind != Tree::Kind::name || (!itself && variable(name))) {
+  if (!names_function(callee)) {
     const Expression named = typed(callee);
     if (named.unknown()) return named;
     const bool block = named.type->basic == Basic::block;
@@ -138,6 +141,7 @@ Expression Expressions::call(const Tree& tree, const Type* wanted) {
                   : "a variable hides a function of its name: choose another one");
   }
   std::vector<Argument> given = arguments(tree);
+  const Unit* const unit = find_unit(name.text);
   const bool function = unit != nullptr && unit->kind == Unit::Kind::function;
   const Enable enable = take_enable(given, function ? unit->type : nullptr);
   return enabled(enable, function_call(name, given, wanted), wanted);

@@ -26,7 +26,10 @@ class Declarations : public Expressions {
   void declare(Unit& unit) override;
   /// A type of one cell, to be filled; `composed`: of its members, none so far.
   Type& new_type(Basic basic, std::string name, bool composed = false);
-  Expression constant_expression(const Type& wanted);
+  /// The constant that is next, as a value of the type; `takes` tells which constants may be there.
+  Cell constant_value(const Type& wanted, const char* what = "a value that is not constant",
+                      const char* remedy = "use literals, constants and functions of them",
+                      bool (*takes)(Basic) = is_elementary);
 
   std::vector<int> located_in_;  ///< the POU of each variable at a terminal, -1: VAR_GLOBAL
 

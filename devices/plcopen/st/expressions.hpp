@@ -39,6 +39,8 @@ class Expressions : public Values {
     std::vector<int> before;
     std::vector<int> after;
   };
+  /// Whether what is called is a function, not an instance.
+  bool names_function(const Tree& callee);
   BlockCall block_arguments(const Expression& instance, const std::vector<Argument>& given);
   int block_call(const Expression& instance, const Tree& tree);
   const Variable* pin_of(const Type& type, const Token& name, bool output);

@@ -30,7 +30,7 @@ void Declarations::initial_into(const Type& type, std::span<Cell> cells) {
     case Basic::string:
       break;
     default:
-      cells[0] = constant_expression(type).value;
+      cells[0] = constant_value(type);
       return;
   }
   const Token text = take();
@@ -96,16 +96,16 @@ void Declarations::initial_members(const Type& type, std::span<Cell> cells) {
   expect(")", "ends the values");
 }
 
-Expression Declarations::constant_expression(const Type& wanted) {
-  const Token first = peek();
+Cell Declarations::constant_value(const Type& wanted, const char* what, const char* remedy,
+                                  bool (*takes)(Basic)) {
+  const Place place = peek().place;
   Expression value = expression(&wanted);
   if (value.unknown()) throw GiveUp{};
-  if (!value.constant)
-    give_up(first.place, "a value that is not constant", "use literals, constants and functions of them");
-  const std::size_t before = problems_.size();
+  if (!value.constant || !takes(value.type->basic)) give_up(place, what, remedy);
+  const std::size_t before = told();
   value = converted(value, wanted);
-  if (problems_.size() != before) throw GiveUp{};
-  return value;
+  if (told() != before) throw GiveUp{};
+  return value.value;
 }
 
 std::int64_t Declarations::constant_integer(std::string_view what, const Type* wanted) {

@@ -27,10 +27,8 @@ void Statements::compile_body(Unit& unit) {
 }
 
 int Statements::statements(std::initializer_list<std::string_view> closing) {
-  return statements_until([&] {
-    return std::any_of(closing.begin(), closing.end(),
-                       [&](std::string_view word) { return peek().word(word); });
-  });
+  return statements_until(
+      [&] { return peek().kind == Token::Kind::name && is_one_of(closing, peek().text); });
 }
 
 int Statements::statements_until(const std::function<bool()>& closes) {
@@ -99,9 +97,7 @@ int Statements::assignment_or_call() {
 int Statements::call_statement(const Tree& call) {
   const Tree& callee = call.parts[0];
   const Token& name = *callee.token;
-  const bool plain = callee.kind == Tree::Kind::name;
-  // A FUNCTION's own name is its result, and with arguments a call of itself.
-  if (plain && (find_unit(name.text) == unit_ || !variable(name))) {
+  if (names_function(callee)) {
     const Expression value = typed(call);
     expect(";", "ends a call");
     // For what it does: what it gives, nobody wants.
@@ -177,16 +173,8 @@ int Statements::if_statement() {
 }
 
 std::int64_t Statements::case_label(const Type& selector) {
-  const Place place = peek().place;
-  const Expression value = expression(&selector);
-  if (value.unknown()) throw GiveUp{};
-  if (!value.constant || !is_whole(value.type->basic))
-    give_up(place, "a label of a CASE that is not constant",
-            "whole numbers, constants and values of an enumeration");
-  const std::size_t before = problems_.size();
-  const Expression same = converted(value, selector);
-  if (problems_.size() != before) throw GiveUp{};
-  return same.value;
+  return constant_value(selector, "a label of a CASE that is not constant",
+                        "whole numbers, constants and values of an enumeration", is_whole);
 }
 
 std::vector<Range> Statements::case_labels(const Type& selector, Labels& labels) {

@@ -104,7 +104,7 @@ void Declarations::declare_enumeration(Type& type) {
     const Token name = expect_name("the name of a value");
     if (!names.insert(lower(name.text)).second)
       complain(name.place, in_quotes(name.text) + " is in the enumeration twice", "name each value once");
-    if (accept(":=")) next = constant_expression(*type_of(Basic::int_)).value;
+    if (accept(":=")) next = constant_value(*type_of(Basic::int_));
     if (next > range_of(Basic::int_).high)
       give_up(name.place, in_quotes(name.text) + " is above 32767", "an enumeration is kept as an INT");
     enum_values_.emplace(lower(name.text), std::pair{&type, next});
