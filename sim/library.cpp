@@ -7,7 +7,6 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
-#include "devices/value_range.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/units.hpp"
 
@@ -104,13 +103,12 @@ double Simulation::read(const std::string& name) { return run_->reading(name).re
 
 std::string Simulation::unit(const std::string& name) {
   if (const auto* reading = run_->find_reading(name)) return reading->unit;
-  return std::string(run_->target(name).unit);
+  return run_->target(name).unit;
 }
 
 void Simulation::write(const std::string& name, double value) {
   const auto& target = run_->target(name);
-  const auto fault = target.range ? devices::misfit(name, *target.range, value, target.unit) : std::nullopt;
-  if (fault) throw BadInput(fault->what + "; " + fault->remedy);
+  if (const auto fault = target.misfit(value)) throw BadInput(fault->what + "; " + fault->remedy);
   target.write(target.unit.empty() ? value : sim::scenario::to_si(value, target.unit));
 }
 

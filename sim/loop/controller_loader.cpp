@@ -15,8 +15,7 @@ void set_values(const scenario::ControllerSection& section, const scenario::Scen
   for (const auto& [name, number] : section.set) {
     const auto value = controller.find(name.text);
     if (value && value->write) {
-      const auto fault =
-          value->range ? devices::misfit(value->name, *value->range, number, value->unit) : std::nullopt;
+      const auto fault = value->misfit(number);
       if (fault) problems.push_back(scenario::problem_at(scenario, name.place, fault->what, fault->remedy));
       if (!fault) value->write(number);
       continue;

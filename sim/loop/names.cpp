@@ -93,19 +93,18 @@ std::optional<Reading> Names::reading(const std::string& name) {
 std::optional<Target> Names::target(const std::string& name) {
   if (const auto found = settings_.find(name); found != settings_.end()) {
     const auto& setting = found->second;
-    return Target{name, setting.unit, setting.write, setting.read, range_of(setting.range)};
+    return Target{name, std::string(setting.unit), setting.read, setting.write, range_of(setting.range)};
   }
-  if (assumed_ && of_controller(name)) return Target{name, "", [](double) {}, [] { return 0.0; }};
+  if (assumed_ && of_controller(name)) return Target{name, "", [] { return 0.0; }, [](double) {}};
   if (name.starts_with(panel_prefix)) {
     const auto plug = name.substr(panel_prefix.size());
     if (!panel_.switches.contains(plug)) return {};
-    return Target{name, "", [this, plug](double on) { panel_.set(plug, on != 0); },
-                  [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; },
-                  range_of(plants::Range{})};
+    return Target{name, "", [this, plug] { return panel_.switches.at(plug).level ? 1.0 : 0.0; },
+                  [this, plug](double on) { panel_.set(plug, on != 0); }, range_of(plants::Range{})};
   }
   if (controller_ != nullptr) {
     if (auto value = controller_->find(name); value && value->write)
-      return Target{name, "", value->write, value->read, value->range};
+      return Target{name, "", value->read, value->write, value->range};
   }
   return {};
 }

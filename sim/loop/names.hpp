@@ -21,14 +21,8 @@ struct Reading {
 };
 
 /// A number that the timeline can set or ramp; `write` takes it in `unit` as the timeline gives it (SI for
-/// plants).
-struct Target {
-  std::string name;
-  std::string_view unit;  ///< "" = pure number
-  std::function<void(double)> write;
-  std::function<double()> read;
-  std::optional<devices::ValueRange> range = {};  ///< in `unit`; absent: any number
-};
+/// plants), "" = pure number.
+using Target = devices::ControllerValue;
 
 /// What a plant's setting or fault takes, in its unit.
 devices::ValueRange range_of(const plants::Range& range);

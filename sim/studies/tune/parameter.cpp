@@ -196,12 +196,10 @@ void check_against_controller(TunedParameter& parameter, const scenario::Scenari
   const auto preset = preset_name(parameter.path);
   if (!preset) return;
   const auto [controller, value] = value_at_start(scenario, preset->value);
-  if (!value || !value->write) return;
-  if (!value->range) return;
+  if (!value || !value->write || !value->range) return;
   parameter.integer = parameter.integer || value->range->whole;
   for (const bool upper : {false, true}) {
-    const auto fault =
-        devices::misfit(value->name, *value->range, upper ? parameter.high : parameter.low, value->unit);
+    const auto fault = value->misfit(upper ? parameter.high : parameter.low);
     const int column = upper ? parameter.high_column : parameter.low_column;
     if (fault) problems.push_back({parameter.option, 1, column, fault->what, fault->remedy});
   }
