@@ -10,7 +10,7 @@
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
 PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libassimp-dev libeigen3-dev libyaml-cpp-dev \
-            libmuparser-dev libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev \
+            libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs ffmpeg
 TEST_PACKAGES  := libgtest-dev libgmock-dev python3-jsonschema python3-yaml
 BENCH_PACKAGES := libmujoco-dev

@@ -38,5 +38,5 @@ set(CPACK_DEBIAN_DRYCUT_PACKAGE_RECOMMENDS "libjs-dygraphs, ffmpeg")
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_NAME libdrycut-dev)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_DEPENDS
-    "pkg-config, libbullet-dev, libosmesa6-dev, libpng-dev, libcairo2-dev, libassimp-dev, libyaml-cpp-dev, libmuparser-dev, libudunits2-dev, libnlopt-cxx-dev, libcli11-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")
+    "pkg-config, libbullet-dev, libosmesa6-dev, libpng-dev, libcairo2-dev, libassimp-dev, libyaml-cpp-dev, libudunits2-dev, libnlopt-cxx-dev, libcli11-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")
 include(CPack)

@@ -242,7 +242,7 @@ void add_tune(CLI::App& app, int& status) {
   auto* tune = app.add_subcommand(
       "tune",
       "Find the values of device or drive parameters with the least metric, on one or several scenarios.\n"
-      "Terms of a metric: max, min, mean, rms, sd, count (CH or EVENT.VALUE), settling(CH, band).\n"
+      "Terms of a metric: max, min, mean, rms, sd, count, p99 (CH or EVENT.VALUE), settling(CH, band).\n"
       "Exit status: 0 the tuned values keep all limits, 1 none were found that do, 2 bad input");
   tune->add_option("scenarios", options.scenarios, "Scenario files (.yaml); the worst one counts")
       ->required();

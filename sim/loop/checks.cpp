@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "sim/report/statistics.hpp"
@@ -19,6 +20,7 @@ std::string window_text(const scenario::Check& check) {
   if (check.from > 0) text += fmt::format(", from {} s", seconds_text(check.from));
   if (check.until) text += fmt::format(", until {} s", seconds_text(*check.until));
   if (check.within) text += fmt::format(", within {} s", seconds_text(*check.within));
+  if (check.every) text += fmt::format(", every {} s", seconds_text(*check.every));
   return text;
 }
 
@@ -36,6 +38,16 @@ std::string expectation_text(const scenario::Check& check) {
       return fmt::format("never {}{}", check.event.text, window_text(check));
   }
   return "";
+}
+
+Time last_instant(const scenario::Check& check) {
+  if (check.within) return check.from + *check.within;
+  return check.until.value_or(std::numeric_limits<Time>::max());
+}
+
+// Over one window, the whole of it.
+bool is_judged_once(const scenario::Check& check) {
+  return check.kind == scenario::Check::Kind::always && !check.every;
 }
 
 bool in_window(const scenario::Check& check, double at) {
@@ -63,6 +75,7 @@ const KnownEvent* Checks::bind_event(State& state, const scenario::Scenario& sce
   for (const auto& [name, unit] : found->values) {
     if (check.kind == scenario::Check::Kind::all) {
       state.series.push_back({name, unit, {}});
+      state.values.push_back({name, unit, 0.0});
       for (const auto* statistic : report::statistic_names) {
         state.slots.push_back({fmt::format("{}_{}", statistic, name), unit, 0.0});
       }
@@ -88,26 +101,86 @@ void Checks::bind(State& state, const scenario::Scenario& scenario, Watch& watch
       if (operand.name == name) return;
     state.operands.push_back({name, number, unit, 0});
   };
-  const auto resolve = [&](const std::string& name) -> const double* {
+  const auto resolve = [&](const std::string& name) -> scenario::Expression::Operand {
     for (const auto& slot : state.slots) {
       if (slot.name != name) continue;
       units.insert(slot.unit);
       note(name, &slot.number, slot.unit);
-      return &slot.number;
+      return {&slot.number, slot.unit};
     }
-    const auto* slot = watch.slot(name);
-    if (slot != nullptr) {
-      units.insert(watch.unit(name));
-      note(name, slot, watch.unit(name));
+    auto operand = watch.operand(name);
+    if (operand.number != nullptr) {
+      units.insert(*operand.unit);
+      note(name, operand.number, *operand.unit);
     }
-    return slot;
+    return operand;
+  };
+  const auto inside = [&](const std::string& name) -> scenario::Expression::Operand {
+    for (const auto& slot : check.kind == scenario::Check::Kind::all ? state.values : state.slots) {
+      if (slot.name != name) continue;
+      if (check.kind == scenario::Check::Kind::all) return {&slot.number, slot.unit};
+      return scenario::Expression::Operand::refused(
+          fmt::format("{} is a value of the event, and a cycle has one", name),
+          fmt::format("write all: {} for statistics over the events", check.event.text));
+    }
+    return watch.operand(name);
   };
   const auto of_all = known.size();
   for (const auto& slot : state.slots) known.push_back(slot.name);
-  state.expression = scenario::Expression::compile(check.expression, scenario, resolve, known, problems);
+  state.expression =
+      scenario::Expression::compile(check.expression, scenario, resolve, known, problems, inside);
   known.resize(of_all);
+  if (state.expression && !state.expression->statistics().empty()) {
+    state.windowed = true;
+    for (const auto& statistic : state.expression->statistics()) {
+      units.insert(statistic.unit);
+      note(statistic.text, &statistic.value, statistic.unit);
+    }
+    state.begin = check.from;
+    start_window(state, seconds(check.from));
+  }
   units.erase("");
   if (units.size() == 1) state.unit = *units.begin();
+}
+
+void Checks::start_window(State& state, double at) {
+  state.expression->start(at);
+  state.began = at;
+  state.taken = 0;
+}
+
+void Checks::judge_window(State& state, double at) {
+  state.expression->finish();
+  note_operands(state);
+  const auto values = operands_text(state);
+  state.last_window = fmt::format("{:.4f} s to {:.4f} s: {}", state.began, at, values);
+  evaluate(state, at, state.last_window);
+}
+
+void Checks::close_windows(State& state, Time now) {
+  const auto& check = state.check;
+  const Time last = last_instant(check);
+  while (!state.done && !state.held_at) {
+    const Time end = check.every ? state.begin + *check.every : last;
+    state.done = check.every && end > last;
+    if (state.done || (check.every ? end > now : end >= now)) return;
+    if (state.taken > 0) judge_window(state, seconds(end));
+    state.begin = end;
+    state.done = !check.every;
+    start_window(state, seconds(end));
+  }
+}
+
+void Checks::sample_window(State& state, Time now) {
+  const auto& check = state.check;
+  if (check.kind == scenario::Check::Kind::all || (check.kind == scenario::Check::Kind::each && !state.open))
+    return;
+  if (check.kind != scenario::Check::Kind::each) {
+    close_windows(state, now);
+    if (state.done || now < check.from || now > last_instant(check)) return;
+  }
+  state.expression->take(seconds(now));
+  ++state.taken;
 }
 
 bool Checks::concerns(const State& state, const RecordedEvent& event) {
@@ -159,7 +232,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (decisive) {
     state.worst_at = at;
     state.worst_values = values;
-    if (state.check.kind == scenario::Check::Kind::always && !evaluation.margin) {
+    if (state.check.kind == scenario::Check::Kind::always && !evaluation.margin && !state.windowed) {
       note_operands(state);
       state.worst_values = operands_text(state);
     }
@@ -171,6 +244,10 @@ void Checks::sample(Time now) {
   const double at = seconds(now);
   for (auto& state : states_) {
     const auto kind = state.check.kind;
+    if (state.windowed) {
+      sample_window(state, now);
+      continue;
+    }
     if (kind == scenario::Check::Kind::always && in_window(state.check, at)) evaluate(state, at, "");
     if (kind == scenario::Check::Kind::eventually && now >= state.check.from && !state.held_at &&
         (!state.check.within || now <= state.check.from + *state.check.within)) {
@@ -187,13 +264,23 @@ void Checks::happened(const RecordedEvent& event) {
         for (auto& slot : state.slots) {
           if (const auto* value = event.find(slot.name)) slot.number = value->number;
         }
-        evaluate(state, event.at_seconds(), values_text(event, shown_digits));
+        if (!state.windowed) {
+          evaluate(state, event.at_seconds(), values_text(event, shown_digits));
+          break;
+        }
+        if (state.open) judge_window(state, event.at_seconds());
+        state.open = true;
+        start_window(state, event.at_seconds());
         break;
       case scenario::Check::Kind::all:
         ++state.count;
         for (auto& series : state.series) {
           if (const auto* value = event.find(series.value)) series.numbers.push_back(value->number);
         }
+        for (auto& slot : state.values) {
+          if (const auto* value = event.find(slot.name)) slot.number = value->number;
+        }
+        if (state.windowed) state.expression->take(event.at_seconds());
         break;
       case scenario::Check::Kind::never:
         if (state.count++ == 0) {
@@ -226,9 +313,22 @@ void Checks::finish_statistics(State& state) {
                             series.unit.empty() ? "" : " ", series.unit);
     }
   }
+  state.expression->finish();
+  for (const auto& statistic : state.expression->statistics())
+    values += fmt::format("{}{}={:.6g}{}{}", values.empty() ? "" : "; ", statistic.text,
+                          without_noise(statistic.value), statistic.unit.empty() ? "" : " ", statistic.unit);
   const int events = state.count;
   evaluate(state, 0, values);
   state.count = events;
+}
+
+std::string Checks::looked_at(const State& state) {
+  const auto& check = state.check;
+  if (check.kind == scenario::Check::Kind::always || check.kind == scenario::Check::Kind::eventually)
+    return state.windowed ? "periods" : "instants";
+  return state.windowed && check.kind == scenario::Check::Kind::each
+             ? fmt::format("cycles from {0} to {0}", check.event.text)
+             : check.event.text + " events";
 }
 
 std::vector<CheckResult> Checks::results(Time end) {
@@ -242,8 +342,8 @@ CheckResult Checks::result(State& state, Time end) {
   CheckResult result{check.name.text, expectation_text(check), false, {}, state.unit, {}, ""};
   const bool by_event = check.kind == scenario::Check::Kind::each || check.kind == scenario::Check::Kind::all;
   if (by_event && state.count < check.at_least) {
-    result.detail = fmt::format("only {} {} events in the time looked at, at least {} expected", state.count,
-                                check.event.text, check.at_least);
+    result.detail = fmt::format("only {} {} in the time looked at, at least {} expected", state.count,
+                                looked_at(state), check.at_least);
     return result;
   }
   const auto never_looked_at = [&] {
@@ -264,6 +364,12 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   if (check.kind == scenario::Check::Kind::all) finish_statistics(state);
+  if (state.windowed && !by_event) {
+    close_windows(state, end);
+    if (is_judged_once(check) && state.taken > 0) judge_window(state, seconds(end));
+    state.done = true;
+    state.taken = 0;
+  }
   if (state.count == 0) {
     result.detail = never_looked_at();
     return result;
@@ -272,9 +378,10 @@ CheckResult Checks::result(State& state, Time end) {
   if (check.kind == scenario::Check::Kind::eventually) {
     result.passed = state.held_at.has_value();
     result.at = state.held_at ? *state.held_at : state.worst ? state.worst_at : state.last_at;
-    result.detail = state.held_at ? fmt::format("first true at {:.4f} s", *state.held_at)
-                                  : fmt::format("not true at any of {} instants, the last at {:.4f} s: {}",
-                                                state.count, state.last_at, operands_text(state));
+    result.detail = state.held_at
+                        ? fmt::format("first true at {:.4f} s", *state.held_at)
+                        : fmt::format("not true at any of {} {}, the last at {:.4f} s: {}", state.count,
+                                      looked_at(state), state.last_at, operands_text(state));
     // Once it held, what is left is time.
     result.margin.reset();
     if (state.held_at && check.within) {
@@ -284,16 +391,18 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   result.passed = state.failed == 0;
+  if (state.windowed && is_judged_once(check)) {
+    result.detail = state.last_window;
+    return result;
+  }
   if (check.kind != scenario::Check::Kind::all && (state.worst || state.failed > 0))
     result.at = state.worst_at;
-  const auto looked_at =
-      check.kind == scenario::Check::Kind::always ? std::string("instants") : check.event.text + " events";
   if (!state.worst && state.failed > 0 && check.kind != scenario::Check::Kind::all) {
-    result.detail = fmt::format("{} {}{}", state.count, looked_at, failed_text(state));
+    result.detail = fmt::format("{} {}{}", state.count, looked_at(state), failed_text(state));
     return result;
   }
   result.detail = fmt::format(
-      "{} {}{}{}", state.count, looked_at,
+      "{} {}{}{}", state.count, looked_at(state),
       state.failed > 0 && check.kind != scenario::Check::Kind::all ? fmt::format(", {} failed", state.failed)
                                                                    : "",
       state.worst_values.empty()

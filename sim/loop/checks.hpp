@@ -26,7 +26,9 @@ struct CheckResult {
 };
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
-/// others at every event; an expression has a channel's number in the unit of its trace.csv column.
+/// others at every event; an expression has a channel's number in the unit of its trace.csv column. So do
+/// statistics: of `all` at every event, else at every record instant, over a window of time or, of `each`,
+/// from behind one event to the next.
 class Checks : public Observer {
  public:
   Checks(const scenario::Scenario& scenario, Watch& watch, const Names& names,
@@ -63,6 +65,7 @@ class Checks : public Observer {
     std::optional<scenario::Expression> expression;
     std::vector<Operand> operands;  ///< what the expression names
     std::deque<Slot> slots;         ///< event values or statistics, by name in the expression
+    std::deque<Slot> values;        ///< all: event values, inside statistics
     std::vector<Series> series;     ///< all: the numbers behind the statistics
     std::string unit;               ///< common to all names in the expression
     int count = 0;                  ///< events or instants looked at
@@ -73,6 +76,14 @@ class Checks : public Observer {
     double last_failed_at = 0;
     double last_at = 0;             ///< instant looked at last
     std::optional<double> held_at;  ///< eventually: first time
+
+    bool windowed = false;    ///< its expression has statistics
+    Time begin = 0;           ///< always, eventually: of the present window
+    double began = 0;         ///< [s] the same, of each too
+    bool open = false;        ///< each: a cycle has begun
+    bool done = false;        ///< there are no more windows
+    int taken = 0;            ///< instants in the present window
+    std::string last_window;  ///< what the last one came to
   };
 
   /// `known`: the names that may be suggested; left as it was.
@@ -80,12 +91,19 @@ class Checks : public Observer {
             const std::vector<KnownEvent>& events, Problems& problems);
   static const KnownEvent* bind_event(State& state, const scenario::Scenario& scenario,
                                       const std::vector<KnownEvent>& events, Problems& problems);
+  static void start_window(State& state, double at);
+  /// Judges the window that ends at a time [s].
+  static void judge_window(State& state, double at);
+  /// Judges the windows that have ended before `now`.
+  static void close_windows(State& state, Time now);
+  static void sample_window(State& state, Time now);
   static bool concerns(const State& state, const RecordedEvent& event);
   static void evaluate(State& state, double at, const std::string& values);
   static void note_operands(State& state);
   static std::string operands_text(const State& state);
   static std::string failed_text(const State& state);
   static void finish_statistics(State& state);
+  static std::string looked_at(const State& state);
   static CheckResult result(State& state, Time end);
 
   std::deque<State> states_;

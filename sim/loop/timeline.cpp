@@ -106,7 +106,7 @@ Timeline::Timeline(const scenario::Scenario& scenario, Names& names, devices::Co
       look_every_((millisecond + scenario.scene.step - 1) / scenario.scene.step * scenario.scene.step) {
   Binder binder(names, scenario, problems);
   auto known = names.reading_names();
-  const auto slot = [this](const std::string& name) { return watch_.slot(name); };
+  const auto slot = [this](const std::string& name) { return watch_.operand(name); };
   for (const auto& stimulus : scenario.timeline) {
     if (problems.size() > most_suggestions) known.clear();
     Entry entry;

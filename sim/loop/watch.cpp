@@ -14,6 +14,12 @@ const double* Watch::slot(const std::string& name) {
   return &slots_.back();
 }
 
+scenario::Expression::Operand Watch::operand(const std::string& name) {
+  const auto* found = slot(name);
+  if (found == nullptr) return nullptr;
+  return {found, unit(name)};
+}
+
 std::string Watch::not_finite() const {
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     if (!std::isfinite(slots_[i])) return readings_[i].name;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/loop/names.hpp"
+#include "sim/scenario/expression.hpp"
 
 namespace drycut::sim::loop {
 
@@ -16,6 +17,8 @@ class Watch {
 
   /// The slot of a reading, added at first use; nullptr if nothing has this name.
   const double* slot(const std::string& name);
+  /// The same for an expression, with its unit.
+  scenario::Expression::Operand operand(const std::string& name);
   /// Unit of a reading that has a slot.
   [[nodiscard]] const std::string& unit(const std::string& name) const {
     return readings_[index_.at(name)].unit;

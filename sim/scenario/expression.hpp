@@ -1,5 +1,8 @@
 #pragma once
+#include <cstddef>
+#include <deque>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,40 +31,85 @@ struct Evaluation {
   int term = 0;  ///< the term with the least margin, or the first that does not hold
 };
 
-/// A formula over named numbers: arithmetic, comparisons, &&, ||, !, ?: and the functions of muParser (abs,
-/// min, max, sqrt, sign, rint, sin ...). A name is letters, digits, underscores and dots, with an index if it
-/// has one: `AxisX.posit`, `2.AN01`, `table[3]`, `recipe[2,5]`. Numbers are in the unit of the name that they
-/// are compared with.
+/// A statistic in an expression, over what was taken into it: rms(knife.motor.torque).
+struct ExpressionStatistic {
+  struct Name {
+    std::string text;
+    std::size_t offset = 0;  ///< where it stands first, in the expression
+  };
+  std::string text;         ///< as it stands there
+  std::string unit;         ///< of its value, "" if it has none or none that could be said
+  std::vector<Name> names;  ///< what it looks at, each once
+  double value = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A formula over named numbers: arithmetic, comparisons, &&, ||, !, ?: and functions (abs, min, max, sqrt,
+/// sign, rint, sin ...). A name is letters, digits, underscores and dots, with an index if it has one:
+/// `AxisX.posit`, `2.AN01`, `table[3]`, `recipe[2,5]`.
+///
+/// A number with a unit (`9.5 N m`) is put into the unit of what it meets in a sum or a comparison; one
+/// without is in that unit already. Names are never converted.
+///
+/// Statistics look at a window of instants: max(x), min(x), mean(x), rms(x), sd(x), count(x), p99(x),
+/// settling(x, band). take() gives them an instant, finish() what evaluate() sees of them.
 ///
 /// The terms of a conjunction (a && b) are kept apart: if all of them compare by < <= > >=, the expression
 /// has a margin, the least distance of a term to its limit.
 ///
-/// One object must not be evaluated by two threads at once.
+/// One object must not be used by two threads at once.
 class Expression {
  public:
-  /// Where the number called so lives, or nullptr if nothing is called so. It must outlive the expression.
-  using Resolver = std::function<const double*(const std::string& name)>;
+  enum class Kind {
+    condition,  ///< holds or not
+    limit,      ///< terms that compare by < <= > >=: has a margin
+    number      ///< any number
+  };
+  /// What a name means.
+  struct Operand {
+    const double* number = nullptr;      ///< nullptr: nothing is called so. It must outlive the expression
+    std::optional<std::string> unit;     ///< of the number; absent: not known yet
+    std::optional<ExpressionFault> why;  ///< why the name cannot stand here; its offset is not used
+    Operand(const double* lives, std::optional<std::string> in = {}) : number(lives), unit(std::move(in)) {}
+    static Operand refused(std::string what, std::string remedy) {
+      Operand operand(nullptr);
+      operand.why = ExpressionFault{0, std::move(what), std::move(remedy)};
+      return operand;
+    }
+  };
+  using Resolver = std::function<Operand(const std::string& name)>;
 
   /// Compiles `text`; every fault that can be told is added to `faults` (names are suggested from `known`),
-  /// and then nothing is returned.
+  /// and then nothing is returned. `inside` resolves names inside statistics; without it there are none.
   static std::optional<Expression> compile(std::string_view text, const Resolver& resolve,
                                            const std::vector<std::string>& known,
-                                           std::vector<ExpressionFault>& faults);
-  /// The same for a text of a scenario file: faults become problems at their place there,
+                                           std::vector<ExpressionFault>& faults, Kind kind = Kind::condition,
+                                           const Resolver& inside = {});
+  /// The same for a condition of a scenario file: faults become problems at their place there,
   /// once, whoever finds them first. A text that the file does not have compiles to nothing.
   static std::optional<Expression> compile(const Text& text, const Scenario& scenario,
                                            const Resolver& resolve, const std::vector<std::string>& known,
-                                           Problems& problems);
+                                           Problems& problems, const Resolver& inside = {});
 
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;
   ~Expression();
 
   [[nodiscard]] Evaluation evaluate() const;
+  /// Of Kind::number; NaN if it is none.
+  [[nodiscard]] double value() const;
   /// The terms as they stand in the text; one if it is no conjunction.
   [[nodiscard]] const std::vector<std::string>& terms() const;
   /// True if all terms compare by < <= > >=.
   [[nodiscard]] bool has_margin() const;
+
+  [[nodiscard]] const std::deque<ExpressionStatistic>& statistics() const;
+  /// A window begins at a time [s].
+  void start(double at);
+  /// Takes the names' present numbers into all statistics, or into one of them.
+  void take(double at);
+  void take(std::size_t statistic, double at);
+  /// Gives the statistics their values over what was taken.
+  void finish();
 
  private:
   struct Compiled;

@@ -7,14 +7,21 @@
 #include <cctype>
 #include <charconv>
 
+#include "base/text.hpp"
+#include "sim/scenario/units.hpp"
+
 namespace drycut::sim::scenario {
 
 namespace {
 
-constexpr std::size_t longest = 2000;  // muParser refuses formulas from 10 000 characters on
+constexpr std::size_t longest = 2000;  // parentheses nest by calls
 
 bool is_name_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+}
+// The degree sign and the Greek mu are several bytes from 0x80 on.
+bool is_unit_character(char c) {
+  return (is_name_character(c) && c != '_') || c == '%' || static_cast<unsigned char>(c) >= 0x80;
 }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -45,7 +52,7 @@ class Scanner {
     tokens_.push_back({kind, std::move(text), start, at_});
   }
 
-  // A number, a name or a function. A name may begin with a digit ("2.AN01").
+  // A number, with its unit if it has one, a name or a function. A name may begin with a digit ("2.AN01").
   void word() {
     const std::size_t start = at_;
     while (at_ < text_.size() && is_name_character(text_[at_])) ++at_;
@@ -53,9 +60,13 @@ class Scanner {
       double number = 0;
       const auto read = std::from_chars(text_.data() + start, text_.data() + text_.size(), number);
       const auto end = static_cast<std::size_t>(read.ptr - text_.data());
-      if (read.ec == std::errc() && end >= at_) {  // beyond at_ with a signed exponent
-        at_ = end;
-        put(ExpressionToken::Kind::number, std::string(text_.substr(start, end - start)), start);
+      const auto unit = read.ec == std::errc() && text_[end - 1] != '.' ? unit_after(end) : end;
+      // Beyond at_ with a signed exponent; "3mm" is a number too, "2.AN01" none.
+      if (read.ec == std::errc() && std::max(end, unit) >= at_) {
+        at_ = std::max(end, unit);
+        put(ExpressionToken::Kind::number, std::string(text_.substr(start, at_ - start)), start);
+        tokens_.back().value = number;
+        if (unit > end) tokens_.back().unit = trimmed(text_.substr(end, unit - end));
         return;
       }
     }
@@ -66,6 +77,41 @@ class Scanner {
     const bool called = at_ < text_.size() && text_[at_] == '(';
     at_ = end;
     put(called ? ExpressionToken::Kind::function : ExpressionToken::Kind::name, std::move(name), start);
+  }
+
+  // Where the unit that begins at `from`, behind a number, ends: the longest that is known; `from` if there
+  // is none. A word with ( or [ behind it is a name: in "60 m / min(a, b)" the unit is m.
+  [[nodiscard]] std::size_t unit_after(std::size_t from) const {
+    std::size_t begin = from;
+    while (begin < text_.size() && is_blank(text_[begin])) ++begin;
+    std::size_t end = from;
+    std::size_t at = begin;
+    if (text_.substr(at).starts_with("1/")) at += 2;
+    while (at < text_.size()) {
+      const auto word = at;
+      while (at < text_.size() && is_unit_character(text_[at])) ++at;
+      if (at == word || std::isdigit(static_cast<unsigned char>(text_[word])) != 0) break;
+      const auto behind = text_.find_first_not_of(" \t\r\n", at);
+      if (behind != std::string_view::npos && (text_[behind] == '(' || text_[behind] == '[')) break;
+      at = exponent_after(at);
+      if (is_unit(text_.substr(begin, at - begin))) end = at;
+      while (at < text_.size() && is_blank(text_[at])) ++at;
+      if (at < text_.size() && text_[at] == '/') ++at;
+      while (at < text_.size() && is_blank(text_[at])) ++at;
+    }
+    return end;
+  }
+  // Of "^2" or "^-1".
+  [[nodiscard]] std::size_t exponent_after(std::size_t at) const {
+    const auto is_number = [&](std::size_t i) {
+      return i < text_.size() && std::isdigit(static_cast<unsigned char>(text_[i])) != 0;
+    };
+    if (at >= text_.size() || text_[at] != '^') return at;
+    std::size_t end = at + 1;
+    if (end < text_.size() && text_[end] == '-') ++end;
+    if (!is_number(end)) return at;
+    while (is_number(end)) ++end;
+    return end;
   }
 
   // "[2, 5]" as "[2,5]".
@@ -122,121 +168,9 @@ class Scanner {
   bool failed_ = false;
 };
 
-bool is_comparison(const ExpressionToken& token) {
-  return is_relation(token) ||
-         (token.kind == ExpressionToken::Kind::sign && (token.text == "==" || token.text == "!="));
-}
-
-// Walks the tokens once: a value, an operator, a value ... The first fault ends it.
-class Grammar {
- public:
-  Grammar(ExpressionTokens& tokens, std::size_t length, std::vector<ExpressionFault>& faults)
-      : tokens_(tokens), length_(length), faults_(faults) {}
-
-  void check() {
-    open_.push_back({});
-    for (std::size_t i = 0; i < tokens_.size() && !failed_; ++i) {
-      if (value_expected_) {
-        at_value(i);
-      } else {
-        at_operator(i);
-      }
-    }
-    if (failed_) return;
-    if (value_expected_) {
-      return fault(length_, "the expression ends where a value must follow", "add a name or a number");
-    }
-    if (open_.size() > 1) {
-      return fault(tokens_[open_.back().token].offset, "this ( is not closed", "add )");
-    }
-    if (open_.back().choices != 0) fault(length_, "? without :", "write condition ? value : other value");
-  }
-
- private:
-  struct Level {
-    std::size_t token = 0;
-    bool call = false;
-    bool compared = false;
-    int choices = 0;  // ? that wait for their :
-  };
-
-  void fault(std::size_t offset, std::string what, std::string remedy) {
-    faults_.push_back({offset, std::move(what), std::move(remedy)});
-    failed_ = true;
-  }
-
-  void at_value(std::size_t i) {
-    const auto& token = tokens_[i];
-    switch (token.kind) {
-      case ExpressionToken::Kind::number:
-      case ExpressionToken::Kind::name:
-        value_expected_ = false;
-        return;
-      case ExpressionToken::Kind::function:
-        return;
-      case ExpressionToken::Kind::open:
-        open_.push_back({i, i > 0 && tokens_[i - 1].kind == ExpressionToken::Kind::function});
-        return;
-      case ExpressionToken::Kind::close:
-      case ExpressionToken::Kind::sign:
-        if (token.text == "-" || token.text == "+" || token.text == "!") return;
-        fault(token.offset, fmt::format("a value is missing before '{}'", token.text),
-              "add a name or a number");
-    }
-  }
-
-  void at_operator(std::size_t i) {
-    const auto& token = tokens_[i];
-    if (token.kind == ExpressionToken::Kind::close) return close(i);
-    if (token.kind != ExpressionToken::Kind::sign || token.text == "!") {
-      return fault(token.offset, fmt::format("an operator is missing before '{}'", token.text),
-                   "add + - * / < > == && or ||; numbers carry no unit here");
-    }
-    value_expected_ = true;
-    auto& level = open_.back();
-    if (is_comparison(token)) {
-      if (level.compared) {
-        return fault(token.offset, "comparisons cannot be chained", "write a < b && b < c");
-      }
-      level.compared = true;
-    } else if (token.text == "&&" || token.text == "||") {
-      level.compared = false;
-    } else if (token.text == "," && !level.call) {
-      fault(token.offset, "',' stands only between the arguments of a function", "write . in decimals");
-    } else if (token.text == "," || token.text == "?" || token.text == ":") {
-      level.compared = false;
-      if (token.text == "?") ++level.choices;
-      if (token.text == ":" && --level.choices < 0) {
-        fault(token.offset, "':' without '?'", "write condition ? value : other value");
-      }
-    }
-  }
-
-  void close(std::size_t i) {
-    if (open_.size() == 1) return fault(tokens_[i].offset, "this ) closes nothing", "remove it");
-    const auto level = open_.back();
-    open_.pop_back();
-    if (level.choices != 0) {
-      return fault(tokens_[i].offset, "? without :", "write condition ? value : other value");
-    }
-    tokens_[i].partner = level.token;
-    tokens_[level.token].partner = i;
-  }
-
-  ExpressionTokens& tokens_;
-  std::size_t length_;
-  std::vector<ExpressionFault>& faults_;
-  std::vector<Level> open_;
-  bool value_expected_ = true;
-  bool failed_ = false;
-};
-
 }  // namespace
 
-bool is_relation(const ExpressionToken& token) {
-  return token.kind == ExpressionToken::Kind::sign &&
-         (token.text == "<" || token.text == "<=" || token.text == ">" || token.text == ">=");
-}
+bool is_relation(std::string_view sign) { return sign == "<" || sign == "<=" || sign == ">" || sign == ">="; }
 
 ExpressionTokens scan_expression(std::string_view text, std::vector<ExpressionFault>& faults) {
   if (text.size() > longest) {
@@ -246,12 +180,8 @@ ExpressionTokens scan_expression(std::string_view text, std::vector<ExpressionFa
   }
   const std::size_t before = faults.size();
   auto tokens = Scanner(text, faults).run();
-  if (faults.size() != before) return {};
-  if (tokens.empty()) {
+  if (tokens.empty() && faults.size() == before)
     faults.push_back({0, "the expression is empty", "write a comparison, for example follerr < 400"});
-    return {};
-  }
-  Grammar(tokens, text.size(), faults).check();
   return tokens;
 }
 

@@ -13,16 +13,16 @@ struct ExpressionToken {
   Kind kind = Kind::sign;
   std::string text;  ///< a name without blanks in its index
   std::size_t offset = 0;
-  std::size_t end = 0;      ///< one past its last byte
-  std::size_t partner = 0;  ///< open, close: index of the other parenthesis
+  std::size_t end = 0;    ///< one past its last byte
+  double value = 0;       ///< of a number
+  std::string unit = {};  ///< behind a number: "N m", "" without
 };
 using ExpressionTokens = std::vector<ExpressionToken>;
 
-/// Splits an expression into tokens and checks that values and operators alternate, parentheses match and
-/// comparisons are not chained. Faults are added at their byte; the tokens are usable only without.
+/// Splits an expression into tokens, one at least. Faults are added at their byte; then there are no tokens.
 ExpressionTokens scan_expression(std::string_view text, std::vector<ExpressionFault>& faults);
 
 /// < <= > >=
-bool is_relation(const ExpressionToken& token);
+bool is_relation(std::string_view sign);
 
 }  // namespace drycut::sim::scenario

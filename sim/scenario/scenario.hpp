@@ -138,10 +138,10 @@ struct DrivesSection {
 
 struct Check {
   enum class Kind {
-    each,  ///< every event of this name satisfies `expect`
-    all,  ///< `expect` over statistics of all events of this name: count, mean_x, min_x, max_x, sd_x, slope_x
-    always,      ///< the expression holds at every record instant
-    eventually,  ///< it holds at one record instant at least
+    each,        ///< every event of this name satisfies `expect`; with statistics: from one event to the next
+    all,         ///< `expect` over statistics of all events of this name: count, mean_x, p99(x) ...
+    always,      ///< the expression holds at every record instant, with statistics over every window
+    eventually,  ///< it holds at one record instant at least, with statistics over one window
     never        ///< no event of this name happens
   };
   Text name;
@@ -151,6 +151,7 @@ struct Check {
   Time from = 0;
   std::optional<Time> until;   ///< each, all, always, never
   std::optional<Time> within;  ///< eventually: not later than from + within
+  std::optional<Time> every;   ///< always, eventually: statistics look at periods of this length
   int at_least = 1;            ///< each, all: fewer events than this fail the check
 };
 

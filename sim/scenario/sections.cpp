@@ -132,10 +132,14 @@ struct KindName {
   std::string_view meaning;
 };
 constexpr KindName kinds[] = {
-    {"each", Check::Kind::each, "every event of this name satisfies expect"},
-    {"all", Check::Kind::all, "expect holds over statistics of all events of this name: mean_x, max_x, ..."},
-    {"always", Check::Kind::always, "the expression holds at every record instant"},
-    {"eventually", Check::Kind::eventually, "the expression holds at one record instant at least"},
+    {"each", Check::Kind::each,
+     "every event of this name satisfies expect; statistics look from one event to the next"},
+    {"all", Check::Kind::all,
+     "expect holds over statistics of all events of this name: mean_x, max_x, ..., p99(x), rms(x), ..."},
+    {"always", Check::Kind::always,
+     "the expression holds at every record instant; statistics look at the whole window, or at every period"},
+    {"eventually", Check::Kind::eventually,
+     "the expression holds at one record instant at least, or over one period"},
     {"never", Check::Kind::never, "no event of this name happens"}};
 
 bool is_of_events(const Check& check) {
@@ -156,6 +160,21 @@ Form kind_form(Check& check, const KindName& of, bool& said) {
     read(node, name, findings);
   };
   return made;
+}
+
+// Statistics look at the whole window, or at one period of it after the other.
+void judge_period(MapReader& reader, const Check& check) {
+  const bool eventually = check.kind == Check::Kind::eventually;
+  if (reader.has("every") && check.kind != Check::Kind::always && !eventually)
+    return reader.refuse("every", fmt::format("{} does not go with this kind of check", reader.full("every")),
+                         "every belongs to always and eventually");
+  if (check.expression.text.empty() || reader.has("every") == has_statistics(check.expression)) return;
+  if (reader.has("every"))
+    reader.refuse("every", fmt::format("{} stands without a statistic", reader.full("every")),
+                  "write a statistic, such as rms(knife.motor.torque), or leave every out");
+  else if (eventually)
+    reader.refuse("eventually", fmt::format("{} has statistics and no period", reader.name()),
+                  "add every: 0.8 s, or write always");
 }
 
 void judge_check(MapReader& reader, const Check& check) {
@@ -180,6 +199,7 @@ void judge_check(MapReader& reader, const Check& check) {
   if (!eventually) refuse_misplaced("within", "eventually");
   if (eventually) refuse_misplaced("until", "each, all, always and never");
   if (!is_of_events(check)) refuse_misplaced("at_least", "each and all");
+  judge_period(reader, check);
   if (check.until && *check.until <= check.from && reader.has("from")) {
     reader.refuse("until", fmt::format("{} is not after from", reader.full("until")),
                   "let until be later than from");
@@ -254,6 +274,8 @@ void visit(Archive& archive, Check& check) {
   archive.value({"until", "what is later does not count"}, form(check.until, Sign::positive));
   archive.value({"within", "of eventually: not later than so long after from"},
                 form(check.within, Sign::positive));
+  archive.value({"every", "of always and eventually: statistics look at periods of this length"},
+                form(check.every, Sign::positive));
   archive.value({"at_least", "of each and all: fewer events than this fail the check", is_of_events(check)},
                 form(check.at_least, 0, std::numeric_limits<int>::max()));
   archive.require_one({"each", "all", "always", "eventually", "never"}, "does not say what it checks",
@@ -283,6 +305,12 @@ void visit(Archive& archive, Scenario& scenario) {
                   [&](Archive& inner) { visit(inner, scenario.pictures); });
   archive.judge([&scenario](MapReader& reader) {
     refuse_same_name(scenario.checks, "checks", "rename one; the first is at line {}", reader.findings());
+    for (const auto& check : scenario.checks)
+      if (check.every && *check.every < scenario.record.every)
+        reader.findings().add(
+            check.expression.place,
+            fmt::format("the period of the check '{}' is shorter than record.every", check.name.text),
+            fmt::format("every: {} at least", format_time(scenario.record.every)));
   });
 }
 

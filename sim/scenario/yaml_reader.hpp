@@ -38,6 +38,8 @@ bool read_choice(const Text& text, const std::string& name, const std::vector<st
                  Findings& findings);
 /// An expression's syntax; names are looked up later, when the scenario's machines are built.
 void check_expression(const Text& text, Findings& findings);
+/// True if the expression looks at windows.
+bool has_statistics(const Text& text);
 
 /// Reads one map of the file: every key that is visited is known, finish() refuses the others. Duplicate keys
 /// and nodes of another kind are refused. A value that is absent leaves the default.

@@ -28,6 +28,13 @@ std::string unit_remedy(const std::string& unit) {
 
 std::string example(std::string_view unit) { return fmt::format("for example 1 {}", unit); }
 
+// Whatever its names mean: they are looked up later.
+std::optional<Expression> compile_anything(const Text& text, std::vector<ExpressionFault>& faults) {
+  static constexpr double any = 1;
+  const auto resolve = [](const std::string&) { return Expression::Operand(&any); };
+  return Expression::compile(text.text, resolve, {}, faults, Expression::Kind::condition, resolve);
+}
+
 }  // namespace
 
 bool needs_unit(std::string_view unit) {
@@ -135,11 +142,15 @@ bool read_choice(const Text& text, const std::string& name, const std::vector<st
 }
 
 void check_expression(const Text& text, Findings& findings) {
-  static constexpr double any = 1;
   std::vector<ExpressionFault> faults;
-  Expression::compile(
-      text.text, [](const std::string&) { return &any; }, {}, faults);
+  compile_anything(text, faults);
   for (const auto& fault : faults) findings.add(text.at(fault.offset), fault.what, fault.remedy);
+}
+
+bool has_statistics(const Text& text) {
+  std::vector<ExpressionFault> ignored;
+  const auto expression = compile_anything(text, ignored);
+  return expression && !expression->statistics().empty();
 }
 
 }  // namespace drycut::sim::scenario

@@ -190,9 +190,9 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
       {"x < * 3", "4: a value is missing before '*'; add a name or a number"},
       {"&& x", "0: a value is missing before '&&'; add a name or a number"},
       {"abs()", "4: a value is missing before ')'; add a name or a number"},
-      {"x < 3 mm",
-       "6: an operator is missing before 'mm'; add + - * / < > == && or ||; numbers carry no unit "
-       "here"},
+      {"x < 3 mn",
+       "6: an operator is missing before 'mn'; add + - * / < > == && or ||; a unit stands behind its number: "
+       "9.5 N m, 60 m/min"},
       {"x (3)",
        "0: unknown function 'x'; known: abs, acos, acosh, asin, asinh, atan, atan2, atanh, avg, cos, "
        "cosh, exp, ln, log, log10, log2, max, min, rint, sign, sin, sinh, sqrt, sum, tan, tanh"},
@@ -214,9 +214,8 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
       {"sqr(x) < 3", "0: unknown function 'sqr'; did you mean sqrt?"},
       {"1 + sin(1, x) < 3", "4: sin has too many arguments; remove some"},
       {"atan2(x) < 3", "0: atan2 has too few arguments; add what is missing"},
-      {"x < 3mm",
-       "4: unknown name '3mm'; numbers carry no unit here: they are in the unit of the name they are "
-       "compared with"},
+      {"x < mm", "4: unknown name 'mm'; a unit stands behind its number: 9.5 N m, 60 m/min"},
+      {"rms(x) < 3", "0: rms looks at a window, and there is none; statistics stand in checks and metrics"},
       {"x < table[3", "9: this [ is not closed; write ] after the index"},
       {"x < table[i]", "10: 'i' in an index; an index is a number, or two: [3], [2,5]"},
       {"x < \"3\"",
@@ -226,8 +225,9 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
        "2: '\xE2\x89\xA4' has no meaning in an expression; use numbers, names, + - * / ^ < "
        "<= > >= == != && || ! ?: and functions"},
       {"x and 3",
-       "2: an operator is missing before 'and'; add + - * / < > == && or ||; numbers carry no unit "
-       "here"},
+       "2: an operator is missing before 'and'; add + - * / < > == && or ||; a unit stands behind its "
+       "number: "
+       "9.5 N m, 60 m/min"},
   };
   for (const auto& [text, fault] : cases) EXPECT_EQ(faults_of(text), fault) << text;
   EXPECT_EQ(faults_of(std::string(2001, ' ')), "0: the expression has 2001 characters; at most 2000");

@@ -49,25 +49,23 @@ std::string not_recorded(const ComparisonScene::Member& member) {
 class Formula {
  public:
   Formula(const std::string& text, const Names& channels, std::vector<scenario::ExpressionFault>& faults) {
-    const auto resolve = [&](const std::string& name) -> const double* {
-      if (unit_of(channels, name) == nullptr) return nullptr;
+    const auto resolve = [&](const std::string& name) -> scenario::Expression::Operand {
+      const auto* unit = unit_of(channels, name);
+      if (unit == nullptr) return nullptr;
       slots_.push_back({name, 0});
-      return &slots_.back().number;
+      return {&slots_.back().number, *unit};
     };
-    std::vector<scenario::ExpressionFault> own;
-    expression_ = scenario::Expression::compile("(" + text + ") >= 0", resolve, names_only(channels), own);
-    for (auto& fault : own) {
-      fault.offset -= std::min<std::size_t>(fault.offset, 1);
-      faults.push_back(std::move(fault));
-    }
+    expression_ = scenario::Expression::compile(text, resolve, names_only(channels), faults,
+                                                scenario::Expression::Kind::number);
   }
 
   void over(const loop::Recording& recording, loop::Series<double>& numbers) {
     std::vector<const loop::Recording::Column*> columns;
+    columns.reserve(slots_.size());
     for (const auto& slot : slots_) columns.push_back(recording.column(slot.name));
     for (std::size_t row = 0; row < recording.times().size(); ++row) {
       for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].number = columns[i]->values[row];
-      numbers.push_back(expression_->evaluate().margin.value_or(std::numeric_limits<double>::quiet_NaN()));
+      numbers.push_back(expression_->value());
     }
   }
 
@@ -103,13 +101,24 @@ void check_channels(const ComparisonScene& scene, const ComparisonScene::Member&
   }
 }
 
+std::optional<Metric> compile_figure(const ComparisonScene::FigureRequest& figure, const Names& channels,
+                                     const MemberNames& names,
+                                     std::vector<scenario::ExpressionFault>& faults) {
+  return Metric::compile(figure.of.text, Metric::Kind::number, names.events, faults,
+                         [&](const std::string& name) -> std::optional<std::string> {
+                           const auto* unit = unit_of(channels, name);
+                           if (unit == nullptr) return {};
+                           return *unit;
+                         });
+}
+
 void check_figures(const ComparisonScene& scene, const ComparisonScene::Member& member,
                    const MemberNames& names, Problems& problems) {
   const auto channels = channels_of(member, names);
   for (const auto& figure : scene.figures) {
     if (figure.of.text.empty()) continue;
     std::vector<scenario::ExpressionFault> faults;
-    const auto metric = Metric::compile(figure.of.text, Metric::Kind::number, names.events, faults);
+    const auto metric = compile_figure(figure, channels, names, faults);
     tell(scene, figure.of, faults, "", problems);
     if (!metric) continue;
     for (const auto& name : metric->names()) {
@@ -184,11 +193,11 @@ std::optional<scenario::Expression> compile_check(const ComparisonScene::Check& 
                                                   std::vector<scenario::ExpressionFault>& faults) {
   std::vector<std::string> known;
   for (const auto& operand : operands) known.push_back(operand.name);
-  const auto resolve = [&](const std::string& name) -> const double* {
+  const auto resolve = [&](const std::string& name) -> scenario::Expression::Operand {
     for (const auto& operand : operands) {
       if (operand.name != name) continue;
       if (std::find(used.begin(), used.end(), &operand) == used.end()) used.push_back(&operand);
-      return &operand.number;
+      return {&operand.number, operand.unit};
     }
     return nullptr;
   };
@@ -229,9 +238,9 @@ void add_channels(const ComparisonScene::Member& member, const MemberNames& name
 }
 
 double number_of(const ComparisonScene::FigureRequest& figure, const ComparisonScene& scene,
-                 const MemberNames& names, const RunFolder& run) {
+                 const Names& channels, const MemberNames& names, const RunFolder& run) {
   std::vector<scenario::ExpressionFault> faults;
-  auto metric = Metric::compile(figure.of.text, Metric::Kind::number, names.events, faults);
+  auto metric = compile_figure(figure, channels, names, faults);
   return metric ? metric->value(run.recording, scene.from.value_or(0))
                 : std::numeric_limits<double>::quiet_NaN();
 }
@@ -293,9 +302,10 @@ ComparedScene compare_members(const ComparisonScene& scene, const std::vector<Me
   auto operand = operands.begin();
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const auto& run = result.comparison.runs[i];
+    const auto channels = channels_of(scene.members[i], names[i]);
     (operand++)->number = run.passed ? 1 : 0;
     for (std::size_t k = 0; k < scene.figures.size(); ++k) {
-      const double number = number_of(scene.figures[k], scene, names[i], run);
+      const double number = number_of(scene.figures[k], scene, channels, names[i], run);
       page.figures[k].numbers.push_back(number);
       (operand++)->number = number;
     }

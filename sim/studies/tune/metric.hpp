@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -27,11 +28,9 @@ struct LoopFigures {
   double max_sensitivity = std::numeric_limits<double>::quiet_NaN();  ///< largest |1 / (1 + L)|
 };
 
-/// One number out of a whole recording: a formula over the terms max, min, mean, rms, sd, count (of an
-/// expression over channels, or over the values of one event) and settling(expression, band). max and min
-/// with several arguments are the plain ones. settling is the time [s] from the window's start until
-/// |expression| stays at or below the band; the whole window if it never does. sd is that of a sample (n -
-/// 1).
+/// One number out of a whole recording: a formula over statistics (max, min, mean, rms, sd, count, pNN of an
+/// expression over channels, or over the values of one event, and settling(expression, band)), as checks have
+/// them. max and min with several arguments are the plain ones.
 ///
 /// A name EVENT.VALUE or SOURCE.EVENT.VALUE of an event that the scenario knows means the event's; any other
 /// is a channel. A limit may also name the loop's figures phase_margin, gain_margin and max_sensitivity,
@@ -42,11 +41,14 @@ class Metric {
     number,  ///< something to minimise
     limit    ///< terms and figures of the loop, compared by < <= > >=, joined by &&
   };
+  /// The unit of a channel; nothing if it is not known yet.
+  using UnitOf = std::function<std::optional<std::string>(const std::string& channel)>;
   /// Compiles `text`; what is wrong is added to `faults`, and then nothing is returned. Channels are not
   /// looked up here.
   static std::optional<Metric> compile(std::string_view text, Kind kind,
                                        const std::vector<loop::KnownEvent>& events,
-                                       std::vector<scenario::ExpressionFault>& faults);
+                                       std::vector<scenario::ExpressionFault>& faults,
+                                       const UnitOf& unit_of = {});
 
   /// A number: its value. A limit: the room left, negative beyond it. Over instants and events from `from`
   /// on; the channels must have been recorded. NaN where a term has nothing to look at.
@@ -57,34 +59,23 @@ class Metric {
   [[nodiscard]] std::vector<MetricName> names() const;
 
  private:
-  enum class Function { max, min, mean, rms, sd, count, settling };
   struct Slot {
     MetricName name;
     double number = 0;
-  };
-  struct Term {
-    Function function = Function::max;
-    std::deque<Slot> slots;
-    std::optional<scenario::Expression> expression;  ///< margin = the value
-    double band = 0;
-    double result = 0;
   };
   struct Figure {
     double LoopFigures::*figure;
     double number = 0;
   };
-  struct Numbers {
-    std::vector<double> times;  ///< [s]
-    std::vector<double> numbers;
-  };
   class Compiler;
 
-  static Numbers series_of(Term& term, const loop::Recording& recording, Time from);
-  static double reduce(const Term& term, const Numbers& series, double from);
+  void take(std::size_t term, const loop::Recording& recording, Time from);
 
-  std::deque<Term> terms_;
+  std::deque<Slot> slots_;
+  std::vector<std::vector<Slot*>> terms_;  ///< what each statistic of the formula looks at
   std::deque<Figure> figures_;
   std::optional<scenario::Expression> formula_;
+  Kind kind_ = Kind::number;
 };
 
 }  // namespace drycut::sim::studies

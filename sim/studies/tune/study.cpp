@@ -22,7 +22,12 @@ std::vector<Gauge> gauges(const Study& study, const Study::Case& scenario, Probl
   std::vector<Gauge> made;
   const auto add = [&](const std::string& option, const std::string& text, Metric::Kind kind) {
     std::vector<scenario::ExpressionFault> faults;
-    auto metric = Metric::compile(text, kind, scenario.events, faults);
+    auto metric = Metric::compile(text, kind, scenario.events, faults,
+                                  [&](const std::string& channel) -> std::optional<std::string> {
+                                    const auto found = scenario.units.find(channel);
+                                    if (found == scenario.units.end()) return {};
+                                    return found->second;
+                                  });
     for (auto& fault : faults)
       problems.push_back({option, 1, static_cast<int>(fault.offset) + 1, fault.what, fault.remedy});
     if (metric) made.push_back({option, text, std::move(*metric)});
@@ -218,6 +223,8 @@ void prepare(Study& study, Problems& problems) {
     const auto all = gauges(study, entry, of_gauges);
     record_names(measured, all);
     const loop::Simulation probe(measured, of_gauges);
+    for (const auto& column : probe.recording().columns()) entry.units[column.name] = column.unit;
+    if (of_gauges.empty()) gauges(study, entry, of_gauges);  // now that units are known
     study.needs_loop = study.needs_loop || std::any_of(all.begin(), all.end(), [](const Gauge& gauge) {
                          return gauge.metric.needs_loop();
                        });

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +17,9 @@ namespace drycut::sim::studies {
 struct Study {
   struct Case {
     std::filesystem::path file;
-    std::string text;                      ///< of the file, read once
-    std::vector<loop::KnownEvent> events;  ///< that its plants can report
+    std::string text;                          ///< of the file, read once
+    std::vector<loop::KnownEvent> events;      ///< that its plants can report
+    std::map<std::string, std::string> units;  ///< of the channels that metric and constraints look at
   };
   std::vector<Case> cases;
   std::vector<scenario::Override> set;  ///< applied before what the tuning changes
@@ -68,8 +70,8 @@ KeptRun keep_run(const Study& study, const Study::Case& scenario,
 /// Every name that metric and constraints look at, once.
 std::vector<MetricName> names_of(const Study& study, const Study::Case& scenario);
 
-/// Reads the scenarios' events into `study` and tells everything wrong with scenarios, --set, metric and
-/// constraints.
+/// Reads the scenarios' events and units into `study` and tells everything wrong with scenarios, --set,
+/// metric and constraints.
 void prepare(Study& study, Problems& problems);
 
 }  // namespace drycut::sim::studies

@@ -368,6 +368,18 @@ TEST(ScenarioProblems, Checks) {
        {"1:56: checks.0.at_least: 'few' is not a whole number; 0 to 2147483647"}},
       {"checks: [{name: a, never: b, from: 2 s, until: 2 s}]\n",
        {"1:41: checks.0.until is not after from; let until be later than from"}},
+      {"checks: [{name: a, never: b, every: 1 s}]\n",
+       {"1:30: checks.0.every does not go with this kind of check; every belongs to always and eventually"}},
+      {"checks: [{name: a, always: x < 1, every: 1 s}]\n",
+       {"1:35: checks.0.every stands without a statistic; write a statistic, such as "
+        "rms(knife.motor.torque), "
+        "or leave every out"}},
+      {"checks: [{name: a, eventually: rms(x) < 1}]\n",
+       {"1:20: checks.0 has statistics and no period; add every: 0.8 s, or write always"}},
+      {"checks: [{name: a, always: rms(x) < 1, every: 1 ms}]\n",
+       {"1:28: the period of the check 'a' is shorter than record.every; every: 2 ms at least"}},
+      {"checks: [{name: a, always: rms(max(x)) < 1}]\n",
+       {"1:32: max inside rms; a term looks at channels or event values"}},
       {"checks:\n - {name: a, never: b}\n - {name: a, never: c}\n",
        {"3:11: there are two checks named 'a'; rename one; the first is at line 2"}},
       {"checks: [{name: a, each: cut, expect: \"abs(length - 500 <= 0.2\"}]\n",

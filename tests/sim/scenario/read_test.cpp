@@ -181,8 +181,9 @@ TEST(ScenarioRead, Checks) {
   - {name: follows, always: "abs(AxisX.follerr) < 400", from: 2 s}
   - {name: locks on, eventually: "AxisX.st_sync == 1", within: 1.5 s}
   - {name: whole, never: tear}
+  - {name: warm, always: rms(knife.motor.torque) <= 9.5 N m, every: 800 ms}
 )");
-  ASSERT_EQ(scenario.checks.size(), 5U);
+  ASSERT_EQ(scenario.checks.size(), 6U);
   const auto& each = scenario.checks[0];
   EXPECT_EQ(each.kind, Check::Kind::each);
   EXPECT_EQ(each.name.text, "cut length");
@@ -199,6 +200,8 @@ TEST(ScenarioRead, Checks) {
   EXPECT_EQ(scenario.checks[3].within, 1500 * millisecond);
   EXPECT_EQ(scenario.checks[4].kind, Check::Kind::never);
   EXPECT_EQ(scenario.checks[4].event.text, "tear");
+  EXPECT_EQ(scenario.checks[5].expression.text, "rms(knife.motor.torque) <= 9.5 N m");
+  EXPECT_EQ(scenario.checks[5].every, 800 * millisecond);
 }
 
 TEST(ScenarioRead, RecordAndPictures) {

@@ -1,0 +1,158 @@
+// Statistics of channels in checks, on a machine with known signals: a counter of 1000 counts/s.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/loop/simulation.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim/studies/tune/metric.hpp"
+#include "tests/test_folder.hpp"
+
+namespace drycut::sim::loop {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string head = R"(scene: {duration: 3 s, step: 1 ms}
+plants: {bench: {type: bench}}
+timeline:
+  - {at: 0 s, ramp: {bench.counter1.rate: 1000 1/s}, over: 1 ms}
+  - {at: 0.5 s, every: 0.5 s, set: {bench.input1: 1}}
+record: {every: 2 ms, channels: [bench.counter1.count, bench.counter1.rate]}
+checks:
+  - )";
+const std::string sine = "5 * sin(_pi * bench.counter1.count / 500)";
+
+struct Ran {
+  loop::CheckResult check;
+  loop::Recording recording;
+};
+
+Ran run(const std::string& check) {
+  Problems problems;
+  TestFolder folder;
+  const auto scenario = scenario::read_scenario(folder.file("line.yaml", head + check + "\n"), {}, problems);
+  Ran ran;
+  if (problems.empty()) {
+    loop::Simulation simulation(scenario, problems);
+    if (problems.empty()) {
+      ran.check = simulation.run().checks.front();
+      ran.recording = simulation.take_recording();
+    }
+  }
+  for (const auto& problem : problems) ADD_FAILURE() << to_string(problem);
+  return ran;
+}
+
+std::string problem_of(const std::string& check) {
+  Problems problems;
+  TestFolder folder;
+  const auto scenario = scenario::read_scenario(folder.file("line.yaml", head + check + "\n"), {}, problems);
+  if (problems.empty()) {
+    const loop::Simulation simulation(scenario, problems);
+  }
+  if (problems.empty()) return "";
+  const auto& first = problems.front();
+  return std::to_string(first.line) + ":" + std::to_string(first.column) + ": " + first.what + "; " +
+         first.remedy;
+}
+
+TEST(ChecksOverWindows, RmsOfASineIsItsHeightByRootTwo) {
+  const auto [check, recording] = run("{name: a, always: rms(" + sine + ") <= 4, from: 1 s, until: 2.998 s}");
+  EXPECT_TRUE(check.passed);
+  EXPECT_NEAR(*check.margin, 4 - 5 / std::numbers::sqrt2, 1e-9);
+  EXPECT_FALSE(check.at);
+  EXPECT_EQ(check.detail, "1.0000 s to 2.9980 s: rms(" + sine + ")=3.53553");
+  EXPECT_EQ(check.expectation, "always rms(" + sine + ") <= 4, from 1.0 s, until 2.998 s");
+}
+
+TEST(ChecksOverWindows, PercentileOfARampIsThatShareOfIt) {
+  const auto [check, recording] =
+      run("{name: a, always: \"abs(p99(bench.counter1.count) - min(bench.counter1.count) - 990) <= 1\", "
+          "from: 1 s, "
+          "until: 2 s}");
+  EXPECT_NEAR(*check.margin, 1, 1e-9);
+}
+
+TEST(ChecksOverWindows, PeriodsAreJudgedOneByOne) {
+  const auto [check, recording] =
+      run("{name: a, always: max(bench.counter1.count) <= 2600, from: 0.5 s, every: 1 s}");
+  EXPECT_TRUE(check.passed);  // half a period is left at the end
+  EXPECT_EQ(check.unit, "");
+  EXPECT_THAT(check.detail,
+              StartsWith("2 periods, worst: 1.5000 s to 2.5000 s: max(bench.counter1.count)=249"));
+  EXPECT_EQ(*check.at, 2.5);
+  EXPECT_EQ(check.expectation, "always max(bench.counter1.count) <= 2600, from 0.5 s, every 1.0 s");
+}
+
+TEST(ChecksOverWindows, EventuallyIsTrueAtTheEndOfAPeriod) {
+  const auto [check, recording] =
+      run("{name: a, eventually: min(bench.counter1.count) >= 900, every: 0.5 s, within: 2 s}");
+  EXPECT_TRUE(check.passed);
+  EXPECT_EQ(check.detail, "first true at 1.5000 s");
+  EXPECT_DOUBLE_EQ(*check.margin, 0.5);
+}
+
+TEST(ChecksOverWindows, ACycleGoesFromEventToEvent) {
+  const auto [check, recording] =
+      run("{name: a, each: set, from: 0.4 s, expect: max(bench.counter1.count) - min(bench.counter1.count) "
+          "<= 500}");
+  EXPECT_TRUE(check.passed);
+  EXPECT_NEAR(*check.margin, 2, 1e-9);  // 250 instants, 2 counts apart
+  EXPECT_THAT(check.detail, StartsWith("4 cycles from set to set, worst: 0.5000 s to 1.0000 s: max("));
+  EXPECT_EQ(*check.at, 1);
+}
+
+TEST(ChecksOverWindows, TooFewCyclesFail) {
+  const auto [check, recording] =
+      run("{name: a, each: set, from: 2.4 s, expect: rms(bench.counter1.rate) <= 1e9}");
+  EXPECT_FALSE(check.passed);
+  EXPECT_EQ(check.detail, "only 0 cycles from set to set in the time looked at, at least 1 expected");
+}
+
+TEST(ChecksOverWindows, AWindowThatDidNotComeFails) {
+  const auto [check, recording] = run("{name: a, always: rms(bench.counter1.rate) < 3, from: 9 s}");
+  EXPECT_FALSE(check.passed);
+  EXPECT_EQ(check.detail, "never looked at: the run ended at 3.0 s");
+}
+
+TEST(ChecksOverWindows, NumbersCarryUnits) {
+  const auto [check, recording] =
+      run("{name: a, always: rms(bench.counter1.rate) <= 90000 1/min, from: 1 s}");
+  EXPECT_TRUE(check.passed);
+  EXPECT_NEAR(*check.margin, 500, 1e-9);
+  EXPECT_EQ(check.unit, "1/s");
+  EXPECT_EQ(problem_of("{name: a, always: rms(bench.counter1.rate) <= 9 mm}"),
+            "8:51: '9 mm' is a length, but 'rms(bench.counter1.rate)' is a frequency; write it in 1/s");
+}
+
+// The same terms everywhere: in a check, in `tune`, and by hand from what trace.csv holds.
+TEST(ChecksOverWindows, EqualTheTermsOfTuneAndTheTrace) {
+  for (const std::string term : {"rms(x)", "mean(x)", "sd(x)", "max(abs(x))", "p90(x)", "settling(x, 4.9)"}) {
+    SCOPED_TRACE(term);
+    auto own = term;
+    own.replace(own.find('x', own.find('(') + (term.starts_with("max") ? 5 : 1)), 1, sine);
+    const auto limit = own + " <= 7";
+    const auto [check, recording] = run("{name: a, always: \"" + limit + "\", from: 1.2 s}");
+    std::vector<scenario::ExpressionFault> faults;
+    auto metric = studies::Metric::compile(limit, studies::Metric::Kind::limit, {}, faults);
+    ASSERT_TRUE(metric);
+    EXPECT_EQ(*check.margin, metric->value(recording, 1200 * millisecond));
+  }
+  const auto [check, recording] = run("{name: a, always: \"rms(" + sine + ") <= 7\", from: 1.2 s}");
+  double squares = 0;
+  double count = 0;
+  for (std::size_t row = 0; row < recording.times().size(); ++row) {
+    if (recording.times()[row] < 1200 * millisecond) continue;
+    const double x =
+        5 * std::sin(std::numbers::pi * recording.column("bench.counter1.count")->values[row] / 500);
+    squares += x * x;
+    ++count;
+  }
+  EXPECT_NEAR(*check.margin, 7 - std::sqrt(squares / count), 1e-12);
+}
+
+}  // namespace
+}  // namespace drycut::sim::loop
