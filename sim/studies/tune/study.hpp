@@ -17,9 +17,9 @@ namespace drycut::sim::studies {
 struct Study {
   struct Case {
     std::filesystem::path file;
-    std::string text;                          ///< of the file, read once
-    std::vector<loop::KnownEvent> events;      ///< that its plants can report
-    std::map<std::string, std::string> units;  ///< of the channels that metric and constraints look at
+    std::string text;                               ///< of the file, read once
+    std::vector<loop::KnownEvent> events;           ///< that its plants can report
+    std::map<std::string, std::string> units = {};  ///< of the channels that metric and constraints look at
   };
   std::vector<Case> cases;
   std::vector<scenario::Override> set;  ///< applied before what the tuning changes
