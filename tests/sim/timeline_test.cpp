@@ -95,6 +95,25 @@ TEST_F(TimelineTest, ConditionFiresOnceAfterItsDelay) {
 }
 
 // A fault that never came proves nothing: who looks for it in a green run is told.
+TEST_F(TimelineTest, ConditionsHaveNumbersWithUnits) {
+  auto& stimulus = scenario.timeline.emplace_back();
+  stimulus.when = text("web.speed > 1.5 m/s");
+  stimulus.set = {{text("slLength"), quantity(700)}};
+  plant.speed = 1.4;
+  auto timeline = make();
+  ASSERT_TRUE(problems.empty());
+  run(timeline, 0, 2 * millisecond);
+  EXPECT_DOUBLE_EQ(controller.values["slLength"], 800);
+  plant.speed = 1.6;
+  run(timeline, 2 * millisecond, 4 * millisecond);
+  EXPECT_DOUBLE_EQ(controller.values["slLength"], 700);
+  stimulus.when = text("web.speed > 1.5 N", 3, 9);
+  make();
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(to_string(problems[0]),
+            "line.yaml:3:21: '1.5 N' is a force, but 'web.speed' is a speed; write it in m/min");
+}
+
 TEST_F(TimelineTest, WhatNeverHappensIsTold) {
   at(50 * millisecond).set = {{text("slLength"), quantity(500)}};
   auto& late = scenario.timeline.emplace_back();

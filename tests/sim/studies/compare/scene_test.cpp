@@ -214,6 +214,8 @@ TEST_F(CompareScene, OtherCommandsSayThatItIsNoScenario) {
 TEST_F(CompareScene, WhatItsMembersCannotGiveIsRefused) {
   refuses(with(two, "of: max(abs(error))", "of: max(abs(errors))"),
           "15:57: good does not record errors; record it in axis.yaml");
+  refuses(with(two, "of: max(abs(error))", "of: max(abs(error) - 1 s)"),
+          "15:66: '1 s' is a time, but 'abs(error)' is a length; write it in mm");
   refuses(with(two, "mean(AxisX.follerr)", "mean(mean(AxisX.follerr))"), "16:30: mean inside mean; ");
   refuses(with(two, "channels: [error]", "channels: [axis.speed]"),
           "20:75: good does not record axis.speed; ");

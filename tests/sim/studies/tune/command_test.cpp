@@ -256,6 +256,17 @@ TEST_F(TuneCommand, AConstraintMovesTheOptimum) {
   EXPECT_THAT(out, HasSubstr("beyond max(axis.speed) <= 10"));
 }
 
+TEST_F(TuneCommand, AConstraintMayHaveUnits) {
+  options.constraints = {"max(axis.speed) <= 0.4502 m/s"};
+  ASSERT_EQ(run(), all_passed) << out << err;
+  EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
+  options.constraints = {"max(axis.speed) <= 3 kg"};
+  EXPECT_EQ(run(), bad_input);
+  EXPECT_THAT(err,
+              HasSubstr("--constraint:1:20: '3 kg' is a mass, but 'max(axis.speed)' is a speed; write it "
+                        "in mm/s"));
+}
+
 TEST_F(TuneCommand, FailedChecksOfTheScenarioCount) {
   at_rest();
   std::ofstream(folder / "axis.yaml", std::ios::app)
