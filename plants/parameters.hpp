@@ -11,6 +11,9 @@ namespace drycut::plants {
 /// The word by which a reference parameter names no plant, where its default does.
 inline constexpr std::string_view no_plant = "none";
 
+/// The word by which a group of a motor's values names no model of a catalogue.
+inline constexpr std::string_view no_model = "none";
+
 /// One parameter of a plant, bound to the member that holds it. A plain struct with defaults is the schema:
 /// this table over it is what the scenario reader fills, `drycut check --expand` writes and `drycut plants`
 /// prints.
@@ -51,6 +54,13 @@ inline Parameter row(std::string name, std::string_view meaning, std::string& va
 inline Parameter row(std::string name, std::string_view meaning, std::string& value, std::string_view type,
                      std::string_view source, bool sole) {
   return {std::move(name), "", meaning, &value, 0, 0, {}, type, source, sole};
+}
+
+/// The model of a motor, first of its group: whoever fills the table knows a catalogue, plants know none.
+inline Parameter model_row(std::string& value) {
+  return row("model",
+             "motor of the catalogue, whose values are the defaults of this group: drycut plants --motors",
+             value, {}, "none: the defaults are those below");
 }
 
 /// The rows of a group, "gear.": each name with the prefix.

@@ -4,8 +4,8 @@
 
 namespace drycut::renders {
 
-// Files that are built into the program, so that it works wherever it is moved: the meshes of scenes/meshes/
-// and what a report is made of, in renders/assets/ (CMakeLists.txt).
+// Files that are built into the program, so that it works wherever it is moved: the meshes of scenes/meshes/,
+// the motors of scenes/catalogue/ and what a report is made of, in renders/assets/ (CMakeLists.txt).
 
 /// Names of the files, without folders: "drum.stl", "report.css".
 std::vector<std::string_view> embedded_names();

@@ -30,9 +30,10 @@ void add_plants(CLI::App& app, int& status);
 /// for bash, and in Markdown `commands.md`, `devices.md`, `plants.md` and a page for each device and plant.
 void add_reference(CLI::App& app, int& status);
 
-/// drycut devices, drycut plants: the tables; of one type if `name` is given.
+/// drycut devices, drycut plants, drycut plants --motors: the tables; of one if `name` is given.
 int list_devices(const std::string& name, bool json);
 int list_plants(const std::string& name, bool json);
+int list_motors(const std::string& name, bool json);
 
 /// Prints problems in order on standard error; says how many.
 void print_problems(const Problems& problems);

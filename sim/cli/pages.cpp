@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <memory>
-
 #include <algorithm>
+#include <functional>
+#include <memory>
 
 #include "base/problem.hpp"
 #include "base/text.hpp"
@@ -33,15 +33,32 @@ void print(const Page& page) {
 }
 
 /// Says that there is no page of that name, and which there are.
-int unknown(const std::string& kind, const std::string& name, const std::vector<Page>& pages) {
+int unknown(const PageKind& kind, const std::string& name, const std::vector<Page>& pages) {
   std::vector<std::string> names;
   for (const auto& page : pages) names.push_back(page.name);
-  fmt::print(stderr, "drycut {}s: there is no {} type '{}'; {}\n", kind, kind, name,
+  fmt::print(stderr, "{}: there is no {} '{}'; {}\n", kind.command, kind.what, name,
              did_you_mean(name, names, "there are: " + listed(names)));
   return bad_input;
 }
 
-int show(const std::string& kind, const std::vector<Page>& pages, const std::string& name, bool json) {
+CLI::App* add_pages(CLI::App& app, int& status, const std::function<int(const std::string&, bool)>& list,
+                    const char* command, const char* help, const char* about_name) {
+  struct Chosen {
+    std::string name;
+    bool json = false;
+  };
+  const auto chosen = std::make_shared<Chosen>();
+  auto* pages = app.add_subcommand(command, help);
+  pages->add_option("name", chosen->name, about_name);
+  pages->add_flag("--json", chosen->json, "As JSON");
+  pages->callback([chosen, &status, list] { status = list(chosen->name, chosen->json); });
+  return pages;
+}
+
+}  // namespace
+
+int show(const PageKind& kind, const std::vector<Page>& pages, const std::string& name, bool json,
+         const std::vector<Sheet>& overview) {
   if (!name.empty()) {
     const auto page = std::ranges::find_if(pages, [&](const auto& p) { return same_word(p.name, name); });
     if (page == pages.end()) return unknown(kind, name, pages);
@@ -53,27 +70,14 @@ int show(const std::string& kind, const std::vector<Page>& pages, const std::str
     auto all = ordered_json::array();
     for (const auto& page : pages) all.push_back(json_of(page));
     fmt::print("{}\n", all.dump(2));
+  } else if (!overview.empty()) {
+    for (const auto& sheet : overview) fmt::print("{}", sheet.text(output_width()));
   } else {
     for (const auto& page : pages)
       if (page.listed) fmt::print("{:<14} {}\n", page.name, page.summary);
   }
   return all_passed;
 }
-
-void add_pages(CLI::App& app, int& status, int (*list)(const std::string&, bool), const char* command,
-               const char* help, const char* about_name) {
-  struct Chosen {
-    std::string name;
-    bool json = false;
-  };
-  const auto chosen = std::make_shared<Chosen>();
-  auto* pages = app.add_subcommand(command, help);
-  pages->add_option("name", chosen->name, about_name);
-  pages->add_flag("--json", chosen->json, "As JSON");
-  pages->callback([chosen, &status, list] { status = list(chosen->name, chosen->json); });
-}
-
-}  // namespace
 
 std::vector<Page> device_pages() {
   auto pages = qmove_pages();
@@ -82,9 +86,13 @@ std::vector<Page> device_pages() {
   return pages;
 }
 
-int list_devices(const std::string& name, bool json) { return show("device", device_pages(), name, json); }
+int list_devices(const std::string& name, bool json) {
+  return show({"drycut devices", "device type"}, device_pages(), name, json);
+}
 
-int list_plants(const std::string& name, bool json) { return show("plant", plant_pages(), name, json); }
+int list_plants(const std::string& name, bool json) {
+  return show({"drycut plants", "plant type"}, plant_pages(), name, json);
+}
 
 void add_devices(CLI::App& app, int& status) {
   add_pages(app, status, list_devices, "devices", "List device types, or the table of one",
@@ -92,8 +100,16 @@ void add_devices(CLI::App& app, int& status) {
 }
 
 void add_plants(CLI::App& app, int& status) {
-  add_pages(app, status, list_plants, "plants", "List plant types, or the table of one",
-            "Plant type, such as rotary_knife");
+  const auto motors = std::make_shared<bool>(false);
+  const auto list = [motors](const std::string& name, bool json) {
+    return *motors ? list_motors(name, json) : list_plants(name, json);
+  };
+  auto* plants = add_pages(app, status, list, "plants", "List plant types, or the table of one",
+                           "Plant type, such as rotary_knife; with --motors a motor, such as HG-SR202");
+  plants->add_flag(
+      "--motors", *motors,
+      "Motors for servo: {model: ...} and induction_motor: {model: ...}, or the values of one with "
+      "their sources; those in ./catalogue too");
 }
 
 }  // namespace drycut::sim::cli

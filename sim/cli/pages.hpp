@@ -17,6 +17,16 @@ struct Page {
   bool listed = true;                   ///< in the short list of all; else another page names it
 };
 
+/// What a list of pages is of, for messages: {"drycut plants", "plant type"}.
+struct PageKind {
+  std::string command;
+  std::string what;
+};
+/// Prints the page of that name, in any case, or all of them in short: `overview` if it is given, else a line
+/// each. The exit status: 2 where there is none of that name, which is told.
+int show(const PageKind& kind, const std::vector<Page>& pages, const std::string& name, bool json,
+         const std::vector<Sheet>& overview = {});
+
 /// A page for each device of QMOVE, and QMOVE, the language of its tasks.
 std::vector<Page> qmove_pages();
 /// PLCOPEN, blocks and errors, AXIS, values, parameters and terminals, and each function block with its pins.
@@ -28,5 +38,7 @@ std::vector<Page> lx3vp_pages();
 std::vector<Page> device_pages();
 /// A page for each plant type.
 std::vector<Page> plant_pages();
+/// A table of servo motors and one of induction motors that come with the program.
+std::vector<Sheet> motor_tables();
 
 }  // namespace drycut::sim::cli

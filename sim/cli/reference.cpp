@@ -121,7 +121,7 @@ _drycut() {{
   case "$COMP_CWORD:${{COMP_WORDS[1]}}" in
     1:*) COMPREPLY=($(compgen -W "{} --help --version" -- "$word")); return ;;
     2:devices) COMPREPLY=($(compgen -W "{} --json --help" -- "$word")); return ;;
-    2:plants) COMPREPLY=($(compgen -W "{} --json --help" -- "$word")); return ;;
+    2:plants) COMPREPLY=($(compgen -W "{} --json --motors --help" -- "$word")); return ;;
   esac
   case "${{COMP_WORDS[1]}}" in
 {}  esac
@@ -150,6 +150,15 @@ std::string contents(const std::string& title, const std::string& made_by, const
   return text;
 }
 
+std::string motors() {
+  std::string text =
+      "# Motors\n\nMade by `drycut reference`; `drycut plants --motors` prints the same, `drycut plants "
+      "--motors NAME` every "
+      "value of one and where it is from. ~ is an estimate.\n";
+  for (const auto& sheet : motor_tables()) text += sheet.markdown();
+  return text;
+}
+
 std::string command_line(const CLI::App& program) {
   std::string text = "# Commands\n\nMade by `drycut reference` from the program's own options.\n";
   for (const auto* command : commands_of(program)) {
@@ -175,6 +184,7 @@ int write_reference(const CLI::App& program, const std::filesystem::path& folder
   put("commands.md", command_line(program));
   put("devices.md", contents("Devices and controllers", "drycut devices NAME", device_pages()));
   put("plants.md", contents("Plants", "drycut plants NAME", plant_pages()));
+  put("motors.md", motors());
   for (const auto& pages : {device_pages(), plant_pages()})
     for (const auto& page : pages) put(page.name + ".md", markdown(page));
   return all_passed;

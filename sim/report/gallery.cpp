@@ -129,9 +129,15 @@ renders::ReportTable parameter_table(const scenario::PlantEntry& entry) {
     return std::any_of(entry.places.begin(), entry.places.end(),
                        [&](const auto& p) { return p.first == name; });
   };
+  const auto from = [&](const plants::Parameter& parameter) {
+    if (given(parameter.name)) return std::string("the scenario");
+    const auto modelled = std::find_if(entry.modelled.begin(), entry.modelled.end(),
+                                       [&](const auto& m) { return m.parameter == parameter.name; });
+    return modelled == entry.modelled.end() ? std::string(parameter.source) : modelled->from;
+  };
   for (const auto& parameter : entry.definition->parameters()) {
-    table.rows.push_back({{parameter.name, scenario::value_text(parameter), std::string(parameter.meaning),
-                           given(parameter.name) ? "the scenario" : std::string(parameter.source)}});
+    table.rows.push_back(
+        {{parameter.name, scenario::value_text(parameter), std::string(parameter.meaning), from(parameter)}});
   }
   return table;
 }

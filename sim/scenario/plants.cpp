@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "sim/scenario/forms.hpp"
+#include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/sections.hpp"
 
@@ -52,7 +53,46 @@ Place place_of(const PlantEntry& plant, const std::string& parameter) {
   for (const auto& [name, place] : plant.places) {
     if (name == parameter) return place;
   }
+  for (const auto& value : plant.modelled) {
+    if (value.parameter == parameter) return value.place;
+  }
   return plant.name.place;
+}
+
+// The value of a name with dots, given whole or as nested maps; nullptr if there is none.
+const YamlNode* value_of(const YamlNode& map, std::string_view name) {
+  if (const auto* value = child(map, name)) return value;
+  for (auto dot = name.find('.'); dot != std::string_view::npos; dot = name.find('.', dot + 1)) {
+    const auto* const group = child(map, name.substr(0, dot));
+    if (group == nullptr) continue;
+    if (const auto* value = value_of(*group, name.substr(dot + 1))) return value;
+  }
+  return nullptr;
+}
+
+// The values of the models that a plant names, before those that the scenario gives beside them.
+void take_models(const YamlNode& node, PlantEntry& plant, MotorCatalogue& catalogue, Findings& findings) {
+  const auto parameters = plant.definition->parameters();
+  for (const auto& row : parameters) {
+    const auto kind = motor_kind(row.name);
+    const auto* const model = kind.empty() ? nullptr : value_of(node, row.name);
+    if (model == nullptr || model->kind != YamlNode::Kind::scalar || model->text.text == plants::no_model)
+      continue;
+    const auto full = fmt::format("plants.{}.{}", plant.name.text, row.name);
+    const auto* const motor = catalogue.find(kind, model->text, full);
+    if (motor == nullptr) continue;
+    const auto group = row.name.substr(0, row.name.size() - std::string_view("model").size());
+    for (const auto& value : motor->values) {
+      const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&](const auto& candidate) {
+        return candidate.name == group + value.parameter;
+      });
+      if (parameter == parameters.end()) continue;  // on the name plate only
+      form(*parameter)
+          .read(YamlNode(YamlNode::Kind::scalar, value.text), {full, model->text.place}, findings);
+      plant.modelled.push_back(
+          {parameter->name, fmt::format("{}, {}", motor->name.text, value.from), model->text.place});
+    }
+  }
 }
 
 void object(const PlantEntry& plant, const std::vector<plants::PlantDefinition::Objection>& objections,
@@ -201,13 +241,15 @@ void visit(Archive& archive, PlantEntry& plant) {
   ParameterTable table{{}, fmt::format("'drycut plants {}' lists its parameters", plant.type.text)};
   table.places = &plant.places;
   for (const auto& parameter : parameters)
-    table.rows.push_back({parameter.name, [&parameter] { return described(parameter); }, form(parameter)});
+    table.rows.push_back({parameter.name, [&parameter] { return described(parameter); },
+                          motor_kind(parameter.name).empty() ? form(parameter) : model_form(parameter)});
   archive.table(table);
 }
 
 std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types, Time step,
-                                    Findings& findings) {
+                                    const std::filesystem::path& folder, Findings& findings) {
   const auto before = findings.count();
+  MotorCatalogue catalogue(folder, findings);
   std::vector<PlantEntry> plants;
   refuse_duplicates(node, "plants", findings);
   for (const auto& entry : node.entries) {
@@ -223,6 +265,7 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     auto plant = read_plant(entry, types, findings);
     if (!plant) continue;
     MapReader reader(entry.value, "plants." + name, findings);
+    take_models(entry.value, *plant, catalogue, findings);
     visit(reader, *plant);
     // An objection to a default would only be an echo.
     if (reader.is_sound()) object(*plant, plant->definition->objections(seconds(step)), findings);

@@ -20,14 +20,14 @@ constexpr std::size_t largest_text = std::size_t{1} << 20U;  // [bytes]; yaml-cp
 // Reads the whole: plants need the step and the known types, a controller one of its kinds.
 class ScenarioReader final : public MapReader {
  public:
-  ScenarioReader(const YamlNode& root, std::span<const plants::PlantType> types, const SceneSection& scene,
+  ScenarioReader(const YamlNode& root, std::span<const plants::PlantType> types, const Scenario& scenario,
                  Findings& findings)
-      : MapReader(root, "", findings), types_(types), scene_(scene) {}
+      : MapReader(root, "", findings), types_(types), scenario_(scenario) {}
 
   void plants(const Key& key, std::vector<PlantEntry>& plants) override {
     const auto before = findings().count();
     if (const auto* node = of_kind(key.name, YamlNode::Kind::map))
-      plants = read_plants(*node, types_, scene_.step, findings());
+      plants = read_plants(*node, types_, scenario_.scene.step, scenario_.file.parent_path(), findings());
     machine_sound_ = findings().count() == before;
   }
 
@@ -73,7 +73,7 @@ class ScenarioReader final : public MapReader {
   }
 
   std::span<const plants::PlantType> types_;
-  const SceneSection& scene_;
+  const Scenario& scenario_;
   bool machine_sound_ = true;
 };
 
@@ -131,7 +131,7 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
 
 void read_sections(const YamlNode& root, std::span<const plants::PlantType> types, Scenario& scenario,
                    Findings& findings) {
-  ScenarioReader reader(root, types, scenario.scene, findings);
+  ScenarioReader reader(root, types, scenario, findings);
   visit(reader, scenario);
   reader.finish();
   const auto singly = findings.count();

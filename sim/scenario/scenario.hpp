@@ -51,6 +51,13 @@ struct PlantEntry {
   Text type;
   std::unique_ptr<plants::PlantDefinition> definition;  ///< parameters already read
   std::vector<std::pair<std::string, Place>> places;    ///< of the parameters that the file gives
+  /// A parameter that the model of a motor gives.
+  struct Modelled {
+    std::string parameter;
+    std::string from;  ///< "HG-SR202, sheet: ..."
+    Place place;       ///< where the scenario names the model
+  };
+  std::vector<Modelled> modelled = {};
 };
 
 class Archive;

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -9,8 +10,9 @@ namespace drycut::sim::scenario {
 // The steps of read_scenario.
 
 /// Plants with their parameters, each after the plants that it refers to; judged for the scenario's step.
+/// Models of motors are looked for in `catalogue/` of `folder` first.
 std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants::PlantType> types, Time step,
-                                    Findings& findings);
+                                    const std::filesystem::path& folder, Findings& findings);
 
 /// Puts override number `source` (of Findings::sources) into the tree before it is read: lists by index,
 /// missing keys added where a default stands.

@@ -322,6 +322,11 @@ void Findings::add(const Place& place, std::string what, std::string remedy) {
   found_.push_back({place, std::move(what), std::move(remedy)});
 }
 
+int Findings::add_source(std::string name) {
+  sources_.push_back(std::move(name));
+  return static_cast<int>(sources_.size()) - 1;
+}
+
 Problems Findings::sorted() const {
   auto found = found_;
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {

@@ -38,6 +38,8 @@ class Findings {
  public:
   explicit Findings(std::vector<std::string> sources) : sources_(std::move(sources)) {}
   void add(const Place& place, std::string what, std::string remedy);
+  /// Another text takes part: its number.
+  int add_source(std::string name);
   [[nodiscard]] bool empty() const { return found_.empty(); }
   [[nodiscard]] std::size_t count() const { return found_.size(); }
   [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }

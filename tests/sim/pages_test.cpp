@@ -39,6 +39,25 @@ TEST_F(Pages, ThatAreNotThereAreToldWithThoseThatAre) {
   EXPECT_EQ(out, "");
 }
 
+TEST_F(Pages, OfMotorsSayWhereEachValueIsFrom) {
+  EXPECT_EQ(captured([] { return list_motors("", false); }), all_passed);
+  EXPECT_THAT(out, AllOf(HasSubstr("\nServo motors, for servo: {model: ...}\n"),
+                         ContainsRegex("\n  HG-SR202 +2 +9.5 .* Mitsubishi Electric +HG-SR"),
+                         HasSubstr("\nInduction motors, for induction_motor: {model: ...}\n")));
+  EXPECT_EQ(captured([] { return list_motors("hg-sr202", false); }), all_passed);
+  EXPECT_THAT(out, AllOf(testing::StartsWith("HG-SR202: servo, Mitsubishi Electric HG-SR"),
+                         ContainsRegex("\n  rated_torque +9.5 N m +sheet: Mitsubishi SH"),
+                         ContainsRegex("\n  torque_at_max_speed +19 N m +estimate: ")));
+  EXPECT_EQ(captured([] { return list_motors("", true); }), all_passed);
+  const auto motors = json::parse(out);
+  const auto same = std::find_if(motors.begin(), motors.end(),
+                                 [](const auto& motor) { return motor.at("name") == "HG-SR202"; });
+  ASSERT_NE(same, motors.end());
+  EXPECT_EQ(same->at("values").at(0).at("name"), "rotor_inertia");
+  EXPECT_EQ(captured([] { return list_motors("HG-SR203", false); }), bad_input);
+  EXPECT_EQ(err, "drycut plants --motors: there is no motor 'HG-SR203'; did you mean HG-SR202?\n");
+}
+
 TEST_F(Pages, OfPlantsTellWhichDriveBringsWhat) {
   captured([] { return list_plants("vertical_press", false); });
   EXPECT_THAT(out, ContainsRegex("\n  drive.slow .*slow speed.* \\(drive: inverter, contactors\\)\n"));

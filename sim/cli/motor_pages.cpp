@@ -1,0 +1,100 @@
+// `drycut plants --motors`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "sim/cli/commands.hpp"
+#include "sim/cli/pages.hpp"
+#include "sim/scenario/motor_catalogue.hpp"
+
+namespace drycut::sim::cli {
+
+namespace {
+
+std::string title_of(std::string_view kind) {
+  return kind == scenario::motor_kinds[0] ? "Servo motors, for servo: {model: ...}"
+                                          : "Induction motors, for induction_motor: {model: ...}";
+}
+
+// What the short table shows, where a motor of the kind has it.
+constexpr std::string_view told[] = {
+    "rated_power",        "rated_torque",      "stall_torque",     "peak_torque",     "pullout_torque",
+    "rated_speed",        "max_speed",         "rotor_inertia",    "torque_constant", "rated_current",
+    "winding_resistance", "stator_resistance", "amplifier_current"};
+
+// "9.55 N m" in two: number and unit.
+std::pair<std::string, std::string> split(const std::string& shown) {
+  const auto space = shown.find(' ');
+  return space == std::string::npos ? std::pair(shown, std::string())
+                                    : std::pair(shown.substr(0, space), shown.substr(space + 1));
+}
+
+std::string heading(const std::string& parameter, const std::string& shown) {
+  auto words = parameter;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  const auto unit = split(shown).second;
+  return unit.empty() ? words : fmt::format("{} [{}]", words, unit);
+}
+
+Sheet table_of(const std::vector<scenario::MotorModel>& motors, std::string_view kind) {
+  std::vector<std::string> columns = {"model"};
+  std::vector<std::string_view> parameters;
+  for (const auto& parameter : told) {
+    const auto has = std::find_if(motors.begin(), motors.end(), [&](const auto& motor) {
+      return motor.kind == kind && motor.find(parameter) != nullptr;
+    });
+    if (has == motors.end()) continue;
+    parameters.push_back(parameter);
+    columns.push_back(heading(std::string(parameter), has->find(parameter)->shown));
+  }
+  columns.insert(columns.end(), {"vendor", "series"});
+  Sheet sheet(std::string(kind), title_of(kind), columns);
+  for (const auto& motor : motors) {
+    if (motor.kind != kind) continue;
+    std::vector<Sheet::Cell> row = {motor.name.text};
+    for (const auto& parameter : parameters) {
+      const auto* const value = motor.find(parameter);
+      row.emplace_back(value == nullptr ? std::string()
+                                        : (value->is_estimate() ? "~" : "") + split(value->shown).first);
+    }
+    row.insert(row.end(), {motor.vendor, motor.series});
+    sheet.add(std::move(row));
+  }
+  return sheet;
+}
+
+std::vector<Sheet> tables_of(const std::vector<scenario::MotorModel>& motors) {
+  std::vector<Sheet> tables;
+  for (const auto kind : scenario::motor_kinds) tables.push_back(table_of(motors, kind));
+  return tables;
+}
+
+Page page_of(const scenario::MotorModel& motor) {
+  auto kind = motor.kind;
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  Sheet values("values", fmt::format("Values, for {}: {{model: {}}}", motor.kind, motor.name.text),
+               {"name=parameter", "value", "source=from"});
+  for (const auto& value : motor.values) values.add({value.parameter, value.shown, value.from});
+  return {motor.name.text, fmt::format("{}, {} {}", kind, motor.vendor, motor.series), "", {values}};
+}
+
+}  // namespace
+
+std::vector<Sheet> motor_tables() { return tables_of(scenario::shipped_motors()); }
+
+int list_motors(const std::string& name, bool json) {
+  scenario::Findings findings({});
+  const auto motors = read_motors({}, findings);
+  if (!findings.empty()) {
+    print_problems(findings.sorted());
+    return bad_input;
+  }
+  std::vector<Page> pages;
+  pages.reserve(motors.size());
+  for (const auto& motor : motors) pages.push_back(page_of(motor));
+  return show({"drycut plants --motors", "motor"}, pages, name, json, tables_of(motors));
+}
+
+}  // namespace drycut::sim::cli
