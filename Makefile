@@ -12,7 +12,7 @@ JOBS     ?= $(shell nproc)
 PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libassimp-dev libeigen3-dev libyaml-cpp-dev \
             libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs ffmpeg
-TEST_PACKAGES  := libgtest-dev libgmock-dev python3-jsonschema python3-yaml
+TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev python3-jsonschema python3-yaml
 BENCH_PACKAGES := libmujoco-dev
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
@@ -53,7 +53,7 @@ test: setup
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
 # The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.
-SLOW := *Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*
+SLOW := *Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:Witness.*
 quick: setup
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null

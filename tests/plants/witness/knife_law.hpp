@@ -1,0 +1,132 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "plants/rotary_knife.hpp"
+#include "tests/plants/witness/cvode.hpp"
+#include "tests/plants/witness/laws.hpp"
+
+namespace drycut::plants::witness {
+
+/// The rotary knife on a web that nothing drives; the plant's is plants/rotary_knife.cpp with cutting.cpp.
+/// With the motor's angle a and speed w, the drum's d and W, gear n, radius R of the blade tips, web of speed
+/// v and thickness s, b the angle of the blade from bottom dead centre:
+///   twist = a / n - d,  M = gear torque of the twist and its rate
+///   rotor w' = T - M / n - friction of the motor
+///   drum W' = M - H R cos b - friction of the drum and, until the blade is through, F R |sin b|
+///   web v' = H = coupling (W R cos b - v), at most the grip
+/// F is the parabola of the cut over the depth s - R (1 - cos b): 4 peak p (1 - p), p the depth over s. H
+/// acts while the blade is in the web; behind bottom dead centre the piece is off and the web only runs up.
+struct KnifeLaw : Equations {
+  enum State { angle, speed, drum, drum_speed, web_speed };
+  static constexpr std::size_t servo_states = 5;  ///< the servo's begin there
+  enum Switch { motor_slides, drum_slides, torque_limit, blade, all };
+
+  Motion motion;
+  Servo servo;
+  RotaryKnifeData data;
+  WebData web;
+  double peak;  ///< of the cutting force [N]
+  double radius;
+  Dry motor_friction;
+  Dry drum_friction;
+  /// Of the blade that comes next; the motions here only go forward while it is in the web.
+  enum class Blade { above, cuts, through } at = Blade::above;
+  double bottom = 2 * std::numbers::pi;  ///< its dead centre, angle of the drum [rad]
+
+  KnifeLaw(const RotaryKnifeData& knife, WebData strip, Motion told)
+      : motion(std::move(told)),
+        servo{knife.drive.servo},
+        data(knife),
+        web(std::move(strip)),
+        peak(web.shear_strength * web.thickness * web.width),
+        radius(knife.circumference / (2 * std::numbers::pi)),
+        motor_friction{knife.motor_friction},
+        drum_friction{knife.drum_friction} {}
+
+  [[nodiscard]] std::vector<double> start() const override {
+    return {data.initial_angle * data.gear.ratio, 0, data.initial_angle, 0, web.drive.speed, 0, 0, 0};
+  }
+
+  void record(std::span<const double> y, Track& track) const {
+    track.motor.push_back(y[angle] / data.gear.ratio * radius);
+    track.load.push_back(y[drum] * radius);
+  }
+
+  /// All but the friction.
+  struct Efforts {
+    double motor;  ///< [N m]
+    double drum;   ///< [N m]
+    double web;    ///< [N]
+    DryResistance cut;
+  };
+  [[nodiscard]] Efforts efforts(std::span<const double> y) const {
+    const double twist = y[angle] / data.gear.ratio - y[drum];
+    const double rate = y[speed] / data.gear.ratio - y[drum_speed];
+    const double gear = gear_torque(data.gear, twist, rate);
+    Efforts sum{y[servo_states + Servo::torque] - gear / data.gear.ratio, gear, 0, {}};
+    if (at == Blade::above) return sum;
+    const double behind = y[drum] - bottom;
+    const double arm = radius * std::cos(behind);
+    const double push = data.coupling * (y[drum_speed] * arm - y[web_speed]);
+    sum.web = std::clamp(at == Blade::through ? std::min(0.0, push) : push, -data.grip, data.grip);
+    sum.drum -= sum.web * arm;
+    const double p = 1 - radius * (1 - std::cos(behind)) / web.thickness;
+    if (at == Blade::cuts) sum.cut.forward = 4 * peak * p * (1 - p) * radius * std::abs(std::sin(behind));
+    return sum;
+  }
+
+  [[nodiscard]] Servo::Input input(double t, std::span<const double> y, const Efforts& sum) const {
+    return {motion.volts(t), y[speed],
+            motor_friction.acceleration(servo.data.rotor_inertia, y[speed], sum.motor, {})};
+  }
+  void slope(double t, std::span<const double> y, std::span<double> dy) const override {
+    const Efforts sum = efforts(y);
+    const Servo::Input in = input(t, y, sum);
+    dy[angle] = y[speed];
+    dy[speed] = in.acceleration;
+    dy[drum] = y[drum_speed];
+    dy[drum_speed] = drum_friction.acceleration(data.drum_inertia, y[drum_speed], sum.drum, sum.cut);
+    dy[web_speed] = sum.web / web.mass;
+    servo.slope(in, y.subspan(servo_states), dy.subspan(servo_states));
+  }
+  [[nodiscard]] int switches() const override { return all; }
+  void watch(double t, std::span<const double> y, std::span<double> g) const override {
+    const Efforts sum = efforts(y);
+    g[motor_slides] = motor_friction.watch(y[speed], sum.motor, {});
+    g[drum_slides] = drum_friction.watch(y[drum_speed], sum.drum, sum.cut);
+    g[torque_limit] = servo.watch(input(t, y, sum), y.subspan(servo_states));
+    const double touch = std::acos(1 - web.thickness / radius);  // the tip is on the web's surface
+    const double behind = y[drum] - bottom;
+    g[blade] = at == Blade::above ? behind + touch : at == Blade::cuts ? behind : behind - touch;
+  }
+  void act(double t, std::span<double> y, int which) override {
+    const Efforts sum = efforts(y);
+    if (which == motor_slides)
+      motor_friction.act(y[speed], sum.motor, {});
+    else if (which == drum_slides)
+      drum_friction.act(y[drum_speed], sum.drum, sum.cut);
+    else if (which == torque_limit)
+      servo.act(input(t, y, sum), y.subspan(servo_states));
+    else
+      move_blade();
+  }
+
+ private:
+  void move_blade() {
+    if (at == Blade::above) {
+      at = Blade::cuts;
+    } else if (at == Blade::cuts) {
+      at = Blade::through;
+    } else {
+      at = Blade::above;
+      bottom += 2 * std::numbers::pi / data.blade_count;
+    }
+  }
+};
+
+}  // namespace drycut::plants::witness

@@ -1,0 +1,187 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "plants/end_stop.hpp"
+#include "plants/friction.hpp"
+#include "plants/servo_drive.hpp"
+#include "plants/transmission.hpp"
+
+// What the machines have in common, written once more from what the parameters mean and as equations of
+// continuous time: none of the plants' functions is used, only their parameters. y' = f(y), in SI.
+
+namespace drycut::plants::witness {
+
+/// Where motor and load of a machine were, a sample every millisecond, both as travel of the load [m].
+struct Track {
+  std::vector<double> motor;
+  std::vector<double> load;
+
+  [[nodiscard]] double travel() const {
+    const auto [least, most] = std::minmax_element(load.begin(), load.end());
+    return *most - *least;
+  }
+};
+/// What a machine is told over a while: a reference that goes evenly from one voltage to another, and a
+/// force of the process.
+struct Leg {
+  double until;      ///< [s], whole milliseconds
+  double from;       ///< [V]
+  double to;         ///< [V]
+  double force = 0;  ///< on the guided part [N]
+};
+struct Motion {
+  std::vector<Leg> legs;
+  std::size_t leg = 0;  ///< that is on
+
+  [[nodiscard]] double began() const { return leg == 0 ? 0 : legs[leg - 1].until; }
+  [[nodiscard]] double volts(double t) const {
+    const Leg& now = legs[leg];
+    return now.from + (now.to - now.from) * (t - began()) / (now.until - began());
+  }
+  [[nodiscard]] double force() const { return legs[leg].force; }
+  /// Goes on to the leg that follows `t`; true if that is another one.
+  bool follow(double t) {
+    if (leg + 1 == legs.size() || t < legs[leg].until - 1e-9) return false;
+    ++leg;
+    return true;
+  }
+};
+
+/// A servo with speed reference; the plant's is plants/servo_drive.cpp. With the reference filter's time tf,
+/// the current loop's tc and the gain K = (1 + inertia ratio) rotor inertia speed gain:
+///   r' = (speed per volt u - r) / tf       reference
+///   p = K (r - speed) + i                  what the loop asks for
+///   i' = K / Ti (r - speed)                stands while the limit acts and the error drives it further in
+///   T' = (p within the limits - T) / tc    torque
+/// Where p would leave the limit with the integral running and fall below it with the integral standing, the
+/// integral runs just so fast that p stays along the limit. The ADC is taken as ideal.
+struct Servo {
+  enum State { reference, integral, torque };
+  /// What it is told and what its motor does.
+  struct Input {
+    double volts;         ///< [V]
+    double speed;         ///< [rad/s]
+    double acceleration;  ///< [rad/s2]
+  };
+  ServoData data;
+  enum class Limit { within, beyond, along } at = Limit::within;
+
+  [[nodiscard]] double gain() const {
+    return (1 + data.inertia_ratio) * data.rotor_inertia * data.speed_gain;
+  }
+  [[nodiscard]] double asked(const Input& in, std::span<const double> y) const {
+    return gain() * (y[reference] - in.speed) + y[integral];
+  }
+  /// Fall of the limit with the speed of a motor that is driven above rated speed [N m s/rad].
+  [[nodiscard]] double fall(const Input& in, double asked) const {
+    const bool falls = std::abs(in.speed) > data.rated_speed && asked * in.speed > 0;
+    return falls ? (data.peak_torque - data.torque_at_max_speed) / (data.max_speed - data.rated_speed) : 0;
+  }
+  [[nodiscard]] double limit(const Input& in, double asked) const {
+    return data.peak_torque - fall(in, asked) * (std::abs(in.speed) - data.rated_speed);
+  }
+  [[nodiscard]] double reference_rate(const Input& in, std::span<const double> y) const {
+    return ((in.volts + data.offset) * data.speed_at_10v / 10 - y[reference]) / data.filter;
+  }
+  [[nodiscard]] double winding(const Input& in, std::span<const double> y) const {
+    return gain() / data.integral_time * (y[reference] - in.speed);
+  }
+  /// Rate of the integral that keeps p along the limit.
+  [[nodiscard]] double keeping(const Input& in, std::span<const double> y) const {
+    return -gain() * (reference_rate(in, y) - in.acceleration) - fall(in, asked(in, y)) * in.acceleration;
+  }
+  void slope(const Input& in, std::span<const double> y, std::span<double> dy) const {
+    const double p = asked(in, y);
+    const double most = limit(in, p);
+    const bool stands = at == Limit::beyond && p * (y[reference] - in.speed) >= 0;
+    dy[reference] = reference_rate(in, y);
+    dy[integral] = at == Limit::along ? keeping(in, y) : stands ? 0 : winding(in, y);
+    dy[torque] = (std::clamp(p, -most, most) - y[torque]) / data.current_lag;
+  }
+
+  [[nodiscard]] double watch(const Input& in, std::span<const double> y) const {
+    const double p = asked(in, y);
+    const double over = std::abs(p) - limit(in, p);
+    const double side = p > 0 ? 1 : -1;
+    if (at == Limit::within) return over - hair;
+    if (at == Limit::beyond) return -over - hair;
+    return std::max(side * (keeping(in, y) - winding(in, y)), -side * keeping(in, y));
+  }
+  void act(const Input& in, std::span<double> y) {
+    const double p = asked(in, y);
+    const double side = p > 0 ? 1 : -1;
+    if (side * keeping(in, y) < 0)
+      at = Limit::beyond;
+    else
+      at = at != Limit::within && side * (keeping(in, y) - winding(in, y)) > 0 ? Limit::within : Limit::along;
+    if (at == Limit::along) y[integral] += side * limit(in, p) - p;
+  }
+
+ private:
+  static constexpr double hair = 1e-9;  // [N m]
+};
+
+/// Friction of a guided body; the plant's is plants/friction.hpp. Sliding it resists with
+///   viscous v + sign(v) (coulomb + breakaway exp(-(v / stribeck)^2)),
+/// plus what else resists a motion that way; sticking it holds the body against all that is below that.
+struct Dry {
+  Friction data;
+  int way = 0;  ///< that it slides, 1 or -1; 0: it sticks
+
+  [[nodiscard]] double level(double speed) const {
+    if (data.breakaway == 0) return data.coulomb;
+    return data.coulomb + data.breakaway * std::exp(-std::pow(speed / data.stribeck_speed, 2));
+  }
+  /// Of the body, under all other efforts.
+  [[nodiscard]] double acceleration(double inertia, double speed, double effort,
+                                    const DryResistance& more) const {
+    if (way == 0) return 0;
+    const double dry = way > 0 ? level(speed) + more.forward : -level(speed) - more.backward;
+    return (effort - data.viscous * speed - dry) / inertia;
+  }
+  [[nodiscard]] double watch(double speed, double effort, const DryResistance& more) const {
+    if (way != 0) return -way * speed;
+    return std::max(effort - level(0) - more.forward, -effort - level(0) - more.backward);
+  }
+  void act(double& speed, double effort, const DryResistance& more) {
+    const bool slid = way != 0;
+    const double up = effort - level(0) - more.forward;
+    const double down = -effort - level(0) - more.backward;
+    if (slid) speed = 0;
+    way = slid && std::max(up, down) <= 0 ? 0 : up > down ? 1 : -1;
+  }
+};
+
+/// Torque of a gear on its load, seen there; the plant's is plants/transmission.cpp. Without play spring and
+/// damper; with play two flanks that push with spring and damper once the twist has taken up half of it, the
+/// damper held to the spring's torque both ways.
+[[nodiscard]] inline double gear_torque(const TransmissionData& gear, double twist, double rate) {
+  if (gear.backlash == 0) return gear.stiffness * twist + gear.damping * rate;
+  const double pressed = std::abs(twist) - gear.backlash / 2;
+  if (pressed <= 0) return 0;
+  const double side = twist > 0 ? 1 : -1;
+  const double spring = gear.stiffness * pressed;
+  return side * (spring + std::clamp(side * gear.damping * rate, -spring, spring));
+}
+
+/// A buffer that only pushes: an end stop or a workpiece; the plant's is plants/end_stop.hpp.
+struct Buffer {
+  EndStopData data;
+  double position;  ///< where it begins [m]
+  double side;      ///< 1: at the upper end, -1: at the lower
+  bool touched = false;
+
+  [[nodiscard]] double depth(double x) const { return side * (x - position); }
+  /// On the part [N].
+  [[nodiscard]] double force(double x, double speed) const {
+    if (!touched) return 0;
+    return -side * std::max(0.0, data.stiffness * depth(x) + data.damping * side * speed);
+  }
+  [[nodiscard]] double watch(double x) const { return touched ? -depth(x) : depth(x); }
+  void act() { touched = !touched; }
+};
+
+}  // namespace drycut::plants::witness
