@@ -44,7 +44,7 @@ inline void set(Plant& plant, const std::string& name, double value) {
   ADD_FAILURE() << "no setting " << name;
 }
 
-inline void fault(std::vector<Fault> faults, const std::string& component, const std::string& name,
+inline void fault(const std::vector<Fault>& faults, const std::string& component, const std::string& name,
                   double value) {
   for (const Fault& f : faults)
     if (f.component == component && f.name == name) return f.act(value);

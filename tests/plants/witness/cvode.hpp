@@ -9,7 +9,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace drycut::plants::witness {
@@ -111,9 +110,9 @@ class Cvode {
   static void need(int flag) {
     if (flag >= 0) return;
     char* name = CVodeGetReturnFlagName(flag);
-    std::string text = name;
+    const std::string text = name;
     std::free(name);  // NOLINT: CVODE allocates it
-    throw std::runtime_error(std::move(text));
+    throw std::runtime_error(text);
   }
 
   static std::span<double> values(N_Vector v) {

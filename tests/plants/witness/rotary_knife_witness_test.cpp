@@ -58,7 +58,7 @@ TEST(Witness, RotaryKnife) {
     return std::make_unique<KnifeLaw>(soft_knife().data, coasting_web().data, two_cuts);
   };
   expect_witness<KnifeLaw>(
-      unit, law, 2.5e-6,
+      unit, law, 2.5e-6, 2e-7,
       {{"no damping of the gear", [](KnifeLaw& l) { l.data.gear.damping = 0; }},
        {"no play", [](KnifeLaw& l) { l.data.gear.backlash = 0; }},
        {"drum as if before the gear", [](KnifeLaw& l) { l.data.drum_inertia /= l.data.gear.ratio; }},

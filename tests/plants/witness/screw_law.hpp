@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "base/units.hpp"
 #include "plants/screw_drive.hpp"
 #include "tests/plants/witness/cvode.hpp"
 #include "tests/plants/witness/laws.hpp"
