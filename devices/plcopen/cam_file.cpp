@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -89,11 +91,9 @@ class CamReader {
   }
 
   [[nodiscard]] std::vector<std::string> keys() const {
-    std::vector<std::string> keys{"interpolation", "endless",     "master_modulo", "slave_modulo",
-                                  "periodic",      "master_unit", "slave_unit",    "maxvel",
-                                  "maxacc",        "maxjerk",     "minpos",        "maxpos"};
-    // A .tab file has these two in its header.
-    if (!tab_) keys.insert(keys.end(), {"name", "id"});
+    std::vector<std::string> keys;
+    for (const CamFileKey& key : cam_file_keys())
+      if (!tab_ || !key.in_csv_only) keys.emplace_back(key.name);
     return keys;
   }
 
@@ -204,6 +204,32 @@ std::string remedy_of(ErrorId error) {
 }
 
 }  // namespace
+
+std::span<const CamFileKey> cam_file_keys() {
+  static constexpr std::string_view positive = "1e-9 to 1e12";
+  static constexpr std::string_view any = "-1e12 to 1e12";
+  static constexpr std::array keys = {
+      CamFileKey{"interpolation", "STEP_DIRECT, LINEAR, POLYNOM_3, POLYNOM_3_KOEFF, LINE_POLY5, POLY5_LINE",
+                 "LINEAR",
+                 "the law between the rows; unless given POLY5_LINE of master,slave and POLYNOM_3_KOEFF of "
+                 "a0,a1,a2,a3"},
+      CamFileKey{"endless", "positive, negative, no", "no", "a slave that goes on turn after turn"},
+      CamFileKey{"master_modulo", "1 to 2147483647", "3600000",
+                 "a turn of the master [0.0001 deg or 0.1 um]"},
+      CamFileKey{"slave_modulo", "0 to 2147483647", "3600000",
+                 "a turn of the slave, 0 = a linear one [0.0001 deg or 0.1 um]"},
+      CamFileKey{"periodic", "yes, no", "yes", "StartMode F_PERIODIC: the cam repeats itself"},
+      CamFileKey{"master_unit", "deg, mm", "deg", "what 10000 of the master's increments are one of"},
+      CamFileKey{"slave_unit", "deg, mm", "deg", "the same of the slave; mm where slave_modulo is 0"},
+      CamFileKey{"maxvel", positive, "", "limit of the slave's velocity [deg/s or mm/s]"},
+      CamFileKey{"maxacc", positive, "", "limit of its acceleration [deg/s2 or mm/s2]"},
+      CamFileKey{"maxjerk", positive, "", "limit of its jerk [deg/s3 or mm/s3]"},
+      CamFileKey{"minpos", any, "", "lower end of the slave's travel [0.0001 deg or 0.1 um]"},
+      CamFileKey{"maxpos", any, "", "upper end of it"},
+      CamFileKey{"name", "a text", "", "of the table, as programs call it", true},
+      CamFileKey{"id", "1 to 65535", "1", "of the table", true}};
+  return keys;
+}
 
 std::vector<CamRefusal> refusals(const CamFile& cam) {
   std::vector<CamRefusal> found;

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,10 +45,19 @@ struct CamFile {
   bool operator==(const CamFile&) const = default;
 };
 
+/// A key of a cam file's comments, `# key: value`.
+struct CamFileKey {
+  std::string_view name;
+  std::string_view values;
+  std::string_view fallback;  ///< where it is not given; "" = nothing stands for it
+  std::string_view meaning;
+  bool in_csv_only = false;  ///< a .tab file has it in its header
+};
+std::span<const CamFileKey> cam_file_keys();
+
 /// Reads a cam as CSV or .tab file, without MC_CamIn's own checks. CSV has `# key: value` lines, a header
 /// `slave`, `master,slave` or `a0,a1,a2,a3`, then the rows; with `;` between the columns a decimal comma is
-/// taken too. Keys: interpolation, endless, master_modulo, slave_modulo, periodic, master_unit, slave_unit,
-/// maxvel, maxacc, maxjerk, minpos, maxpos, of CSV name and id too; `##` begins a remark. In a .tab file all
+/// taken too. `##` begins a remark. In a .tab file all
 /// other comments are remarks. Nullopt if there is a fault.
 std::optional<CamFile> read_cam(std::string_view text, const std::string& file, Problems& problems);
 

@@ -61,6 +61,8 @@ void TableProblems::add(int line, int column, std::string what, std::string reme
       {file_, line, column, "too many problems: the rest is not told", "is this a cam table?"});
 }
 
+std::string range_text(Range range) { return fmt::format("{:.10g} to {:.10g}", range.low, range.high); }
+
 std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string_view name, Range range,
                                          TableProblems& problems) {
   auto digits = cell.text;
@@ -110,8 +112,8 @@ std::optional<double> real_number(const Cell& cell, int line, std::string_view n
 
 void Settings::travel(const std::string& least, const std::string& most, Range range,
                       devices::CamTravel& travel) {
-  whole(least, range, travel.least);
-  whole(most, range, travel.most);
+  whole(least, range, travel.least, "lower end of the slave's travel");
+  whole(most, range, travel.most, "upper end of it");
   travel_ = &travel;
   least_ = least;
   most_ = most;

@@ -47,6 +47,8 @@ struct Range {
   double low = 0;
   double high = 0;
 };
+/// "0 to 5".
+std::string range_text(Range range);
 /// A whole number in its range, or a problem.
 std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string_view name, Range range,
                                          TableProblems& problems);
@@ -54,16 +56,30 @@ std::optional<std::int64_t> whole_number(const Cell& cell, int line, std::string
 std::optional<double> real_number(const Cell& cell, int line, std::string_view name, Range range,
                                   TableProblems& problems);
 
+/// A key or a column of a table, as the reference tells it.
+struct CamKey {
+  std::string name;
+  std::string values;    ///< "0 to 5"
+  std::string fallback;  ///< where it is not given; "" = nothing stands for it
+  std::string meaning;
+};
+
 /// The settings of a table, comment lines `# key: value` above its header; `##` and prose are remarks.
 class Settings {
  public:
   using Take = std::function<void(const Cell& value, int line)>;
   explicit Settings(TableProblems& problems) : problems_(problems) {}
-  void add(std::string name, Take take) { settings_.emplace(std::move(name), std::move(take)); }
-  /// A setting that is a whole number in its range.
+  void add(CamKey key, Take take) {
+    settings_.emplace(key.name, std::move(take));
+    keys_.push_back(std::move(key));
+  }
+  /// A setting that is a whole number in its range; `target` holds its default.
   template <typename Target>
-  void whole(const std::string& name, Range range, Target& target) {
-    add(name, [this, name, range, &target](const Cell& value, int line) {
+  void whole(const std::string& name, Range range, Target& target, std::string meaning) {
+    CamKey key{name, range_text(range), "", std::move(meaning)};
+    if constexpr (std::is_integral_v<Target>)
+      if (target >= range.low && target <= range.high) key.fallback = std::to_string(target);
+    add(std::move(key), [this, name, range, &target](const Cell& value, int line) {
       const auto number = whole_number(value, line, name, range, problems_);
       if (!number) return;
       if constexpr (std::is_integral_v<Target>)
@@ -78,6 +94,8 @@ class Settings {
   void check_travel() const;
   /// Reads a comment line; `above` is false once the header was read.
   void read(const Cell& comment, int line, bool above);
+  /// All of them, in the order in which they were added.
+  [[nodiscard]] const std::vector<CamKey>& keys() const { return keys_; }
   /// Line that gave a setting, 0 = none did.
   [[nodiscard]] int line_of(std::string_view name) const;
 
@@ -88,6 +106,7 @@ class Settings {
   TableProblems& problems_;
   std::map<std::string, Take, std::less<>> settings_;
   std::map<std::string, int, std::less<>> given_;
+  std::vector<CamKey> keys_;
   const devices::CamTravel* travel_ = nullptr;
   std::string least_;  ///< name of its lower end
   std::string most_;

@@ -10,16 +10,22 @@ using devices::lx3vp::EcamTable;
 using devices::plcopen::CamFile;
 
 devices::CamTable read_camming4(std::string_view text, const std::string& file, Problems& problems);
+std::vector<CamKey> camming4_keys();
+std::vector<CamKey> camming4_columns();
 CamStudy study_of(const CammingTable& table, const CamRequest& request, Problems& problems);
 IdealCam ideal_of(const CammingTable& table, MasterRange range);
 std::string file_of(CammingTable& table, const std::string& file);
 
 devices::CamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems);
+std::vector<CamKey> lx3vp_keys();
+std::vector<CamKey> lx3vp_columns();
 CamStudy study_of(const EcamTable& table, const CamRequest& request, Problems& problems);
 IdealCam ideal_of(const EcamTable& table, MasterRange range);
 std::string file_of(EcamTable& table, const std::string& file);
 
 devices::CamTable read_mc_camin(std::string_view text, const std::string& file, Problems& problems);
+std::vector<CamKey> mc_camin_keys();
+std::vector<CamKey> mc_camin_columns();
 CamStudy study_of(const CamFile& cam, const CamRequest& request, Problems& problems);
 IdealCam ideal_of(const CamFile& cam, MasterRange range);
 std::string file_of(CamFile& cam, const std::string& file);

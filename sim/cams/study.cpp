@@ -8,7 +8,6 @@
 #include <cstddef>
 
 #include "base/text.hpp"
-#include "sim/cams/csv.hpp"
 #include "sim/cams/kinds.hpp"
 
 namespace drycut::sim::cams {
@@ -31,15 +30,21 @@ bool owns_lx3vp(std::string_view text) {
 }
 
 /// Sectors of CAMMING4 (000), run by the device's own cam engine.
-constexpr CamKind camming4_cams = {"camming4", "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM",
-                                   owns_camming4, read_camming4};
+constexpr CamKind camming4_cams = {"camming4",    "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM",
+                                   owns_camming4, read_camming4,
+                                   camming4_keys, camming4_columns};
 /// Cam tables of the ISG kernel's MC_CamIn (004): its .tab files, or CSV.
 constexpr CamKind mc_camin_cams = {
-    "mc_camin", "slave (or a0,a1,a2,a3, or master,slave below # interpolation: POLY5_LINE; or a .tab file)",
-    owns_mc_camin, read_mc_camin};
+    "mc_camin",
+    "slave (or a0,a1,a2,a3, or master,slave below # interpolation: POLY5_LINE; or a .tab file)",
+    owns_mc_camin,
+    read_mc_camin,
+    mc_camin_keys,
+    mc_camin_columns};
 /// Tables of the LX3VP's electronic cam (003), given or made by its own ECAMTBX.
-constexpr CamKind lx3vp_cams = {"lx3vp", "master,slave (or # ecamtbx: K100 and parameter,value)", owns_lx3vp,
-                                read_lx3vp};
+constexpr CamKind lx3vp_cams = {"lx3vp",    "master,slave (or # ecamtbx: K100 and parameter,value)",
+                                owns_lx3vp, read_lx3vp,
+                                lx3vp_keys, lx3vp_columns};
 /// In the order of asking whose a text is.
 constexpr std::array kinds = {camming4_cams, mc_camin_cams, lx3vp_cams};
 
@@ -72,7 +77,7 @@ devices::CamTable read_no_kind(std::string_view text, const std::string& file, P
 bool owns_nothing(std::string_view /*text*/) { return false; }
 
 /// Takes what no kind knows, to tell what all of them want.
-constexpr CamKind no_kind = {"", "", owns_nothing, read_no_kind};
+constexpr CamKind no_kind = {"", "", owns_nothing, read_no_kind, nullptr, nullptr};
 
 void check_positions(const std::vector<double>& at, const CamStudy& study, Problems& problems) {
   const double first = study.course.first_master;

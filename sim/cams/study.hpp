@@ -6,6 +6,7 @@
 
 #include "base/problem.hpp"
 #include "devices/cam/table.hpp"
+#include "sim/cams/csv.hpp"
 #include "sim/cams/ideal.hpp"
 #include "sim/cams/motion_plot.hpp"
 #include "sim/cams/report.hpp"
@@ -43,6 +44,9 @@ struct CamKind {
   bool (*owns)(std::string_view text);
   /// Reads a table; every fault becomes a problem with line and column, and the table means nothing.
   devices::CamTable (*read)(std::string_view text, const std::string& file, Problems& problems);
+  /// Its keys, `# key: value`, and its columns, as the reference tells them.
+  std::vector<CamKey> (*keys)();
+  std::vector<CamKey> (*columns)();
 };
 
 /// All kinds; the first also takes what no other owns.

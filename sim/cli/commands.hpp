@@ -27,7 +27,8 @@ void add_compare(CLI::App& app, int& status);
 void add_devices(CLI::App& app, int& status);
 void add_plants(CLI::App& app, int& status);
 /// drycut reference DIR, which --help does not list: `drycut.1`, the manual page, `drycut.bash`, completion
-/// for bash, and in Markdown `commands.md`, `devices.md`, `plants.md` and a page for each device and plant.
+/// for bash, and in Markdown `commands.md`, `devices.md`, `plants.md`, a page for each device and plant,
+/// `scenario.md`, `comparison.md` and `cam_tables.md`.
 void add_reference(CLI::App& app, int& status);
 
 /// drycut devices, drycut plants, drycut plants --motors: the tables; of one if `name` is given.

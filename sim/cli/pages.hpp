@@ -36,6 +36,10 @@ std::vector<Page> plcopen_pages();
 std::vector<Page> lx3vp_pages();
 /// All of these, in this order.
 std::vector<Page> device_pages();
+/// The keys of scenario files, and of scenes that compare.
+std::vector<Page> scenario_pages();
+/// The keys and columns of all kinds of cam tables.
+Page cam_table_page();
 /// A page for each plant type.
 std::vector<Page> plant_pages();
 /// A table of servo motors and one of induction motors that come with the program.

@@ -185,7 +185,8 @@ int write_reference(const CLI::App& program, const std::filesystem::path& folder
   put("devices.md", contents("Devices and controllers", "drycut devices NAME", device_pages()));
   put("plants.md", contents("Plants", "drycut plants NAME", plant_pages()));
   put("motors.md", motors());
-  for (const auto& pages : {device_pages(), plant_pages()})
+  put("cam_tables.md", markdown(cam_table_page()));
+  for (const auto& pages : {device_pages(), plant_pages(), scenario_pages()})
     for (const auto& page : pages) put(page.name + ".md", markdown(page));
   return all_passed;
 }

@@ -23,13 +23,23 @@ using camming4::Use;
 const std::vector<std::string> columns = {"sector",  "codeG",   "codeQm", "codeQs",
                                           "codeQma", "codeQsa", "codeM"};
 
-Range range_of_variable(std::string_view name) {
+/// What the device's own table says of a variable or a field of its record.
+struct Entry {
+  Range range;
+  std::string meaning;
+};
+Entry entry_of(std::string_view name) {
   for (const auto& variable : camming4::table::variables)
-    if (variable.name == name) return {variable.min, variable.max};
+    if (variable.name == name)
+      return {{variable.min, variable.max},
+              variable.unit.empty() ? std::string(variable.meaning)
+                                    : fmt::format("{} [{}]", variable.meaning, variable.unit)};
   for (const auto& field : camming4::table::fields)
-    if (field.name == name) return {static_cast<double>(field.min), static_cast<double>(field.max)};
+    if (field.name == name)
+      return {{static_cast<double>(field.min), static_cast<double>(field.max)}, std::string(field.meaning)};
   return {};
 }
+Range range_of_variable(std::string_view name) { return entry_of(name).range; }
 
 /// The range of a column under a code (000 1.2.13): narrower than its variable's where the code says so.
 Range range_of(std::string_view column, Use use, int code) {
@@ -59,7 +69,8 @@ class Reader {
       : text_(text), told_(file, problems), settings_(told_) {
     table_.file = file;
     const auto take = [&](const char* name, std::int32_t& target) {
-      settings_.whole(name, range_of_variable(name), target);
+      auto [range, meaning] = entry_of(name);
+      settings_.whole(name, range, target, std::move(meaning));
     };
     take("measure", measure_);
     take("pulse", pulse_);
@@ -71,13 +82,17 @@ class Reader {
     take("taccmax", table_.taccmax);
     take("tdecmax", table_.tdecmax);
     settings_.travel("minpos", "maxpos", range_of_variable("minpos"), table_.travel);
-    settings_.add("TCamp", [this](Cell value, int line) {
-      if (value.text.ends_with("ms"))
-        value = trimmed({value.text.substr(0, value.text.size() - 2), value.column});
-      if (const auto number = whole_number(value, line, "TCamp", range_of_variable("TCamp"), told_))
-        table_.TCamp = static_cast<std::int32_t>(*number);
-    });
+    const auto [range, meaning] = entry_of("TCamp");
+    settings_.add(
+        {"TCamp", range_text(range), std::to_string(table_.TCamp), meaning}, [this](Cell value, int line) {
+          if (value.text.ends_with("ms"))
+            value = trimmed({value.text.substr(0, value.text.size() - 2), value.column});
+          if (const auto number = whole_number(value, line, "TCamp", range_of_variable("TCamp"), told_))
+            table_.TCamp = static_cast<std::int32_t>(*number);
+        });
   }
+
+  [[nodiscard]] const std::vector<CamKey>& keys() const { return settings_.keys(); }
 
   CammingTable read() {
     for (const auto line : split_lines(text_)) {
@@ -199,6 +214,25 @@ class Reader {
 
 devices::CamTable read_camming4(std::string_view text, const std::string& file, Problems& problems) {
   return Reader(text, file, problems).read();
+}
+
+std::vector<CamKey> camming4_keys() {
+  Problems none;
+  return Reader("", "", none).keys();
+}
+
+std::vector<CamKey> camming4_columns() {
+  std::vector<CamKey> made = {
+      {columns[0], range_text({1, camming4::cam_rows}), "required", "number of the sector, in any order"}};
+  std::vector<std::string> codes;
+  codes.reserve(camming4::codes.size());
+  for (const auto& code : camming4::codes) codes.push_back(fmt::format("{} {}", code.code, code.mnemonic));
+  made.push_back({columns[1], listed(codes), "required", "operating instruction, by its number"});
+  for (std::size_t i = 2; i < columns.size(); ++i) {
+    const auto [range, meaning] = entry_of(columns[i]);
+    made.push_back({columns[i], range_text(range), "0", meaning});
+  }
+  return made;
 }
 
 std::string file_of(CammingTable& table, const std::string& file) {

@@ -48,6 +48,8 @@ class Reader {
     add_settings();
   }
 
+  [[nodiscard]] const std::vector<CamKey>& keys() const { return settings_.keys(); }
+
   EcamTable read() {
     for (const auto line : split_lines(text_)) {
       if (told_.full()) break;
@@ -61,19 +63,25 @@ class Reader {
 
  private:
   void add_settings() {
-    settings_.whole("max_frequency", {1, 200000}, table_.max_frequency);
-    settings_.add("time_axis", [this](const Cell& value, int line) {
-      // S1 as the program has it.
-      if (const auto number = whole_number(behind_k(value), line, "time_axis", {1, 2147483647}, told_))
-        table_.time_axis = static_cast<std::int32_t>(*number);
-    });
-    settings_.whole("cyclic", {0, 1}, cyclic_);
+    settings_.whole("max_frequency", {1, 200000}, table_.max_frequency,
+                    "words 6-7 of the block: the most that the slave's output gives, else 200000 [pulses/s]");
+    settings_.add(
+        {"time_axis", "1 to 2147483647", "", "S1 = K of DECAM: the master counts every so many 100 us"},
+        [this](const Cell& value, int line) {
+          // S1 as the program has it.
+          if (const auto number = whole_number(behind_k(value), line, "time_axis", {1, 2147483647}, told_))
+            table_.time_axis = static_cast<std::int32_t>(*number);
+        });
+    settings_.whole("cyclic", {0, 1}, cyclic_, "word 5 of the block: 1 = the cycle repeats itself");
     settings_.travel("min_position", "max_position", whole_32, table_.travel);
-    settings_.add("max_ratio", [this](const Cell& value, int line) {
-      constexpr double least = 1e-9;
-      table_.max_ratio = real_number(value, line, "max_ratio", {least, 1e9}, told_);
-    });
-    settings_.add("ecamtbx", [this](const Cell& value, int line) { read_type(value, line); });
+    settings_.add(
+        {"max_ratio", "1e-09 to 1e+09", "", "slave to master, not to be passed; P5 where ECAMTBX has one"},
+        [this](const Cell& value, int line) {
+          constexpr double least = 1e-9;
+          table_.max_ratio = real_number(value, line, "max_ratio", {least, 1e9}, told_);
+        });
+    settings_.add({"ecamtbx", "K0, K1, K100, K101", "", "the rows are made by ECAMTBX from parameters"},
+                  [this](const Cell& value, int line) { read_type(value, line); });
   }
 
   void read_type(const Cell& value, int line) {
@@ -268,6 +276,20 @@ class Reader {
 
 devices::CamTable read_lx3vp(std::string_view text, const std::string& file, Problems& problems) {
   return Reader(text, file, problems).read();
+}
+
+std::vector<CamKey> lx3vp_keys() {
+  Problems none;
+  return Reader("", "", none).keys();
+}
+
+std::vector<CamKey> lx3vp_columns() {
+  const auto whole = range_text(whole_32);
+  return {{"master", whole, "required", "position of the master [pulses]"},
+          {"slave", whole, "required", "position of the slave [pulses]"},
+          {"parameter", "", "",
+           "below # ecamtbx, in place of master and slave: P1, P2, ..., as ECAMTBX.md lists them"},
+          {"value", "", "", "of the parameter: 5, K5, H1F"}};
 }
 
 namespace {

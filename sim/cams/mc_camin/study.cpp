@@ -264,6 +264,21 @@ IdealCam ideal_of(const CamFile& cam, MasterRange range) {
   return ideal;
 }
 
+std::vector<CamKey> mc_camin_keys() {
+  std::vector<CamKey> keys;
+  for (const auto& key : devices::plcopen::cam_file_keys())
+    keys.push_back({std::string(key.name), std::string(key.values), std::string(key.fallback),
+                    std::string(key.meaning)});
+  return keys;
+}
+
+std::vector<CamKey> mc_camin_columns() {
+  return {{"slave", "a number", "required",
+           "position of the slave [0.1 um or 0.0001 deg]; alone, the rows divide the master's turn evenly"},
+          {"master", "a number", "", "position of the master, ascending, for LINE_POLY5 and POLY5_LINE"},
+          {"a0, a1, a2, a3", "numbers", "", "in place of slave: coefficients of each row's polynomial"}};
+}
+
 devices::CamTable read_mc_camin(std::string_view text, const std::string& file, Problems& problems) {
   return devices::plcopen::read_cam(text, file, problems).value_or(CamFile{});
 }
