@@ -1,5 +1,7 @@
 #include "plants/axis_transducers.hpp"
 
+#include <utility>
+
 namespace drycut::plants {
 
 namespace {
@@ -8,6 +10,28 @@ constexpr double beyond = 1000;  // width of a limit switch's target: longer tha
 
 PositionSwitchData limit_switch(double edge, double side, double delay) {
   return {edge + side * beyond / 2, beyond, 0.5e-3, delay};
+}
+
+Parameters scale_and_switch_parameters(AxisTransducersData& data, const AxisTransducersSources& from) {
+  return {
+      row("scale.resolution", "mm", "travel for a count (x4) of the linear scale", data.scale_resolution,
+          1e-6, 1000, from.scale_resolution),
+      row("scale.pitch", "mm", "travel between two of its reference marks", data.scale_pitch, 0.01, 1e5,
+          "a usual scale"),
+      row("home.position", "mm", "middle of the home switch's target", data.home.centre, -1e6, 1e6,
+          from.home),
+      row("home.width", "mm", "width of the target", data.home.width, 0.01, 1e6, "estimate"),
+      row("home.hysteresis", "mm", "the home switch lets go this far behind the target", data.home.hysteresis,
+          0, 100, "estimate: proximity switch"),
+      row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
+          "estimate: proximity switch of 1 kHz"),
+      row("limit_min", "mm", "the lower limit switch is on below this", data.limit_min, -1e6, 1e6,
+          from.limits),
+      row("limit_max", "mm", "the upper limit switch is on above this", data.limit_max, -1e6, 1e6,
+          from.limits),
+      row("limit_delay", "ms", "delay of the limit switches", data.limit_delay, 0, 100,
+          "estimate: proximity switch of 1 kHz"),
+  };
 }
 
 }  // namespace
@@ -23,11 +47,11 @@ AxisTransducers::AxisTransducers(const AxisTransducersData& data, double start, 
       limit_max_(limit_switch(data.limit_max, 1, data.limit_delay), 0, start) {}
 
 void AxisTransducers::sense(const Shaft& rotor, const Slide& part, double h) {
-  encoder_.sense(rotor);
+  encoder_.sense(rotor, h);
 
   const double before = (part.position_before - start_) / data_.scale_resolution;
   const double now = (part.position - start_) / data_.scale_resolution;
-  scale_.carry(before, now);
+  scale_.carry(before, now, h);
   scale_index_.edges.clear();
   if (before != now && !scale_.stuck())
     put_index(scale_index_, part.position_before / data_.scale_pitch, part.position / data_.scale_pitch,
@@ -66,29 +90,14 @@ void AxisTransducers::offer_faults(std::vector<Fault>& faults) {
 }
 
 Parameters axis_transducer_parameters(AxisTransducersData& data, const AxisTransducersSources& from) {
-  return {
+  Parameters rows = {
       row("encoder.lines", "lines of the motor's encoder per turn; counted four times", data.encoder.lines, 1,
           1000000, "10000 counts a turn"),
       row("encoder.reverse", "it counts down in positive direction", data.encoder.reverse,
           "wired the usual way"),
-      row("scale.resolution", "mm", "travel for a count (x4) of the linear scale", data.scale_resolution,
-          1e-6, 1000, from.scale_resolution),
-      row("scale.pitch", "mm", "travel between two of its reference marks", data.scale_pitch, 0.01, 1e5,
-          "a usual scale"),
-      row("home.position", "mm", "middle of the home switch's target", data.home.centre, -1e6, 1e6,
-          from.home),
-      row("home.width", "mm", "width of the target", data.home.width, 0.01, 1e6, "estimate"),
-      row("home.hysteresis", "mm", "the home switch lets go this far behind the target", data.home.hysteresis,
-          0, 100, "estimate: proximity switch"),
-      row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
-          "estimate: proximity switch of 1 kHz"),
-      row("limit_min", "mm", "the lower limit switch is on below this", data.limit_min, -1e6, 1e6,
-          from.limits),
-      row("limit_max", "mm", "the upper limit switch is on above this", data.limit_max, -1e6, 1e6,
-          from.limits),
-      row("limit_delay", "ms", "delay of the limit switches", data.limit_delay, 0, 100,
-          "estimate: proximity switch of 1 kHz"),
   };
+  return joined(std::move(rows), group("encoder.", encoder_error_parameters(data.encoder)),
+                scale_and_switch_parameters(data, from));
 }
 
 }  // namespace drycut::plants

@@ -44,41 +44,46 @@ BacklashAxisDefinition::BacklashAxisDefinition() {
   axis.data.mass = 100;
   axis.data.guide_friction = {150, 100, 50, 0.01};
   axis.data.drive.servo.inertia_ratio = 0.25;
-  apply_flanks();
+  apply_flanks(flanks, axis.data);
 }
 
-void BacklashAxisDefinition::apply_flanks() {
-  TransmissionData& gear = axis.data.gear;
-  const double metre = axis.data.lead / units::turn;  // of travel for a radian of the screw
-  const double screw = axis.data.drive.rotor_inertia() * gear.ratio * gear.ratio + axis.data.screw_inertia;
+void apply_flanks(const FlankData& flanks, LinearAxisData& axis) {
+  TransmissionData& gear = axis.gear;
+  const double metre = axis.lead / units::turn;  // of travel for a radian of the screw
+  const double screw = axis.drive.rotor_inertia() * gear.ratio * gear.ratio + axis.screw_inertia;
   const double motor_mass = screw / (metre * metre);
   const double damping = 2 * damping_ratio_for(flanks.restitution) *
-                         std::sqrt(flanks.stiffness * reduced(axis.data.mass, motor_mass));
+                         std::sqrt(flanks.stiffness * reduced(axis.mass, motor_mass));
   gear.stiffness = flanks.stiffness * metre * metre;
   gear.damping = damping * metre * metre;
   gear.backlash = flanks.gap / metre;
 }
 
-Parameters BacklashAxisDefinition::parameters() {
+void BacklashAxis::parameters_changed() {
+  apply_flanks(flanks_, data_);
+  LinearAxis::parameters_changed();
+}
+
+Parameters backlash_axis_parameters(FlankData& flanks, LinearAxisData& axis) {
   Parameters carried =
-      linear_axis_parameters(axis.data, {.mass = "a worn machine's heavy slide",
-                                         .stop_damping = "estimate: 7 % of critical for 100 kg",
-                                         .coulomb = "estimate: plain guides, 0.15 of the weight",
-                                         .breakaway = "estimate: plain guides stick",
-                                         .inertia_ratio = "the default screw and load on the motor"});
+      linear_axis_parameters(axis, {.mass = "a worn machine's heavy slide",
+                                    .stop_damping = "estimate: 7 % of critical for 100 kg",
+                                    .coulomb = "estimate: plain guides, 0.15 of the weight",
+                                    .breakaway = "estimate: plain guides stick",
+                                    .inertia_ratio = "the default screw and load on the motor"});
   std::erase_if(carried, [](const Parameter& p) { return replaced(p.name); });
-  return joined(
-      {row("gap", "mm", "whole play between motor and load, as travel of the load", flanks.gap, 1e-3, 100,
-           "a worn nut; new ones have 0.05"),
-       row("contact.stiffness", "N/m", "stiffness behind a flank: nut, screw and bearings", flanks.stiffness,
-           1e3, 1e10, "estimate: ball screw 25 x 20"),
-       row("contact.restitution", "", "speed of parting over speed of meeting at a flank, no drive acting",
-           flanks.restitution, 0.3, 1, "estimate: greased steel flanks")},
-      std::move(carried));
+  return joined({live(row("gap", "mm", "whole play between motor and load, as travel of the load", flanks.gap,
+                          1e-3, 100, "a worn nut; new ones have 0.05")),
+                 live(row("contact.stiffness", "N/m", "stiffness behind a flank: nut, screw and bearings",
+                          flanks.stiffness, 1e3, 1e10, "estimate: ball screw 25 x 20")),
+                 live(row("contact.restitution", "",
+                          "speed of parting over speed of meeting at a flank, no drive acting",
+                          flanks.restitution, 0.3, 1, "estimate: greased steel flanks"))},
+                std::move(carried));
 }
 
 std::vector<PlantDefinition::Objection> BacklashAxisDefinition::objections(double h) {
-  apply_flanks();
+  apply_flanks(flanks, axis.data);
   std::vector<Objection> found = axis.objections(h);
   for (Objection& objection : found)
     if (objection.parameter == "gear.stiffness" || objection.parameter == "gear.damping")
@@ -88,8 +93,9 @@ std::vector<PlantDefinition::Objection> BacklashAxisDefinition::objections(doubl
 
 std::unique_ptr<Plant> BacklashAxisDefinition::build(World& world,
                                                      const std::function<Plant*(std::string_view)>& find) {
-  apply_flanks();
-  return axis.build(world, find);
+  (void)find;
+  apply_flanks(flanks, axis.data);
+  return std::make_unique<BacklashAxis>(flanks, axis.data, world);
 }
 
 }  // namespace drycut::plants

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace drycut::plants {
 
 void Bench::CounterInput::sense(double h) {
@@ -12,7 +14,7 @@ void Bench::CounterInput::sense(double h) {
   index.edges.clear();
   // The timeline acts at the start of a step: the index latches the count of that moment.
   for (; pulses_wanted > 0; --pulses_wanted) {
-    index.add_edge(true, 0);
+    index.add_edge(true, 0, rate != 0 ? 1 / std::abs(rate * h) : 0);
     index.add_edge(false, 0);
     ++pulses;
   }

@@ -34,7 +34,11 @@ Cutter::Cutter(const CutterData& data, const Shaft& drum)
 
 double Cutter::nearest_blade(const Shaft& drum) const {
   const double pitches = drum.part * data_.blades;
-  return (pitches - std::floor(pitches + 0.5)) * (2 * pi / data_.blades);
+  const double blade = std::floor(pitches + 0.5);
+  const double theta = (pitches - blade) * (2 * pi / data_.blades);
+  if (data_.eccentricity == 0) return theta;
+  // A circle that lies e beside the axis has its tips e/R cos(angle to blade 1) ahead of their place.
+  return theta + data_.eccentricity / data_.radius * std::cos(2 * pi * blade / data_.blades);
 }
 
 Cutter::Load Cutter::load(const Shaft& drum, const Slide& web) {

@@ -22,6 +22,7 @@ namespace drycut::plants {
 struct CutterData {
   double radius = 0;          ///< of the blade tips [m]
   int blades = 1;             ///< evenly on the circumference
+  double eccentricity = 0;    ///< of their circle from the axis, at right angles to blade 1 [m]
   double thickness = 0;       ///< of the web [m]
   double peak_force = 0;      ///< of the cut [N]
   double coupling = 0;        ///< horizontal force between blade and web for their speed mismatch [N s/m]

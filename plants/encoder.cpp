@@ -1,8 +1,19 @@
 #include "plants/encoder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+
+#include "base/units.hpp"
 
 namespace drycut::plants {
+
+namespace {
+
+constexpr double most_false_counts = 100000;  // of one burst
+
+}  // namespace
 
 void PulseLine::change_gain() {
   base_ += gain_ * (last_ - anchor_);
@@ -16,6 +27,30 @@ void PulseLine::lose(double counts) {
   // Again and again they do not leave what a counter holds.
   constexpr double most = 1e18;
   base_ = std::clamp(base_ - (forward_ != reverse_ ? counts : -counts), -most, most);
+}
+
+void PulseLine::burst(double counts, bool by_chance) {
+  burst_.reserve(burst_.size() + static_cast<std::size_t>(std::abs(counts)));
+  for (double n = std::abs(counts); n > 0; --n) {
+    const double time = clock_ + burst_time_ * random_.uniform();
+    const bool forward = by_chance ? random_.uniform() < 0.5 : counts > 0;
+    burst_.push_back({time, forward ? 1.0 : -1.0});
+  }
+  std::sort(burst_.begin(), burst_.end(),
+            [](const FalseCount& a, const FalseCount& b) { return a.time > b.time; });
+  listen();
+}
+
+double PulseLine::false_counts(double h) {
+  if (burst_.empty()) return 0;
+  clock_ += h;
+  double sum = 0;
+  while (!burst_.empty() && burst_.back().time <= clock_) {
+    sum += burst_.back().count;
+    burst_.pop_back();
+  }
+  listen();
+  return sum;
 }
 
 void PulseLine::offer_faults(std::vector<Fault>& faults, const std::string& component) {
@@ -33,12 +68,34 @@ void PulseLine::offer_faults(std::vector<Fault>& faults, const std::string& comp
                       change_gain();
                     },
                     "1: the channels are exchanged, it counts the other way from now on"});
-  faults.push_back(
-      fault_value(component, "jitter", "", jitter_, "noise of the edges, rms counts (x4)", {0, 1e6, false}));
+  faults.push_back({component,
+                    "jitter",
+                    "",
+                    [this](double v) {
+                      jitter_ = v;
+                      listen();
+                    },
+                    "noise of the edges, rms counts (x4)",
+                    {0, 1e6, false}});
+  faults.push_back({component,
+                    "burst",
+                    "",
+                    [this](double v) { burst(v, true); },
+                    "interference: this many false counts (x4) over burst_time, each forward or backward by "
+                    "chance",
+                    {0, most_false_counts, true}});
+  faults.push_back({component,
+                    "add_counts",
+                    "",
+                    [this](double v) { burst(v, false); },
+                    "this many false counts (x4) over burst_time, all forward or, below 0, all backward",
+                    {-most_false_counts, most_false_counts, true}});
+  faults.push_back(fault_value(component, "burst_time", "ms", burst_time_,
+                               "how long the next burst lasts; 10 ms at first", {0, 60000, false}));
 }
 
 void put_index(SignalPort& index, double turns_before, double turns, double count_before, double count,
-               double count_per_turn) {
+               double count_per_turn, double width) {
   const double direction = turns > turns_before ? 1 : -1;
   const double last = direction * std::floor(direction * turns);
   const double passed = std::max(0.0, std::ceil(direction * (last - turns_before)));
@@ -49,21 +106,59 @@ void put_index(SignalPort& index, double turns_before, double turns, double coun
     const double rounded = std::nearbyint(count_at_index);
     const double exact = std::abs(rounded - count_at_index) < 1e-4 ? rounded : count_at_index;
     const double fraction = std::clamp((exact - count_before) / (count - count_before), 0.0, 1.0);
-    index.add_edge(true, fraction);
+    index.add_edge(true, fraction, width / std::abs(count - count_before));
     index.add_edge(false, fraction);
   }
 }
 
 Encoder::Encoder(const EncoderData& data, double start, Random noise)
-    : pulses(noise), bits_per_turn_((data.reverse ? -4.0 : 4.0) * data.lines), start_(start) {}
+    : pulses(noise),
+      data_(data),
+      uneven_(data.eccentricity != 0 || data.tooth_error != 0),
+      bits_per_turn_((data.reverse ? -4.0 : 4.0) * data.lines),
+      start_(start + error(start - std::floor(start))) {}
 
-void Encoder::sense(const Shaft& shaft) {
-  const double before = (shaft.revolutions_before() - start_) * bits_per_turn_;
-  const double now = (shaft.revolutions() - start_) * bits_per_turn_;
-  pulses.carry(before, now);
+// A disc whose middle lies e beside the axis, read at the radius R, shows e/R sin(angle) more than it turned.
+double Encoder::error(double part) const {
+  if (!uneven_) return 0;
+  return (data_.eccentricity * std::sin(units::turn * part) +
+          data_.tooth_error * std::sin(units::turn * part * data_.teeth)) /
+         units::turn;
+}
+
+void Encoder::sense(const Shaft& shaft, double h) {
+  double from = shaft.revolutions_before();
+  double to = shaft.revolutions();
+  // The errors are 0 at whole turns: the index stays where it is.
+  if (uneven_) {
+    from += error(shaft.part_before);
+    to += error(shaft.part);
+  }
+  const double before = (from - start_) * bits_per_turn_;
+  const double now = (to - start_) * bits_per_turn_;
+  pulses.carry(before, now, h);
   index.edges.clear();
-  if (!pulses.stuck())
-    put_index(index, shaft.revolutions_before(), shaft.revolutions(), before, now, bits_per_turn_);
+  if (!pulses.stuck()) put_index(index, from, to, before, now, bits_per_turn_, data_.index_width);
+}
+
+Parameters encoder_error_parameters(EncoderData& data) {
+  return {
+      row("eccentricity", "deg", "peak of its error once a turn: its disc sits off the axis",
+          data.eccentricity, 0, 5, "ideal: none"),
+      row("tooth_error", "deg", "peak of its error once a tooth of its gear or coupling", data.tooth_error, 0,
+          5, "ideal: none"),
+      row("teeth", "teeth, for tooth_error", data.teeth, 1, 100000, "a round number"),
+      row("index_width", "", "counts (x4) that its index pulse lasts; a card may ask for a least time",
+          data.index_width, 0.01, 1e6, "usual: gated with both channels"),
+  };
+}
+
+std::vector<PlantDefinition::Objection> encoder_objections(const EncoderData& data) {
+  if (data.eccentricity + data.tooth_error * data.teeth < 1) return {};
+  return {{"encoder.tooth_error",
+           fmt::format("with {} teeth the count would go back within each", data.teeth),
+           fmt::format("less than {:.3g} deg, or fewer teeth",
+                       (1 - data.eccentricity) / data.teeth * units::degrees)}};
 }
 
 }  // namespace drycut::plants

@@ -32,6 +32,7 @@ LeastStroke least_stroke(const FlyingSawData& saw, const Section& section, doubl
 
 FlyingSaw::FlyingSaw(const FlyingSawData& data, World& world, Web& web)
     : data_(data),
+      world_(world),
       web_(web),
       screw_(data, "saw", data.drive.servo.rotor_inertia, {.name = "saw carriage", .mass = data.mass}, world),
       servo_(data.drive, rotor(), world.random("saw servo")),
@@ -189,6 +190,10 @@ std::vector<Setting> FlyingSaw::settings() {
            "force of hoses and cables on the carriage, positive with the line",
            {-1e6, 1e6, false}}};
 }
+
+Parameters FlyingSaw::live_parameters() { return live_rows(flying_saw_parameters(data_)); }
+
+void FlyingSaw::parameters_changed() { screw_.take(data_, data_.mass, world_); }
 
 std::vector<Fault> FlyingSaw::faults() {
   std::vector<Fault> faults;

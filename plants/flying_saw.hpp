@@ -67,6 +67,8 @@ class FlyingSaw : public Plant {
   std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
+  Parameters live_parameters() override;
+  void parameters_changed() override;
 
   [[nodiscard]] Slide& carriage() const { return screw_.slide; }
   [[nodiscard]] Shaft& rotor() const { return screw_.rotor; }
@@ -89,6 +91,7 @@ class FlyingSaw : public Plant {
   [[nodiscard]] double blade_axis() const;  // height over the line [m]
 
   FlyingSawData data_;
+  World& world_;
   Web& web_;
   ScrewDrive screw_;
   ServoAxis servo_;
@@ -103,10 +106,12 @@ class FlyingSaw : public Plant {
   double last_pinch_ = 0;   // [N]
 };
 
+Parameters flying_saw_parameters(FlyingSawData& data);
+
 class FlyingSawDefinition : public PlantDefinition {
  public:
   FlyingSawData data;
-  Parameters parameters() override;
+  Parameters parameters() override { return flying_saw_parameters(data); }
   std::vector<Objection> objections(double h) override;
   std::vector<Objection> objections_with(const FindDefinition& find, double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;

@@ -11,8 +11,8 @@ namespace {
 Parameters mechanics(FlyingSawData& data) {
   return {
       row("web", "the web, strip or tube, that it cuts", data.web, "web", "", true),
-      row("mass", "kg", "mass of the carriage with clamps and saw head", data.mass, 1, 1e5,
-          "estimate: a light saw"),
+      live(row("mass", "kg", "mass of the carriage with clamps and saw head", data.mass, 1, 1e5,
+               "estimate: a light saw")),
       row("lead", "mm", "travel for one turn of the pinion, or of the screw", data.lead, 0.1, 5000,
           "pinion of 63.7 mm"),
       row("pinion_inertia", "kg m2", "inertia of the pinion or the screw", data.screw_inertia, 0, 100,
@@ -27,14 +27,14 @@ Parameters mechanics(FlyingSawData& data) {
           "estimate: hard rubber buffer"),
       row("stop.damping", "N s/m", "damping of an end stop", data.stop.damping, 0, 1e7,
           "estimate: 9 % of critical for 60 kg"),
-      row("motor_friction.coulomb", "N m", "dry friction of motor and gear", data.motor_friction.coulomb, 0,
-          1e4, "estimate: 1 % of rated torque"),
-      row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor", data.motor_friction.viscous,
-          0, 100, "estimate"),
-      row("carriage_friction.coulomb", "N", "dry friction of the guides", data.guide_friction.coulomb, 0, 1e6,
-          "estimate: four sealed guide carriages"),
-      row("carriage_friction.viscous", "N s/m", "viscous friction of the guides", data.guide_friction.viscous,
-          0, 1e6, "estimate"),
+      live(row("motor_friction.coulomb", "N m", "dry friction of motor and gear", data.motor_friction.coulomb,
+               0, 1e4, "estimate: 1 % of rated torque")),
+      live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
+               data.motor_friction.viscous, 0, 100, "estimate")),
+      live(row("carriage_friction.coulomb", "N", "dry friction of the guides", data.guide_friction.coulomb, 0,
+               1e6, "estimate: four sealed guide carriages")),
+      live(row("carriage_friction.viscous", "N s/m", "viscous friction of the guides",
+               data.guide_friction.viscous, 0, 1e6, "estimate")),
       row("stroke_check", "refuse a line speed at which no program can cut within the travel",
           data.stroke_check, "off: see it crash"),
   };
@@ -72,7 +72,7 @@ Objections objections_to(const WebData& web, const FlyingSawData& saw) {
 
 }  // namespace
 
-Parameters FlyingSawDefinition::parameters() {
+Parameters flying_saw_parameters(FlyingSawData& data) {
   return joined(
       mechanics(data), group("clamp.", clamp_parameters(data.clamp)),
       group("head.", saw_head_parameters(data.head)), group("blade.", saw_blade_parameters(data.blade)),
@@ -88,6 +88,7 @@ Objections FlyingSawDefinition::objections(double h) {
   AxisObjections found("carriage", h);
   const double inertia = motor_inertia(data, data.drive.servo.rotor_inertia);
   found.screw(data, inertia);
+  found.add(encoder_objections(data.sensors.encoder));
   found.pair("head.mass", "head.mass", head_cushion(data.head), "head and the end of its cylinder");
   found.guided("carriage_friction.viscous", data, inertia);
   if (return_speed(data.head) <= 0)

@@ -21,7 +21,7 @@ void IdealAxis::sense(double h) {
   const double now = travel_.value();
 
   const double direction = data_.reverse ? -1 : 1;
-  pulses_.carry(direction * before, direction * now);
+  pulses_.carry(direction * before, direction * now, h);
   index_.edges.clear();
   const double counts_per_pitch = data_.index_pitch / data_.resolution;
   const double origin = data_.start / data_.resolution;

@@ -16,6 +16,8 @@ struct LineDriveData {
 class LineDrive {
  public:
   explicit LineDrive(const LineDriveData& data);
+  /// Other data from now on, the speed apart.
+  void take(const LineDriveData& data) { data_ = data; }
 
   void set_speed(double speed) { set_speed_ = speed; }             ///< [m/s], either sign
   [[nodiscard]] double set_speed() const { return set_speed_; }    ///< as set [m/s]

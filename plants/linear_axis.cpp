@@ -8,6 +8,7 @@ namespace drycut::plants {
 
 LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier)
     : data_(data),
+      world_(world),
       carrier_(carrier),
       screw_(data, "linear axis", data.drive.rotor_inertia(),
              {.name = "linear axis carriage",
@@ -34,6 +35,10 @@ void LinearAxis::sense(double h) {
   for (Event& event : drive_.take_events(rotor())) happened(std::move(event));
   if (tool_.level && data_.tool == "pen") draw_ink();
 }
+
+Parameters LinearAxis::live_parameters() { return live_rows(linear_axis_parameters(data_)); }
+
+void LinearAxis::parameters_changed() { screw_.take(data_, data_.mass, world_); }
 
 std::vector<Port> LinearAxis::ports() {
   std::vector<Port> ports;

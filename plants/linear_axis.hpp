@@ -54,11 +54,16 @@ class LinearAxis : public Plant {
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
+  Parameters live_parameters() override;
+  void parameters_changed() override;
 
   [[nodiscard]] Slide& carriage() const { return screw_.slide; }
   [[nodiscard]] Shaft& rotor() const { return screw_.rotor; }
   /// Turn of the screw or pulley ahead of the carriage [rad].
   [[nodiscard]] double twist() const { return screw_.twist(); }
+
+ protected:
+  LinearAxisData data_;
 
  private:
   struct Picture;
@@ -68,7 +73,7 @@ class LinearAxis : public Plant {
   [[nodiscard]] Pose base(double carrier_position) const;
   [[nodiscard]] Pose pen_tip(double carrier_position, double position) const;
 
-  LinearAxisData data_;
+  World& world_;
   const LinearAxis* carrier_;
   ScrewDrive screw_;
   AxisDrive drive_;

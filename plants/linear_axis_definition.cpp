@@ -7,7 +7,8 @@ namespace {
 
 Parameters mechanics(LinearAxisData& data, const LinearAxisSources& from) {
   return {
-      row("mass", "kg", "mass of the carriage with all that it carries", data.mass, 1e-3, 1e5, from.mass),
+      live(row("mass", "kg", "mass of the carriage with all that it carries", data.mass, 1e-3, 1e5,
+               from.mass)),
       row("lead", "mm", "travel for one turn of the screw, or of the belt's pulley", data.lead, 0.1, 5000,
           "ball screw 25 x 20"),
       row("screw_inertia", "kg m2", "inertia of the screw or the pulleys", data.screw_inertia, 0, 100,
@@ -21,16 +22,16 @@ Parameters mechanics(LinearAxisData& data, const LinearAxisSources& from) {
       row("stop.stiffness", "N/m", "stiffness of an end stop", data.stop.stiffness, 1, 1e9,
           "estimate: hard rubber buffer"),
       row("stop.damping", "N s/m", "damping of an end stop", data.stop.damping, 0, 1e7, from.stop_damping),
-      row("motor_friction.coulomb", "N m", "dry friction of the motor and the screw's bearings",
-          data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque"),
-      row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor", data.motor_friction.viscous,
-          0, 100, "estimate"),
-      row("carriage_friction.coulomb", "N", "dry friction of the guides", data.guide_friction.coulomb, 0, 1e6,
-          from.coulomb),
-      row("carriage_friction.viscous", "N s/m", "viscous friction of the guides", data.guide_friction.viscous,
-          0, 1e6, "estimate"),
-      row("carriage_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
-          data.guide_friction.breakaway, 0, 1e6, from.breakaway),
+      live(row("motor_friction.coulomb", "N m", "dry friction of the motor and the screw's bearings",
+               data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque")),
+      live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
+               data.motor_friction.viscous, 0, 100, "estimate")),
+      live(row("carriage_friction.coulomb", "N", "dry friction of the guides", data.guide_friction.coulomb, 0,
+               1e6, from.coulomb)),
+      live(row("carriage_friction.viscous", "N s/m", "viscous friction of the guides",
+               data.guide_friction.viscous, 0, 1e6, "estimate")),
+      live(row("carriage_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
+               data.guide_friction.breakaway, 0, 1e6, from.breakaway)),
       row("carriage_friction.stribeck_speed", "mm/s", "speed at which 1/e of it is left",
           data.guide_friction.stribeck_speed, 1e-3, 1e5, "estimate"),
   };
@@ -71,6 +72,7 @@ std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections(double 
   AxisObjections found("carriage", h);
   const double inertia = motor_inertia(data, data.drive.rotor_inertia());
   found.screw(data, inertia);
+  found.add(encoder_objections(data.sensors.encoder));
   found.guided("carriage_friction.viscous", data, inertia);
   found.add(axis_drive_objections(data.drive, inertia, h));
   return found.take();

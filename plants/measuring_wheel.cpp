@@ -1,10 +1,17 @@
 #include "plants/measuring_wheel.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "base/units.hpp"
 
 namespace drycut::plants {
 
-MeasuringWheel::MeasuringWheel(const MeasuringWheelData& data, Random noise) : pulses(noise), data_(data) {
+double MeasuringWheelData::radius() const { return circumference * (1 + circumference_error) / units::turn; }
+
+MeasuringWheel::MeasuringWheel(const MeasuringWheelData& data, Random noise, double speed)
+    : pulses(noise), data_(data), start_speed_(speed) {
   set_slip(data.slip);
 }
 
@@ -14,16 +21,39 @@ void MeasuringWheel::set_slip(double share) {
   turns_per_metre_ = (1 - share) / (data_.circumference * (1 + data_.circumference_error));
 }
 
-void MeasuringWheel::sense(double before, double now) {
-  const double turns_before = base_ + turns_per_metre_ * (before - anchor_);
-  revolutions_ = base_ + turns_per_metre_ * (now - anchor_);
+// The axis turns at w, the web runs at w times its distance from the axis, r + e cos(angle): r angle + e
+// sin(angle) has rolled off. Solved by Newton's method within a turn, so that nothing is lost far away.
+double MeasuringWheel::turned(double rolled) const {
+  if (data_.eccentricity == 0) return rolled;
+  const double ratio = data_.eccentricity / data_.radius();
+  const double whole = std::floor(rolled);
+  const double way = (rolled - whole) * units::turn;
+  double angle = way - ratio * std::sin(way);
+  for (int i = 0; i < 20; ++i) {
+    const double change = (way - angle - ratio * std::sin(angle)) / (1 + ratio * std::cos(angle));
+    angle += change;
+    if (std::abs(change) < 1e-14) break;
+  }
+  return whole + angle / units::turn;
+}
+
+double MeasuringWheel::shown(double turns) const {
+  if (data_.tooth_error == 0) return turns;
+  const double angle = (turns - std::floor(turns)) * units::turn;
+  return turns + data_.tooth_error / data_.radius() * std::sin(angle * data_.teeth) / units::turn;
+}
+
+void MeasuringWheel::sense(double before, double now, double h) {
+  const double turns_before = shown(turned(base_ + turns_per_metre_ * (before - anchor_)));
+  revolutions_ = turned(base_ + turns_per_metre_ * (now - anchor_));
+  const double turns = shown(revolutions_);
   travel_ = now;
   const double bits_per_turn = 4.0 * data_.lines;
-  pulses.carry(turns_before * bits_per_turn, revolutions_ * bits_per_turn);
+  pulses.carry(turns_before * bits_per_turn, turns * bits_per_turn, h);
   index.edges.clear();
+  // The errors are 0 at whole turns: the index stays where it is.
   if (!pulses.stuck())
-    put_index(index, turns_before, revolutions_, turns_before * bits_per_turn, revolutions_ * bits_per_turn,
-              bits_per_turn);
+    put_index(index, turns_before, turns, turns_before * bits_per_turn, turns * bits_per_turn, bits_per_turn);
 }
 
 void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string& component) {
@@ -41,9 +71,31 @@ Parameters wheel_parameters(MeasuringWheelData& data) {
           data.circumference_error, -20, 20, "ideal: none"),
       row("slip", "%", "share of the travel that the wheel does not follow", data.slip, 0, 100,
           "ideal: none"),
+      row("acceleration_slip", "s2/m",
+          "the same for each m/s2 of the web's acceleration; braking gives back what was lost",
+          data.acceleration_slip, 0, 0.1, "ideal: none"),
+      row("eccentricity", "mm", "its axis lies so far from the middle of its rim", data.eccentricity, 0, 100,
+          "ideal: none"),
+      row("tooth_error", "mm", "peak of its error once a tooth of its encoder's gear, on the web",
+          data.tooth_error, 0, 100, "ideal: none"),
+      row("teeth", "teeth, for tooth_error", data.teeth, 1, 100000, "a round number"),
       row("lines", "lines of its encoder per turn; counted four times", data.lines, 1, 1000000,
           "0.05 mm a count with 500 mm"),
   };
+}
+
+std::vector<PlantDefinition::Objection> wheel_objections(const MeasuringWheelData& data) {
+  const double radius = data.radius();
+  if (data.eccentricity >= radius / 2)
+    return {{"wheel.eccentricity",
+             fmt::format("{:g} mm on a radius of {:.4g} mm is no measuring wheel", data.eccentricity * 1000,
+                         radius * 1000),
+             fmt::format("less than {:.4g} mm", radius * 500)}};
+  if (data.tooth_error * data.teeth >= radius)
+    return {{"wheel.tooth_error",
+             fmt::format("with {} teeth the count would go back within each", data.teeth),
+             fmt::format("less than {:.3g} mm, or fewer teeth", radius * 1000 / data.teeth)}};
+  return {};
 }
 
 }  // namespace drycut::plants

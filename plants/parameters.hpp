@@ -30,6 +30,7 @@ struct Parameter {
   std::string_view reference = {};        ///< of a word: it names another plant of this type
   std::string_view source = {};           ///< where the default is from ("data sheet ...", "estimate")
   bool sole = false;                      ///< of a reference: no other plant may refer to the same one so
+  bool live = false;                      ///< of a quantity: the running machine takes another one
 };
 using Parameters = std::vector<Parameter>;
 
@@ -61,6 +62,16 @@ inline Parameter model_row(std::string& value) {
   return row("model",
              "motor of the catalogue, whose values are the defaults of this group: drycut plants --motors",
              value, {}, "none: the defaults are those below");
+}
+/// The same row of a parameter that may change in mid-run: see Plant::live_parameters.
+inline Parameter live(Parameter row) {
+  row.live = true;
+  return row;
+}
+/// Those rows of a table alone.
+inline Parameters live_rows(Parameters rows) {
+  std::erase_if(rows, [](const Parameter& row) { return !row.live; });
+  return rows;
 }
 
 /// The rows of a group, "gear.": each name with the prefix.

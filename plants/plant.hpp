@@ -134,6 +134,12 @@ class Plant {
   virtual std::vector<EventType> event_types() { return {}; }
   virtual std::vector<DriveOfPlant> drives() { return {}; }
   virtual std::vector<Part> parts() { return {}; }
+  /// The parameters that may change while it runs, bound to the machine itself: the rows of its table that
+  /// are `live`. Whoever writes one keeps to its range and calls parameters_changed() then.
+  virtual Parameters live_parameters() { return {}; }
+  /// Takes over what was written there. A body of another mass or inertia keeps its speed, not its momentum:
+  /// what is put on it comes with that speed.
+  virtual void parameters_changed() {}
   /// Adds what a picture points out now; called only when a frame is taken.
   virtual void callouts(std::vector<Callout>& out) { (void)out; }
 

@@ -26,10 +26,13 @@ struct SignalPort {
   struct Edge {
     bool rising = false;
     double fraction = 0;  ///< when in the last step, 0..1
+    double width = 0;     ///< of the zero pulse that begins here, in steps; 0 = as its falling edge says
   };
   bool level = false;       ///< at the end of the last step
   std::vector<Edge> edges;  ///< of the last step, in order of time
-  void add_edge(bool rising, double fraction) { edges.push_back({rising, fraction}); }
+  void add_edge(bool rising, double fraction, double width = 0) {
+    edges.push_back({rising, fraction, width});
+  }
 };
 
 /// A signal that the plant takes: enable, forward, brake release.

@@ -9,6 +9,7 @@ namespace {
 CutterData cutter_data(const RotaryKnifeData& knife, const WebData& web, double radius) {
   return {.radius = radius,
           .blades = knife.blade_count,
+          .eccentricity = knife.drum_eccentricity,
           .thickness = web.thickness,
           .peak_force = web.shear_strength * web.thickness * web.width,
           .coupling = knife.coupling,
@@ -25,6 +26,7 @@ PositionSwitchData in_turns(const PositionSwitchData& radians) {
 
 RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
     : data_(data),
+      world_(world),
       web_(web),
       radius_(data.circumference / units::turn),
       rotor_(world.add_shaft({.name = "knife motor",
@@ -56,7 +58,7 @@ void RotaryKnife::sense(double h) {
   gear_.sense(rotor_, drum_, h);
   servo_.sense(rotor_);
   for (Event& event : servo_.take_events(rotor_)) happened(std::move(event));
-  encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_);
+  encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_, h);
   home_.sense(drum_.part_before, drum_.part, h);
   const Cutter::Outcome outcome = cutter_.sense(drum_, web_.material(), h);
   if (outcome.separated || outcome.tore || outcome.buckled) report(outcome);
@@ -141,6 +143,13 @@ std::vector<EventType> RotaryKnife::event_types() {
 
 std::vector<DriveOfPlant> RotaryKnife::drives() {
   return servo_.drives(data_.drum_inertia / (data_.gear.ratio * data_.gear.ratio));
+}
+
+Parameters RotaryKnife::live_parameters() { return live_rows(rotary_knife_parameters(data_)); }
+
+void RotaryKnife::parameters_changed() {
+  gear_.take(data_.gear);
+  if (drum_.inertia != data_.drum_inertia) world_.set_inertia(drum_, data_.drum_inertia);
 }
 
 std::vector<Fault> RotaryKnife::faults() {

@@ -18,6 +18,7 @@ struct RotaryKnifeData {
   int blade_count = 1;                      ///< evenly on the drum
   double blade_width = 0.4;                 ///< of the drum and its blades, across the line [m]
   double drum_inertia = 0.41;               ///< with blades [kg m2]
+  double drum_eccentricity = 0;             ///< of the blades' circle from the drum's axis [m]
   double initial_angle = std::numbers::pi;  ///< of blade 1 from bottom dead centre [rad]
   double coupling = 2000;       ///< horizontal force between blade and web per speed mismatch [N s/m]
   double grip = 500;            ///< largest horizontal force [N]
@@ -52,6 +53,8 @@ class RotaryKnife : public Plant {
   std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
+  Parameters live_parameters() override;
+  void parameters_changed() override;
 
   [[nodiscard]] Shaft& rotor() { return rotor_; }
   [[nodiscard]] Shaft& drum() { return drum_; }
@@ -64,6 +67,7 @@ class RotaryKnife : public Plant {
   struct Picture;
 
   RotaryKnifeData data_;
+  World& world_;
   Web& web_;
   double radius_;
   Shaft& rotor_;
@@ -78,10 +82,12 @@ class RotaryKnife : public Plant {
   double last_mismatch_ = 0;  // [m/s]
 };
 
+Parameters rotary_knife_parameters(RotaryKnifeData& data);
+
 class RotaryKnifeDefinition : public PlantDefinition {
  public:
   RotaryKnifeData data;
-  Parameters parameters() override;
+  Parameters parameters() override { return rotary_knife_parameters(data); }
   std::vector<Objection> objections(double h) override;
   std::vector<Objection> objections_with(const FindDefinition& find, double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;

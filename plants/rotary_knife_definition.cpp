@@ -2,22 +2,26 @@
 
 #include <stdexcept>
 
+#include "base/units.hpp"
 #include "plants/axis_objections.hpp"
 #include "plants/rotary_knife.hpp"
 
 namespace drycut::plants {
 
-Parameters RotaryKnifeDefinition::parameters() {
+Parameters rotary_knife_parameters(RotaryKnifeData& data) {
   return joined(
-      {
+      Parameters{
           row("web", "the web that it cuts", data.web, "web", "", true),
           row("circumference", "mm", "circumference of the circle of the blade tips", data.circumference, 50,
               10000, "a usual size: drum of 191 mm"),
           row("blade_count", "blades, evenly on the drum", data.blade_count, 1, 24, "one cut a turn"),
           row("blade_width", "mm", "width of drum and blades across the line", data.blade_width, 1, 10000,
               "a narrow line"),
-          row("drum_inertia", "kg m2", "inertia of the drum with its blades", data.drum_inertia, 1e-5, 1e4,
-              "estimate: solid steel drum, diameter 191 mm, 400 mm wide"),
+          live(row("drum_inertia", "kg m2", "inertia of the drum with its blades", data.drum_inertia, 1e-5,
+                   1e4, "estimate: solid steel drum, diameter 191 mm, 400 mm wide")),
+          row("drum_eccentricity", "mm",
+              "the blades' circle lies so far beside the axis, square to blade 1: blades cut off their place",
+              data.drum_eccentricity, 0, 100, "ideal: none"),
           row("initial_angle", "deg", "angle of blade 1 at the start, 0 = at the cut", data.initial_angle,
               -360, 360, "blade up, away from the web"),
           row("coupling", "N s/m", "horizontal force between blade and web for their speed mismatch",
@@ -32,6 +36,9 @@ Parameters RotaryKnifeDefinition::parameters() {
               "motor encoder"),
           row("encoder.reverse", "it counts down when the blade moves with the web", data.encoder.reverse,
               "wired the usual way"),
+      },
+      group("encoder.", encoder_error_parameters(data.encoder)),
+      Parameters{
           row("home.angle", "deg", "drum angle of the middle of the home target", data.home.centre, -360, 360,
               "opposite to the cut"),
           row("home.width", "deg", "width of the home target", data.home.width, 0.1, 350, "estimate"),
@@ -39,14 +46,14 @@ Parameters RotaryKnifeDefinition::parameters() {
               data.home.hysteresis, 0, 10, "estimate: proximity switch on 95 mm radius"),
           row("home.delay", "ms", "delay of the home switch", data.home.delay, 0, 100,
               "estimate: proximity switch of 1 kHz"),
-          row("motor_friction.coulomb", "N m", "dry friction of the motor", data.motor_friction.coulomb, 0,
-              1e4, "estimate: 1 % of rated torque"),
-          row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
-              data.motor_friction.viscous, 0, 100, "estimate"),
-          row("drum_friction.coulomb", "N m", "dry friction of the drum's bearings and seals",
-              data.drum_friction.coulomb, 0, 1e5, "estimate"),
-          row("drum_friction.viscous", "N m s/rad", "viscous friction of the drum",
-              data.drum_friction.viscous, 0, 1e4, "estimate"),
+          live(row("motor_friction.coulomb", "N m", "dry friction of the motor", data.motor_friction.coulomb,
+                   0, 1e4, "estimate: 1 % of rated torque")),
+          live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor",
+                   data.motor_friction.viscous, 0, 100, "estimate")),
+          live(row("drum_friction.coulomb", "N m", "dry friction of the drum's bearings and seals",
+                   data.drum_friction.coulomb, 0, 1e5, "estimate")),
+          live(row("drum_friction.viscous", "N m s/rad", "viscous friction of the drum",
+                   data.drum_friction.viscous, 0, 1e4, "estimate")),
       },
       servo_axis_parameters(data.drive), group("gear.", transmission_parameters(data.gear)));
 }
@@ -58,6 +65,13 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double
   found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia, "motor");
   found.viscous("drum_friction.viscous", data.drum_friction, data.drum_inertia, "drum");
   found.add(servo_axis_objections(data.drive, motor_inertia, h));
+  found.add(encoder_objections(data.encoder));
+  const double most = data.circumference / units::turn / 20;
+  if (data.drum_eccentricity > most)
+    found.object("drum_eccentricity",
+                 fmt::format("{:g} mm is more than a twentieth of the radius: such a drum cuts nothing",
+                             data.drum_eccentricity * units::millimetres),
+                 fmt::format("at most {:.3g} mm", most * units::millimetres));
   if (data.home.width + 2 * data.home.hysteresis >= 2 * std::numbers::pi)
     found.object("home.width", "target and hysteresis cover the whole turn: the switch never lets go",
                  "a narrower target");

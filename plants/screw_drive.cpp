@@ -67,6 +67,11 @@ void ScrewDrive::sense(double h) {
   sensors.sense(rotor, slide, h);
 }
 
+void ScrewDrive::take(const ScrewDriveData& data, double mass, World& world) {
+  data_ = data;
+  if (slide.mass != mass) world.set_mass(slide, mass);
+}
+
 double ScrewDrive::screw_turn() const {
   return units::turn * std::fmod(rotor.revolutions() / data_.gear.ratio, 1.0);
 }

@@ -59,6 +59,9 @@ class ScrewDrive {
   /// Follows the bodies over the last step of `h` seconds.
   void sense(double h);
 
+  /// Other gear, friction and mass of the part [kg] from now on; the rest must be kept.
+  void take(const ScrewDriveData& data, double mass, World& world);
+
   [[nodiscard]] double torque() const { return torque_; }  ///< at the screw in the last step [N m]
   [[nodiscard]] double force() const { return force_; }    ///< on the part in the last step [N]
   [[nodiscard]] double twist() const { return twist_; }    ///< of the screw ahead of the part [rad]

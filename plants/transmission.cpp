@@ -34,12 +34,12 @@ double resonance(const TransmissionData& data, double motor_inertia, double load
 Parameters transmission_parameters(TransmissionData& data, const TransmissionSources& from) {
   return {
       row("ratio", "", "turns of the motor for one of the load", data.ratio, 0.01, 1000, from.ratio),
-      row("stiffness", "N m/rad", "torsional stiffness of gear, shaft and coupling, seen at the load",
-          data.stiffness, 1, 1e7, from.stiffness),
-      row("damping", "N m s/rad", "torsional damping, seen at the load", data.damping, 0, 1e5,
-          "estimate: 5 % of critical"),
-      row("backlash", "deg", "play between the flanks, seen at the load", data.backlash, 0, 10,
-          "none: set it to study its effect"),
+      live(row("stiffness", "N m/rad", "torsional stiffness of gear, shaft and coupling, seen at the load",
+               data.stiffness, 1, 1e7, from.stiffness)),
+      live(row("damping", "N m s/rad", "torsional damping, seen at the load", data.damping, 0, 1e5,
+               "estimate: 5 % of critical")),
+      live(row("backlash", "deg", "play between the flanks, seen at the load", data.backlash, 0, 10,
+               "none: set it to study its effect")),
   };
 }
 

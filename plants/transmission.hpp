@@ -30,6 +30,8 @@ Parameters transmission_parameters(TransmissionData& data, const TransmissionSou
 class Transmission {
  public:
   explicit Transmission(const TransmissionData& data) : data_(data) {}
+  /// Other data from now on; the twist is kept, and so must the ratio be.
+  void take(const TransmissionData& data) { data_ = data; }
 
   /// Acts on both bodies for the coming step: +torque on the load, -torque/ratio on the motor.
   void drive(Shaft& motor, Shaft& load) {

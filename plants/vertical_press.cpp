@@ -113,8 +113,11 @@ std::vector<Channel> VerticalPress::channels() {
 std::vector<Setting> VerticalPress::settings() {
   return {{"load",
            "kg",
-           [this](double v) { world_.set_mass(ram(), data_.mass + v); },
-           [this] { return ram().mass - data_.mass; },
+           [this](double v) {
+             data_.load = v;
+             parameters_changed();
+           },
+           [this] { return data_.load; },
            "what the ram carries besides itself",
            {0, 1e6, false}},
           {"force",
@@ -126,6 +129,10 @@ std::vector<Setting> VerticalPress::settings() {
 }
 
 std::vector<DriveOfPlant> VerticalPress::drives() { return drive_.drives(load_inertia(data_)); }
+
+Parameters VerticalPress::live_parameters() { return live_rows(vertical_press_parameters(data_)); }
+
+void VerticalPress::parameters_changed() { screw_.take(data_, data_.mass + data_.load, world_); }
 
 std::vector<EventType> VerticalPress::event_types() {
   std::vector<EventType> types = {

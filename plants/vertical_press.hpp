@@ -26,7 +26,7 @@ struct VerticalPressData : ScrewDriveData {
                                    .limit_min = 0,
                                    .limit_max = 0.6}} {}
 
-  double load = 0;                 ///< what the ram carries besides, at the start [kg]
+  double load = 0;                 ///< what the ram carries besides [kg]
   double counterbalance = 2000;    ///< constant force upwards: cylinder or gas spring [N]
   double efficiency = 0.9;         ///< of screw or rack while the motor drives the ram
   double back_efficiency = 0.8;    ///< while the ram drives the motor, 0 or less: self-locking
@@ -58,6 +58,8 @@ class VerticalPress : public Plant {
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;
   std::vector<Part> parts() override;
+  Parameters live_parameters() override;
+  void parameters_changed() override;
 
   [[nodiscard]] Slide& ram() const { return screw_.slide; }
   [[nodiscard]] Shaft& rotor() const { return screw_.rotor; }
@@ -78,10 +80,12 @@ class VerticalPress : public Plant {
   bool sagged_ = false;
 };
 
+Parameters vertical_press_parameters(VerticalPressData& data);
+
 class VerticalPressDefinition : public PlantDefinition {
  public:
   VerticalPressData data;
-  Parameters parameters() override;
+  Parameters parameters() override { return vertical_press_parameters(data); }
   std::vector<Objection> objections(double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };

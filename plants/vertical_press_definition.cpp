@@ -7,10 +7,10 @@ namespace {
 
 Parameters mechanics(VerticalPressData& data) {
   return {
-      row("mass", "kg", "mass of the ram with its tool", data.mass, 1e-3, 1e6, "a small screw press"),
+      live(row("mass", "kg", "mass of the ram with its tool", data.mass, 1e-3, 1e6, "a small screw press")),
       row("load", "kg", "what the ram carries besides, at the start", data.load, 0, 1e6, "none"),
-      row("counterbalance", "N", "constant force upwards: cylinder or gas spring", data.counterbalance, 0,
-          1e7, "estimate: a third of the weight"),
+      live(row("counterbalance", "N", "constant force upwards: cylinder or gas spring", data.counterbalance,
+               0, 1e7, "estimate: a third of the weight")),
       row("lead", "mm", "travel for one turn of the screw, or of a rack's pinion", data.lead, 0.1, 5000,
           "ball screw 40 x 10"),
       row("screw_inertia", "kg m2", "inertia of screw or pinion", data.screw_inertia, 0, 100,
@@ -34,16 +34,16 @@ Parameters mechanics(VerticalPressData& data) {
       row("workpiece.stiffness", "N/m", "of the workpiece, 0 = none is there", data.workpiece.stiffness, 0,
           1e10, "none"),
       row("workpiece.damping", "N s/m", "of the workpiece", data.workpiece.damping, 0, 1e8, "none"),
-      row("motor_friction.coulomb", "N m", "dry friction of motor and screw bearings",
-          data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque"),
-      row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor, its fan",
-          data.motor_friction.viscous, 0, 100, "estimate"),
-      row("ram_friction.coulomb", "N", "dry friction of the ram's guides", data.guide_friction.coulomb, 0,
-          1e6, "estimate: four guide bushes"),
-      row("ram_friction.viscous", "N s/m", "viscous friction of the guides", data.guide_friction.viscous, 0,
-          1e6, "estimate"),
-      row("ram_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
-          data.guide_friction.breakaway, 0, 1e6, "none: set it to study stick-slip"),
+      live(row("motor_friction.coulomb", "N m", "dry friction of motor and screw bearings",
+               data.motor_friction.coulomb, 0, 1e4, "estimate: 1 % of rated torque")),
+      live(row("motor_friction.viscous", "N m s/rad", "viscous friction of the motor, its fan",
+               data.motor_friction.viscous, 0, 100, "estimate")),
+      live(row("ram_friction.coulomb", "N", "dry friction of the ram's guides", data.guide_friction.coulomb,
+               0, 1e6, "estimate: four guide bushes")),
+      live(row("ram_friction.viscous", "N s/m", "viscous friction of the guides", data.guide_friction.viscous,
+               0, 1e6, "estimate")),
+      live(row("ram_friction.breakaway", "N", "what dry friction is more at standstill (Stribeck)",
+               data.guide_friction.breakaway, 0, 1e6, "none: set it to study stick-slip")),
       row("ram_friction.stribeck_speed", "mm/s", "speed at which 1/e of it is left",
           data.guide_friction.stribeck_speed, 1e-3, 1e5, "estimate"),
   };
@@ -62,7 +62,7 @@ Parameters picture(VerticalPressData& data) {
 
 }  // namespace
 
-Parameters VerticalPressDefinition::parameters() {
+Parameters vertical_press_parameters(VerticalPressData& data) {
   return joined(
       mechanics(data),
       axis_drive_parameters(data.drive, {.kind = "a press that is positioned on/off",
@@ -80,6 +80,7 @@ std::vector<PlantDefinition::Objection> VerticalPressDefinition::objections(doub
   AxisObjections found("ram", h);
   const double inertia = motor_inertia(data, data.drive.rotor_inertia());
   found.screw(data, inertia);
+  found.add(encoder_objections(data.sensors.encoder));
   found.contact("workpiece", data.workpiece, data.mass, "workpiece");
   found.guided("ram_friction.viscous", data, inertia);
   if (data.workpiece.stiffness > 0 && data.start < data.workpiece_height)

@@ -15,9 +15,10 @@ constexpr double fastest = 1000;  // [m/min]
 
 Web::Web(const WebData& data, World& world)
     : data_(data),
+      world_(world),
       material_(world.add_slide({.name = "web", .mass = data.mass, .speed = data.drive.speed})),
       drive_(data.drive),
-      wheel_(data.wheel, world.random("wheel")),
+      wheel_(data.wheel, world.random("wheel"), data.drive.speed),
       marks_(data.marks, world.random("marks")),
       outfeed_(data.outfeed, section_area(data.cross_section()) * data.density, world),
       lead_end_(-data.lead) {}
@@ -29,7 +30,7 @@ void Web::drive(double h) {
 
 void Web::sense(double h) {
   h_ = h;
-  wheel_.sense(material_.position_before, material_.position);
+  wheel_.sense(material_, h);
   marks_.sense(material_.position, h);
 }
 
@@ -91,7 +92,14 @@ std::vector<Fault> Web::faults() {
   return faults;
 }
 
-Parameters WebDefinition::parameters() {
+Parameters Web::live_parameters() { return live_rows(web_parameters(data_)); }
+
+void Web::parameters_changed() {
+  drive_.take(data_.drive);
+  if (material_.mass != data_.mass) world_.set_mass(material_, data_.mass);
+}
+
+Parameters web_parameters(WebData& data) {
   return joined(
       {
           row("speed", "m/min", "line speed at the start; the web already runs at it", data.drive.speed, 0,
@@ -105,18 +113,18 @@ Parameters WebDefinition::parameters() {
           row("density", "kg/m3", "density of the material", data.density, 1, 20000, "solid board"),
           row("shear_strength", "MPa", "shear resistance of the material, mean over the length of the blade",
               data.shear_strength, 0, 2000, "estimate: solid board, blade with a slight helix"),
-          row("mass", "kg", "mass that moves with the web", data.mass, 0.01, 1e5,
-              "estimate: 10 m of strip, 2 kg, and the rolls that it drives"),
+          live(row("mass", "kg", "mass that moves with the web", data.mass, 0.01, 1e5,
+                   "estimate: 10 m of strip, 2 kg, and the rolls that it drives")),
           row("lead", "mm", "web beyond the cut at the start; the first piece is longer by it", data.lead, 0,
               100000, "the lead end is at the cut"),
-          row("drive.acceleration", "m/s2", "largest acceleration of the line drive", data.drive.acceleration,
-              1e-3, 1000, "estimate: a second to 120 m/min"),
-          row("drive.stiffness", "N/m", "stiffness of the web between line drive and cut",
-              data.drive.stiffness, 1, 1e9, "estimate: 16 Hz with 20 kg"),
-          row("drive.damping", "N s/m", "damping of the line drive's speed loop on the web",
-              data.drive.damping, 0, 1e7, "estimate: 70 % of critical"),
-          row("drive.max_force", "N", "largest force of the line drive before it slips", data.drive.max_force,
-              0.1, 1e6, "estimate"),
+          live(row("drive.acceleration", "m/s2", "largest acceleration of the line drive",
+                   data.drive.acceleration, 1e-3, 1000, "estimate: a second to 120 m/min")),
+          live(row("drive.stiffness", "N/m", "stiffness of the web between line drive and cut",
+                   data.drive.stiffness, 1, 1e9, "estimate: 16 Hz with 20 kg")),
+          live(row("drive.damping", "N s/m", "damping of the line drive's speed loop on the web",
+                   data.drive.damping, 0, 1e7, "estimate: 70 % of critical")),
+          live(row("drive.max_force", "N", "largest force of the line drive before it slips",
+                   data.drive.max_force, 0.1, 1e6, "estimate")),
           row("outfeed.speed_factor", "", "speed of the outfeed belt over line speed",
               data.outfeed.speed_factor, 1, 10, "usual 10 to 30 % faster"),
           row("outfeed.friction", "", "Coulomb friction coefficient, piece on belt", data.outfeed.friction,
@@ -133,6 +141,7 @@ std::vector<PlantDefinition::Objection> WebDefinition::objections(double h) {
   AxisObjections found("web", h);
   found.pair("drive.stiffness", "drive.damping", {data.drive.stiffness, data.drive.damping, data.mass},
              "web and line drive");
+  found.add(wheel_objections(data.wheel));
   if (data.section == "tube" && 2 * data.thickness > data.width)
     found.object(
         "thickness",

@@ -41,6 +41,8 @@ class Web : public Plant {
   std::vector<Fault> faults() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
+  Parameters live_parameters() override;
+  void parameters_changed() override;
 
   [[nodiscard]] const WebData& data() const { return data_; }
   [[nodiscard]] Slide& material() { return material_; }
@@ -63,6 +65,7 @@ class Web : public Plant {
   [[nodiscard]] std::vector<double> prints_in_sight() const;
 
   WebData data_;
+  World& world_;
   Slide& material_;  // position: travel since the start
   LineDrive drive_;
   MeasuringWheel wheel_;
@@ -73,10 +76,12 @@ class Web : public Plant {
   int pieces_ = 0;
 };
 
+Parameters web_parameters(WebData& data);
+
 class WebDefinition : public PlantDefinition {
  public:
   WebData data;
-  Parameters parameters() override;
+  Parameters parameters() override { return web_parameters(data); }
   std::vector<Objection> objections(double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };

@@ -230,6 +230,18 @@ void World::set_mass(Slide& slide, double mass) {
   throw std::invalid_argument("World::set_mass: a slide of another world");
 }
 
+void World::set_inertia(Shaft& shaft, double inertia) {
+  assert(inertia > 0);
+  for (ShaftBody& s : bodies_->world.shafts) {
+    if (&s.state != &shaft) continue;
+    shaft.inertia = inertia;
+    s.body->setMassProps(1, btVector3(inertia, inertia, inertia));
+    s.body->updateInertiaTensor();
+    return;
+  }
+  throw std::invalid_argument("World::set_inertia: a shaft of another world");
+}
+
 void World::step(double h) {
   if (!failure_.empty()) return;
   GuidedWorld& world = bodies_->world;

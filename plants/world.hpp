@@ -88,6 +88,8 @@ class World {
 
   /// Gives a body of this world another mass [kg], > 0: a load is put on or taken off. It keeps its speed.
   void set_mass(Slide& slide, double mass);
+  /// The same with an inertia [kg m2], > 0.
+  void set_inertia(Shaft& shaft, double inertia);
 
   /// Moves all bodies by `h` seconds, the same in every call. Does not allocate. After a failure nothing
   /// moves.

@@ -174,7 +174,7 @@ Page plant_page(const plants::PlantType& type) {
   const auto name_and_unit = [](const auto& item) { return std::pair(item.name, item.unit); };
   const Specimens specimens(type);
   Sheet parameters("parameters", "Parameters",
-                   {"name=parameter", "default", "unit=", "range", "meaning", "source=from"});
+                   {"name=parameter", "default", "unit=", "range", "live", "meaning", "source=from"});
   for (const auto& p : specimens.parameters()) {
     const auto range = range_text(p);
     const bool in_unit = !p.unit.empty() && !range.empty();
@@ -182,6 +182,7 @@ Page plant_page(const plants::PlantType& type) {
                     scenario::value_text(p),
                     p.unit,
                     {range, in_unit ? fmt::format("{} {}", range, p.unit) : range},
+                    {p.live, p.live ? "live" : ""},
                     p.meaning,
                     p.source});
   }

@@ -91,7 +91,69 @@ class Connector {
     }
   }
 
+  /// Keeps a filter for the wire of its terminal.
+  void take(const scenario::InputFilter& filter) {
+    const auto address = terminal(filter.terminal);
+    if (!address) return;
+    const bool fits = (filter.frequency == 0 || address->kind == Kind::counter) &&
+                      (filter.pulse == 0 || address->kind == Kind::interrupt) &&
+                      (filter.delay == 0 || address->kind == Kind::input);
+    if (!fits) {
+      problem(filter.terminal.place,
+              fmt::format("{} is a {} and has no such filter", controller_.terminal_name(*address),
+                          name_of(address->kind)),
+              "a counter has a frequency, an interrupt line a pulse, a digital input a delay");
+      return;
+    }
+    if (!filters_.emplace(*address, &filter).second)
+      problem(filter.terminal.place,
+              fmt::format("{} has filters already", controller_.terminal_name(*address)),
+              "write them in one place");
+  }
+
+  /// Says which filters no wire goes through.
+  void refuse_idle_filters() {
+    for (const auto& [address, filter] : filters_)
+      if (!used_.contains(address))
+        problem(filter->terminal.place,
+                fmt::format("no signal of a plant comes to {}: there is nothing to filter",
+                            controller_.terminal_name(address)),
+                "wire it, or leave the filter out");
+  }
+
  private:
+  const scenario::InputFilter* filter_of(const Address& address) {
+    const auto found = filters_.find(address);
+    if (found == filters_.end()) return nullptr;
+    used_.insert(address);
+    return found->second;
+  }
+
+  const plants::EncoderPort* filtered(const Address& address, const plants::EncoderPort* from) {
+    const auto* filter = filter_of(address);
+    if (filter == nullptr) return from;
+    return bus_.filters_->counter(from, controller_.terminal_name(address), filter->frequency);
+  }
+
+  const plants::SignalPort* filtered(const Address& address, const plants::SignalPort* from) {
+    const auto* filter = filter_of(address);
+    if (filter == nullptr) return from;
+    return bus_.filters_->input(from, seconds(filter->delay));
+  }
+
+  /// What an interrupt line sees of zero pulses.
+  const plants::SignalPort* seen(const Address& address, const scenario::Wire& wire,
+                                 const plants::SignalPort* from) {
+    const auto* filter = filter_of(address);
+    if (filter == nullptr) return from;
+    if (!wire.plug.text.ends_with(".index")) {
+      problem(filter->terminal.place, fmt::format("{} gives no zero pulses", wire.plug.text),
+              "a least width is for an index: knife.encoder.index");
+      return from;
+    }
+    return bus_.filters_->zero_pulse(from, controller_.terminal_name(address), seconds(filter->pulse));
+  }
+
   void problem(const scenario::Place& place, std::string what, std::string remedy) {
     problems_.push_back(scenario::problem_at(scenario_, place, std::move(what), std::move(remedy)));
   }
@@ -187,13 +249,15 @@ class Connector {
     auto& cards = controller_.cards();
     switch (address.kind) {
       case Kind::counter:
-        bus_.counters_.push_back({std::get<plants::EncoderPort*>(port.plug), &cards.counters.at(address)});
+        bus_.counters_.push_back(
+            {filtered(address, std::get<plants::EncoderPort*>(port.plug)), &cards.counters.at(address)});
         break;
       case Kind::input:
-        bus_.inputs_.push_back({std::get<plants::SignalPort*>(port.plug), &cards.inputs.at(address)});
+        bus_.inputs_.push_back(
+            {filtered(address, std::get<plants::SignalPort*>(port.plug)), &cards.inputs.at(address)});
         break;
       case Kind::interrupt:
-        connect_interrupt(std::get<plants::SignalPort*>(port.plug), address.number);
+        connect_interrupt(seen(address, wire, std::get<plants::SignalPort*>(port.plug)), address.number);
         break;
       case Kind::output:
         if (sole_driver(address, wire)) {
@@ -220,7 +284,7 @@ class Connector {
     auto& panel = bus_.panel_;
     switch (address.kind) {
       case Kind::input:
-        bus_.inputs_.push_back({&panel.switches[name], &cards.inputs.at(address)});
+        bus_.inputs_.push_back({filtered(address, &panel.switches[name]), &cards.inputs.at(address)});
         break;
       case Kind::interrupt:
         connect_interrupt(&panel.switches[name], address.number);
@@ -263,13 +327,19 @@ class Connector {
   std::set<std::string> known_plants_;
   std::map<std::size_t, std::string> plugs_of_kind_;  // as messages list them
   std::map<std::string, Address> drivers_;
+  std::map<Address, const scenario::InputFilter*> filters_;
+  std::set<Address> used_;  // of them
 };
 
 void Bus::connect(const scenario::Scenario& scenario, devices::Controller& controller,
                   const std::vector<NamedPlant>& plants, Problems& problems) {
   controller_ = &controller;
+  h_ = seconds(scenario.scene.step);
+  if (!scenario.filters.empty()) filters_ = std::make_unique<InputFilters>();
   Connector connector(*this, scenario, controller, plants, problems);
+  for (const auto& filter : scenario.filters) connector.take(filter);
   for (const auto& wire : scenario.wiring) connector.connect(wire);
+  connector.refuse_idle_filters();
 }
 
 std::vector<std::string> Bus::unwired() const {
@@ -317,6 +387,7 @@ void Bus::outputs_to_plants() {
 }
 
 void Bus::plants_to_inputs() {
+  if (filters_) filters_->pass(h_);
   for (const auto& wire : counters_) wire.to->count = wire.from->count;
   // A pulse is one period, four edges.
   for (const auto& wire : loops_) wire.to->count = 4 * wire.from->count;

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "base/problem.hpp"
 #include "devices/controller.hpp"
 #include "plants/plant.hpp"
+#include "sim/loop/input_filters.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::loop {
@@ -37,6 +39,14 @@ class Bus {
   /// Makes the scenario's wires; what cannot be connected is reported with its place and left out.
   void connect(const scenario::Scenario& scenario, devices::Controller& controller,
                const std::vector<NamedPlant>& plants, Problems& problems);
+
+  /// What the cards' filters lost since the last call, and in all.
+  [[nodiscard]] std::vector<Loss> take_losses() {
+    return filters_ ? filters_->take_losses() : std::vector<Loss>();
+  }
+  [[nodiscard]] std::vector<std::string> lost() const {
+    return filters_ ? filters_->lost() : std::vector<std::string>();
+  }
 
   /// Terminals that the controller uses and nothing is wired to.
   [[nodiscard]] std::vector<std::string> unwired() const;
@@ -100,6 +110,8 @@ class Bus {
   void deliver_interrupts();
 
   devices::Controller* controller_ = nullptr;
+  double h_ = 0;                           ///< [s]
+  std::unique_ptr<InputFilters> filters_;  ///< nullptr without any
   Panel panel_;
   std::vector<CounterWire> counters_;
   std::vector<InputWire> inputs_;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <utility>
+#include <variant>
 
 #include "base/text.hpp"
 #include "devices/plcopen/terminals.hpp"
@@ -12,6 +14,20 @@ namespace drycut::sim::loop {
 namespace {
 
 constexpr std::string_view panel_prefix = "panel.";
+
+// A live parameter as what the timeline sets.
+plants::Setting setting_of(plants::Plant* plant, const plants::Parameter& row) {
+  auto* value = std::get<double*>(row.value);
+  return {row.name,
+          row.unit,
+          [plant, value](double si) {
+            *value = si;
+            plant->parameters_changed();
+          },
+          [value] { return *value; },
+          std::string(row.meaning),
+          {row.min, row.max, false}};
+}
 
 }  // namespace
 
@@ -37,6 +53,8 @@ Names::Names(const std::vector<NamedPlant>& plants, devices::Controller* control
   for (const auto& [name, plant] : plants) {
     for (auto& channel : plant->channels()) channels_.emplace(name + "." + channel.name, channel);
     for (auto& setting : plant->settings()) settings_.emplace(name + "." + setting.name, setting);
+    for (const auto& row : plant->live_parameters())
+      settings_.emplace(name + "." + row.name, setting_of(plant, row));
     for (auto& fault : plant->faults()) {
       const auto component = name + "." + fault.component;
       fault_index_.emplace(std::pair(component, fault.name), faults_.size());
@@ -115,6 +133,29 @@ std::optional<plants::Fault> Names::fault(const std::string& component, const st
   return faults_[found->second].second;
 }
 
+plants::Fault* Names::fault_called(const std::string& name) {
+  const auto dot = name.rfind('.');
+  if (dot == std::string::npos) return nullptr;
+  const auto found = fault_index_.find({name.substr(0, dot), name.substr(dot + 1)});
+  return found == fault_index_.end() ? nullptr : &faults_[found->second].second;
+}
+
+std::optional<Target> Names::disturbed(const std::string& name) {
+  if (settings_.contains(name)) return target(name);
+  const auto* found = fault_called(name);
+  if (found == nullptr) return {};
+  return Target{name, std::string(found->unit), [] { return 0.0; }, found->act, range_of(found->range)};
+}
+
+void Names::stand_in(const std::string& name, StandIn in_place) {
+  if (const auto found = settings_.find(name); found != settings_.end()) {
+    found->second.write = std::move(in_place.write);
+    found->second.read = std::move(in_place.read);
+  } else if (auto* fault = fault_called(name)) {
+    fault->act = std::move(in_place.write);
+  }
+}
+
 std::vector<std::string> Names::reading_names() const {
   std::vector<std::string> names;
   for (const auto& [name, channel] : channels_) names.push_back(name);
@@ -178,6 +219,16 @@ std::string Names::suggest_fault(const std::string& component) const {
   for (const auto& name : components) all += (all.empty() ? "" : ", ") + name;
   return did_you_mean(component, components,
                       all.empty() ? "no plant here offers faults" : "components with faults: " + all);
+}
+
+std::string Names::suggest_disturbed(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& [full, setting] : settings_)
+    if (!setting.range.whole) names.push_back(full);
+  for (const auto& [component, fault] : faults_)
+    if (!fault.range.whole) names.push_back(component + "." + fault.name);
+  return did_you_mean(name, names,
+                      "name a plant's setting, live parameter or component.fault: drycut plants lists them");
 }
 
 }  // namespace drycut::sim::loop

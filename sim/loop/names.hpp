@@ -52,21 +52,35 @@ class Names {
   /// The fault `fault` of `component` ("knife.encoder").
   std::optional<plants::Fault> fault(const std::string& component, const std::string& fault);
 
+  /// What a disturbance can be added to under this name: a plant's setting, live parameter or fault, which is
+  /// "component.fault" and reads 0.
+  std::optional<Target> disturbed(const std::string& name);
+  /// From now on this stands for that target: whoever sets or reads it, does so here.
+  struct StandIn {
+    std::function<void(double)> write;
+    std::function<double()> read;
+  };
+  void stand_in(const std::string& name, StandIn in_place);
+
   /// Remedies for an unknown name: the nearest one, or what there is.
   [[nodiscard]] std::string suggest_reading(const std::string& name) const;
   [[nodiscard]] std::string suggest_target(const std::string& name) const;
   [[nodiscard]] std::string suggest_fault(const std::string& component) const;
+  [[nodiscard]] std::string suggest_disturbed(const std::string& name) const;
   /// All names that `reading` knows.
   [[nodiscard]] std::vector<std::string> reading_names() const;
 
  private:
+  // "knife.encoder.jitter"
+  [[nodiscard]] plants::Fault* fault_called(const std::string& name);
+
   devices::Controller* controller_;
   [[nodiscard]] bool of_controller(const std::string& name) const;
 
   Panel& panel_;
   bool assumed_ = false;
   std::map<std::string, plants::Channel> channels_;
-  std::map<std::string, plants::Setting> settings_;
+  std::map<std::string, plants::Setting> settings_;                         ///< and live parameters
   std::vector<std::pair<std::string, plants::Fault>> faults_;               ///< full component name, fault
   std::map<std::pair<std::string, std::string>, std::size_t> fault_index_;  ///< component and fault
   std::set<std::string> plant_names_;

@@ -35,6 +35,8 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
   if (!controller_ && scenario.controller) names_->assume_controller(scenario.wiring);
   watch_ = std::make_unique<Watch>(*names_);
+  if (!scenario.disturbances.empty())
+    disturbances_ = std::make_unique<Disturbances>(scenario, *names_, problems);
   timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
   for (const auto& [name, plant] : named_) {
     for (const auto& type : plant->event_types()) {
@@ -131,6 +133,7 @@ void Simulation::follow_cams() {
 // The order of everything inside a step, once and whole (design: time).
 void Simulation::step() {
   timeline_->run(time_, recording_);
+  if (disturbances_) disturbances_->run(time_);
 
   if (controller_) {
     controller_->run_devices(time_);
@@ -172,6 +175,7 @@ void Simulation::collect_events() {
           {time_, 0, std::move(event.source), std::move(event.event), {}, std::move(event.text)});
     }
   }
+  for (auto& loss : bus_.take_losses()) recording_.happened({time_, 0, "card", loss.event, {}, loss.text});
   if (events_seen_ == recording_.events().size()) return;
   watch_->update();
   while (events_seen_ < recording_.events().size()) {
@@ -212,6 +216,7 @@ std::vector<std::string> Simulation::notes() const {
   if (const auto open = bus_.unwired(); !open.empty())
     notes.push_back(fmt::format("not wired: {}", fmt::join(open, ", ")));
   notes.insert(notes.end(), notes_of_setup_.begin(), notes_of_setup_.end());
+  for (auto& lost : bus_.lost()) notes.push_back(std::move(lost));
   const auto& around = scenario_.pictures.around;
   if (around && scenario_.pictures.frames && !shutter_.event_at()) {
     notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,

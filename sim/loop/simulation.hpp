@@ -13,6 +13,7 @@
 #include "sim/loop/bindings.hpp"
 #include "sim/loop/bus.hpp"
 #include "sim/loop/checks.hpp"
+#include "sim/loop/disturbances.hpp"
 #include "sim/loop/drive_judge.hpp"
 #include "sim/loop/names.hpp"
 #include "sim/loop/observer.hpp"
@@ -133,6 +134,7 @@ class Simulation {
   Bus bus_;
   std::unique_ptr<Names> names_;
   std::unique_ptr<Watch> watch_;
+  std::unique_ptr<Disturbances> disturbances_;  ///< nullptr without any
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<Checks> checks_;
   std::unique_ptr<DriveJudge> drives_;

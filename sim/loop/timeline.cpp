@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "sim/loop/live_parameters.hpp"
+#include "sim/loop/quantities.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::loop {
@@ -30,39 +32,18 @@ class Binder {
   std::optional<double> value(const std::string& name, std::string_view unit,
                               const std::optional<devices::ValueRange>& range,
                               const scenario::Quantity& quantity) {
-    const auto si = converted(name, unit, quantity);
+    const auto si = in_si(scenario_, problems_, name, unit, quantity, bare_number(name));
     if (!si || !range) return si;
     // Another unit's conversion may miss a limit by its last digit.
     const double number =
         quantity.unit == unit
             ? quantity.number
             : std::strtod(fmt::format("{:.12g}", scenario::from_si(*si, unit)).c_str(), nullptr);
-    const auto fault = devices::misfit(name, *range, number, unit);
+    auto fault = devices::misfit(name, *range, number, unit);
+    if (!fault) fault = objection_to(scenario_, name, *si);
     if (!fault) return si;
     problem(quantity.place, fault->what, fault->remedy);
     return {};
-  }
-
-  std::optional<double> converted(const std::string& name, std::string_view unit,
-                                  const scenario::Quantity& quantity) {
-    if (unit.empty()) {
-      if (quantity.unit.empty()) return quantity.number;
-      problem(quantity.place, fmt::format("{} takes a plain number, not '{}'", name, quantity.unit),
-              bare_number(name));
-      return {};
-    }
-    if (quantity.unit.empty()) {
-      problem(quantity.place, fmt::format("{} needs a unit", name),
-              fmt::format("write for example {} {}", quantity.number, unit));
-      return {};
-    }
-    if (!scenario::is_unit(quantity.unit) || !scenario::same_dimension(quantity.unit, unit)) {
-      problem(quantity.place,
-              fmt::format("{} is {}, '{}' is not", name, scenario::dimension_name(unit), quantity.unit),
-              fmt::format("give it in {}", unit));
-      return {};
-    }
-    return scenario::to_si(quantity.number, quantity.unit);
   }
 
   /// A controller's value is set as its device counts it, whatever scenarios call its unit elsewhere.
@@ -74,10 +55,13 @@ class Binder {
 
   std::optional<Target> target(const scenario::Text& name) {
     auto found = names_.target(name.text);
-    if (!found) {
+    if (found) return found;
+    const auto fixed = fixed_parameter(scenario_, name.text);
+    if (fixed)
+      problem(name.place, fixed->what, fixed->remedy);
+    else
       problem(name.place, fmt::format("nothing called '{}' can be set", name.text),
               names_.suggest_target(name.text));
-    }
     return found;
   }
 

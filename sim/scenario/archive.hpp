@@ -126,7 +126,9 @@ class Archive {
 void visit(Archive& archive, Scenario& scenario);
 void visit(Archive& archive, PlantEntry& plant);
 void visit(Archive& archive, Wire& wire);
+void visit(Archive& archive, InputFilter& filter);
 void visit(Archive& archive, Stimulus& stimulus);
+void visit(Archive& archive, Disturbance& disturbance);
 void visit(Archive& archive, Check& check);
 void visit(Archive& archive, PicturesSection& pictures);
 void visit(Archive& archive, PicturesSection::MeshRequest& mesh);

@@ -110,6 +110,22 @@ const auto write_text = [](const Text& text) { return yaml_text(text.text); };
 const auto write_quoted = [](const Text& text) { return yaml_quoted(text.text); };
 const auto write_switch = [](bool on) { return std::string(on ? "on" : "off"); };
 const auto write_number = [](auto number) { return fmt::format("{}", number); };
+const auto write_quantity = [](const Quantity& quantity) {
+  const auto number = fmt::format("{}", quantity.number);
+  return quantity.unit.empty() ? number : yaml_text(fmt::format("{} {}", number, quantity.unit));
+};
+
+constexpr std::string_view seed_schema = R"({"type": ["integer", "string"], "minimum": 0})";
+
+std::optional<std::uint64_t> read_seed(const Text& text, const std::string& name, Findings& findings) {
+  std::uint64_t number = 0;
+  const char* const end = text.text.data() + text.text.size();
+  const auto parsed = std::from_chars(text.text.data(), end, number);
+  if (parsed.ec == std::errc() && parsed.ptr == end) return number;
+  findings.add(text.place, fmt::format("{}: '{}' is not a whole number", name, text.text),
+               "0 to 18446744073709551615");
+  return {};
+}
 
 // Of an optional: nothing to write where it is absent.
 template <typename Write>
@@ -208,19 +224,13 @@ Form form(int& value, int min, int max) {
   return bound(value, read, write_number, schema_of_whole(min, max));
 }
 
-Form form(std::uint64_t& value) {
-  const auto read = [](const Text& text, const std::string& name,
-                       Findings& findings) -> std::optional<std::uint64_t> {
-    std::uint64_t number = 0;
-    const char* const end = text.text.data() + text.text.size();
-    const auto parsed = std::from_chars(text.text.data(), end, number);
-    if (parsed.ec == std::errc() && parsed.ptr == end) return number;
-    findings.add(text.place, fmt::format("{}: '{}' is not a whole number", name, text.text),
-                 "0 to 18446744073709551615");
-    return {};
-  };
-  return bound(value, read, write_number, R"({"type": ["integer", "string"], "minimum": 0})");
+Form form(std::uint64_t& value) { return bound(value, read_seed, write_number, seed_schema); }
+
+Form form(std::optional<std::uint64_t>& value) {
+  return bound(value, read_seed, if_given(write_number), seed_schema);
 }
+
+Form form(Quantity& value) { return bound(value, read_quantity, write_quantity, number_schema); }
 
 Form form(double& value, std::string_view unit, double min, double max, std::string_view range) {
   return single(

@@ -27,6 +27,9 @@ Form form(Time& value, Sign sign);
 Form form(std::optional<Time>& value, Sign sign);
 Form form(int& value, int min, int max);
 Form form(std::uint64_t& value);
+Form form(std::optional<std::uint64_t>& value);
+/// A number with its unit; what it must measure is seen later.
+Form form(Quantity& value);
 /// A quantity of the dimension of `unit`, `value` in SI. Outside min..max (SI), `range` is told.
 Form form(double& value, std::string_view unit, double min, double max, std::string_view range);
 /// Three quantities along x, y and z, in SI: [0 mm, 20 mm, 0 mm]

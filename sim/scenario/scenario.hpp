@@ -104,6 +104,16 @@ struct Wire {
   Text plug;      ///< plant.port, or panel.switch
 };
 
+/// filters: {2.CNT01: {frequency: 100 kHz}, INT1: {pulse: 20 us}, 2.INP02: {delay: 3 ms}}
+/// What a card makes of what comes to a terminal. The manuals name it and leave the figures to the papers of
+/// the cards (000 and 002 §1.2.5.1, 001 §1.4.8): 0 = it takes what comes.
+struct InputFilter {
+  Text terminal;
+  double frequency = 0;  ///< of a counter: highest of one phase [Hz]; counts beyond are lost
+  Time pulse = 0;        ///< of an interrupt line: shorter zero pulses are not seen
+  Time delay = 0;        ///< of an input: a level is taken when it has lasted so long
+};
+
 /// A value written by the timeline. Plain numbers keep unit "" and are taken in the target's own display
 /// unit.
 struct Quantity {
@@ -129,6 +139,27 @@ struct Stimulus {
   std::vector<FaultAction> faults;
   std::optional<bool> power;  ///< controller power on or off
   Place place;
+};
+
+/// One entry of disturbances: what is added to a setting, a live parameter or a fault of a plant.
+struct Disturbance {
+  enum class Kind { sine, noise, step, walk };
+  Text at;  ///< plant.setting, plant.parameter, plant.component.fault
+  Kind kind = Kind::sine;
+  Quantity amplitude;    ///< sine: peak; noise: rms; step: height, of random ones the largest; walk: bound
+  double frequency = 0;  ///< of a sine [Hz]
+  struct Band {
+    double low = 0;  ///< [Hz]
+    double high = 0;
+    Place place;
+  };
+  Band band;       ///< of noise
+  Quantity step;   ///< of a walk, up or down
+  Time every = 0;  ///< walk: of its steps; step: of random ones, 0 = a single one
+  Time ramp = 0;   ///< fades in over this
+  Time from = 0;
+  std::optional<Time> to;
+  std::optional<std::uint64_t> seed;  ///< absent: from the scene's seed and the entry's place in the list
 };
 
 struct RecordSection {
@@ -264,7 +295,9 @@ struct Scenario {
   std::vector<PlantEntry> plants;
   std::unique_ptr<ControllerSection> controller;  ///< nullptr without
   std::vector<Wire> wiring;
+  std::vector<InputFilter> filters;
   std::vector<Stimulus> timeline;
+  std::vector<Disturbance> disturbances;
   RecordSection record;
   DrivesSection drives;
   std::vector<Check> checks;

@@ -1,5 +1,5 @@
-// The sections of a scenario: scene, wiring, timeline, record and checks. Plants and pictures have files of
-// their own, controllers a folder (sim/controllers).
+// The sections of a scenario: scene, wiring, filters, timeline, record and checks. Plants, disturbances and
+// pictures have files of their own, controllers a folder (sim/controllers).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,9 +42,8 @@ std::optional<Quantity> read_action(const YamlNode::Entry& entry, const std::str
 }
 
 std::string action_text(const Text& target, const Quantity& value) {
-  const auto number = fmt::format("{}", value.number);
-  return fmt::format("{}: {}", yaml_text(target.text),
-                     value.unit.empty() ? number : yaml_text(fmt::format("{} {}", number, value.unit)));
+  auto written = value;
+  return fmt::format("{}: {}", yaml_text(target.text), form(written).write());
 }
 
 constexpr std::string_view action_schema = R"({"type": ["number", "string", "boolean"]})";
@@ -237,6 +236,18 @@ void visit(Archive& archive, Wire& wire) {
   archive.alone(plug);
 }
 
+void visit(Archive& archive, InputFilter& filter) {
+  archive.in_line();
+  archive.value({"frequency", "counter: highest of one phase; counts beyond are lost", filter.frequency > 0},
+                form(filter.frequency, "Hz", 1e-3, 1e9, "0.001 Hz to 1e9 Hz"));
+  archive.value({"pulse", "interrupt line: shorter zero pulses are not seen", filter.pulse > 0},
+                form(filter.pulse, Sign::positive));
+  archive.value({"delay", "input: a level is taken when it has lasted so long", filter.delay > 0},
+                form(filter.delay, Sign::positive));
+  archive.require_one({"frequency", "pulse", "delay"}, "filters nothing",
+                      "add frequency: 100 kHz, pulse: 20 us or delay: 3 ms");
+}
+
 void visit(Archive& archive, Stimulus& stimulus) {
   archive.in_line();
   archive.value({"at", "time from the start"}, form(stimulus.at, Sign::not_negative));
@@ -293,9 +304,15 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.names(
       {"wiring", "terminal of the controller: plant.plug, or panel.switch", !scenario.wiring.empty()},
       scenario.wiring, &Wire::terminal);
+  archive.names(
+      {"filters", "what the cards make of what comes to their terminals", !scenario.filters.empty()},
+      scenario.filters, &InputFilter::terminal);
   archive.list(
       {"timeline", "what the operator and the line around do, and faults", !scenario.timeline.empty()},
       scenario.timeline);
+  archive.list({"disturbances", "what is added to settings, live parameters and faults of plants",
+                !scenario.disturbances.empty()},
+               scenario.disturbances);
   archive.section({"record", "what trace.csv holds"},
                   [&](Archive& inner) { visit_record(inner, scenario.record); });
   archive.section({"drives", "how the drives are judged by their ratings"},
@@ -304,6 +321,9 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.section({"pictures", "frames, film and plots of the run"},
                   [&](Archive& inner) { visit(inner, scenario.pictures); });
   archive.judge([&scenario](MapReader& reader) {
+    if (!scenario.filters.empty() && !reader.has("controller"))
+      reader.refuse("filters", "filters are of a controller's cards, and there is no controller",
+                    "add one, or leave the filters out");
     refuse_same_name(scenario.checks, "checks", "rename one; the first is at line {}", reader.findings());
     for (const auto& check : scenario.checks)
       if (check.every && *check.every < scenario.record.every)
@@ -315,8 +335,9 @@ void visit(Archive& archive, Scenario& scenario) {
 }
 
 const std::vector<std::string>& section_names() {
-  static const std::vector<std::string> names = {"scene",  "plants", "controller", "wiring",  "timeline",
-                                                 "record", "drives", "checks",     "pictures"};
+  static const std::vector<std::string> names = {"scene",   "plants",   "controller",   "wiring",
+                                                 "filters", "timeline", "disturbances", "record",
+                                                 "drives",  "checks",   "pictures"};
   return names;
 }
 

@@ -30,7 +30,7 @@ struct Turning {
     shaft.speed = turns_per_step * 2 * pi / h;
     for (int i = 0; i < steps; ++i) {
       world.step(h);
-      encoder.sense(shaft);
+      encoder.sense(shaft, h);
       for (const SignalPort::Edge& edge : encoder.index.edges)
         if (edge.rising) indexes.push_back(encoder.pulses.port.count_at(edge.fraction));
     }
@@ -152,15 +152,15 @@ TEST(EncoderFaults, JitterHasItsRmsAndLeavesNoOffset) {
 TEST(MeasuringWheel, CountsTravelByItsTrueCircumference) {
   MeasuringWheelData data;
   MeasuringWheel ideal(data, Random());
-  ideal.sense(0, 12.34567);
+  ideal.sense(0, 12.34567, h);
   EXPECT_EQ(ideal.pulses.port.count, 246913);
   data.circumference_error = 0.01;
   MeasuringWheel worn(data, Random());
-  worn.sense(0, 1.01);
+  worn.sense(0, 1.01, h);
   EXPECT_EQ(worn.pulses.port.count, 20000);
   data = {.slip = 0.25};
   MeasuringWheel slipping(data, Random());
-  slipping.sense(0, 1);
+  slipping.sense(0, 1, h);
   EXPECT_EQ(slipping.pulses.port.count, 15000);
 }
 
@@ -169,7 +169,7 @@ TEST(MeasuringWheel, IndexComesOnceATurnAtItsCount) {
   int indexes = 0;
   double x = 0;
   for (int i = 0; i < 10000; ++i) {
-    wheel.sense(x, x + 1.3e-3);
+    wheel.sense(x, x + 1.3e-3, h);
     x += 1.3e-3;
     if (wheel.index.edges.empty()) continue;
     ++indexes;
@@ -186,7 +186,7 @@ TEST(MeasuringWheel, EveryIndexOfAStepComesAtItsCount) {
   for (const int way : {1, -1}) {
     if (way < 0) ++turns;
     for (int i = 0; i < (way > 0 ? 100 : 99); ++i) {
-      wheel.sense(x, x + way * 0.02531);
+      wheel.sense(x, x + way * 0.02531, h);
       x += way * 0.02531;
       double last = 0;
       for (const SignalPort::Edge& edge : wheel.index.edges) {
@@ -205,17 +205,17 @@ TEST(MeasuringWheelFaults, SlipFromNowOnKeepsWhatWasCounted) {
   MeasuringWheel wheel({}, Random());
   std::vector<Fault> faults;
   wheel.offer_faults(faults, "wheel");
-  wheel.sense(0, 1);
+  wheel.sense(0, 1, h);
   fault(faults, "wheel", "slip", 0.5);
-  wheel.sense(1, 2);
+  wheel.sense(1, 2, h);
   EXPECT_NEAR(wheel.pulses.port.before, 20000, 1e-6);
   EXPECT_NEAR(wheel.pulses.port.now, 30000, 1e-6);
   fault(faults, "wheel", "slip", 0);
-  wheel.sense(2, 3);
+  wheel.sense(2, 3, h);
   EXPECT_NEAR(wheel.pulses.port.now, 50000, 1e-6);
   fault(faults, "wheel", "lose_counts", 7);
   fault(faults, "wheel", "stuck", 1);
-  wheel.sense(3, 4);
+  wheel.sense(3, 4, h);
   EXPECT_NEAR(wheel.pulses.port.now, 49993, 1e-6);
 }
 
