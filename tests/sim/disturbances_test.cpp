@@ -120,14 +120,14 @@ struct DisturbancesTest : testing::Test {
   static scenario::Quantity quantity(double number, std::string unit = "") {
     return {number, std::move(unit), {7, 9}};
   }
-  Disturbance& add(Disturbance::Kind kind, const std::string& at, scenario::Quantity amplitude) {
+  scenario::Disturbance& add(Disturbance::Kind kind, const std::string& at, scenario::Quantity amplitude) {
     auto& one = scenario.disturbances.emplace_back();
     one.kind = kind;
     one.at = text(at, 3, 4);
     one.amplitude = std::move(amplitude);
     return one;
   }
-  Disturbance& add(Disturbance::Kind kind, double amplitude) {
+  scenario::Disturbance& add(Disturbance::Kind kind, double amplitude) {
     return add(kind, "web.speed", quantity(amplitude, "m/s"));
   }
   /// The speed in each step of a run.
