@@ -164,8 +164,10 @@ Parameters axis_drive_parameters(AxisDriveData& data, const AxisDriveSources& fr
   return joined({row("drive",
                      "what drives the axis: servo by voltage; inverter or contactors with plugs "
                      "drive.forward, drive.backward, drive.slow",
-                     data.kind, {"servo", "inverter", "contactors"}, from.kind)},
+                     data.kind, {"servo", "inverter", "contactors"}, from.kind),
+                 model_row("servo.model", data.servo_model)},
                 group("servo.", servo_parameters(data.servo, from.servo)),
+                Parameters{model_row("induction_motor.model", data.motor_model)},
                 group("induction_motor.", induction_motor_parameters(data.motor)),
                 group("inverter.", inverter_parameters(data.inverter)),
                 group("contactors.", contactor_parameters(data.contactors)),

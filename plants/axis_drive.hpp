@@ -18,6 +18,8 @@ struct AxisDriveData {
   InverterData inverter = {};
   ContactorData contactors = {};
   HoldingBrakeData brake = {};
+  std::string servo_model = std::string(no_model);  ///< whose values `servo` has; whoever fills it sees to it
+  std::string motor_model = std::string(no_model);  ///< whose `motor` has
 
   [[nodiscard]] double rotor_inertia() const {  ///< of the motor that is chosen [kg m2]
     return kind == "servo" ? servo.rotor_inertia : motor.rotor_inertia;

@@ -70,7 +70,6 @@ Parameters induction_motor_parameters(InductionMotorData& data) {
   constexpr std::string_view sheet = "usual values: 2.2 kW, 4 poles, frame 100 L";
   return joined(
       {
-          model_row(data.model),
           row("rotor_inertia", "kg m2", "inertia of the rotor, a body of its own", data.rotor_inertia, 1e-6,
               100, sheet),
           row("rated_frequency", "Hz", "mains frequency for which it is made", data.rated_frequency, 10, 400,

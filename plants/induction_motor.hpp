@@ -27,8 +27,6 @@ struct InductionMotorData {
   double no_load_current = 0;    ///< rms without load [A]
   double stator_resistance = 0;  ///< of a phase, star, cold (20 degC) [ohm]
   MotorHeatData heat = {.winding_time_constant = 120, .housing_time_constant = 1800};
-  // The motor whose values these are; whoever fills them sees to it.
-  std::string model = std::string(no_model);
 };
 
 /// The data with estimates for what is not known: at 400 V two thirds of the apparent power reach the shaft,

@@ -57,9 +57,10 @@ inline Parameter row(std::string name, std::string_view meaning, std::string& va
   return {std::move(name), "", meaning, &value, 0, 0, {}, type, source, sole};
 }
 
-/// The model of a motor, first of its group: whoever fills the table knows a catalogue, plants know none.
-inline Parameter model_row(std::string& value) {
-  return row("model",
+/// The model of a motor, "servo.model", before its group: whoever fills the table knows a catalogue, plants
+/// know none.
+inline Parameter model_row(std::string name, std::string& value) {
+  return row(std::move(name),
              "motor of the catalogue, whose values are the defaults of this group: drycut plants --motors",
              value, {}, "none: the defaults are those below");
 }

@@ -92,7 +92,8 @@ Parameters servo_axis_parameters(ServoAxisData& data, const ServoSources& from) 
                      "what the servo follows: servo = a speed reference by voltage; pulses = a "
                      "pulse train, with plugs servo.pulses, servo.direction (on = forward), "
                      "servo.reset, servo.in_position, servo.alarm",
-                     data.kind, {"servo", "pulses"}, "positioning by voltage")},
+                     data.kind, {"servo", "pulses"}, "positioning by voltage"),
+                 model_row("servo.model", data.servo_model)},
                 group("servo.", servo_parameters(data.servo, from)),
                 group("servo.pulses.", pulse_servo_parameters(data.pulses)));
 }

@@ -14,6 +14,7 @@ struct ServoAxisData {
   std::string kind = "servo";  ///< servo: speed reference +-10 V; pulses: pulse train and position loop
   ServoData servo = {};
   PulseServoData pulses = {};
+  std::string servo_model = std::string(no_model);  ///< whose values `servo` has; whoever fills it sees to it
 };
 
 /// Rows for a parameter table: `drive`, `servo.`, `servo.pulses.`; `from` of a machine's defaults.

@@ -191,7 +191,6 @@ void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::strin
 Parameters servo_parameters(ServoData& data, const ServoSources& from) {
   constexpr std::string_view sheet = "data sheet: Mitsubishi HG-SR202";
   Parameters rows = {
-      model_row(data.model),
       row("rotor_inertia", "kg m2", "inertia of the rotor, a body of its own", data.rotor_inertia, 1e-7, 10,
           sheet),
       row("rated_torque", "N m", "continuous torque; utilisation is measured against it", data.rated_torque,

@@ -38,8 +38,6 @@ struct ServoData {
   MotorHeatData heat = {};
   AmplifierData amplifier = {};
   SupplyData supply = {.voltage = 200, .capacitance = 2e-3, .resistor = 13};
-  // The motor whose values these are; whoever fills them sees to it.
-  std::string model = std::string(no_model);
 };
 
 /// The data with estimates for what is not known: as much torque at standstill as at rated speed, 6 % of the

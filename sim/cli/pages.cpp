@@ -35,6 +35,7 @@ void print(const Page& page) {
 /// Says that there is no page of that name, and which there are.
 int unknown(const PageKind& kind, const std::string& name, const std::vector<Page>& pages) {
   std::vector<std::string> names;
+  names.reserve(pages.size());
   for (const auto& page : pages) names.push_back(page.name);
   fmt::print(stderr, "{}: there is no {} '{}'; {}\n", kind.command, kind.what, name,
              did_you_mean(name, names, "there are: " + listed(names)));

@@ -42,7 +42,6 @@ struct Scratch {
 
   explicit Scratch(std::string_view kind) {
     rows = kind == motor_kinds[0] ? servo_parameters(servo) : induction_motor_parameters(induction_motor);
-    std::erase_if(rows, [](const plants::Parameter& row) { return row.name == "model"; });
     rows.push_back(plants::row("rated_power", "kW", "power of the name plate", rated_power, 1e-3, 1e4, ""));
   }
   Scratch(const Scratch&) = delete;
@@ -104,7 +103,7 @@ class SeriesReader : public MapReader {
   void refuse_source(const Text& text, const std::string& name, const std::vector<std::string>& words) {
     const auto near = nearest(text.text, words);
     findings().add(text.place, fmt::format("{} says neither which sheet nor why an estimate", name),
-                   near.empty() ? "write \"sheet: ...\" or \"estimate: ...\", or a word of sources"
+                   near.empty() ? R"(write "sheet: ..." or "estimate: ...", or a word of sources)"
                                 : fmt::format("did you mean {}?", near));
   }
 
@@ -154,7 +153,7 @@ class SeriesReader : public MapReader {
       reader.value({"from", ""}, form(from));
       const auto example = fmt::format("write value: 1 {}", row->unit);
       reader.require("value", example);
-      reader.require("from", "write from: \"sheet: ...\" or from: \"estimate: ...\"");
+      reader.require("from", R"(write from: "sheet: ..." or from: "estimate: ...")");
       reader.finish();
       if (findings().count() != before) continue;
       value.from = source(from, full + ".from");

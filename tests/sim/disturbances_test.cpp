@@ -120,14 +120,14 @@ struct DisturbancesTest : testing::Test {
   static scenario::Quantity quantity(double number, std::string unit = "") {
     return {number, std::move(unit), {7, 9}};
   }
-  scenario::Disturbance& add(Disturbance::Kind kind, const std::string& at, scenario::Quantity amplitude) {
+  scenario::Disturbance& add(scenario::Disturbance::Kind kind, const std::string& at, scenario::Quantity amplitude) {
     auto& one = scenario.disturbances.emplace_back();
     one.kind = kind;
     one.at = text(at, 3, 4);
     one.amplitude = std::move(amplitude);
     return one;
   }
-  scenario::Disturbance& add(Disturbance::Kind kind, double amplitude) {
+  scenario::Disturbance& add(scenario::Disturbance::Kind kind, double amplitude) {
     return add(kind, "web.speed", quantity(amplitude, "m/s"));
   }
   /// The speed in each step of a run.
@@ -161,7 +161,7 @@ struct DisturbancesTest : testing::Test {
 };
 
 TEST_F(DisturbancesTest, ASineFadesInAndLeavesNothingBehind) {
-  auto& sine = add(Disturbance::Kind::sine, "web.speed", quantity(6, "m/min"));
+  auto& sine = add(scenario::Disturbance::Kind::sine, "web.speed", quantity(6, "m/min"));
   sine.frequency = 25;
   sine.ramp = 20 * millisecond;
   sine.from = 10 * millisecond;
@@ -176,7 +176,7 @@ TEST_F(DisturbancesTest, ASineFadesInAndLeavesNothingBehind) {
 }
 
 TEST_F(DisturbancesTest, AddsToWhatTheTimelineSetsAndRamps) {
-  add(Disturbance::Kind::step, -0.25).from = 5 * millisecond;
+  add(scenario::Disturbance::Kind::step, -0.25).from = 5 * millisecond;
   auto& ramp = scenario.timeline.emplace_back();
   ramp.at = 0;
   ramp.ramp = {{text("web.speed"), quantity(2, "m/s")}};
@@ -192,15 +192,15 @@ TEST_F(DisturbancesTest, AddsToWhatTheTimelineSetsAndRamps) {
 }
 
 TEST_F(DisturbancesTest, TwoOfOneTargetAddUpAndKeepToItsRange) {
-  add(Disturbance::Kind::step, 1);
-  add(Disturbance::Kind::step, 2).from = 1 * millisecond;
+  add(scenario::Disturbance::Kind::step, 1);
+  add(scenario::Disturbance::Kind::step, 2).from = 1 * millisecond;
   EXPECT_DOUBLE_EQ(speeds(5 * millisecond).back(), 4);
-  add(Disturbance::Kind::step, 10);  // 300 m/min is the most
+  add(scenario::Disturbance::Kind::step, 10);  // 300 m/min is the most
   EXPECT_DOUBLE_EQ(speeds(5 * millisecond).back(), 5);
 }
 
 TEST_F(DisturbancesTest, RandomStepsLastAndStayWithinTheirHeight) {
-  add(Disturbance::Kind::step, 0.5).every = 2 * millisecond;
+  add(scenario::Disturbance::Kind::step, 0.5).every = 2 * millisecond;
   const auto all = speeds(400 * millisecond);
   std::set<double> heights;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -212,7 +212,7 @@ TEST_F(DisturbancesTest, RandomStepsLastAndStayWithinTheirHeight) {
 }
 
 TEST_F(DisturbancesTest, AWalkGoesByItsStepAndNotBeyondItsBound) {
-  auto& walk = add(Disturbance::Kind::walk, 0.03);
+  auto& walk = add(scenario::Disturbance::Kind::walk, 0.03);
   walk.step = quantity(10, "mm/s");
   walk.every = millisecond;
   const auto all = speeds(1 * second);
@@ -235,8 +235,8 @@ TEST_F(DisturbancesTest, EachEntryHasAGeneratorOfItsOwn) {
   const auto noise = [&](std::uint64_t scene, std::optional<std::uint64_t> seed, int before) {
     scenario.scene.seed = scene;
     scenario.disturbances.clear();
-    for (int i = 0; i < before; ++i) add(Disturbance::Kind::step, 0);
-    auto& one = add(Disturbance::Kind::noise, 0.1);
+    for (int i = 0; i < before; ++i) add(scenario::Disturbance::Kind::step, 0);
+    auto& one = add(scenario::Disturbance::Kind::noise, 0.1);
     one.band = {0, 100, {}};
     one.seed = seed;
     return speeds(20 * millisecond);
@@ -252,8 +252,8 @@ TEST_F(DisturbancesTest, EachEntryHasAGeneratorOfItsOwn) {
 }
 
 TEST_F(DisturbancesTest, ReachesFaultsAndLiveParameters) {
-  add(Disturbance::Kind::step, "web.wheel.slip", quantity(2, "%"));
-  add(Disturbance::Kind::step, "web.mass", quantity(5, "kg")).to = millisecond;
+  add(scenario::Disturbance::Kind::step, "web.wheel.slip", quantity(2, "%"));
+  add(scenario::Disturbance::Kind::step, "web.mass", quantity(5, "kg")).to = millisecond;
   speeds(millisecond);
   EXPECT_DOUBLE_EQ(plant.slip, 0.02);
   EXPECT_DOUBLE_EQ(plant.mass, 25);
@@ -265,7 +265,7 @@ TEST_F(DisturbancesTest, ReachesFaultsAndLiveParameters) {
 }
 
 TEST_F(DisturbancesTest, OfAFaultAddsToWhatTheTimelineGives) {
-  add(Disturbance::Kind::step, "web.wheel.slip", quantity(2, "%"));
+  add(scenario::Disturbance::Kind::step, "web.wheel.slip", quantity(2, "%"));
   auto& set = scenario.timeline.emplace_back();
   set.at = millisecond;
   set.faults = {{text("web.wheel"), text("slip"), quantity(10, "%")}};
@@ -291,50 +291,50 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         WrongDisturbance{
             "unknown_name",
-            [](DisturbancesTest& t) { t.add(Disturbance::Kind::step, "web.sped", t.quantity(1, "m/s")); },
+            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.sped", t.quantity(1, "m/s")); },
             "line.yaml:3:4: nothing called 'web.sped' can be disturbed; did you mean web.speed?"},
         WrongDisturbance{
             "unknown_fault",
             [](DisturbancesTest& t) {
-              t.add(Disturbance::Kind::step, "web.wheel.slipp", t.quantity(1, "%"));
+              t.add(scenario::Disturbance::Kind::step, "web.wheel.slipp", t.quantity(1, "%"));
             },
             "line.yaml:3:4: nothing called 'web.wheel.slipp' can be disturbed; did you mean web.wheel.slip?"},
         WrongDisturbance{
             "of_the_controller",
-            [](DisturbancesTest& t) { t.add(Disturbance::Kind::step, "slLength", t.quantity(1)); },
+            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "slLength", t.quantity(1)); },
             "line.yaml:3:4: nothing called 'slLength' can be disturbed; name a plant's setting, live "
             "parameter "
             "or component.fault: drycut plants lists them"},
         WrongDisturbance{
             "whole_setting",
-            [](DisturbancesTest& t) { t.add(Disturbance::Kind::step, "web.count", t.quantity(1)); },
+            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.count", t.quantity(1)); },
             "line.yaml:3:4: web.count takes whole numbers: nothing can be added little by little; set it "
             "in the "
             "timeline"},
         WrongDisturbance{
             "switch_of_a_fault",
-            [](DisturbancesTest& t) { t.add(Disturbance::Kind::step, "web.wheel.stuck", t.quantity(1)); },
+            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.wheel.stuck", t.quantity(1)); },
             "line.yaml:3:4: web.wheel.stuck takes whole numbers: nothing can be added little by little; "
             "set it "
             "in the timeline"},
         WrongDisturbance{
             "wrong_unit",
-            [](DisturbancesTest& t) { t.add(Disturbance::Kind::step, "web.speed", t.quantity(1, "kg")); },
+            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1, "kg")); },
             "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min"},
         WrongDisturbance{
             "no_unit",
-            [](DisturbancesTest& t) { t.add(Disturbance::Kind::step, "web.speed", t.quantity(1)); },
+            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1)); },
             "line.yaml:7:9: web.speed needs a unit; write for example 1 m/min"},
         WrongDisturbance{
             "band_above_nyquist",
             [](DisturbancesTest& t) {
-              t.add(Disturbance::Kind::noise, 0.1).band = {5, 5000, {4, 5}};
+              t.add(scenario::Disturbance::Kind::noise, 0.1).band = {5, 5000, {4, 5}};
             },
             "line.yaml:4:5: noise up to 5000 Hz has less than two steps a period; less than 5000 Hz, or a "
             "shorter scene.step"},
         WrongDisturbance{
             "sine_above_nyquist",
-            [](DisturbancesTest& t) { t.add(Disturbance::Kind::sine, 0.1).frequency = 6000; },
+            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::sine, 0.1).frequency = 6000; },
             "line.yaml:3:4: a sine of 6000 Hz has less than two steps a period; less than 5000 Hz, or a "
             "shorter scene.step"}),
     [](const auto& info) { return info.param.name; });
