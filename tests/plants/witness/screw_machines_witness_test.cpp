@@ -64,8 +64,8 @@ Mistakes with(Mistakes more) {
 }
 
 // Up an incline behind a gear, with a jump of the reference into the torque limit, a push of the process, a
-// reversal and a stand at the end. Where it runs along the torque limit a plant in steps hops about it: that
-// is not smooth in the step, so less is left to extrapolate.
+// reversal and a stand at the end. Along its torque limit a plant in steps hops about it, which is not smooth
+// in the step: less of it is left out by extrapolation than with the other machines.
 LinearAxisDefinition inclined_axis() {
   LinearAxisDefinition axis;
   axis.data.inclination = 0.35;
@@ -87,7 +87,7 @@ TEST(Witness, LinearAxis) {
     own->steady_force = -data.mass * gravity * std::sin(data.inclination);
     return own;
   };
-  expect_witness<ScrewLaw>(unit, law, 2.5e-6, 2e-6,
+  expect_witness<ScrewLaw>(unit, law, 2.5e-6, 3e-6,
                            with({{"no weight", [](ScrewLaw& l) { l.steady_force = 0; }},
                                  {"no torque limit", [](ScrewLaw& l) { l.servo.data.peak_torque *= 5; }},
                                  {"no force of the process", [](ScrewLaw& l) {
@@ -95,15 +95,24 @@ TEST(Witness, LinearAxis) {
                                   }}}));
 }
 
-// The carriage of the saw with play in its gear runs up to the line's speed, back, and into its end stop.
+// The carriage of the saw with play in its gear, and with a motor that has less torque above 600 rpm, runs up
+// to the line's speed, back, and into its end stop. In steps the torque limit and a touch count from the next
+// step on: what that leaves is not smooth in the step. A stop of 2000 N s/m would leave up to 1e-5 of the
+// travel.
 FlyingSawDefinition soft_saw() {
   FlyingSawDefinition saw;
   saw.data.gear.backlash = 2e-3;
-  soften(saw.data.drive.servo);
+  saw.data.stop.damping = 500;
+  ServoData& servo = saw.data.drive.servo;
+  soften(servo);
+  servo.rated_speed = 600 / rpm;
+  servo.max_speed = 1500 / rpm;
+  servo.peak_torque = 5;
+  servo.torque_at_max_speed = 3;
   return saw;
 }
 const Motion out_and_back = {
-    {{0.3, 0, 4}, {0.6, 4, 4}, {0.9, 4, -3}, {1.5, -3, -3}, {1.8, -3, 0}, {2, 0, 0}}};
+    {{0.3, 0, 4}, {0.6, 4, 4}, {0.9, 4, -4}, {1.5, -4, -4}, {1.8, -4, 0}, {2, 0, 0}}};
 
 TEST(Witness, FlyingSaw) {
   const auto unit = [] {
@@ -115,8 +124,9 @@ TEST(Witness, FlyingSaw) {
     return std::make_unique<ScrewLaw>(data, data.drive.servo, out_and_back);
   };
   expect_witness<ScrewLaw>(
-      unit, law, 2.5e-6, 3e-7,
+      unit, law, 2.5e-6, 3e-6,
       with({{"no play", [](ScrewLaw& l) { l.gear.backlash = 0; }},
+            {"all torque at any speed", [](ScrewLaw& l) { l.servo.data.torque_at_max_speed = 5; }},
             {"no damping of the stop", [](ScrewLaw& l) { l.buffers[0].data.damping = 0; }}}));
 }
 
