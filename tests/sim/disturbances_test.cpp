@@ -134,8 +134,8 @@ struct DisturbancesTest : testing::Test {
   std::vector<double> speeds(Time duration) {
     plant.speed = 1;
     loop::Names names({{"web", &plant}}, &controller, panel);
-    Disturbances disturbances(scenario, names, problems);
-    Timeline timeline(scenario, names, &controller, problems);
+    loop::Disturbances disturbances(scenario, names, problems);
+    loop::Timeline timeline(scenario, names, &controller, problems);
     EXPECT_TRUE(problems.empty());
     std::vector<double> all;
     for (Time now = 0; now < duration; now += scenario.scene.step) {
