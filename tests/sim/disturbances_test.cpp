@@ -147,7 +147,7 @@ struct DisturbancesTest : testing::Test {
   }
   std::string only_problem() {
     loop::Names names({{"web", &plant}}, &controller, panel);
-    const Disturbances disturbances(scenario, names, problems);
+    const loop::Disturbances disturbances(scenario, names, problems);
     EXPECT_EQ(problems.size(), 1U);
     return problems.empty() ? "" : to_string(problems.front());
   }
