@@ -280,7 +280,7 @@ class TreeBuilder {
 
   ExpressionUnit unit_of_call(const ExpressionFunction& function, std::size_t& operand) {
     using Units = ExpressionFunction::Units;
-    const auto of = unit(operand);
+    auto of = unit(operand);
     switch (function.units) {
       case Units::same:
         return of;

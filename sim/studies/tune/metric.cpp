@@ -90,7 +90,7 @@ class Metric::Compiler {
     for (const auto& event : events_) {
       for (const auto& [value, unit] : event.values) {
         if (text == event.name + "." + value) return {{text, 0, event.name, value}, unit};
-        const auto full = event.source + "." + event.name;
+        const auto full = fmt::format("{}.{}", event.source, event.name);
         if (text == full + "." + value) return {{text, 0, full, value}, unit};
       }
     }
