@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/units.hpp"
 
@@ -30,8 +31,9 @@ void PulseLine::lose(double counts) {
 }
 
 void PulseLine::burst(double counts, bool by_chance) {
-  burst_.reserve(burst_.size() + static_cast<std::size_t>(std::abs(counts)));
-  for (double n = std::abs(counts); n > 0; --n) {
+  const auto number = static_cast<std::size_t>(std::abs(counts));
+  burst_.reserve(burst_.size() + number);
+  for (std::size_t n = 0; n < number; ++n) {
     const double time = clock_ + burst_time_ * random_.uniform();
     const bool forward = by_chance ? random_.uniform() < 0.5 : counts > 0;
     burst_.push_back({time, forward ? 1.0 : -1.0});
@@ -99,8 +101,8 @@ void put_index(SignalPort& index, double turns_before, double turns, double coun
   const double direction = turns > turns_before ? 1 : -1;
   const double last = direction * std::floor(direction * turns);
   const double passed = std::max(0.0, std::ceil(direction * (last - turns_before)));
-  for (double more = passed - 1; more >= 0; --more) {
-    const double whole = last - direction * more;
+  for (auto more = static_cast<std::int64_t>(passed) - 1; more >= 0; --more) {
+    const double whole = last - direction * static_cast<double>(more);
     const double count_at_index = count + (whole - turns) * count_per_turn;
     // Far from zero `count` is rounded; the index is at a whole count if the start was.
     const double rounded = std::nearbyint(count_at_index);

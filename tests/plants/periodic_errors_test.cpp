@@ -25,7 +25,8 @@ TEST(EccentricWheel, TurnsByTheAngleThatHasRolledOff) {
   const double r = data.radius();
   EXPECT_NEAR(r, 0.5 / turn, 1e-15);
   double before = 0;
-  for (double angle = 0; angle < 5 * turn; angle += 0.1) {
+  for (int i = 0; i < 314; ++i) {
+    const double angle = 0.1 * i;
     const double now = r * angle + data.eccentricity * std::sin(angle);
     wheel.sense(before, now, h);
     EXPECT_NEAR(wheel.pulses.port.now, angle / turn * 10000, 1e-7) << angle;
@@ -56,7 +57,8 @@ TEST(EccentricWheel, IndexStaysWhereItIs) {
 TEST(MeasuringWheel, ToothErrorIsASineOfTheTeeth) {
   const MeasuringWheelData data = {.tooth_error = 1e-4, .teeth = 20};
   MeasuringWheel wheel(data, Random());
-  for (double x = 0; x < 1; x += 0.003) {
+  for (int i = 0; i < 333; ++i) {
+    const double x = 0.003 * i;
     wheel.sense(x, x, h);
     const double angle = x / data.radius();
     EXPECT_NEAR(wheel.pulses.port.now, (x + 1e-4 * std::sin(20 * angle)) * 20000, 1e-6) << x;
