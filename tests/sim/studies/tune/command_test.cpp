@@ -258,10 +258,10 @@ TEST_F(TuneCommand, AConstraintMovesTheOptimum) {
 
 TEST_F(TuneCommand, AConstraintMayHaveUnits) {
   options.constraints = {"max(axis.speed) <= 0.4502 m/s"};
-  ASSERT_EQ(run(), all_passed) << out << err;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
   EXPECT_THAT(content(folder / "out/patch.txt"), HasSubstr("AxisX:feedfw = 900\n"));
   options.constraints = {"max(axis.speed) <= 3 kg"};
-  EXPECT_EQ(run(), bad_input);
+  EXPECT_EQ(run(), cli::bad_input);
   EXPECT_THAT(err,
               HasSubstr("--constraint:1:20: '3 kg' is a mass, but 'max(axis.speed)' is a speed; write it "
                         "in mm/s"));
