@@ -23,7 +23,9 @@ ServoData electrical(ServoData data) {
 
 DriveRatings ratings(const ServoData& given) {
   const ServoData data = electrical(given);
-  const double most = data.torque_constant * data.amplifier.peak_current;
+  // An amplifier that is not known gives the motor its torque, to the last digit.
+  const double most = given.amplifier.peak_current > 0 ? data.torque_constant * given.amplifier.peak_current
+                                                       : data.peak_torque;
   return {.rotor_inertia = data.rotor_inertia,
           .stall_torque = data.stall_torque,
           .rated_torque = data.rated_torque,

@@ -366,7 +366,7 @@ namespace {
 // What was computed comes `steps` steps after the controller gave it.
 void put_out_late(Bus::AnalogueWire& wire, std::int64_t steps) {
   if (wire.until > 0 && --wire.until == 0) wire.to->volts = wire.computed;
-  const double output = wire.output() + wire.added;
+  const double output = wire.total();
   if (output == wire.computed) return;
   if (wire.until > 0) wire.to->volts = wire.computed;
   wire.computed = output;
@@ -381,7 +381,7 @@ void Bus::outputs_to_plants() {
     if (compute_steps_ > 0)
       put_out_late(wire, compute_steps_);
     else
-      wire.to->volts = wire.output() + wire.added;
+      wire.to->volts = wire.total();
   }
   for (const auto& wire : pulses_) wire.to->pulses = wire.from->count;
 }

@@ -67,10 +67,11 @@ class Bus {
     std::string plug;
     const devices::AnalogueOutput* from;
     plants::ReferencePort* to;
-    double added = 0;                      ///< [V]
-    double computed = 0;                   ///< that is to come [V]
-    std::int64_t until = 0;                ///< steps until it does; 0: it has
-    [[nodiscard]] double output() const {  ///< of the controller [V]
+    double added = 0;                                                ///< [V]
+    double computed = 0;                                             ///< that is to come [V]
+    std::int64_t until = 0;                                          ///< steps until it does; 0: it has
+    [[nodiscard]] double total() const { return output() + added; }  ///< what goes on its way to the plug [V]
+    [[nodiscard]] double output() const {                            ///< of the controller [V]
       return from->word * (devices::dac_full_scale_volts / devices::dac_full_scale);
     }
   };

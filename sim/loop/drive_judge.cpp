@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "base/units.hpp"
 
@@ -15,9 +16,11 @@ namespace drycut::sim::loop {
 namespace {
 
 constexpr std::size_t cycles_in_a_row = 10;
+constexpr std::size_t fewest_in_a_row = 3;  // that are judged where the order changes before ten
 constexpr std::size_t most_points = 20000;
 constexpr double good = 0.9;             // of a rating; above, a figure warns
 constexpr double most_saturated = 0.01;  // of the time of cycles
+constexpr double unsteady = 0.2;         // a cycle that differs by more from the one before does not count
 constexpr double percent = 100;
 
 // The share of the speed at which a figure would be at 90 % of its rating. `constant`: the share of the
@@ -75,8 +78,7 @@ DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<Nam
 
 void DriveJudge::begin_cycles(Drive& drive) {
   drive.begun = true;
-  drive.begin = drive.stage->totals();
-  drive.ends = {drive.begin};
+  drive.ends = {drive.stage->totals()};
   drive.stage->forget_peaks();
 }
 
@@ -85,35 +87,45 @@ void DriveJudge::end_cycle(Drive& drive) {
   const auto& last = drive.ends.back();
   const double cycle = now.time - last.time;
   if (cycle <= 0) return;
+  const double before = std::exchange(drive.last, cycle);
+  if (std::abs(cycle - before) > unsteady * before) {
+    if (drive.ends.size() > fewest_in_a_row && drive.ends.size() <= cycles_in_a_row)
+      judge(drive, drive.ends.front(), last);
+    drive.ends = {now};
+    return;
+  }
   drive.cycle_points.add((now.travel - last.travel) / cycle,
                          std::sqrt((now.torque_squared - last.torque_squared) / cycle));
   ++drive.cycles;
+  drive.energy += now.from_mains - last.from_mains;
   drive.ends.push_back(now);
   if (drive.ends.size() > cycles_in_a_row + 1) drive.ends.pop_front();
-  // Fewer than ten cycles are judged as they are; the first ones do not count twice.
-  const auto& from = drive.ends.front();
+  if (drive.ends.size() > cycles_in_a_row) judge(drive, drive.ends.front(), now);
+}
+
+void DriveJudge::judge(Drive& drive, const plants::DriveTotals& from, const plants::DriveTotals& until) {
   auto& worst = drive.worst;
-  if (drive.ends.size() <= cycles_in_a_row) worst = {};
-  const double time = now.time - from.time;
-  const double torque = std::sqrt((now.torque_squared - from.torque_squared) / time);
-  const double speed = (now.travel - from.travel) / time;
+  drive.judged = true;
+  const double time = until.time - from.time;
+  const double torque = std::sqrt((until.torque_squared - from.torque_squared) / time);
+  const double speed = (until.travel - from.travel) / time;
   const double share = torque / drive.stage->ratings().continuous(speed);
   if (share >= worst.share) {
     worst.torque = torque;
     worst.speed = speed;
     worst.share = share;
     // What accelerates and brakes again does no work over a cycle.
-    const double travel = now.travel - from.travel;
-    const double friction = travel > 0 ? (now.work - from.work) / travel : 0;
+    const double travel = until.travel - from.travel;
+    const double friction = travel > 0 ? (until.work - from.work) / travel : 0;
     worst.constant = torque > 0 ? std::min(1.0, friction * friction / (torque * torque)) : 0;
   }
-  const double current_squared = (now.current_squared - from.current_squared) / time;
+  const double current_squared = (until.current_squared - from.current_squared) / time;
   if (current_squared >= worst.current_squared) {
     worst.current_squared = current_squared;
-    worst.rotor_loss = (now.rotor_loss - from.rotor_loss) / time;
+    worst.rotor_loss = (until.rotor_loss - from.rotor_loss) / time;
   }
-  worst.resistor = std::max(worst.resistor, (now.in_resistor - from.in_resistor) / time);
-  worst.saturated = std::max(worst.saturated, (now.saturated - from.saturated) / time);
+  worst.resistor = std::max(worst.resistor, (until.in_resistor - from.in_resistor) / time);
+  worst.saturated = std::max(worst.saturated, (until.saturated - from.saturated) / time);
 }
 
 void DriveJudge::sample(Time now) {
@@ -144,11 +156,10 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   verdict.drive = drive.plant + "." + drive.name;
   verdict.ratings = stage.ratings();
   const bool whole = drive.cycles == 0;
-  if (whole) {
-    // Without a cycle all that it did since the start is one.
-    drive.ends = {plants::DriveTotals{}};
-    end_cycle(drive);
-  }
+  if (whole && stage.totals().time > 0)
+    judge(drive, {}, stage.totals());
+  else if (!drive.judged && drive.ends.size() > 1)
+    judge(drive, drive.ends.front(), drive.ends.back());  // fewer than ten are judged as they are
   verdict.cycles = whole        ? "the whole run: no cycle from cut to cut, none named (drives.cycle)"
                    : cycle_ > 0 ? fmt::format("{} cycles of {} s", drive.cycles, seconds_text(cycle_))
                                 : fmt::format("{} cycles from cut to cut", drive.cycles);
@@ -190,9 +201,7 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
     add("torque limit acts", worst.saturated * percent, most_saturated * percent, "% of the time",
         Goes::not_with_it, !whole);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
-  const auto& totals = stage.totals();
-  verdict.energy =
-      whole ? totals.from_mains : (drive.ends.back().from_mains - drive.begin.from_mains) / drive.cycles;
+  verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.cycles;
   verdict.trips = drive.trips;
   for (const auto& figure : verdict.figures)
     if (figure.judged && figure.share > good)

@@ -62,8 +62,9 @@ class Thinned {
 /// Judges the drives of all plants by their ratings: torque, current, heat and voltages of each machine
 /// cycle, over the worst ten cycles in a row as if they went on for ever. A cycle lasts from cut to cut of
 /// the drive's plant, or as long as the scenario says (drives.cycle). Without either, means over the whole
-/// run are told and not judged: who knows whether it goes on like that. What comes before the first cut is
-/// the start and is not judged, but for trips.
+/// run are told and not judged: who knows whether it goes on like that. A cycle counts that lasts as long as
+/// the one before, to a fifth: homing, the start and a change of order are not the machine's work, and only
+/// their peaks and trips are judged, from the first cut on.
 class DriveJudge : public Observer {
  public:
   DriveJudge(const scenario::Scenario& scenario, const std::vector<NamedPlant>& plants);
@@ -93,7 +94,9 @@ class DriveJudge : public Observer {
     plants::PowerStage* stage = nullptr;
     double load_inertia = 0;
     bool begun = false;
-    plants::DriveTotals begin = {};  ///< of the first cycle
+    double energy = 0;  ///< from the mains in the cycles that count [J]
+    bool judged = false;
+    double last = 0;  ///< how long the cycle before lasted [s]
     std::deque<plants::DriveTotals> ends =
         {};  ///< of the last cycles, and the beginning of the first of them
     int cycles = 0;
@@ -105,6 +108,7 @@ class DriveJudge : public Observer {
 
   static void begin_cycles(Drive& drive);
   static void end_cycle(Drive& drive);
+  static void judge(Drive& drive, const plants::DriveTotals& from, const plants::DriveTotals& until);
   [[nodiscard]] DriveVerdict verdict(Drive drive) const;
 
   bool judged_;

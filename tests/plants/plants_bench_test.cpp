@@ -190,6 +190,7 @@ double si(std::string_view unit) {
                                                            {"rad/s", 1},
                                                            {"N m/rad", 1},
                                                            {"N m/A", 1},
+                                                           {"s2/m", 1},
                                                            {"A", 1},
                                                            {"ohm", 1},
                                                            {"W", 1},

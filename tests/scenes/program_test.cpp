@@ -68,7 +68,7 @@ TEST_F(ProgramTest, FramesAreTheSameForAnyNumberOfRasteriserThreads) {
 TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   const auto result = call("run " + scenes + "rotary_knife_short.yaml --set scene.duration='5 s'" + to());
   EXPECT_EQ(result.status, 0) << result.text;
-  EXPECT_THAT(result.text, testing::HasSubstr("rotary_knife_short: passed, all 9 checks passed"));
+  EXPECT_THAT(result.text, testing::HasSubstr("rotary_knife_short: passed, all 10 checks passed"));
   const auto folder = out / "rotary_knife_short";
   for (const auto* name : {"trace.csv", "events.csv", "checks.json", "report.html", "plots/motion.png",
                            "frames/frame_00000.png"}) {
@@ -76,7 +76,7 @@ TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   }
   EXPECT_THAT(
       contents(out / "junit.xml"),
-      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"9\" failures=\"0\" errors=\"0\">"));
+      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"10\" failures=\"0\" errors=\"0\">"));
   EXPECT_THAT(contents(folder / "trace.csv"), testing::StartsWith("time [s],AxisX.posit [Um],"));
   EXPECT_THAT(contents(folder / "events.csv"), testing::HasSubstr(",knife,cut,length=500"));
 }
@@ -91,7 +91,7 @@ TEST_F(ProgramTest, WithoutHelpersTheVerdictStandsAndTheReportIsWritten) {
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(result.status, 0) << result.text;
   EXPECT_THAT(result.text,
-              testing::AllOf(testing::HasSubstr("rotary_knife_short: passed, all 9 checks passed"),
+              testing::AllOf(testing::HasSubstr("rotary_knife_short: passed, all 10 checks passed"),
                              testing::HasSubstr("left out: video: there is no ffmpeg; install ffmpeg\n")));
   EXPECT_THAT(contents(out / "rotary_knife_short/report.html"),
               testing::HasSubstr("<dt>left out</dt><dd>video: there is no ffmpeg; install ffmpeg</dd>"));
@@ -203,7 +203,10 @@ TEST_F(ProgramTest, DivergedSimulationIsStatusThreeAndKeepsWhatItHas) {
                            "rotary_knife_short.yaml --no-pictures"
                            " --set plants.knife.servo.peak_torque='100000 N m'"
                            " --set plants.knife.servo.speed_at_10v='100000 rpm'"
-                           " --set plants.knife.servo.max_speed='100000 rpm'" +
+                           " --set plants.knife.servo.max_speed='100000 rpm'"
+                           " --set plants.knife.servo.amplifier_current='1000000 A'"
+                           " --set plants.knife.servo.temperature_limit='400 degC'"
+                           " --set plants.knife.servo.supply.overvoltage='400 %'" +
                            to());
   EXPECT_EQ(result.status, 3) << result.text;
   EXPECT_THAT(result.text, testing::HasSubstr("STOPPED, the simulation stopped: knife"));

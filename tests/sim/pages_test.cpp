@@ -98,7 +98,7 @@ TEST_F(Pages, FitTheirWidth) {
   unsetenv("COLUMNS");
   EXPECT_LE(widest(), 120u);
   EXPECT_GT(split_lines(out).size(), lines);
-  EXPECT_THAT(out, ContainsRegex("\n  mismatch_limit .* mm/s  +speed mismatch at .*\n +which the web tears"));
+  EXPECT_THAT(out, ContainsRegex("\n  mismatch_limit .* mm/s  +speed mismatch .*\n"));
 }
 
 }  // namespace

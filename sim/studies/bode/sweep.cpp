@@ -29,8 +29,9 @@ class Twins {
     return still_.advance() && whole;
   }
   [[nodiscard]] Time time() const { return excited_.time(); }
-  [[nodiscard]] double output() const { return wire_.output() - still_wire_.output(); }   ///< [V]
-  [[nodiscard]] double total() const { return wire_.to->volts - still_wire_.to->volts; }  ///< [V]
+  [[nodiscard]] double output() const { return wire_.output() - still_wire_.output(); }  ///< [V]
+  [[nodiscard]] double total() const { return wire_.total() - still_wire_.total(); }     ///< [V]
+  [[nodiscard]] double plug() const { return wire_.to->volts - still_wire_.to->volts; }  ///< [V]
   [[nodiscard]] bool has_speed() const { return static_cast<bool>(speed_); }
   [[nodiscard]] double speed() const { return speed_() - still_speed_(); }
   [[nodiscard]] double own() const { return still_wire_.output(); }  ///< undisturbed output [V]
@@ -146,7 +147,7 @@ bool measure_tone(Twins& twins, const SweepPlan& plan, const Tone& tone, BodePoi
         point.saturated = point.saturated || twins.saturated();
       }
       if (!twins.has_speed()) continue;
-      drive.add(twins.total());
+      drive.add(twins.plug());
       speed.add(twins.speed());
     }
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "sim/loop/known_events.hpp"
 #include "sim/report/gallery.hpp"
@@ -178,9 +179,12 @@ std::vector<renders::Plot> overlay(const std::vector<RunFolder>& runs,
 
 std::vector<OverlayRequest> usual_overlays(const Comparison& comparison) {
   std::vector<OverlayRequest> requests;
-  for (const auto& run : comparison.runs)
+  for (const auto& run : comparison.runs) {
+    std::map<std::string, int> times;  // one point alone is no curve
     for (const auto& event : run.recording.events())
-      if (!event.values.empty()) add_event(requests, comparison, event);
+      if (!event.values.empty() && ++times[event.source + "." + event.event] == 2)
+        add_event(requests, comparison, event);
+  }
   for (const auto& row : comparison.channels) {
     const auto part = part_of(row.name);
     auto& plot = request_of(requests, "overlay_" + file_name(part), "Channels of " + part).plot;

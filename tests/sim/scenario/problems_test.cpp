@@ -62,7 +62,8 @@ TEST(ScenarioProblems, Yaml) {
       {"scene: {title: *x}\n", {"1:16: aliases (*name) are not used in scenarios; write the value out"}},
       {"scene: {title: !!str 4}\n", {"1:16: tags (!name) are not used in scenarios; write the value alone"}},
       {"scene: {}\n<<: {scene: {}}\n",
-       {"2:1: unknown key '<<'; known: scene, plants, controller, wiring, timeline, record, drives, checks, "
+       {"2:1: unknown key '<<'; known: scene, plants, controller, wiring, filters, timeline, disturbances, "
+        "record, drives, checks, "
         "pictures"}},
       {"scene: {}\n---\nscene: {}\n",
        {"3:1: something stands after the end of the document; one document a file, and nothing after its "
