@@ -137,7 +137,7 @@ void PowerStage::trip(std::string_view event, std::vector<Event::Value> values) 
 }
 
 void PowerStage::watch(bool energised) {
-  if (tripped_ || !energised) return;
+  if (tripped_ || !energised || !armed_) return;
   if (i2t_ > 1 || heat_.winding() > limit_ || (link_ && link_->resistor_load() >= 1))
     trip("overload", {{"i2t", i2t_ * percent, "%"},
                       {"temperature", celsius(heat_.winding()), "degC"},

@@ -111,6 +111,8 @@ class PowerStage {
   /// The drive is switched off by its own protection; until reset().
   [[nodiscard]] bool tripped() const { return tripped_; }
   void reset() { tripped_ = false; }
+  /// It never trips from now on: for who measures a loop for longer than a drive would bear.
+  void disarm() { armed_ = false; }
   /// Share of its speeds that the link's voltage leaves to the motor, at most 1.
   [[nodiscard]] double speed_share() const { return speed_share_; }
 
@@ -184,6 +186,7 @@ class PowerStage {
   double loss_ = 0;
   double speed_share_ = 1;
   bool tripped_ = false;
+  bool armed_ = true;
   bool edge_ = false;  // on a port in the last step
 
   struct Saturation {

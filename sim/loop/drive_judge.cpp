@@ -28,7 +28,7 @@ constexpr double percent = 100;
 double advised_for(const DriveFigure& figure, double constant) {
   const double wanted = good / figure.share;
   const auto torque = [&](double square) {
-    return constant < 1 ? std::pow(std::max(0.0, (square - constant) / (1 - constant)), 0.25) : 0;
+    return constant < 1 ? std::sqrt(std::max(0.0, (square - constant) / (1 - constant))) : 0;
   };
   switch (figure.goes) {
     case DriveFigure::Goes::as_the_speed:
@@ -38,7 +38,7 @@ double advised_for(const DriveFigure& figure, double constant) {
     case DriveFigure::Goes::as_its_square:
       return torque(wanted);
     case DriveFigure::Goes::as_the_braking:
-      return std::cbrt(wanted);
+      return wanted;
     case DriveFigure::Goes::not_with_it:
       break;
   }
@@ -82,13 +82,13 @@ void DriveJudge::begin_cycles(Drive& drive) {
   drive.stage->forget_peaks();
 }
 
-void DriveJudge::end_cycle(Drive& drive) {
+void DriveJudge::end_cycle(Drive& drive, bool any) {
   const auto& now = drive.stage->totals();
   const auto& last = drive.ends.back();
   const double cycle = now.time - last.time;
   if (cycle <= 0) return;
   const double before = std::exchange(drive.last, cycle);
-  if (std::abs(cycle - before) > unsteady * before) {
+  if (!any && std::abs(cycle - before) > unsteady * before) {
     if (drive.ends.size() > fewest_in_a_row && drive.ends.size() <= cycles_in_a_row)
       judge(drive, drive.ends.front(), last);
     drive.ends = {now};
@@ -132,7 +132,7 @@ void DriveJudge::sample(Time now) {
   const bool over = cycle_ > 0 && now >= next_;
   while (cycle_ > 0 && now >= next_) next_ += cycle_;
   for (auto& drive : drives_) {
-    if (over) end_cycle(drive);
+    if (over) end_cycle(drive, true);
     drive.points.add(drive.stage->speed(), drive.stage->torque());
   }
 }
@@ -144,7 +144,7 @@ void DriveJudge::happened(const RecordedEvent& event) {
       drive.trips.push_back(fmt::format("{} at {:.3f} s", event.event, event.at_seconds()));
     if (cycle_ > 0 || event.event != "cut") continue;
     if (drive.begun)
-      end_cycle(drive);
+      end_cycle(drive, false);
     else
       begin_cycles(drive);
   }
@@ -229,7 +229,7 @@ std::string text_of(const DriveVerdict& verdict) {
       others.push_back(fmt::format("{} {:.0f} %", other.name, other.share * percent));
   if (!others.empty()) text += fmt::format(", {}", fmt::join(others, ", "));
   if (!verdict.holds() && verdict.advised < 1)
-    text += fmt::format("; within 90 % at {:.0f} % of this speed, if what accelerates goes with its square",
+    text += fmt::format("; within 90 % at {:.0f} % of this speed, by a cautious estimate",
                         std::floor(verdict.advised * percent));
   return text;
 }

@@ -35,9 +35,9 @@ struct DriveVerdict {
   double energy = 0;               ///< from the mains, mean of a cycle [J]
   double saturated = 0;            ///< share of the time in which the torque limit acted
   std::vector<std::string> trips;  ///< "overload at 3.2 s"
-  /// At this share of the machine's speed all would be within 90 % of their ratings; 1 where they are, 0
-  /// where friction and load alone are too much. Taken for: what accelerates goes with the speed squared,
-  /// friction and load stay.
+  /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
+  /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
+  /// where friction and load alone are too much.
   double advised = 1;
   std::vector<std::pair<double, double>> cycle_points;  ///< mean size of speed [rad/s], rms torque [N m]
   std::vector<std::pair<double, double>> points;        ///< speed [rad/s] and torque [N m] at record instants
@@ -107,7 +107,8 @@ class DriveJudge : public Observer {
   };
 
   static void begin_cycles(Drive& drive);
-  static void end_cycle(Drive& drive);
+  /// `any`: however long it was.
+  static void end_cycle(Drive& drive, bool any);
   static void judge(Drive& drive, const plants::DriveTotals& from, const plants::DriveTotals& until);
   [[nodiscard]] DriveVerdict verdict(Drive drive) const;
 

@@ -88,11 +88,10 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
       table.rows.push_back(
           {{"", "trips", fmt::format("{}", fmt::join(verdict.trips, ", ")), "none", "FAIL"}});
     if (verdict.advised < 1 && !verdict.holds())
-      table.rows.push_back(
-          {{"", "within 90 % of all",
-            fmt::format("at {:.0f} % of this speed\nif what accelerates goes with its square",
-                        std::floor(100 * verdict.advised)),
-            "", ""}});
+      table.rows.push_back({{"", "within 90 % of all",
+                             fmt::format("at {:.0f} % of this speed\nby a cautious estimate",
+                                         std::floor(100 * verdict.advised)),
+                             "", ""}});
   }
   return table;
 }

@@ -204,9 +204,9 @@ TEST_F(ProgramTest, DivergedSimulationIsStatusThreeAndKeepsWhatItHas) {
                            " --set plants.knife.servo.peak_torque='100000 N m'"
                            " --set plants.knife.servo.speed_at_10v='100000 rpm'"
                            " --set plants.knife.servo.max_speed='100000 rpm'"
-                           " --set plants.knife.servo.amplifier_current='1000000 A'"
-                           " --set plants.knife.servo.temperature_limit='400 degC'"
-                           " --set plants.knife.servo.supply.overvoltage='400 %'" +
+                           " --set plants.knife.servo.rated_torque='10000 N m'"
+                           " --set plants.knife.servo.supply.overvoltage='400 %'"
+                           " --set plants.knife.servo.supply.capacitance='1000000 uF'" +
                            to());
   EXPECT_EQ(result.status, 3) << result.text;
   EXPECT_THAT(result.text, testing::HasSubstr("STOPPED, the simulation stopped: knife"));

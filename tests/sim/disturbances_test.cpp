@@ -120,7 +120,8 @@ struct DisturbancesTest : testing::Test {
   static scenario::Quantity quantity(double number, std::string unit = "") {
     return {number, std::move(unit), {7, 9}};
   }
-  scenario::Disturbance& add(scenario::Disturbance::Kind kind, const std::string& at, scenario::Quantity amplitude) {
+  scenario::Disturbance& add(scenario::Disturbance::Kind kind, const std::string& at,
+                             scenario::Quantity amplitude) {
     auto& one = scenario.disturbances.emplace_back();
     one.kind = kind;
     one.at = text(at, 3, 4);
@@ -291,7 +292,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         WrongDisturbance{
             "unknown_name",
-            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.sped", t.quantity(1, "m/s")); },
+            [](DisturbancesTest& t) {
+              t.add(scenario::Disturbance::Kind::step, "web.sped", t.quantity(1, "m/s"));
+            },
             "line.yaml:3:4: nothing called 'web.sped' can be disturbed; did you mean web.speed?"},
         WrongDisturbance{
             "unknown_fault",
@@ -313,14 +316,17 @@ INSTANTIATE_TEST_SUITE_P(
             "timeline"},
         WrongDisturbance{
             "switch_of_a_fault",
-            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.wheel.stuck", t.quantity(1)); },
+            [](DisturbancesTest& t) {
+              t.add(scenario::Disturbance::Kind::step, "web.wheel.stuck", t.quantity(1));
+            },
             "line.yaml:3:4: web.wheel.stuck takes whole numbers: nothing can be added little by little; "
             "set it "
             "in the timeline"},
-        WrongDisturbance{
-            "wrong_unit",
-            [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1, "kg")); },
-            "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min"},
+        WrongDisturbance{"wrong_unit",
+                         [](DisturbancesTest& t) {
+                           t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1, "kg"));
+                         },
+                         "line.yaml:7:9: web.speed is a speed, 'kg' is not; give it in m/min"},
         WrongDisturbance{
             "no_unit",
             [](DisturbancesTest& t) { t.add(scenario::Disturbance::Kind::step, "web.speed", t.quantity(1)); },

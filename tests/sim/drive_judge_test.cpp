@@ -50,7 +50,7 @@ const DriveFigure& figure(const DriveVerdict& verdict, const std::string& name) 
 }
 
 TEST(DriveJudge, RmsOfTheWorstTenCyclesIsThatOfItsSteps) {
-  Line line("rotary_knife.yaml", {{"scene.duration", "12 s"}});
+  Line line("rotary_knife.yaml", {{"scene.duration", "13 s"}});
   auto& simulation = *line.simulation;
   const auto torque = simulation.names().reading("knife.motor.torque").value();
   const auto cuts = simulation.names().reading("knife.cut.number").value();
@@ -69,7 +69,7 @@ TEST(DriveJudge, RmsOfTheWorstTenCyclesIsThatOfItsSteps) {
     ++steps.back();
   }
   double worst = 0;
-  for (std::size_t i = 0; i + 11 <= squares.size(); ++i) {
+  for (std::size_t i = 1; i + 11 <= squares.size(); ++i) {
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t k = i; k < i + 10; ++k) {
@@ -82,7 +82,7 @@ TEST(DriveJudge, RmsOfTheWorstTenCyclesIsThatOfItsSteps) {
   ASSERT_EQ(verdicts.size(), 1U);
   const auto& verdict = verdicts[0];
   EXPECT_EQ(verdict.drive, "knife.servo");
-  EXPECT_EQ(verdict.cycles, std::to_string(squares.size() - 1) + " cycles from cut to cut");
+  EXPECT_EQ(verdict.cycles, std::to_string(squares.size() - 2) + " cycles from cut to cut");
   // The stage sums up five steps at a time: a cycle may begin four steps late.
   EXPECT_NEAR(figure(verdict, "rms torque").value, worst, 2e-3 * worst);
   EXPECT_NEAR(verdict.inertia_ratio, 0.41 / 25 / 46.8e-4, 1e-9);
@@ -92,23 +92,37 @@ TEST(DriveJudge, RmsOfTheWorstTenCyclesIsThatOfItsSteps) {
 }
 
 TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
-  const std::map<std::string, std::string> small = {{"plants.knife.servo.rated_torque", "2 N m"}};
-  Line line("rotary_knife_short.yaml", small);
-  line.simulation->run();
-  const auto verdict = line.simulation->drives().at(0);
-  ASSERT_FALSE(verdict.holds()) << text_of(verdict);
-  EXPECT_GT(figure(verdict, "rms torque").share, 1);
-  const auto check = line.ratings().at(0);
-  EXPECT_FALSE(check.passed);
-  EXPECT_LT(*check.margin, 0);
-  EXPECT_THAT(check.detail, HasSubstr("rms torque"));
-  ASSERT_LT(verdict.advised, 1);
+  for (const char* scene : {"rotary_knife_short.yaml", "rotary_knife.yaml", "rotary_knife_long.yaml"})
+    for (const char* rated : {"1.5 N m", "2 N m"}) {
+      SCOPED_TRACE(std::string(scene) + " " + rated);
+      std::map<std::string, std::string> small = {{"plants.knife.servo.rated_torque", rated}};
+      Line line(scene, small);
+      line.simulation->run();
+      const auto verdict = line.simulation->drives().at(0);
+      ASSERT_FALSE(verdict.holds()) << text_of(verdict);
+      EXPECT_GT(figure(verdict, "rms torque").share, 1);
+      const auto check = line.ratings().at(0);
+      EXPECT_FALSE(check.passed);
+      EXPECT_LT(*check.margin, 0);
+      EXPECT_THAT(check.detail, HasSubstr("rms torque"));
 
-  auto slower = small;
-  slower["plants.web.speed"] = std::to_string(60 * verdict.advised) + " m/min";
-  Line again("rotary_knife_short.yaml", slower);
-  again.simulation->run();
-  EXPECT_TRUE(again.simulation->drives().at(0).holds()) << text_of(again.simulation->drives().at(0));
+      // The advice is an estimate from one run: following it leads there, in at most three.
+      double speed = 60;
+      auto now = verdict;
+      for (int run = 0; run < 3 && !now.holds(); ++run) {
+        ASSERT_LT(now.advised, 1);
+        ASSERT_GT(now.advised, 0.1);
+        speed *= now.advised;
+        small["plants.web.speed"] = std::to_string(speed) + " m/min";
+        small["scene.duration"] = "20 s";
+        Line slower(scene, small);
+        slower.simulation->run();
+        now = slower.simulation->drives().at(0);
+      }
+      EXPECT_TRUE(now.holds()) << speed << " m/min: " << text_of(now);
+      EXPECT_GT(speed, 20);
+      EXPECT_THAT(now.cycles, HasSubstr("from cut to cut"));
+    }
 }
 
 TEST(DriveJudge, AScenarioNamesItsCycleOrSwitchesTheCheckOff) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "plants/power_stage.hpp"
 #include "sim/loop/recorder.hpp"
 #include "sim/scenario/units.hpp"
 
@@ -109,6 +110,11 @@ std::optional<SweepPlan> plan_of(const LoopRequest& request, const scenario::Sce
   return plan;
 }
 
+void disarm(loop::Simulation& simulation) {
+  for (const auto& [name, plant] : simulation.plants())
+    for (const auto& drive : plant->drives()) drive.stage->disarm();
+}
+
 /// The two runs and the plan for them.
 struct Preparation {
   std::unique_ptr<loop::Simulation> excited;
@@ -121,6 +127,9 @@ Preparation prepare(const scenario::Scenario& scenario, const LoopRequest& reque
   prepared.excited = std::make_unique<loop::Simulation>(scenario, problems);
   if (problems.size() == before) prepared.plan = plan_of(request, scenario, *prepared.excited, problems);
   if (problems.size() == before) prepared.still = std::make_unique<loop::Simulation>(scenario, problems);
+  // A measurement lasts as long as it must: no drive trips by it.
+  for (auto* simulation : {prepared.excited.get(), prepared.still.get()})
+    if (simulation != nullptr) disarm(*simulation);
   return prepared;
 }
 

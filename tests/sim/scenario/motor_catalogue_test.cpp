@@ -288,7 +288,7 @@ TEST_F(MotorModels, OfABrokenFileAreToldInIt) {
         "mean "
         "sheet?"}},
       {with("rated_power: {value: 2 kW, from: sheet}"),
-       {"own.yaml:13:26: motors.S1-3.rated_power is 2 kW, but rated torque at rated speed gives 0.942 kW; "
+       {"own.yaml:23:26: motors.S1-3.rated_power is 2 kW, but rated torque at rated speed gives 0.942 kW; "
         "within 3 % "
         "of each other"}},
       {"vendor: Ours\nseries: S1\nkind: stepper\nmotors: {}\n",

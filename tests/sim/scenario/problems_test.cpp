@@ -21,9 +21,8 @@ void expect_problems(const std::vector<Case>& cases) {
 
 TEST(ScenarioProblems, Text) {
   const std::string sections =
-      "1:1: the scenario is empty; its sections are: scene, plants, controller, wiring, timeline, record, "
-      "drives, "
-      "checks, pictures";
+      "1:1: the scenario is empty; its sections are: scene, plants, controller, wiring, filters, "
+      "timeline, disturbances, record, drives, checks, pictures";
   expect_problems({
       {"", {sections}},
       {"# only a comment\n", {sections}},
