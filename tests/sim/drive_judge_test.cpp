@@ -120,7 +120,7 @@ TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
         now = slower.simulation->drives().at(0);
       }
       EXPECT_TRUE(now.holds()) << speed << " m/min: " << text_of(now);
-      EXPECT_GT(speed, 20);
+      EXPECT_GT(speed, 15);
       EXPECT_THAT(now.cycles, HasSubstr("from cut to cut"));
     }
 }
