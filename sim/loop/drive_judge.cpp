@@ -198,7 +198,7 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   }
   verdict.saturated = worst.saturated;
   if (worst.saturated > 0)
-    add("torque limit acts", worst.saturated * percent, most_saturated * percent, "% of the time",
+    add("time at the torque limit", worst.saturated * percent, most_saturated * percent, "%",
         Goes::not_with_it, !whole);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
   verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.cycles;

@@ -111,7 +111,9 @@ std::vector<renders::Plot> drive_plots(const std::vector<loop::DriveVerdict>& ve
     plot.panel_height = 520;
     renders::Panel panel;
     panel.y_label = "motor torque [N m]";
-    panel.title = text_of(verdict);
+    const auto& most = verdict.tightest();
+    panel.title = fmt::format("{} {:.4g} of {:.4g} {}: {:.0f} %", most.name, most.value, most.rating,
+                              most.unit, 100 * most.share);
     panel.curves.push_back(points_of(verdict.points, "operating points"));
     if (!verdict.cycle_points.empty())
       panel.curves.push_back(points_of(verdict.cycle_points, "rms of a cycle, at its mean speed"));

@@ -29,6 +29,7 @@ struct Line {
   std::unique_ptr<Simulation> simulation;
   explicit Line(const std::string& scene, const std::map<std::string, std::string>& set) {
     std::vector<scenario::Override> overrides;
+    overrides.reserve(set.size());
     for (const auto& [path, value] : set) overrides.push_back({path, value});
     scenario = scenario::read_scenario(scenes / scene, overrides, problems);
     simulation = std::make_unique<Simulation>(scenario, problems);
