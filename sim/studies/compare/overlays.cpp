@@ -173,6 +173,7 @@ void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparis
 std::vector<renders::Plot> overlay(const std::vector<RunFolder>& runs,
                                    const std::vector<OverlayRequest>& requests) {
   std::vector<renders::Plot> plots;
+  plots.reserve(requests.size());
   for (const auto& request : requests) plots.push_back(overlay(runs, request));
   return plots;
 }
