@@ -177,7 +177,7 @@ void write_rows(std::string& page, const ReportTable& table) {
                          : "<div class=\"scroll\">\n<table>\n";
   std::string head;
   for (std::size_t i = 0; i < table.headings.size(); ++i) {
-    head += fmt::format("<th{}>{}</th>", kind(i), html_text(table.headings[i]));
+    head += fmt::format("<th{}>{}</th>", table.verdicts ? "" : kind(i), html_text(table.headings[i]));
   }
   const bool named = std::any_of(table.headings.begin(), table.headings.end(),
                                  [](const std::string& heading) { return !heading.empty(); });
