@@ -30,7 +30,7 @@ std::string picture(const ReportFigure& figure) {
   const std::string bytes = read_file(figure.png);
   if (bytes.rfind("\x89PNG\r\n", 0) != 0)
     throw std::runtime_error(figure.png.string() + ": not a PNG picture");
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", html_text(figure.caption),
+  return fmt::format(R"(<img alt="{}" src="data:image/png;base64,{}">)", html_text(figure.caption),
                      base64(bytes));
 }
 
@@ -93,7 +93,7 @@ void write_checks(std::string& page, const std::vector<ReportCheck>& checks) {
       "<h2>Checks</h2>\n<div class=\"scroll checks\">\n<table class=\"checks\">\n<thead><tr><th>result</th>"
       "<th>check</th><th>expected</th><th>margin</th></tr></thead>\n<tbody>\n";
   for (const ReportCheck& check : checks) {
-    page += fmt::format("<tr class=\"{0}\"><td><span class=\"badge {0}\">{1}</span></td><td>{2}",
+    page += fmt::format(R"(<tr class="{0}"><td><span class="badge {0}">{1}</span></td><td>{2})",
                         state(check.passed), check.passed ? "PASS" : "FAIL", html_text(check.name));
     if (!check.detail.empty()) page += fmt::format("<small>{}</small>", html_text(check.detail));
     page += fmt::format("</td><td><code>{}</code></td><td>{}</td></tr>\n", html_text(check.expectation),
