@@ -58,7 +58,7 @@ quick: setup
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
 	cmake --build $(BUILD) -j $(JOBS) --target base_tests devices_tests plants_tests sim_tests
-	GTEST_FILTER='-$(SLOW)' tests/in_shards $(BUILD) base devices plants sim
+	cd $(BUILD) && GTEST_FILTER='-$(SLOW)' ctest --output-on-failure -j $(JOBS) -R '^(base|devices|plants|sim)\.part'
 
 bench: setup
 	$(call install,$(BENCH_PACKAGES))
@@ -74,9 +74,11 @@ clang: setup
 
 # ROOMS="devices sim": the tests of those rooms only. What runs a machine for long shows nothing new here: without it.
 ROOMS ?= base devices plants renders sim scenes
+space := $() $()
 sanitize: clang
 	cmake --build $(CLANG) -j $(JOBS) --target $(ROOMS:%=%_tests)
-	LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp GTEST_FILTER='-$(SLOW)' tests/in_shards $(CLANG) $(ROOMS)
+	cd $(CLANG) && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/sanitize.supp GTEST_FILTER='-$(SLOW)' \
+	  ctest --output-on-failure -j $(JOBS) -R '^($(subst $(space),|,$(strip $(ROOMS))))\.part'
 
 # Every kind of input, 10 minutes each; FUZZ="-runs=2000 -seed=1" is the same work on every machine.
 FUZZ ?= -max_total_time=600

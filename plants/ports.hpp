@@ -33,6 +33,13 @@ struct SignalPort {
   void add_edge(bool rising, double fraction, double width = 0) {
     edges.push_back({rising, fraction, width});
   }
+  /// Takes the level, with an edge at `fraction` of the step where it changes; true then.
+  bool show(bool now, double fraction = 1) {
+    if (now == level) return false;
+    level = now;
+    add_edge(now, fraction);
+    return true;
+  }
 };
 
 /// A signal that the plant takes: enable, forward, brake release.

@@ -67,10 +67,7 @@ void PositionSwitch::let_through(double h) {
 }
 
 void PositionSwitch::show(bool level, double fraction) {
-  if (dead_) level = false;
-  if (stuck_ || level == port.level) return;
-  port.level = level;
-  port.add_edge(level, fraction);
+  if (!stuck_) port.show(level && !dead_, fraction);
 }
 
 void PositionSwitch::offer_faults(std::vector<Fault>& faults, const std::string& component) {

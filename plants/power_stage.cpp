@@ -28,14 +28,6 @@ double amperes_squared(const MotorCurrent& motor, double torque_squared, double 
          rotor_loss * motor.per_rotor_loss;
 }
 
-// True where the level changes.
-bool put(SignalPort& port, bool level) {
-  if (level == port.level) return false;
-  port.level = level;
-  port.add_edge(level, 1);
-  return true;
-}
-
 }  // namespace
 
 double DriveRatings::continuous(double speed) const {
@@ -150,8 +142,8 @@ void PowerStage::watch(bool energised) {
 
 void PowerStage::show() {
   const bool fed = !link_ || (!link_->under() && !link_->over());
-  edge_ = put(ready, fed && !tripped_);
-  edge_ = put(mains_ok, !link_ || link_->mains_well()) || edge_;
+  edge_ = ready.show(fed && !tripped_);
+  edge_ = mains_ok.show(!link_ || link_->mains_well()) || edge_;
 }
 
 void PowerStage::clear_edges() {

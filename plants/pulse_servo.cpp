@@ -9,9 +9,7 @@ namespace {
 
 void show(SignalPort& port, bool level) {
   port.edges.clear();
-  if (level == port.level) return;
-  port.level = level;
-  port.add_edge(level, 1);
+  port.show(level);
 }
 
 }  // namespace

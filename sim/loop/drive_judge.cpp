@@ -196,7 +196,6 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
     if (worst.resistor > 0)
       add("brake resistor", worst.resistor, link->data().resistor_power, "W", Goes::as_the_braking, !whole);
   }
-  verdict.saturated = worst.saturated;
   if (worst.saturated > 0)
     add("time at the torque limit", worst.saturated * percent, most_saturated * percent, "%",
         Goes::not_with_it, !whole);

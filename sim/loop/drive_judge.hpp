@@ -33,7 +33,6 @@ struct DriveVerdict {
   std::vector<DriveFigure> figures;
   double inertia_ratio = 0;        ///< load over rotor
   double energy = 0;               ///< from the mains, mean of a cycle [J]
-  double saturated = 0;            ///< share of the time in which the torque limit acted
   std::vector<std::string> trips;  ///< "overload at 3.2 s"
   /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
