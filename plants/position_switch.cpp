@@ -14,16 +14,17 @@ PositionSwitch::PositionSwitch(const PositionSwitchData& data, double period, do
   port.level = raw_;
 }
 
-double PositionSwitch::offset(double position) const {
-  const double d = position - data_.centre;
-  return period_ > 0 ? d - period_ * std::nearbyint(d / period_) : d;
+// The shorter way round, where it goes round.
+double PositionSwitch::shorter(double way) const {
+  return period_ > 0 && std::abs(way) > period_ / 2 ? way - period_ * std::nearbyint(way / period_) : way;
 }
+
+double PositionSwitch::offset(double position) const { return shorter(position - data_.centre); }
 
 void PositionSwitch::sense(double before, double now, double h) {
   port.edges.clear();
   if (before == now && !pending_) return;
-  const double way =
-      period_ > 0 ? now - before - period_ * std::nearbyint((now - before) / period_) : now - before;
+  const double way = shorter(now - before);
   const double from = offset(before);
   double rest = 0;
   if (from * (from + way) < 0) {  // over the centre: towards it first, then away

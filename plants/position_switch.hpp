@@ -32,6 +32,7 @@ class PositionSwitch {
   void offer_faults(std::vector<Fault>& faults, const std::string& component);
 
  private:
+  [[nodiscard]] double shorter(double way) const;
   [[nodiscard]] double offset(double position) const;              // from the nearest centre
   void move(double distance, double begin, double end, double h);  // in this part of the step, straight
   void filter(double h);

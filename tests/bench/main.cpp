@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -41,7 +42,8 @@ void run_line() {
       sim::scenario::read_scenario(DRYCUT_SOURCE_DIR "/scenes/rotary_knife.yaml", overrides, problems);
   sim::loop::Simulation simulation(scenario, problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_string(problem));
-  if (problems.empty()) simulation.run();
+  if (!problems.empty()) std::exit(2);
+  simulation.run();
 }
 
 }  // namespace
