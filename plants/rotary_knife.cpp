@@ -1,5 +1,7 @@
 #include "plants/rotary_knife.hpp"
 
+#include <cmath>
+
 #include "base/units.hpp"
 
 namespace drycut::plants {
@@ -10,6 +12,9 @@ CutterData cutter_data(const RotaryKnifeData& knife, const WebData& web, double 
   return {.radius = radius,
           .blades = knife.blade_count,
           .eccentricity = knife.drum_eccentricity,
+          .helix = knife.helix,
+          .counter_blades = knife.counter.cuts(),
+          .width = web.width,
           .thickness = web.thickness,
           .peak_force = web.shear_strength * web.thickness * web.width,
           .coupling = knife.coupling,
@@ -29,12 +34,13 @@ RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
       world_(world),
       web_(web),
       radius_(data.circumference / units::turn),
+      along_web_(radius_ * std::cos(data.helix)),
+      friction_(geared_friction(data.drum_friction, data.counter)),
       rotor_(world.add_shaft({.name = "knife motor",
                               .inertia = data.drive.servo.rotor_inertia,
                               .revolutions = data.initial_angle / units::turn * data.gear.ratio})),
-      drum_(world.add_shaft({.name = "knife drum",
-                             .inertia = data.drum_inertia,
-                             .revolutions = data.initial_angle / units::turn})),
+      drum_(world.add_shaft(
+          {.name = "knife drum", .inertia = data.geared(), .revolutions = data.initial_angle / units::turn})),
       servo_(data.drive, rotor_, world.random("servo")),
       gear_(data.gear),
       encoder_(data.encoder, data.encoder_on_drum ? drum_.revolutions() : rotor_.revolutions(),
@@ -45,13 +51,13 @@ RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
 void RotaryKnife::drive(double h) {
   servo_.drive(rotor_, h);
   gear_.drive(rotor_, drum_);
+  if (data_.motors > 1) drum_.add_torque(gear_.torque() * (data_.motors - 1));
   const Cutter::Load load = cutter_.load(drum_, web_.material());
   drum_.add_torque(load.torque);
   web_.material().add_force(load.web_force);
   // Dry friction last: it answers to all other torques.
   rotor_.add_torque(friction_effort(data_.motor_friction, rotor_.speed, rotor_.torque, rotor_.inertia, h));
-  drum_.add_torque(
-      friction_effort(data_.drum_friction, drum_.speed, drum_.torque, drum_.inertia, h, load.dry));
+  drum_.add_torque(friction_effort(friction_, drum_.speed, drum_.torque, drum_.inertia, h, load.dry));
 }
 
 void RotaryKnife::sense(double h) {
@@ -66,8 +72,9 @@ void RotaryKnife::sense(double h) {
 
 void RotaryKnife::report(const Cutter::Outcome& outcome) {
   if (outcome.separated) {
-    last_length_ = web_.separate(outcome.fraction);
+    last_length_ = web_.separate(outcome.fraction, outcome.mark);
     last_mismatch_ = outcome.mismatch;
+    last_skew_ = outcome.skew;
     ++cuts_;
     Event cut = {"cut",
                  outcome.fraction,
@@ -75,6 +82,7 @@ void RotaryKnife::report(const Cutter::Outcome& outcome) {
                   {"mismatch", last_mismatch_ * units::millimetres, "mm/s"},
                   {"force", outcome.force, "N"},
                   {"number", static_cast<double>(cuts_), ""}}};
+    if (data_.helix > 0) cut.values.push_back({"skew", last_skew_ * units::millimetres, "mm"});
     if (web_.marks().printed())
       cut.values.push_back({"register", web_.register_error() * units::millimetres, "mm"});
     happened(std::move(cut));
@@ -93,14 +101,14 @@ std::vector<Port> RotaryKnife::ports() {
 }
 
 std::vector<Channel> RotaryKnife::channels() {
-  const auto blade_speed = [this] { return drum_.speed * radius_; };
+  const auto blade_speed = [this] { return drum_.speed * along_web_; };
   std::vector<Channel> channels = {
       {"angle", "deg", [this] { return drum_.part * 360; },
        "drum angle within a turn, 0 = blade 1 at the cut"},
       {"angle.total", "deg", [this] { return drum_.revolutions() * 360; }, "drum angle over all turns"},
       {"speed", "rpm", [this] { return drum_.speed * units::rpm; }, "speed of the drum"},
       {"blade.speed", "m/min", [blade_speed] { return blade_speed() * units::metres_a_minute; },
-       "speed of the blade tips"},
+       "speed of the blade tips, of helical ones along the web"},
       {"blade.ratio", "",
        [this, blade_speed] {
          const double web = web_.material().speed;
@@ -113,6 +121,10 @@ std::vector<Channel> RotaryKnife::channels() {
       {"cut.mismatch", "mm/s", [this] { return last_mismatch_ * units::millimetres; },
        "largest speed mismatch of the last cut"},
       {"cut.force", "N", [this] { return cutter_.force(); }, "vertical force on the blade"},
+      {"cut.skew", "mm", [this] { return last_skew_ * units::millimetres; },
+       "how far the last cut of a helical blade is out of square over the width of the web"},
+      {"cut.place", "mm", [this] { return cutter_.place() * units::millimetres; },
+       "where across the web a helical blade cuts now, from its middle to the operator's side"},
       {"cut.number", "", [this] { return static_cast<double>(cuts_); }, "cuts since the start"},
       {"motor.speed", "rpm", [this] { return rotor_.speed * units::rpm; }, "speed of the motor"},
       {"gear.torque", "N m", [this] { return gear_.torque(); }, "torque of the gear on the drum"},
@@ -127,11 +139,15 @@ std::vector<Channel> RotaryKnife::channels() {
 }
 
 std::vector<EventType> RotaryKnife::event_types() {
-  EventType cut = {"cut",
-                   {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
-                   "a blade went through the web at bottom dead centre: length of the piece, largest speed "
-                   "mismatch in the web, largest vertical force, number since the start; on a printed web "
-                   "register, how far the cut lies behind the nearest mark"};
+  EventType cut = {
+      "cut",
+      {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
+      "a blade went through the web at bottom dead centre: length of the piece, largest speed "
+      "mismatch in the web, largest vertical force, number since the start; on a printed web "
+      "register, how far the cut lies behind the nearest mark; of a helical blade, which cuts from "
+      "edge to edge, skew, how far the cut is out of square over the width of the web, positive "
+      "where the blade was too fast, and the length in the middle"};
+  if (data_.helix > 0) cut.values.push_back({"skew", "mm"});
   if (web_.marks().printed()) cut.values.push_back({"register", "mm"});
   std::vector<EventType> types = {
       cut,
@@ -142,14 +158,15 @@ std::vector<EventType> RotaryKnife::event_types() {
 }
 
 std::vector<DriveOfPlant> RotaryKnife::drives() {
-  return servo_.drives(data_.drum_inertia / (data_.gear.ratio * data_.gear.ratio));
+  return servo_.drives(data_.geared() / (data_.gear.ratio * data_.gear.ratio * data_.motors));
 }
 
 Parameters RotaryKnife::live_parameters() { return live_rows(rotary_knife_parameters(data_)); }
 
 void RotaryKnife::parameters_changed() {
   gear_.take(data_.gear);
-  if (drum_.inertia != data_.drum_inertia) world_.set_inertia(drum_, data_.drum_inertia);
+  friction_ = geared_friction(data_.drum_friction, data_.counter);
+  if (drum_.inertia != data_.geared()) world_.set_inertia(drum_, data_.geared());
 }
 
 std::vector<Fault> RotaryKnife::faults() {

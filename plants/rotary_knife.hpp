@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "plants/counter_drum.hpp"
 #include "plants/cutting.hpp"
 #include "plants/encoder.hpp"
 #include "plants/plant.hpp"
@@ -17,12 +18,15 @@ struct RotaryKnifeData {
   double circumference = 0.6;               ///< of the circle of the blade tips [m]
   int blade_count = 1;                      ///< evenly on the drum
   double blade_width = 0.4;                 ///< of the drum and its blades, across the line [m]
+  double helix = 0;                         ///< of the blades against the drum's axis [rad], 0 = straight
   double drum_inertia = 0.41;               ///< with blades [kg m2]
   double drum_eccentricity = 0;             ///< of the blades' circle from the drum's axis [m]
   double initial_angle = std::numbers::pi;  ///< of blade 1 from bottom dead centre [rad]
   double coupling = 2000;       ///< horizontal force between blade and web per speed mismatch [N s/m]
   double grip = 500;            ///< largest horizontal force [N]
   double mismatch_limit = 0.1;  ///< speed mismatch at which the web tears or buckles [m/s]
+  CounterDrumData counter;
+  int motors = 1;  ///< alike, each on a gear of its own, which share the torque
   ServoAxisData drive;
   TransmissionData gear;
   Friction motor_friction = {0.1, 0.0005, 0, 0};
@@ -31,15 +35,23 @@ struct RotaryKnifeData {
   bool encoder_on_drum = false;
   /// Home switch on the drum, angles in rad.
   PositionSwitchData home = {std::numbers::pi, std::numbers::pi / 18, std::numbers::pi / 360, 0.5e-3};
+
+  /// All that turns with the drum, on its shaft [kg m2].
+  [[nodiscard]] double geared() const { return geared_inertia(drum_inertia, counter); }
 };
 
-/// A drum with blades that cuts the web against an anvil while it runs: servo motor, gear, drum. Drum angle 0
-/// has blade 1 at bottom dead centre; positive turns move the blade with the web.
+/// A drum with blades that cuts the web against an anvil or a counter drum while it runs: servo motor, gear,
+/// drum. Drum angle 0 has blade 1, a helical one with its middle, at bottom dead centre; positive turns move
+/// the blade with the web. The drum of helical blades stands at their angle to the web: plants/cutting.hpp.
 ///
-/// Events: `cut` (length, mismatch, force, number) when a blade reaches bottom dead centre; `tear` and
-/// `buckle` (mismatch) when blade and web differ by more than mismatch_limit while the blade is in the web,
-/// once per engagement; `following_error` of a servo that takes pulses. The first cut, number 1, is as long
-/// as the web beyond the cut at the start plus its travel.
+/// Of two motors only one is a body: the other does the same. Its channels, events and verdict are those of
+/// each.
+///
+/// Events: `cut` (length, mismatch, force, number) when a blade reaches bottom dead centre, a helical one
+/// with its last point (and then `skew`; the length is that in the middle of the web); `tear` and `buckle`
+/// (mismatch) when blade and web differ by more than mismatch_limit while the blade is in the web, once per
+/// engagement; `following_error` of a servo that takes pulses. The first cut, number 1, is as long as the web
+/// beyond the cut at the start plus its travel.
 class RotaryKnife : public Plant {
  public:
   RotaryKnife(const RotaryKnifeData& data, World& world, Web& web);
@@ -70,6 +82,8 @@ class RotaryKnife : public Plant {
   World& world_;
   Web& web_;
   double radius_;
+  double along_web_;   // radius in speeds along the web [m]
+  Friction friction_;  // of the drum and what is geared to it
   Shaft& rotor_;
   Shaft& drum_;
   ServoAxis servo_;
@@ -80,6 +94,7 @@ class RotaryKnife : public Plant {
   int cuts_ = 0;
   double last_length_ = 0;    // [m]
   double last_mismatch_ = 0;  // [m/s]
+  double last_skew_ = 0;      // [m]
 };
 
 Parameters rotary_knife_parameters(RotaryKnifeData& data);

@@ -17,6 +17,11 @@ Parameters rotary_knife_parameters(RotaryKnifeData& data) {
           row("blade_count", "blades, evenly on the drum", data.blade_count, 1, 24, "one cut a turn"),
           row("blade_width", "mm", "width of drum and blades across the line", data.blade_width, 1, 10000,
               "a narrow line"),
+          row("helix", "deg",
+              "angle of the blades to the drum's axis, 0 = straight; the drum stands at that angle to the "
+              "web, so "
+              "that a blade at web speed cuts square",
+              data.helix, 0, 45, "straight blades; usual are 0.5 to 3 deg"),
           live(row("drum_inertia", "kg m2", "inertia of the drum with its blades", data.drum_inertia, 1e-5,
                    1e4, "estimate: solid steel drum, diameter 191 mm, 400 mm wide")),
           row("drum_eccentricity", "mm",
@@ -55,15 +60,29 @@ Parameters rotary_knife_parameters(RotaryKnifeData& data) {
           live(row("drum_friction.viscous", "N m s/rad", "viscous friction of the drum",
                    data.drum_friction.viscous, 0, 1e4, "estimate")),
       },
+      group("counter.", counter_drum_parameters(data.counter)),
+      Parameters{
+          row("motors",
+              "motors of this kind, each with its gear, one on each drum, that share the torque; channels "
+              "and verdict are those of one",
+              data.motors, 1, 2, "one motor")},
       servo_axis_parameters(data.drive), group("gear.", transmission_parameters(data.gear)));
 }
 
 std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double h) {
   const double motor_inertia = data.drive.servo.rotor_inertia;
   AxisObjections found("drum", h);
-  found.gear(data.gear, motor_inertia, data.drum_inertia);
+  found.gear(data.gear, motor_inertia, data.geared() / data.motors);
   found.viscous("motor_friction.viscous", data.motor_friction, motor_inertia, "motor");
-  found.viscous("drum_friction.viscous", data.drum_friction, data.drum_inertia, "drum");
+  const Friction friction = geared_friction(data.drum_friction, data.counter);
+  const bool more_below = friction.viscous > 2 * data.drum_friction.viscous;
+  found.viscous(more_below ? "counter.friction.viscous" : "drum_friction.viscous", friction, data.geared(),
+                "drum");
+  if (data.counter.cuts() && data.counter.ratio != 1)
+    found.object(
+        "counter.ratio",
+        fmt::format("blades on both drums meet only where both turn alike, not at {:g}", data.counter.ratio),
+        "1, or counter.drum: smooth");
   found.add(servo_axis_objections(data.drive, motor_inertia, h));
   found.add(encoder_objections(data.encoder));
   const double most = data.circumference / units::turn / 20;
@@ -88,16 +107,29 @@ std::vector<PlantDefinition::Objection> objections_to(const WebData& web, const 
   std::vector<PlantDefinition::Objection> found;
   const double radius = knife.circumference / (2 * std::numbers::pi);
   const double pitch = 2 * std::numbers::pi / knife.blade_count;
+  const double closing = knife.counter.cuts() ? 2 * radius : radius;
+  const double most_lag = web.thickness < radius ? pitch - 2 * engagement_angle(closing, web.thickness) : 0;
+  const double lag = helix_lag(radius, knife.helix, web.width);
   if (web.thickness >= radius)
     found.push_back({"circumference",
                      fmt::format("the web of {:g} mm is thicker than the radius of {:g} mm",
                                  web.thickness * 1000, radius * 1000),
                      "a larger circumference or a thinner web"});
-  else if (2 * engagement_angle(radius, web.thickness) >= pitch)
+  else if (most_lag <= 0)
     found.push_back({"blade_count",
                      fmt::format("with {} blades two are in the web of {:g} mm at once", knife.blade_count,
                                  web.thickness * 1000),
                      "fewer blades, a larger circumference or a thinner web"});
+  else if (lag >= most_lag)
+    found.push_back(
+        {"helix",
+         fmt::format(
+             "a blade of {:g} deg takes {:.4g} deg of the drum from edge to edge of the web of {:g} mm: {}",
+             knife.helix * units::degrees, lag * units::degrees, web.width * 1000,
+             knife.blade_count > 1 ? "two are in it at once" : "it never leaves it"),
+         fmt::format("less than {:.3g} deg, {}a larger circumference or a narrower web",
+                     helix_of_lag(radius, most_lag, web.width) * units::degrees,
+                     knife.blade_count > 1 ? "fewer blades, " : "")});
   return found;
 }
 
@@ -110,7 +142,7 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections_with(c
   AxisObjections found("drum", h);
   found.add(objections_to(web->data, data));
   const double radius = data.circumference / (2 * std::numbers::pi);
-  found.damper("coupling", data.coupling, reduced(data.drum_inertia / (radius * radius), web->data.mass),
+  found.damper("coupling", data.coupling, reduced(data.geared() / (radius * radius), web->data.mass),
                "blade and web");
   return found.take();
 }

@@ -66,9 +66,10 @@ TEST(LiveParameters, AreFrictionInertiaStiffnessGapAndMass) {
     return all;
   };
   EXPECT_THAT(names(RotaryKnifeDefinition()),
-              testing::UnorderedElementsAre("drum_inertia", "drum_friction.coulomb", "drum_friction.viscous",
-                                            "motor_friction.coulomb", "motor_friction.viscous",
-                                            "gear.stiffness", "gear.damping", "gear.backlash"));
+              testing::UnorderedElementsAre(
+                  "counter.inertia", "counter.friction.coulomb", "counter.friction.viscous", "drum_inertia",
+                  "drum_friction.coulomb", "drum_friction.viscous", "motor_friction.coulomb",
+                  "motor_friction.viscous", "gear.stiffness", "gear.damping", "gear.backlash"));
   EXPECT_THAT(names(WebDefinition()),
               testing::UnorderedElementsAre("mass", "drive.acceleration", "drive.stiffness", "drive.damping",
                                             "drive.max_force"));
