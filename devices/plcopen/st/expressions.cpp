@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "devices/plcopen/kernel.hpp"
 #include "devices/plcopen/st/keywords.hpp"
 #include "devices/plcopen/st/operators.hpp"
@@ -182,7 +182,8 @@ Expression Expressions::typed_literal(const Tree& tree) {
   if (tree.negative && is_real(number.type->basic))
     number.value = cell_of(-real_of(number.value));
   else if (tree.negative)
-    number.value = wrapped(Basic::lint, static_cast<Cell>(0 - static_cast<std::uint64_t>(number.value)));
+    number = negated_literal(std::move(number));
+  if (number.unknown()) return number;
   number.place = name.place;
   return literal_as(std::move(number), *type);
 }
@@ -197,9 +198,11 @@ Expression Expressions::bits_of_number(const Tree& tree, const Expression& owner
     constexpr std::array parts{Basic::boolean, Basic::byte, Basic::word, Basic::dword};
     const std::string text = upper(token.text);
     const std::size_t kind = text.size() > 2 ? std::string_view("XBWD").find(text[1]) : parts.size();
-    const auto* const end = text.data() + text.size();
-    if (kind >= parts.size() || std::from_chars(text.data() + 2, end, number).ptr != end)
+    const auto digits =
+        parsed<std::int64_t>(std::string_view(text).substr(std::min<std::size_t>(2, text.size())));
+    if (kind >= parts.size() || !digits)
       give_up(token.place, in_quotes(token.text) + " is no part of a number", "%X3 is a bit, %B1 a byte");
+    number = *digits;
     part = parts.at(kind);
   }
   const int width = bits_of(part);
@@ -295,12 +298,13 @@ Expression Expressions::element_at(Expression owner, const Expression& index) {
   if (!owner.address)
     give_up(place, fmt::format("an element of an {} that is no variable", type.name),
             "assign it to a variable before");
-  const bool outside = index.constant && (index.value < type.low || index.value > type.high);
+  const bool huge = index.constant && index.value < 0 && is_wide(index.type->basic);  // a ULINT
+  const bool outside = index.constant && (huge || index.value < type.low || index.value > type.high);
   if (!is_integer(index.type->basic))
     complain(place, fmt::format("the index is {}", index.type->name), "an index is a whole number");
   else if (outside)
     complain(place,
-             fmt::format("the index {} is out of the bounds of {}", index.value, in_quotes(owner.name)),
+             fmt::format("the index {} is out of the bounds of {}", whole_text(index), in_quotes(owner.name)),
              fmt::format("{} to {}", type.low, type.high));
   if (!is_integer(index.type->basic) || outside) {
     owner.type = type_of(Basic::unknown);

@@ -115,7 +115,11 @@ std::int64_t Declarations::constant_integer(std::string_view what, const Type* w
   if (!value.constant || !is_integer(value.type->basic))
     give_up(place, fmt::format("{} is not a constant whole number", what),
             "give a literal or a VAR CONSTANT of integers");
-  return wanted == nullptr ? value.value : literal_as(value, *wanted).value;
+  if (wanted != nullptr) return literal_as(value, *wanted).value;
+  if (value.value < 0 && is_wide(value.type->basic))
+    give_up(place, fmt::format("{} {} is too large", what, whole_text(value)),
+            "it goes to 9223372036854775807");
+  return value.value;
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -235,6 +235,10 @@ Expression signed_value(Values& values, const Token& sign, Expression operand, c
   if (!is_number(basic) && !(is_clock(basic) && sign.is("+")))
     return no_operand(values, sign, operand, "it takes numbers");
   if (sign.is("+")) return operand;
+  if (operand.constant && operand.untyped && is_integer(basic)) {
+    operand.place = sign.place;
+    return values.negated_literal(std::move(operand));
+  }
   return values.apply_op(is_real(basic) ? Op::negate_real : Op::negate, operand.type, sign.place, operand);
 }
 

@@ -120,6 +120,23 @@ int Values::scratch(const Type& type, Place place) {
   return leaf_node(Op::address_pool, type.basic, place, in_pool(static_cast<std::size_t>(type.cells)));
 }
 
+std::string whole_text(const Expression& value) {
+  return is_wide(value.type->basic) ? fmt::format("{}", static_cast<std::uint64_t>(value.value))
+                                    : fmt::format("{}", value.value);
+}
+
+Expression Values::negated_literal(Expression literal) {
+  constexpr Cell lowest = std::numeric_limits<Cell>::min();
+  const bool wide = is_wide(literal.type->basic);
+  if (wide && literal.value < 0 && literal.value != lowest)
+    return refuse(literal.place, fmt::format("the constant -{} is out of range", whole_text(literal)),
+                  fmt::format("a LINT goes down to {}", lowest));
+  // The lowest LINT and the ULINT that is as large have the same bits.
+  literal.type = type_of(literal.value == lowest && !wide ? Basic::ulint : Basic::lint);
+  if (literal.value != lowest) literal.value = -literal.value;
+  return literal;
+}
+
 Expression Values::literal_as(Expression literal, const Type& to) {
   const Basic basic = to.basic;
   const bool real = is_real(literal.type->basic);

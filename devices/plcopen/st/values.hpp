@@ -64,6 +64,8 @@ struct Expression {
 
 inline Expression unknown_at(Place place) { return {type_of(Basic::unknown), place}; }
 Expression constant(const Type* type, Cell value, Place place, bool untyped = false);
+/// A constant whole number as the text has it, a ULINT above 9223372036854775807 too.
+std::string whole_text(const Expression& value);
 /// The variable at the address that `node` computes.
 Expression variable_at(const Type* type, int node, const std::string& name, Place place);
 /// One more than the deepest of them.
@@ -83,6 +85,8 @@ class Values : public Parser {
   /// As a value of type `to`, by the conversions that IEC 61131-3 makes by itself.
   Expression converted(Expression expression, const Type& to);
   Expression literal_as(Expression literal, const Type& to);
+  /// The same with a '-' before it; a problem where no LINT holds it.
+  Expression negated_literal(Expression literal);
   /// By a conversion function.
   Expression cast(const Expression& expression, Basic to, Place place);
   /// What can no longer be assigned to.
