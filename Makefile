@@ -5,6 +5,7 @@
 #   make quick   the tests that take seconds
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
+#   make python  builds the Python package in build/python
 #   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
 
 BUILD    ?= build
@@ -12,13 +13,16 @@ JOBS     ?= $(shell nproc)
 PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libassimp-dev libeigen3-dev libyaml-cpp-dev \
             libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs ffmpeg
-TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev python3-jsonschema python3-yaml
+PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
+TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev python3-jsonschema python3-yaml $(PYTHON_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
 SOURCES := $(wildcard base/*.?pp devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp tests/*/*/*.?pp)
 
 CONFIGURE := cmake -G Ninja -DCMAKE_BUILD_TYPE=Release
+# Debian's own, which has numpy, whatever else is in the way.
+PYTHON    := -DDRYCUT_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3
 
 # Installs the packages of $(1) that are missing; sudo where we are not root.
 define install
@@ -31,7 +35,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test quick bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup demo test quick python bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -48,7 +52,7 @@ demo: all
 
 test: setup
 	$(call install,$(TEST_PACKAGES))
-	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON
+	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON $(PYTHON)
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
@@ -59,6 +63,13 @@ quick: setup
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
 	cmake --build $(BUILD) -j $(JOBS) --target base_tests devices_tests plants_tests sim_tests
 	cd $(BUILD) && GTEST_FILTER='-$(SLOW)' ctest --output-on-failure -j $(JOBS) -R '^(base|devices|plants|sim)\.part'
+
+python: setup
+	$(call install,$(PYTHON_PACKAGES))
+	@$(CONFIGURE) -S . -B $(BUILD) $(PYTHON) > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@rm -f $(BUILD).log
+	cmake --build $(BUILD) -j $(JOBS) --target drycut_python
+	@echo "PYTHONPATH=$(CURDIR)/$(BUILD)/python /usr/bin/python3 -c 'import drycut; help(drycut)'"
 
 bench: setup
 	$(call install,$(BENCH_PACKAGES))

@@ -14,10 +14,10 @@ namespace drycut {
 
 namespace {
 
-[[noreturn]] void refuse(const Problems& problems) {
+std::string lines_of(const Problems& problems) {
   std::string lines;
   for (const auto& problem : problems) lines += (lines.empty() ? "" : "\n") + to_string(problem);
-  throw BadInput(lines);
+  return lines;
 }
 
 sim::scenario::Scenario read(const std::filesystem::path& file,
@@ -27,7 +27,7 @@ sim::scenario::Scenario read(const std::filesystem::path& file,
   for (const auto& [path, value] : set) overrides.push_back({path, value});
   Problems problems;
   auto scenario = sim::scenario::read_scenario(file, overrides, problems);
-  if (!problems.empty()) refuse(problems);
+  if (!problems.empty()) throw BadInput(problems);
   scenario.pictures = {};
   scenario.record.channels.clear();
   return scenario;
@@ -35,10 +35,12 @@ sim::scenario::Scenario read(const std::filesystem::path& file,
 
 }  // namespace
 
+BadInput::BadInput(Problems found) : std::invalid_argument(lines_of(found)), problems(std::move(found)) {}
+
 struct Simulation::Run {
   Run(const std::filesystem::path& file, const std::map<std::string, std::string>& set)
       : scenario(drycut::read(file, set)), simulation(scenario, problems) {
-    if (!problems.empty()) refuse(problems);
+    if (!problems.empty()) throw BadInput(problems);
   }
 
   /// nullptr if there is none of that name.

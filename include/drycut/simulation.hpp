@@ -1,4 +1,6 @@
 #pragma once
+#include <drycut/problem.hpp>
+
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -13,7 +15,10 @@ namespace drycut {
 /// What was given does not fit. what() has a line a problem: `file:line:column: what is wrong; what would be
 /// right`.
 class BadInput : public std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
+ public:
+  explicit BadInput(const std::string& what) : std::invalid_argument(what) {}
+  explicit BadInput(Problems problems);
+  Problems problems = {};  ///< of files and overrides; none where a call itself was wrong
 };
 
 /// The simulation itself cannot go on: it diverged.
