@@ -174,7 +174,7 @@ def _settings(given: Mapping[str, object] | None) -> dict[str, str]:
 
 
 def _table(columns: Mapping[str, np.ndarray], units: Mapping[str, str] | None = None) -> np.ndarray:
-    kinds = [(name, np.dtype(values.dtype, metadata={"unit": units[name]} if units else None))
+    kinds = [(name, np.dtype(values.dtype, metadata={"unit": units[name]}) if units else values.dtype)
              for name, values in columns.items()]
     table = np.empty(len(next(iter(columns.values()))), dtype=kinds)
     for name, values in columns.items():
