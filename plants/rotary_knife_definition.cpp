@@ -83,6 +83,11 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections(double
         "counter.ratio",
         fmt::format("blades on both drums meet only where both turn alike, not at {:g}", data.counter.ratio),
         "1, or counter.drum: smooth");
+  if (data.motors > 1 && data.counter.turns() && data.counter.ratio != 1)
+    found.object("motors",
+                 fmt::format("the one on the counter drum would have to run {:g} times as fast as the other",
+                             data.counter.ratio),
+                 "motors: 1, or counter.ratio: 1");
   found.add(servo_axis_objections(data.drive, motor_inertia, h));
   found.add(encoder_objections(data.encoder));
   const double most = data.circumference / units::turn / 20;

@@ -165,20 +165,22 @@ void RotaryKnife::Picture::add_blades(const std::string& name, int side) {
   const double lag = std::tan(knife_.data_.helix) / axis * width;  // from one end to the other [rad]
   const int pieces = static_cast<int>(std::ceil(lag / piece_of_blade));
   const Pose edge = side > 0 ? Pose{} : about_z(std::numbers::pi);
-  const auto piece = [&](const std::string& piece_name, double angle, double z, double length) {
-    wedge(piece_name, {0.022, blade_height, length}, looks::red.on("blade"),
-          about_z(-side * angle) * at(0, side * (blade_height / 2 - axis), z) * about_y(-knife_.data_.helix) *
-              edge,
-          {0, -blade_height / 2, length / 2}, "knife_blade");
+  // Only the end towards the operator leaves a trail.
+  const auto piece = [&](const std::string& piece_name, double angle, double z, double length, bool at_end) {
+    Part& part = wedge(piece_name, {0.022, blade_height, length}, looks::red.on("blade"),
+                       about_z(-side * angle) * at(0, side * (blade_height / 2 - axis), z) *
+                           about_y(-knife_.data_.helix) * edge,
+                       {0, -blade_height / 2, length / 2}, "knife_blade");
+    if (!at_end || side < 0) part.tip.reset();
   };
   for (int i = 0; i < count; ++i) {
     const double angle = units::turn * i / count;
     const auto blade = fmt::format("{} {}", name, i + 1);
-    if (pieces == 0) piece(blade, angle, 0, width);
+    if (pieces == 0) piece(blade, angle, 0, width, true);
     for (int k = 0; k < pieces; ++k) {
       const double along = (k + 0.5) / pieces - 0.5;  // of the blade, from its middle
       piece(fmt::format("{}, piece {}", blade, k + 1), angle + along * lag, along * width,
-            width / pieces / std::cos(knife_.data_.helix));
+            width / pieces / std::cos(knife_.data_.helix), k + 1 == pieces);
     }
   }
 }

@@ -119,7 +119,19 @@ TEST(CounterDrum, ObjectsToWhatDoesNotGoTogether) {
                 d.counter.ratio = 2;
               }),
               ElementsAre(StartsWith("counter.ratio: blades on both drums meet only where both turn alike")));
-  EXPECT_THAT(told([](auto& d) { d.counter.ratio = 2; }), IsEmpty()) << "no counter drum";
+  EXPECT_THAT(told([](auto& d) {
+                d.counter.ratio = 2;
+                d.motors = 2;
+              }),
+              IsEmpty())
+      << "no counter drum";
+  EXPECT_THAT(
+      told([](auto& d) {
+        d.counter.kind = "smooth";
+        d.counter.ratio = 2;
+        d.motors = 2;
+      }),
+      ElementsAre(StartsWith("motors: the one on the counter drum would have to run 2 times as fast")));
   EXPECT_THAT(told([](auto& d) {
                 d.counter.kind = "smooth";
                 d.counter.friction.viscous = 5000;

@@ -342,6 +342,9 @@ TEST(HelicalKnife, ItsBladeLiesSquareOnTheWebWhereItCuts) {
     EXPECT_NEAR(end[0] - edge[0], 0, 1e-2) << part.name << ": along z, square to the web";
   }
   EXPECT_GE(pieces, 2);
+  int trails = 0;
+  for (const Part& part : line.plant->parts()) trails += part.tip ? 1 : 0;
+  EXPECT_EQ(trails, 1) << "of one end of the blade";
 }
 
 TEST(HelicalKnife, RefusesAHelixThatNeverLeavesTheWeb) {

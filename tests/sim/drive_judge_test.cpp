@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -149,6 +150,47 @@ TEST(DriveJudge, ATripFailsWhateverTheMeansAre) {
   EXPECT_THAT(line.ratings().at(0).detail, HasSubstr("overload at "));
 }
 
+// Sheets of 500 mm are shorter than the drums' circumference: between two cuts these run up and down again.
+TEST(DriveJudge, TheCorrugatedLineFailsAt200WithItsReasonsAndPassesAtTheSpeedItAdvises) {
+  const char* scene = "rotary_knife_corrugated_500.yaml";
+  double speed = 200;
+  Line line(scene, {{"plants.board.speed", "200 m/min"}});
+  line.simulation->run();
+  auto now = line.simulation->drives().at(0);
+  ASSERT_FALSE(now.holds());
+  const auto check = line.ratings().at(0);
+  EXPECT_FALSE(check.passed);
+  EXPECT_THAT(check.detail, testing::ContainsRegex("overload at [0-9.]+ s"));
+  EXPECT_THAT(check.detail, HasSubstr("rms torque"));
+  EXPECT_THAT(check.detail, HasSubstr("brake resistor"));
+  const auto& rms = figure(now, "rms torque");
+  EXPECT_GT(rms.share, 1.3);
+  EXPECT_GT(figure(now, "brake resistor").share, 1);
+  ASSERT_EQ(now.trips.size(), 1U);
+  // The amplifier's I2t warms by its time constant towards the square of its load, from the first cut on.
+  const double load = figure(now, "rms current, for the amplifier").share;
+  const double time_constant = -3 / std::log1p(-37.0 * 37 / (83 * 83));
+  double tripped = 0;
+  ASSERT_EQ(std::sscanf(now.trips[0].c_str(), "overload at %lf s", &tripped), 1) << now.trips[0];
+  EXPECT_NEAR(tripped - 2.2, -time_constant * std::log1p(-1 / (load * load)), 0.7);
+  // Two motors on two drums, one body on the shaft: half of them behind the gear is each motor's load.
+  EXPECT_NEAR(now.inertia_ratio, (0.4 + 0.4) / 2 / 25 / 0.0151, 1e-9);
+
+  for (int run = 0; run < 3 && !now.holds(); ++run) {
+    ASSERT_LT(now.advised, 1);
+    ASSERT_GT(now.advised, 0.3);
+    speed *= now.advised;
+    Line slower(scene, {{"plants.board.speed", std::to_string(speed) + " m/min"}});
+    slower.simulation->run();
+    now = slower.simulation->drives().at(0);
+    if (!now.holds()) continue;
+    for (const auto& other : slower.simulation->outcome().checks)
+      EXPECT_TRUE(other.passed) << other.name << ": " << other.detail;
+  }
+  EXPECT_TRUE(now.holds()) << speed << " m/min: " << text_of(now);
+  EXPECT_GT(speed, 90);
+}
+
 /// On every plant with a drive what the mains gave is found again: in work, heat, the resistor, the link.
 struct Machine {
   std::string scene;
@@ -187,6 +229,7 @@ TEST_P(EnergyOfDrives, ClosesAndItsWorkIsThatOfItsSteps) {
 
 INSTANTIATE_TEST_SUITE_P(Plants, EnergyOfDrives,
                          testing::Values(Machine{"rotary_knife.yaml", "knife.motor"},
+                                         Machine{"rotary_knife_corrugated_500.yaml", "knife.motor"},
                                          Machine{"flying_saw_2m.yaml", "saw.motor"},
                                          Machine{"flying_saw_lx3vp_2m.yaml", "saw.motor"},
                                          Machine{"backlash_motor_encoder.yaml", "axis.motor"},

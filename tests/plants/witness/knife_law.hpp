@@ -21,6 +21,9 @@ namespace drycut::plants::witness {
 ///   web v' = H = coupling (W R cos b - v), at most the grip
 /// F is the parabola of the cut over the depth s - R (1 - cos b): 4 peak p (1 - p), p the depth over s. H
 /// acts while the blade is in the web; behind bottom dead centre the piece is off and the web only runs up.
+/// A counter drum adds its inertia and friction through its gear, and its blades close in as fast: R is 2 R
+/// in F. A helical blade is a row of points, each with its share of F and H; the sums are integrals over the
+/// points in the web, those before and those behind bottom dead centre. H has R cos helix for R then.
 struct KnifeLaw : Equations {
   enum State { angle, speed, drum, drum_speed, web_speed };
   static constexpr std::size_t servo_states = 5;  ///< the servo's begin there
@@ -36,6 +39,9 @@ struct KnifeLaw : Equations {
   Dry drum_friction;
   /// Of the blade that comes next; the motions here only go forward while it is in the web.
   enum class Blade { above, cuts, through } at = Blade::above;
+  double helix;
+  double closing;                        ///< radius in F [m]
+  double inertia;                        ///< of drum and counter drum [kg m2]
   double bottom = 2 * std::numbers::pi;  ///< its dead centre, angle of the drum [rad]
 
   KnifeLaw(const RotaryKnifeData& knife, WebData strip, Motion told)
@@ -46,7 +52,16 @@ struct KnifeLaw : Equations {
         peak(web.shear_strength * web.thickness * web.width),
         radius(knife.circumference / (2 * std::numbers::pi)),
         motor_friction{knife.motor_friction},
-        drum_friction{knife.drum_friction} {}
+        drum_friction{knife.drum_friction},
+        helix(knife.helix),
+        closing(knife.counter.kind == "blades" ? 2 * radius : radius),
+        inertia(knife.drum_inertia) {
+    if (knife.counter.kind == "none") return;
+    const double n = knife.counter.ratio;
+    inertia += knife.counter.inertia * n * n;
+    drum_friction.data.coulomb += knife.counter.friction.coulomb * n;
+    drum_friction.data.viscous += knife.counter.friction.viscous * n * n;
+  }
 
   [[nodiscard]] std::vector<double> start() const override {
     return {data.initial_angle * data.gear.ratio, 0, data.initial_angle, 0, web.drive.speed, 0, 0, 0};
@@ -68,16 +83,49 @@ struct KnifeLaw : Equations {
     const double twist = y[angle] / data.gear.ratio - y[drum];
     const double rate = y[speed] / data.gear.ratio - y[drum_speed];
     const double gear = gear_torque(data.gear, twist, rate);
-    Efforts sum{y[servo_states + Servo::torque] - gear / data.gear.ratio, gear, 0, {}};
+    Efforts sum{y[servo_states + Servo::torque] - gear / data.gear.ratio, gear * data.motors, 0, {}};
     if (at == Blade::above) return sum;
     const double behind = y[drum] - bottom;
+    if (helix > 0) {
+      add_points(behind, y[drum_speed], y[web_speed], sum);
+      return sum;
+    }
     const double arm = radius * std::cos(behind);
     const double push = data.coupling * (y[drum_speed] * arm - y[web_speed]);
     sum.web = std::clamp(at == Blade::through ? std::min(0.0, push) : push, -data.grip, data.grip);
     sum.drum -= sum.web * arm;
-    const double p = 1 - radius * (1 - std::cos(behind)) / web.thickness;
-    if (at == Blade::cuts) sum.cut.forward = 4 * peak * p * (1 - p) * radius * std::abs(std::sin(behind));
+    if (at == Blade::cuts) sum.cut.forward = cutting_torque(behind);
     return sum;
+  }
+  /// Of a straight blade.
+  [[nodiscard]] double cutting_torque(double behind) const {
+    const double p = 1 - closing * (1 - std::cos(behind)) / web.thickness;
+    return 4 * peak * p * (1 - p) * closing * std::abs(std::sin(behind));
+  }
+  /// Angle at which a point is on the web's surface, and what all of them take of the drum's turn.
+  [[nodiscard]] double touch() const { return std::acos(1 - web.thickness / closing); }
+  [[nodiscard]] double lag() const { return web.width * std::tan(helix) / (radius * std::cos(helix)); }
+  void add_points(double behind, double omega, double v, Efforts& sum) const {
+    const double from = std::max(behind - lag() / 2, -touch());
+    const double to = std::min(behind + lag() / 2, touch());
+    const auto mean = [&](double a, double b, auto&& value) {  // Simpson, times the share of the points
+      if (b <= a) return 0.0;
+      constexpr int n = 32;
+      double total = value(a) + value(b);
+      for (int i = 1; i < n; ++i) total += (i % 2 == 0 ? 2 : 4) * value(a + (b - a) * i / n);
+      return total * (b - a) / (3 * n) / lag();
+    };
+    sum.cut.forward = mean(from, std::min(to, 0.0), [&](double b) { return cutting_torque(b); });
+    const auto push = [&](double a, double b, double most) {
+      const double share = mean(a, b, [](double) { return 1.0; });
+      if (share == 0) return;
+      const double arm = mean(a, b, [&](double c) { return radius * std::cos(helix) * std::cos(c); }) / share;
+      const double force = share * std::clamp(data.coupling * (omega * arm - v), -data.grip, most);
+      sum.web += force;
+      sum.drum -= force * arm;
+    };
+    push(from, std::min(to, 0.0), data.grip);
+    push(std::max(from, 0.0), to, 0);
   }
 
   [[nodiscard]] Servo::Input input(double t, std::span<const double> y, const Efforts& sum) const {
@@ -90,7 +138,7 @@ struct KnifeLaw : Equations {
     dy[angle] = y[speed];
     dy[speed] = in.acceleration;
     dy[drum] = y[drum_speed];
-    dy[drum_speed] = drum_friction.acceleration(data.drum_inertia, y[drum_speed], sum.drum, sum.cut);
+    dy[drum_speed] = drum_friction.acceleration(inertia, y[drum_speed], sum.drum, sum.cut);
     dy[web_speed] = sum.web / web.mass;
     servo.slope(in, y.subspan(servo_states), dy.subspan(servo_states));
   }
@@ -100,9 +148,11 @@ struct KnifeLaw : Equations {
     g[motor_slides] = motor_friction.watch(y[speed], sum.motor, {});
     g[drum_slides] = drum_friction.watch(y[drum_speed], sum.drum, sum.cut);
     g[torque_limit] = servo.watch(input(t, y, sum), y.subspan(servo_states));
-    const double touch = std::acos(1 - web.thickness / radius);  // the tip is on the web's surface
     const double behind = y[drum] - bottom;
-    g[blade] = at == Blade::above ? behind + touch : at == Blade::cuts ? behind : behind - touch;
+    const double half = lag() / 2;
+    g[blade] = at == Blade::above  ? behind + touch() + half
+               : at == Blade::cuts ? behind - half
+                                   : behind - touch() - half;
   }
   void act(double t, std::span<double> y, int which) override {
     const Efforts sum = efforts(y);

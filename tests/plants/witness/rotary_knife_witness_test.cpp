@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "plants/rotary_knife.hpp"
@@ -61,7 +62,7 @@ TEST(Witness, RotaryKnife) {
       unit, law, 2.5e-6, 2e-7,
       {{"no damping of the gear", [](KnifeLaw& l) { l.data.gear.damping = 0; }},
        {"no play", [](KnifeLaw& l) { l.data.gear.backlash = 0; }},
-       {"drum as if before the gear", [](KnifeLaw& l) { l.data.drum_inertia /= l.data.gear.ratio; }},
+       {"drum as if before the gear", [](KnifeLaw& l) { l.inertia /= l.data.gear.ratio; }},
        {"half the dry friction of the motor", [](KnifeLaw& l) { l.motor_friction.data.coulomb /= 2; }},
        {"motor without viscous friction", [](KnifeLaw& l) { l.motor_friction.data.viscous = 0; }},
        {"half the dry friction of the drum", [](KnifeLaw& l) { l.drum_friction.data.coulomb /= 2; }},
@@ -71,6 +72,39 @@ TEST(Witness, RotaryKnife) {
        {"a web that nothing moves", [](KnifeLaw& l) { l.web.mass *= 1e6; }},
        {"half the reference filter", [](KnifeLaw& l) { l.servo.data.filter /= 2; }},
        {"half the current lag", [](KnifeLaw& l) { l.servo.data.current_lag /= 2; }}});
+}
+
+// Two drums with helical blades and a motor on each.
+TEST(Witness, HelicalTwinKnife) {
+  const auto knife = [] {
+    auto one = soft_knife();
+    one.data.helix = 3.0 / 180 * std::numbers::pi;
+    one.data.counter = {.kind = "blades", .inertia = 0.3, .ratio = 1, .friction = {1.5, 0.2, 0, 0}};
+    one.data.motors = 2;
+    return one;
+  };
+  const auto wide_web = [] {
+    auto web = coasting_web();
+    web.data.width = 1;
+    web.data.shear_strength = 10e6;
+    return web;
+  };
+  const auto unit = [&] {
+    auto one = std::make_unique<Knife>(knife(), wide_web());
+    one->ratio = knife().data.gear.ratio;
+    return one;
+  };
+  const auto law = [&] { return std::make_unique<KnifeLaw>(knife().data, wide_web().data, two_cuts); };
+  expect_witness<KnifeLaw>(
+      unit, law, 2.5e-6, 5e-7,
+      {{"straight blades", [](KnifeLaw& l) { l.helix = 0; }},
+       {"a helix of half the angle", [](KnifeLaw& l) { l.helix /= 2; }},
+       {"blades that close in as on an anvil", [](KnifeLaw& l) { l.closing /= 2; }},
+       {"no counter drum", [](KnifeLaw& l) { l.inertia = l.data.drum_inertia; }},
+       {"without its friction", [](KnifeLaw& l) { l.drum_friction.data = l.data.drum_friction; }},
+       {"one motor", [](KnifeLaw& l) { l.data.motors = 1; }},
+       {"no cutting force", [](KnifeLaw& l) { l.peak = 0; }},
+       {"no pull of the web", [](KnifeLaw& l) { l.data.coupling = 0; }}});
 }
 
 }  // namespace
