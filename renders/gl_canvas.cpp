@@ -1,4 +1,3 @@
-#define GL_GLEXT_PROTOTYPES 1
 #include "renders/gl_canvas.hpp"
 
 #include <GL/gl.h>

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <span>
 
 #include "renders/cairo_image.hpp"
 #include "renders/decimate.hpp"
 #include "renders/lanes.hpp"
+#include "renders/paper.hpp"
 #include "renders/plot_area.hpp"
 #include "renders/text.hpp"
 
@@ -26,30 +26,21 @@ constexpr std::array kBandInks = {ink(0xe8c400), ink(0x56b4e9), ink(0x8a8f98)};
 constexpr std::array kStateInks = {ink(0xcfe6f5), ink(0xfbdcc4), ink(0xc5ebdf), ink(0xf3dcea),
                                    ink(0xfbe8b9), ink(0xdadfe4), ink(0xe3dcf6)};
 constexpr std::size_t kLaneInks = 4;  ///< of the curves' palette: those that are dark enough
-constexpr Ink kPaper = ink(0xffffff);
-constexpr Ink kText = ink(0x1f2933);
-constexpr Ink kSoftText = ink(0x52606d);
-constexpr Ink kAxis = ink(0x7b8794);
-constexpr Ink kGrid = ink(0xdfe3e8);
 constexpr Ink kZone = ink(0xf0f3f6);
 constexpr Ink kStrongZone = ink(0xd3efe2);
-constexpr Ink kStrong = ink(0xb3261e);  ///< faults, limits
 constexpr Ink kFaint = ink(0xb9c2cc);
 constexpr Ink kMixed = ink(0x8a8f98);
 
 constexpr double kBandShade = 0.22;  ///< opacity
 constexpr double kCurveWidth = 2;    // of lines and radii of dots [pixels]
 constexpr double kLimitWidth = 1.6;
-constexpr double kGridWidth = 1;
 constexpr double kDot = 2.8;
 constexpr double kFaintDot = 1.8;
 constexpr double kLonelyDot = 2.5;
 constexpr double kNamedDot = 4.5;
-constexpr double kTickLength = 5;
 constexpr double kLaneLow = 0.20;  ///< of a lane's height
 constexpr double kLaneHigh = 0.80;
 
-using Dash = std::vector<double>;  ///< on, off, ... [pixels]; empty: a line without gaps
 const Dash kLimitDash = {7, 5};
 const Dash kMarkDash = {2, 4};
 
@@ -69,19 +60,13 @@ Points isolated(const Points& points) {
 
 bool is_limit(const Band& band) { return band.low == band.high; }
 
-/// Where a thin line along an axis is one row of pixels and not two pale ones.
-double crisp(double place) { return std::floor(place) + 0.5; }
-
-enum class Align { left, middle };
-
-class Painter {
+class Painter : Paper {
  public:
   Painter(cairo_t* pen, const Plot& plot, const PlotLayout& layout)
-      : pen_(pen), plot_(plot), layout_(layout) {}
+      : Paper(pen), plot_(plot), layout_(layout) {}
 
   void paint() const {
-    set_ink(pen_, kPaper);
-    cairo_paint(pen_);
+    blank();
     text(layout_.left, 24, fitted(plot_.title, PlotType::title, width(), true), Align::left, PlotType::title,
          true);
     for (std::size_t i = 0; i < plot_.panels.size(); ++i) panel(i);
@@ -95,54 +80,6 @@ class Painter {
  private:
   [[nodiscard]] double width() const { return layout_.right - layout_.left; }
 
-  static std::string fitted(const std::string& words, double size, double room, bool bold = false) {
-    return fitted_text(one_line(words), size, room, bold);
-  }
-
-  // ---- ink on paper [pixels] ----
-
-  /// Words of one line, the middle of their height at `y`; upwards from there if `across`.
-  void text(double x, double y, const std::string& words, Align align, double size, bool bold = false,
-            const Ink& colour = kText, bool across = false) const {
-    set_font(pen_, size, bold);
-    set_ink(pen_, colour);
-    cairo_save(pen_);
-    cairo_translate(pen_, x, y);
-    if (across) cairo_rotate(pen_, -std::numbers::pi / 2);
-    write_text(pen_, align == Align::left ? 0 : -text_width(pen_, words) / 2, 0.36 * size, words);
-    cairo_restore(pen_);
-  }
-
-  /// Draws the pen's path.
-  void stroke(const Ink& colour, double line_width, const Dash& dash = {}) const {
-    set_ink(pen_, colour);
-    cairo_set_line_width(pen_, line_width);
-    cairo_set_line_join(pen_, CAIRO_LINE_JOIN_ROUND);  // a peak of one sample has no tip of its own
-    cairo_set_dash(pen_, dash.data(), static_cast<int>(dash.size()), 0);
-    cairo_stroke(pen_);
-  }
-
-  void line(double from_x, double from_y, double to_x, double to_y, const Ink& colour, double line_width,
-            const Dash& dash = {}) const {
-    cairo_new_path(pen_);
-    cairo_move_to(pen_, from_x, from_y);
-    cairo_line_to(pen_, to_x, to_y);
-    stroke(colour, line_width, dash);
-  }
-
-  void box(double left, double top, double right, double bottom, const Ink& colour,
-           double opacity = 1) const {
-    set_ink(pen_, colour, opacity);
-    fill_box(pen_, left, top, right - left, bottom - top);
-  }
-
-  void dot(double x, double y, double radius, const Ink& colour) const {
-    set_ink(pen_, colour);
-    cairo_new_path(pen_);
-    cairo_arc(pen_, x, y, radius, 0, 2 * std::numbers::pi);
-    cairo_fill(pen_);
-  }
-
   /// Those inside of the area; at its border they are whole.
   void dots(const PlotArea& area, const Points& points, double radius, const Ink& colour) const {
     for (std::size_t i = 0; i < points.x.size(); ++i) {
@@ -155,16 +92,6 @@ class Painter {
   static bool is_inside(const PlotArea& area, double x, double y) {
     constexpr double hair = 1e-6;
     return x >= area.left - hair && x <= area.right + hair && y >= area.top - hair && y <= area.bottom + hair;
-  }
-
-  /// What `draw` draws ends at the area's border.
-  template <typename Draw>
-  void clipped(const PlotArea& area, const Draw& draw) const {
-    cairo_save(pen_);
-    cairo_rectangle(pen_, area.left, area.top, area.right - area.left, area.bottom - area.top);
-    cairo_clip(pen_);
-    draw();
-    cairo_restore(pen_);
   }
 
   // ---- a panel, from the ground up ----
@@ -237,7 +164,7 @@ class Painter {
     for (const Tick& tick : place.y_ticks) {
       const double y = crisp(area.y(tick.value));
       line(left, y, left + kTickLength, y, kAxis, kGridWidth);
-      text(left - 8 - text_width(tick.label, PlotType::text), y, tick.label, Align::left, PlotType::text);
+      text(left - 8, y, tick.label, Align::right, PlotType::text);
     }
   }
 
@@ -361,26 +288,26 @@ class Painter {
     const std::span<const double> x = points.x;
     const std::span<const double> y = points.y;
     const std::size_t stretch = dash.empty() ? 200 : x.size();
-    cairo_set_line_cap(pen_, dash.empty() ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_cap(pen(), dash.empty() ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     for (std::size_t first = 0; first + 1 < x.size(); first += stretch) {
       const std::size_t count = std::min(stretch + 1, x.size() - first);
-      trace(pen_, area, x.subspan(first, count), y.subspan(first, count), steps);
+      trace(pen(), area, x.subspan(first, count), y.subspan(first, count), steps);
       stroke(colour, kCurveWidth, dash);
     }
-    cairo_set_line_cap(pen_, CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_cap(pen(), CAIRO_LINE_CAP_BUTT);
   }
 
   void fill_to_zero(const PlotArea& area, const Points& points, const Ink& colour) const {
-    cairo_new_path(pen_);
+    cairo_new_path(pen());
     for (std::size_t i = 0; i < points.x.size(); ++i) {
       if (!std::isfinite(points.y[i])) continue;
       const double x = area.x(points.x[i]);
-      if (i == 0 || !std::isfinite(points.y[i - 1])) cairo_move_to(pen_, x, area.y(0));
-      cairo_line_to(pen_, x, area.y(points.y[i]));
-      if (i + 1 == points.x.size() || !std::isfinite(points.y[i + 1])) cairo_line_to(pen_, x, area.y(0));
+      if (i == 0 || !std::isfinite(points.y[i - 1])) cairo_move_to(pen(), x, area.y(0));
+      cairo_line_to(pen(), x, area.y(points.y[i]));
+      if (i + 1 == points.x.size() || !std::isfinite(points.y[i + 1])) cairo_line_to(pen(), x, area.y(0));
     }
-    set_ink(pen_, colour, 0.35);
-    cairo_fill(pen_);
+    set_ink(pen(), colour, 0.35);
+    cairo_fill(pen());
   }
 
   // ---- lanes: likewise ----
@@ -436,7 +363,7 @@ class Painter {
       const double right = area.x(state.until);
       const auto order = static_cast<std::size_t>(std::distance(values.begin(), values.find(state.value)));
       box(left, top, right, bottom, state.mixed ? kMixed : kStateInks[order % kStateInks.size()]);
-      cairo_rectangle(pen_, left, top, right - left, bottom - top);
+      cairo_rectangle(pen(), left, top, right - left, bottom - top);
       stroke(kSoftText, 0.8);
       const auto label = fmt::format("{:g}", state.value);
       if (!state.mixed && text_width(label, PlotType::mark) + 6 <= right - left)
@@ -444,7 +371,6 @@ class Painter {
     }
   }
 
-  cairo_t* pen_;
   const Plot& plot_;
   const PlotLayout& layout_;
 };

@@ -1,0 +1,57 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renders/plot_area.hpp"
+
+namespace drycut::renders {
+
+/// One quantity that a map lies over.
+struct MapAxis {
+  std::string label;           ///< with unit: "length [mm]"
+  std::vector<double> values;  ///< ascending, two or more
+};
+
+/// What a point of a map belongs to.
+struct MapRegion {
+  std::string label;  ///< "passed", "fails: rms torque"
+  enum class Kind { good, bad, none } kind = Kind::bad;
+};
+
+/// Lines of equal value over a map.
+struct MapLines {
+  std::string label;           ///< with unit: "rms torque [N m]"
+  std::vector<double> values;  ///< a number a point; not a number where there is none
+};
+
+/// A border that is known from elsewhere: a closed form, an envelope.
+struct MapCurve {
+  std::string label;
+  std::vector<std::pair<double, double>> points;
+};
+
+/// Two quantities against each other: every point of the grid coloured by what it belongs to, with lines of
+/// equal value over it. Points are in rows of y, each with a point for each x.
+struct MapPlot {
+  std::string name;  ///< file name without extension
+  std::string title;
+  MapAxis x;
+  MapAxis y;
+  std::vector<MapRegion> regions;
+  std::vector<std::size_t> region;  ///< of each point
+  std::vector<MapLines> lines = {};
+  std::vector<MapCurve> curves = {};
+  int width = 1200;  ///< pixels, with the legend on the right
+  int height = 700;
+};
+
+/// Where the axes of its picture are [pixels].
+PlotArea map_area(const MapPlot& map);
+
+/// Draws the map into `directory` as <name>.png. Throws std::invalid_argument if it cannot be drawn,
+/// std::runtime_error if the file cannot be written. Same data, same bytes.
+std::filesystem::path draw_map(const MapPlot& map, const std::filesystem::path& directory);
+
+}  // namespace drycut::renders
