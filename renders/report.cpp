@@ -259,6 +259,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   write_checks(page, report.checks);
   for (const ReportTable& table : report.summary) write_table(page, table);
   for (const ReportText& text : report.texts) write_text(page, text);
+  for (std::size_t i = 0; i < report.maps.size(); ++i) page += map_figure(report.maps[i], i);
   write_frames(page, report);
   write_plots(page, report);
   write_sections(page, report);
@@ -274,6 +275,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   write_scenario(page, report.scenario_expanded);
   page += "</main>\n";
   page += live_plots(report.live);
+  page += live_maps(report.maps);
   page += "</body>\n</html>\n";
   replace_file(file, page);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renders/plots.hpp"
+#include "renders/report_map.hpp"
 
 namespace drycut::renders {
 
@@ -60,6 +61,7 @@ struct Report {
   std::vector<ReportCheck> checks;
   std::vector<ReportTable> summary;    ///< what is read before the pictures: a comparison
   std::vector<ReportText> texts = {};  ///< to copy
+  std::vector<ReportMap> maps = {};    ///< before the frames
   std::vector<ReportFigure> frames;    ///< chosen frames, shown as a strip
   std::filesystem::path video;         ///< MP4 of all frames, "" = none
   std::vector<ReportFigure> plots;
