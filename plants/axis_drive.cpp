@@ -11,7 +11,13 @@ namespace drycut::plants {
 
 namespace {
 
-std::variant<ServoDrive, Inverter, ContactorDrive> chosen(const AxisDriveData& data, Random noise) {
+std::variant<ServoDrive, Inverter, ContactorDrive, SharedMotor> chosen(const AxisDriveData& data,
+                                                                       Random noise) {
+  if (data.kind == "shared" && data.has_servo_motor())
+    return SharedMotor(data.shared, motor_current(data.servo), data.servo.heat, ratings(data.servo));
+  if (data.kind == "shared")
+    return SharedMotor(data.shared, motor_current(data.motor), data.motor.heat,
+                       ratings(data.motor, data.inverter.torque_limit));
   if (data.kind == "inverter") return Inverter(data.inverter, data.motor);
   if (data.kind == "contactors") return ContactorDrive(data.contactors, data.motor);
   return ServoDrive(data.servo, noise);
@@ -42,6 +48,11 @@ void offer(const ServoDrive& servo, std::vector<Channel>& channels) {
                       "1 while the torque limit acts"});
 }
 
+void offer(const SharedMotor& motor, std::vector<Channel>& channels) {
+  channels.push_back({"shared.closed", "", [&motor] { return motor.contact().closed() ? 1.0 : 0.0; },
+                      "1 while the contactor connects the motor to the drive"});
+}
+
 // Inverter and contactors look alike from outside: one scene may try either.
 template <class Drive>
 void offer(const Drive& drive, std::vector<Channel>& channels) {
@@ -66,6 +77,11 @@ void offer(ServoDrive& servo, std::vector<Port>& ports) {
   ports.push_back({"servo.enable", &servo.enable, "enable of the amplifier; strapped high unless wired"});
 }
 
+void offer(SharedMotor& motor, std::vector<Port>& ports) {
+  ports.push_back({"shared.select", &motor.select,
+                   "closes the contactor that connects the motor to the other axis' drive"});
+}
+
 template <class Drive>
 void offer(Drive& drive, std::vector<Port>& ports) {
   ports.push_back({"drive.forward", &drive.forward, "inverter's input or contactor for positive motion"});
@@ -83,27 +99,89 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 }  // namespace
 
 AxisDrive::AxisDrive(const AxisDriveData& data, Random noise)
-    : data_(data), drive_(chosen(data, noise)), brake_(data.brake) {}
+    : data_(data), drive_(chosen(data, noise)), brake_(data.brake), changeover_(data.shared) {}
+
+void AxisDriveData::share(const AxisDriveData& lender) {
+  AxisDriveData own = lender;
+  own.kind = kind;
+  own.fed_as = lender.kind;
+  own.brake = brake;
+  own.shared = shared;
+  *this = std::move(own);
+}
+
+void AxisDrive::lend_to(AxisDrive& other, Shaft& rotor) {
+  changeover_.add(std::get<SharedMotor>(other.drive_), rotor);
+}
+
+bool AxisDrive::live() const {
+  return std::visit(Overloaded{[](const ServoDrive& servo) { return servo.enabled(); },
+                               [](const Inverter& inverter) { return inverter.live(); },
+                               [](const auto& drive) { return drive.moving(); }},
+                    drive_);
+}
+
+// Contacts that open while the drive gives current burn; those that close onto its voltage let it jump.
+void AxisDrive::switch_over(Shaft& rotor, double h) {
+  const auto now = changeover_.update(rotor, h);
+  if (now != connected_ && live()) {
+    if (connected_.rotor != nullptr)
+      switched_.push_back({"switched_live", 0, {{"torque", drive_torque(), "N m"}, {"closed", 0, ""}}});
+    if (now.rotor != nullptr)
+      switched_.push_back({"switched_live", 0, {{"torque", 0, "N m"}, {"closed", 1, ""}}});
+  }
+  connected_ = now;
+  if (changeover_.take_trip()) power().switch_off();
+}
+
+PowerStage::Step AxisDrive::given() const {
+  return std::visit(Overloaded{[](const ServoDrive& servo) {
+                                 return PowerStage::Step{servo.torque(), 0, 0, servo.enabled()};
+                               },
+                               [](const Inverter& inverter) { return inverter.given(); },
+                               [](const auto&) { return PowerStage::Step{}; }},
+                    drive_);
+}
 
 void AxisDrive::drive(Shaft& rotor, double h) {
+  const bool shared = changeover_.shared();
+  if (shared) switch_over(rotor, h);
+  SharedMotor* const other = connected_.motor;
+  Shaft& fed = other != nullptr ? *connected_.rotor : rotor;
+  const Feed feed{shared && connected_.rotor == nullptr, other != nullptr ? &other->power() : nullptr};
   bool tripped = false;
   moves_ = std::visit(Overloaded{[&](ServoDrive& servo) {
-                                   servo.drive(rotor, h);
+                                   servo.drive(fed, h, feed);
                                    return servo.enabled();
                                  },
-                                 [&](auto& drive) {
-                                   drive.drive(rotor, h);
-                                   using Drive = std::decay_t<decltype(drive)>;
-                                   tripped = drive.state() == Drive::State::tripped;
-                                   return drive.moving();
+                                 [&](Inverter& inverter) {
+                                   inverter.drive(fed, h, feed);
+                                   tripped = inverter.state() == Inverter::State::tripped;
+                                   return inverter.moving();
+                                 },
+                                 [&](ContactorDrive& contactors) {
+                                   contactors.drive(rotor, h);
+                                   tripped = contactors.state() == ContactorDrive::State::tripped;
+                                   return contactors.moving();
+                                 },
+                                 [&](SharedMotor& motor) {
+                                   motor.drive(rotor, h);
+                                   return motor.moving();
                                  }},
                       drive_);
+  if (other != nullptr) other->give(given());
+  if (feed.open || other != nullptr) moves_ = false;
   just_tripped_ = tripped && !tripped_;
   tripped_ = tripped;
   brake_.update(moves_, h);
 }
 
 double AxisDrive::torque() const {
+  if (connected_.motor != nullptr) return 0;
+  return drive_torque();
+}
+
+double AxisDrive::drive_torque() const {
   return std::visit([](const auto& drive) { return drive.torque(); }, drive_);
 }
 
@@ -112,12 +190,12 @@ PowerStage& AxisDrive::power() {
 }
 
 double AxisDrive::rated_torque() const {
-  return data_.kind == "servo" ? data_.servo.rated_torque : data_.motor.winding.rated_torque;
+  return data_.has_servo_motor() ? data_.servo.rated_torque : data_.motor.winding.rated_torque;
 }
 
 void AxisDrive::offer_ports(std::vector<Port>& ports) {
   std::visit([&ports](auto& drive) { offer(drive, ports); }, drive_);
-  power().offer_ports(ports, data_.kind == "servo" ? "servo" : "drive");
+  if (data_.kind != "shared") power().offer_ports(ports, data_.kind == "servo" ? "servo" : "drive");
   if (data_.brake.torque > 0)
     ports.push_back({"brake.release", &brake_.release,
                      "releases the brake, with the drive unless brake.control says otherwise; strapped high "
@@ -134,6 +212,10 @@ void AxisDrive::offer_channels(std::vector<Channel>& channels) const {
         drive.power().offer_channels(channels);
       },
       drive_);
+  // What it takes from the mains is the drive's.
+  if (data_.kind == "shared")
+    std::erase_if(channels, [](const Channel& channel) { return channel.name == "drive.energy"; });
+  changeover_.offer_channels(channels);
   if (data_.brake.torque > 0)
     channels.push_back(
         {"brake.engaged", "", [this] { return brake_.released() ? 0.0 : 1.0; }, "1 while the brake holds"});
@@ -141,13 +223,17 @@ void AxisDrive::offer_channels(std::vector<Channel>& channels) const {
 
 void AxisDrive::offer_faults(std::vector<Fault>& faults) {
   std::visit(Overloaded{[&faults](ServoDrive& servo) { servo.offer_faults(faults, "servo"); },
+                        [&faults](SharedMotor& motor) { motor.contact().offer_faults(faults, "shared"); },
                         [&faults](auto& drive) { drive.offer_faults(faults); }},
              drive_);
+  changeover_.offer_faults(faults);
   if (data_.brake.torque > 0) brake_.offer_faults(faults);
 }
 
 std::vector<Event> AxisDrive::take_events(const Shaft& rotor) {
   std::vector<Event> events = power().take_events();
+  for (Event& event : switched_) events.push_back(std::move(event));
+  switched_.clear();
   if (just_tripped_) events.push_back({"trip", 0, {{"speed", rotor.speed_before * units::rpm, "rpm"}}});
   return events;
 }
@@ -157,6 +243,10 @@ void AxisDrive::offer_events(std::vector<EventType>& types) {
                    {{"speed", "rpm"}},
                    "inverter or breaker has switched the motor off: both contactors closed, a phase lost "
                    "behind the inverter, an overload, the fault trip; speed of the motor then"});
+  types.push_back({"switched_live",
+                   {{"torque", "N m"}, {"closed", ""}},
+                   "a contactor between a shared drive and its motors has opened (closed 0) or closed (1) "
+                   "while the drive was on: it burns, or the motor jumps; torque that it has interrupted"});
   PowerStage::offer_events(types);
 }
 
@@ -200,7 +290,7 @@ void object_to_winding(const WindingData& data, const std::string& prefix, doubl
 }  // namespace
 
 Objections axis_drive_objections(const AxisDriveData& data, double inertia, double h) {
-  if (data.kind == "servo") return servo_objections(data.servo, inertia, h);
+  if (data.has_servo_motor()) return servo_objections(data.servo, inertia, h);
   Objections found;
   object_to_winding(data.motor.winding, "induction_motor.", inertia, h, found);
   if (data.motor.max_speed <= data.motor.winding.rated_speed)

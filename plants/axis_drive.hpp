@@ -3,6 +3,7 @@
 #include <variant>
 #include <vector>
 
+#include "plants/changeover.hpp"
 #include "plants/contactor_drive.hpp"
 #include "plants/holding_brake.hpp"
 #include "plants/inverter.hpp"
@@ -12,18 +13,23 @@ namespace drycut::plants {
 
 /// The motor of an axis with what feeds and what holds it.
 struct AxisDriveData {
-  std::string kind = "servo";  ///< servo, inverter, contactors
+  std::string kind = "servo";    ///< servo, inverter, contactors, shared
+  std::string fed_as = "servo";  ///< shared: kind of the drive that feeds it
   ServoData servo = {};
   InductionMotorData motor = {};  ///< of inverter and contactors
   InverterData inverter = {};
   ContactorData contactors = {};
   HoldingBrakeData brake = {};
+  SharedDriveData shared = {};
   std::string servo_model = std::string(no_model);  ///< whose values `servo` has; whoever fills it sees to it
   std::string motor_model = std::string(no_model);  ///< whose `motor` has
 
   [[nodiscard]] double rotor_inertia() const {  ///< of the motor that is chosen [kg m2]
-    return kind == "servo" ? servo.rotor_inertia : motor.rotor_inertia;
+    return has_servo_motor() ? servo.rotor_inertia : motor.rotor_inertia;
   }
+  [[nodiscard]] bool has_servo_motor() const { return (kind == "shared" ? fed_as : kind) == "servo"; }
+  /// Takes the motor of the axis whose drive it shares.
+  void share(const AxisDriveData& lender);
 };
 
 /// Where a machine's defaults are from.
@@ -32,7 +38,8 @@ struct AxisDriveSources {
   ServoSources servo = {};
   std::string_view brake_torque = "none";
 };
-/// Rows for a parameter table: `drive`, `servo.`, `induction_motor.`, `inverter.`, `contactors.`, `brake.`.
+/// Rows for a parameter table but for those of a shared drive: `drive`, `servo.`, `induction_motor.`,
+/// `inverter.`, `contactors.`, `brake.`.
 Parameters axis_drive_parameters(AxisDriveData& data, const AxisDriveSources& from = {});
 /// What is wrong with the data taken together; `inertia` turns with the motor [kg m2], steps of `h`
 /// seconds.
@@ -47,6 +54,9 @@ class AxisDrive {
   /// friction of brake_torque() that the plant applies with the other friction.
   void drive(Shaft& rotor, double h);
 
+  /// Shares the drive with the motor of another axis, which is `drive: shared` and turns `rotor`.
+  void lend_to(AxisDrive& other, Shaft& rotor);
+
   [[nodiscard]] double torque() const;  ///< of the motor [N m]
   [[nodiscard]] PowerStage& power();    ///< the electrical side
   [[nodiscard]] double brake_torque() const { return brake_.torque(); }
@@ -58,7 +68,10 @@ class AxisDrive {
 
   /// For Plant::drives(), with what it turns, seen at the motor [kg m2].
   [[nodiscard]] std::vector<DriveOfPlant> drives(double load_inertia) {
-    return {{data_.kind == "servo" ? "servo" : "drive", &power(), load_inertia}};
+    return {{data_.kind == "shared"  ? "motor"
+             : data_.kind == "servo" ? "servo"
+                                     : "drive",
+             &power(), load_inertia}};
   }
 
   // What it adds to a plant's lists.
@@ -69,13 +82,20 @@ class AxisDrive {
 
  private:
   [[nodiscard]] double rated_torque() const;
+  [[nodiscard]] double drive_torque() const;
+  [[nodiscard]] PowerStage::Step given() const;
+  [[nodiscard]] bool live() const;
+  void switch_over(Shaft& rotor, double h);
 
   AxisDriveData data_;
-  std::variant<ServoDrive, Inverter, ContactorDrive> drive_;
+  std::variant<ServoDrive, Inverter, ContactorDrive, SharedMotor> drive_;
   HoldingBrake brake_;
+  Changeover changeover_;
+  Changeover::Connected connected_;  // in the last step
   bool moves_ = false;
   bool tripped_ = false;
   bool just_tripped_ = false;
+  std::vector<Event> switched_;
 };
 
 }  // namespace drycut::plants

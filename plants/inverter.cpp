@@ -75,8 +75,9 @@ void Inverter::advance(int direction, double h) {
   }
 }
 
-void Inverter::drive(Shaft& rotor, double h) {
-  power_.account(last_, rotor, h);
+void Inverter::drive(Shaft& rotor, double h, const Feed& feed) {
+  power_.account(last_, turned_ != nullptr ? *turned_ : rotor, h);
+  turned_ = &rotor;
   const int forwards = forward_filter_.update(forward.level, h) ? 1 : 0;
   const int backwards = backward_filter_.update(backward.level, h) ? 1 : 0;
   slow_filter_.update(slow.level, h);
@@ -91,7 +92,11 @@ void Inverter::drive(Shaft& rotor, double h) {
   limited_ = false;
   slip_ = torque_ = 0;
   last_ = {};
-  if (moving() || state_ == State::holding) {
+  const bool turns = moving() || state_ == State::holding;
+  live_ = turns || state_ == State::dc_braking;
+  if (feed.open) {
+    if (!turns) field_ = 0;
+  } else if (turns) {
     const double wanted = field_ - rotor.speed;
     slip_ = std::clamp(wanted, -limit_slip_, limit_slip_);
     limited_ = slip_ != wanted;
@@ -106,6 +111,7 @@ void Inverter::drive(Shaft& rotor, double h) {
       last_ = {torque_, -torque_ * rotor.speed, 0, true};
     }
   }
+  last_.motor = feed.motor;
   rotor.add_torque(torque_);
 }
 

@@ -39,12 +39,15 @@ class Inverter {
   CommandPort backward;
   CommandPort slow;
 
-  /// Torque on the rotor for the coming step of `h` seconds.
-  void drive(Shaft& rotor, double h);
+  /// Torque on the rotor for the coming step of `h` seconds. Behind contactors it is the rotor that they
+  /// connect; with nothing connected the frequency goes on.
+  void drive(Shaft& rotor, double h, const Feed& feed = {});
 
   enum class State { off, running, stopping, holding, dc_braking, tripped };
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] bool moving() const { return state_ == State::running || state_ == State::stopping; }
+  [[nodiscard]] const PowerStage::Step& given() const { return last_; }  ///< in this step
+  [[nodiscard]] bool live() const { return live_; }        ///< there is voltage at its terminals
   [[nodiscard]] double torque() const { return torque_; }  ///< on the rotor [N m]
   [[nodiscard]] double field_speed() const {
     return field_;
@@ -72,6 +75,7 @@ class Inverter {
   InverterData data_;
   PowerStage power_;
   PowerStage::Step last_;
+  const Shaft* turned_ = nullptr;  // in the last step
   Winding winding_;
   double speed_per_hertz_;  // of the field [rad/s/Hz]
   double rated_field_;      // [rad/s]
@@ -85,6 +89,7 @@ class Inverter {
   double torque_ = 0;
   double limit_slip_;
   bool limited_ = false;
+  bool live_ = false;
   bool trip_ = false;
   bool phase_lost_ = false;
 };

@@ -6,7 +6,8 @@
 
 namespace drycut::plants {
 
-LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier)
+LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier,
+                       LinearAxis* lender)
     : data_(data),
       world_(world),
       carrier_(carrier),
@@ -17,7 +18,9 @@ LinearAxis::LinearAxis(const LinearAxisData& data, World& world, const LinearAxi
                        -std::cos(data.inclination) * std::sin(data.heading)},
               .gravity = true},
              world),
-      drive_(data.drive, world.random("linear axis servo")) {}
+      drive_(data.drive, world.random("linear axis servo")) {
+  if (lender != nullptr) lender->drive_.lend_to(drive_, rotor());
+}
 
 void LinearAxis::drive(double h) {
   drive_.drive(rotor(), h);

@@ -42,8 +42,9 @@ struct LinearAxisData : ScrewDriveData {
 /// carriage; `trip` (speed) of inverter or contactors.
 class LinearAxis : public Plant {
  public:
-  /// `carrier`: see LinearAxisData, may be null.
-  LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier);
+  /// `carrier`: see LinearAxisData, may be null; `lender`: whose drive it shares, null for its own.
+  LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier,
+             LinearAxis* lender = nullptr);
 
   void drive(double h) override;
   void sense(double h) override;
@@ -57,6 +58,7 @@ class LinearAxis : public Plant {
   Parameters live_parameters() override;
   void parameters_changed() override;
 
+  [[nodiscard]] const AxisDriveData& drive_data() const { return data_.drive; }
   [[nodiscard]] Slide& carriage() const { return screw_.slide; }
   [[nodiscard]] Shaft& rotor() const { return screw_.rotor; }
   /// Turn of the screw or pulley ahead of the carriage [rad].
@@ -95,9 +97,13 @@ Parameters linear_axis_parameters(LinearAxisData& data, const LinearAxisSources&
 class LinearAxisDefinition : public PlantDefinition {
  public:
   LinearAxisData data;
-  Parameters parameters() override { return linear_axis_parameters(data); }
+  Parameters parameters() override;
   std::vector<Objection> objections(double h) override;
+  std::vector<Objection> objections_with(const FindDefinition& find, double h) override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
+
+ private:
+  [[nodiscard]] std::vector<Objection> of_all(double h) const;
 };
 
 }  // namespace drycut::plants

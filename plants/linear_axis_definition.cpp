@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
 #include "plants/axis_objections.hpp"
 #include "plants/linear_axis.hpp"
 
@@ -68,7 +73,18 @@ Parameters linear_axis_parameters(LinearAxisData& data, const LinearAxisSources&
       picture(data));
 }
 
-std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections(double h) {
+// Its motor may hang on the drive of another axis.
+Parameters LinearAxisDefinition::parameters() {
+  Parameters rows = linear_axis_parameters(data);
+  const auto drive =
+      std::find_if(rows.begin(), rows.end(), [](const Parameter& row) { return row.name == "drive"; });
+  drive->choices.emplace_back("shared");
+  Parameters shared = group("shared.", shared_drive_parameters(data.drive.shared, "linear_axis"));
+  rows.insert(drive + 1, std::make_move_iterator(shared.begin()), std::make_move_iterator(shared.end()));
+  return rows;
+}
+
+std::vector<PlantDefinition::Objection> LinearAxisDefinition::of_all(double h) const {
   AxisObjections found("carriage", h);
   const double inertia = motor_inertia(data, data.drive.rotor_inertia());
   found.screw(data, inertia);
@@ -78,12 +94,44 @@ std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections(double 
   return found.take();
 }
 
+// A shared drive's motor is known with its axis: objections_with().
+std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections(double h) {
+  const bool shared = data.drive.kind == "shared";
+  const auto& lender = data.drive.shared.drive;
+  if (!shared && lender != no_plant)
+    return {{"shared.drive", "its own drive is named too", "drive: shared, or leave out shared.drive"}};
+  if (!shared) return of_all(h);
+  if (lender != no_plant) return {};
+  return {{"shared.drive", "no axis is named whose drive it shares", "shared: {drive: NAME}"}};
+}
+
+std::vector<PlantDefinition::Objection> LinearAxisDefinition::objections_with(const FindDefinition& find,
+                                                                              double h) {
+  if (data.drive.kind != "shared" || data.drive.shared.drive == no_plant) return {};
+  const auto* lender = dynamic_cast<const LinearAxisDefinition*>(find(data.drive.shared.drive));
+  if (lender == nullptr) return {};  // told by whoever looks for it
+  const auto& kind = lender->data.drive.kind;
+  if (lender == this || kind == "shared")
+    return {{"shared.drive", fmt::format("{} has no drive of its own", data.drive.shared.drive),
+             "name the axis that has the drive"}};
+  if (kind != "servo" && kind != "inverter")
+    return {{"shared.drive", fmt::format("the drive of {} is {}", data.drive.shared.drive, kind),
+             "a servo or an inverter may be shared"}};
+  data.drive.share(lender->data.drive);
+  return of_all(h);
+}
+
 std::unique_ptr<Plant> LinearAxisDefinition::build(World& world,
                                                    const std::function<Plant*(std::string_view)>& find) {
   const LinearAxis* carrier = data.carrier == no_plant ? nullptr
                                                        : &referred<LinearAxis>(find, "carrier", data.carrier,
                                                                                "linear_axis", ", or none");
-  return std::make_unique<LinearAxis>(data, world, carrier);
+  LinearAxis* lender = nullptr;
+  if (data.drive.kind == "shared" && data.drive.shared.drive != no_plant) {
+    lender = &referred<LinearAxis>(find, "shared.drive", data.drive.shared.drive, "linear_axis");
+    data.drive.share(lender->drive_data());
+  }
+  return std::make_unique<LinearAxis>(data, world, carrier, lender);
 }
 
 }  // namespace drycut::plants

@@ -63,6 +63,16 @@ void PowerStage::prepare(double h) {
   if (amplifier_) i2t_share_ = -std::expm1(-every_ * h / time_constant(*amplifier_));
 }
 
+// Another motor has the torque: amplifier and link feel it, this motor stands still.
+void PowerStage::feed(const Step& step, double speed, double h) {
+  other_ = step.motor;
+  elsewhere_.work += step.torque * speed * h;
+  elsewhere_.torque_squared += step.torque * step.torque * h;
+  elsewhere_.rotor_loss += step.rotor_loss * h;
+  if (step.energised) elsewhere_.energised += h;
+  torque_ = speed_ = 0;
+}
+
 void PowerStage::saturate(double asked, double h) {
   totals_.saturated += h;
   const double now = totals_.time + steps_ * h;
@@ -89,23 +99,36 @@ void PowerStage::settle(double h) {
   const double squared = amperes_squared(current_, sum_.torque_squared / seconds, rotor_loss, energised);
   loss_ = current_.resistance * squared * heat_.resistance() + rotor_loss;
   heat_.warm(loss_, seconds);
-  if (amplifier_) i2t_ += (squared / (amplifier_->current * amplifier_->current) - i2t_) * i2t_share_;
-
   const double copper = loss_ * seconds;
+  double fed = squared;
+  double energy = sum_.work + copper;
+  bool energised_at_all = energised > 0;
+  if (other_ != nullptr) {
+    const double lost = elsewhere_.rotor_loss / seconds;
+    const double theirs =
+        amperes_squared(current_, elsewhere_.torque_squared / seconds, lost, elsewhere_.energised / seconds);
+    fed += theirs;
+    energy += elsewhere_.work + (current_.resistance * theirs * other_->heat_.resistance() + lost) * seconds;
+    energised_at_all = energised_at_all || elsewhere_.energised > 0;
+    other_ = nullptr;
+    elsewhere_ = {};
+  }
+  if (amplifier_) i2t_ += (fed / (amplifier_->current * amplifier_->current) - i2t_) * i2t_share_;
   if (link_) {
-    link_->carry(sum_.work + copper, seconds);
+    link_->carry(energy, seconds);
     speed_share_ = link_->speed_share();
     totals_.from_mains = link_->from_mains();
     totals_.in_resistor = link_->in_resistor();
     peaks_.voltage = std::max(peaks_.voltage, link_->voltage());
   } else {
-    totals_.from_mains += sum_.work + copper;
+    totals_.from_mains += energy;
   }
   totals_.time += seconds;
   totals_.work += sum_.work;
   totals_.copper += copper;
   totals_.rotor_loss += sum_.rotor_loss;
   totals_.current_squared += squared * seconds;
+  totals_.fed_squared += fed * seconds;
   totals_.torque_squared += sum_.torque_squared;
   totals_.travel += sum_.travel;
   const double torque = std::abs(torque_);
@@ -117,7 +140,7 @@ void PowerStage::settle(double h) {
   if (torque > 0) peaks_.share = std::max(peaks_.share, available > 0 ? torque / available : 1);
 
   if (saturation_.on && totals_.time - saturation_.end > saturation_gap) end_saturation();
-  watch(energised > 0);
+  watch(energised_at_all);
   show();
   sum_ = {};
   steps_ = 0;
@@ -188,21 +211,23 @@ void PowerStage::offer_faults(std::vector<Fault>& faults) {
 }
 
 void PowerStage::offer_events(std::vector<EventType>& types) {
-  types.insert(types.end(),
-               {{"saturated",
-                 {{"begin", "s"}, {"end", "s"}, {"asked", "%"}},
-                 "the torque limit has acted from begin to end (gaps under 10 ms are none): the largest "
-                 "torque that the loop asked for over the limit"},
-                {"overload",
-                 {{"i2t", "%"}, {"temperature", "degC"}, {"resistor", "%"}},
-                 "the drive has tripped: I2t of the amplifier or load of the brake resistor at 100 %, or "
-                 "the winding at its limit; it is off until enabled anew"},
-                {"bus_overvoltage",
-                 {{"voltage", "V"}},
-                 "the drive has tripped: braking has lifted the DC link over its limit"},
-                {"bus_undervoltage",
-                 {{"voltage", "V"}},
-                 "the drive has tripped: the DC link has sunk below its limit"}});
+  types.insert(
+      types.end(),
+      {{"saturated",
+        {{"begin", "s"}, {"end", "s"}, {"asked", "%"}, {"share", "%"}},
+        "the torque limit has acted from begin to end (gaps under 10 ms are none): the largest "
+        "torque that the loop asked for over the limit, and how much of the machine cycle that was, at "
+        "most 100 % (drives.cycle, else the last from cut to cut, else the run so far)"},
+       {"overload",
+        {{"i2t", "%"}, {"temperature", "degC"}, {"resistor", "%"}},
+        "the drive has tripped: I2t of the amplifier or load of the brake resistor at 100 %, or "
+        "the winding at its limit; it is off until enabled anew"},
+       {"bus_overvoltage",
+        {{"voltage", "V"}},
+        "the drive has tripped: braking has lifted the DC link over its limit"},
+       {"bus_undervoltage",
+        {{"voltage", "V"}},
+        "the drive has tripped: the DC link has sunk below its limit"}});
 }
 
 std::vector<PlantDefinition::Objection> power_objections(const std::string& group,

@@ -61,7 +61,8 @@ struct DriveTotals {
   double from_mains = 0;       ///< [J]
   double in_resistor = 0;      ///< [J]
   double torque_squared = 0;   ///< integral [N2 m2 s]
-  double current_squared = 0;  ///< integral [A2 s]
+  double current_squared = 0;  ///< integral, of the motor [A2 s]
+  double fed_squared = 0;      ///< integral, of the amplifier: of all motors that it feeds by turns [A2 s]
   double travel = 0;           ///< integral of the speed's size [rad]
   double saturated = 0;        ///< time in which the torque limit acted [s]
 };
@@ -74,6 +75,14 @@ struct DrivePeaks {
   double voltage = 0;  ///< of the link [V]
   double i2t = 0;      ///< of the amplifier, 1 = it trips
   double winding = 0;  ///< temperature [K]
+};
+
+class PowerStage;
+
+/// What the contactors between a drive and its motors connect.
+struct Feed {
+  bool open = false;            ///< nothing: the drive gives no current
+  PowerStage* motor = nullptr;  ///< another motor of the same type, by its own stage; null = the drive's own
 };
 
 /// The electrical side of a drive: current, loss and heat of its motor, the amplifier's I2t, DC link, brake
@@ -92,25 +101,32 @@ class PowerStage {
     double rotor_loss = 0;  ///< of an induction motor [W]
     double asked = 0;       ///< torque over what the limit let through, at most 1 where it let all through
     bool energised = false;
+    const PowerStage* motor = nullptr;  ///< whose torque it was, see Feed
   };
   /// Accounts for the last step of `h` seconds.
   void account(const Step& step, const Shaft& rotor, double h) {
     if (edge_) clear_edges();
     const double speed = 0.5 * (rotor.speed_before + rotor.speed);
-    sum_.work += step.torque * speed * h;
-    sum_.torque_squared += step.torque * step.torque * h;
-    sum_.travel += std::abs(speed) * h;
-    sum_.rotor_loss += step.rotor_loss * h;
-    if (step.energised) sum_.energised += h;
+    if (step.motor != nullptr) {
+      feed(step, speed, h);
+    } else {
+      sum_.work += step.torque * speed * h;
+      sum_.torque_squared += step.torque * step.torque * h;
+      sum_.travel += std::abs(speed) * h;
+      sum_.rotor_loss += step.rotor_loss * h;
+      if (step.energised) sum_.energised += h;
+      torque_ = step.torque;
+      speed_ = speed;
+    }
     if (step.asked > 1) saturate(step.asked, h);
-    torque_ = step.torque;
-    speed_ = speed;
     if (++steps_ >= every_) settle(h);
   }
 
   /// The drive is switched off by its own protection; until reset().
   [[nodiscard]] bool tripped() const { return tripped_; }
   void reset() { tripped_ = false; }
+  /// Switched off by what another motor on it has told.
+  void switch_off() { tripped_ = true; }
   /// It never trips from now on: for who measures a loop for longer than a drive would bear.
   void disarm() { armed_ = false; }
   /// Share of its speeds that the link's voltage leaves to the motor, at most 1.
@@ -150,6 +166,7 @@ class PowerStage {
 
  private:
   void prepare(double h);
+  void feed(const Step& step, double speed, double h);
   void saturate(double asked, double h);
   void settle(double h);
   void end_saturation();
@@ -177,6 +194,8 @@ class PowerStage {
     double rotor_loss = 0;
     double energised = 0;
   } sum_;
+  Sum elsewhere_;                      // of another motor
+  const PowerStage* other_ = nullptr;  // that motor, where it had torque since the last settling
 
   DriveTotals totals_;
   DrivePeaks peaks_;

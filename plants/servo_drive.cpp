@@ -35,11 +35,14 @@ DriveRatings ratings(const ServoData& given) {
           .max_speed = data.max_speed};
 }
 
+MotorCurrent motor_current(const ServoData& data) {
+  return {.per_torque_squared = 1 / (data.torque_constant * data.torque_constant),
+          .resistance = 1.5 * electrical(data).winding_resistance};
+}
+
 ServoDrive::ServoDrive(const ServoData& data, Random noise)
     : data_(electrical(data)),
-      power_({.per_torque_squared = 1 / (data.torque_constant * data.torque_constant),
-              .resistance = 1.5 * data_.winding_resistance},
-             data.heat, ratings(data), data_.amplifier, data.supply),
+      power_(motor_current(data), data.heat, ratings(data), data_.amplifier, data.supply),
       random_(noise) {
   enable.level = true;
 }
@@ -118,21 +121,29 @@ void ServoDrive::give(double command, Shaft& rotor) {
 }
 
 // What the last step came to, and a trip that the enable takes back.
-void ServoDrive::begin(const Shaft& rotor, double h) {
+void ServoDrive::begin(const Shaft& rotor, double h, const Feed& feed) {
   if (h != h_) prepare(h);
-  power_.account({torque_, 0, saturated_ ? asked_ : 0, energised_}, rotor, h);
+  const Shaft& turned = turned_ != nullptr ? *turned_ : rotor;
+  power_.account({torque_, 0, saturated_ ? asked_ : 0, energised_, motor_of_}, turned, h);
+  turned_ = &rotor;
+  motor_of_ = feed.motor;
   if (enable.level && !enabled_before_) power_.reset();
   enabled_before_ = enable.level;
   energised_ = enabled();
 }
 
-void ServoDrive::drive(Shaft& rotor, double h) {
-  begin(rotor, h);
+void ServoDrive::drive(Shaft& rotor, double h, const Feed& feed) {
+  begin(rotor, h, feed);
   faults_.drifted += faults_.drift * h;
   double input = faults_.stuck ? faults_.stuck_at : reference.volts;
   input += data_.offset + faults_.offset + faults_.drifted;
   if (faults_.noise > 0) input += faults_.noise * random_.gaussian();
   converted_ = convert(input);
+  if (feed.open) {  // current and loops end with the circuit
+    filtered_ = integral_ = torque_ = 0;
+    saturated_ = false;
+    return;
+  }
   if (!energised_) return release(rotor);
   filtered_ += (converted_ * speed_per_volt_ - filtered_) * filter_share_;
   give(speed_loop(rotor.speed, h), rotor);

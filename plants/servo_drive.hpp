@@ -44,6 +44,9 @@ struct ServoData {
 /// rated power lost in cold copper, an amplifier that has the current for the motor's torques.
 [[nodiscard]] ServoData electrical(ServoData data);
 
+/// Current and loss of the servo's motor.
+[[nodiscard]] MotorCurrent motor_current(const ServoData& data);
+
 /// The servo's curves of torque over speed: those of the motor, as far as the amplifier has current for them.
 [[nodiscard]] DriveRatings ratings(const ServoData& data);
 
@@ -67,8 +70,9 @@ class ServoDrive {
   CommandPort enable;  ///< high unless something is wired to it (strapped in the cabinet); its rising edge
                        ///< resets a trip of the power stage
 
-  /// One step of the amplifier: torque on the rotor for the coming step of `h` seconds.
-  void drive(Shaft& rotor, double h);
+  /// One step of the amplifier: torque on the rotor for the coming step of `h` seconds. Behind contactors it
+  /// is the rotor that they connect.
+  void drive(Shaft& rotor, double h, const Feed& feed = {});
   /// The same with the speed reference of a position loop [rad/s]: neither analogue input nor its filter.
   void follow(double speed_reference, Shaft& rotor, double h);
   /// The same without a torque command: the motor coasts, and the loop starts from its speed afterwards.
@@ -90,7 +94,7 @@ class ServoDrive {
   void offer_power_faults(std::vector<Fault>& faults, const std::string& component);
 
  private:
-  void begin(const Shaft& rotor, double h);
+  void begin(const Shaft& rotor, double h, const Feed& feed = {});
   void release(Shaft& rotor);
   void prepare(double h);
   [[nodiscard]] double convert(double volts) const;
@@ -113,6 +117,8 @@ class ServoDrive {
   bool saturated_ = false;
   double asked_ = 0;  // torque over what the limit let through
   bool energised_ = false;
+  const Shaft* turned_ = nullptr;         // in the last step
+  const PowerStage* motor_of_ = nullptr;  // whose it was
   bool enabled_before_ = true;
 
   struct Faults {
