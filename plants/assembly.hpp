@@ -22,6 +22,23 @@ inline const Pose downward = about_x(std::numbers::pi / 2);
   return name + (side < 0 ? " 1" : " 2");
 }
 
+/// The same parts further down the line [m].
+[[nodiscard]] inline std::vector<Part> moved_along(std::vector<Part> parts, double distance) {
+  if (distance == 0) return parts;
+  for (Part& part : parts) {
+    if (!part.frame) {
+      part.offset = at(distance, 0, 0) * part.offset;
+      continue;
+    }
+    part.frame = [distance, frame = std::move(part.frame)] {
+      PartPose now = frame();
+      now.pose = at(distance, 0, 0) * now.pose;
+      return now;
+    };
+  }
+  return parts;
+}
+
 /// Collects the parts of a machine as they are put on each other. Each part is at `offset` in the frame
 /// that was named last; at first that is the floor.
 class Assembly {

@@ -70,6 +70,9 @@ class Cutter {
   };
   [[nodiscard]] Load load(const Shaft& drum, const Slide& web);
 
+  /// Another coupling from now on [N s/m].
+  void couple(double coupling) { data_.coupling = coupling; }
+
   /// What happened in the last step.
   struct Outcome {
     bool separated = false;  ///< at `fraction` of the step

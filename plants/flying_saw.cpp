@@ -34,17 +34,25 @@ FlyingSaw::FlyingSaw(const FlyingSawData& data, World& world, Web& web)
     : data_(data),
       world_(world),
       web_(web),
+      station_(data.station, web, data.travel_min, data.travel_max),
       screw_(data, "saw", data.drive.servo.rotor_inertia, {.name = "saw carriage", .mass = data.mass}, world),
       servo_(data.drive, rotor(), world.random("saw servo")),
       clamp_(data.clamp),
       head_(data.head, world),
       cut_(data.blade, web.data().cross_section(), data.head.clearance) {}
 
+Slide& FlyingSaw::material() {
+  const Slide& before = station_.material();
+  Slide& now = station_.under(carriage().position, carriage().speed);
+  if (&now != &before) cut_.handed(before, now);
+  return now;
+}
+
 void FlyingSaw::drive(double h) {
-  Slide& material = web_.material();
+  Slide& material = this->material();
   servo_.drive(rotor(), h);
   screw_.transmit();
-  const SawCut::Load load = cut_.load(head_.body(), carriage(), material);
+  const SawCut::Load load = cut_.load(head_.body(), carriage(), material, !station_.is_empty());
   carriage().add_force(outer_force_);
   carriage().add_force(load.sideways);
   material.add_force(-load.sideways);
@@ -84,8 +92,9 @@ void FlyingSaw::sense(double h) {
   servo_.sense(rotor());
   for (Event& event : servo_.take_events(rotor())) happened(std::move(event));
   head_.sense(h);
-  clamp_.sense(carriage(), web_.material(), h);
-  report(cut_.sense(head_.body(), carriage(), web_.material(), h));
+  const Slide& material = this->material();
+  clamp_.sense(carriage(), material, h);
+  report(cut_.sense(head_.body(), carriage(), material, h));
   for (std::size_t i = 0; i < crashes_.size(); ++i) watch(screw_.stops[i], crashes_[i]);
 }
 
@@ -95,20 +104,23 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
               1,
               {{"force", std::abs(cut_.sideways()), "N"},
                {"displacement", cut_.displacement() * units::millimetres, "mm"}}});
-  if (!outcome.separated) return;
-  last_length_ = web_.separate(outcome.fraction, outcome.mark);
+  if (!outcome.separated || station_.is_empty()) return;
+  station_.cut(outcome.fraction, outcome.mark);
   last_slant_ = outcome.slant;
   last_pinch_ = outcome.pinch;
   ++cuts_;
-  happened({"cut",
-            outcome.fraction,
-            {{"length", last_length_ * units::millimetres, "mm"},
-             {"slant", outcome.slant * units::millimetres, "mm"},
-             {"mismatch", outcome.mismatch * units::millimetres, "mm/s"},
-             {"pinch", outcome.pinch, "N"},
-             {"force", outcome.force, "N"},
-             {"time", outcome.time * units::milliseconds, "ms"},
-             {"number", static_cast<double>(cuts_), ""}}});
+  Event cut = {"cut",
+               outcome.fraction,
+               {{"length", station_.length() * units::millimetres, "mm"},
+                {"slant", outcome.slant * units::millimetres, "mm"},
+                {"mismatch", outcome.mismatch * units::millimetres, "mm/s"},
+                {"pinch", outcome.pinch, "N"},
+                {"force", outcome.force, "N"},
+                {"time", outcome.time * units::milliseconds, "ms"},
+                {"number", static_cast<double>(cuts_), ""}}};
+  station_.describe(cut);
+  happened(std::move(cut));
+  for (Event& scrap : station_.take_events()) happened(std::move(scrap));
 }
 
 std::vector<DriveOfPlant> FlyingSaw::drives() { return servo_.drives(load_inertia(data_)); }
@@ -124,7 +136,10 @@ std::vector<EventType> FlyingSaw::event_types() {
         {"time", "ms"},
         {"number", ""}},
        "the blade is through: length of the piece where the blade touched, how far the cut is out of "
-       "square, largest speed mismatch, largest sideways and cutting force, time from the touch, number"},
+       "square, largest speed mismatch, largest sideways and cutting force, time from the touch, number; on "
+       "a "
+       "printed web register, how far the cut lies behind the nearest mark; of a station down the line rest, "
+       "what is left of the piece behind the cut"},
       {"pinch",
        {{"force", "N"}, {"displacement", "mm"}},
        "the material and the carriage pinch the blade: sideways force, displacement since the touch"},
@@ -132,6 +147,8 @@ std::vector<EventType> FlyingSaw::event_types() {
        {{"side", ""}, {"speed", "mm/s"}, {"impulse", "N s"}, {"force", "N"}},
        "the carriage has been in an end stop: side -1 lower or 1 upper, speed when it touched, impulse "
        "until it was off again (or 100 ms), largest force"}};
+  station_.describe(types.front());
+  station_.offer_events(types);
   ServoAxis::offer_events(types);
   return types;
 }
@@ -149,10 +166,11 @@ std::vector<Port> FlyingSaw::ports() {
 std::vector<Channel> FlyingSaw::channels() {
   std::vector<Channel> channels = {
       {"position", "mm", [this] { return carriage().position * units::millimetres; },
-       "place of the blade on the line"},
+       "place of the blade on the line, from its station's"},
       {"speed", "m/min", [this] { return carriage().speed * units::metres_a_minute; },
        "speed of the carriage"},
-      {"mismatch", "mm/s", [this] { return (carriage().speed - web_.material().speed) * units::millimetres; },
+      {"mismatch", "mm/s",
+       [this] { return (carriage().speed - station_.material().speed) * units::millimetres; },
        "speed of the carriage less speed of the material"},
       on_off("clamp.closed", clamp_.closed.level, "1 while the clamps grip"),
       on_off("clamp.command", clamp_.command.level, "1 while the clamps are told to close"),
@@ -164,7 +182,8 @@ std::vector<Channel> FlyingSaw::channels() {
       {"blade.pinch", "N", [this] { return cut_.sideways(); }, "sideways force of the blade on the carriage"},
       {"blade.displacement", "mm", [this] { return cut_.displacement() * units::millimetres; },
        "way of the blade on the material since it touched, else 0"},
-      {"cut.length", "mm", [this] { return last_length_ * units::millimetres; }, "length of the last piece"},
+      {"cut.length", "mm", [this] { return station_.length() * units::millimetres; },
+       "length of the last piece"},
       {"cut.slant", "mm", [this] { return last_slant_ * units::millimetres; },
        "how far the last cut is out of square"},
       {"cut.pinch", "N", [this] { return last_pinch_; }, "largest sideways force of the last cut"},

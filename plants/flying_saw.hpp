@@ -9,6 +9,7 @@
 #include "plants/plant.hpp"
 #include "plants/screw_drive.hpp"
 #include "plants/servo_axis.hpp"
+#include "plants/station.hpp"
 #include "plants/web.hpp"
 
 namespace drycut::plants {
@@ -27,6 +28,7 @@ struct FlyingSawData : ScrewDriveData {
                        .sensors = {.limit_min = -0.03, .limit_max = 0.75}} {}
 
   std::string web = "web";  ///< the web, strip or tube, that it cuts, by name
+  StationData station;
   ServoAxisData drive = {.servo = {.speed_at_10v = 100 * std::numbers::pi, .inertia_ratio = 0.85}};
   ClampData clamp;
   SawHeadData head;
@@ -86,6 +88,7 @@ class FlyingSaw : public Plant {
     bool reported = false;
   };
   void watch(const EndStop& stop, Crash& crash);
+  Slide& material();  // under the blade now
   void report(const SawCut::Outcome& outcome);
   struct Picture;
   [[nodiscard]] double blade_axis() const;  // height over the line [m]
@@ -93,6 +96,7 @@ class FlyingSaw : public Plant {
   FlyingSawData data_;
   World& world_;
   Web& web_;
+  Station station_;
   ScrewDrive screw_;
   ServoAxis servo_;
   double outer_force_ = 0;        // set by the timeline [N]
@@ -101,9 +105,8 @@ class FlyingSaw : public Plant {
   SawHead head_;
   SawCut cut_;
   int cuts_ = 0;
-  double last_length_ = 0;  // [m]
-  double last_slant_ = 0;   // [m]
-  double last_pinch_ = 0;   // [N]
+  double last_slant_ = 0;  // [m]
+  double last_pinch_ = 0;  // [N]
 };
 
 Parameters flying_saw_parameters(FlyingSawData& data);
@@ -114,6 +117,7 @@ class FlyingSawDefinition : public PlantDefinition {
   Parameters parameters() override { return flying_saw_parameters(data); }
   std::vector<Objection> objections(double h) override;
   std::vector<Objection> objections_with(const FindDefinition& find, double h) override;
+  [[nodiscard]] std::optional<Stretch> stretch() const override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };
 

@@ -20,9 +20,9 @@ double cutting_time(const SawBladeData& blade, const Section& section, double fo
 SawCut::SawCut(const SawBladeData& blade, const Section& section, double clearance)
     : blade_(blade), section_(section), clearance_(clearance), height_(section_height(section)) {}
 
-SawCut::Load SawCut::load(const Slide& head, const Slide& carriage, const Slide& material) {
+SawCut::Load SawCut::load(const Slide& head, const Slide& carriage, const Slide& material, bool met) {
   resistance_ = sideways_ = 0;
-  if (!engaged_) return {};
+  if (!engaged_ || !met) return {};
   Load load;
   const double depth = head.position - clearance_;
   if (!separated_ && depth >= deepest_)

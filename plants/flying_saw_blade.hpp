@@ -35,7 +35,10 @@ class SawCut {
     double resistance = 0;  ///< force against downward motion of the head for its speed [N s/m]
     double sideways = 0;    ///< on the carriage along the line; the material has the opposite [N]
   };
-  [[nodiscard]] Load load(const Slide& head, const Slide& carriage, const Slide& material);
+  /// `met`: there is material.
+  [[nodiscard]] Load load(const Slide& head, const Slide& carriage, const Slide& material, bool met = true);
+  /// The material is another body from now on: a piece that was the web's end.
+  void handed(const Slide& from, const Slide& to) { mark_ += to.position - from.position; }
 
   /// What happened in the last step.
   struct Outcome {

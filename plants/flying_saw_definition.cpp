@@ -74,7 +74,7 @@ Objections objections_to(const WebData& web, const FlyingSawData& saw) {
 
 Parameters flying_saw_parameters(FlyingSawData& data) {
   return joined(
-      mechanics(data), group("clamp.", clamp_parameters(data.clamp)),
+      mechanics(data), station_parameters(data.station), group("clamp.", clamp_parameters(data.clamp)),
       group("head.", saw_head_parameters(data.head)), group("blade.", saw_blade_parameters(data.blade)),
       axis_transducer_parameters(data.sensors, {.limits = "10 mm before the stop"}),
       servo_axis_parameters(data.drive, {.inertia_ratio = "the default carriage on the motor",
@@ -103,10 +103,15 @@ Objections FlyingSawDefinition::objections_with(const FindDefinition& find, doub
   if (web == nullptr) return {};
   AxisObjections found("carriage", h);
   found.add(objections_to(web->data, data));
+  found.add(station_objections(data.station, web->data));
   found.pair("blade.stiffness", "blade.damping",
-             {data.blade.stiffness, data.blade.damping, reduced(data.mass, web->data.mass)},
+             {data.blade.stiffness, data.blade.damping, reduced(data.mass, web->data.mass_at_cut())},
              "blade and material");
   return found.take();
+}
+
+std::optional<PlantDefinition::Stretch> FlyingSawDefinition::stretch() const {
+  return Stretch{data.station.place + data.travel_min, data.station.place + data.travel_max};
 }
 
 std::unique_ptr<Plant> FlyingSawDefinition::build(World& world,

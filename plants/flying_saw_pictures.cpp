@@ -144,7 +144,7 @@ void FlyingSaw::Picture::add_head() {
         about_x(side < 0 ? 0 : std::numbers::pi) * at(0, 0.09, 0));
 }
 
-std::vector<Part> FlyingSaw::parts() { return Picture(*this).take(); }
+std::vector<Part> FlyingSaw::parts() { return moved_along(Picture(*this).take(), data_.station.place); }
 
 double FlyingSaw::blade_axis() const {
   const double height = section_height(web_.data().cross_section());
@@ -153,7 +153,7 @@ double FlyingSaw::blade_axis() const {
 
 void FlyingSaw::callouts(std::vector<Callout>& out) {
   const double height = section_height(web_.data().cross_section());
-  const double x = carriage().position;
+  const double x = data_.station.place + carriage().position;
   const auto force = [&](const char* what, const std::array<double, 3>& at, const std::array<double, 3>& f) {
     if (f != std::array<double, 3>{0, 0, 0}) out.push_back({Callout::Kind::force, what, at, f});
   };

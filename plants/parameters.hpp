@@ -14,6 +14,19 @@ inline constexpr std::string_view no_plant = "none";
 /// The word by which a group of a motor's values names no model of a catalogue.
 inline constexpr std::string_view no_model = "none";
 
+/// A choice of a word that stands for values of other parameters of the same table, "steel" for its density
+/// and more. Whoever fills the table takes these values first, then those that are given beside it.
+struct Preset {
+  struct Value {
+    std::string_view parameter;
+    double value;             ///< [SI]
+    std::string_view source;  ///< where it is from
+  };
+  std::string_view name;
+  std::string_view meaning;
+  std::vector<Value> values;
+};
+
 /// One parameter of a plant, bound to the member that holds it. A plain struct with defaults is the schema:
 /// this table over it is what the scenario reader fills, `drycut check --expand` writes and `drycut plants`
 /// prints.
@@ -30,7 +43,8 @@ struct Parameter {
   std::string_view reference = {};        ///< of a word: it names another plant of this type
   std::string_view source = {};           ///< where the default is from ("data sheet ...", "estimate")
   bool sole = false;                      ///< of a reference: no other plant may refer to the same one so
-  bool live = false;                      ///< of a quantity: the running machine takes another one
+  const std::vector<Preset>* presets = nullptr;  ///< of a word: what each choice stands for
+  bool live = false;                             ///< of a quantity: the running machine takes another one
 };
 using Parameters = std::vector<Parameter>;
 
@@ -55,6 +69,17 @@ inline Parameter row(std::string name, std::string_view meaning, std::string& va
 inline Parameter row(std::string name, std::string_view meaning, std::string& value, std::string_view type,
                      std::string_view source, bool sole) {
   return {std::move(name), "", meaning, &value, 0, 0, {}, type, source, sole};
+}
+
+/// A word whose choices are the names of `presets`, which outlive the table.
+inline Parameter preset_row(std::string name, std::string_view meaning, std::string& value,
+                            const std::vector<Preset>& presets, std::string_view source) {
+  std::vector<std::string> names;
+  names.reserve(presets.size());
+  for (const Preset& preset : presets) names.emplace_back(preset.name);
+  Parameter made = row(std::move(name), meaning, value, std::move(names), source);
+  made.presets = &presets;
+  return made;
 }
 
 /// The model of a motor, "servo.model", before its group: whoever fills the table knows a catalogue, plants

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -178,6 +179,12 @@ class PlantDefinition {
     (void)h;
     return {};
   }
+  /// The stretch of a line that the machine takes [m], where it works on one: no other may stand there.
+  struct Stretch {
+    double from;
+    double to;
+  };
+  [[nodiscard]] virtual std::optional<Stretch> stretch() const { return {}; }
   /// Builds the machine into `world`. `find` gives the already built plant that a reference parameter names.
   virtual std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) = 0;
 };

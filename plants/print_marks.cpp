@@ -8,7 +8,6 @@ namespace drycut::plants {
 
 namespace {
 
-constexpr double kept_behind = 6;  // [m] a travelling cut may still look at them
 constexpr double far_away = 1e6;
 
 PositionSwitchData reader(const PrintMarkData& data) { return {0, data.width, data.hysteresis, data.delay}; }
@@ -61,7 +60,7 @@ void PrintMarks::sense(double now, double h) {
   if (!printed()) return;
   const double under = now + data_.photocell;
   while (places_.back() <= under) print();
-  while (places_.size() > 2 && places_.front() < now - kept_behind - data_.pitch) places_.pop_front();
+  while (places_.size() > 2 && places_.front() < now - kept_behind_ - data_.pitch) places_.pop_front();
   photocell_.follow(std::abs(behind_mark(under)), h);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <deque>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ class PrintMarks {
   /// Places of the marks from the photocell to some metres behind the cut, in ascending order [m].
   [[nodiscard]] const std::deque<double>& places() const { return places_; }
 
+  /// Keeps the marks until they are that far behind the first cut [m]: a station there still looks at them.
+  void keep(double distance) { kept_behind_ = std::max(kept_behind_, distance); }
+
   /// shift under `marks`, and what the photocell offers under `component`.
   void offer_faults(std::vector<Fault>& faults, const std::string& marks, const std::string& photocell);
 
@@ -50,8 +54,9 @@ class PrintMarks {
   PrintMarkData data_;
   Random noise_;
   std::deque<double> places_;
-  ExactSum next_;     // place of the next mark without its scatter [m]
-  double shift_ = 0;  // since the last splice [m]
+  ExactSum next_;           // place of the next mark without its scatter [m]
+  double kept_behind_ = 6;  // [m] a travelling cut may still look at them
+  double shift_ = 0;        // since the last splice [m]
   PositionSwitch photocell_;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "plants/stiff_pair.hpp"
 
 namespace drycut::plants {
 
@@ -36,6 +37,7 @@ RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
       radius_(data.circumference / units::turn),
       along_web_(radius_ * std::cos(data.helix)),
       friction_(geared_friction(data.drum_friction, data.counter)),
+      station_(data.station, web, -radius_, radius_),
       rotor_(world.add_shaft({.name = "knife motor",
                               .inertia = data.drive.servo.rotor_inertia,
                               .revolutions = data.initial_angle / units::turn * data.gear.ratio})),
@@ -52,12 +54,23 @@ void RotaryKnife::drive(double h) {
   servo_.drive(rotor_, h);
   gear_.drive(rotor_, drum_);
   if (data_.motors > 1) drum_.add_torque(gear_.torque() * (data_.motors - 1));
-  const Cutter::Load load = cutter_.load(drum_, web_.material());
+  Slide& material = station_.under(0, drum_.speed * along_web_);
+  Cutter::Load load;
+  if (!station_.is_empty()) {
+    if (station_.is_light()) cutter_.couple(implicit_coupling(material, h));
+    load = cutter_.load(drum_, material);
+  }
   drum_.add_torque(load.torque);
-  web_.material().add_force(load.web_force);
+  material.add_force(load.web_force);
   // Dry friction last: it answers to all other torques.
   rotor_.add_torque(friction_effort(data_.motor_friction, rotor_.speed, rotor_.torque, rotor_.inertia, h));
   drum_.add_torque(friction_effort(friction_, drum_.speed, drum_.torque, drum_.inertia, h, load.dry));
+}
+
+// The coupling whose explicit force is that of the true one at the end of the step.
+double RotaryKnife::implicit_coupling(const Slide& material, double h) const {
+  return data_.coupling /
+         (1 + data_.coupling * h / reduced(drum_.inertia / (radius_ * radius_), material.mass));
 }
 
 void RotaryKnife::sense(double h) {
@@ -66,26 +79,27 @@ void RotaryKnife::sense(double h) {
   for (Event& event : servo_.take_events(rotor_)) happened(std::move(event));
   encoder_.sense(data_.encoder_on_drum ? drum_ : rotor_, h);
   home_.sense(drum_.part_before, drum_.part, h);
-  const Cutter::Outcome outcome = cutter_.sense(drum_, web_.material(), h);
+  const Cutter::Outcome outcome = cutter_.sense(drum_, station_.under(0, drum_.speed * along_web_), h);
+  if (station_.is_empty()) return;
   if (outcome.separated || outcome.tore || outcome.buckled) report(outcome);
 }
 
 void RotaryKnife::report(const Cutter::Outcome& outcome) {
   if (outcome.separated) {
-    last_length_ = web_.separate(outcome.fraction, outcome.mark);
+    station_.cut(outcome.fraction, outcome.mark);
     last_mismatch_ = outcome.mismatch;
     last_skew_ = outcome.skew;
     ++cuts_;
     Event cut = {"cut",
                  outcome.fraction,
-                 {{"length", last_length_ * units::millimetres, "mm"},
+                 {{"length", station_.length() * units::millimetres, "mm"},
                   {"mismatch", last_mismatch_ * units::millimetres, "mm/s"},
                   {"force", outcome.force, "N"},
                   {"number", static_cast<double>(cuts_), ""}}};
     if (data_.helix > 0) cut.values.push_back({"skew", last_skew_ * units::millimetres, "mm"});
-    if (web_.marks().printed())
-      cut.values.push_back({"register", web_.register_error() * units::millimetres, "mm"});
+    station_.describe(cut);
     happened(std::move(cut));
+    for (Event& scrap : station_.take_events()) happened(std::move(scrap));
   }
   if (outcome.tore || outcome.buckled)
     happened(
@@ -111,13 +125,14 @@ std::vector<Channel> RotaryKnife::channels() {
        "speed of the blade tips, of helical ones along the web"},
       {"blade.ratio", "",
        [this, blade_speed] {
-         const double web = web_.material().speed;
+         const double web = station_.material().speed;
          return web != 0 ? blade_speed() / web : 0;
        },
        "blade tip speed over web speed"},
       {"mismatch", "mm/s", [this] { return cutter_.mismatch() * units::millimetres; },
        "blade speed along the web minus web speed while the blade is in the web, else 0"},
-      {"cut.length", "mm", [this] { return last_length_ * units::millimetres; }, "length of the last piece"},
+      {"cut.length", "mm", [this] { return station_.length() * units::millimetres; },
+       "length of the last piece"},
       {"cut.mismatch", "mm/s", [this] { return last_mismatch_ * units::millimetres; },
        "largest speed mismatch of the last cut"},
       {"cut.force", "N", [this] { return cutter_.force(); }, "vertical force on the blade"},
@@ -144,15 +159,17 @@ std::vector<EventType> RotaryKnife::event_types() {
       {{"length", "mm"}, {"mismatch", "mm/s"}, {"force", "N"}, {"number", ""}},
       "a blade went through the web at bottom dead centre: length of the piece, largest speed "
       "mismatch in the web, largest vertical force, number since the start; on a printed web "
-      "register, how far the cut lies behind the nearest mark; of a helical blade, which cuts from "
+      "register, how far the cut lies behind the nearest mark; of a station down the line rest, what is "
+      "left of the piece behind the cut; of a helical blade, which cuts from "
       "edge to edge, skew, how far the cut is out of square over the width of the web, positive "
       "where the blade was too fast, and the length in the middle"};
   if (data_.helix > 0) cut.values.push_back({"skew", "mm"});
-  if (web_.marks().printed()) cut.values.push_back({"register", "mm"});
+  station_.describe(cut);
   std::vector<EventType> types = {
       cut,
       {"tear", {{"mismatch", "mm/s"}}, "the blade in the web was too fast: it tears"},
       {"buckle", {{"mismatch", "mm/s"}}, "the blade in the web was too slow: the web buckles"}};
+  station_.offer_events(types);
   ServoAxis::offer_events(types);
   return types;
 }

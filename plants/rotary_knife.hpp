@@ -7,6 +7,7 @@
 #include "plants/plant.hpp"
 #include "plants/position_switch.hpp"
 #include "plants/servo_axis.hpp"
+#include "plants/station.hpp"
 #include "plants/transmission.hpp"
 #include "plants/web.hpp"
 
@@ -14,7 +15,8 @@ namespace drycut::plants {
 
 /// Parameters of `type: rotary_knife`.
 struct RotaryKnifeData {
-  std::string web = "web";                  ///< the web that it cuts, by name
+  std::string web = "web";  ///< the web that it cuts, by name
+  StationData station;
   double circumference = 0.6;               ///< of the circle of the blade tips [m]
   int blade_count = 1;                      ///< evenly on the drum
   double blade_width = 0.4;                 ///< of the drum and its blades, across the line [m]
@@ -74,6 +76,7 @@ class RotaryKnife : public Plant {
   [[nodiscard]] double radius() const { return radius_; }  ///< of the blade tips [m]
 
  private:
+  [[nodiscard]] double implicit_coupling(const Slide& material, double h) const;
   void report(const Cutter::Outcome& outcome);
 
   struct Picture;
@@ -84,6 +87,7 @@ class RotaryKnife : public Plant {
   double radius_;
   double along_web_;   // radius in speeds along the web [m]
   Friction friction_;  // of the drum and what is geared to it
+  Station station_;
   Shaft& rotor_;
   Shaft& drum_;
   ServoAxis servo_;
@@ -92,7 +96,6 @@ class RotaryKnife : public Plant {
   PositionSwitch home_;
   Cutter cutter_;
   int cuts_ = 0;
-  double last_length_ = 0;    // [m]
   double last_mismatch_ = 0;  // [m/s]
   double last_skew_ = 0;      // [m]
 };
@@ -105,6 +108,7 @@ class RotaryKnifeDefinition : public PlantDefinition {
   Parameters parameters() override { return rotary_knife_parameters(data); }
   std::vector<Objection> objections(double h) override;
   std::vector<Objection> objections_with(const FindDefinition& find, double h) override;
+  [[nodiscard]] std::optional<Stretch> stretch() const override;
   std::unique_ptr<Plant> build(World& world, const std::function<Plant*(std::string_view)>& find) override;
 };
 

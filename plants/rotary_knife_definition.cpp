@@ -12,6 +12,9 @@ Parameters rotary_knife_parameters(RotaryKnifeData& data) {
   return joined(
       Parameters{
           row("web", "the web that it cuts", data.web, "web", "", true),
+      },
+      station_parameters(data.station),
+      Parameters{
           row("circumference", "mm", "circumference of the circle of the blade tips", data.circumference, 50,
               10000, "a usual size: drum of 191 mm"),
           row("blade_count", "blades, evenly on the drum", data.blade_count, 1, 24, "one cut a turn"),
@@ -147,9 +150,16 @@ std::vector<PlantDefinition::Objection> RotaryKnifeDefinition::objections_with(c
   AxisObjections found("drum", h);
   found.add(objections_to(web->data, data));
   const double radius = data.circumference / (2 * std::numbers::pi);
-  found.damper("coupling", data.coupling, reduced(data.geared() / (radius * radius), web->data.mass),
-               "blade and web");
+  found.add(station_objections(data.station, web->data));
+  if (!web->data.strip.on)
+    found.damper("coupling", data.coupling, reduced(data.geared() / (radius * radius), web->data.mass),
+                 "blade and web");
   return found.take();
+}
+
+std::optional<PlantDefinition::Stretch> RotaryKnifeDefinition::stretch() const {
+  const double radius = data.circumference / (2 * std::numbers::pi);
+  return Stretch{data.station.place - radius, data.station.place + radius};
 }
 
 std::unique_ptr<Plant> RotaryKnifeDefinition::build(World& world,

@@ -191,14 +191,14 @@ std::vector<Part> RotaryKnife::parts() {
   if (data_.helix > 0)
     for (Part& part : parts)
       if (!part.frame) part.offset = picture.mounting * part.offset;
-  return parts;
+  return moved_along(std::move(parts), data_.station.place);
 }
 
 void RotaryKnife::callouts(std::vector<Callout>& out) {
   const double force = cutter_.force();
   if (force <= 0) return;
   const double place = cutter_.place();
-  const std::array<double, 3> cut = {place * std::tan(data_.helix), 0,
+  const std::array<double, 3> cut = {data_.station.place + place * std::tan(data_.helix), 0,
                                      data_.helix > 0 ? place : data_.blade_width / 2};
   out.push_back({Callout::Kind::force, "cut", cut, {0, force, 0}});
 }

@@ -21,6 +21,12 @@ double section_area(const Section& section) {
   return std::numbers::pi * section.wall * (section.width - section.wall);
 }
 
+double section_bending(const Section& section) {
+  if (!section.tube) return section.width * std::pow(section.wall, 3) / 12;
+  const double inner = section.width - 2 * section.wall;
+  return std::numbers::pi / 64 * (std::pow(section.width, 4) - std::pow(inner, 4));
+}
+
 double section_chord(const Section& section, double depth) {
   if (depth <= 0 || depth >= section_height(section)) return 0;
   if (!section.tube) return section.width;

@@ -13,6 +13,8 @@ struct Section {
 [[nodiscard]] double section_height(const Section& section);
 /// Area of the material [m2].
 [[nodiscard]] double section_area(const Section& section);
+/// Its second moment about the axis across the line in its middle, against which a strip bends up [m4].
+[[nodiscard]] double section_bending(const Section& section);
 /// How much material a straight horizontal edge at `depth` below the top runs through [m]; 0 outside.
 [[nodiscard]] double section_chord(const Section& section, double depth);
 

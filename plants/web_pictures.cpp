@@ -13,18 +13,19 @@ namespace drycut::plants {
 
 namespace {
 
-constexpr double upstream = 1.7;     // visible web before the cut [m]
-constexpr double least_look = 3e-3;  // thinner web would vanish in the picture [m]
-constexpr double pull_x = -1.25;     // line drive
-constexpr double wheel_x = -0.7;
+constexpr double before_puller = 0.45;  // visible web before the line drive [m]
+constexpr double least_look = 3e-3;     // thinner web would vanish in the picture [m]
 constexpr double roll_diameter = 0.14;
 constexpr double stand_low = -0.24;  // foot of the pull rolls' stands
 constexpr double belt_height = 0.11;
 constexpr double infeed_leg = 0.75;
+constexpr double most_between_legs = 1.6;
 constexpr double outfeed_leg = 0.795;
-constexpr int tube_rollers = 4;
+constexpr double tube_roller_pitch = 0.4;
 constexpr double tube_roller = 0.09;       // outer diameter [m]
 constexpr double waist = tube_roller / 3;  // radius of a roller's waist, on which the tube lies
+constexpr double station_gap = 0.06;       // between a belt and a station on the line [m]
+constexpr double shortest_belt = 0.16;     // [m]
 constexpr int cleats = 8;                  // marks on the belt that show its motion
 
 constexpr looks::Look roll_look = {{0.62F, 0.64F, 0.67F}, "steel"};
@@ -40,7 +41,7 @@ constexpr double beyond_cut = 0.3;  // of the web before it is cut, where marks 
 double look_of(const WebData& data) { return std::max(section_height(data.cross_section()), least_look); }
 
 /// So many marks can be in sight.
-std::size_t prints_of(const PrintMarkData& marks) {
+std::size_t prints_of(const PrintMarkData& marks, double upstream) {
   if (marks.pitch <= 0) return 0;
   return std::min(most_prints, static_cast<std::size_t>((upstream + beyond_cut) / marks.pitch) + 2);
 }
@@ -49,7 +50,7 @@ std::size_t prints_of(const PrintMarkData& marks) {
 
 struct Web::Picture : Assembly {
   explicit Picture(const Web& web) : web_(web), data_(web.data_) {
-    add_material("web", [this_web = &web_] {
+    add_material("web", [this_web = &web_, upstream = upstream] {
       const double lead = this_web->overhang();
       return std::pair((lead - upstream) / 2, upstream + lead);
     });
@@ -70,7 +71,9 @@ struct Web::Picture : Assembly {
   void add_pull_rolls();
   void add_wheel();
   void add_stands();
+  [[nodiscard]] std::vector<std::pair<double, double>> belts() const;
   void add_outfeed();
+  void add_belt(double x, double length, int number);
   void add_tube_rollers();
   void add_cleats();
   void add_pieces();
@@ -98,6 +101,9 @@ struct Web::Picture : Assembly {
 
   const Web& web_;
   const WebData& data_;
+  double pull_x = -data_.strip.puller_distance;
+  double wheel_x = -data_.strip.wheel_distance;
+  double upstream = before_puller - pull_x;  // visible web before the cut [m]
   bool tube = data_.cross_section().tube;
   double look = look_of(data_);
   /// Width of rolls, tables and belt [m]: a tube needs more than its own.
@@ -143,36 +149,65 @@ void Web::Picture::add_stands() {
         at(pull_x, stand_low + stand / 2, -side * stands_z), "frame_post");
   box("infeed frame", {upstream - 0.3, 0.22, wide * 0.8}, looks::bed, at(-(upstream + 0.3) / 2, -0.13, 0),
       "hollow_frame");
-  const auto leg = [&](const char* name, double x) {
-    box(name, {0.09, infeed_leg, wide * 0.7}, looks::bed, at(x, floor_y + infeed_leg / 2, 0), "leg");
-  };
-  leg("infeed leg 1", -upstream + 0.25);
-  leg("infeed leg 2", -0.45);
+  const double first = -upstream + 0.25;
+  const double last = -0.45;
+  const int gaps = std::max(1, static_cast<int>(std::ceil((last - first) / most_between_legs)));
+  for (int i = 0; i <= gaps; ++i)
+    box(fmt::format("infeed leg {}", i + 1), {0.09, infeed_leg, wide * 0.7}, looks::bed,
+        at(first + (last - first) * i / gaps, floor_y + infeed_leg / 2, 0), "leg");
+}
+
+/// What the stations on it leave of the belt, from and to [m].
+std::vector<std::pair<double, double>> Web::Picture::belts() const {
+  std::vector<std::pair<double, double>> found;
+  double from = data_.outfeed.start;
+  const double end = from + data_.outfeed.length;
+  for (const auto& [before, behind] : web_.rooms_) {
+    if (std::min(before - station_gap, end) - from > shortest_belt)
+      found.emplace_back(from, std::min(before - station_gap, end));
+    from = std::max(from, behind + station_gap);
+  }
+  if (end - from > shortest_belt || found.empty())
+    found.emplace_back(from, std::max(end, from + shortest_belt));
+  return found;
 }
 
 void Web::Picture::add_outfeed() {
-  const double length = data_.outfeed.length;
-  const double x = data_.outfeed.start;
+  int number = 0;
+  for (const auto& [from, to] : belts()) add_belt(from, to - from, number++);
+}
+
+/// The belt of that number, from 0 on.
+void Web::Picture::add_belt(double x, double length, int number) {
   const double y = -0.001 - belt_height / 2;
-  box("outfeed belt", {length, belt_height, wide * 1.15}, rubber_look, at(x + length / 2, y, 0),
+  const auto named = [number](const char* name) {
+    return number == 0 ? std::string(name) : fmt::format("{} {}", name, number + 1);
+  };
+  const auto paired = [number](const char* name, double side) {
+    return fmt::format("{} {}", name, 2 * number + (side < 0 ? 1 : 2));
+  };
+  box(named("outfeed belt"), {length, belt_height, wide * 1.15}, rubber_look, at(x + length / 2, y, 0),
       "conveyor_belt");
   for (const double side : {-1.0, 1.0}) {
     const double end = side < 0 ? x + belt_height / 2 : x + length - belt_height / 2;
     on(turning(at(end, y, 0),
                [&belt = web_.outfeed_] { return -std::fmod(belt.belt_travel() / 0.05, units::turn); }));
-    rod(numbered("outfeed roll", side), 0.1, wide * 1.16, roll_look, {}, "roller");
+    rod(paired("outfeed roll", side), 0.1, wide * 1.16, roll_look, {}, "roller");
   }
   on_floor();
-  box("outfeed frame", {length - 0.15, 0.1, wide * 1.15 + 0.04}, looks::bed, at(x + length / 2, y - 0.01, 0),
-      "hollow_frame");
+  box(named("outfeed frame"), {length - std::min(0.15, length / 4), 0.1, wide * 1.15 + 0.04}, looks::bed,
+      at(x + length / 2, y - 0.01, 0), "hollow_frame");
   for (const double side : {-1.0, 1.0})
-    box(numbered("outfeed leg", side), {0.09, outfeed_leg, wide}, looks::bed,
-        at(side < 0 ? x + 0.45 : x + length - 0.3, floor_y + outfeed_leg / 2, 0), "leg");
+    box(paired("outfeed leg", side), {0.09, outfeed_leg, wide}, looks::bed,
+        at(side < 0 ? x + std::min(0.45, length / 4) : x + length - std::min(0.3, length / 4),
+           floor_y + outfeed_leg / 2, 0),
+        "leg");
 }
 
 void Web::Picture::add_tube_rollers() {
-  for (int i = 0; i < tube_rollers; ++i) {
-    on(turning(at(-1.55 + 0.4 * i, -waist, 0),
+  const int rollers = static_cast<int>((upstream - 0.1) / tube_roller_pitch);
+  for (int i = 0; i < rollers; ++i) {
+    on(turning(at(0.15 - upstream + tube_roller_pitch * i, -waist, 0),
                [&web = web_.material_] { return -std::fmod(web.position / waist, units::turn); }));
     rod(fmt::format("tube roller {}", i + 1), tube_roller, wide, roll_look, {}, "tube_roller");
   }
@@ -181,8 +216,11 @@ void Web::Picture::add_tube_rollers() {
 void Web::Picture::add_cleats() {
   const double length = data_.outfeed.length;
   for (int i = 0; i < cleats; ++i) {
-    on([start = data_.outfeed.start, length, i, &belt = web_.outfeed_] {
-      return at(start + std::fmod(belt.belt_travel() + length * i / cleats, length), -0.002, 0);
+    on([start = data_.outfeed.start, length, i, &belt = web_.outfeed_, all = belts()] {
+      const double x = start + std::fmod(belt.belt_travel() + length * i / cleats, length);
+      const bool seen = std::any_of(all.begin(), all.end(),
+                                    [x](const auto& one) { return x >= one.first && x <= one.second; });
+      return PartPose(at(x, -0.002, 0), seen);
     });
     box(fmt::format("belt mark {}", i + 1), {0.02, 0.004, wide * 1.15}, mark_look, {});
   }
@@ -198,7 +236,7 @@ void Web::Picture::add_pieces() {
 }
 
 void Web::Picture::add_prints() {
-  for (std::size_t i = 0; i < prints_of(data_.marks); ++i) {
+  for (std::size_t i = 0; i < prints_of(data_.marks, upstream); ++i) {
     on([&web = web_, i, place = at(0, look, 0.33 * data_.width)] {
       const std::vector<double> shown = web.prints_in_sight();
       return i < shown.size() ? PartPose(at(shown[i], 0, 0) * place) : PartPose({}, false);
@@ -216,6 +254,7 @@ double Web::overhang() const { return std::max(0.0, material_.position - lead_en
 std::vector<double> Web::prints_in_sight() const {
   std::vector<double> places(marks_.places().begin(), marks_.places().end());
   const double pitch = data_.marks.pitch * (1 + data_.marks.stretch);
+  const double upstream = data_.strip.puller_distance + before_puller;
   while (!places.empty() && material_.position - places.back() > -upstream)
     places.push_back(places.back() + pitch);
   std::vector<double> shown;

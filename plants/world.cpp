@@ -73,7 +73,8 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
 
   void internalSingleStepSimulation(btScalar h) override {
     for (ShaftBody& s : shafts) turn(s, h);
-    for (SlideBody& s : slides) move(s, h);
+    for (SlideBody& s : slides)
+      if (s.state.awake) move(s, h);
     if (slow_too)
       for (SlideBody& s : slow_slides)
         if (s.state.awake) move(s, h * World::slow_steps);

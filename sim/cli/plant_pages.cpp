@@ -169,6 +169,20 @@ Sheet parts_of(const Specimens& specimens) {
   return sheet;
 }
 
+/// What the choices of a parameter stand for: a row a value.
+Sheet presets_of(const plants::Parameter& chooser, const plants::Parameters& parameters) {
+  Sheet sheet("presets", fmt::format("What {} stands for", chooser.name),
+              {"name=" + chooser.name, "parameter", "value", "meaning", "source=from"});
+  for (const auto& preset : *chooser.presets)
+    for (const auto& value : preset.values) {
+      auto shown = *std::ranges::find(parameters, value.parameter, &plants::Parameter::name);
+      double si = value.value;
+      shown.value = &si;
+      sheet.add({preset.name, value.parameter, scenario::value_text(shown), preset.meaning, value.source});
+    }
+  return sheet;
+}
+
 Page plant_page(const plants::PlantType& type) {
   const auto name = [](const auto& item) { return item.name; };
   const auto name_and_unit = [](const auto& item) { return std::pair(item.name, item.unit); };
@@ -207,10 +221,13 @@ Page plant_page(const plants::PlantType& type) {
   Sheet events("events", "Events, for checks", {"name=event", "values", "meaning", "drives="});
   for (const auto& o : specimens.offered(&plants::Plant::event_types, name))
     events.add({o.item.name, values_cell(o.item), meaning_cell(o), drives_cell(o)});
-  return {std::string(type.name),
-          std::string(type.summary),
-          "",
-          {parameters, ports, channels, settings, faults, events, parts_of(specimens)}};
+  std::vector<Sheet> sheets = {parameters};
+  const auto table = specimens.parameters();
+  for (const auto& row : table)
+    if (row.presets != nullptr) sheets.push_back(presets_of(row, table));
+  for (auto& sheet : {ports, channels, settings, faults, events, parts_of(specimens)})
+    sheets.push_back(sheet);
+  return {std::string(type.name), std::string(type.summary), "", sheets};
 }
 
 }  // namespace

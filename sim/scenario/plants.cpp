@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <unordered_map>
@@ -91,6 +93,26 @@ void take_models(const YamlNode& node, PlantEntry& plant, MotorCatalogue& catalo
           .read(YamlNode(YamlNode::Kind::scalar, value.text), {full, model->text.place}, findings);
       plant.modelled.push_back(
           {parameter->name, fmt::format("{}, {}", motor->name.text, value.from), model->text.place});
+    }
+  }
+}
+
+// The values of the presets that a plant names, the same way.
+void take_presets(const YamlNode& node, PlantEntry& plant) {
+  const auto parameters = plant.definition->parameters();
+  for (const auto& row : parameters) {
+    const auto* const word = row.presets == nullptr ? nullptr : value_of(node, row.name);
+    if (word == nullptr || word->kind != YamlNode::Kind::scalar) continue;
+    const auto preset = std::find_if(row.presets->begin(), row.presets->end(),
+                                     [&](const auto& known) { return known.name == word->text.text; });
+    if (preset == row.presets->end()) continue;  // refused where the word itself is read
+    for (const auto& value : preset->values) {
+      const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&](const auto& candidate) {
+        return candidate.name == value.parameter;
+      });
+      *std::get<double*>(parameter->value) = value.value;
+      plant.modelled.push_back(
+          {parameter->name, fmt::format("{}, {}", preset->name, value.source), word->text.place});
     }
   }
 }
@@ -202,24 +224,45 @@ void object_to_each_other(const std::vector<PlantEntry>& all, Time step, Finding
     object(plant, plant.definition->objections_with(find, seconds(step)), findings);
 }
 
-// A reference that is `sole` is a place for one: a web has one cut.
+// One that refers to the same plant by a parameter that is `sole`, and what it takes of it.
+struct Standing {
+  const PlantEntry* plant;
+  std::string target;
+  plants::PlantDefinition::Stretch stretch;
+};
+
+std::string millimetres(const plants::PlantDefinition::Stretch& stretch) {
+  return fmt::format("{:.0f} to {:.0f} mm", stretch.from * 1000, stretch.to * 1000);
+}
+
+// A reference that is `sole` is a place for one: two machines cannot stand in one place on a line.
 void refuse_shared_places(const std::vector<PlantEntry>& all, Findings& findings) {
-  std::vector<std::pair<std::string, const PlantEntry*>> taken;
+  std::vector<Standing> taken;
   for (const auto& plant : all) {
     for (const auto& parameter : plant.definition->parameters()) {
       if (!parameter.sole) continue;
-      const auto& name = *std::get<std::string*>(parameter.value);
-      const auto other =
-          std::find_if(taken.begin(), taken.end(), [&](const auto& place) { return place.first == name; });
+      const auto everywhere = std::numeric_limits<double>::infinity();
+      const Standing one = {
+          &plant, *std::get<std::string*>(parameter.value),
+          plant.definition->stretch().value_or(plants::PlantDefinition::Stretch{-everywhere, everywhere})};
+      const auto other = std::find_if(taken.begin(), taken.end(), [&](const Standing& there) {
+        return there.target == one.target && there.stretch.from < one.stretch.to &&
+               one.stretch.from < there.stretch.to;
+      });
       if (other == taken.end()) {
-        taken.emplace_back(name, &plant);
+        taken.push_back(one);
         continue;
       }
-      findings.add(place_of(plant, parameter.name),
-                   fmt::format("plants.{}.{}: {} has the {} {} already", plant.name.text, parameter.name,
-                               name, other->second->type.text, other->second->name.text),
-                   fmt::format("give it a {} of its own: behind one cut the {} is in pieces",
-                               parameter.reference, parameter.reference));
+      const bool placed = std::ranges::find(plant.places, "place",
+                                            &decltype(plant.places)::value_type::first) != plant.places.end();
+      const std::string_view named = placed ? std::string_view("place") : std::string_view(parameter.name);
+      findings.add(
+          place_of(plant, std::string(named)),
+          fmt::format("plants.{}.{}: it takes {} of {}, where the {} {} stands, {}", plant.name.text, named,
+                      millimetres(one.stretch), one.target, other->plant->type.text, other->plant->name.text,
+                      millimetres(other->stretch)),
+          fmt::format("'place' {:.0f} mm or more further down the line, or a {} of its own",
+                      std::ceil((other->stretch.to - one.stretch.from) * 1000), parameter.reference));
     }
   }
 }
@@ -266,6 +309,7 @@ std::vector<PlantEntry> read_plants(const YamlNode& node, std::span<const plants
     if (!plant) continue;
     MapReader reader(entry.value, "plants." + name, findings);
     take_models(entry.value, *plant, catalogue, findings);
+    take_presets(entry.value, *plant);
     visit(reader, *plant);
     // An objection to a default would only be an echo.
     if (reader.is_sound()) object(*plant, plant->definition->objections(seconds(step)), findings);

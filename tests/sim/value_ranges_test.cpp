@@ -153,13 +153,34 @@ TEST_F(ValueRanges, APlantIsNotCalledLikeSomethingOfTheController) {
               ElementsAre("line.yaml:2:10: plants.D10: the controller has D10 too" + remedy));
 }
 
-TEST_F(ValueRanges, AWebHasOneCut) {
+TEST_F(ValueRanges, TwoStationsOnAWebDoNotStandInOnePlace) {
+  const std::string remedy = " mm or more further down the line, or a web of its own";
   EXPECT_THAT(
       built("scene: {duration: 1 s}\nplants:\n  web: {type: web}\n  other: {type: web}\n"
             "  knife: {type: rotary_knife, web: web}\n  third: {type: rotary_knife, web: other}\n"
-            "  saw: {type: flying_saw, web: web}\n"),
-      ElementsAre("line.yaml:7:32: plants.saw.web: web has the rotary_knife knife already; give it a web "
-                  "of its own: behind one cut the web is in pieces"));
+            "  saw: {type: flying_saw, web: web}\n"
+            "  fourth: {type: rotary_knife, web: other, place: 190 mm}\n"
+            "  fifth: {type: rotary_knife, web: other, place: 191 mm}\n"),
+      ElementsAre("line.yaml:7:32: plants.saw.web: it takes -40 to 760 mm of web, where the rotary_knife "
+                  "knife stands, -95 to 95 mm; 'place' 136" +
+                      remedy,
+                  "line.yaml:8:51: plants.fourth.place: it takes 95 to 285 mm of other, where the "
+                  "rotary_knife third stands, -95 to 95 mm; 'place' 1" +
+                      remedy));
+}
+
+TEST_F(ValueRanges, AMaterialGivesItsValuesAndOthersBesideIt) {
+  const std::string line = "scene: {duration: 1 s}\nplants: {web: {type: web, ";
+  EXPECT_THAT(built(line + "density: 8 g/cm3, material: steel, section: tube, elasticity: 200 GPa}}\n"),
+              IsEmpty());
+  const auto scenario = read(line + "density: 8 g/cm3, material: steel, elasticity: 200 GPa}}\n");
+  const auto& web = dynamic_cast<plants::WebDefinition&>(*scenario.plants.at(0).definition).data;
+  EXPECT_EQ(web.density, 8000);
+  EXPECT_EQ(web.strip.elasticity, 200e9);
+  EXPECT_EQ(web.shear_strength, 290e6);
+  EXPECT_EQ(web.strip.retardation, 2e-6);
+  EXPECT_FALSE(web.strip.on);
+  EXPECT_THAT(built(line + "material: steal}}\n"), ElementsAre(HasSubstr("steal")));
 }
 
 TEST_F(ValueRanges, StiffPairsAreJudgedAtTheScenariosStep) {
