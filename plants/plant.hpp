@@ -111,6 +111,7 @@ struct DriveOfPlant {
   std::string name;         ///< within the plant: "servo", "drive"
   PowerStage* stage;        ///< lives as long as the plant
   double load_inertia = 0;  ///< all that the motor turns but its rotor, seen at the motor [kg m2]
+  int alike = 1;            ///< drives that do the same, of which this is one
 };
 
 /// A machine or a part of a line. Bodies live in the World; everything else that acts is explicit.

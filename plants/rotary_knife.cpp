@@ -175,7 +175,9 @@ std::vector<EventType> RotaryKnife::event_types() {
 }
 
 std::vector<DriveOfPlant> RotaryKnife::drives() {
-  return servo_.drives(data_.geared() / (data_.gear.ratio * data_.gear.ratio * data_.motors));
+  auto drives = servo_.drives(data_.geared() / (data_.gear.ratio * data_.gear.ratio * data_.motors));
+  for (auto& drive : drives) drive.alike = data_.motors;
+  return drives;
 }
 
 Parameters RotaryKnife::live_parameters() { return live_rows(rotary_knife_parameters(data_)); }

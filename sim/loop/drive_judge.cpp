@@ -71,7 +71,7 @@ DriveJudge::DriveJudge(const scenario::Scenario& scenario, const std::vector<Nam
   next_ = cycle_;
   for (const auto& [name, plant] : plants)
     for (const auto& drive : plant->drives()) {
-      drives_.push_back({name, drive.name, drive.stage, drive.load_inertia});
+      drives_.push_back({name, drive.name, drive.stage, drive.load_inertia, drive.alike});
       if (cycle_ > 0) begin_cycles(drives_.back());
     }
 }
@@ -163,6 +163,8 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   verdict.cycles = whole        ? "the whole run: no cycle from cut to cut, none named (drives.cycle)"
                    : cycle_ > 0 ? fmt::format("{} cycles of {} s", drive.cycles, seconds_text(cycle_))
                                 : fmt::format("{} cycles from cut to cut", drive.cycles);
+  verdict.alike = drive.alike;
+  if (drive.alike > 1) verdict.cycles += fmt::format(", each of {} drives", drive.alike);
   const auto& worst = drive.worst;
   const auto& peaks = stage.peaks();
   const auto& ratings = verdict.ratings;
@@ -219,7 +221,8 @@ std::vector<DriveVerdict> DriveJudge::verdicts() const {
 
 std::string text_of(const DriveVerdict& verdict) {
   const auto& figure = verdict.tightest();
-  auto text = fmt::format("{}: {}{} {:.4g} of {:.4g} {} ({:.0f} %)", verdict.drive,
+  auto text = fmt::format("{}{}: {}{} {:.4g} of {:.4g} {} ({:.0f} %)", verdict.drive,
+                          verdict.alike > 1 ? fmt::format(", each of {}", verdict.alike) : "",
                           verdict.trips.empty() ? "" : fmt::format("{}; ", fmt::join(verdict.trips, ", ")),
                           figure.name, figure.value, figure.rating, figure.unit, figure.share * percent);
   std::vector<std::string> others;

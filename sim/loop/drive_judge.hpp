@@ -32,6 +32,7 @@ struct DriveVerdict {
   plants::DriveRatings ratings;
   std::vector<DriveFigure> figures;
   double inertia_ratio = 0;        ///< load over rotor
+  int alike = 1;                   ///< drives that do the same: all figures are those of one
   double energy = 0;               ///< from the mains, mean of a cycle [J]
   std::vector<std::string> trips;  ///< "overload at 3.2 s"
   /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
@@ -92,6 +93,7 @@ class DriveJudge : public Observer {
     std::string name;
     plants::PowerStage* stage = nullptr;
     double load_inertia = 0;
+    int alike = 1;
     bool begun = false;
     double energy = 0;  ///< from the mains in the cycles that count [J]
     bool judged = false;
@@ -117,7 +119,7 @@ class DriveJudge : public Observer {
   std::vector<Drive> drives_;
 };
 
-/// "knife.servo: rms torque 6.1 of 9.5 N m (64 %)".
+/// "knife.servo, each of 2: rms torque 6.1 of 9.5 N m (64 %)".
 std::string text_of(const DriveVerdict& verdict);
 
 }  // namespace drycut::sim::loop
