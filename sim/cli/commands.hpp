@@ -21,6 +21,7 @@ enum ExitStatus : int {
 void add_run(CLI::App& app, int& status);
 void add_check(CLI::App& app, int& status);
 void add_cam(CLI::App& app, int& status);
+void add_design(CLI::App& app, int& status);
 void add_tune(CLI::App& app, int& status);
 void add_bode(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);

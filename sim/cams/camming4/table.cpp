@@ -243,6 +243,8 @@ std::string file_of(CammingTable& table, const std::string& file) {
   if (table.maxvel > 0)
     text += fmt::format("# maxvel: {}\n# taccmax: {}\n# tdecmax: {}\n", table.maxvel, table.taccmax,
                         table.tdecmax);
+  if (table.travel.least) text += fmt::format("# minpos: {:.0f}\n", *table.travel.least);
+  if (table.travel.most) text += fmt::format("# maxpos: {:.0f}\n", *table.travel.most);
   text += "sector,codeG,codeQm,codeQs,codeQma,codeQsa,codeM\n";
   for (int number = 1; number <= camming4::cam_rows; ++number) {
     if (!table.has(number)) continue;

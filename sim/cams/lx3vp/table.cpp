@@ -319,6 +319,8 @@ std::string file_of(EcamTable& table, const std::string& file) {
   if (table.max_frequency > 0) text += fmt::format("# max_frequency: {}\n", table.max_frequency);
   if (table.time_axis != 0) text += fmt::format("# time_axis: {}\n", table.time_axis);
   text += fmt::format("# cyclic: {}\n", table.cyclic ? 1 : 0);
+  if (table.travel.least) text += fmt::format("# min_position: {:.0f}\n", *table.travel.least);
+  if (table.travel.most) text += fmt::format("# max_position: {:.0f}\n", *table.travel.most);
   if (!table.is_made()) {
     const auto above = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
     for (std::size_t i = 1; i <= table.rows.size(); ++i) table.lines.push_back(above + static_cast<int>(i));

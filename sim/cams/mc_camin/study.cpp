@@ -289,10 +289,15 @@ std::string file_of(CamFile& cam, const std::string& file) {
   auto text = table.file.empty() ? "" : fmt::format("## {}\n", table.file);
   text += fmt::format(
       "# interpolation: {}\n# master_modulo: {:.0f}\n# slave_modulo: {:.0f}\n# endless: {}\n# periodic: {}\n"
-      "# master_unit: {}\n# slave_unit: {}\n# maxvel: {}\n# maxacc: {}\n",
+      "# master_unit: {}\n# slave_unit: {}\n",
       name_of(cam.interpolation), cam.master_modulo, cam.slave_modulo,
       endless[static_cast<std::size_t>(static_cast<int>(cam.endless) + 1)], cam.periodic ? "yes" : "no",
-      cam.master_unit, cam.slave_unit, *cam.limits.velocity, *cam.limits.acceleration);
+      cam.master_unit, cam.slave_unit);
+  for (const auto& [key, limit] : {std::pair{"maxvel", cam.limits.velocity},
+                                   {"maxacc", cam.limits.acceleration},
+                                   {"minpos", cam.limits.travel.least},
+                                   {"maxpos", cam.limits.travel.most}})
+    if (limit) text += fmt::format("# {}: {}\n", key, *limit);
   const int columns = table.columns();
   cam.header = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
   text += columns == 4 ? "a0,a1,a2,a3\n" : columns == 2 ? "master,slave\n" : "slave\n";

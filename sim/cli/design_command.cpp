@@ -1,0 +1,305 @@
+#include "sim/cli/design_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "base/text.hpp"
+#include "base/units.hpp"
+#include "sim/cams/study.hpp"
+#include "sim/cli/arguments.hpp"
+#include "sim/file.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report/report.hpp"
+#include "sim/scenario/units.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+#include "sim/studies/design/sheet.hpp"
+
+namespace drycut::sim::cli {
+
+namespace {
+
+using studies::DesignAxes;
+using studies::DesignJob;
+using studies::DesignKind;
+using studies::MoveGoal;
+using studies::PulseWay;
+
+constexpr std::array kinds = {std::pair{"rotary_knife", DesignKind::rotary_knife},
+                              std::pair{"flying_saw", DesignKind::flying_saw},
+                              std::pair{"feed", DesignKind::feed}};
+constexpr std::array goals = {std::pair{"rms", MoveGoal::rms}, std::pair{"peak", MoveGoal::peak},
+                              std::pair{"jerk", MoveGoal::jerk}, std::pair{"energy", MoveGoal::energy}};
+using Fit = std::optional<studies::DeviceCam> (*)(const DesignJob&, const DesignAxes&, Problems&);
+constexpr std::array<std::pair<const char*, Fit>, 3> devices = {
+    std::pair{"camming4", Fit(studies::fit_camming4)}, std::pair{"lx3vp", Fit(studies::fit_lx3vp)},
+    std::pair{"mc_camin", Fit(studies::fit_mc_camin)}};
+
+/// The value of a word, or a problem of `option`.
+template <typename Choices>
+auto chosen(const char* option, const std::string& word, const Choices& choices, Problems& problems)
+    -> std::optional<typename Choices::value_type::second_type> {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : choices) {
+    if (word == name) return value;
+    words.emplace_back(name);
+  }
+  problems.push_back(
+      {option, 1, 1, fmt::format("there is no {}", in_quotes(word)), did_you_mean(word, words)});
+  return {};
+}
+
+/// The options as a job. What is wrong with one is told by its name.
+class JobReader {
+ public:
+  JobReader(const DesignOptions& options, Problems& problems) : options_(options), problems_(problems) {}
+
+  DesignJob read() {
+    if (const auto kind = chosen("design", options_.kind, kinds, problems_)) job_.kind = *kind;
+    if (const auto goal = chosen("--minimise", options_.minimise, goals, problems_)) job_.goal = *goal;
+    job_.length = needed("--length", options_.length);
+    job_.sync = quantity("--sync", options_.sync, "mm", 0).value_or(0);
+    if (options_.sync.empty()) missing("--sync", "the way that the tool is in the material");
+    job_.speed = quantity("--speed", options_.speed, "m/min");
+    job_.max_velocity = quantity("--max-velocity", options_.max_velocity, "m/s");
+    job_.max_acceleration = quantity("--max-acceleration", options_.max_acceleration, "m/s2");
+    job_.max_travel = quantity("--max-travel", options_.max_travel, "mm");
+    job_.no_reverse = options_.no_reverse;
+    read_slave();
+    read_loads();
+    check_combinations();
+    return job_;
+  }
+
+ private:
+  void problem(const char* option, std::string what, std::string remedy) {
+    problems_.push_back({option, 1, 1, std::move(what), std::move(remedy)});
+  }
+  void missing(const char* option, const char* what) {
+    problem(option, "it is not given", fmt::format("give {}, such as 120 mm", what));
+  }
+
+  /// In SI, nothing if it was not given or has a problem; above 0 unless `least` says otherwise.
+  std::optional<double> quantity(const char* option, const std::string& text, const char* unit,
+                                 double least = 1e-9) {
+    if (text.empty()) return {};
+    scenario::Findings findings({option});
+    const auto value = scenario::read_si({text, {1, 1}}, option, unit, findings);
+    for (auto& found : findings.sorted()) problems_.push_back(std::move(found));
+    constexpr double most = 1e9;
+    if (!value || (*value >= least && *value <= most)) return value;
+    problem(option, fmt::format("{} is out of range", text),
+            least > 0 ? "give more than 0, at most 1e9 in SI" : "give 0 or more, at most 1e9 in SI");
+    return {};
+  }
+  double needed(const char* option, const std::string& text) {
+    if (text.empty()) missing(option, "it");
+    return quantity(option, text, "mm").value_or(1);
+  }
+  void refuse(const char* option, bool given, const char* why) {
+    if (given) problem(option, why, "leave it out");
+  }
+
+  void read_slave() {
+    const bool knife = job_.kind == DesignKind::rotary_knife;
+    const bool feed = job_.kind == DesignKind::feed;
+    if (knife) {
+      job_.slave = needed("--circumference", options_.circumference) / options_.blades;
+      job_.blades = options_.blades;
+    } else {
+      refuse("--circumference", !options_.circumference.empty(), "only a rotary knife has one");
+      refuse("--blades", options_.blades != 1, "only a rotary knife has several");
+    }
+    if (feed)
+      job_.slave = needed("--feed", options_.feed);
+    else
+      refuse("--feed", !options_.feed.empty(), "only a feed has one");
+    if (job_.kind != DesignKind::flying_saw)
+      refuse("--max-travel", job_.max_travel.has_value(), "only a flying saw goes out and back");
+    else
+      refuse("--no-reverse", options_.no_reverse, "a flying saw must go back");
+  }
+
+  /// An inertia of a drum is what its mass at the blade would be.
+  double load(const char* option, const std::string& text, const char* straight, const char* turning) {
+    if (text.empty()) return 0;
+    const auto parsed = scenario::parse_quantity(text);
+    const bool knife = job_.kind == DesignKind::rotary_knife;
+    if (knife && parsed && scenario::is_unit(parsed->unit) &&
+        scenario::same_dimension(parsed->unit, turning)) {
+      const double radius = job_.slave * job_.blades / units::turn;
+      return quantity(option, text, turning, 0).value_or(0) /
+             (option == std::string_view("--coulomb") ? radius : radius * radius);
+    }
+    return quantity(option, text, straight, 0).value_or(0);
+  }
+  void read_loads() {
+    job_.inertia = load("--inertia", options_.inertia, "kg", "kg m2");
+    job_.viscous = load("--viscous", options_.viscous, "N s/m", "N m s");
+    job_.coulomb = load("--coulomb", options_.coulomb, "N", "N m");
+    if (job_.goal == MoveGoal::energy) {
+      if (!(job_.inertia > 0))
+        problem("--inertia", "energy depends on what is moved", "give it, such as 20 kg or 0.3 kg m2");
+      return;
+    }
+    for (const auto& [option, text] : {std::pair{"--inertia", &options_.inertia},
+                                       {"--viscous", &options_.viscous},
+                                       {"--coulomb", &options_.coulomb}})
+      refuse(option, !text->empty(), "only --minimise energy asks for it");
+  }
+
+  void check_combinations() {
+    if (!job_.speed)
+      for (const auto& [option, given] : {std::pair{"--max-velocity", job_.max_velocity.has_value()},
+                                          {"--max-acceleration", job_.max_acceleration.has_value()},
+                                          {"--minimise", job_.goal == MoveGoal::energy}})
+        if (given) problem(option, "it means nothing without the master's speed", "give --speed too");
+    if (options_.device.empty() && !options_.table.empty())
+      problem("--table", "whose table?", "give --device camming4, lx3vp or mc_camin");
+    if (options_.decpt && options_.device != "camming4")
+      problem("--decpt", "only CAMMING4 has it", "leave it out");
+    if (!options_.table.empty()) check_output("--table", options_.table, {"", "job"}, problems_);
+  }
+
+  const DesignOptions& options_;
+  Problems& problems_;
+  DesignJob job_;
+};
+
+/// "0.01 mm", or "500 mm/10000".
+PulseWay pulse_way(const char* option, const std::string& text, Problems& problems) {
+  const auto slash = text.rfind('/');
+  const auto refuse = [&] {
+    problems.push_back({option, 1, 1, fmt::format("{} is no way of a pulse", in_quotes(text)),
+                        "give a length, or a length and the pulses on it: 0.01 mm, 500 mm/10000"});
+    return PulseWay();
+  };
+  const auto way = scenario::parse_quantity(trimmed(std::string_view(text).substr(0, slash)));
+  const auto count = slash == std::string::npos
+                         ? std::optional(1.0)
+                         : parsed<double>(trimmed(std::string_view(text).substr(slash + 1)));
+  constexpr double most = 1e9;
+  if (!way || !scenario::is_unit(way->unit) || !scenario::same_dimension(way->unit, "mm") || !count)
+    return refuse();
+  const PulseWay made{scenario::from_si(scenario::to_si(way->number, way->unit), "mm"), *count};
+  const bool sound = made.millimetres > 0 && made.millimetres <= most && *count >= 1 && *count <= most &&
+                     *count == std::floor(*count);
+  return sound ? made : refuse();
+}
+
+std::optional<studies::DesignSheet> designed(const DesignOptions& options, Problems& problems) {
+  const auto job = JobReader(options, problems).read();
+  const DesignAxes axes{pulse_way("--master-pulse", options.master_pulse, problems),
+                        pulse_way("--slave-pulse", options.slave_pulse, problems), options.decpt};
+  const auto fit = options.device.empty() ? std::optional<Fit>(nullptr)
+                                          : chosen("--device", options.device, devices, problems);
+  if (problems.empty()) problems = studies::hindrances(job);
+  if (!problems.empty()) return {};
+  const auto cam = studies::design_cam(job);
+  if (!cam) {
+    problems.push_back({"design", 1, 1, "no cam keeps these limits", "give them a little more room"});
+    return {};
+  }
+  studies::DesignSheet sheet{*cam, {}};
+  if (*fit == nullptr) return sheet;
+  sheet.device = (*fit)(job, axes, problems);
+  sheet.device_name = options.device;
+  if (!sheet.device) return {};
+  return sheet;
+}
+
+/// The table as a file, judged as `drycut cam` judges what it reads from there.
+std::string table_text(const DesignOptions& options, studies::DesignSheet& sheet) {
+  const auto name = options.table.empty() ? options.device : options.table;
+  const auto text = studies::remarks_text(sheet) + cams::cam_file(sheet.device->table, name);
+  Problems problems;
+  const auto table = cams::read_cam(options.device, text, name, problems);
+  const auto study = cams::study_cam(table, {sheet.device->duty}, problems);
+  if (!problems.empty()) throw std::runtime_error("the table does not read back: " + to_string(problems[0]));
+  sheet.findings = study.findings;
+  return text;
+}
+
+}  // namespace
+
+int design_cam(const DesignOptions& options) {
+  Problems problems;
+  auto sheet = designed(options, problems);
+  std::optional<OutputFolder> folder;
+  if (problems.empty() && !options.out.empty())
+    folder.emplace(options.out, "design", std::vector<std::string>{"design.png"}, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  try {
+    const auto table = sheet->device ? table_text(options, *sheet) : "";
+    fmt::print("{}", studies::sheet_text(*sheet));
+    if (!options.table.empty()) {
+      write_file(options.table, table);
+      fmt::print("  table: {}\n", options.table);
+    }
+    if (folder) {
+      folder->begin();
+      const auto picture = folder->add("design.png");
+      report::draw_png(studies::design_plot(*sheet), picture);
+      fmt::print("  picture: {}\n", picture.string());
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return simulation_failed;
+  }
+  return cams::is_unsound(sheet->findings, false) ? check_failed : all_passed;
+}
+
+void add_design(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<DesignOptions>();
+  auto& options = *chosen;
+  auto* design = app.add_subcommand(
+      "design",
+      "Design a cam from its job: the best one there is, and the nearest that a device can play, as its "
+      "table.\n"
+      "rotary_knife: --length of a piece, --circumference of the drum. flying_saw: --length; the carriage "
+      "goes\n"
+      "out and back. feed: --feed of the slave in a --length of the master, of which it rests for --sync.\n"
+      "Exit status: 0 designed, 1 drycut cam finds fault with the table, 2 bad input or a job that cannot "
+      "be\n"
+      "done, 3 a result could not be written");
+  design->add_option("job", options.kind, "rotary_knife, flying_saw or feed")->required();
+  const auto add = [&](const char* name, std::string& target, const char* help) {
+    auto* option = design->add_option(name, target, help);
+    if (!target.empty()) option->capture_default_str();
+  };
+  add("--length", options.length, "Way of the master for a piece, as \"800 mm\"");
+  add("--circumference", options.circumference, "Way of the blade in a turn of the drum, as \"600 mm\"");
+  design->add_option("--blades", options.blades, "Blades on the drum")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  add("--feed", options.feed, "Way of the slave for a piece");
+  add("--sync", options.sync,
+      "Way of the master around the cut on which the slave has its speed; of a feed: rests");
+  add("--speed", options.speed, "Speed of the master: figures in time, and what limits need");
+  add("--minimise", options.minimise, "rms or peak of the acceleration, peak jerk, or energy (copper loss)");
+  add("--max-velocity", options.max_velocity, "Limit of the slave's velocity, as \"1.5 m/s\"");
+  add("--max-acceleration", options.max_acceleration, "Limit of its acceleration, as \"20 m/s2\"");
+  add("--max-travel", options.max_travel, "Limit of a flying saw's travel from end to end");
+  design->add_flag("--no-reverse", options.no_reverse, "Knife and feed: never backwards, a dwell instead");
+  add("--inertia", options.inertia, "For energy: what is moved, in kg at the blade, of a drum also in kg m2");
+  add("--viscous", options.viscous, "For energy: friction with speed, N s/m, of a drum also N m s");
+  add("--coulomb", options.coulomb, "For energy: friction without, N, of a drum also N m");
+  add("--device", options.device, "What is to play it: camming4, lx3vp, mc_camin");
+  add("--table", options.table, "Write the device's table");
+  add("--master-pulse", options.master_pulse,
+      "Way of the master a pulse (count x4), of CAMMING4 and LX3VP; also as \"500 mm/10000\"");
+  add("--slave-pulse", options.slave_pulse, "The same of the slave");
+  design->add_option("--decpt", options.decpt, "CAMMING4: 1 Um is 10^-decpt mm; else the coarsest that fits")
+      ->check(CLI::Range(0, 3));
+  add_out(*design, options.out, "Directory for a picture: position, velocity, acceleration, jerk");
+  design->callback([chosen, &status] { status = design_cam(*chosen); });
+}
+
+}  // namespace drycut::sim::cli
