@@ -23,7 +23,7 @@ std::vector<PlantDefinition::Objection> station_objections(const StationData& da
   return {{"place",
            fmt::format("the outfeed belt ends at {:g} mm: it brings no piece to {:g} mm",
                        end * units::millimetres, data.place * units::millimetres),
-           fmt::format("a place before, or {}.outfeed.length of more than {:g} mm", "web",
+           fmt::format("a place before, or an outfeed.length of the web of more than {:g} mm",
                        (data.place - web.outfeed.start) * units::millimetres)}};
 }
 
@@ -47,8 +47,9 @@ void Station::cut(double fraction, double mark) {
   length_ = found.length;
   rest_ = found.rest;
   ++cuts_;
-  const bool drop =
-      length_ < data_.scrap_shorter || (data_.scrap_every > 0 && cuts_ % data_.scrap_every == 0);
+  const bool its_turn = data_.scrap_every > 0 && cuts_ % data_.scrap_every == 0;
+  // What a web leaves that has run back is no piece.
+  const bool drop = length_ > 0 && (length_ < data_.scrap_shorter || its_turn);
   web_.sever(*material_, fraction, mark - data_.place, drop);
   if (!drop) return;
   ++dropped_;

@@ -180,6 +180,7 @@ double si(std::string_view unit) {
                                                            {"deg", std::acos(-1) / 180},
                                                            {"mm/s", 1e-3},
                                                            {"ms", 1e-3},
+                                                           {"us", 1e-6},
                                                            {"N m", 1},
                                                            {"N m s/rad", 1},
                                                            {"rpm", std::acos(-1) / 30},

@@ -195,6 +195,20 @@ TEST(Stations, ShortPiecesAndEverySecondOneDropOut) {
     EXPECT_NEAR(channel(line.web(), "scrap.length"), 900, 1e-2);
     EXPECT_THAT(line.only(0, "scrap"), testing::IsEmpty());
   }
+  {
+    // A web that has run back leaves nothing that could drop out.
+    auto knife = knife_at(0);
+    knife.data.station = {.scrap_shorter = 1, .scrap_every = 1};
+    WebData back = line_of();
+    back.lead = -0.5;
+    StationLine line(back);
+    line.add(knife);
+    line.spin();
+    line.run(0.4);
+    ASSERT_EQ(line.only(0, "cut").size(), 1U);
+    EXPECT_LT(value(line.only(0, "cut")[0], "length"), 0);
+    EXPECT_THAT(line.only(0, "scrap"), testing::IsEmpty());
+  }
   const auto offers = [](int every) {
     auto knife = knife_at(0);
     knife.data.station.scrap_every = every;

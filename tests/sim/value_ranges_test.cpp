@@ -1,6 +1,7 @@
 // What a scenario gives a value is what the value takes: presets, --set, the timeline, of every controller.
 #include <gmock/gmock.h>
 
+#include "plants/web.hpp"
 #include "sim/loop/simulation.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
@@ -180,7 +181,9 @@ TEST_F(ValueRanges, AMaterialGivesItsValuesAndOthersBesideIt) {
   EXPECT_EQ(web.shear_strength, 290e6);
   EXPECT_EQ(web.strip.retardation, 2e-6);
   EXPECT_FALSE(web.strip.on);
-  EXPECT_THAT(built(line + "material: steal}}\n"), ElementsAre(HasSubstr("steal")));
+  EXPECT_THAT(
+      built(line + "material: steal}}\n"),
+      ElementsAre("line.yaml:2:37: plants.web.material: unknown choice 'steal'; did you mean steel?"));
 }
 
 TEST_F(ValueRanges, StiffPairsAreJudgedAtTheScenariosStep) {
