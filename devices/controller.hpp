@@ -32,7 +32,7 @@ struct ControllerValue {
 /// Something that happened inside the controller: a refused command, a run-time error, a device warning.
 struct ControllerEvent {
   std::string source;  ///< device or task name
-  /// "refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up", "stopped",
+  /// "refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up", "overrun", "stopped",
   /// "errorstop" ...
   std::string event;
   std::string text;

@@ -197,6 +197,11 @@ inline constexpr std::array readings = {
     Reading{"MANBW", "needs st_emrg = 0 and st_cal = 0 too", "002 1.4.2 does not name them"},
     Reading{"REGOFF", "turns regulation off",
             "002 1.4.2: the titles of REGOFF and REGON are exchanged in print"},
+    Reading{
+        "",
+        "of two devices that regulate on one output, the later one of INTDEVICE has the last word; a note "
+        "tells it once",
+        "002 1.3.1 forbids it and does not say what happens then"},
     Reading{"REGON", "turns regulation on",
             "002 1.4.2: the titles of REGOFF and REGON are exchanged in print"},
 };

@@ -126,6 +126,11 @@ std::span<const Reading> instruction_readings() {
        "added to numbers of devices and to constants; a 32-bit instruction takes V with Z; what then "
        "does not exist is 6706; none at labels, pulse terminals, DECAM, ECAMTBX, timers and counters of "
        "OUT"},
+      {"time",
+       "a scan takes none unless the scenario gives controller.lx3vp.step_time: then an instruction takes "
+       "it, "
+       "and each word that a block moves; inputs are taken at the beginning of a scan, outputs given at its "
+       "end, the next begins `scan` after the last or at its end; 6105 after 200 ms"},
       {"FOR", "five in each other; 0 and less are once; CJ may leave a loop, not enter one"},
       {"CALL", "five deep, else 6702; subroutines stand behind FEND and hold no STL and no MC"},
       {"MC", "without power coils go off and what was set stays; LDI, INV and the like have no power either"},

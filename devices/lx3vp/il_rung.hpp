@@ -21,6 +21,8 @@ struct Scanner::Rung {
   };
   static constexpr std::size_t masters = 8;  ///< N0..N7
 
+  Rung(Registers& of, Instructions& to) : registers(of), instructions(to) {}
+
   Registers& registers;
   Instructions& instructions;
   std::int64_t passed_ns = 0;       ///< since the scan before

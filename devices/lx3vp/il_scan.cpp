@@ -15,6 +15,7 @@ namespace drycut::devices::lx3vp::il {
 
 namespace {
 
+constexpr std::int64_t watchdog_ns = 200'000'000;
 constexpr int count_down_flags = 8000;  ///< M8200..M8234: C200..C234 count down; M8000 + the counter's number
 
 /// Whether a comparison as a contact (LD=, ANDD>) holds.
@@ -55,7 +56,11 @@ std::int64_t work_of(const Registers& registers, const Step& step) {
 
 }  // namespace
 
-Scanner::Scanner(const Program& program) : program_(program) { restart(); }
+Scanner::Scanner(const Program& program, std::int64_t step_ns)
+    : program_(program), step_ns_(step_ns), most_(step_ns > 0 ? watchdog_ns / step_ns : most_work) {
+  restart();
+}
+Scanner::~Scanner() = default;
 
 void Scanner::restart() {
   memories_.assign(static_cast<std::size_t>(program_.memories), false);
@@ -63,24 +68,47 @@ void Scanner::restart() {
   timed_ns_.assign(timers, -1);
   last_scan_ns_ = 0;
   scanned_ = false;
+  rung_.reset();
 }
 
 void Scanner::scan(Registers& registers, Instructions& instructions) {
   Rung rung{registers, instructions};
+  start(rung);
+  run(rung, most_ + 1);
+}
+
+void Scanner::begin(Registers& registers, Instructions& instructions) {
+  rung_ = std::make_unique<Rung>(registers, instructions);
+  start(*rung_);
+}
+
+std::optional<std::int64_t> Scanner::go_on(std::int64_t computed_ns) {
+  if (!run(*rung_, computed_ns / step_ns_) || rung_->work * step_ns_ > computed_ns) return std::nullopt;
+  return rung_->work * step_ns_;
+}
+
+void Scanner::start(Rung& rung) {
+  const Registers& registers = rung.registers;
   rung.passed_ns = scanned_ ? registers.time_ns - last_scan_ns_ : 0;
   last_scan_ns_ = registers.time_ns;
   scanned_ = true;
+}
+
+// Instructions while the work up to their end is within `work`; true when the scan has come to its end.
+bool Scanner::run(Rung& rung, std::int64_t work) {
   while (!rung.over && rung.next < program_.steps.size()) {
+    if (rung.work >= work) return false;
     const auto& step = program_.steps[rung.next++];
     execute(step, rung);
-    if (++rung.work <= most_work) continue;
+    if (++rung.work <= most_) continue;
     constexpr int watchdog = 6105;  // FX
-    instructions.watchdog(step.number,
-                          fmt::format("{}:{}: {}: the scan works longer than the watchdog's 200 ms; repeat "
-                                      "less in a scan (CJ back, FOR, blocks)",
-                                      program_.file, step.line, watchdog));
-    return;
+    rung.instructions.watchdog(
+        step.number, fmt::format("{}:{}: {}: the scan works longer than the watchdog's 200 ms; repeat "
+                                 "less in a scan (CJ back, FOR, blocks)",
+                                 program_.file, step.line, watchdog));
+    return false;
   }
+  return true;
 }
 
 const Step* Scanner::indexed(const Step& step, Rung& rung) {

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "devices/lx3vp/il_program.hpp"
@@ -18,15 +20,27 @@ class Scanner {
   /// moves being 1. At 0.2 us each, which is the order of the real unit's, these are the 200 ms.
   static constexpr std::int64_t most_work = 1'000'000;
 
-  explicit Scanner(const Program& program);
+  /// `step_ns`: what an instruction takes, or a word that one moves; the watchdog goes by it then. 0: none of
+  /// them takes time.
+  explicit Scanner(const Program& program, std::int64_t step_ns = 0);
+  ~Scanner();
+  Scanner(const Scanner&) = delete;
+  Scanner& operator=(const Scanner&) = delete;
 
   /// One scan at `registers.time_ns`. Timers advance by the time since the scan before.
   void scan(Registers& registers, Instructions& instructions);
+  /// The same in pieces: begin() at `registers.time_ns`, then go_on() as the time comes.
+  void begin(Registers& registers, Instructions& instructions);
+  /// Executes what acts until `computed_ns` after the beginning, each instruction at its end. How long the
+  /// whole scan took once that has passed [ns]; nothing before, and after a watchdog.
+  std::optional<std::int64_t> go_on(std::int64_t computed_ns);
   /// After power-up: nothing is remembered, a contact that is ON counts as an edge.
   void restart();
 
  private:
   struct Rung;
+  void start(Rung& rung);
+  bool run(Rung& rung, std::int64_t work);
   void execute(const Step& step, Rung& rung);
   /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
   const Step* indexed(const Step& step, Rung& rung);
@@ -59,6 +73,9 @@ class Scanner {
   Step scratch_;                         ///< the step that `indexed` has made
   std::int64_t last_scan_ns_ = 0;
   bool scanned_ = false;
+  std::int64_t step_ns_;
+  std::int64_t most_;           ///< work of a scan
+  std::unique_ptr<Rung> rung_;  ///< of the scan that go_on() goes on with
 };
 
 }  // namespace drycut::devices::lx3vp::il

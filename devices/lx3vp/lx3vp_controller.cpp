@@ -29,8 +29,12 @@ bool is_pulse_output(const Address& address) {
 
 }  // namespace
 
-Lx3vpController::Lx3vpController(il::Program program, std::int64_t scan_ns)
-    : program_(std::move(program)), scanner_(program_), scan_{scan_ns} {
+Lx3vpController::Lx3vpController(il::Program program, std::int64_t scan_ns, std::int64_t step_ns)
+    : program_(std::move(program)),
+      scanner_(program_, step_ns),
+      scan_{scan_ns},
+      step_ns_(step_ns),
+      scan_took_ns_(scan_ns) {
   assert(scan_ns > 0);
   add_used_terminals();
   add_names();
@@ -84,14 +88,43 @@ void Lx3vpController::run_devices(std::int64_t time_ns) {
 }
 
 void Lx3vpController::run_tasks(std::int64_t time_ns) {
+  if (step_ns_ > 0) return run_timed(time_ns);
   if (!scan_.take(time_ns)) return;
   if (!powered_ || stopped_) return;
+  begin_scan(time_ns);
+  scanner_.scan(registers_, *this);
+  if (!stopped_) end_scan();
+}
+
+// A scan goes on until its instructions have had their time; the next begins `scan` after it, or at its end.
+void Lx3vpController::run_timed(std::int64_t time_ns) {
+  while (powered_ && !stopped_) {
+    if (!scanning_) {
+      if (scan_due_ns_ > time_ns) return;
+      scanning_ = true;
+      scan_begun_ns_ = scan_due_ns_;
+      begin_scan(time_ns);
+      scanner_.begin(registers_, *this);
+    }
+    const auto took_ns = scanner_.go_on(time_ns - scan_begun_ns_);
+    if (!took_ns) return;
+    scanning_ = false;
+    scan_took_ns_ = std::max(*took_ns, scan_.period_ns);
+    scan_due_ns_ = scan_begun_ns_ + scan_took_ns_;
+    end_scan();
+  }
+  scanning_ = false;
+  scan_due_ns_ = (time_ns / scan_.period_ns + 1) * scan_.period_ns;
+}
+
+void Lx3vpController::begin_scan(std::int64_t time_ns) {
   registers_.time_ns = time_ns - power_up_ns_;
   take_inputs();
   registers_.x = inputs_;
   set_system_relays(registers_.time_ns);
-  scanner_.scan(registers_, *this);
-  if (stopped_) return;
+}
+
+void Lx3vpController::end_scan() {
   first_scan_ = false;
   // What works tick by tick has its own level; the image shows it.
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
@@ -191,7 +224,7 @@ void Lx3vpController::set_system_relays(std::int64_t time_ns) {
   m[8013] = clock(1000);
   m[8014] = clock(60'000);
   constexpr std::int64_t unit_ns = ns_per_ms / 10;
-  registers_.d[8010] = static_cast<std::uint16_t>(std::min<std::int64_t>(scan_.period_ns / unit_ns, 0xFFFF));
+  registers_.d[8010] = static_cast<std::uint16_t>(std::min<std::int64_t>(scan_took_ns_ / unit_ns, 0xFFFF));
 }
 
 void Lx3vpController::decam(int step, const DecamOperands& operands, bool powered) {

@@ -26,14 +26,15 @@ namespace drycut::devices::lx3vp {
 /// pulse outputs and the high-speed counters, which work every 100 us.
 ///
 /// Terminals: X and Y of the base unit, C235..C255 as the high-speed counters, Y0..Y3 for pulses too. Inputs
-/// are taken into the registers at the start of a scan, outputs given at its end; DECAM's start signal, its
+/// are taken into the registers at the start of a scan, outputs given at its end, which with `step_ns` comes
+/// as late as its instructions take, and the next scan after it; DECAM's start signal, its
 /// direction and its synchronous output go by the tick. An instruction that fails is told once and skipped. A
 /// scan that works too long (6105) stops program and outputs until the next power-up.
 class Lx3vpController : public Controller, private Instructions {
  public:
-  /// `program` is free of problems; `scan_ns` > 0. Begins powered on, at time 0, registers at their reset
-  /// values.
-  Lx3vpController(il::Program program, std::int64_t scan_ns);
+  /// `program` is free of problems; `scan_ns` > 0; `step_ns` >= 0: what an instruction takes, or a word that
+  /// one moves. Begins powered on, at time 0, registers at their reset values.
+  Lx3vpController(il::Program program, std::int64_t scan_ns, std::int64_t step_ns = 0);
 
   Cards& cards() override { return cards_; }
   /// A terminal of the base unit that nothing in the program uses: true if there is one, in cards() then.
@@ -85,6 +86,9 @@ class Lx3vpController : public Controller, private Instructions {
   void stop_outputs();
   void take_inputs();
   void give_outputs();
+  void begin_scan(std::int64_t time_ns);
+  void end_scan();
+  void run_timed(std::int64_t time_ns);
   void set_system_relays(std::int64_t time_ns);
   void tell_notes();
   void tell(int step, std::string event, std::string text);
@@ -94,6 +98,12 @@ class Lx3vpController : public Controller, private Instructions {
   il::Scanner scanner_;
   Due tick_{tick_ns};
   Due scan_;
+  std::int64_t step_ns_;
+  // Where instructions take time:
+  std::int64_t scan_due_ns_ = 0;    ///< the next scan begins
+  std::int64_t scan_begun_ns_ = 0;  ///< the present one began
+  std::int64_t scan_took_ns_ = 0;   ///< the last one, with what it waited for the next
+  bool scanning_ = false;
   Cards cards_;
   Registers registers_;
   HighSpeedCounters counters_;

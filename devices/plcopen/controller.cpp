@@ -44,7 +44,9 @@ PlcopenController::PlcopenController(st::Program program, std::string file, Conf
       configuration_(std::move(configuration)),
       kernel_(make_kernel(configuration_)),
       plugs_(configuration_.axes.size()),
-      runtime_(program_, kernel_, {configuration_.tasks, configuration_.task_ns, configuration_.cycle_ns}) {
+      runtime_(program_, kernel_,
+               {configuration_.tasks, configuration_.task_ns, configuration_.cycle_ns,
+                configuration_.statement_ns}) {
   assert(configuration_.cycle_ns > 0 && configuration_.task_ns % configuration_.cycle_ns == 0);
   add_axes();
   add_located();
@@ -184,18 +186,62 @@ void PlcopenController::run_devices(std::int64_t time_ns) {
 void PlcopenController::run_tasks(std::int64_t time_ns) {
   if (time_ns < next_task_ns_) return;
   if (!powered_) runtime_.pass(time_ns);
+  if (powered_ && configuration_.statement_ns > 0) return run_timed(time_ns);
   if (powered_) run_programs(time_ns);
   next_task_ns_ = runtime_.next_ns();
 }
 
 void PlcopenController::run_programs(std::int64_t time_ns) {
-  for (std::size_t i = 0; i < located_inputs_.size(); ++i)
-    if (located_inputs_[i] != nullptr) runtime_.set_located(i, located_inputs_[i]->level);
+  take_located();
   runtime_.scan(time_ns);
-  for (std::size_t i = 0; i < located_outputs_.size(); ++i)
-    if (located_outputs_[i] != nullptr) located_outputs_[i]->level = runtime_.located(i);
+  give_located();
   tell_axes();
   tell_blocks();
+}
+
+// One task after the other, each until its statements have had their time.
+void PlcopenController::run_timed(std::int64_t time_ns) {
+  while (true) {
+    if (computing_) {
+      next_task_ns_ = computing_->ended_ns;
+      if (time_ns < next_task_ns_) return;
+      give_located();
+      tell_overrun(*computing_);
+    }
+    take_located();
+    computing_ = runtime_.run_next(time_ns);
+    next_task_ns_ = runtime_.next_ns();
+    if (!computing_) return;
+    tell_axes();
+    tell_blocks();
+  }
+}
+
+void PlcopenController::take_located() {
+  for (std::size_t i = 0; i < located_inputs_.size(); ++i)
+    if (located_inputs_[i] != nullptr) runtime_.set_located(i, located_inputs_[i]->level);
+}
+
+void PlcopenController::give_located() {
+  for (std::size_t i = 0; i < located_outputs_.size(); ++i)
+    if (located_outputs_[i] != nullptr) located_outputs_[i]->level = runtime_.located(i);
+}
+
+// Once, until it has come in time again.
+void PlcopenController::tell_overrun(const st::TaskRun& run) {
+  const std::int64_t next_ns = run.due_ns + run.interval_ns;
+  if (run.interval_ns == 0 || run.ended_ns <= next_ns) {
+    late_.erase(run.task);
+    return;
+  }
+  if (!late_.insert(run.task).second) return;
+  constexpr double ns_per_ms = 1e6;
+  const auto ms = [](std::int64_t ns) { return static_cast<double>(ns) / ns_per_ms; };
+  events_.push_back(
+      {run.task, "overrun",
+       fmt::format("due every {:.9g} ms, it waited {:.9g} ms for others and took {:.9g} ms: it "
+                   "starts late, or not at all where a start is due meanwhile",
+                   ms(run.interval_ns), ms(run.begun_ns - run.due_ns), ms(run.ended_ns - run.begun_ns))});
 }
 
 void PlcopenController::interrupt(int line, bool rising) {
@@ -233,6 +279,8 @@ void PlcopenController::start_anew() {
   runtime_.cold_start();
   power_up_due_ = true;
   fault_told_ = false;
+  computing_.reset();
+  late_.clear();
   for (ErrorPins& block : blocks_) block.seen = false;
   for (AxisPlugs& plugs : plugs_) plugs.in_errorstop = false;
 }

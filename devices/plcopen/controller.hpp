@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,6 +26,7 @@ struct Configuration {
   std::int64_t cycle_ns = MotionKernel::default_cycle_ns;
   std::int64_t task_ns = MotionKernel::default_cycle_ns;  ///< a whole multiple of cycle_ns
   std::vector<st::Program::Task> tasks = {};  ///< in place of those of the program's CONFIGURATION
+  std::int64_t statement_ns = 0;              ///< what a statement of the program takes
 };
 
 /// A PLCopen motion controller: a Structured Text program in front of the motion kernel.
@@ -33,6 +35,11 @@ struct Configuration {
 /// task_ns/cycle_ns-th cycle, the program is scanned on the axes as they are after it and gives its outputs;
 /// programs with tasks of their own at these tasks' intervals, the lowest priority number first. What a
 /// program commands moves the axes from the next cycle on.
+///
+/// With statement_ns a task takes inputs and runs as it begins and gives its outputs as its statements have
+/// had their time; what it commands moves the axes from the next cycle on all the same. Tasks do not
+/// interrupt each other: one that is due meanwhile begins late, and one that ends after its next beginning
+/// was due is told ("overrun"), the beginnings that it has missed are left out.
 ///
 /// Power off loses everything but RETAIN variables, axis parameters and the operator's hand (override, feed
 /// hold); until power is back, the variables and what the axes report read 0. An incremental encoder counts
@@ -106,6 +113,10 @@ class PlcopenController : public Controller {
   void latch_power_up();
   void latch_inputs();
   void run_programs(std::int64_t time_ns);
+  void run_timed(std::int64_t time_ns);
+  void take_located();
+  void give_located();
+  void tell_overrun(const st::TaskRun& run);
   void give_outputs();
   void tell_axes();
   void tell_blocks();
@@ -133,6 +144,8 @@ class PlcopenController : public Controller {
   std::vector<ControllerEvent> events_;
   Due cycle_{configuration_.cycle_ns};
   std::int64_t next_task_ns_ = 0;
+  std::optional<st::TaskRun> computing_;  ///< a task whose outputs are to come
+  std::set<std::string> late_;            ///< tasks that overran the last time they ran
   bool powered_ = true;
   bool power_up_due_ = true;
   bool fault_told_ = false;

@@ -63,6 +63,13 @@ inline constexpr std::array readings = {
             "with ENDLESS a step against the direction and longer than half a turn of the slave "
             "is the short way round; the closing step ends on the nearest turn that way",
             "004: the direction in which the modulo correction takes place"},
+    Reading{
+        "ST",
+        "statements take no time unless the scenario gives controller.plcopen.statement_time; then a task "
+        "takes its inputs at its beginning, gives its outputs at its end and is not interrupted, whatever "
+        "the priority of the next; one that ends after its next beginning was due is told as the event "
+        "overrun",
+        "IEC 61131-3 lets tasks interrupt each other or not"},
     Reading{"ST",
             "a function that EN leaves out gives the initial value of its type, a block keeps its outputs",
             "IEC 61131-3 leaves it to the implementer"},

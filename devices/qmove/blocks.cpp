@@ -82,6 +82,7 @@ void Compiler::for_block() {
     block.exit = emit(Op::jump_if_zero);
     const int body = emit(Op::jump);
     block.again = here();
+    mark(here());
     if (!line_failed_ && expect(",", form)) for_step(variable, form);
     if (!line_failed_) expect(")", form);
     emit(Op::jump, test);

@@ -79,7 +79,9 @@ Program Compiler::compile(std::string_view text) {
     stop_ = tokens_.size() - 1;
     line_failed_ = false;
     last_ = tokens_.back().place;
+    const int begin = here();
     statement();
+    if (here() > begin) mark(begin);
   }
   for (const Block& block : blocks_) unclosed(block);
   if (!ended_) complain(last_, "the module has no END", "write END after its last statement");
@@ -87,7 +89,10 @@ Program Compiler::compile(std::string_view text) {
   resolve(labels_, "label", "write {}: where it leads");
   resolve(subs_, "subroutine", "write SUB {} .. ENDSUB");
   sort();
+  program_.begins.assign(program_.code.size(), false);
+  for (const int begin : marks_) program_.begins[static_cast<std::size_t>(begin)] = true;
   if (told() > 0) {
+    program_.begins.clear();
     program_.code.clear();
     program_.lines.clear();
   }

@@ -107,6 +107,7 @@ class Compiler : public TokenReader<Token> {
   int emit(Op op, int a = 0, int b = 0);
   [[nodiscard]] int here() const { return static_cast<int>(program_.code.size()); }
   void insert_barriers(int begin);
+  void mark(int code) { marks_.insert(code); }
   int add_symbol(Symbol symbol);
 
   const Configuration& configuration_;
@@ -117,6 +118,7 @@ class Compiler : public TokenReader<Token> {
   bool line_failed_ = false;
   int nesting_ = 0;             ///< of parentheses and signs, in the present expression
   int stack_ = 0;               ///< cells on the stack at this point of the code
+  std::set<int> marks_;         ///< code at which statements begin
   std::set<int> devices_read_;  ///< by the present statement: it waits for their samples
 
   std::vector<Block> blocks_;

@@ -56,6 +56,12 @@ inline constexpr std::array language{
                 "starts the timer for n ms; it reads 1 when they are over, and before it was started", ours},
     LanguageRow{"tasks", "each module is a task; every cycle each has one turn, in the scenario's order",
                 "the manuals say nothing of several tasks"},
+    LanguageRow{
+        "time of a statement",
+        "0 unless the scenario gives controller.qmove.statement_time: then each statement and each look "
+        "at a WAIT takes it and acts at its end; a round that lasts longer than the cycle is followed at "
+        "once by the next",
+        "in no manual; QMOS tells the times of tasks in 0.1 ms"},
     LanguageRow{"watchdog",
                 "1000000 instructions in a turn, a write or command to a device counting 100, are error 8 "
                 "with its line; 1 s without WAIT in reads that wait is told as the event held_up",

@@ -53,13 +53,18 @@ std::string_view name_of(RunTimeError error) {
   return "";
 }
 
-// One switch over all instructions: the room's hottest loop, kept in one piece for speed.
-RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
+namespace {
+
+// One switch over all instructions: the room's hottest loop, kept in one piece for speed. `timed`: statements
+// are counted.
+template <bool timed>
+RunTimeError run(const Program& program, Task& task, Machine& machine, std::int64_t& statements) {
   std::array<std::int32_t, max_depth + 2> stack{};  // the compiler has checked that no expression needs more
   std::int32_t* top = stack.data();                 // the value on top
   const Instruction* const code = program.code.data();
   int at = task.at;
-  int left = max_work;
+  int left = timed && task.in_turn ? task.left : max_work;
+  task.in_turn = false;
   const auto fail = [&](RunTimeError error) {
     task.at = at;
     return error;
@@ -87,6 +92,17 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
       *top = bits(result);
   };
   for (;; ++at) {
+    if constexpr (timed) {
+      if (program.begins[static_cast<std::size_t>(at)]) {
+        if (statements == 0) {
+          task.at = at;
+          task.left = left;
+          task.in_turn = true;
+          return RunTimeError::none;
+        }
+        --statements;
+      }
+    }
     if (--left < 0) return fail(RunTimeError::watchdog);
     const Instruction& now = code[at];
     switch (now.op) {
@@ -302,6 +318,17 @@ RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
         return suspend(at);
     }
   }
+}
+
+}  // namespace
+
+RunTimeError run_turn(const Program& program, Task& task, Machine& machine) {
+  std::int64_t uncounted = 0;
+  return run<false>(program, task, machine, uncounted);
+}
+
+RunTimeError run_statements(const Program& program, Task& task, Machine& machine, std::int64_t& statements) {
+  return run<true>(program, task, machine, statements);
 }
 
 }  // namespace drycut::devices::qmove

@@ -57,6 +57,8 @@ struct Task {
   std::vector<std::uint64_t> last_post;  ///< by device: the task's last write or command
   std::int64_t turned = 0;               ///< when it last came to WAIT or END [ns]
   bool told = false;                     ///< that it has not come there for long
+  bool in_turn = false;                  ///< its turn goes on when there is time for its next statement
+  int left = 0;                          ///< work that is left for this turn then
 };
 
 /// Work that a task may do in one turn [instructions]; a program that loops without WAIT comes to more.
@@ -67,5 +69,8 @@ inline constexpr int device_work = 100;
 /// Runs `task` for one turn: until WAIT or END, or until a read has to wait for a device's sample.
 /// After an error task.at is the instruction at fault.
 RunTimeError run_turn(const Program& program, Task& task, Machine& machine);
+/// The same where statements take time: as far as `statements` of them go, which are counted down. The turn
+/// goes on with the next call while task.in_turn.
+RunTimeError run_statements(const Program& program, Task& task, Machine& machine, std::int64_t& statements);
 
 }  // namespace drycut::devices::qmove

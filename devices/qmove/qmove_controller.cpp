@@ -33,11 +33,13 @@ std::string_view event_of(Diagnostic::Kind kind) {
 }  // namespace
 
 QmoveController::QmoveController(Configuration configuration, std::vector<Program> programs,
-                                 std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns)
+                                 std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns,
+                                 std::int64_t statement_ns)
     : configuration_(std::move(configuration)),
       programs_(std::move(programs)),
       names_(configuration_),
-      round_{cycle_ns} {
+      round_{cycle_ns},
+      statement_ns_(statement_ns) {
   assert(cycle_ns > 0);
   machine_.cells.assign(static_cast<std::size_t>(names_.cells()), 0);
   machine_.timers.assign(configuration_.timers.size(), 0);
@@ -101,6 +103,7 @@ void QmoveController::run_devices(std::int64_t time_ns) {
 }
 
 void QmoveController::run_tasks(std::int64_t time_ns) {
+  if (statement_ns_ > 0) return run_timed(time_ns);
   if (!round_.take(time_ns)) return;
   machine_.now = time_ns;
   if (!powered_ || mode_ != OsMode::run) return;
@@ -111,10 +114,44 @@ void QmoveController::run_tasks(std::int64_t time_ns) {
     if (!tasks_[i].ended && !turn(i)) return;
 }
 
+// Rounds as above, as far as the time has come; one that lasted too long is followed at once by the next.
+void QmoveController::run_timed(std::int64_t time_ns) {
+  machine_.now = time_ns;
+  while (powered_ && mode_ == OsMode::run) {
+    if (!in_round_) {
+      const std::int64_t due_ns = round_.next_ns;
+      if (computed_ns_ > time_ns || !round_.take(time_ns)) return;
+      computed_ns_ = std::max(computed_ns_, due_ns);
+      in_round_ = true;
+      place_ = 0;
+    }
+    for (; place_ < 2 * tasks_.size(); ++place_)
+      if (!run_place(time_ns)) return;
+    in_round_ = false;
+  }
+  round_.take(time_ns);
+}
+
+// The turn at this place of the round; false if there is no time left for it, or an error stopped all.
+bool QmoveController::run_place(std::int64_t time_ns) {
+  const std::size_t number = place_ % tasks_.size();
+  Task& task = tasks_[number];
+  const bool its_turn = place_ < tasks_.size() ? task.wait == Task::Wait::others : !task.ended;
+  if (!its_turn && !task.in_turn) return true;
+  const std::int64_t fit = std::max<std::int64_t>(time_ns - computed_ns_, 0) / statement_ns_;
+  std::int64_t left = fit;
+  const RunTimeError error = run_statements(programs_[number], task, machine_, left);
+  computed_ns_ += (fit - left) * statement_ns_;
+  return finish_turn(number, error) && !task.in_turn;
+}
+
 // False if it stopped all tasks.
 bool QmoveController::turn(std::size_t number) {
-  Task& task = tasks_[number];
-  const RunTimeError error = run_turn(programs_[number], task, machine_);
+  return finish_turn(number, run_turn(programs_[number], tasks_[number], machine_));
+}
+
+bool QmoveController::finish_turn(std::size_t number, RunTimeError error) {
+  const Task& task = tasks_[number];
   if (error != RunTimeError::none) {
     stop(error, number);
     return false;
@@ -166,6 +203,8 @@ void QmoveController::start_tasks() {
     task.last_post.assign(machine_.devices.size(), 0);
     task.turned = machine_.now;
   }
+  in_round_ = false;
+  computed_ns_ = machine_.now;
   // A module with faults has no code: there is nothing to run.
   for (std::size_t i = 0; i < programs_.size(); ++i) tasks_[i].ended = programs_[i].code.empty();
   mode_ = OsMode::run;

@@ -32,14 +32,18 @@ enum class OsMode : std::uint8_t { initial = 0, run = 3, error = 5 };
 /// Scheduling (spec D9): every `cycle_ns` a round begins in which each task, in the order given, has one
 /// turn; a turn lasts until WAIT or END. Where a task reads a device, its turn waits for the sample that
 /// takes what was posted to the device before, by anyone; a turn that others held up is finished before the
-/// next round begins. A task that comes to no WAIT for 1 s is told ("held_up"). A run-time error or a task
-/// that loops without WAIT stops all tasks until the next power-up; devices go on.
+/// next round begins. With `statement_ns` each statement, and each look at the condition of a WAIT, takes
+/// that time and acts at its end; a round that lasts longer than `cycle_ns` is followed at once by the next,
+/// devices take their samples meanwhile. A task that comes to no WAIT for 1 s is told ("held_up"). A run-time
+/// error or a task that loops without WAIT stops all tasks until the next power-up; devices go on.
 class QmoveController : public Controller {
  public:
   /// `configuration` and `programs` are free of problems; `programs` were compiled against `configuration`
-  /// and both against `catalogue`. `cycle_ns` > 0. The controller begins powered on, at time 0.
+  /// and both against `catalogue`. `cycle_ns` > 0, `statement_ns` >= 0. The controller begins powered on, at
+  /// time 0.
   QmoveController(Configuration configuration, std::vector<Program> programs,
-                  std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns);
+                  std::span<const CatalogueEntry> catalogue, std::int64_t cycle_ns,
+                  std::int64_t statement_ns = 0);
 
   Cards& cards() override { return cards_; }
   std::variant<Address, TerminalFault> terminal(const std::string& text) override {
@@ -104,6 +108,9 @@ class QmoveController : public Controller {
   void add_terminal(const Address& address);
   void start_tasks();
   bool turn(std::size_t number);
+  bool finish_turn(std::size_t number, RunTimeError error);
+  void run_timed(std::int64_t time_ns);
+  bool run_place(std::int64_t time_ns);
   void tell_of_long_turn(std::size_t number);
   void stop(RunTimeError error, std::size_t task);
   void collect_diagnostics(std::size_t device);
@@ -118,7 +125,11 @@ class QmoveController : public Controller {
   OsMode mode_ = OsMode::run;
   RunTimeError error_ = RunTimeError::none;
 
-  Due round_;                        ///< of the tasks
+  Due round_;                     ///< of the tasks
+  std::int64_t statement_ns_;     ///< what a statement takes
+  std::int64_t computed_ns_ = 0;  ///< until when statements have been executed
+  std::size_t place_ = 0;         ///< in the round's order of turns: those held up by others, then all
+  bool in_round_ = false;
   std::vector<Due> device_due_;      ///< by device
   std::int64_t next_device_ns_ = 0;  ///< the earliest of them
 

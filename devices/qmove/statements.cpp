@@ -172,6 +172,7 @@ void Compiler::wait() {
   take();
   emit(Op::yield);
   const int begin = here();
+  mark(begin);
   condition();
   insert_barriers(begin);
   emit(Op::wait_until, begin);

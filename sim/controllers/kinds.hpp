@@ -30,6 +30,7 @@ struct QmoveSection final : scenario::ControllerSection {
   scenario::Text configuration;       ///< path of the .CNF, relative to the scenario
   std::vector<scenario::Text> tasks;  ///< paths of the QCL units, one task each
   Time cycle = 2 * millisecond;       ///< a round of all tasks begins every `cycle`
+  Time statement_time = 0;            ///< what a statement takes
 
   [[nodiscard]] std::string_view kind() const override { return "qmove"; }
   void visit(scenario::Archive& archive) override;
@@ -45,6 +46,7 @@ struct Lx3vpSection final : scenario::ControllerSection {
   scenario::Text program;       ///< path of the instruction list, relative to the scenario
   scenario::Text registers;     ///< path of a CSV with register values before power-up, "" = none
   Time scan = 1 * millisecond;  ///< a scan of the program begins every `scan`
+  Time step_time = 0;           ///< what an instruction takes
 
   [[nodiscard]] std::string_view kind() const override { return "lx3vp"; }
   void visit(scenario::Archive& archive) override;
@@ -60,6 +62,7 @@ struct PlcopenSection final : scenario::ControllerSection {
   scenario::Text program;             ///< path of the Structured Text, relative to the scenario
   Time cycle = 2 * millisecond;       ///< of the axes
   Time task_cycle = 2 * millisecond;  ///< of the program, a whole multiple of it; `cycle` if not given
+  Time statement_time = 0;            ///< what a statement takes
   struct Axis {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};

@@ -14,6 +14,10 @@ void Lx3vpSection::visit(scenario::Archive& archive) {
                 scenario::form(registers));
   archive.value({"scan", "a scan of the program begins this often"},
                 scenario::form(scan, scenario::Sign::positive));
+  archive.value({"step_time",
+                 "what an instruction takes, or a word that one moves: the outputs come at the end of the "
+                 "scan; 0: a scan takes no time"},
+                scenario::form(step_time, scenario::Sign::not_negative));
   visit_memory(archive, *this);
 }
 
@@ -41,7 +45,7 @@ std::unique_ptr<devices::Controller> Lx3vpSection::load(const scenario::Scenario
       values = lx3vp::read_register_values(*text, path_of(registers), ',', problems);
   }
   if (problems.size() != before) return nullptr;
-  auto controller = std::make_unique<lx3vp::Lx3vpController>(std::move(compiled), scan);
+  auto controller = std::make_unique<lx3vp::Lx3vpController>(std::move(compiled), scan, step_time);
   for (const auto& entry : values) lx3vp::write(controller->registers(), entry.name, entry.value);
   return controller;
 }

@@ -226,6 +226,10 @@ void PlcopenSection::visit(scenario::Archive& archive) {
   if (archive.reads()) task_cycle = cycle;
   archive.value({"task_cycle", "of the program, a whole multiple of cycle"},
                 scenario::form(task_cycle, scenario::Sign::positive));
+  archive.value({"statement_time",
+                 "what a statement of the program takes: a task gives its outputs at its end; 0: statements "
+                 "take no time"},
+                scenario::form(statement_time, scenario::Sign::not_negative));
   archive.names({"tasks", "of several PROGRAMs"},
                 {tasks.size(), [this](std::size_t i) { return tasks[i].name.text; },
                  [this](const scenario::Text& name) {
@@ -263,6 +267,7 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
   plcopen::Configuration configuration;
   configuration.cycle_ns = cycle;
   configuration.task_ns = task_cycle;
+  configuration.statement_ns = statement_time;
   for (const auto& axis : axes) configuration.axes.push_back(axis.configuration);
   for (const auto& task : tasks) {
     configuration.tasks.push_back({task.name.text, 0, 0, task.cycle, task.priority, {}});

@@ -16,6 +16,9 @@ void QmoveSection::visit(scenario::Archive& archive) {
   archive.value({"tasks", "paths of the QCL units, one task each"}, scenario::form(tasks));
   archive.value({"cycle", "a round of all tasks begins this often"},
                 scenario::form(cycle, scenario::Sign::positive));
+  archive.value({"statement_time",
+                 "what a statement of a task takes, and each look at a WAIT; 0: statements take no time"},
+                scenario::form(statement_time, scenario::Sign::not_negative));
   visit_compute_time(archive, *this);
   visit_memory(archive, *this);
 }
@@ -53,7 +56,7 @@ std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario
     for (const auto& program : programs)
       notes->insert(notes->end(), program.notes.begin(), program.notes.end());
   return std::make_unique<qmove::QmoveController>(std::move(parsed), std::move(programs),
-                                                  devices::catalogue(), cycle);
+                                                  devices::catalogue(), cycle, statement_time);
 }
 
 }  // namespace drycut::sim::controllers

@@ -11,7 +11,7 @@ std::vector<KnownEvent> events_of_every_run() {
   std::vector<KnownEvent> events;
   for (const auto* name : {"set", "ramp", "fault", "power"}) events.push_back({"timeline", name, {}});
   for (const auto* name : {"refused", "out_of_range", "error", "warning", "note", "contradiction", "held_up",
-                           "stopped", "errorstop", "block_error"})
+                           "overrun", "stopped", "errorstop", "block_error"})
     events.push_back({"controller", name, {}});
   for (const auto* name : {"counts_lost", "pulse_lost"}) events.push_back({"card", name, {}});
   return events;

@@ -11,7 +11,7 @@ void Remarks::happened(const RecordedEvent& event) {
   if (event.text.empty() || event.source == "timeline") return;
   ++count_;
   // What a program may wait for in vain, or lose, stands before remarks on values.
-  const bool urgent = event.event == "contradiction" || event.event == "held_up";
+  const bool urgent = event.event == "contradiction" || event.event == "held_up" || event.event == "overrun";
   if ((urgent ? urgent_ : remarks_.size()) >= shown) return;
   const auto place = urgent ? urgent_++ : remarks_.size();
   remarks_.insert(

@@ -246,6 +246,7 @@ Machine::Flow Machine::execute(int number) {
   const Node& n = node(number);
   if (n.op == Op::sequence) return sequence(n);
   spend(n, 1);
+  ++statements_;
   switch (n.op) {
     case Op::store:
       at(n.imm) = value(n.a);
@@ -322,6 +323,7 @@ Machine::Flow Machine::choose(const Node& n) {
 Machine::Flow Machine::loop(const Node& n) {
   while (value(n.a) != 0) {
     spend(n, 1);
+    ++statements_;
     const Flow flow = execute(n.b);
     if (flow == Flow::leave_loop) break;
     if (flow == Flow::leave_pou) return flow;
@@ -333,6 +335,7 @@ Machine::Flow Machine::loop(const Node& n) {
 Machine::Flow Machine::repeat(const Node& n) {
   do {
     spend(n, 1);
+    ++statements_;
     const Flow flow = execute(n.a);
     if (flow == Flow::leave_loop) break;
     if (flow == Flow::leave_pou) return flow;

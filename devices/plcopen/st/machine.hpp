@@ -30,6 +30,9 @@ class Machine {
   /// Runs one program once; throws RuntimeError.
   void run(const Compiled::Instance& program, std::int64_t time_ms);
 
+  /// Statements executed so far, each round of a loop one more.
+  [[nodiscard]] std::int64_t statements() const { return statements_; }
+
   [[nodiscard]] Cell cell(int place) const { return memory_[static_cast<std::size_t>(place)]; }
   /// The motion block with this cell among its pins.
   [[nodiscard]] const FunctionBlock* motion_at(int place) const;
@@ -84,6 +87,7 @@ class Machine {
   std::int64_t own_ = 0;  ///< where the instance begins whose block runs
   std::int64_t time_ms_ = 0;
   std::int64_t work_ = 0;  ///< that is left in this scan
+  std::int64_t statements_ = 0;
 };
 
 }  // namespace drycut::devices::plcopen::st

@@ -16,6 +16,7 @@ namespace {
 
 /// A task and its programs.
 struct Task {
+  std::string name;
   Due due;
   int priority = 0;
   int single = -1;
@@ -30,9 +31,10 @@ std::vector<Task> plan(const Compiled& code, const Schedule& schedule) {
   const auto& tasks = given ? schedule.tasks : code.tasks;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const int single = given ? -1 : code.singles[i];
-    plan.push_back({{single >= 0 ? schedule.cycle_ns : tasks[i].interval_ns}, tasks[i].priority, single});
+    plan.push_back(
+        {tasks[i].name, {single >= 0 ? schedule.cycle_ns : tasks[i].interval_ns}, tasks[i].priority, single});
   }
-  plan.push_back({{schedule.task_ns}, std::numeric_limits<int>::max()});
+  plan.push_back({"program", {schedule.task_ns}, std::numeric_limits<int>::max()});
   for (std::size_t i = 0; i < code.instance_names.size() && i < code.instances.size(); ++i) {
     const Program::Instance& instance = code.instance_names[i];
     std::size_t task = instance.task < 0 || given ? tasks.size() : static_cast<std::size_t>(instance.task);
@@ -53,7 +55,8 @@ struct Runtime::State {
   State(Program of, MotionKernel& kernel, const Schedule& schedule)
       : program(std::move(of)),
         machine(program.compiled(), kernel),
-        tasks(plan(program.compiled(), schedule)) {}
+        tasks(plan(program.compiled(), schedule)),
+        statement_ns(schedule.statement_ns) {}
 
   /// Whether a task runs now; an edge of its SINGLE is seen once.
   bool is_due(Task& task, std::int64_t time_ns) const {
@@ -63,9 +66,23 @@ struct Runtime::State {
     return task.last && !before;
   }
 
+  /// The programs of a task; false after a fault.
+  bool run(const Task& task, std::int64_t time_ns) {
+    constexpr std::int64_t ns_per_ms = 1'000'000;
+    const auto& instances = program.compiled().instances;
+    try {
+      for (const std::size_t number : task.programs) machine.run(instances[number], time_ns / ns_per_ms);
+    } catch (const RuntimeError& error) {
+      fault = Fault{error.line, error.column, error.what()};
+    }
+    return !fault;
+  }
+
   Program program;
   Machine machine;
   std::vector<Task> tasks;
+  std::int64_t statement_ns;
+  std::int64_t free_ns = 0;  ///< the last task has ended
   std::optional<Fault> fault;
 };
 
@@ -78,22 +95,31 @@ Runtime::~Runtime() = default;
 void Runtime::cold_start(bool all) {
   state_->fault.reset();
   state_->machine.start(all);
+  state_->free_ns = 0;
   for (Task& task : state_->tasks) task.last = false;
 }
 
 void Runtime::scan(std::int64_t time_ns) {
   if (state_->fault) return pass(time_ns);
-  constexpr std::int64_t ns_per_ms = 1'000'000;
-  const auto& instances = state_->program.compiled().instances;
-  try {
-    for (Task& task : state_->tasks) {
-      if (!state_->is_due(task, time_ns)) continue;
-      for (const std::size_t program : task.programs)
-        state_->machine.run(instances[program], time_ns / ns_per_ms);
-    }
-  } catch (const RuntimeError& error) {
-    state_->fault = Fault{error.line, error.column, error.what()};
+  for (Task& task : state_->tasks)
+    if (state_->is_due(task, time_ns) && !state_->run(task, time_ns)) return;
+}
+
+std::optional<TaskRun> Runtime::run_next(std::int64_t time_ns) {
+  if (state_->fault) {
+    pass(time_ns);
+    return std::nullopt;
   }
+  for (Task& task : state_->tasks) {
+    const std::int64_t due_ns = task.due.next_ns;
+    if (!state_->is_due(task, time_ns)) continue;
+    const std::int64_t begun_ns = std::max(due_ns, state_->free_ns);
+    const std::int64_t before = state_->machine.statements();
+    state_->run(task, time_ns);
+    state_->free_ns = begun_ns + (state_->machine.statements() - before) * state_->statement_ns;
+    return TaskRun{task.name, due_ns, begun_ns, state_->free_ns, task.single < 0 ? task.due.period_ns : 0};
+  }
+  return std::nullopt;
 }
 
 void Runtime::pass(std::int64_t time_ns) {

@@ -35,8 +35,18 @@ struct Fault {
 struct Schedule {
   /// Instead of those of a CONFIGURATION, if there are any; their programs are those that they name.
   std::vector<Program::Task> tasks;
-  std::int64_t task_ns = 0;   ///< of programs without a task; 0: at each scan
-  std::int64_t cycle_ns = 0;  ///< in which a task with a SINGLE looks at it; 0: at each scan
+  std::int64_t task_ns = 0;       ///< of programs without a task; 0: at each scan
+  std::int64_t cycle_ns = 0;      ///< in which a task with a SINGLE looks at it; 0: at each scan
+  std::int64_t statement_ns = 0;  ///< what a statement takes: of run_next()
+};
+
+/// A task that has run, where statements take time.
+struct TaskRun {
+  std::string task;
+  std::int64_t due_ns = 0;
+  std::int64_t begun_ns = 0;     ///< later than due where others were at work
+  std::int64_t ended_ns = 0;     ///< its outputs are there
+  std::int64_t interval_ns = 0;  ///< 0: it runs by its SINGLE
 };
 
 /// Programs in a controller: their variables and function blocks, and their scans.
@@ -53,6 +63,9 @@ class Runtime {
   /// Runs the programs that are due at the controller's time, by the priorities of their tasks; nothing after
   /// a fault.
   void scan(std::int64_t time_ns);
+  /// The same for one task where statements take time: the first by priority of those that are due. The next
+  /// may run from its end on; none interrupts another. Nothing if none is due, and after a fault.
+  std::optional<TaskRun> run_next(std::int64_t time_ns);
   /// Leaves out what is due: there is no power.
   void pass(std::int64_t time_ns);
   /// When the next program is due.

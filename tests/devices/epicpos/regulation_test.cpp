@@ -122,6 +122,25 @@ TEST_F(EpicposSharedDac, TwoAtOnceAreReportedOnce) {
   says({std::string("IOutA: ") + warning});  // now it is the second
 }
 
+TEST_F(EpicposSharedDac, OfTwoAtOnceTheLaterHasTheLastWordAndRegoffLeavesItsVoltage) {
+  drive(*device, "INIT! CALON!");
+  drive(*second, "INIT! CALON!");
+  both();
+  drive(*device, "vout=20");
+  drive(*second, "vout=-30");
+  both(3);
+  shows("DAC=-9830");
+  drive(*second, "REGOFF!");
+  both(3);
+  shows("DAC=6553");
+  drive(*device, "REGOFF!");
+  both(3);
+  drive(*device, "vout=50");
+  drive(*second, "vout=50");
+  both(3);
+  shows("DAC=6553");
+}
+
 TEST_F(EpicposSharedDac, Camming4TakesPart) {
   second = camming4::make_camming4(terminals_of("2 X X X X X X X X X 2.AN01 X"), cards);
   drive(*device, "INIT!");
