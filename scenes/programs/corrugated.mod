@@ -1,8 +1,8 @@
 ;-----
 ; Cut-off of a corrugator, see corrugated.cnf. Set slLength before the start; a new value while the knife runs is a
-; new order: the sheet under way is finished as it is, the next one has the new length. The cam has two blocks of
-; rows, a sheet each. One runs; the other one is filled with the new order, then the jump at the end of the running
-; one is turned to it.
+; new order: the sheet under way and at most one more are cut as they were, then come those of the new length. The cam
+; has two blocks of rows, a sheet each. One runs; the other one is filled with the new order, then the jump at the end
+; of the running one is turned to it.
 ;-----
 ; Set-up of the axis: 8192 bits a turn of the motor, gear 5:1, 600 mm of board a turn of the drums;
 ; measuring wheel 10000 bits for 500 mm; 10 V = 3000 rpm of the motor = 360 m/min of the blades.
@@ -83,7 +83,7 @@ IF gbPhase EQ 3 AND slLength NEQ glCut
     ENDIF
 ENDIF
 ; Stop: only while the blade is on its way over the top, so that it never brakes inside the board
-IF gbPhase EQ 3 AND NOT ifStart AND AxisX:rowex GT 3 AND AxisX:rowex NEQ 9 AND AxisX:posit LT cCircum
+IF gbPhase EQ 3 AND NOT ifStart AND (AxisX:rowex EQ 4 OR AxisX:rowex EQ 10) AND AxisX:posit LT cCircum
     STOPCAM AxisX
     WAIT AxisX:st_still AND NOT AxisX:st_camex
     ofCutting = 0
