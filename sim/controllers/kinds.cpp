@@ -5,6 +5,7 @@
 
 #include "sim/file.hpp"
 #include "sim/scenario/forms.hpp"
+#include "sim/scenario/variables.hpp"
 
 namespace drycut::sim::controllers {
 
@@ -33,7 +34,7 @@ const ControllerKind* controller_kind(std::string_view name) {
 
 void visit_memory(scenario::Archive& archive, scenario::ControllerSection& section) {
   archive.value({"retentive", "a file that keeps retentive values from run to run"},
-                scenario::form(section.retentive));
+                scenario::path_form(section.retentive));
   archive.value({"set", "values before power-up, as the controller counts them"},
                 scenario::form(section.set));
 }
@@ -49,6 +50,17 @@ std::optional<std::string> read_named(const scenario::Text& path, const scenario
                                       Problems& problems) {
   return read_file(scenario.file.parent_path() / path.text, problems,
                    scenario::problem_at(scenario, path.place, "", ""));
+}
+
+std::optional<std::string> read_named_table(const scenario::Text& path, const scenario::Scenario& scenario,
+                                            Problems& problems) {
+  const auto before = problems.size();
+  auto text = read_named(path, scenario, problems);
+  if (text)
+    text = scenario::with_variables(*text, scenario.variables,
+                                    (scenario.file.parent_path() / path.text).string(), problems);
+  if (problems.size() != before) return {};
+  return text;
 }
 
 }  // namespace drycut::sim::controllers

@@ -107,5 +107,8 @@ void visit_compute_time(scenario::Archive& archive, scenario::ControllerSection&
 /// Reads the file that a section names; one that cannot be read is a problem at its name.
 std::optional<std::string> read_named(const scenario::Text& path, const scenario::Scenario& scenario,
                                       Problems& problems);
+/// The same for a table, its cells with variables of the scenario computed.
+std::optional<std::string> read_named_table(const scenario::Text& path, const scenario::Scenario& scenario,
+                                            Problems& problems);
 
 }  // namespace drycut::sim::controllers

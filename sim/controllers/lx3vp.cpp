@@ -8,10 +8,10 @@ namespace lx3vp = devices::lx3vp;
 
 void Lx3vpSection::visit(scenario::Archive& archive) {
   archive.value({"program", "path of the instruction list, relative to the scenario"},
-                scenario::form(program));
+                scenario::path_form(program));
   archive.require("program", "add program: programs/saw.il");
   archive.value({"registers", "path of a CSV with register values before power-up"},
-                scenario::form(registers));
+                scenario::path_form(registers));
   archive.value({"scan", "a scan of the program begins this often"},
                 scenario::form(scan, scenario::Sign::positive));
   archive.value({"step_time",
@@ -41,7 +41,7 @@ std::unique_ptr<devices::Controller> Lx3vpSection::load(const scenario::Scenario
     compiled = lx3vp::il::compile(*text, path_of(program), problems);
   std::vector<lx3vp::RegisterValue> values;
   if (!registers.text.empty()) {
-    if (const auto text = read_named(registers, scenario, problems))
+    if (const auto text = read_named_table(registers, scenario, problems))
       values = lx3vp::read_register_values(*text, path_of(registers), ',', problems);
   }
   if (problems.size() != before) return nullptr;

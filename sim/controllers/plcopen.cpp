@@ -84,7 +84,7 @@ std::vector<plcopen::CamTable> load_tables(const PlcopenSection& section,
                "give a table of the kernel (.tab) or a cam as CSV (.csv)");
       continue;
     }
-    const auto text = read_named(entry.file, scenario, problems);
+    const auto text = read_named_table(entry.file, scenario, problems);
     if (!text) continue;
     std::optional<plcopen::CamTable> table;
     if (path.extension() == ".tab") {
@@ -211,16 +211,16 @@ void note_slow_phasing(const plcopen::st::Program& program, const PlcopenSection
 // tables: [cams/knife.tab, {file: cams/eject.csv, id: 2}]
 void visit(scenario::Archive& archive, PlcopenSection::Table& table) {
   constexpr int last_id = 65535;
-  if (archive.instead(table.id == 0, scenario::form(table.file))) return;
+  if (archive.instead(table.id == 0, scenario::path_form(table.file))) return;
   archive.in_line();
-  archive.value({"file", "a table of the kernel (.tab) or a cam as CSV"}, scenario::form(table.file));
+  archive.value({"file", "a table of the kernel (.tab) or a cam as CSV"}, scenario::path_form(table.file));
   archive.value({"id", "in place of the file's own"}, scenario::form(table.id, 1, last_id));
   archive.require("file", "add file: cams/knife.tab");
 }
 
 void PlcopenSection::visit(scenario::Archive& archive) {
   archive.value({"program", "path of the Structured Text, relative to the scenario"},
-                scenario::form(program));
+                scenario::path_form(program));
   archive.require("program", "add program: programs/knife.st");
   archive.value({"cycle", "of the axes"}, scenario::form(cycle, scenario::Sign::positive));
   if (archive.reads()) task_cycle = cycle;

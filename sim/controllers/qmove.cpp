@@ -11,9 +11,9 @@ namespace qmove = devices::qmove;
 
 void QmoveSection::visit(scenario::Archive& archive) {
   archive.value({"configuration", "path of the .CNF, relative to the scenario"},
-                scenario::form(configuration));
+                scenario::path_form(configuration));
   archive.require("configuration", "add configuration: programs/line.cnf");
-  archive.value({"tasks", "paths of the QCL units, one task each"}, scenario::form(tasks));
+  archive.value({"tasks", "paths of the QCL units, one task each"}, scenario::path_form(tasks));
   archive.value({"cycle", "a round of all tasks begins this often"},
                 scenario::form(cycle, scenario::Sign::positive));
   archive.value({"statement_time",

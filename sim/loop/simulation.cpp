@@ -10,6 +10,7 @@
 
 #include "sim/loop/controller_loader.hpp"
 #include "sim/scenario/format.hpp"
+#include "sim/scenario/variables.hpp"
 
 namespace drycut::sim::loop {
 
@@ -58,6 +59,7 @@ Simulation::~Simulation() = default;
 
 void Simulation::load_controller(Problems& problems) {
   controller_ = loop::load_controller(scenario_, problems, &notes_of_setup_);
+  for (auto& note : scenario::unused_variables(scenario_)) notes_of_setup_.push_back(std::move(note));
 }
 
 void Simulation::build_plants() {

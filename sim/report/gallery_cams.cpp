@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "sim/controllers/kinds.hpp"
-#include "sim/file.hpp"
 #include "sim/report/gallery.hpp"
 
 namespace drycut::sim::report {
@@ -16,7 +15,7 @@ std::vector<cams::CamPage> cams_of(const scenario::Scenario& scenario, const loo
   if (played.empty() && plcopen != nullptr) {
     Problems problems;
     for (const auto& table : plcopen->tables)
-      if (auto text = read_file(scenario.file.parent_path() / table.file.text, problems))
+      if (auto text = controllers::read_named_table(table.file, scenario, problems))
         played.push_back({table.file.text, nullptr, {}, std::move(*text)});
   }
   auto pages = cams::cam_pages(played);

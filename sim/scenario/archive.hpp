@@ -124,6 +124,7 @@ class Archive {
 };
 
 void visit(Archive& archive, Scenario& scenario);
+void visit(Archive& archive, Variable& variable);
 void visit(Archive& archive, PlantEntry& plant);
 void visit(Archive& archive, Wire& wire);
 void visit(Archive& archive, InputFilter& filter);

@@ -18,9 +18,11 @@ struct Text;
 
 /// What is wrong with an expression, and at which byte of its text.
 struct ExpressionFault {
+  enum class Of { syntax, names, values };
   std::size_t offset = 0;
   std::string what;
   std::string remedy;
+  Of of = Of::syntax;
 };
 
 /// What an expression says at one instant.

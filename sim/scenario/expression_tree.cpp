@@ -30,8 +30,10 @@ class TreeBuilder {
   ExpressionTree run(std::vector<ExpressionFault>& faults) {
     tree_.root = choice();
     if (at_ < tokens_.size()) refuse(unexpected_token(tokens_[at_]));
+    using Of = ExpressionFault::Of;
+    const auto of = syntax_ ? Of::syntax : of_names_.empty() ? Of::values : Of::names;
     const auto& all = syntax_ ? std::vector{*syntax_} : of_names_.empty() ? of_values_ : of_names_;
-    faults.insert(faults.end(), all.begin(), all.end());
+    for (const auto& fault : all) faults.push_back({fault.offset, fault.what, fault.remedy, of});
     return std::move(tree_);
   }
 
@@ -182,7 +184,10 @@ class TreeBuilder {
     const auto& token = tokens_[at_++];
     Node node;
     node.number = token.value;
-    if (!token.unit.empty()) node.unit = {ExpressionUnit::Kind::known, token.unit, true};
+    if (!token.unit.empty())
+      node.unit = {ExpressionUnit::Kind::known, token.unit, true};
+    else if (names_.bare_is_pure)
+      node.unit = {ExpressionUnit::Kind::known, ""};
     return add(std::move(node), tree_.nodes.size(), at_ - 1);
   }
 

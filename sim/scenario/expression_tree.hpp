@@ -57,6 +57,8 @@ struct ExpressionNames {
   const Expression::Resolver& resolve;
   const Expression::Resolver& inside;  ///< statistics; may be empty: there are none
   const std::vector<std::string>& known;
+  /// A number without a unit is a pure number; else it is in the unit of what it meets.
+  bool bare_is_pure = false;
 };
 
 /// The tree of the tokens of `text`. Faults of syntax come first and alone, then those of names, then those

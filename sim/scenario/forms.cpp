@@ -185,6 +185,24 @@ Form form(std::string& value) {
 
 Form form(Text& value) { return bound(value, take_text, write_text, any_text_schema); }
 
+Form path_form(Text& value) {
+  const auto read = [](const Text& text, const std::string&, Findings& findings) {
+    auto made = text;
+    made.text = findings.path_from(text);
+    return std::optional(made);
+  };
+  return bound(value, read, write_text, any_text_schema);
+}
+
+Form path_form(std::vector<Text>& values) {
+  auto made = form(values);
+  made.read = [&values, read = made.read](const YamlNode& node, const Form::Name& name, Findings& findings) {
+    read(node, name, findings);
+    for (auto& value : values) value.text = findings.path_from(value);
+  };
+  return made;
+}
+
 Form quoted_form(Text& value) { return bound(value, take_text, write_quoted, any_text_schema); }
 
 Form expression_form(Text& value) { return bound(value, take_expression, write_quoted, any_text_schema); }

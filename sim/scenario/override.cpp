@@ -18,6 +18,8 @@ class OverrideSetter {
       : override_(override), place_{1, 1, source}, findings_(findings) {}
 
   void apply(YamlNode& root) {
+    if (override_.path == "extends")
+      return refuse("what a scenario extends cannot be set", "write extends into a scenario of its own");
     const auto before = findings_.count();
     value_ = parse_yaml(override_.value, place_.source, findings_);
     if (findings_.count() != before) return;
@@ -66,9 +68,9 @@ class OverrideSetter {
     const std::string first(rest.substr(0, dot));
     const auto& sections = section_names();
     const bool section = std::find(sections.begin(), sections.end(), first) != sections.end();
-    if (dot == std::string_view::npos || takes_dotted_keys(name)) {
+    if ((dot == std::string_view::npos && name != "variables") || takes_dotted_keys(name)) {
       map.entries.push_back({Text{std::string(rest), place_}, value_});
-    } else if (name.empty() ? section : name != "plants") {
+    } else if (name.empty() ? section : name != "plants" && name != "variables") {
       map.entries.push_back({Text{first, place_}, YamlNode{YamlNode::Kind::map, {"", place_}}});
       set(map.entries.back().value, rest.substr(dot + 1), name.empty() ? first : name + "." + first);
     } else {

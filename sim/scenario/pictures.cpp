@@ -163,7 +163,7 @@ void visit_window(Archive& archive, Time& from, std::optional<Time>& until,
 }
 
 void visit(Archive& archive, PicturesSection::MeshRequest& mesh) {
-  archive.value({"file", "a mesh, relative to the scenario"}, form(mesh.file));
+  archive.value({"file", "a mesh, relative to the scenario"}, path_form(mesh.file));
   archive.require("file", "name a mesh file: file: meshes/my_drum.stl");
   archive.value({"scale", "on the file's unit"},
                 form(mesh.scale, "", 1e-6, 1e6, "1e-6 to 1e6; 1 takes the file as it is"));

@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/plain_text.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
+#include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/sections.hpp"
+#include "sim/scenario/variables.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 
 namespace {
-
-constexpr std::size_t largest_text = std::size_t{1} << 20U;  // [bytes]; yaml-cpp takes half a second for it
 
 // Reads the whole: plants need the step and the known types, a controller one of its kinds.
 class ScenarioReader final : public MapReader {
@@ -149,20 +148,6 @@ bool refuse_comparison(const YamlNode& root, Findings& findings) {
   return true;
 }
 
-// The tree of the file, or a map without entries where nothing can be read.
-YamlNode parse(std::string_view text, Findings& findings) {
-  if (text.size() > largest_text) {
-    findings.add({1, 1}, fmt::format("the text has {} bytes", text.size()),
-                 fmt::format("a scenario has at most {}", largest_text));
-    return {};
-  }
-  if (const auto fault = text_fault(text)) {
-    findings.add({fault->line, fault->column}, fault->what, "a scenario is a YAML text in UTF-8");
-    return {};
-  }
-  return parse_yaml(text, 0, findings);
-}
-
 }  // namespace
 
 Place Text::at(std::size_t offset) const {
@@ -192,7 +177,7 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
   scenario.overrides = overrides;
   for (const auto& override : overrides) scenario.sources.push_back("--set " + override.path);
   Findings findings(scenario.sources);
-  auto root = parse(text, findings);
+  auto root = read_tree(text, file, findings);
   if (findings.empty() && root.kind == YamlNode::Kind::null) {
     findings.add({1, 1}, "the scenario is empty",
                  fmt::format("its sections are: {}", fmt::join(section_names(), ", ")));
@@ -201,11 +186,19 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
       apply_override(root, overrides[i], static_cast<int>(i) + 1, findings);
     }
     if (root.kind == YamlNode::Kind::map) {
-      if (!refuse_comparison(root, findings)) read_sections(root, types, scenario, findings);
+      if (!refuse_comparison(root, findings)) {
+        const auto before = findings.count();
+        const auto used = resolve_variables(root, findings);
+        const bool resolved = findings.count() == before;
+        read_sections(root, types, scenario, findings);
+        scenario.buildable = scenario.buildable && resolved;
+        for (auto& variable : scenario.variables) variable.used = used.contains(variable.name.text);
+      }
     } else {
       refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);
     }
   }
+  scenario.sources = findings.sources();
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
   return scenario;
 }

@@ -23,7 +23,10 @@ namespace drycut::sim::scenario {
 struct Place {
   int line = 0;
   int column = 0;
-  int source = 0;  ///< which text: 0 the scenario file, n the n-th override; index of Scenario::sources
+  /// Which text: 0 the scenario file, n the n-th override, then files that it extends; index of
+  /// Scenario::sources.
+  int source = 0;
+  bool operator==(const Place&) const = default;
 };
 struct Text {
   std::string text;
@@ -289,8 +292,17 @@ struct Override {
   std::string value;
 };
 
+/// variables: {length: 800 mm}, used as ${length}
+struct Variable {
+  Text name;
+  Text value;         ///< what it comes to: a quantity, a switch, a text
+  bool used = false;  ///< in the scenario; tables that it names are not looked at
+};
+
 struct Scenario {
   std::filesystem::path file;
+  Text extends;  ///< never kept: for the schema
+  std::vector<Variable> variables;
   SceneSection scene;
   std::vector<PlantEntry> plants;
   std::unique_ptr<ControllerSection> controller;  ///< nullptr without
@@ -306,7 +318,8 @@ struct Scenario {
   /// of the step. Problems elsewhere do not stop a check of the names.
   bool buildable = false;
   std::vector<Override> overrides;   ///< that were applied
-  std::vector<std::string> sources;  ///< names for messages: the file, then "--set PATH" of each override
+  std::vector<std::string> sources;  ///< names for messages: the file, then "--set PATH" of each override,
+                                     ///< then other files that are read for it
 };
 
 /// A problem at a place of the scenario, with the right file name.

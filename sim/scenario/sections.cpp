@@ -294,7 +294,19 @@ void visit(Archive& archive, Check& check) {
   archive.judge([&check](MapReader& reader) { judge_check(reader, check); });
 }
 
+void visit(Archive& archive, Variable& variable) { archive.alone(form(variable.value)); }
+
 void visit(Archive& archive, Scenario& scenario) {
+  archive.value({"extends",
+                 "another scenario that this one changes: maps are merged, `key: ~` leaves out, "
+                 "lists are replaced, or changed by the names of their entries",
+                 false},
+                form(scenario.extends));
+  archive.names({"variables",
+                 "by names of your own; ${name} stands for its value anywhere below, and in cam "
+                 "tables and registers, also in arithmetic: ${length} / 2 + 3 mm",
+                 !scenario.variables.empty()},
+                scenario.variables, &Variable::name);
   archive.section({"scene", "title, time and chance"},
                   [&](Archive& inner) { visit_scene(inner, scenario.scene); });
   archive.plants({"plants", "the machine's parts, by names of your own; 'drycut plants' lists the types",
@@ -335,9 +347,9 @@ void visit(Archive& archive, Scenario& scenario) {
 }
 
 const std::vector<std::string>& section_names() {
-  static const std::vector<std::string> names = {"scene",   "plants",   "controller",   "wiring",
-                                                 "filters", "timeline", "disturbances", "record",
-                                                 "drives",  "checks",   "pictures"};
+  static const std::vector<std::string> names = {
+      "extends",  "variables",    "scene",  "plants", "controller", "wiring",  "filters",
+      "timeline", "disturbances", "record", "drives", "checks",     "pictures"};
   return names;
 }
 

@@ -50,6 +50,11 @@ class Lines {
   }
   [[nodiscard]] Place place(const YAML::Mark& mark) const { return place(offset(mark)); }
   [[nodiscard]] std::string_view text() const { return text_; }
+  // A variable stands before `mark` in its line.
+  [[nodiscard]] bool has_variable(const YAML::Mark& mark) const {
+    const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), starts_.size() - 1);
+    return text_.substr(starts_[line], offset(mark) - starts_[line] + 1).find("${") != std::string_view::npos;
+  }
   // A tab before the first word of the line of `mark`; yaml-cpp's own message is not always about it.
   [[nodiscard]] std::optional<Place> indenting_tab(const YAML::Mark& mark) const {
     const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), starts_.size() - 1);
@@ -193,7 +198,10 @@ class Builder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     refuse_anchor(mark, anchor);
-    put(YamlNode{YamlNode::Kind::null, {"", lines_.place(mark)}});
+    const auto offset = lines_.offset(mark);
+    const char first = offset < lines_.text().size() ? lines_.text()[offset] : '\0';
+    const bool written = first == '~' || first == 'n' || first == 'N';
+    put(YamlNode{YamlNode::Kind::null, {written ? "~" : "", lines_.place(mark)}});
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     findings_.add(lines_.place(mark), "aliases (*name) are not used in scenarios", "write the value out");
@@ -297,7 +305,9 @@ class Builder : public YAML::EventHandler {
 
 // yaml-cpp's words for the commonest slips, in words that say what to do.
 std::pair<std::string, std::string> explain(const YAML::ParserException& error,
-                                            const std::optional<Place>& open) {
+                                            const std::optional<Place>& open, bool after_variable) {
+  if (after_variable)
+    return {"inside { } and [ ] a value with ${name} stands in quotes", "write \"${length} / 2\""};
   const std::string opened =
       open ? fmt::format(" opened at line {}, column {}", open->line, open->column) : std::string();
   if (error.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) {
@@ -319,12 +329,21 @@ std::pair<std::string, std::string> explain(const YAML::ParserException& error,
 }  // namespace
 
 void Findings::add(const Place& place, std::string what, std::string remedy) {
+  if (std::find(silent_.begin(), silent_.end(), place) != silent_.end()) return;
   found_.push_back({place, std::move(what), std::move(remedy)});
 }
 
-int Findings::add_source(std::string name) {
+int Findings::add_source(std::string name, const std::filesystem::path& folder) {
   sources_.push_back(std::move(name));
-  return static_cast<int>(sources_.size()) - 1;
+  const auto source = static_cast<int>(sources_.size()) - 1;
+  if (!folder.empty()) folders_[source] = folder;
+  return source;
+}
+
+std::string Findings::path_from(const Text& text) const {
+  const auto folder = folders_.find(text.place.source);
+  if (folder == folders_.end() || text.text.empty()) return text.text;
+  return (folder->second / text.text).lexically_normal().string();
 }
 
 Problems Findings::sorted() const {
@@ -366,7 +385,8 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
     if (const auto tab = lines.indenting_tab(error.mark)) {
       findings.add(*tab, "a tab in the indentation", "indent with spaces");
     } else {
-      auto [what, remedy] = explain(error, builder.open_bracket());
+      const auto open = builder.open_bracket();
+      auto [what, remedy] = explain(error, open, open && lines.has_variable(error.mark));
       findings.add(lines.place(error.mark), std::move(what), std::move(remedy));
     }
   } catch (const std::exception& error) {
@@ -374,6 +394,20 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
                  "a scenario is a YAML text");
   }
   return YamlNode{YamlNode::Kind::null, {"", {1, 1, source}}};
+}
+
+YamlNode parse_scenario(std::string_view text, int source, Findings& findings) {
+  constexpr std::size_t largest_text = std::size_t{1} << 20U;  // [bytes]; yaml-cpp takes half a second for it
+  if (text.size() > largest_text) {
+    findings.add({1, 1, source}, fmt::format("the text has {} bytes", text.size()),
+                 fmt::format("a scenario has at most {}", largest_text));
+    return {};
+  }
+  if (const auto fault = text_fault(text)) {
+    findings.add({fault->line, fault->column, source}, fault->what, "a scenario is a YAML text in UTF-8");
+    return {};
+  }
+  return parse_yaml(text, source, findings);
 }
 
 const YamlNode* child(const YamlNode& node, std::string_view key) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,7 +20,7 @@ struct YamlNode {
   explicit YamlNode(Kind kind, Text text);
 
   Kind kind = Kind::null;
-  Text text;                    ///< of a scalar; of all kinds the place
+  Text text;  ///< of a scalar; of all kinds the place; "~" of nothing that is written so, or as null
   std::vector<YamlNode> items;  ///< of a sequence
   std::vector<Entry> entries;   ///< of a map, in the order of the file; duplicate keys are kept
 };
@@ -38,8 +40,13 @@ class Findings {
  public:
   explicit Findings(std::vector<std::string> sources) : sources_(std::move(sources)) {}
   void add(const Place& place, std::string what, std::string remedy);
-  /// Another text takes part: its number.
-  int add_source(std::string name);
+  /// Another text takes part: its number. `folder`: of the file, seen from that of the scenario; "" = the
+  /// same.
+  int add_source(std::string name, const std::filesystem::path& folder = {});
+  /// A file name that `text` gives, relative to the scenario's folder, whichever file it stands in.
+  [[nodiscard]] std::string path_from(const Text& text) const;
+  /// Nothing more is said of what stands exactly here: it has been told.
+  void silence(const Place& place) { silent_.push_back(place); }
   [[nodiscard]] bool empty() const { return found_.empty(); }
   [[nodiscard]] std::size_t count() const { return found_.size(); }
   [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
@@ -53,8 +60,13 @@ class Findings {
     std::string remedy;
   };
   std::vector<std::string> sources_;
+  std::map<int, std::filesystem::path> folders_;  ///< of sources that stand in another one than the scenario
   std::vector<Found> found_;
+  std::vector<Place> silent_;
 };
+
+/// A scenario's text as a tree: a YAML text of scenario's size.
+YamlNode parse_scenario(std::string_view text, int source, Findings& findings);
 
 /// Reads one YAML document. Syntax errors, anchors, aliases, tags and second documents are problems at their
 /// place in `source`, and then the tree is empty (null). Never throws.

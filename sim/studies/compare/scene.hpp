@@ -15,6 +15,9 @@ namespace drycut::sim::studies {
 
 struct ComparisonScene {
   std::filesystem::path file;
+  std::vector<std::string> sources;  ///< the file, then what it extends
+  scenario::Text extends;            ///< never kept: for the schema
+  std::vector<scenario::Variable> variables;
   std::string title;
   struct Channel {
     scenario::Text name;  ///< what all runs call it
@@ -44,7 +47,8 @@ struct ComparisonScene {
   std::vector<Check> checks;
 
   [[nodiscard]] Problem problem(const scenario::Place& place, std::string what, std::string remedy) const {
-    return {file.string(), place.line, place.column, std::move(what), std::move(remedy)};
+    return {sources.at(static_cast<std::size_t>(place.source)), place.line, place.column, std::move(what),
+            std::move(remedy)};
   }
 };
 

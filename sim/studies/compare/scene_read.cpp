@@ -4,8 +4,10 @@
 #include <cctype>
 
 #include "sim/file.hpp"
+#include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
+#include "sim/scenario/variables.hpp"
 #include "sim/studies/compare/scene.hpp"
 
 namespace drycut::sim::studies {
@@ -75,9 +77,9 @@ void visit(scenario::Archive& archive, ComparisonScene::Channel& channel) {
 
 // A path, or a map with the path and what is particular to this run.
 void visit(scenario::Archive& archive, ComparisonScene::Member& member) {
-  if (archive.instead(false, scenario::form(member.scenario))) return;
+  if (archive.instead(false, scenario::path_form(member.scenario))) return;
   archive.value({"name", "its folder, its label, its name in checks"}, scenario::form(member.name));
-  archive.value({"scenario", "path, relative to the scene"}, scenario::form(member.scenario));
+  archive.value({"scenario", "path, relative to the scene"}, scenario::path_form(member.scenario));
   archive.require("scenario", "add scenario: rotary_knife.yaml");
   auto& set = member.set;
   archive.names(
@@ -136,6 +138,10 @@ void visit(scenario::Archive& archive, ComparisonScene::Check& check) {
 }
 
 void visit(scenario::Archive& archive, ComparisonScene& scene) {
+  archive.value({"extends", "another such scene that this one changes", false},
+                scenario::form(scene.extends));
+  archive.names({"variables", "used as ${name} in this scene", !scene.variables.empty()}, scene.variables,
+                &scenario::Variable::name);
   archive.section({"scene", ""}, [&](scenario::Archive& inner) {
     inner.value({"title", "what reports call it"}, scenario::form(scene.title));
   });
@@ -159,13 +165,15 @@ std::optional<ComparisonScene> read_comparison(const std::filesystem::path& file
   const auto text = read_file(file, ignored);
   if (!text) return {};
   scenario::Findings findings({file.string()});
-  const auto root = scenario::parse_yaml(*text, 0, findings);
+  auto root = scenario::read_tree(*text, file, findings);
   if (!findings.empty() || scenario::child(root, "compare") == nullptr) return {};
+  scenario::resolve_variables(root, findings);
   ComparisonScene scene;
   scene.file = file;
   scenario::MapReader reader(root, "", findings);
   visit(reader, scene);
   reader.finish();
+  scene.sources = findings.sources();
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
   return scene;
 }
@@ -188,7 +196,8 @@ void place_in_scene(const ComparisonScene& scene, const ComparisonScene::Member&
   for (auto& problem : problems) {
     for (const auto& [override, place] : member.set) {
       if (problem.file != "--set " + override.path) continue;
-      problem = scene.problem({place.line, place.column + problem.column - 1}, problem.what, problem.remedy);
+      problem = scene.problem({place.line, place.column + problem.column - 1, place.source}, problem.what,
+                              problem.remedy);
       break;
     }
   }

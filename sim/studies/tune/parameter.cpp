@@ -140,6 +140,20 @@ std::optional<PlantValue> plant_value(const std::string& path, const scenario::S
   return {};
 }
 
+/// The variable that a path names, in the parameter's unit or, if it has none, in its own.
+std::optional<double> variable_value(TunedParameter& parameter, const scenario::Scenario& scenario) {
+  for (const auto& variable : scenario.variables) {
+    if (parameter.path != "variables." + variable.name.text) continue;
+    const auto quantity = scenario::parse_quantity(variable.value.text);
+    if (!quantity || !scenario::is_unit(quantity->unit)) return {};
+    if (parameter.unit.empty()) parameter.unit = quantity->unit;
+    if (!scenario::is_unit(parameter.unit) || !scenario::same_dimension(parameter.unit, quantity->unit))
+      return {};
+    return scenario::from_si(scenario::to_si(quantity->number, quantity->unit), parameter.unit);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<TunedParameter> parse_parameter(const std::string& text, const std::string& option,
@@ -180,6 +194,7 @@ std::optional<double> present_value(TunedParameter& parameter, const scenario::S
       return {};
     return scenario::from_si(found->si, parameter.unit);
   }
+  if (const auto found = variable_value(parameter, scenario)) return found;
   const auto preset = preset_name(parameter.path);
   const auto* values = preset ? preset_of(scenario) : nullptr;
   if (values == nullptr) return {};

@@ -1,0 +1,368 @@
+#include "sim/scenario/variables.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "base/text.hpp"
+#include "sim/file.hpp"
+#include "sim/scenario/constant.hpp"
+#include "sim/scenario/units.hpp"
+
+namespace drycut::sim::scenario {
+
+namespace {
+
+constexpr std::string_view opening = "${";
+constexpr std::size_t longest_value = 10000;  // variables may double a text again and again
+constexpr std::size_t deepest_use = 100;      // of variables in variables, which is looked up by calls
+
+bool is_name(std::string_view text) {
+  const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
+         std::all_of(text.begin(), text.end(), fits);
+}
+
+bool is_quantity(std::string_view value) {
+  const auto parsed = parse_quantity(value);
+  return parsed && is_unit(parsed->unit);
+}
+
+using Report = std::function<void(const Place& place, std::string what, std::string remedy)>;
+/// The value of a variable; nullptr if there is none, which has been told at the place.
+using Lookup = std::function<const std::string*(const std::string& name, const Place& place)>;
+
+/// A value taken apart: literal pieces of the text, and variables between them.
+struct Piece {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  const std::string* value = nullptr;  ///< of a variable
+};
+
+std::optional<std::vector<Piece>> pieces_of(const Text& text, const Lookup& lookup, const Report& report) {
+  std::vector<Piece> pieces;
+  bool sound = true;
+  std::size_t at = 0;
+  for (auto next = text.text.find(opening); next != std::string::npos; next = text.text.find(opening, at)) {
+    if (next > at) pieces.push_back({at, next});
+    const auto end = text.text.find('}', next);
+    if (end == std::string::npos) {
+      report(text.at(next), "this ${ is not closed", "write ${name}");
+      return {};
+    }
+    const auto name = text.text.substr(next + opening.size(), end - next - opening.size());
+    const std::string* value = nullptr;
+    if (is_name(name))
+      value = lookup(name, text.at(next));
+    else
+      report(text.at(next), fmt::format("'{}' is no name of a variable", name),
+             "the name alone stands in ${ }, arithmetic around it: ${length} / 2");
+    sound = sound && value != nullptr;
+    at = end + 1;
+    pieces.push_back({next, at, value});
+  }
+  if (at < text.text.size()) pieces.push_back({at, text.text.size()});
+  if (!sound) return {};
+  return pieces;
+}
+
+/// Puts a text together whose bytes keep their places.
+class Joiner {
+ public:
+  explicit Joiner(const Text& from) : from_(from), made_{"", from.place} {}
+  void literal(std::size_t begin, std::size_t end) {
+    if (begin == end) return;
+    const auto offset = made_.text.size();
+    made_.breaks.push_back({offset, from_.at(begin)});
+    for (const auto& old : from_.breaks)
+      if (old.offset > begin && old.offset < end)
+        made_.breaks.push_back({offset + old.offset - begin, old.place});
+    made_.text.append(from_.text, begin, end - begin);
+  }
+  // All of it stands where the variable stands.
+  void pinned(std::string_view text, std::size_t begin) {
+    for (std::size_t i = 0; i < text.size(); ++i)
+      made_.breaks.push_back({made_.text.size() + i, from_.at(begin)});
+    made_.text += text;
+  }
+  [[nodiscard]] const Text& made() const { return made_; }
+
+ private:
+  const Text& from_;
+  Text made_;
+};
+
+enum class Parentheses { none, needed, all };
+
+// Where what stands beside a quantity would bind to its number or its unit alone.
+bool binds(const std::string& text, const Piece& piece) {
+  const auto strong = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("*/^_.[%").find(c) < 7;
+  };
+  const auto before = text.find_last_not_of(' ', piece.begin == 0 ? std::string::npos : piece.begin - 1);
+  const auto after = text.find_first_not_of(' ', piece.end);
+  return (piece.begin > 0 && before != std::string::npos && strong(text[before])) ||
+         (after != std::string::npos && strong(text[after]));
+}
+
+Text joined(const Text& text, const std::vector<Piece>& pieces, Parentheses parentheses) {
+  Joiner joiner(text);
+  for (const auto& piece : pieces) {
+    if (piece.value == nullptr) {
+      joiner.literal(piece.begin, piece.end);
+      continue;
+    }
+    const bool enclosed =
+        is_quantity(*piece.value) &&
+        (parentheses == Parentheses::all ||
+         (parentheses == Parentheses::needed && (piece.value->front() == '-' || binds(text.text, piece))));
+    joiner.pinned(enclosed ? fmt::format("({})", *piece.value) : *piece.value, piece.begin);
+  }
+  return joiner.made();
+}
+
+Text pinned(const Text& text, const std::string& value) {
+  Joiner joiner(text);
+  joiner.pinned(value, 0);
+  return joiner.made();
+}
+
+/// What pieces of a text come to; nothing if something is wrong with it, which is told.
+std::optional<Text> put_together(const Text& text, const std::vector<Piece>& pieces, const Report& report) {
+  if (pieces.size() == 1) return pinned(text, *pieces.front().value);
+  const auto whole = joined(text, pieces, Parentheses::all);
+  const auto constant = read_constant(whole.text);
+  for (const auto& fault : constant.faults) report(whole.at(fault.offset), fault.what, fault.remedy);
+  switch (constant.kind) {
+    case Constant::Kind::value:
+      if (!constant.faults.empty()) return {};
+      return pinned(text, constant.value);
+    case Constant::Kind::condition:
+    case Constant::Kind::formula:
+      return joined(text, pieces, Parentheses::needed);
+    case Constant::Kind::text:
+      return joined(text, pieces, Parentheses::none);
+  }
+  return {};
+}
+
+/// What a value with variables comes to; nothing if something is wrong with it, which is told.
+std::optional<Text> computed(const Text& text, const Lookup& lookup, const Report& report) {
+  const auto pieces = pieces_of(text, lookup, report);
+  if (!pieces) return {};
+  std::size_t length = 0;
+  for (const auto& piece : *pieces)
+    length += piece.value == nullptr ? piece.end - piece.begin : piece.value->size();
+  if (length > longest_value) {
+    report(text.place, fmt::format("this comes to {} characters", length),
+           fmt::format("at most {}", longest_value));
+    return {};
+  }
+  auto made = put_together(text, *pieces, report);
+  if (!made || made->text.find(opening) == std::string::npos) return made;
+  report(text.place, "this comes to a text with ${ in it", "a value has no ${ but those of its variables");
+  return {};
+}
+
+/// The variables of a tree, each computed when it is first asked for.
+class Resolver {
+ public:
+  Resolver(YamlNode* section, Findings& findings) : section_(section), findings_(findings) {
+    if (section_ == nullptr || section_->kind != YamlNode::Kind::map) return;
+    for (auto& entry : section_->entries) {
+      if (entry.is_repeated()) continue;
+      entries_.emplace(entry.key.text, &entry);
+      names_.push_back(entry.key.text);
+      if (!is_name(entry.key.text))
+        findings_.add(entry.key.place, fmt::format("'{}' is no name of a variable", entry.key.text),
+                      "letters, digits and underscores, a letter first");
+    }
+  }
+
+  std::set<std::string> run(YamlNode& root) {
+    for (const auto& name : names_) value_of(*entries_.at(name));
+    for (auto& entry : root.entries)
+      if (&entry.value != section_) walk(entry.value);
+    return std::move(used_);
+  }
+
+ private:
+  void walk(YamlNode& node) {
+    if (node.kind == YamlNode::Kind::scalar) compute(node.text);
+    for (auto& item : node.items) walk(item);
+    for (auto& entry : node.entries) {
+      if (entry.key.text.find(opening) != std::string::npos)
+        findings_.add(entry.key.place, "a variable cannot stand in a key", "write the key out");
+      walk(entry.value);
+    }
+  }
+
+  bool compute(Text& text) {
+    if (text.text.find(opening) == std::string::npos) return true;
+    const auto made = computed(
+        text, [this](const std::string& name, const Place& place) { return find(name, place); },
+        [this](const Place& place, std::string what, std::string remedy) {
+          findings_.add(place, std::move(what), std::move(remedy));
+        });
+    if (made)
+      text = *made;
+    else
+      findings_.silence((text = pinned(text, text.text)).place);
+    return made.has_value();
+  }
+
+  const std::string* find(const std::string& name, const Place& place) {
+    used_.insert(name);
+    const auto entry = entries_.find(name);
+    if (entry == entries_.end()) {
+      findings_.add(place, fmt::format("there is no variable '{}'", name),
+                    did_you_mean(name, names_, fmt::format("add variables: {{{}: 800 mm}}", name)));
+      return nullptr;
+    }
+    const auto waiting = std::find(open_.begin(), open_.end(), name);
+    if (waiting != open_.end()) {
+      auto cycle = std::vector<std::string>(waiting, open_.end());
+      cycle.push_back(name);
+      findings_.add(place, fmt::format("the variable '{}' needs itself: {}", name, fmt::join(cycle, " -> ")),
+                    "give one of them a value of its own");
+      return nullptr;
+    }
+    if (open_.size() < deepest_use) return value_of(*entry->second);
+    findings_.add(place, fmt::format("variables in variables, more than {} deep", deepest_use), "nest less");
+    return nullptr;
+  }
+
+  // Nullptr if it has none, which has been told.
+  const std::string* value_of(YamlNode::Entry& entry) {
+    auto& text = entry.value.text;
+    const auto known = sound_.find(entry.key.text);
+    if (known != sound_.end()) return known->second ? &text.text : nullptr;
+    open_.push_back(entry.key.text);
+    const bool sound = make_value(entry);
+    open_.pop_back();
+    sound_[entry.key.text] = sound;
+    return sound ? &text.text : nullptr;
+  }
+
+  bool make_value(YamlNode::Entry& entry) {
+    auto& text = entry.value.text;
+    if (entry.value.kind != YamlNode::Kind::scalar) return false;  // the reader says so
+    if (text.text.find(opening) != std::string::npos) return compute(text);
+    if (is_quantity(text.text)) return true;
+    auto constant = read_constant(text.text);
+    const bool begins_as_number =
+        !text.text.empty() && std::isdigit(static_cast<unsigned char>(text.text.front())) != 0;
+    if (constant.kind == Constant::Kind::text && begins_as_number && parse_quantity(text.text)) {
+      const auto parsed = parse_quantity(text.text);
+      findings_.add(
+          text.at(parsed->unit_offset),
+          fmt::format("variables.{}: unknown unit '{}'", entry.key.text, parsed->unit),
+          "units are written like mm, m/min, N m, kg m^2, rpm, deg, %; a text begins with a letter");
+      return false;
+    }
+    for (const auto& fault : constant.faults) findings_.add(text.at(fault.offset), fault.what, fault.remedy);
+    if (constant.kind == Constant::Kind::value && constant.faults.empty())
+      text = pinned(text, constant.value);
+    return constant.faults.empty();
+  }
+
+  YamlNode* section_;
+  Findings& findings_;
+  std::vector<std::string> names_;
+  std::map<std::string, YamlNode::Entry*> entries_;
+  std::map<std::string, bool> sound_;  ///< that have been computed
+  std::vector<std::string> open_;      ///< being computed, each for the one before
+  std::set<std::string> used_;
+};
+
+// True if `at` stands in a remark, which is left alone: of the lines with # only "# key: value" says
+// something.
+bool is_remark(std::string_view table, std::size_t at) {
+  const auto start = table.substr(0, at).rfind('\n') + 1;
+  auto line = table.substr(start, at - start);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t\""), line.size()));
+  if (!line.starts_with('#')) return false;
+  const auto colon = line.find(':');
+  return colon == std::string_view::npos || line.starts_with("##") ||
+         !is_name(trimmed(line.substr(1, colon - 1)));
+}
+
+bool is_separator(char c) { return std::string_view(",;\t=:\"\n\r").find(c) != std::string_view::npos; }
+
+}  // namespace
+
+std::set<std::string> resolve_variables(YamlNode& root, Findings& findings) {
+  YamlNode* section = nullptr;
+  for (auto& entry : root.entries)
+    if (entry.key.text == "variables" && !entry.is_repeated()) section = &entry.value;
+  return Resolver(section, findings).run(root);
+}
+
+std::string with_variables(std::string_view table, const std::vector<Variable>& variables,
+                           const std::string& file, Problems& problems) {
+  std::vector<std::string> names;
+  for (const auto& variable : variables) names.push_back(variable.name.text);
+  const Report report = [&](const Place& place, std::string what, std::string remedy) {
+    problems.push_back({file, place.line, place.column, std::move(what), std::move(remedy)});
+  };
+  const Lookup lookup = [&](const std::string& name, const Place& place) -> const std::string* {
+    for (const auto& variable : variables)
+      if (variable.name.text == name) return &variable.value.text;
+    report(place, fmt::format("the scenario has no variable '{}'", name),
+           did_you_mean(name, names, "add it to the scenario's variables"));
+    return nullptr;
+  };
+  std::string made;
+  std::size_t at = 0;
+  for (auto next = table.find(opening); next != std::string_view::npos; next = table.find(opening, at)) {
+    if (is_remark(table, next)) {
+      const auto end = std::min(table.find('\n', next), table.size());
+      made += table.substr(at, end - at);
+      at = end;
+      continue;
+    }
+    auto begin = next;
+    while (begin > at && !is_separator(table[begin - 1]) && table[begin - 1] != '#') --begin;
+    auto end = next;
+    while (end < table.size() && !is_separator(table[end])) ++end;
+    while (table[begin] == ' ') ++begin;
+    made += table.substr(at, begin - at);
+    at = end;
+    const auto line_start = table.substr(0, begin).rfind('\n') + 1;
+    const auto cell = std::string(table.substr(begin, end - begin));
+    const auto line = 1 + static_cast<int>(std::count(
+                              table.begin(), table.begin() + static_cast<std::ptrdiff_t>(begin), '\n'));
+    const Text text{std::string(trimmed(cell)), {line, static_cast<int>(begin - line_start) + 1, 0}};
+    const auto value = computed(text, lookup, report);
+    const auto number = value ? parse_quantity(value->text) : std::nullopt;
+    if (value && (!number || !number->unit.empty()))
+      report(text.place, fmt::format("'{}' is {}, not a plain number", text.text, value->text),
+             "divide by the table's unit: ${length} / 0.1 mm");
+    made += fmt::format("{:{}}", value ? value->text : cell, cell.size());
+  }
+  made += table.substr(at);
+  return made;
+}
+
+std::vector<std::string> unused_variables(const Scenario& scenario) {
+  std::vector<std::string> notes;
+  std::string files;
+  const bool all_used = std::all_of(scenario.variables.begin(), scenario.variables.end(),
+                                    [](const Variable& variable) { return variable.used; });
+  if (all_used) return notes;
+  Problems ignored;
+  if (scenario.controller)
+    for (const auto& file : scenario.controller->files())
+      files += read_file(scenario.file.parent_path() / file.text, ignored).value_or("");
+  for (const auto& variable : scenario.variables)
+    if (!variable.used && files.find("${" + variable.name.text + "}") == std::string::npos)
+      notes.push_back(fmt::format("the variable '{}' is not used", variable.name.text));
+  return notes;
+}
+
+}  // namespace drycut::sim::scenario

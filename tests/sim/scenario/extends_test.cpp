@@ -1,0 +1,177 @@
+// extends: what a scenario takes from another one.
+#include <gmock/gmock.h>
+
+#include "sim/controllers/kinds.hpp"
+#include "sim/loop/simulation.hpp"
+#include "tests/sim/scenario/folder.hpp"
+
+namespace drycut::sim::scenario {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using Extends = ScenarioFolder;
+
+const std::string base =
+    "variables: {speed: 1 m/s}\n"
+    "scene: {title: base, duration: 2 s}\n"
+    "plants:\n  axis: {type: ideal_axis, speed_at_10v: \"${speed}\"}\n  other: {type: ideal_axis}\n"
+    "record: {channels: [axis.position, axis.speed]}\n"
+    "checks:\n"
+    "  - {name: slow, always: abs(axis.speed) < 10, from: 1 s}\n"
+    "  - {name: still, always: axis.speed == 0}\n"
+    "  - {name: there, eventually: axis.position > 5}\n";
+
+std::vector<std::string> names_of(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const auto& check : scenario.checks) names.push_back(check.name.text);
+  return names;
+}
+
+TEST_F(Extends, MergesMapsAndReplacesTheRest) {
+  write("base.yaml", base);
+  const auto made = read(
+      "extends: base.yaml\nscene: {title: mine}\nplants: {other: ~, third: {type: ideal_axis}}\n"
+      "record: {channels: [axis.position]}\nvariables: {speed: 2 m/s}\n");
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_EQ(made.scene.title, "mine");
+  EXPECT_EQ(made.scene.duration, 2 * second);
+  ASSERT_EQ(made.plants.size(), 2U);
+  EXPECT_EQ(made.plants[0].name.text, "axis");
+  EXPECT_EQ(made.plants[1].name.text, "third");
+  EXPECT_EQ(made.record.channels.size(), 1U);
+  EXPECT_EQ(made.checks.size(), 3U);
+  EXPECT_THAT(expand(made), HasSubstr("speed_at_10v: 2000 mm/s"));
+  EXPECT_THAT(expand(made), testing::Not(HasSubstr("extends")));
+}
+
+TEST_F(Extends, ChangesListsByTheNamesOfTheirEntries) {
+  write("base.yaml", base);
+  const auto made = read(
+      "extends: base.yaml\nchecks:\n  slow: {always: abs(axis.speed) < 5}\n  still: ~\n"
+      "  far: {always: axis.position < 9}\n");
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_THAT(names_of(made), ElementsAre("slow", "there", "far"));
+  EXPECT_EQ(made.checks[0].expression.text, "abs(axis.speed) < 5");
+  EXPECT_EQ(made.checks[0].from, 1 * second);
+  const auto replaced = read("extends: base.yaml\nchecks: [{name: one, always: axis.position < 9}]\n");
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_THAT(names_of(replaced), ElementsAre("one"));
+}
+
+TEST_F(Extends, TakesDottedNamesAndNestedMapsForTheSame) {
+  write("dotted.yaml", "plants: {axis: {type: ideal_axis, switch1.width: 5 mm, switch1.delay: 2 ms}}\n");
+  write("nested.yaml", "plants: {axis: {type: ideal_axis, switch1: {width: 5 mm}}}\n");
+  for (const auto* text : {"extends: dotted.yaml\nplants: {axis: {switch1: {width: 7 mm}}}\n",
+                           "extends: nested.yaml\nplants: {axis: {switch1.width: 7 mm}}\n"}) {
+    const auto made = read(text);
+    EXPECT_THAT(told(), IsEmpty()) << text;
+    EXPECT_THAT(expand(made), HasSubstr("  width: 7 mm")) << text;
+  }
+}
+
+TEST_F(Extends, GoesOverSeveralFilesWhoseFileNamesStayTheirs) {
+  std::filesystem::create_directories(folder / "common/line");
+  write("common/line/base.yaml", base + "controller: {plcopen: {program: p.st, tables: [{file: t.csv}]}}\n");
+  write("common/middle.yaml",
+        "extends: line/base.yaml\nscene: {title: middle}\n"
+        "pictures: {meshes: {axis.x: {file: m.stl}}}\n");
+  const auto made = read("extends: common/middle.yaml\nscene: {duration: 3 s}\n");
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_EQ(made.scene.title, "middle");
+  ASSERT_TRUE(made.controller);
+  const auto files = made.controller->files();
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].text, "common/line/p.st");
+  EXPECT_EQ(files[1].text, "common/line/t.csv");
+  EXPECT_EQ(made.pictures.meshes.at(0).file.text, "common/m.stl");
+  // And back: what is printed stands in the scenario's folder.
+  Problems none;
+  const auto again = read_scenario_text(expand(made), folder / "line.yaml", {}, none);
+  EXPECT_THAT(none, IsEmpty());
+  EXPECT_EQ(again.controller->files()[0].text, "common/line/p.st");
+}
+
+TEST_F(Extends, ProblemsStandInTheFileThatHasThem) {
+  write("base.yaml", base);
+  read("extends: base.yaml\nvariables: {speed: 3 s}\nplants: {axis: {speed_at_10w: 1 m/s}}\n");
+  EXPECT_THAT(told(),
+              ElementsAre(HasSubstr("line.yaml:3:17: unknown key 'speed_at_10w' in plants.axis; did you"),
+                          HasSubstr("base.yaml:4:43: plants.axis.speed_at_10v is a speed, not a time (s)")));
+}
+
+TEST_F(Extends, PlacesOfTheRunToo) {
+  write("base.yaml", base);
+  const auto made = read("extends: base.yaml\nplants: {axis: ~}\n");
+  ASSERT_THAT(told(), IsEmpty());
+  const loop::Simulation simulation(made, problems);
+  ASSERT_FALSE(told().empty());
+  for (const auto& problem : told()) EXPECT_THAT(problem, HasSubstr("base.yaml:"));
+}
+
+TEST_F(Extends, ToldWhereItIsNamed) {
+  struct Case {
+    std::string text;
+    std::string told;
+  };
+  write("base.yaml", base);
+  write("a.yaml", "extends: b.yaml\n");
+  write("b.yaml", "scene: {}\nextends: a.yaml\n");
+  write("self.yaml", "extends: ./self.yaml\n");
+  write("empty.yaml", "");
+  write("broken.yaml", "scene: {title: [\n");
+  write("list.yaml", "[1, 2]\n");
+  for (const auto& [text, what] : {
+           Case{"scene: {}\nextends: none.yaml\n", "line.yaml:2:10: "},
+           Case{"extends: a.yaml\n", "b.yaml:2:10: a.yaml extends itself: a.yaml -> b.yaml -> a.yaml"},
+           Case{"extends: self.yaml\n", "self.yaml:1:10: self.yaml extends itself: self.yaml -> self.yaml"},
+           Case{"extends: line.yaml\n", ""},
+           Case{"extends: empty.yaml\n", "line.yaml:1:10: empty.yaml is empty"},
+           Case{"extends: broken.yaml\n", "broken.yaml:"},
+           Case{"extends: list.yaml\n", "line.yaml:1:10: list.yaml is no scenario"},
+           Case{"extends: [base.yaml]\n", "line.yaml:1:10: extends must be a single value, not a list"},
+           Case{"extends:\n", "line.yaml:1:1: extends must be a single value, not nothing"},
+           Case{"extends: base.yaml\nplants: {axs: ~}\n",
+                "line.yaml:2:10: there is no 'axs' to leave out; did you mean axis?"},
+           Case{"extends: base.yaml\nchecks: {slwo: ~}\n",
+                "line.yaml:2:10: there is no 'slwo' to leave out; did you mean slow?"},
+           Case{"extends: base.yaml\nchecks: {slow: 3}\n",
+                "line.yaml:2:16: checks.slow must be a map, not a single value"},
+           Case{"extends: base.yaml\nchecks: {slow: {from: 2 s}, slow: {from: 3 s}}\n",
+                "line.yaml:2:29: 'slow' is given twice in checks; keep one; the first is at line 2"},
+           Case{"extends: base.yaml\nscene: {title: a, title: b}\n",
+                "line.yaml:2:19: 'title' is given twice in scene"},
+           Case{"extends: base.yaml\nscene: {title: }\n", "line.yaml:2:9: scene.title has no value"},
+           Case{"extends: base.yaml\ntimeline: {at: {}}\n",
+                "line.yaml:2:11: timeline must be a list, not a map"},
+       }) {
+    problems.clear();
+    read(text);
+    ASSERT_FALSE(told().empty()) << text;
+    EXPECT_THAT(told().front(), HasSubstr(what)) << text;
+    if (!what.empty() && what != "line.yaml:2:10: ") {
+      EXPECT_EQ(told().size(), 1U) << text;
+    }
+  }
+}
+
+TEST_F(Extends, UnusedVariablesAreNoted) {
+  write("regs.csv", "register,value\nD100,${used_there}\n");
+  write("p.il", "LD M8000\nMOV K1 D0\nEND\n");
+  const auto made = read(
+      "variables: {used: 1 s, used_there: 5, idle: 3 mm}\nscene: {duration: \"${used}\"}\n"
+      "controller: {lx3vp: {program: p.il, registers: regs.csv}}\n");
+  ASSERT_THAT(told(), IsEmpty());
+  loop::Simulation simulation(made, problems);
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_THAT(simulation.notes_of_setup(), ElementsAre("the variable 'idle' is not used"));
+  for (const auto& value : simulation.controller_values()) {
+    if (value.name != "D100") continue;
+    EXPECT_EQ(value.read(), 5);
+  }
+}
+
+}  // namespace
+}  // namespace drycut::sim::scenario
