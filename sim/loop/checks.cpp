@@ -214,7 +214,7 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   const auto evaluation = state.expression->evaluate();
   state.last_at = at;
   if (!evaluation.holds) {
-    ++state.failed;
+    if (++state.failed == 1) state.first_failed_at = at;
     state.last_failed_at = at;
   }
   const bool eventually = state.check.kind == scenario::Check::Kind::eventually;
@@ -360,7 +360,7 @@ CheckResult Checks::result(State& state, Time end) {
                         : fmt::format("{}, first at {:.4f} s: {}",
                                       state.count == 1 ? "once" : fmt::format("{} times", state.count),
                                       state.worst_at, state.worst_values);
-    if (state.count > 0) result.at = state.worst_at;
+    if (state.count > 0) result.at = result.failed_at = state.worst_at;
     return result;
   }
   if (check.kind == scenario::Check::Kind::all) finish_statistics(state);
@@ -391,6 +391,7 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   result.passed = state.failed == 0;
+  if (!result.passed && check.kind != scenario::Check::Kind::all) result.failed_at = state.first_failed_at;
   if (state.windowed && is_judged_once(check)) {
     result.detail = state.last_window;
     return result;

@@ -19,10 +19,11 @@ struct CheckResult {
   std::string name;
   std::string expectation;  ///< "each cut: abs(length - 800) <= 0.1, from 4.0 s"
   bool passed = false;
-  std::optional<double> margin;  ///< how far the worst moment was from the limit; negative: beyond it
-  std::string unit;              ///< of the margin, "" if it is none or mixed
-  std::optional<double> at;      ///< [s] the worst moment
-  std::string detail;            ///< "15 cuts, worst length = 800.047 mm at 7.204 s"
+  std::optional<double> margin;          ///< how far the worst moment was from the limit; negative: beyond it
+  std::string unit;                      ///< of the margin, "" if it is none or mixed
+  std::optional<double> at;              ///< [s] the worst moment
+  std::string detail;                    ///< "15 cuts, worst length = 800.047 mm at 7.204 s"
+  std::optional<double> failed_at = {};  ///< [s] first, where that can be said before the end
 };
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
@@ -73,6 +74,7 @@ class Checks : public Observer {
     std::optional<double> worst;
     double worst_at = 0;
     std::string worst_values;
+    double first_failed_at = 0;
     double last_failed_at = 0;
     double last_at = 0;             ///< instant looked at last
     std::optional<double> held_at;  ///< eventually: first time

@@ -53,6 +53,15 @@ CsvRow::Cell CsvRows::quoted_cell(CsvRow::Cell cell) {
   return cell;
 }
 
+std::string csv_quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
 std::optional<double> number_of(std::string_view text) {
   double number = 0;
   const auto* const end = text.data() + text.size();

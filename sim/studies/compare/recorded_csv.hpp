@@ -42,6 +42,9 @@ class CsvRows {
   int line_ = 1;
 };
 
+/// A text as a cell in quotes, in one line.
+std::string csv_quoted(const std::string& text);
+
 /// The number that a text is, all of it.
 std::optional<double> number_of(std::string_view text);
 

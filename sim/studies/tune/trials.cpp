@@ -13,38 +13,12 @@
 #include <thread>
 
 #include "sim/file.hpp"
-#include "sim/loop/controller_loader.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::studies {
 
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + "\"";
-}
-
-/// FNV-1a: the same on every machine.
-class Hash {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) byte(static_cast<unsigned char>(c));
-    byte(0);
-  }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  void byte(unsigned char c) {
-    constexpr std::uint64_t prime = 1099511628211ULL;
-    value_ = (value_ ^ c) * prime;
-  }
-  std::uint64_t value_ = 14695981039346656037ULL;
-};
 
 std::string row_of(std::size_t number, const Trials::Trial& trial) {
   std::string row = fmt::format("{},{}", number, trial.phase);
@@ -53,7 +27,7 @@ std::string row_of(std::size_t number, const Trials::Trial& trial) {
   row += fmt::format(",{}", verdict.metric);
   for (const double room : verdict.room) row += fmt::format(",{}", room);
   return row + fmt::format(",{},{},{},{},{}\n", verdict.failed_checks, verdict.violation,
-                           verdict.stopped ? 1 : 0, verdict.runs, quoted(verdict.note));
+                           verdict.stopped ? 1 : 0, verdict.runs, csv_quoted(verdict.note));
 }
 
 }  // namespace
@@ -72,7 +46,7 @@ Trials::Trials(const Study& study, TunedParameters parameters, std::vector<scena
 }
 
 std::string Trials::fingerprint() const {
-  Hash hash;
+  Fingerprint hash;
   hash.add(DRYCUT_VERSION);
   hash.add("violations 2");  // how they are counted: rows of another way do not compare
   hash.add(study_.minimise);
@@ -84,11 +58,7 @@ std::string Trials::fingerprint() const {
   for (const auto& entry : study_.cases) {
     Problems problems;
     const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study_.set, problems);
-    hash.add(expand(scenario));
-    for (const auto& name : loop::controller_files(scenario)) {
-      const auto text = read_file(entry.file.parent_path() / name.text, problems);
-      hash.add(text ? *text : "");
-    }
+    hash.add(scenario);
   }
   return fmt::format("# drycut tune, study {:016x}", hash.value());
 }
@@ -96,9 +66,9 @@ std::string Trials::fingerprint() const {
 std::string Trials::heading() const {
   std::string line = "trial,phase";
   for (const auto& p : parameters_)
-    line += "," + quoted(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
-  line += "," + quoted(study_.minimise);
-  for (const auto& text : study_.constraints) line += "," + quoted("room of " + text);
+    line += "," + csv_quoted(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
+  line += "," + csv_quoted(study_.minimise);
+  for (const auto& text : study_.constraints) line += "," + csv_quoted("room of " + text);
   return line + ",failed_checks,violation,stopped,runs,note";
 }
 

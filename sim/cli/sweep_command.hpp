@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/cli/commands.hpp"
+
+namespace drycut::sim::cli {
+
+/// What drycut sweep and drycut envelope have in common.
+struct StudyOptions {
+  std::filesystem::path scenario;
+  std::vector<std::string> over;     ///< "variables.length=500..3000 mm:26"
+  std::vector<std::string> figures;  ///< "peak=max(abs(knife.motor.torque))"
+  std::vector<std::string> set;      ///< "plants.web.speed=80 m/min", before everything else
+  int jobs = 1;                      ///< runs at the same time; the result is the same
+  std::filesystem::path out;
+};
+struct SweepOptions : StudyOptions {
+  std::string sample;  ///< "sobol:1000" in place of the grid
+};
+struct EnvelopeOptions : StudyOptions {
+  std::string find_max;  ///< "plants.web.speed=20..300 m/min:1"
+};
+
+/// drycut sweep, drycut envelope: 0 all points have been looked at, whatever came of them, 2 bad input, 3
+/// nothing could be simulated or written
+int sweep_scenario(const SweepOptions& options);
+int envelope_scenario(const EnvelopeOptions& options);
+
+}  // namespace drycut::sim::cli

@@ -1,0 +1,198 @@
+#include "sim/studies/sweep/axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "sim/scenario/units.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+constexpr std::string_view log_suffix = ":log";
+constexpr int most_steps = 1'000'000;
+
+class AxisReader {
+ public:
+  AxisReader(const std::string& text, const std::string& option, bool sampled, Problems& problems)
+      : text_(text), option_(option), sampled_(sampled), problems_(problems) {}
+
+  std::optional<SweepAxis> run() {
+    if (text_.find("..") == std::string::npos) return list();
+    SweepAxis axis;
+    auto rest = text_;
+    if (rest.ends_with(log_suffix)) {
+      axis.logarithmic = true;
+      rest.resize(rest.size() - log_suffix.size());
+    }
+    const auto colon = rest.rfind(':');
+    if (colon != std::string::npos) {
+      axis.steps = steps(rest, colon + 1);
+      if (!axis.steps) return {};
+      rest.resize(colon);
+    } else if (!sampled_) {
+      return refuse(text_.size(), fmt::format("'{}' does not say how many values", text_),
+                    "add their number: 20..300 m/min:57");
+    }
+    auto parameter = parse_parameter(rest, option_, false, problems_);
+    if (!parameter) return {};
+    if (axis.logarithmic && !(parameter->low > 0))
+      return refuse(static_cast<std::size_t>(parameter->low_column - 1), "a logarithmic range begins above 0",
+                    "or leave :log out");
+    axis.parameter = std::move(*parameter);
+    return axis;
+  }
+
+ private:
+  std::nullopt_t refuse(std::size_t offset, std::string what, std::string remedy) {
+    problems_.push_back({option_, 1, static_cast<int>(offset) + 1, std::move(what), std::move(remedy)});
+    return std::nullopt;
+  }
+
+  std::optional<int> steps(const std::string& text, std::size_t from) {
+    int number = 0;
+    const auto* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data() + from, end, number);
+    const bool too_large = read.ec == std::errc::result_out_of_range || number > most_steps;
+    if (read.ptr != end || (read.ec != std::errc() && !too_large))
+      return refuse(from, fmt::format("'{}' is no number of values", text.substr(from)), "such as :26");
+    if (number < 2 || too_large)
+      return refuse(from, fmt::format("{} values from end to end", text.substr(from)),
+                    fmt::format("2 to {}", most_steps));
+    return number;
+  }
+
+  // PATH=1,2,5 mm: numbers with one unit, or words.
+  std::optional<SweepAxis> list() {
+    const auto equals = text_.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return refuse(0, fmt::format("'{}' gives no values to a path", text_),
+                    "write PATH=A..B UNIT:N, such as variables.length=500..3000 mm:26");
+    SweepAxis axis;
+    axis.parameter.option = option_;
+    axis.parameter.path = trimmed(std::string_view(text_).substr(0, equals));
+    axis.parameter.low_column = axis.parameter.high_column = static_cast<int>(equals) + 2;
+    std::vector<scenario::ParsedQuantity> quantities;
+    std::size_t at = equals + 1;
+    for (;; ++at) {
+      const auto comma = std::min(text_.find(',', at), text_.size());
+      const std::string item(trimmed(std::string_view(text_).substr(at, comma - at)));
+      if (item.empty()) return refuse(at, "an empty value", "write PATH=1,2,5 mm");
+      if (auto quantity = scenario::parse_quantity(item)) quantities.push_back(*quantity);
+      const bool twice = std::find(axis.values.begin(), axis.values.end(), item) != axis.values.end();
+      if (twice) return refuse(at, fmt::format("{} is given twice", item), "keep one");
+      axis.values.push_back(item);
+      at = comma;
+      if (at == text_.size()) break;
+    }
+    if (quantities.size() != axis.values.size()) return axis;  // words
+    axis.parameter.unit = quantities.back().unit;
+    for (std::size_t i = 0; i < quantities.size(); ++i) {
+      const auto& unit = quantities[i].unit;
+      if (!unit.empty() && unit != axis.parameter.unit)
+        return refuse(equals + 1, fmt::format("values in {} and {}", unit, axis.parameter.unit),
+                      "give all of them in one unit");
+      axis.values[i] = number_text(quantities[i].number);
+    }
+    return axis;
+  }
+
+  const std::string& text_;
+  const std::string& option_;
+  bool sampled_;
+  Problems& problems_;
+};
+
+double at_share(const SweepAxis& axis, double share) {
+  const auto& [low, high] = std::pair(axis.parameter.low, axis.parameter.high);
+  if (share == 1) return high;
+  return axis.logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
+}
+
+}  // namespace
+
+std::string number_text(double value) { return fmt::format("{:.15g}", value); }
+
+std::string heading(const TunedParameter& parameter) {
+  return parameter.unit.empty() ? parameter.path : fmt::format("{} [{}]", parameter.path, parameter.unit);
+}
+
+std::optional<SweepAxis> parse_axis(const std::string& text, const std::string& option, bool sampled,
+                                    Problems& problems) {
+  return AxisReader(text, option, sampled, problems).run();
+}
+
+void fill_axis(SweepAxis& axis, Problems& problems) {
+  if (!axis.steps) return;
+  for (int i = 0; i < *axis.steps; ++i) {
+    const double value = at_share(axis, static_cast<double>(i) / (*axis.steps - 1));
+    axis.values.push_back(number_text(value));
+    if (!axis.parameter.integer || value == std::rint(value)) continue;
+    problems.push_back(
+        {axis.parameter.option, 1, axis.parameter.low_column,
+         fmt::format("{} is a whole number, and {} is none", axis.parameter.path, axis.values.back()),
+         "another number of values, or a list: 1,2,5"});
+    return;
+  }
+}
+
+std::vector<scenario::Override> overrides_of(const SweepAxes& axes, const SweepPoint& point) {
+  std::vector<scenario::Override> overrides;
+  overrides.reserve(axes.size());
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto& [path, low, high, unit, integer, option, low_column, high_column, relative] =
+        axes[i].parameter;
+    overrides.push_back({path, unit.empty() ? point[i] : fmt::format("{} {}", point[i], unit)});
+  }
+  return overrides;
+}
+
+std::optional<std::size_t> grid_size(const SweepAxes& axes, std::size_t most) {
+  std::size_t size = 1;
+  for (const auto& axis : axes) {
+    const auto count = axis.steps ? static_cast<std::size_t>(*axis.steps) : axis.values.size();
+    if (count > most / size) return {};
+    size *= count;
+  }
+  return size;
+}
+
+std::vector<SweepPoint> grid(const SweepAxes& axes) {
+  std::vector<SweepPoint> points = {{}};
+  for (const auto& axis : axes) {
+    std::vector<SweepPoint> longer;
+    longer.reserve(points.size() * axis.values.size());
+    for (const auto& point : points) {
+      for (const auto& value : axis.values) {
+        longer.push_back(point);
+        longer.back().push_back(value);
+      }
+    }
+    points = std::move(longer);
+  }
+  return points;
+}
+
+std::vector<SweepPoint> sobol(const SweepAxes& axes, std::size_t count) {
+  std::vector<SweepPoint> points(count);
+  for (std::size_t number = 0; number < count; ++number) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const auto& axis = axes[i];
+      const double share = sobol_number(i, static_cast<std::uint32_t>(number));
+      if (!axis.is_range()) {
+        const auto which = static_cast<std::size_t>(share * static_cast<double>(axis.values.size()));
+        points[number].push_back(axis.values[which]);
+      } else {
+        const double value = at_share(axis, share);
+        points[number].push_back(number_text(axis.parameter.integer ? std::rint(value) : value));
+      }
+    }
+  }
+  return points;
+}
+
+}  // namespace drycut::sim::studies

@@ -1,0 +1,290 @@
+#include "sim/studies/sweep/point.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/text.hpp"
+#include "sim/report/statistics.hpp"
+#include "sim/studies/compare/recorded_csv.hpp"
+#include "sim/studies/fingerprint.hpp"
+#include "sim/studies/tune/metric.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr auto* figure_option = "--figure";
+constexpr std::array<std::string_view, 4> verdicts = {"passed", "failed", "refused", "diverged"};
+
+std::vector<Metric> metrics_of(const PointQuestion& question, Problems& problems) {
+  std::vector<Metric> metrics;
+  for (const auto& [name, term] : question.figures) {
+    std::vector<scenario::ExpressionFault> faults;
+    auto metric = Metric::compile(term, Metric::Kind::number, question.events, faults,
+                                  [&](const std::string& channel) -> std::optional<std::string> {
+                                    for (const auto& [known, unit] : question.units)
+                                      if (known == channel) return unit;
+                                    return {};
+                                  });
+    for (auto& fault : faults)
+      problems.push_back(
+          {figure_option, 1, static_cast<int>(name.size() + 1 + fault.offset) + 1, fault.what, fault.remedy});
+    if (metric) metrics.push_back(std::move(*metric));
+  }
+  return metrics;
+}
+
+/// Records what the figures look at; a channel that there is none of is told at its place in the figure.
+void record_names(const PointQuestion& question, const std::vector<Metric>& metrics,
+                  scenario::Scenario& scenario) {
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    for (const auto& name : metrics[i].names()) {
+      if (!name.event.empty()) continue;
+      const auto source = static_cast<int>(scenario.sources.size());
+      scenario.sources.emplace_back(figure_option);
+      const auto column = static_cast<int>(question.figures[i].name.size() + 1 + name.offset) + 1;
+      scenario.record.channels.push_back({name.text, {1, column, source}});
+    }
+  }
+}
+
+scenario::Scenario read(const PointQuestion& question, const std::vector<scenario::Override>& overrides,
+                        Problems& problems) {
+  auto all = question.set;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return scenario::read_scenario_text(question.text, question.file, all, problems);
+}
+
+/// Only what is measured is left.
+void strip(scenario::Scenario& scenario) {
+  scenario.scene.title.clear();
+  scenario.pictures = {};
+  scenario.record.channels.clear();
+}
+
+/// The middle of the limits that a plot states for the length of the pieces.
+double wanted_length(const scenario::PicturesSection& pictures, const std::string& source) {
+  for (const auto& plot : pictures.plots)
+    for (const auto& panel : plot.panels)
+      if (panel.limits && panel.values.size() == 1 && panel.values[0].text == "length" &&
+          (panel.event.text == "cut" || panel.event.text == source + ".cut"))
+        return (panel.limits->first + panel.limits->second) / 2;
+  return no_number;
+}
+
+/// What cuts, and from when on its pieces are looked at.
+std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>& events,
+                                            const scenario::Scenario& scenario) {
+  std::vector<PointQuestion::Piece> pieces;
+  for (const auto& event : events) {
+    if (event.name != "cut") continue;
+    PointQuestion::Piece piece{event.source, 0, false, "", ""};
+    for (const auto& [value, unit] : event.values) {
+      if (value == "length") piece.length_unit = unit;
+      piece.has_mismatch = piece.has_mismatch || value == "mismatch";
+      if (value == "mismatch") piece.mismatch_unit = unit;
+    }
+    if (piece.length_unit.empty()) continue;
+    const auto looks =
+        std::find_if(scenario.checks.begin(), scenario.checks.end(), [&](const scenario::Check& check) {
+          return (check.event.text == "cut" || check.event.text == event.source + ".cut") && check.from > 0;
+        });
+    if (looks != scenario.checks.end()) piece.from = seconds(looks->from);
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+std::vector<std::string> columns_of(const PointQuestion& question,
+                                    const std::vector<loop::CheckResult>& checks,
+                                    const scenario::Scenario& scenario) {
+  std::vector<std::string> columns;
+  for (const auto& piece : question.pieces) {
+    columns.push_back(piece.source + ".cut number");
+    columns.push_back(fmt::format("{}.cut mean length [{}]", piece.source, piece.length_unit));
+    columns.push_back(fmt::format("{}.cut accuracy [{}]", piece.source, piece.length_unit));
+    if (piece.has_mismatch)
+      columns.push_back(fmt::format("{}.cut mismatch [{}]", piece.source, piece.mismatch_unit));
+  }
+  for (const auto& drive : question.drives) {
+    columns.push_back(drive + " rms torque [N m]");
+    columns.push_back(drive + " peak torque [N m]");
+    columns.push_back(drive + " energy a cycle [J]");
+  }
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    const bool in_time =
+        i < scenario.checks.size() && scenario.checks[i].kind == scenario::Check::Kind::eventually;
+    const auto unit = in_time ? std::string("s") : checks[i].unit;
+    columns.push_back(
+        fmt::format("margin of {}{}", checks[i].name, unit.empty() ? "" : fmt::format(" [{}]", unit)));
+  }
+  for (const auto& figure : question.figures) columns.push_back(figure.name);
+  return columns;
+}
+
+/// Number of pieces, mean length, the largest distance of a length from the wanted one (from the mean where
+/// none is said), the largest mismatch.
+void add_pieces(const PointQuestion::Piece& piece, double wanted, const loop::Recording& recording,
+                std::vector<double>& numbers) {
+  const auto values_of = [&](const char* value) {
+    return report::event_numbers(recording.events(), piece.source + ".cut", value, piece.from).numbers;
+  };
+  const auto lengths = values_of("length");
+  const double mean = report::statistics(lengths)[0];
+  double accuracy = 0;
+  for (const double length : lengths)
+    accuracy = std::max(accuracy, std::abs(length - (std::isnan(wanted) ? mean : wanted)));
+  numbers.push_back(static_cast<double>(lengths.size()));
+  numbers.push_back(lengths.empty() ? no_number : mean);
+  numbers.push_back(lengths.empty() ? no_number : loop::without_noise(accuracy));
+  if (!piece.has_mismatch) return;
+  double worst = lengths.empty() ? no_number : 0;
+  for (const double mismatch : values_of("mismatch")) worst = std::max(worst, std::abs(mismatch));
+  numbers.push_back(worst);
+}
+
+void add_drive(const std::string& drive, const std::vector<loop::DriveVerdict>& verdicts,
+               std::vector<double>& numbers) {
+  const auto found = std::find_if(verdicts.begin(), verdicts.end(),
+                                  [&](const loop::DriveVerdict& verdict) { return verdict.drive == drive; });
+  for (const auto* name : {"rms torque", "peak torque"}) {
+    double value = no_number;
+    if (found != verdicts.end())
+      for (const auto& figure : found->figures)
+        if (figure.name == name) value = figure.value;
+    numbers.push_back(value);
+  }
+  numbers.push_back(found == verdicts.end() ? no_number : found->energy);
+}
+
+/// The check that gave way first; those that are judged at the end come last, in the scenario's order.
+const loop::CheckResult* first_failed(const std::vector<loop::CheckResult>& checks) {
+  const loop::CheckResult* first = nullptr;
+  constexpr double end = std::numeric_limits<double>::infinity();
+  for (const auto& check : checks)
+    if (!check.passed && (first == nullptr || check.failed_at.value_or(end) < first->failed_at.value_or(end)))
+      first = &check;
+  return first;
+}
+
+PointRow row_without_run(PointRow::Verdict verdict, std::string limit, const PointQuestion& question) {
+  return {verdict, std::move(limit), std::vector<double>(question.columns.size(), no_number)};
+}
+
+}  // namespace
+
+std::string_view name_of(PointRow::Verdict verdict) { return verdicts.at(static_cast<std::size_t>(verdict)); }
+
+void prepare(PointQuestion& question, Problems& problems) {
+  const auto before = problems.size();
+  const auto whole = scenario::read_scenario_text(question.text, question.file, question.set, problems);
+  if (!whole.buildable) return;
+  const loop::Simulation simulation(whole, problems);
+  if (problems.size() != before) return;
+  question.events = simulation.known_events();
+  question.pieces = pieces_of(question.events, whole);
+  for (const auto& drive : simulation.drives()) question.drives.push_back(drive.drive);
+
+  auto metrics = metrics_of(question, problems);
+  Problems of_channels;
+  auto measured = read(question, {}, of_channels);
+  strip(measured);
+  record_names(question, metrics, measured);
+  loop::Simulation probe(measured, of_channels);
+  for (auto& problem : of_channels) problems.push_back(std::move(problem));
+  for (const auto& column : probe.recording().columns())
+    question.units.emplace_back(column.name, column.unit);
+  if (problems.size() != before) return;
+  metrics_of(question, problems);  // now that units are known
+  if (problems.size() != before) return;
+  const auto checks = probe.outcome().checks;
+  for (const auto& check : checks) question.checks.push_back(check.name);
+  question.columns = columns_of(question, checks, measured);
+}
+
+PointScenario read_point(const PointQuestion& question, const std::vector<scenario::Override>& overrides) {
+  PointScenario point;
+  point.scenario = read(question, overrides, point.problems);
+  Fingerprint hash;
+  hash.add(DRYCUT_VERSION);
+  for (const auto& piece : question.pieces) {
+    point.lengths.push_back(wanted_length(point.scenario.pictures, piece.source));
+    hash.add(fmt::format("{} {} {}", piece.source, piece.from, point.lengths.back()));
+  }
+  strip(point.scenario);
+  Problems ignored;  // prepare() has told them
+  record_names(question, metrics_of(question, ignored), point.scenario);
+  for (const auto& column : question.columns) hash.add(column);
+  for (const auto& figure : question.figures) hash.add(figure.term);
+  for (const auto& problem : point.problems) hash.add(to_string(problem));
+  if (point.problems.empty()) hash.add(point.scenario);
+  point.fingerprint = hash.value();
+  return point;
+}
+
+PointRow run_point(const PointQuestion& question, const PointScenario& point) {
+  using Verdict = PointRow::Verdict;
+  const auto refused = [&](const Problems& problems) {
+    const auto& first = problems.front();
+    return row_without_run(Verdict::refused, fmt::format("{}; {}", first.what, first.remedy), question);
+  };
+  if (!point.problems.empty()) return refused(point.problems);
+  if (!point.scenario.buildable)
+    return row_without_run(Verdict::refused, "no machine can be built of it", question);
+  Problems problems;
+  auto metrics = metrics_of(question, problems);
+  loop::Simulation simulation(point.scenario, problems);
+  if (!problems.empty()) return refused(problems);
+  const auto outcome = simulation.run();
+  if (!outcome.failure.empty()) return row_without_run(Verdict::diverged, outcome.failure, question);
+
+  PointRow row;
+  const auto& recording = simulation.recording();
+  for (std::size_t i = 0; i < question.pieces.size(); ++i)
+    add_pieces(question.pieces[i], point.lengths[i], recording, row.numbers);
+  const auto drives = simulation.drives();
+  for (const auto& drive : question.drives) add_drive(drive, drives, row.numbers);
+  // A name may have a variable in it: then the place in the list tells which check it is.
+  for (std::size_t i = 0; i < question.checks.size(); ++i)
+    row.numbers.push_back(i < outcome.checks.size() ? outcome.checks[i].margin.value_or(no_number)
+                                                    : no_number);
+  for (auto& metric : metrics) row.numbers.push_back(metric.value(recording, 0));
+  if (const auto* failed = first_failed(outcome.checks)) {
+    row.verdict = Verdict::failed;
+    row.limit = failed->name;
+  }
+  return row;
+}
+
+std::string row_text(const PointRow& row) {
+  auto limit = row.limit;
+  std::replace(limit.begin(), limit.end(), '\n', ' ');
+  std::string text(name_of(row.verdict));
+  text +=
+      limit.find_first_of(",\"") == std::string::npos ? "," + limit : fmt::format(",{}", csv_quoted(limit));
+  for (const double number : row.numbers)
+    text += std::isnan(number) ? std::string(",") : fmt::format(",{:.9g}", number);
+  return text;
+}
+
+std::optional<PointRow> parse_row(std::string_view text) {
+  Problems ignored;
+  cams::TableProblems broken("", ignored);
+  const auto line = std::string(text) + "\n";
+  CsvRows rows(line, broken);
+  CsvRow cells;
+  if (!rows.next(cells) || cells.cells.size() < 2) return {};
+  const auto verdict = std::find(verdicts.begin(), verdicts.end(), cells.cells[0].text);
+  if (verdict == verdicts.end()) return {};
+  PointRow row{static_cast<PointRow::Verdict>(verdict - verdicts.begin()), cells.cells[1].text, {}};
+  for (std::size_t i = 2; i < cells.cells.size(); ++i)
+    row.numbers.push_back(number_of(cells.cells[i].text).value_or(no_number));
+  return row;
+}
+
+}  // namespace drycut::sim::studies

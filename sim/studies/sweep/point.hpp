@@ -1,0 +1,78 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/loop/known_events.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace drycut::sim::studies {
+
+// One point of a sweep: a scenario and overrides in, a row out. Nothing else is known here of points around
+// it, of folders or of threads: whoever has the question can work on any of its points.
+
+/// What is asked of every point.
+struct PointQuestion {
+  std::filesystem::path file;
+  std::string text;  ///< of the file, read once
+  std::vector<scenario::Override> set;
+  struct Figure {
+    std::string name;
+    std::string term;  ///< as in `drycut tune`: "max(abs(knife.motor.torque))"
+  };
+  std::vector<Figure> figures;
+
+  // What follows is found out by prepare().
+  std::vector<loop::KnownEvent> events = {};
+  std::vector<std::pair<std::string, std::string>> units = {};  ///< of the channels that figures look at
+  struct Piece {
+    std::string source;  ///< "knife"
+    double from = 0;     ///< [s] the first check that looks at its cuts begins here
+    bool has_mismatch = false;
+    std::string length_unit;
+    std::string mismatch_unit;
+  };
+  std::vector<Piece> pieces = {};         ///< what cuts
+  std::vector<std::string> drives = {};   ///< "knife.servo"
+  std::vector<std::string> checks = {};   ///< by name
+  std::vector<std::string> columns = {};  ///< headings of a row's numbers
+};
+
+/// What came of a point.
+struct PointRow {
+  enum class Verdict {
+    passed,   ///< every check and every rating holds
+    failed,   ///< one does not
+    refused,  ///< the scenario is none, or no machine can be built of it
+    diverged  ///< the simulation itself failed
+  };
+  Verdict verdict = Verdict::passed;
+  std::string limit;            ///< what gave way first; "" if nothing did
+  std::vector<double> numbers;  ///< in the order of the columns; NaN = there is none
+};
+std::string_view name_of(PointRow::Verdict verdict);
+
+/// Finds out what the scenario can be asked and tells everything wrong with it and the figures.
+void prepare(PointQuestion& question, Problems& problems);
+
+/// A point that is read and not run yet.
+struct PointScenario {
+  scenario::Scenario scenario;    ///< nothing is drawn, and only what figures look at is recorded
+  std::vector<double> lengths;    ///< wanted of each of the question's pieces [its unit]; NaN = not said
+  Problems problems;              ///< why it is refused
+  std::uint64_t fingerprint = 0;  ///< of all that its row depends on
+};
+PointScenario read_point(const PointQuestion& question, const std::vector<scenario::Override>& overrides);
+PointRow run_point(const PointQuestion& question, const PointScenario& point);
+
+/// A row's cells behind the point's own: "passed,,0.04,...", always the same way and back; nothing if `text`
+/// is no such row.
+std::string row_text(const PointRow& row);
+std::optional<PointRow> parse_row(std::string_view text);
+
+}  // namespace drycut::sim::studies

@@ -1,0 +1,286 @@
+// drycut sweep and drycut envelope on a web whose speed a check limits: what holds where is known beforehand.
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+#include <fstream>
+
+#include "sim/cli/sweep_command.hpp"
+#include "tests/sim/command_bench.hpp"
+
+namespace drycut::sim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string scenario = R"(variables: {limit: 100 m/min, speed: 60 m/min, least: 10 m/min, end: 0.2 s}
+scene: {step: 1 ms, duration: "${end}"}
+plants: {web: {type: web, speed: "${speed}"}}
+record: {every: 10 ms, channels: [web.speed]}
+checks:
+  - {name: slow enough, always: "web.speed <= ${limit}"}
+  - {name: fast enough, always: "web.speed >= ${least}", from: 0.1 s}
+)";
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct SweepCommand : CommandTest {
+  SweepCommand() {
+    folder.file("web.yaml", scenario);
+    sweep.scenario = envelope.scenario = folder / "web.yaml";
+    sweep.out = folder / "sweep";
+    envelope.out = folder / "envelope";
+  }
+  int run_sweep() {
+    return captured([&] { return sweep_scenario(sweep); });
+  }
+  int run_envelope() {
+    return captured([&] { return envelope_scenario(envelope); });
+  }
+  /// The lines of a table, cut off behind its first `columns` cells.
+  std::vector<std::string> rows(const fs::path& file, int columns) const {
+    std::vector<std::string> lines;
+    std::istringstream text(text_of(folder / file.string()));
+    for (std::string line; std::getline(text, line);) {
+      std::size_t at = 0;
+      for (int i = 0; i < columns && at != std::string::npos; ++i) at = line.find(',', at + (i > 0 ? 1 : 0));
+      lines.push_back(line.substr(0, at));
+    }
+    return lines;
+  }
+
+  TestFolder folder;
+  SweepOptions sweep;
+  EnvelopeOptions envelope;
+};
+
+TEST_F(SweepCommand, ARowAPointWithWhatGaveWay) {
+  sweep.over = {"variables.limit=80,120 m/min", "variables.speed=5..125 m/min:4"};
+  sweep.figures = {"peak=max(web.speed)"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_THAT(rows("sweep/sweep.csv", 4),
+              ElementsAre("variables.limit [m/min],variables.speed [m/min],verdict,limit",  //
+                          "80,5,failed,fast enough", "80,45,passed,", "80,85,failed,slow enough",
+                          "80,125,failed,slow enough", "120,5,failed,fast enough", "120,45,passed,",
+                          "120,85,passed,", "120,125,failed,slow enough"));
+  const auto text = text_of(folder / "sweep/sweep.csv");
+  EXPECT_THAT(text, HasSubstr("limit,margin of slow enough [m/min],margin of fast enough [m/min],peak\n"));
+  EXPECT_THAT(text, HasSubstr("120,85,passed,,35,75,85\n"));
+  EXPECT_THAT(
+      out, AllOf(HasSubstr("3 failed: slow enough"), HasSubstr("3 passed"), HasSubstr("8 runs simulated")));
+}
+
+TEST_F(SweepCommand, TheFirstInTimeIsTheLimit) {
+  // At 5 m/min with a limit of 1 both fail: "slow enough" at once, "fast enough" from 0.1 s on.
+  sweep.set = {"variables.limit=1 m/min", "checks.0.from=0.15 s"};
+  sweep.over = {"variables.speed=5,6 m/min"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_THAT(rows("sweep/sweep.csv", 3)[1], "5,failed,fast enough");
+  sweep.set = {"variables.limit=1 m/min"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_THAT(rows("sweep/sweep.csv", 3)[1], "5,failed,slow enough");
+}
+
+TEST_F(SweepCommand, APointThatCannotBeIsRefused) {
+  sweep.over = {"plants.web.speed=50,1e6 m/min"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  const auto lines = rows("sweep/sweep.csv", 99);
+  EXPECT_THAT(lines[1], HasSubstr("50,passed,,"));
+  EXPECT_THAT(lines[2],
+              HasSubstr("1000000,refused,\"plants.web.speed is 1000000 m/min, out of range; 0 m/min to"));
+}
+
+TEST_F(SweepCommand, SameBytesForAnyJobsAndNothingTwice) {
+  sweep.over = {"variables.speed=5..125 m/min:30"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  const auto alone = text_of(folder / "sweep/sweep.csv");
+  auto parallel = sweep;
+  parallel.jobs = 4;
+  parallel.out = folder / "parallel";
+  ASSERT_EQ(captured([&] { return sweep_scenario(parallel); }), all_passed) << err;
+  EXPECT_EQ(text_of(folder / "parallel/sweep.csv"), alone);
+  ASSERT_EQ(run_sweep(), all_passed);
+  EXPECT_THAT(out, HasSubstr("\n0 runs simulated"));
+  EXPECT_EQ(text_of(folder / "sweep/sweep.csv"), alone);
+  // Some of a finer sweep's points are known; what a comment says changes no run.
+  folder.file("web.yaml", "# another comment\n" + scenario);
+  sweep.over = {"variables.speed=5..125 m/min:59"};
+  ASSERT_EQ(run_sweep(), all_passed);
+  EXPECT_THAT(out, HasSubstr("\n29 runs simulated"));
+  // Another limit is another run.
+  sweep.set = {"variables.limit=90 m/min"};
+  ASSERT_EQ(run_sweep(), all_passed);
+  EXPECT_THAT(out, HasSubstr("\n59 runs simulated"));
+}
+
+TEST_F(SweepCommand, GoesOnWhereItWasCutShort) {
+  sweep.over = {"variables.speed=5..125 m/min:12"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  const auto whole = text_of(folder / "sweep/sweep.csv");
+  const auto cache = text_of(folder / "sweep/points.cache");
+  auto cut = cache.find('\n');
+  for (int i = 0; i < 4; ++i) cut = cache.find('\n', cut + 1);
+  std::ofstream(folder / "sweep/points.cache", std::ios::binary)
+      << cache.substr(0, cut + 12) << "\nnonsense\n0123456789abcdef,sunny,,\n"
+      << cache.substr(0, 20);
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("\n7 runs simulated"));
+  EXPECT_EQ(text_of(folder / "sweep/sweep.csv"), whole);
+}
+
+TEST_F(SweepCommand, GoesOnAfterKill9) {
+  sweep.over = {"variables.speed=5..125 m/min:400"};
+  sweep.set = {"variables.end=2 s"};
+  const std::string program = DRYCUT_PROGRAM;
+  const auto cache = folder / "sweep/points.cache";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(program.c_str(), program.c_str(), "sweep", sweep.scenario.c_str(), "--over", sweep.over[0].c_str(),
+          "--set", sweep.set[0].c_str(), "--out", sweep.out.c_str(), "--jobs", "2", nullptr);
+    _exit(127);
+  }
+  ASSERT_GT(child, 0);
+  int status = 0;
+  const auto lines = [&] {
+    const auto text = text_of(cache);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  bool ended = false;
+  while (lines() < 3 && !ended) ended = waitpid(child, &status, WNOHANG) == child;
+  if (!ended) {
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+  }
+  ASSERT_TRUE(WIFSIGNALED(status)) << "it was to be killed before its end";
+  EXPECT_FALSE(fs::exists(folder / "sweep/sweep.csv"));
+  const auto kept = lines();
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("\n" + std::to_string(400 - kept) + " runs simulated"));
+  auto afresh = sweep;
+  afresh.out = folder / "afresh";
+  ASSERT_EQ(captured([&] { return sweep_scenario(afresh); }), all_passed);
+  EXPECT_EQ(text_of(folder / "sweep/sweep.csv"), text_of(folder / "afresh/sweep.csv"));
+}
+
+TEST_F(SweepCommand, SamplesTheRanges) {
+  sweep.over = {"variables.speed=20..90 m/min", "variables.limit=95..100 m/min"};
+  sweep.sample = "sobol:16";
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  EXPECT_EQ(rows("sweep/sweep.csv", 3).size(), 17U);
+  EXPECT_THAT(rows("sweep/sweep.csv", 3)[2], "55,97.5,passed");
+}
+
+TEST_F(SweepCommand, BadInputIsToldBeforeAnythingRuns) {
+  struct Case {
+    std::vector<std::string> over;
+    const char* told;
+    const char* sample = "";
+    const char* figure = "";
+  };
+  const std::string good = "variables.speed=5..125 m/min:4";
+  for (const auto& [over, told, sample, figure] : {
+           Case{{"variables.sped=5..125 m/min:4"},
+                "--over:1:16: variables.sped: there is no 'sped' in variables; did you mean speed?"},
+           Case{{"plants.web.sped=5..125 m/min:4"}, "unknown key 'sped' in plants.web; did you mean speed?"},
+           Case{{"variables.speed=5..125 mm:4"},
+                "--over:1:20: variables.speed is a speed, not a length; its value is 60 m/min"},
+           Case{{"variables.speed=5..125:4"}, ""},
+           Case{{"plants.web.speed=5..125 mm:4"}, "plants.web.speed is a speed, not a length (mm)"},
+           Case{{good, good}, "--over:1:1: variables.speed is given twice"},
+           Case{{"variables.speed=1..2 m/min:100000", "variables.limit=1..2 m/min:10000"},
+                "--over:1:1: 100000 x 10000 are 1e+09 points; at most 1000000"},
+           Case{{good}, "--sample:1:1: 'sobol:0' is no sample", "sobol:0"},
+           Case{{good}, "--sample:1:1: 'random:5' is no sample", "random:5"},
+           Case{{good}, "--figure:1:1: 'peak' is no NAME=TERM", "", "peak"},
+           Case{{good}, "--figure:1:10: ", "", "peak=max(web.sped)"},
+           Case{{good}, "--figure:1:6: ", "", "peak=maxi(web.speed)"},
+       }) {
+    sweep.over = over;
+    sweep.sample = sample;
+    sweep.figures.clear();
+    if (*figure != '\0') sweep.figures = {figure};
+    const int status = run_sweep();
+    if (*told == '\0') {
+      EXPECT_EQ(status, all_passed) << over[0] << err;  // the variable's own unit
+      fs::remove_all(sweep.out);
+      continue;
+    }
+    EXPECT_EQ(status, bad_input) << over[0];
+    EXPECT_THAT(err, HasSubstr(told)) << over[0];
+    EXPECT_FALSE(fs::exists(sweep.out)) << over[0];
+  }
+}
+
+TEST_F(SweepCommand, AnEnvelopeIsWhereTheLimitIs) {
+  envelope.over = {"variables.limit=40..290 m/min:3"};
+  envelope.find_max = "variables.speed=5..300 m/min:0.25";
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  const auto lines = rows("envelope/envelope.csv", 6);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0],
+            "variables.limit [m/min],variables.speed [m/min],verdict,limit,holds from [m/min],"
+            "holds again at [m/min]");
+  const std::vector<double> limits = {40, 165, 290};
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const auto& line = lines[i + 1];
+    double limit = 0;
+    double speed = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,", &limit, &speed), 2) << line;
+    EXPECT_EQ(limit, limits[i]);
+    EXPECT_LE(speed, limit);
+    EXPECT_GT(speed, limit - 0.25);
+    EXPECT_THAT(line, HasSubstr(i == 0 ? ",found,slow enough,23.4375," : ",found,slow enough,41.875,"));
+  }
+  const auto text = text_of(folder / "envelope/envelope.csv");
+  envelope.jobs = 3;
+  envelope.out = folder / "parallel";
+  ASSERT_EQ(run_envelope(), all_passed);
+  EXPECT_EQ(text_of(folder / "parallel/envelope.csv"), text);
+}
+
+TEST_F(SweepCommand, AnEnvelopeMayHaveNoEnd) {
+  envelope.over = {"variables.limit=5,300 m/min"};
+  envelope.find_max = "variables.speed=20..200 m/min:1";
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  EXPECT_THAT(rows("envelope/envelope.csv", 6)[1], "5,,nowhere,slow enough,,");
+  EXPECT_THAT(rows("envelope/envelope.csv", 6)[2], "300,200,throughout,,20,");
+}
+
+TEST_F(SweepCommand, AnEnvelopeTellsThatItHoldsAgain) {
+  folder.file("web.yaml", scenario + "  - {name: no resonance, always: abs(web.speed - 100) >= 21}\n");
+  envelope.set = {"variables.limit=290 m/min"};
+  envelope.find_max = "variables.speed=20..180 m/min:0.5";
+  ASSERT_EQ(run_envelope(), all_passed) << err;
+  const auto line = rows("envelope/envelope.csv", 5)[1];
+  double speed = 0;
+  ASSERT_EQ(std::sscanf(line.c_str(), "%lf,", &speed), 1);
+  EXPECT_LE(speed, 79);
+  EXPECT_GT(speed, 78.5);
+  EXPECT_THAT(line, HasSubstr(",found,no resonance,20,140"));
+}
+
+TEST_F(SweepCommand, BadBoundsAreTold) {
+  for (const auto& [find_max, told] : std::vector<std::pair<std::string, std::string>>{
+           {"variables.speed=20 m/min", "--find-max:1:17: '20 m/min' is no range"},
+           {"variables.speed=20..180 m/min:0", "--find-max:1:31: '0' is no tolerance"},
+           {"variables.speed=20..180 m/min:200", "'200' is no tolerance"},
+           {"variables.speed=20..180 m/min:1 mm", "'1 mm' is no tolerance"},
+           {"variables.speed=180..20 m/min", "is empty"},
+           {"variables.sped=20..180 m/min", "did you mean speed?"},
+           {"variables.speed=20..180 mm", "variables.speed is a speed, not a length"},
+           {"variables.limit=20..180 m/min", "variables.limit is given twice"}}) {
+    envelope.over = {"variables.limit=40..290 m/min:3"};
+    envelope.find_max = find_max;
+    EXPECT_EQ(run_envelope(), bad_input) << find_max;
+    EXPECT_THAT(err, HasSubstr(told)) << find_max;
+    EXPECT_FALSE(fs::exists(envelope.out));
+  }
+}
+
+}  // namespace
+}  // namespace drycut::sim::cli
