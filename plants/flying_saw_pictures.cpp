@@ -47,27 +47,31 @@ struct FlyingSaw::Picture : Assembly {
   double high = data_.travel_max + saw_carriage / 2;
   double middle = (low + high) / 2;
   double height = section_height(saw_.web_.data().cross_section());
+  double wide = std::max(saw_.web_.data().width, 0.06);  ///< of what the vices hold
+  double plate = std::max(0.36, wide + 0.12);            ///< of the carriage, across
+  double more = plate / 2 - 0.18;                        ///< further out than for a narrow material
   Frame carriage_ = on_carriage(0, 0, 0);
 };
 
 void FlyingSaw::Picture::add_bed() {
   const double length = high - low + 0.16;
-  box("bed", {length, 0.12, 0.34}, looks::bed, at(middle, -0.26, 0), "beam");
+  box("bed", {length, 0.12, plate - 0.02}, looks::bed, at(middle, -0.26, 0), "beam").ends_kept = true;
   for (const double side : {-1.0, 1.0})
-    box(numbered("rail", side), {length - 0.06, 0.03, 0.024}, looks::steel, at(middle, -0.185, side * 0.13),
-        "rail");
+    box(numbered("rail", side), {length - 0.06, 0.03, 0.024}, looks::steel,
+        at(middle, -0.185, side * (0.13 + more)), "rail");
   for (const double side : {-1.0, 1.0}) {
     const double face = side < 0 ? low : high;
     rod(numbered("stop", side), 0.06, 0.03, looks::red.on("rubber"),
         at(face + side * 0.015, -0.13, 0) * (side < 0 ? along_line : against_line), "bumper");
     box(numbered("stop block", side), {0.03, 0.12, 0.16}, looks::bed, at(face + side * 0.045, -0.15, 0));
     const double leg = -0.32 - floor_y;
-    box(numbered("leg", side), {0.1, leg, 0.3}, looks::bed,
-        at(middle + side * length * 0.4, floor_y + leg / 2, 0), "leg");
+    box(numbered("leg", side), {0.1, leg, plate - 0.06}, looks::bed,
+        at(middle + side * length * 0.4, floor_y + leg / 2, 0), "leg")
+        .ends_kept = true;
   }
-  box("home switch", {0.04, 0.03, 0.03}, looks::white, at(data_.sensors.home.centre, -0.22, 0.19));
+  box("home switch", {0.04, 0.03, 0.03}, looks::white, at(data_.sensors.home.centre, -0.22, 0.19 + more));
   on(carriage_);
-  box("home flag", {0.02, 0.1, 0.008}, looks::white, at(0, -0.16, 0.185));
+  box("home flag", {0.02, 0.1, 0.008}, looks::white, at(0, -0.16, 0.185 + more));
 }
 
 void FlyingSaw::Picture::add_drive() {
@@ -86,7 +90,7 @@ void FlyingSaw::Picture::add_drive() {
 void FlyingSaw::Picture::add_rack() {
   const double radius = std::min(data_.lead / units::turn, 0.06);
   const double y = -0.2 + radius;
-  const double z = 0.2;
+  const double z = 0.2 + more;
   box("rack", {high - low, 0.03, 0.04}, looks::steel, at(middle, -0.215, z), "rack");
   on([pinion = on_carriage(0.1, y, z), &drive = saw_.screw_] {
     return pinion().pose * about_z(-drive.screw_turn());
@@ -98,9 +102,8 @@ void FlyingSaw::Picture::add_rack() {
 }
 
 void FlyingSaw::Picture::add_carriage() {
-  const double wide = std::max(saw_.web_.data().width, 0.06);
   on(carriage_);
-  box("carriage", {saw_carriage, 0.05, 0.36}, looks::moving, at(0, -0.115, 0), "carriage");
+  box("carriage", {saw_carriage, 0.05, plate}, looks::moving, at(0, -0.115, 0), "carriage").ends_kept = true;
   const Frame jaws = [carriage = carriage_, &closed = saw_.clamp_.closed] {
     return carriage().pose * at(0, closed.level ? 0 : jaw_gap, 0);
   };
@@ -114,14 +117,16 @@ void FlyingSaw::Picture::add_carriage() {
     on(carriage_);
     box(numbered("clamp cylinder", side), {0.05, 0.05, 0.1}, looks::grey,
         at(x, height + jaw_gap + 0.19, 0) * upright, "cylinder");
-    box(numbered("clamp arm", side), {0.05, 0.03, 0.2}, looks::moving,
-        at(x, height + jaw_gap + 0.255, -0.09));
+    box(numbered("clamp arm", side), {0.05, 0.03, 0.2 + more}, looks::moving,
+        at(x, height + jaw_gap + 0.255, -0.09 - more / 2));
   }
 }
 
 void FlyingSaw::Picture::add_head() {
   const double column = height + 0.62;
-  box("column", {0.3, column, 0.06}, looks::moving, at(0, column / 2 - 0.1, -0.22), "column");
+  box("column", {0.3, column, 0.06}, looks::moving, at(0, column / 2 - 0.1, -0.22 - more), "column");
+  if (more > 0)
+    box("bridge", {0.12, 0.1, more + 0.08}, looks::moving, at(0, column - 0.15, -0.19 - more / 2));
   box("head guide", {0.05, column - 0.2, 0.02}, looks::steel, at(0, column / 2, -0.18));
   box("head cylinder", {0.05, 0.05, 0.2}, looks::grey, at(0, column - 0.06, -0.16) * upright, "cylinder");
   const Frame head = [&saw = saw_] { return at(saw.carriage().position, saw.blade_axis(), 0); };
@@ -132,7 +137,8 @@ void FlyingSaw::Picture::add_head() {
   rod("spindle", 0.05, 0.05, looks::steel, at(0.015, 0, 0) * along_line);
   const Frame blade = [head, &spindle = saw_.head_] { return head().pose * about_x(spindle.blade_turn()); };
   on(blade);
-  rod("saw blade", disc, 0.005, looks::red.on("blade"), along_line, "saw_blade");
+  rod("saw blade", disc, 0.005, looks::red.on("blade"), along_line, "saw_blade").pitch =
+      units::turn / 2;  // its two marks
   on(head);
   const double guard = disc * 0.58;                // height of the guard, which ends a little below the axis
   const double lowest = -disc * 1.05 + guard / 2;  // the blade's lowest point, from the guard's middle

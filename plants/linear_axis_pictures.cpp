@@ -155,11 +155,12 @@ void LinearAxis::Picture::add_screw() {
 void LinearAxis::Picture::add_blade() {
   const double web = -data_.place_y;  // height of the web over the beam's lower side
   const double reach = -data_.place_z;
+  const double wide = std::max(0.34, 2 * (reach - 0.16));  // the web ends before the axis
   box("column", {0.1, 0.24, 0.06}, looks::moving, at(0, 0.13 * k + 0.12, 0));
   box("arm", {0.08, 0.06, reach + 0.24}, looks::moving, at(0, 0.13 * k + 0.22, (reach + 0.18) / 2));
   on(lifted(0.07, 0));
   box("ram", {0.05, 0.3, 0.05}, looks::steel, at(0, web + 0.23, reach));
-  wedge("blade", {0.03, 0.1, 0.34}, looks::red.on("blade"), at(0, web + 0.05, reach), {0, -0.05, 0.17});
+  wedge("blade", {0.03, 0.1, wide}, looks::red.on("blade"), at(0, web + 0.05, reach), {0, -0.05, wide / 2});
 }
 
 void LinearAxis::Picture::add_guide() {

@@ -41,7 +41,10 @@ struct Part {
   Frame frame = {};
   Pose offset = {};  ///< of its middle in the frame
   std::optional<std::array<double, 3>> tip =
-      {};  ///< in its own coordinates [m]: what leaves a trail in pictures
+      {};                  ///< in its own coordinates [m]: what leaves a trail in pictures
+  bool ends_kept = false;  ///< one long across the line (z) stretches its model in the middle only
+  double pitch = 0;  ///< it looks the same again after this angle, as a drum after one of its blades [rad];
+                     ///< 0 = whether a film shows how it turns is all one
 
   [[nodiscard]] PartPose now() const;
 };

@@ -114,6 +114,13 @@ struct DriveOfPlant {
   int alike = 1;            ///< drives that do the same, of which this is one
 };
 
+/// Something that turns with the line: what is wrong with it comes back once a turn.
+struct Recurrence {
+  std::string name;   ///< within the plant: "wheel"
+  double travel = 0;  ///< of the web in a turn [m]; 0: it goes by the cuts
+  double cuts = 0;    ///< in a turn
+};
+
 /// A machine or a part of a line. Bodies live in the World; everything else that acts is explicit.
 /// Per step h: drive() of all plants, World::step(), sense() of all plants, in scenario order.
 class Plant {
@@ -135,6 +142,7 @@ class Plant {
   virtual std::vector<Fault> faults() { return {}; }
   virtual std::vector<EventType> event_types() { return {}; }
   virtual std::vector<DriveOfPlant> drives() { return {}; }
+  virtual std::vector<Recurrence> recurrences() { return {}; }
   virtual std::vector<Part> parts() { return {}; }
   /// The parameters that may change while it runs, bound to the machine itself: the rows of its table that
   /// are `live`. Whoever writes one keeps to its range and calls parameters_changed() then.

@@ -180,6 +180,11 @@ std::vector<DriveOfPlant> RotaryKnife::drives() {
   return drives;
 }
 
+std::vector<Recurrence> RotaryKnife::recurrences() {
+  return {{"drum", 0, static_cast<double>(data_.blade_count)},
+          {"motor", 0, data_.blade_count / data_.gear.ratio}};
+}
+
 Parameters RotaryKnife::live_parameters() { return live_rows(rotary_knife_parameters(data_)); }
 
 void RotaryKnife::parameters_changed() {

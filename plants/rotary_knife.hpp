@@ -65,6 +65,7 @@ class RotaryKnife : public Plant {
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;
+  std::vector<Recurrence> recurrences() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
   Parameters live_parameters() override;

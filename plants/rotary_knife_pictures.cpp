@@ -81,19 +81,22 @@ struct RotaryKnife::Picture : Assembly {
 
 void RotaryKnife::Picture::add_drum() {
   on(drum_);
-  rod("drum", 2 * (axis - blade_height * 0.8), width, drum_look, {}, "drum");
-  rod("drum shaft", 0.05, width + 0.2, shaft_look, {}, "drum_shaft");
+  Part& drum = rod("drum", 2 * (axis - blade_height * 0.8), width, drum_look, {}, "drum");
+  drum.ends_kept = true;
+  drum.pitch = units::turn / knife_.data_.blade_count;
+  rod("drum shaft", 0.05, width + 0.2, shaft_look, {}, "drum_shaft").ends_kept = true;
   box("drum mark", {0.012, axis * 0.32, 0.004}, looks::white, at(0, -axis * 0.5, width / 2 - 0.001));
   if (geared) {
     add_counter_drum();
   } else {
     on(turning(knife_.drum_, at(0, -counter_axis, 0), -1));
-    rod("anvil roll", anvil_diameter, width + 0.08, shaft_look, {}, "anvil_roll");
+    rod("anvil roll", anvil_diameter, width + 0.08, shaft_look, {}, "anvil_roll").ends_kept = true;
   }
   on_floor();
   const double base_height = std::max(base_top - floor_y, 0.05);
   box("base", {2 * axis + 0.26, base_height, width + 2 * (gap + frame_depth)}, looks::bed,
-      at(0, base_top - base_height / 2, 0), "machine_base");
+      at(0, base_top - base_height / 2, 0), "machine_base")
+      .ends_kept = true;
 }
 
 void RotaryKnife::Picture::add_counter_drum() {
@@ -105,8 +108,10 @@ void RotaryKnife::Picture::add_counter_drum() {
   on(counter_);
   wheel("counter gear wheel", 2 * counter_axis);
   const double under_blades = knife_.data_.counter.cuts() ? blade_height * 0.8 : 0;
-  rod("counter drum", 2 * (counter_axis - under_blades), width, drum_look, {}, "drum");
-  rod("counter shaft", 0.05, width + 0.2, shaft_look, {}, "drum_shaft");
+  Part& drum = rod("counter drum", 2 * (counter_axis - under_blades), width, drum_look, {}, "drum");
+  drum.ends_kept = true;
+  drum.pitch = units::turn / knife_.data_.blade_count;
+  rod("counter shaft", 0.05, width + 0.2, shaft_look, {}, "drum_shaft").ends_kept = true;
   box("counter drum mark", {0.012, counter_axis * 0.32, 0.004}, looks::white,
       at(0, counter_axis * 0.5, width / 2 - 0.001));
 }

@@ -115,6 +115,8 @@ std::vector<Port> Web::ports() {
           {"photocell", &marks_.photocell().port, "photocell over the printed marks"}};
 }
 
+std::vector<Recurrence> Web::recurrences() { return {{"wheel", data_.wheel.circumference}}; }
+
 std::vector<Channel> Web::channels() {
   return {
       {"speed", "m/min", [this] { return material_.speed * units::metres_a_minute; }, "speed of the web"},

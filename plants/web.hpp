@@ -53,6 +53,7 @@ class Web : public Plant {
   std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
+  std::vector<Recurrence> recurrences() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
   Parameters live_parameters() override;

@@ -108,7 +108,8 @@ struct Web::Picture : Assembly {
   double look = look_of(data_);
   /// Width of rolls, tables and belt [m]: a tube needs more than its own.
   double wide = tube ? std::max(4 * data_.width, 0.16) : data_.width;
-  double stands_z = wide / 2 * 1.15 + 0.02;
+  double across = wide + std::min(0.15 * wide, 0.12);  ///< of rolls and belt, which stick out
+  double stands_z = across / 2 + 0.02;
 };
 
 void Web::Picture::add_pull_rolls() {
@@ -118,18 +119,18 @@ void Web::Picture::add_pull_rolls() {
   };
   const Frame upper = turning(at(pull_x, upper_y, 0), angle);
   on(upper);
-  rod("upper pull roll", roll_diameter, wide * 1.15, rubber_look, {}, "roller");
+  rod("upper pull roll", roll_diameter, across, rubber_look, {}, "roller").ends_kept = true;
   on(turning(at(pull_x, -roll_diameter / 2, 0), [angle] { return -angle(); }));
-  rod("lower pull roll", roll_diameter, wide * 1.15, roll_look, {}, "roller");
+  rod("lower pull roll", roll_diameter, across, roll_look, {}, "roller").ends_kept = true;
   on(upper);
-  box("pull roll mark", {0.012, 0.05, 0.006}, mark_look, at(0, 0.035, wide / 2 * 1.15 + 0.003));
+  box("pull roll mark", {0.012, 0.05, 0.006}, mark_look, at(0, 0.035, across / 2 + 0.003));
 }
 
 void Web::Picture::add_wheel() {
   const double diameter = data_.wheel.circumference / std::numbers::pi;
   const double axle_y = look + data_.wheel.circumference / units::turn;
-  const double z = tube ? 0 : wide * 0.4;
-  const double arm_z = wide * 0.55 + 0.04;  // on the operator's side
+  const double z = tube ? 0 : wide / 2 - std::min(0.1 * wide, 0.05);
+  const double arm_z = wide / 2 + std::min(0.05 * wide, 0.03) + 0.04;  // on the operator's side
   on(turning(at(wheel_x, axle_y, z), [&wheel = web_.wheel_] {
     return units::turn * (wheel.revolutions() - std::floor(wheel.revolutions()));
   }));
@@ -147,14 +148,16 @@ void Web::Picture::add_stands() {
   for (const double side : {-1.0, 1.0})
     box(numbered("roll stand", side), {0.06, stand, 0.024}, looks::bed,
         at(pull_x, stand_low + stand / 2, -side * stands_z), "frame_post");
-  box("infeed frame", {upstream - 0.3, 0.22, wide * 0.8}, looks::bed, at(-(upstream + 0.3) / 2, -0.13, 0),
-      "hollow_frame");
+  box("infeed frame", {upstream - 0.3, 0.22, wide - std::min(0.2 * wide, 0.12)}, looks::bed,
+      at(-(upstream + 0.3) / 2, -0.13, 0), "hollow_frame")
+      .ends_kept = true;
   const double first = -upstream + 0.25;
   const double last = -0.45;
   const int gaps = std::max(1, static_cast<int>(std::ceil((last - first) / most_between_legs)));
   for (int i = 0; i <= gaps; ++i)
-    box(fmt::format("infeed leg {}", i + 1), {0.09, infeed_leg, wide * 0.7}, looks::bed,
-        at(first + (last - first) * i / gaps, floor_y + infeed_leg / 2, 0), "leg");
+    box(fmt::format("infeed leg {}", i + 1), {0.09, infeed_leg, wide - std::min(0.3 * wide, 0.2)}, looks::bed,
+        at(first + (last - first) * i / gaps, floor_y + infeed_leg / 2, 0), "leg")
+        .ends_kept = true;
 }
 
 /// What the stations on it leave of the belt, from and to [m].
@@ -186,22 +189,25 @@ void Web::Picture::add_belt(double x, double length, int number) {
   const auto paired = [number](const char* name, double side) {
     return fmt::format("{} {}", name, 2 * number + (side < 0 ? 1 : 2));
   };
-  box(named("outfeed belt"), {length, belt_height, wide * 1.15}, rubber_look, at(x + length / 2, y, 0),
+  box(named("outfeed belt"), {length, belt_height, across}, rubber_look, at(x + length / 2, y, 0),
       "conveyor_belt");
   for (const double side : {-1.0, 1.0}) {
     const double end = side < 0 ? x + belt_height / 2 : x + length - belt_height / 2;
     on(turning(at(end, y, 0),
                [&belt = web_.outfeed_] { return -std::fmod(belt.belt_travel() / 0.05, units::turn); }));
-    rod(paired("outfeed roll", side), 0.1, wide * 1.16, roll_look, {}, "roller");
+    rod(paired("outfeed roll", side), 0.1, across + std::min(0.01 * wide, 0.01), roll_look, {}, "roller")
+        .ends_kept = true;
   }
   on_floor();
-  box(named("outfeed frame"), {length - std::min(0.15, length / 4), 0.1, wide * 1.15 + 0.04}, looks::bed,
-      at(x + length / 2, y - 0.01, 0), "hollow_frame");
+  box(named("outfeed frame"), {length - std::min(0.15, length / 4), 0.1, across + 0.04}, looks::bed,
+      at(x + length / 2, y - 0.01, 0), "hollow_frame")
+      .ends_kept = true;
   for (const double side : {-1.0, 1.0})
     box(paired("outfeed leg", side), {0.09, outfeed_leg, wide}, looks::bed,
         at(side < 0 ? x + std::min(0.45, length / 4) : x + length - std::min(0.3, length / 4),
            floor_y + outfeed_leg / 2, 0),
-        "leg");
+        "leg")
+        .ends_kept = true;
 }
 
 void Web::Picture::add_tube_rollers() {
@@ -222,7 +228,7 @@ void Web::Picture::add_cleats() {
                                     [x](const auto& one) { return x >= one.first && x <= one.second; });
       return PartPose(at(x, -0.002, 0), seen);
     });
-    box(fmt::format("belt mark {}", i + 1), {0.02, 0.004, wide * 1.15}, mark_look, {});
+    box(fmt::format("belt mark {}", i + 1), {0.02, 0.004, across}, mark_look, {});
   }
 }
 

@@ -3,7 +3,7 @@
 namespace drycut::renders {
 namespace {
 
-constexpr double blink = 1e-3;  ///< in which a part appears or goes, in times between two frames
+constexpr double blink = 1e-3;  ///< in which a part appears or goes, in times between two keys
 const Vec3 nothing = Vec3::Zero();
 
 /// The rotation of unit length, with the sign that is nearer to `before`.
@@ -30,16 +30,15 @@ Track track_of(const Film& film, std::size_t part, int slow) {
   };
   double last_s = 0;
   Placement last;
-  for (std::size_t i = 0; i < film.frames.size(); ++i) {
-    const double time_s = (film.frames[i].time_s - film.frames.front().time_s) * slow;
-    Placement now = film.frames[i].placements[part];
+  const auto go_on = [&](double at_s, Placement now) {
+    const double time_s = (at_s - film.frames.front().time_s) * slow;
     if (!now.visible) {
       now = last;
       now.visible = false;
       now.scale = nothing;
     }
     now.rotation = beside(last.rotation, now.rotation);
-    if (i > 0 && now.visible != last.visible) {
+    if (!track.empty() && now.visible != last.visible) {
       // Until just before it stays as it was; what appears does so in its new place.
       Placement until = now.visible ? now : last;
       until.scale = last.visible ? last.scale : nothing;
@@ -48,6 +47,12 @@ Track track_of(const Film& film, std::size_t part, int slow) {
     add(time_s, now);
     last = now;
     last_s = time_s;
+  };
+  for (std::size_t i = 0; i < film.frames.size(); ++i) {
+    const Frame& frame = film.frames[i];
+    for (const Waypoint& way : frame.before)
+      if (i > 0 && way.part == part) go_on(way.time_s, way.placement);
+    go_on(frame.time_s, frame.placements[part]);
   }
   if (track.size() == 2 && same(track[0].placement, track[1].placement)) track.pop_back();
   return track;

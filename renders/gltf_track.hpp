@@ -13,10 +13,10 @@ struct Key {
 /// At least one key; only one for a part that stays where it is.
 using Track = std::vector<Key>;
 
-/// The keys of part number `part` over the film, which must have frames: a key a frame, at `slow` times the
-/// time that has passed since the first one. Rotations turn the short way; stretches without change keep only
-/// their first and last key. A part that comes or goes does so in a thousandth of the time between two
-/// frames.
+/// The keys of part number `part` over the film, which must have frames: a key a frame and a waypoint, at
+/// `slow` times the time that has passed since the first frame. Rotations turn the short way; stretches
+/// without change keep only their first and last key. A part that comes or goes does so in a thousandth of
+/// the time between two of them.
 Track track_of(const Film& film, std::size_t part, int slow);
 
 }  // namespace drycut::renders

@@ -1,6 +1,7 @@
 #include "renders/mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace drycut::renders {
@@ -29,16 +30,32 @@ void find_hull(Mesh& mesh) {
   }
 }
 
-Mesh stretched(const Mesh& mesh, const Vec3& size) {
+Mesh stretched(const Mesh& mesh, const Vec3& size, bool ends_kept) {
+  constexpr double kLongest = 1.5;  // as an end is stretched
+  constexpr double kPlain = 0.05;   // half of the share of a mesh that has no end in it
   const Extent extent = extent_of(mesh);
   const Vec3 middle = extent.center();
   const Vec3 factor = (extent.sizes().array() > 0).select(size.cwiseQuotient(extent.sizes()), 1);
-  const auto moved = [&](const Vec3& point) -> Vec3 { return (point - middle).cwiseProduct(factor); };
+  const double plain = kPlain * extent.sizes().z();
+  const double of_ends = ends_kept ? std::min(factor.z(), kLongest) : factor.z();
+  const double of_middle =
+      plain > 0 ? (size.z() / 2 - (0.5 - kPlain) * extent.sizes().z() * of_ends) / plain : 1;
+  const auto factor_at = [&](double z) -> Vec3 {
+    return {factor.x(), factor.y(), std::abs(z) > plain ? of_ends : of_middle};
+  };
+  const auto moved = [&](const Vec3& point) -> Vec3 {
+    const Vec3 from = point - middle;
+    const double in = std::clamp(from.z(), -plain, plain);
+    return {from.x() * factor.x(), from.y() * factor.y(), in * of_middle + (from.z() - in) * of_ends};
+  };
   Mesh result;
   result.corners.reserve(mesh.corners.size());
-  for (const auto& corner : mesh.corners)
-    result.corners.push_back({as_floats(moved(as_doubles(corner.position))),
-                              as_floats(as_doubles(corner.normal).cwiseQuotient(factor).normalized())});
+  for (const auto& corner : mesh.corners) {
+    const Vec3 point = as_doubles(corner.position);
+    result.corners.push_back(
+        {as_floats(moved(point)),
+         as_floats(as_doubles(corner.normal).cwiseQuotient(factor_at(point.z() - middle.z())).normalized())});
+  }
   for (const auto& point : mesh.hull) result.hull.push_back(moved(point));
   return result;
 }

@@ -12,7 +12,8 @@ Extent extent_of(const Mesh& mesh);
 void find_hull(Mesh& mesh);
 
 /// `mesh` moved to the middle of its box and stretched so that the box has the sides `size` [m]. A side of no
-/// length stays so.
-Mesh stretched(const Mesh& mesh, const Vec3& size);
+/// length stays so. With `ends_kept` what is more than 1.5 times as long in z as the mesh stretches in the
+/// middle only: feet, journals and posts at its ends keep their shape.
+Mesh stretched(const Mesh& mesh, const Vec3& size, bool ends_kept = false);
 
 }  // namespace drycut::renders

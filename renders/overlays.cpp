@@ -13,7 +13,8 @@ namespace drycut::renders {
 namespace {
 
 constexpr std::size_t kTrailFrames = 12;
-constexpr int kBetween = 8;             ///< points of a trail from frame to frame
+constexpr double kFinest = 8;   ///< length of the lines of a trail, for a film 540 pixels high [pixels]
+constexpr int kMostLines = 12;  ///< from one known place of the tip to the next
 constexpr double kLongestArrow = 0.18;  ///< of the picture's height, for the film's largest force
 constexpr double kShortestArrow = 0.04;
 
@@ -97,38 +98,81 @@ void draw_force(const Sheet& sheet, const Callout& callout, double largest) {
         fmt::format("{} {:.0f} N", callout.text, force));
 }
 
-/// A smooth curve (Catmull-Rom) from `b` to `c` that comes from `a` and goes on to `d`: frames show a drum
-/// only every few dozen degrees.
-Vec3 between(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double t) {
-  const Vec3 bend = 2.0 * a - 5.0 * b + 4.0 * c - d;
-  const Vec3 twist = 3.0 * (b - c) + d - a;
-  return b + (t / 2) * ((c - a) + t * (bend + t * twist));
+/// Where a tip was at a time [s].
+struct TipPlace {
+  double time_s;
+  Vec3 place;
+};
+
+/// Its speed at the middle one of three places, by the parabola through them.
+Vec3 speed_at(const TipPlace& a, const TipPlace& b, const TipPlace& c) {
+  const double before = b.time_s - a.time_s;
+  const double after = c.time_s - b.time_s;
+  return ((b.place - a.place) * (after / before) + (c.place - b.place) * (before / after)) / (before + after);
+}
+
+/// The smooth way from one place to the next that is left and reached with these speeds (Hermite); `t` 0..1.
+Vec3 on_way(const TipPlace& from, const Vec3& leaves, const TipPlace& to, const Vec3& comes, double t) {
+  const double time = to.time_s - from.time_s;
+  const double u = 1 - t;
+  return (1 + 2 * t) * u * u * from.place + t * t * (3 - 2 * t) * to.place +
+         t * u * time * (u * leaves - t * comes);
+}
+
+/// Where the tip of a part has been in the frames from `first` on until `frame`, in stretches in which it was
+/// visible.
+std::vector<std::vector<TipPlace>> ways_of_tip(const Film& film, std::size_t part, std::size_t first,
+                                               std::size_t frame) {
+  std::vector<std::vector<TipPlace>> ways(1);
+  const auto add = [&](double time_s, const Placement& placement) {
+    if (!placement.visible) {
+      if (!ways.back().empty()) ways.emplace_back();
+    } else if (ways.back().empty() || time_s > ways.back().back().time_s) {
+      ways.back().push_back({time_s, placed(placement, *film.parts[part].tip)});
+    }
+  };
+  for (std::size_t f = first; f <= frame; ++f) {
+    if (f > first)
+      for (const Waypoint& way : film.frames[f].before)
+        if (way.part == part) add(way.time_s, way.placement);
+    add(film.frames[f].time_s, film.frames[f].placements[part]);
+  }
+  return ways;
 }
 
 /// Where the tip of a part was in the last frames; older is fainter.
 void draw_trail(const Sheet& sheet, const Film& film, std::size_t part, std::size_t frame) {
   const std::size_t first = frame - std::min(frame, kTrailFrames);
+  const double now_s = film.frames[frame].time_s;
+  const double oldest_s = (now_s - film.frames[first].time_s) * (1 + 1.0 / kTrailFrames);
   cairo_set_line_width(sheet.pen, 2.5 * sheet.scale);
   cairo_set_line_cap(sheet.pen, CAIRO_LINE_CAP_ROUND);
-  for (std::size_t f = first; f < frame; ++f) {
-    const auto tip = [&](std::size_t at) {
-      return placed(film.frames[at].placements[part], *film.parts[part].tip);
-    };
-    if (!film.frames[f].placements[part].visible || !film.frames[f + 1].placements[part].visible) continue;
-    const Vec3 from = tip(f);
-    const Vec3 to = tip(f + 1);
-    const Vec3 before = f > first ? tip(f - 1) : from;
-    const Vec3 after = f + 1 < frame ? tip(f + 2) : to;
-    bool seen = true;
-    for (int i = 0; i <= kBetween; ++i) {
-      const Vec3 point = between(before, from, to, after, static_cast<double>(i) / kBetween);
-      seen = seen && sheet.before_eye(point);
-      const Point at = sheet.at(point);
-      cairo_line_to(sheet.pen, at[0], at[1]);
+  for (const auto& way : ways_of_tip(film, part, first, frame)) {
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+      const TipPlace& from = way[i];
+      const TipPlace& to = way[i + 1];
+      if (!sheet.before_eye(from.place) || !sheet.before_eye(to.place)) continue;
+      const Vec3 straight = (to.place - from.place) / (to.time_s - from.time_s);
+      const bool begins = i == 0;
+      const bool ends = i + 2 == way.size();
+      Vec3 leaves = begins ? straight : speed_at(way[i - 1], from, to);
+      Vec3 comes = ends ? straight : speed_at(from, to, way[i + 2]);
+      // At the ends as by the parabola, too.
+      if (begins && !ends) leaves = 2 * straight - comes;
+      if (ends && !begins) comes = 2 * straight - leaves;
+      const Point begin = sheet.at(from.place);
+      const Point end = sheet.at(to.place);
+      const double length = std::hypot(end[0] - begin[0], end[1] - begin[1]) / (kFinest * sheet.scale);
+      const int lines = std::clamp(static_cast<int>(std::ceil(length)), 1, kMostLines);
+      cairo_move_to(sheet.pen, begin[0], begin[1]);
+      for (int k = 1; k <= lines; ++k) {
+        const Point at = sheet.at(on_way(from, leaves, to, comes, static_cast<double>(k) / lines));
+        cairo_line_to(sheet.pen, at[0], at[1]);
+      }
+      const double age = (now_s - from.time_s) / oldest_s;
+      cairo_set_source_rgba(sheet.pen, 0.0, 0.85, 0.95, 0.9 * (1 - age));
+      cairo_stroke(sheet.pen);
     }
-    const double age = static_cast<double>(frame - f) / (kTrailFrames + 1);
-    cairo_set_source_rgba(sheet.pen, 0.0, 0.85, 0.95, seen ? 0.9 * (1 - age) : 0.0);
-    cairo_stroke(sheet.pen);
   }
 }
 

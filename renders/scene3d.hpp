@@ -69,9 +69,17 @@ struct LiveCurve {
   std::vector<double> values;   ///< as many
 };
 
+/// Where a part was between two frames.
+struct Waypoint {
+  std::size_t part = 0;
+  double time_s = 0;
+  Placement placement;
+};
+
 struct Frame {
   double time_s = 0;
   std::vector<Placement> placements;  ///< one a part, same order
+  std::vector<Waypoint> before = {};  ///< since the frame before, those of each part in order of time
   std::vector<CaptionItem> caption;
   std::vector<Callout> callouts;
 };

@@ -20,6 +20,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/report/film.hpp"
 #include "sim/report/gallery.hpp"
 #include "sim/report/results.hpp"
 #include "sim/studies/compare/scene_run.hpp"

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "sim/report/gallery_plots.hpp"
-
 namespace drycut::sim::loop {
 
 namespace {
@@ -54,11 +52,12 @@ class Binder {
   }
 
   void add_motor(const scenario::Text& plant) {
-    bool known = report::has_motor_limits(scenario_, plant.text);
-    for (const auto& name : report::motor_channels(plant.text))
-      known = known && recording_.add(lookup_.watch, name);
+    const auto found = std::find_if(lookup_.plants.begin(), lookup_.plants.end(),
+                                    [&](const auto& one) { return one.name == plant.text; });
+    bool known = found != lookup_.plants.end() && !found->plant->drives().empty();
+    for (const auto& name : motor_channels(plant.text)) known = known && recording_.add(lookup_.watch, name);
     if (!known)
-      fault(plant.place, fmt::format("'{}' is no plant with a servo motor", plant.text),
+      fault(plant.place, fmt::format("'{}' is no plant with a drive that has ratings", plant.text),
             "name a plant with parameters servo.rated_torque, servo.peak_torque, ...");
   }
 
@@ -130,6 +129,10 @@ class Binder {
 };
 
 }  // namespace
+
+std::vector<std::string> motor_channels(const std::string& plant) {
+  return {plant + ".motor.speed", plant + ".motor.torque"};
+}
 
 Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& problems) {
   return Binder(lookup, recording, problems).bind();

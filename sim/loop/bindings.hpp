@@ -31,4 +31,7 @@ struct Captions {
 /// the pictures does not fit, goes to `problems`.
 Captions bind_recording(const Lookup& lookup, Recording& recording, Problems& problems);
 
+/// What of a plant is recorded for the picture of its motor: speed, then torque.
+std::vector<std::string> motor_channels(const std::string& plant);
+
 }  // namespace drycut::sim::loop

@@ -236,7 +236,7 @@ std::string text_of(const DriveVerdict& verdict) {
   return text;
 }
 
-std::vector<CheckResult> DriveJudge::results() const {
+std::vector<CheckResult> DriveJudge::results(const std::vector<DriveVerdict>& verdicts) const {
   if (!judged_ || drives_.empty()) return {};
   CheckResult result;
   result.name = "drive within its ratings";
@@ -247,7 +247,7 @@ std::vector<CheckResult> DriveJudge::results() const {
   result.passed = true;
   std::vector<std::string> details;
   double largest = 0;
-  for (const auto& verdict : verdicts()) {
+  for (const auto& verdict : verdicts) {
     result.passed = result.passed && verdict.holds();
     largest = std::max(largest, verdict.tightest().share);
     details.push_back(text_of(verdict));

@@ -73,8 +73,9 @@ class DriveJudge : public Observer {
   void happened(const RecordedEvent& event) override;
   /// The verdicts as they stand, a drive each.
   [[nodiscard]] std::vector<DriveVerdict> verdicts() const;
-  /// The check "drive within its ratings"; none without drives, or where the scenario switches it off.
-  [[nodiscard]] std::vector<CheckResult> results() const;
+  /// The check "drive within its ratings"; none without drives, or where the scenario switches it off;
+  /// from verdicts().
+  [[nodiscard]] std::vector<CheckResult> results(const std::vector<DriveVerdict>& verdicts) const;
 
  private:
   /// What stretches of cycles came to, the worst of each.

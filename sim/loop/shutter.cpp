@@ -14,14 +14,28 @@ Shutter::Shutter(const scenario::PicturesSection& pictures)
       around_(pictures.around),
       next_(pictures.frames ? std::max(period_, pictures.from) : never) {}
 
-void Shutter::close() { next_ = never; }
+void Shutter::close() {
+  next_ = never;
+  keys_.close();
+}
+
+Snapshot* Shutter::look(Time now, const std::vector<plants::Part>& parts) {
+  keys_.look(now, parts);
+  if (now < next_) return nullptr;
+  auto* shot = take(now);
+  if (shot == nullptr) return nullptr;
+  shot->time = now;
+  shot->poses = keys_.poses();
+  keys_.begin_frame(shot->between, shot->turned);
+  return shot;
+}
 
 Snapshot* Shutter::take(Time now) {
   next_ = std::max(now + period_, from_);
   if (around_ && !event_) return hold(now);
   const auto end = around_ ? std::optional(*event_ + around_->after) : until_;
   if (end && now > *end) {
-    next_ = never;
+    close();
     return nullptr;
   }
   return &kept_.emplace_back();
@@ -33,7 +47,6 @@ Snapshot* Shutter::hold(Time now) {
   held_.push_back(std::move(held_.front()));
   held_.pop_front();
   auto& shot = held_.back();
-  shot.poses.clear();
   shot.caption.clear();
   shot.callouts.clear();
   return &shot;

@@ -1,10 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <vector>
 
 #include "plants/plant.hpp"
 #include "sim/loop/observer.hpp"
+#include "sim/loop/pose_keys.hpp"
 #include "sim/loop/recorder.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -16,20 +18,24 @@ struct Snapshot {
   std::vector<plants::PartPose> poses;  ///< of all plants, in order
   std::vector<double> caption;          ///< one a caption channel, then one a lamp
   std::vector<plants::Callout> callouts;
+  std::vector<PoseKey> between;  ///< since the frame before, that of each part in order of time
+  std::vector<double> turned;    ///< since then, one a part with a pitch [rad]
 };
 
 /// Decides when a frame's poses are taken and keeps them: between two times, or around an event. As nobody
-/// knows beforehand when an event happens, the poses of the stretch `before` it are held until then.
+/// knows beforehand when an event happens, the poses of the stretch `before` it are held until then. From the
+/// first frame on it looks at the parts between frames too, so that what moves fast can be followed.
 class Shutter : public Observer {
  public:
   explicit Shutter(const scenario::PicturesSection& pictures);
 
   /// No shots any more.
   void close();
-  /// A shot is due at the first step at or after this time.
-  [[nodiscard]] Time next() const { return next_; }
-  /// The object to fill with the shot at `now`; nullptr if none is wanted after all.
-  Snapshot* take(Time now);
+  /// A look is due at the first step at or after this time.
+  [[nodiscard]] Time next() const { return std::min(next_, keys_.next()); }
+  /// Looks at the parts of all plants, always the same ones. Gives the object to fill with the shot at `now`,
+  /// which has the poses already; nullptr if no shot is due, or none is wanted after all.
+  Snapshot* look(Time now, const std::vector<plants::Part>& parts);
   void happened(const RecordedEvent& event) override;
 
   /// The shots of the film.
@@ -42,8 +48,10 @@ class Shutter : public Observer {
   [[nodiscard]] int seen() const { return seen_; }
 
  private:
+  Snapshot* take(Time now);
   Snapshot* hold(Time now);
 
+  PoseKeys keys_;
   Time period_;
   Time from_;
   std::optional<Time> until_;

@@ -201,16 +201,22 @@ void Simulation::record() {
 }
 
 void Simulation::snapshot() {
-  auto* shot = shutter_.take(time_);
-  if (shot == nullptr) return;
-  watch_->update();
-  shot->time = time_;
   if (parts_.empty())
     for (auto& plant : plants_)
       for (auto& part : plant->parts()) parts_.push_back(std::move(part));
-  for (const auto& part : parts_) shot->poses.push_back(part.now());
+  auto* shot = shutter_.look(time_, parts_);
+  if (shot == nullptr) return;
+  watch_->update();
   for (auto& plant : plants_) plant->callouts(shot->callouts);
   for (const auto* slot : captions_.slots) shot->caption.push_back(*slot);
+}
+
+std::vector<std::optional<Strobe>> Simulation::strobes() const {
+  std::vector<PartWithPitch> parts;
+  for (const auto& [name, plant] : named_)
+    for (const auto& part : plant->parts())
+      if (part.pitch > 0) parts.push_back({name + "." + part.name, part.pitch});
+  return loop::strobes(parts, shutter_.kept());
 }
 
 std::vector<std::string> Simulation::notes() const {
@@ -224,6 +230,8 @@ std::vector<std::string> Simulation::notes() const {
     notes.push_back(fmt::format("no frames: {}[{}] did not happen; {} did", around->event.text,
                                 around->number, shutter_.seen()));
   }
+  if (const auto strobe = worst_strobe(strobes()))
+    notes.push_back(text_of(*strobe, scenario_.pictures, scenario_.scene.step));
   if (time_ > 0)  // it ran
     for (auto& undone : timeline_->left_undone(time_)) notes.push_back(std::move(undone));
   for (auto& remark : remarks_.notes()) notes.push_back(std::move(remark));
@@ -270,7 +278,8 @@ Outcome Simulation::outcome() {
   outcome.end = time_;
   outcome.failure = failure_;
   outcome.checks = checks_->results(time_);
-  for (auto& check : drives_->results()) outcome.checks.push_back(std::move(check));
+  outcome.drives = drives_->verdicts();
+  for (auto& check : drives_->results(outcome.drives)) outcome.checks.push_back(std::move(check));
   if (controller_) {
     outcome.checks.push_back({"the program runs",
                               "no run-time error stops the tasks",

@@ -20,6 +20,7 @@
 #include "sim/loop/recorder.hpp"
 #include "sim/loop/remarks.hpp"
 #include "sim/loop/shutter.hpp"
+#include "sim/loop/strobe.hpp"
 #include "sim/loop/timeline.hpp"
 #include "sim/loop/trace_files.hpp"
 #include "sim/loop/watch.hpp"
@@ -40,6 +41,7 @@ struct Outcome {
   std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
   std::vector<CheckResult> checks;
   std::optional<HalfStep> half_step = {};  ///< where it was asked for
+  std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
   [[nodiscard]] bool passed() const;
 };
 
@@ -96,12 +98,12 @@ class Simulation {
   [[nodiscard]] std::string retentive_state() const {
     return controller_ ? controller_->retentive_state() : "";
   }
-  /// What the drives came to beside their ratings.
-  [[nodiscard]] std::vector<DriveVerdict> drives() const { return drives_->verdicts(); }
   [[nodiscard]] const Recording& recording() const { return recording_; }
   /// The same, given away after run().
   [[nodiscard]] Recording take_recording() { return std::move(recording_); }
   [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return shutter_.kept(); }
+  /// What turned too far from the frame before to be seen as it turns, a frame each.
+  [[nodiscard]] std::vector<std::optional<Strobe>> strobes() const;
   /// When the event happened that the frames are about [s]; absent if they are about none.
   [[nodiscard]] std::optional<double> frames_event() const { return shutter_.event_at(); }
   [[nodiscard]] const std::vector<NamedPlant>& plants() const { return named_; }

@@ -33,18 +33,16 @@ renders::Curve points_of(const std::vector<std::pair<double, double>>& points, s
   return curve;
 }
 
-}  // namespace
-
-renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways, double speed_unit,
-                          double torque_unit) {
-  // The law has its corners at rated and at largest speed and is straight between them.
+/// The border of what a motor can give for a short time over its speed: once round, backwards too where
+/// `both_ways`. The law has its corners at rated and at largest speed and is straight between them.
+renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways) {
   std::vector<double> corners = {0, ratings.rated_speed, ratings.max_speed};
   if (both_ways) corners.insert(corners.begin(), {-ratings.max_speed, -ratings.rated_speed});
   renders::Curve curve;
   curve.label = "peak torque";
   const auto add = [&](double speed, double torque) {
-    curve.x.push_back(speed / speed_unit);
-    curve.y.push_back(torque / torque_unit);
+    curve.x.push_back(speed * units::rpm);
+    curve.y.push_back(torque);
   };
   for (const double speed : corners) add(speed, speed > 0 ? ratings.peak(speed) : ratings.peak_torque);
   std::reverse(corners.begin(), corners.end());
@@ -53,21 +51,43 @@ renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways, d
   return curve;
 }
 
-renders::Curve continuous_curve(const plants::DriveRatings& ratings, bool both_ways, double speed_unit,
-                                double torque_unit) {
+/// The same of what it can give for ever.
+renders::Curve continuous_curve(const plants::DriveRatings& ratings, bool both_ways) {
   std::vector<double> corners = {0, ratings.rated_speed};
   if (both_ways) corners.insert(corners.begin(), -ratings.rated_speed);
   renders::Curve curve;
   curve.label = "continuous torque (S1)";
   const auto add = [&](double speed, double sign) {
-    curve.x.push_back(speed / speed_unit);
-    curve.y.push_back(sign * ratings.continuous(speed) / torque_unit);
+    curve.x.push_back(speed * units::rpm);
+    curve.y.push_back(sign * ratings.continuous(speed));
   };
   for (const double speed : corners) add(speed, 1);
   std::reverse(corners.begin(), corners.end());
   for (const double speed : corners) add(speed, -1);
   if (both_ways) add(corners.back(), 1);
   return curve;
+}
+
+}  // namespace
+
+void draw_torque_over_speed(const loop::DriveVerdict& drive, renders::Curve points, const std::string& title,
+                            renders::Plot& plot) {
+  const double backwards = -0.02 * drive.ratings.max_speed * units::rpm;
+  const bool both_ways =
+      std::any_of(points.x.begin(), points.x.end(), [&](double speed) { return speed < backwards; });
+  plot.x_label = "motor speed [rpm]";
+  plot.panel_height = 520;
+  renders::Panel panel;
+  panel.title = title;
+  panel.y_label = "motor torque [N m]";
+  points.label = "operating points";
+  points.style = renders::Curve::Style::points;
+  panel.curves.push_back(std::move(points));
+  if (!drive.cycle_points.empty())
+    panel.curves.push_back(points_of(drive.cycle_points, "rms of a cycle, at its mean speed"));
+  panel.curves.push_back(peak_curve(drive.ratings, both_ways));
+  panel.curves.push_back(continuous_curve(drive.ratings, both_ways));
+  plot.panels.push_back(std::move(panel));
 }
 
 renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts) {
@@ -96,30 +116,34 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
   return table;
 }
 
-std::vector<renders::Plot> drive_plots(const std::vector<loop::DriveVerdict>& verdicts) {
+const loop::DriveVerdict* drive_of(const std::vector<loop::DriveVerdict>& verdicts,
+                                   const std::string& plant) {
+  const auto found = std::find_if(verdicts.begin(), verdicts.end(), [&](const auto& verdict) {
+    return verdict.drive.starts_with(plant + ".");
+  });
+  return found == verdicts.end() ? nullptr : &*found;
+}
+
+std::vector<renders::Plot> drive_plots(const std::vector<loop::DriveVerdict>& verdicts,
+                                       const std::vector<scenario::PlotRequest>& requests) {
   std::vector<renders::Plot> plots;
   plots.reserve(verdicts.size());
   for (const auto& verdict : verdicts) {
-    const bool both_ways = std::any_of(verdict.points.begin(), verdict.points.end(), [&](const auto& point) {
-      return point.first < -0.02 * verdict.ratings.max_speed;
+    const bool asked_for = std::any_of(requests.begin(), requests.end(), [&](const auto& request) {
+      return std::any_of(request.panels.begin(), request.panels.end(), [&](const auto& panel) {
+        return !panel.motor.text.empty() && drive_of(verdicts, panel.motor.text) == &verdict;
+      });
     });
+    if (asked_for) continue;
     renders::Plot plot;
     plot.name = "drive_" + verdict.drive;
     std::replace(plot.name.begin(), plot.name.end(), '.', '_');
     plot.title = fmt::format("{}: torque over speed, {}", verdict.drive, verdict.cycles);
-    plot.x_label = "motor speed [rpm]";
-    plot.panel_height = 520;
-    renders::Panel panel;
-    panel.y_label = "motor torque [N m]";
     const auto& most = verdict.tightest();
-    panel.title = fmt::format("{} {:.4g} of {:.4g} {}: {:.0f} %", most.name, most.value, most.rating,
-                              most.unit, 100 * most.share);
-    panel.curves.push_back(points_of(verdict.points, "operating points"));
-    if (!verdict.cycle_points.empty())
-      panel.curves.push_back(points_of(verdict.cycle_points, "rms of a cycle, at its mean speed"));
-    panel.curves.push_back(peak_curve(verdict.ratings, both_ways, 1 / units::rpm));
-    panel.curves.push_back(continuous_curve(verdict.ratings, both_ways, 1 / units::rpm));
-    plot.panels.push_back(std::move(panel));
+    draw_torque_over_speed(verdict, points_of(verdict.points, ""),
+                           fmt::format("{} {:.4g} of {:.4g} {}: {:.0f} %", most.name, most.value, most.rating,
+                                       most.unit, 100 * most.share),
+                           plot);
     plots.push_back(std::move(plot));
   }
   return plots;

@@ -9,19 +9,19 @@
 #include "sim/cams/page.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/output_folder.hpp"
-#include "sim/report/part_meshes.hpp"
+#include "sim/report/gallery_plots.hpp"
 
 namespace drycut::sim::report {
 
 // From what was recorded to what is shown: fills the structs of renders/.
 
-/// The frames of a run, with captions. A part is drawn by the user's mesh, else by its model.
-renders::Film film_of(const scenario::Scenario& scenario, const loop::Simulation& simulation,
-                      const PartMeshes& meshes = {});
-
 /// The plots that the scenario asks for; where it asks for none, one with the recorded channels, a panel a
-/// unit.
-std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording);
+/// unit. Those of motors need the drives of the machine.
+std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording,
+                                    const MachineFacts& machine = {});
+/// What the spectra that the scenario asks for tell, a line each.
+std::vector<std::string> findings_of(const scenario::Scenario& scenario, const loop::Recording& recording,
+                                     const MachineFacts& machine);
 
 /// Picture files made for a report.
 struct Drawn {

@@ -189,11 +189,13 @@ std::vector<renders::Mark> marks_of(const loop::Recording& recording, const scen
 }
 
 /// A plot of one panel whose x is not time.
-void draw_own_x(const scenario::Scenario& scenario, const loop::Recording& recording,
+void draw_own_x(const MachineFacts& machine, const loop::Recording& recording,
                 const scenario::PlotRequest& request, renders::Plot& plot) {
   const auto& panel = request.panels.front();
   if (panel.histogram) {
     draw_histogram(recording, request, plot);
+  } else if (panel.spectrum) {
+    draw_spectrum(machine, recording, request, plot);
   } else if (panel.is_path()) {
     const auto& x = *recording.column(panel.x.text);
     plot.x_label = axis_label(x.name, {x.unit});
@@ -201,7 +203,7 @@ void draw_own_x(const scenario::Scenario& scenario, const loop::Recording& recor
     plot.panel_height = 900;
     plot.panels.push_back(path_panel(recording, request, panel));
   } else {
-    draw_motor(scenario, recording, request, plot);
+    draw_motor(machine, recording, request, plot);
   }
 }
 
@@ -238,7 +240,8 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
   return fmt::format("{}{}[{}]", title, title.empty() ? "" : " ", text);
 }
 
-std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording) {
+std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const loop::Recording& recording,
+                                    const MachineFacts& machine) {
   std::vector<renders::Plot> plots;
   for (const auto& request : scenario.pictures.plots) {
     renders::Plot plot;
@@ -247,7 +250,7 @@ std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const lo
     plot.x_label = time_label(recording, rows_between(recording, request.from, request.until));
     if (request.against_number) plot.x_label = request.panels.front().event.text + " number";
     if (!request.panels.empty() && request.panels.front().has_own_x()) {
-      draw_own_x(scenario, recording, request, plot);
+      draw_own_x(machine, recording, request, plot);
     } else {
       if (!request.against_number) plot.marks = marks_of(recording, request);
       for (const auto& panel : request.panels) plot.panels.push_back(panel_of(recording, request, panel));

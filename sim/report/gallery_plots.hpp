@@ -4,12 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "plants/plant.hpp"
 #include "renders/plots.hpp"
+#include "sim/loop/drive_judge.hpp"
 #include "sim/loop/recorder.hpp"
 #include "sim/report/statistics.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace drycut::sim::report {
+
+/// What is known of the machine besides what was recorded.
+struct MachineFacts {
+  std::vector<loop::DriveVerdict> drives;
+  std::vector<plants::Recurrence> recurrences;  ///< named with their plants: "web.wheel"
+};
 
 /// Rows of a recording.
 struct Rows {
@@ -38,14 +46,13 @@ std::string axis_label(const std::string& title, const std::vector<std::string>&
 void draw_histogram(const loop::Recording& recording, const scenario::PlotRequest& request,
                     renders::Plot& plot);
 
-/// Torque over speed of a plant's servo motor at every record instant, with the limits of its data sheet:
-/// peak torque as the drive gives it, rated torque up to rated speed.
-void draw_motor(const scenario::Scenario& scenario, const loop::Recording& recording,
+/// Torque over speed of a plant's drive at every record instant, with its ratings.
+void draw_motor(const MachineFacts& machine, const loop::Recording& recording,
                 const scenario::PlotRequest& request, renders::Plot& plot);
 
-/// What of a motor is recorded for that: speed, then torque.
-std::vector<std::string> motor_channels(const std::string& plant);
-/// True if the plant of that name has the parameters of a servo motor.
-bool has_motor_limits(const scenario::Scenario& scenario, const std::string& plant);
+/// The amplitudes of the sines in the panel's event values over the way of the web, or over the events where
+/// they have no length; the peaks with their periods and what turns as often.
+void draw_spectrum(const MachineFacts& machine, const loop::Recording& recording,
+                   const scenario::PlotRequest& request, renders::Plot& plot);
 
 }  // namespace drycut::sim::report

@@ -6,8 +6,9 @@
 #include <map>
 #include <optional>
 
-#include "plants/servo_drive.hpp"
+#include "base/units.hpp"
 #include "renders/decimate.hpp"
+#include "sim/loop/bindings.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
 #include "sim/report/statistics.hpp"
@@ -65,39 +66,6 @@ std::string statistics_text(const EventNumbers& series,
   return text + fmt::format(", Cp {}, Cpk {}", capability_text(found->cp), capability_text(found->cpk));
 }
 
-// ---- motor ----
-
-/// The ratings of a plant's servo motor.
-std::optional<plants::DriveRatings> motor_ratings(const scenario::Scenario& scenario,
-                                                  const std::string& plant) {
-  const auto entry = std::find_if(scenario.plants.begin(), scenario.plants.end(),
-                                  [&](const scenario::PlantEntry& one) { return one.name.text == plant; });
-  if (entry == scenario.plants.end()) return {};
-  plants::ServoData data;
-  int found = 0;
-  for (const auto& parameter : entry->definition->parameters()) {
-    const auto* const* number = std::get_if<double*>(&parameter.value);
-    const auto dot = parameter.name.rfind('.');
-    if (number == nullptr || dot == std::string::npos || !parameter.name.substr(0, dot).ends_with("servo"))
-      continue;
-    const auto name = parameter.name.substr(dot + 1);
-    const auto take = [&](const char* wanted, double& value) {
-      if (name != wanted) return;
-      value = **number;
-      ++found;
-    };
-    take("rated_torque", data.rated_torque);
-    take("peak_torque", data.peak_torque);
-    take("torque_at_max_speed", data.torque_at_max_speed);
-    take("rated_speed", data.rated_speed);
-    take("max_speed", data.max_speed);
-    take("stall_torque", data.stall_torque);
-    take("torque_constant", data.torque_constant);
-    take("amplifier_peak_current", data.amplifier.peak_current);
-  }
-  return found == 8 ? std::optional(plants::ratings(data)) : std::nullopt;
-}
-
 }  // namespace
 
 void draw_histogram(const loop::Recording& recording, const scenario::PlotRequest& request,
@@ -130,59 +98,44 @@ void draw_histogram(const loop::Recording& recording, const scenario::PlotReques
   plot.panels.push_back(std::move(shown));
 }
 
-std::vector<std::string> motor_channels(const std::string& plant) {
-  return {plant + ".motor.speed", plant + ".motor.torque"};
-}
-
-bool has_motor_limits(const scenario::Scenario& scenario, const std::string& plant) {
-  return motor_ratings(scenario, plant).has_value();
-}
-
-void draw_motor(const scenario::Scenario& scenario, const loop::Recording& recording,
+void draw_motor(const MachineFacts& machine, const loop::Recording& recording,
                 const scenario::PlotRequest& request, renders::Plot& plot) {
   const auto& panel = request.panels.front();
-  const auto names = motor_channels(panel.motor.text);
+  const auto names = loop::motor_channels(panel.motor.text);
   const auto& speed = *recording.column(names[0]);
   const auto& torque = *recording.column(names[1]);
-  const auto data = *motor_ratings(scenario, panel.motor.text);
-  const double speed_unit = scenario::to_si(1, speed.unit);
-  const double torque_unit = scenario::to_si(1, torque.unit);
+  const auto& drive = *drive_of(machine.drives, panel.motor.text);
+  const auto& ratings = drive.ratings;
+  const double rpm = scenario::to_si(1, speed.unit) * units::rpm;
+  const double newton_metres = scenario::to_si(1, torque.unit);
 
-  renders::Curve points;
-  points.label = "operating points";
-  points.style = renders::Curve::Style::points;
   double squares = 0;
   double largest_torque = 0;
   double largest_speed = 0;
-  bool both_ways = false;
   const auto rows = rows_between(recording, request.from, request.until);
   for (auto row = rows.first; row < rows.end; ++row) {
     squares += torque.values[row] * torque.values[row];
     largest_torque = std::max(largest_torque, std::abs(torque.values[row]));
     largest_speed = std::max(largest_speed, std::abs(speed.values[row]));
-    both_ways = both_ways || speed.values[row] * speed_unit < -0.02 * data.max_speed;
   }
+  largest_torque *= newton_metres;
+  largest_speed *= rpm;
   renders::Cloud cloud(rows.count(), {-largest_speed, largest_speed, -largest_torque, largest_torque}, false);
-  for (auto row = rows.first; row < rows.end; ++row) cloud.add(speed.values[row], torque.values[row]);
+  for (auto row = rows.first; row < rows.end; ++row)
+    cloud.add(speed.values[row] * rpm, torque.values[row] * newton_metres);
   auto kept = cloud.take();
+  renders::Curve points;
   points.x = std::move(kept.x);
   points.y = std::move(kept.y);
-  const double rms = rows.count() == 0 ? 0 : std::sqrt(squares / static_cast<double>(rows.count()));
-  renders::Panel shown;
-  shown.title = fmt::format(
-      "{}{}rms {:.3g} {} ({:.0f} % of rated), largest {:.3g} {} ({:.0f} % of peak), "
-      "up to {:.4g} {} ({:.0f} % of max_speed)",
-      panel.title, panel.title.empty() ? "" : ": ", rms, torque.unit,
-      100 * rms * torque_unit / data.rated_torque, largest_torque, torque.unit,
-      100 * largest_torque * torque_unit / data.peak_torque, largest_speed, speed.unit,
-      100 * largest_speed * speed_unit / data.max_speed);
-  shown.y_label = axis_label(torque.name, {torque.unit});
-  plot.x_label = axis_label(speed.name, {speed.unit});
-  plot.panel_height = 520;
-  shown.curves.push_back(std::move(points));
-  shown.curves.push_back(peak_curve(data, both_ways, speed_unit, torque_unit));
-  shown.curves.push_back(continuous_curve(data, both_ways, speed_unit, torque_unit));
-  plot.panels.push_back(std::move(shown));
+  const double rms =
+      rows.count() == 0 ? 0 : newton_metres * std::sqrt(squares / static_cast<double>(rows.count()));
+  const auto title = fmt::format(
+      "{}{}rms {:.3g} N m ({:.0f} % of rated), largest {:.3g} N m ({:.0f} % of peak), "
+      "up to {:.4g} rpm ({:.0f} % of max_speed)",
+      panel.title, panel.title.empty() ? "" : ": ", rms, 100 * rms / ratings.rated_torque, largest_torque,
+      100 * largest_torque / ratings.peak_torque, largest_speed,
+      100 * largest_speed / (ratings.max_speed * units::rpm));
+  draw_torque_over_speed(drive, std::move(points), title, plot);
 }
 
 }  // namespace drycut::sim::report

@@ -43,7 +43,8 @@ void judge_path(MapReader& reader, const PlotRequest::Panel& panel) {
     reader.refuse(reader.has("x") ? "x" : "y", fmt::format("{}: x and y go together", name),
                   "write x: AxisX.posit, y: AxisY.posit");
   }
-  for (const auto* key : {"channels", "lanes", "motor", "event", "values", "limits", "histogram"}) {
+  for (const auto* key :
+       {"channels", "lanes", "motor", "event", "values", "limits", "histogram", "spectrum"}) {
     if (!reader.has(key)) continue;
     reader.refuse(key, fmt::format("{} has both a path and {}", name, key), "make two plots of it");
   }
@@ -55,7 +56,8 @@ void judge_path(MapReader& reader, const PlotRequest::Panel& panel) {
 
 /// A panel of lanes, or of a motor, shows nothing else.
 void judge_alone(MapReader& reader, std::string_view what) {
-  for (const auto* key : {"lanes", "motor", "channels", "event", "values", "limits", "histogram"}) {
+  for (const auto* key :
+       {"lanes", "motor", "channels", "event", "values", "limits", "histogram", "spectrum"}) {
     if (key == what || !reader.has(key)) continue;
     reader.refuse(key, fmt::format("{} has both {} and {}", reader.name(), what, key),
                   "make two panels of it");
@@ -74,6 +76,14 @@ void judge_panel(MapReader& reader, const PlotRequest::Panel& panel) {
   if (panel.histogram && (!event || panel.values.size() != 1)) {
     reader.refuse("histogram", fmt::format("{}: a histogram shows one value of an event", name),
                   "write event: cut, values: [length]");
+  }
+  if (panel.spectrum && (!event || panel.values.size() != 1)) {
+    reader.refuse("spectrum", fmt::format("{}: a spectrum is of one value of an event", name),
+                  "write event: cut, values: [length]");
+  }
+  for (const auto* key : {"histogram", "limits"}) {
+    if (!panel.spectrum || !reader.has(key)) continue;
+    reader.refuse(key, fmt::format("{} has both a spectrum and {}", name, key), "make two plots of it");
   }
   if (reader.has("lanes") || reader.has("motor")) {
     judge_alone(reader, reader.has("lanes") ? "lanes" : "motor");
@@ -122,7 +132,10 @@ void judge_plot(MapReader& reader, const PlotRequest& plot) {
     if (plot.against_number) refuse_marks();
     return;
   }
-  const auto* const kind = loner->is_path() ? "a path" : loner->histogram ? "a histogram" : "a motor";
+  const auto* const kind = loner->is_path()   ? "a path"
+                           : loner->histogram ? "a histogram"
+                           : loner->spectrum  ? "a spectrum"
+                                              : "a motor";
   if (plot.panels.size() > 1) {
     reader.refuse("panels", fmt::format("{}: {} stands alone in its plot", name, kind),
                   "make a plot of each");
@@ -172,6 +185,9 @@ void visit(Archive& archive, PlotRequest::Panel& panel) {
                 points_form(panel.points));
   archive.value({"histogram", "the event's value by how often it comes", panel.histogram},
                 form(panel.histogram));
+  archive.value(
+      {"spectrum", "how much of the event's value comes back how often over the web", panel.spectrum},
+      form(panel.spectrum));
   archive.value({"limits", "a band behind the curves, in their unit"}, form(panel.limits));
   archive.judge([&panel](MapReader& reader) { judge_panel(reader, panel); });
 }

@@ -206,6 +206,7 @@ struct PlotRequest {
     Text event;                  ///< instead: points, one an event of this name ("cut")
     std::vector<Text> values;    ///< of the event ("length")
     bool histogram = false;      ///< the event's value by how often it comes
+    bool spectrum = false;       ///< what comes back regularly in it, over the web
     Text motor;  ///< instead: torque over speed of the servo motor of this plant, with its limits
     std::optional<std::pair<double, double>> limits;  ///< band drawn behind: [low, high], in the curves' unit
     /// Instead: a path in a plane, at equal scale. With `split`, one curve for each of that channel's whole
@@ -221,7 +222,7 @@ struct PlotRequest {
     };
     std::vector<Point> points;  ///< named places on the plane, in the channels' units
     [[nodiscard]] bool is_path() const { return !x.text.empty(); }
-    [[nodiscard]] bool has_own_x() const { return is_path() || histogram || !motor.text.empty(); }
+    [[nodiscard]] bool has_own_x() const { return is_path() || histogram || spectrum || !motor.text.empty(); }
   };
   std::vector<Panel> panels;
   Time from = 0;

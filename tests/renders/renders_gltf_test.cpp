@@ -169,6 +169,21 @@ TEST_F(RendersGltf, WhatCannotBeDrawnOrWrittenIsTold) {
             "glTF: the film has no frames");
 }
 
+TEST(RendersGltfTrack, WaypointsAreKeysOfTheirPart) {
+  Film film = line();
+  film.frames[2].before = {
+      {0, 0.55, turned(0.1, 1.0)}, {1, 0.555, turned(4, 0.5)}, {0, 0.56, turned(0.2, 1.3)}};
+  film.frames[0].before = {{0, 0.4, turned(9, 0)}};
+  const Track drum = track_of(film, 0, 2);
+  ASSERT_EQ(drum.size(), film.frames.size() + 2);
+  EXPECT_NEAR(drum[0].time_s, 0, 1e-12) << "nothing before the first frame";
+  EXPECT_NEAR(drum[2].time_s, 2 * 0.05, 1e-12);
+  EXPECT_NEAR(drum[3].time_s, 2 * 0.06, 1e-12);
+  EXPECT_NEAR(drum[3].placement.position.x(), 0.2, 1e-12);
+  EXPECT_NEAR(drum[4].time_s, 2 * 0.08, 1e-12);
+  EXPECT_GT(track_of(film, 1, 1).size(), 1U) << "the plate moved between two frames";
+}
+
 TEST(RendersGltfTrack, RotationsGoTheShortWay) {
   const Film film = line();
   const Track track = track_of(film, 0, 1);

@@ -71,6 +71,44 @@ TEST(RendersOverlays, TrailFollowsTheCircleBetweenFrames) {
   EXPECT_EQ(ahead, (std::array{128, 128, 128})) << "it has not been there yet";
 }
 
+TEST(RendersOverlays, TrailIsAnArcThroughTheWaypointsWhateverTheFrames) {
+  // Two frames that are 250 degrees apart, a waypoint every 25 degrees.
+  Film film = turning_tool();
+  film.trails = true;
+  const auto at = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    Placement tool;
+    tool.position = {0.4 * std::sin(angle), -0.4 * std::cos(angle), 0};
+    tool.rotation = {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
+    return tool;
+  };
+  film.frames.resize(2);
+  film.frames[1].time_s = 0.1;
+  film.frames[1].placements[0] = at(250);
+  for (int i = 1; i < 10; ++i) film.frames[1].before.push_back({0, 0.01 * i, at(25.0 * i)});
+  const Image image = drawn(film, 1);
+  for (int degrees = 100; degrees < 250; degrees += 5) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const auto p = pixel(film, image, {0.5 * std::sin(angle), -0.5 * std::cos(angle), 0});
+    EXPECT_GT(p[2], p[0] + 20) << degrees;
+  }
+  const auto chord = pixel(
+      film, image,
+      {0.25 * std::sin(125 * std::numbers::pi / 180), -0.25 * std::cos(125 * std::numbers::pi / 180), 0});
+  EXPECT_EQ(chord, (std::array{128, 128, 128})) << "it did not take the short way";
+}
+
+TEST(RendersOverlays, ATrailHasAGapWhereTheToolWasNotThere) {
+  Film film = turning_tool();
+  film.trails = true;
+  Waypoint gone = {0, 0.1, film.frames[2].placements[0]};
+  gone.placement.visible = false;
+  film.frames[3].before = {gone};
+  const double angle = 50 * std::numbers::pi / 180;
+  const Vec3 between = {0.5 * std::sin(angle), -0.5 * std::cos(angle), 0};
+  EXPECT_EQ(pixel(film, drawn(film, 5), between), (std::array{128, 128, 128}));
+}
+
 TEST(RendersOverlays, LengthIsMarkedFromEndToEnd) {
   Film film = turning_tool();
   film.frames[2].callouts = {{Callout::Kind::length, "800.0 mm", {-0.6, 0.2, 0}, {0.6, 0.2, 0}}};

@@ -77,6 +77,25 @@ TEST_F(GltfTest, TheDrumTurnsAsItWasRecorded) {
   EXPECT_GT(compared, 90);
 }
 
+TEST_F(GltfTest, NothingTurnsMoreThanThirtyDegreesFromKeyToKey) {
+  run("--gltf --set pictures.frames.every='1 s'");
+  Assimp::Importer importer;
+  const auto* scene = importer.ReadFile((folder / "rotary_knife_short.glb").string(), 0);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  unsigned fast = 0;
+  for (unsigned i = 0; i < scene->mAnimations[0]->mNumChannels; ++i) {
+    const auto& part = *scene->mAnimations[0]->mChannels[i];
+    for (unsigned k = 1; k < part.mNumRotationKeys; ++k) {
+      const auto& a = part.mRotationKeys[k - 1].mValue;
+      const auto& b = part.mRotationKeys[k].mValue;
+      const double along = std::abs(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w);
+      ASSERT_LE(2 * std::acos(std::min(1.0, along)), 30.1 * std::numbers::pi / 180) << part.mNodeName.C_Str();
+    }
+    fast = std::max(fast, part.mNumRotationKeys);
+  }
+  EXPECT_GT(fast, 100U) << "the motor turns about ten times a second";
+}
+
 TEST_F(GltfTest, TheFileGoesWhenARunIsNotAskedForIt) {
   run("--gltf");
   ASSERT_TRUE(fs::exists(folder / "rotary_knife_short.glb"));

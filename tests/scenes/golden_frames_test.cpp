@@ -11,7 +11,7 @@
 #include "renders/pictures.hpp"
 #include "renders/png_image.hpp"
 #include "sim/loop/simulation.hpp"
-#include "sim/report/gallery.hpp"
+#include "sim/report/film.hpp"
 
 namespace drycut::sim {
 namespace {

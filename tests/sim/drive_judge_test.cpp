@@ -80,7 +80,7 @@ TEST(DriveJudge, RmsOfTheWorstTenCyclesIsThatOfItsSteps) {
     }
     worst = std::max(worst, std::sqrt(sum / static_cast<double>(count)));
   }
-  const auto verdicts = simulation.drives();
+  const auto verdicts = simulation.outcome().drives;
   ASSERT_EQ(verdicts.size(), 1U);
   const auto& verdict = verdicts[0];
   EXPECT_EQ(verdict.drive, "knife.servo");
@@ -100,7 +100,7 @@ TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
       std::map<std::string, std::string> small = {{"plants.knife.servo.rated_torque", rated}};
       Line line(scene, small);
       line.simulation->run();
-      const auto verdict = line.simulation->drives().at(0);
+      const auto verdict = line.simulation->outcome().drives.at(0);
       ASSERT_FALSE(verdict.holds()) << text_of(verdict);
       EXPECT_GT(figure(verdict, "rms torque").share, 1);
       const auto check = line.ratings().at(0);
@@ -119,7 +119,7 @@ TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
         small["scene.duration"] = "20 s";
         Line slower(scene, small);
         slower.simulation->run();
-        now = slower.simulation->drives().at(0);
+        now = slower.simulation->outcome().drives.at(0);
       }
       EXPECT_TRUE(now.holds()) << speed << " m/min: " << text_of(now);
       EXPECT_GT(speed, 15);
@@ -130,12 +130,12 @@ TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
 TEST(DriveJudge, AScenarioNamesItsCycleOrSwitchesTheCheckOff) {
   Line line("rotary_knife.yaml", {{"scene.duration", "4 s"}, {"drives.cycle", "800 ms"}});
   line.simulation->run();
-  EXPECT_EQ(line.simulation->drives().at(0).cycles, "5 cycles of 0.8 s");
+  EXPECT_EQ(line.simulation->outcome().drives.at(0).cycles, "5 cycles of 0.8 s");
   EXPECT_EQ(line.ratings().size(), 1U);
   Line silent("rotary_knife.yaml", {{"scene.duration", "1 s"}, {"drives.judge", "false"}});
   silent.simulation->run();
   EXPECT_TRUE(silent.ratings().empty());
-  EXPECT_THAT(silent.simulation->drives().at(0).cycles, testing::StartsWith("the whole run"));
+  EXPECT_THAT(silent.simulation->outcome().drives.at(0).cycles, testing::StartsWith("the whole run"));
 }
 
 TEST(DriveJudge, ATripFailsWhateverTheMeansAre) {
@@ -143,7 +143,7 @@ TEST(DriveJudge, ATripFailsWhateverTheMeansAre) {
                                   {"plants.knife.servo.overload_time", "20 ms"},
                                   {"plants.knife.servo.amplifier_current", "1 A"}});
   line.simulation->run();
-  const auto verdict = line.simulation->drives().at(0);
+  const auto verdict = line.simulation->outcome().drives.at(0);
   ASSERT_FALSE(verdict.trips.empty());
   EXPECT_THAT(verdict.trips[0], HasSubstr("overload at "));
   EXPECT_FALSE(verdict.holds());

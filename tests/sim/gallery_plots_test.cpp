@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "sim/report/drives.hpp"
 #include "sim/report/gallery.hpp"
 #include "tests/sim/fakes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
@@ -182,6 +184,52 @@ TEST_F(Histogram, ABeyondTheLimitIsANegativeCpk) {
   EXPECT_THAT(of({502, 502.5, 503}, ", limits: [499, 501]").panels[0].title, HasSubstr("Cpk -1.00"));
 }
 
+TEST(SpectrumPlot, NamesWhatTurnsAsOftenAndWhatPiecesOfOneLengthShowAlike) {
+  loop::Recording recording;
+  const double pi = std::numbers::pi;
+  for (int i = 1; i <= 40; ++i) {
+    const double length = 800 + 0.5 * (std::sin(2 * pi * 1.6 * i) - std::sin(2 * pi * 1.6 * (i - 1)));
+    recording.happened({i * 800 * millisecond, 0, "k", "cut", {{"length", length, "mm"}}, ""});
+  }
+  std::vector<std::string> problems;
+  const auto scenario = fakes::read(
+      "pictures: {plots: [{name: s, panels: [{title: wheel, event: cut, values: [length], spectrum: "
+      "on}]}]}\n",
+      problems);
+  const MachineFacts machine{{}, {{"web.wheel", 0.5, 0}, {"k.drum", 0, 1}, {"k.motor", 0, 0.4}}};
+  const auto plot = plots_of(scenario, recording, machine).at(0);
+  EXPECT_EQ(plot.panels.at(0).title, "wheel: 0.951 mm at 500 mm: once a turn of web.wheel");
+  EXPECT_EQ(plot.panels[0].y_label, "amplitude of length [mm]");
+  EXPECT_EQ(plot.x_label, "how often it comes, in a metre of web [1/m]");
+  std::vector<std::string> marks;
+  for (const auto& mark : plot.marks) marks.push_back(mark.label);
+  EXPECT_THAT(marks, ElementsAre("2000 mm alike", "1333 mm alike", "571.4 mm alike", "500 mm web.wheel"));
+  EXPECT_THAT(
+      findings_of(scenario, recording, machine),
+      ElementsAre("length of cut: 0.951 mm at 500 mm: once a turn of web.wheel, as an error of its place by "
+                  "0.5 mm makes it; pieces of this length show 2000 mm, 1333 mm, 571.4 mm alike, others "
+                  "would tell"));
+  const auto none = findings_of(scenario, loop::Recording(), machine);
+  EXPECT_THAT(none, ElementsAre("length of cut: 0 values are too few"));
+}
+
+TEST(SpectrumPlot, AValueWithoutALengthGoesByTheEvents) {
+  loop::Recording recording;
+  for (int i = 0; i < 60; ++i)
+    recording.happened({(i + 1) * 800 * millisecond,
+                        0,
+                        "k",
+                        "cut",
+                        {{"force", 100 + 3 * std::sin(2 * std::numbers::pi * i / 4.0 + 1), "N"}},
+                        ""});
+  std::vector<std::string> problems;
+  const auto scenario = fakes::read(
+      "pictures: {plots: [{name: s, panels: [{event: cut, values: [force], spectrum: on}]}]}\n", problems);
+  const MachineFacts machine{{}, {{"web.wheel", 0.5, 0}, {"k.drum", 0, 4}}};
+  const auto plot = plots_of(scenario, recording, machine).at(0);
+  EXPECT_EQ(plot.panels.at(0).title, "3 N at 4 cut events: once a turn of k.drum");
+}
+
 TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
   Problems problems;
   const auto scenario = scenario::read_scenario_text(
@@ -192,13 +240,20 @@ TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
       "line.yaml", {}, problems);
   loop::Simulation simulation(scenario, problems);
   ASSERT_TRUE(problems.empty()) << to_string(problems.front());
-  simulation.run();
-  const auto plots = plots_of(scenario, simulation.recording());
+  const auto outcome = simulation.run();
+  const auto plots = plots_of(scenario, simulation.recording(), {outcome.drives, {}});
   ASSERT_EQ(plots.size(), 1U);
   const auto& panel = plots[0].panels.at(0);
   ASSERT_EQ(panel.curves.size(), 3U);
-  EXPECT_EQ(panel.curves[0].x, simulation.recording().column("k.motor.speed")->values);
-  EXPECT_EQ(panel.curves[0].y, simulation.recording().column("k.motor.torque")->values);
+  const auto& recording = simulation.recording();
+  for (std::size_t i = 0; i < panel.curves[0].x.size(); ++i) {
+    EXPECT_NEAR(panel.curves[0].x[i], recording.column("k.motor.speed")->values[i], 1e-9);
+    EXPECT_NEAR(panel.curves[0].y[i], recording.column("k.motor.torque")->values[i], 1e-9);
+  }
+  EXPECT_EQ(panel.curves[0].x.size(), recording.times().size());
+  EXPECT_THAT(drive_plots(outcome.drives, scenario.pictures.plots), testing::IsEmpty())
+      << "the scenario has the picture already";
+  EXPECT_EQ(drive_plots(outcome.drives, {}).size(), 1U);
   // HG-SR202: 28.6 N m up to rated speed, 19 N m at 3000 rpm; it only stood or turned forwards.
   const auto& peak = panel.curves[1];
   const std::vector<double> speeds = {0, 1500, 3000, 3000, 1500, 0};
@@ -211,7 +266,7 @@ TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {
   EXPECT_NEAR(panel.curves[2].x[1], 1500, 1e-9);
   EXPECT_NEAR(panel.curves[2].y[1], 9.5, 1e-9);
   EXPECT_THAT(panel.title, HasSubstr("drum: rms "));
-  EXPECT_EQ(plots[0].x_label, "k.motor.speed [rpm]");
+  EXPECT_EQ(plots[0].x_label, "motor speed [rpm]");
 }
 
 std::vector<std::string> binding_problems(const std::string& pictures) {
@@ -236,10 +291,12 @@ TEST(PicturesBinding, WhatTheMachineDoesNotHave) {
               ElementsAre(HasSubstr("3:48: there is no channel 'w.sped'; did you mean w.speed?")));
   EXPECT_THAT(plot("marks: [fault, timeline.power, error, faul], panels: [{channels: [w.speed]}]"),
               ElementsAre("line.yaml:3:68: nothing here reports an event 'faul'; did you mean fault?"));
-  EXPECT_THAT(plot("panels: [{motor: w}]"),
-              ElementsAre("line.yaml:3:47: 'w' is no plant with a servo motor; name a plant with parameters "
-                          "servo.rated_torque, servo.peak_torque, ..."));
-  EXPECT_THAT(plot("panels: [{motor: x}]"), ElementsAre(HasSubstr("'x' is no plant with a servo motor")));
+  EXPECT_THAT(
+      plot("panels: [{motor: w}]"),
+      ElementsAre(
+          "line.yaml:3:47: 'w' is no plant with a drive that has ratings; name a plant with parameters "
+          "servo.rated_torque, servo.peak_torque, ..."));
+  EXPECT_THAT(plot("panels: [{motor: x}]"), ElementsAre(HasSubstr("'x' is no plant with a drive")));
   EXPECT_THAT(plot("panels: [{event: ct, values: [length]}]"),
               ElementsAre(HasSubstr("nothing here reports an event 'ct'")));
   EXPECT_THAT(binding_problems("pictures: {frames: {around: \"ct[2]\"}}\n"),

@@ -10,7 +10,7 @@
 
 #include "plants/world.hpp"
 #include "renders/part_models.hpp"
-#include "sim/report/gallery.hpp"
+#include "sim/report/film.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"
 

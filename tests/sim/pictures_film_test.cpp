@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "sim/loop/simulation.hpp"
-#include "sim/report/gallery.hpp"
+#include "sim/report/film.hpp"
 #include "sim/report/part_meshes.hpp"
 #include "tests/sim/scenario/fake_plants.hpp"
 #include "tests/test_folder.hpp"

@@ -152,16 +152,43 @@ TEST(PicturesProblems, HistogramsAndMotors) {
   });
 }
 
+TEST(PicturesProblems, Spectra) {
+  const std::string plot = "pictures: {plots: [{name: a, ";
+  expect_problems({
+      {plot + "panels: [{event: b, values: [c, d], spectrum: on}]}]}\n",
+       {"1:66: pictures.plots.0.panels.0: a spectrum is of one value of an event; write event: cut, values: "
+        "[length]"}},
+      {plot + "panels: [{channels: [b], spectrum: on}]}]}\n",
+       {"1:55: pictures.plots.0.panels.0: a spectrum is of one value of an event; write event: cut, values: "
+        "[length]"}},
+      {plot + "panels: [{event: b, values: [c], spectrum: on, limits: [1, 2]}]}]}\n",
+       {"1:77: pictures.plots.0.panels.0 has both a spectrum and limits; make two plots of it"}},
+      {plot + "panels: [{event: b, values: [c], spectrum: on, histogram: on}]}]}\n",
+       {"1:77: pictures.plots.0.panels.0 has both a spectrum and histogram; make two plots of it"}},
+      {plot + "panels: [{event: b, values: [c], spectrum: on}, {channels: [d]}]}]}\n",
+       {"1:30: pictures.plots.0: a spectrum stands alone in its plot; make a plot of each"}},
+      {plot + "against: number, panels: [{event: b, values: [c], spectrum: on}]}]}\n",
+       {"1:30: pictures.plots.0: a spectrum has its own x; leave against out"}},
+      {plot + "panels: [{motor: b, spectrum: on}]}]}\n",
+       {"1:50: pictures.plots.0.panels.0: a spectrum is of one value of an event; write event: cut, values: "
+        "[length]",
+        "1:50: pictures.plots.0.panels.0 has both motor and spectrum; make two panels of it"}},
+  });
+}
+
 TEST(Pictures, HistogramsAndMotorsAreReadAndWritten) {
   std::vector<std::string> problems;
   const auto scenario = read(
       "pictures: {plots: [{name: a, panels: [{event: cut, values: [length], histogram: on, limits: [1, "
       "2]}]}, "
-      "{name: b, panels: [{motor: knife}]}]}\n",
+      "{name: b, panels: [{motor: knife}]}, {name: c, panels: [{event: cut, values: [length], spectrum: "
+      "on}]}]}\n",
       problems);
   const auto check = [](const PicturesSection& pictures) {
-    ASSERT_EQ(pictures.plots.size(), 2U);
+    ASSERT_EQ(pictures.plots.size(), 3U);
     EXPECT_TRUE(pictures.plots[0].panels.at(0).histogram);
+    EXPECT_FALSE(pictures.plots[0].panels[0].spectrum);
+    EXPECT_TRUE(pictures.plots[2].panels.at(0).spectrum);
     EXPECT_TRUE(pictures.plots[0].panels.at(0).limits);
     EXPECT_EQ(pictures.plots[1].panels.at(0).motor.text, "knife");
   };

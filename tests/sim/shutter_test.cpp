@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "plants/pose_math.hpp"
+
 namespace drycut::sim::loop {
 namespace {
 
@@ -19,6 +21,10 @@ struct Happening {
 std::vector<Time> frames(const scenario::PicturesSection& pictures, Time duration,
                          const std::vector<Happening>& happenings = {}) {
   Shutter shutter(pictures);
+  Time time = 0;
+  plants::Part part;  // that turns by 25 degrees a ms
+  part.frame = [&] { return plants::PartPose(plants::about_z(436.3 * seconds(time))); };
+  const std::vector<plants::Part> turning = {part};
   for (Time now = millisecond; now <= duration; now += millisecond) {
     // The order of a step: its events first, then the shot at its end.
     for (const auto& one : happenings) {
@@ -31,17 +37,23 @@ std::vector<Time> frames(const scenario::PicturesSection& pictures, Time duratio
                           ""});
     }
     if (now < shutter.next()) continue;
-    if (auto* shot = shutter.take(now)) {
-      EXPECT_TRUE(shot->poses.empty()) << "an object that was used before comes empty";
-      EXPECT_TRUE(shot->caption.empty());
-      shot->time = now;
-      shot->poses.emplace_back();
+    time = now;
+    if (auto* shot = shutter.look(now, turning)) {
+      EXPECT_TRUE(shot->caption.empty()) << "an object that was used before comes empty";
+      EXPECT_EQ(shot->time, now);
       shot->caption.push_back(1);
     }
   }
   std::vector<Time> times;
   for (const auto& shot : shutter.kept()) {
     EXPECT_EQ(shot.poses.size(), 1U);
+    if (!times.empty()) {  // what is between belongs to the frame behind it
+      EXPECT_EQ(shot.between.size() + 1, static_cast<std::size_t>(shot.time / millisecond - times.back()));
+      for (const auto& key : shot.between) {
+        EXPECT_GT(key.time, times.back() * millisecond);
+        EXPECT_LT(key.time, shot.time);
+      }
+    }
     times.push_back(shot.time / millisecond);
   }
   return times;
