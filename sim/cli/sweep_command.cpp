@@ -15,6 +15,7 @@
 #include "sim/cli/progress.hpp"
 #include "sim/file.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/studies/sweep/report.hpp"
 #include "sim/studies/sweep/study.hpp"
 
 namespace drycut::sim::cli {
@@ -24,6 +25,12 @@ namespace {
 constexpr auto* sweep_file = "sweep.csv";
 constexpr auto* envelope_file = "envelope.csv";
 constexpr auto* points_file = "points.cache";  // goes on where it ended
+
+std::vector<std::string> files_of(const std::string& table) {
+  std::vector<std::string> files = {table, points_file};
+  files.insert(files.end(), studies::study_pages.begin(), studies::study_pages.end());
+  return files;
+}
 
 /// The command line, read and found sound.
 struct StudyPlan {
@@ -155,8 +162,7 @@ int sweep_scenario(const SweepOptions& options) {
   if (problems.empty()) studies::check_axes(plan.axes, plan.question, problems);
   if (problems.empty()) plan.points = studies::points_of(plan.axes, sampled, problems);
   std::optional<OutputFolder> folder;
-  if (problems.empty())
-    folder.emplace(options.out, "sweep", std::vector<std::string>{sweep_file, points_file}, problems);
+  if (problems.empty()) folder.emplace(options.out, "sweep", files_of(sweep_file), problems);
   if (!problems.empty()) return bad(problems);
   return in_folder(options, *folder, [&](studies::PointStore& store) {
     Countdown bar("sweeping");
@@ -164,12 +170,14 @@ int sweep_scenario(const SweepOptions& options) {
                                      [&](std::size_t done, std::size_t of) { bar.show(done, of); });
     bar.clear();
     write_file(folder->add(sweep_file), studies::sweep_csv(plan.question, plan.axes, plan.points, rows));
+    studies::write_sweep_report(plan.question, plan.axes, plan.points, rows, *folder);
     std::map<std::string, std::size_t> verdicts;
     for (const auto& row : rows)
       ++verdicts[row.limit.empty() ? std::string(name_of(row.verdict))
                                    : fmt::format("{}: {}", name_of(row.verdict), row.limit)];
     print_counts(verdicts);
-    fmt::print("{} points: {}\n", rows.size(), (options.out / sweep_file).string());
+    fmt::print("{} points: {}\nreport: {}\n", rows.size(), (options.out / sweep_file).string(),
+               (options.out / "report.html").string());
   });
 }
 
@@ -189,8 +197,7 @@ int envelope_scenario(const EnvelopeOptions& options) {
   }
   if (problems.empty()) plan.points = studies::points_of(plan.axes, {}, problems);
   std::optional<OutputFolder> folder;
-  if (problems.empty())
-    folder.emplace(options.out, "envelope", std::vector<std::string>{envelope_file, points_file}, problems);
+  if (problems.empty()) folder.emplace(options.out, "envelope", files_of(envelope_file), problems);
   if (!problems.empty()) return bad(problems);
   return in_folder(options, *folder, [&](studies::PointStore& store) {
     Countdown bar("seeking");
@@ -200,13 +207,15 @@ int envelope_scenario(const EnvelopeOptions& options) {
     bar.clear();
     write_file(folder->add(envelope_file),
                studies::envelope_csv(plan.question, plan.axes, plan.points, *request, bounds));
+    studies::write_envelope_report(plan.question, plan.axes, plan.points, *request, bounds, *folder);
     std::map<std::string, std::size_t> limits;
     for (const auto& bound : bounds)
       ++limits[bound.limit.empty() ? std::string(name_of(bound.kind))
                                    : fmt::format("{}: {}", name_of(bound.kind), bound.limit)];
     print_counts(limits);
-    fmt::print("{} points, {} to {:.6g} {}: {}\n", bounds.size(), request->parameter.path, request->tolerance,
-               request->parameter.unit, (options.out / envelope_file).string());
+    fmt::print("{} points, {} to {:.6g} {}: {}\nreport: {}\n", bounds.size(), request->parameter.path,
+               request->tolerance, request->parameter.unit, (options.out / envelope_file).string(),
+               (options.out / "report.html").string());
   });
 }
 

@@ -1,0 +1,119 @@
+// The pages of drycut sweep and drycut envelope: a map over two axes, curves over one, a table of anything.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "sim/cli/sweep_command.hpp"
+#include "tests/sim/command_bench.hpp"
+
+namespace drycut::sim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+struct SweepReport : CommandTest {
+  SweepReport() {
+    folder.file("it's web.yaml", R"(variables: {limit: 100 m/min, speed: 60 m/min}
+scene: {step: 1 ms, duration: 0.2 s}
+plants: {web: {type: web, speed: "${speed}"}}
+record: {every: 10 ms, channels: [web.speed]}
+checks:
+  - {name: slow enough, always: "web.speed <= ${limit}"}
+  - {name: fast enough, always: "web.speed >= 10 m/min"}
+)");
+    sweep.scenario = envelope.scenario = folder / "it's web.yaml";
+    sweep.out = envelope.out = folder / "out";
+  }
+  std::string page() const {
+    std::ifstream stream(folder / "out/report.html", std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  /// What the page's first map tells.
+  nlohmann::json map() const {
+    const auto text = page();
+    const std::string begin = "id=\"map-data\">";
+    const auto from = text.find(begin) + begin.size();
+    return nlohmann::json::parse(text.substr(from, text.find("</script>", from) - from)).at(0);
+  }
+
+  TestFolder folder;
+  SweepOptions sweep;
+  EnvelopeOptions envelope;
+};
+
+TEST_F(SweepReport, OverTwoAxesItIsAMap) {
+  sweep.over = {"variables.limit=80..120 m/min:3", "variables.speed=125,5,65,95 m/min"};  // in any order
+  sweep.set = {"scene.seed=3"};
+  ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+  EXPECT_TRUE(fs::exists(folder / "out/plots/map.png"));
+  const auto shown = map();
+  EXPECT_EQ(shown["x"], (std::vector{80., 100., 120.}));
+  EXPECT_EQ(shown["y"], (std::vector{5., 65., 95., 125.}));
+  ASSERT_EQ(shown["cells"].size(), 12);
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t column = 0; column < 3; ++column) {
+      const double limit = shown["x"][column];
+      const double speed = shown["y"][row];
+      const auto& cells = shown["cells"][row * 3 + column];
+      EXPECT_EQ(cells[0], fmt::format("{}", limit));
+      EXPECT_EQ(cells[1], fmt::format("{}", speed));
+      EXPECT_EQ(cells[2], speed < 10 || speed > limit ? "failed" : "passed");
+      EXPECT_EQ(cells[3], speed < 10 ? "fast enough" : speed > limit ? "slow enough" : "");
+    }
+  // A shell takes it as it stands.
+  EXPECT_EQ(shown["command"], "drycut run '" + (folder / "it'\\''s web.yaml").string() +
+                                  "' --set 'scene.seed=3' --set 'variables.limit={x} m/min' --set "
+                                  "'variables.speed={y} m/min'");
+  EXPECT_THAT(page(), HasSubstr("points, 5 of them passed"));
+}
+
+TEST_F(SweepReport, OverOneAxisItIsCurves) {
+  sweep.over = {"variables.speed=5..125 m/min:7"};
+  sweep.figures = {"peak=max(web.speed)"};
+  ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+  EXPECT_TRUE(fs::exists(folder / "out/plots/curves.png"));
+  EXPECT_FALSE(fs::exists(folder / "out/plots/map.png"));
+  const auto text = page();
+  EXPECT_THAT(text, Not(HasSubstr("id=\"map-data\"")));
+  EXPECT_THAT(text, HasSubstr("peak"));
+  EXPECT_THAT(text, HasSubstr("variables.speed=5 m/min"));
+}
+
+TEST_F(SweepReport, OfWordsSamplesAndThreeAxesItIsATable) {
+  for (const bool sampled : {false, true}) {
+    sweep.over = {"variables.speed=50..125 m/min", "variables.limit=80..120 m/min"};
+    sweep.sample = "sobol:8";
+    if (!sampled) {
+      sweep.sample.clear();
+      sweep.over = {"variables.speed=50,125 m/min", "variables.limit=80,120 m/min",
+                    "plants.web.thickness=1,2 mm"};
+    }
+    ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+    EXPECT_FALSE(fs::exists(folder / "out/plots/map.png"));
+    EXPECT_FALSE(fs::exists(folder / "out/plots/curves.png"));
+    EXPECT_THAT(page(), HasSubstr("8 rows"));
+  }
+}
+
+TEST_F(SweepReport, AnEnvelopeShowsItsBoundAndWhatGivesWay) {
+  envelope.over = {"variables.limit=40..120 m/min:5"};
+  envelope.find_max = "variables.speed=20..300 m/min:0.5";
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  EXPECT_TRUE(fs::exists(folder / "out/plots/curves.png"));
+  EXPECT_THAT(page(), HasSubstr("slow enough"));
+  envelope.over.emplace_back("plants.web.thickness=1,2 mm");
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  EXPECT_FALSE(fs::exists(folder / "out/plots/curves.png"));
+  const auto shown = map();
+  ASSERT_EQ(shown["cells"].size(), 10);
+  for (const auto& cells : shown["cells"]) {
+    EXPECT_NEAR(std::stod(cells[4].get<std::string>()), std::stod(cells[0].get<std::string>()), 0.5);
+    EXPECT_EQ(cells[3], "slow enough");
+  }
+}
+
+}  // namespace
+}  // namespace drycut::sim::cli
