@@ -133,6 +133,7 @@ RampAims aims_of(const DesignJob& job, const UmJob& um) {
   aims.no_reverse = job.no_reverse;
   if (job.max_velocity) aims.most_ratio = *job.max_velocity / *job.speed;
   if (job.max_acceleration) aims.most_gradient = *job.max_acceleration / (*job.speed * *job.speed) * um.um;
+  if (job.max_travel) aims.most_down = std::max(1, static_cast<int>(*job.max_travel / um.um - um.sync) / 2);
   aims.friction = {job.friction().viscous * um.um, job.friction().coulomb * um.um};
   constexpr double samplings = 1.5;  // at least, for each of a sector's phases
   const double sampling = CamTable().TCamp * 1e-3;

@@ -153,7 +153,7 @@ Problems hindrances(const DesignJob& job) {
 }
 
 std::string length_text(double metres) {
-  return fmt::format("{} mm", cams::number_text(metres * units::millimetres, 6));
+  return fmt::format("{} mm", cams::number_text(metres * units::millimetres, 9));
 }
 std::string velocity_text(double metres_a_second) {
   return fmt::format("{} m/s", cams::number_text(metres_a_second, 6));

@@ -214,7 +214,7 @@ std::optional<Turn> turn_round(int master, int slave, double still, const Wanted
           before = step;
         }
         const int rest = slave - 2 * way;
-        if (!forward || !turn.cost.allowed) continue;
+        if (!forward || !turn.cost.allowed || (aims.most_down > 0 && way > aims.most_down)) continue;
         auto narrower = aims;
         narrower.most_sectors = aims.most_sectors - 2 * count;
         const int alike = static_cast<int>(std::lround(count * (0.5 - still) / still));

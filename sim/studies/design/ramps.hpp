@@ -29,6 +29,7 @@ struct RampAims {
   int shortest = 1;          ///< sector [units]
   int most_sectors = 0;
   bool no_reverse = false;
+  int most_down = 0;    ///< way of the slave from the master's speed to rest; 0 = not limited
   int least_ramps = 1;  ///< on each side of the middle, where there are any
   int most_ramps = 48;
 };
