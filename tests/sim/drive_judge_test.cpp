@@ -156,7 +156,7 @@ TEST(DriveJudge, TheCorrugatedLineFailsAt200WithItsReasonsAndPassesAtTheSpeedItA
   double speed = 200;
   Line line(scene, {{"plants.board.speed", "200 m/min"}});
   line.simulation->run();
-  auto now = line.simulation->drives().at(0);
+  auto now = line.simulation->outcome().drives.at(0);
   ASSERT_FALSE(now.holds());
   const auto check = line.ratings().at(0);
   EXPECT_FALSE(check.passed);
@@ -183,7 +183,7 @@ TEST(DriveJudge, TheCorrugatedLineFailsAt200WithItsReasonsAndPassesAtTheSpeedItA
     speed *= now.advised;
     Line slower(scene, {{"plants.board.speed", std::to_string(speed) + " m/min"}});
     slower.simulation->run();
-    now = slower.simulation->drives().at(0);
+    now = slower.simulation->outcome().drives.at(0);
     if (!now.holds()) continue;
     for (const auto& other : slower.simulation->outcome().checks)
       EXPECT_TRUE(other.passed) << other.name << ": " << other.detail;

@@ -184,11 +184,11 @@ void prepare(PointQuestion& question, Problems& problems) {
   const auto before = problems.size();
   const auto whole = scenario::read_scenario_text(question.text, question.file, question.set, problems);
   if (!whole.buildable) return;
-  const loop::Simulation simulation(whole, problems);
+  loop::Simulation simulation(whole, problems);
   if (problems.size() != before) return;
   question.events = simulation.known_events();
   question.pieces = pieces_of(question.events, whole);
-  for (const auto& drive : simulation.drives()) question.drives.push_back(drive.drive);
+  for (const auto& drive : simulation.outcome().drives) question.drives.push_back(drive.drive);
 
   auto metrics = metrics_of(question, problems);
   Problems of_channels;
@@ -247,8 +247,7 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
   const auto& recording = simulation.recording();
   for (std::size_t i = 0; i < question.pieces.size(); ++i)
     add_pieces(question.pieces[i], point.lengths[i], recording, row.numbers);
-  const auto drives = simulation.drives();
-  for (const auto& drive : question.drives) add_drive(drive, drives, row.numbers);
+  for (const auto& drive : question.drives) add_drive(drive, outcome.drives, row.numbers);
   // A name may have a variable in it: then the place in the list tells which check it is.
   for (std::size_t i = 0; i < question.checks.size(); ++i)
     row.numbers.push_back(i < outcome.checks.size() ? outcome.checks[i].margin.value_or(no_number)
