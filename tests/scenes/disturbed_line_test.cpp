@@ -162,6 +162,53 @@ TEST(CardOfTheDefaultLine, ThatIsTooSlowLosesCountsAndSaysSo) {
   EXPECT_TRUE(run.noted("counts_lost"));
 }
 
+// A saw that runs faster than its wheel by e stretches the pipe behind the wheel by e x while it is clamped
+// for the wheel's travel x, and pulls with EA / W as much, W from wheel to saw, whatever the wheel is pulled
+// along.
+TEST(PulledEncoder, TheSawPullsWithTheSpringBehindTheWheel) {
+  struct Line {
+    std::vector<scenario::Override> overrides;
+    double wall;   // [m]
+    double wheel;  // before the saw [m]
+    double faster;
+  };
+  const double worn = 1 / 0.995 - 1;
+  for (const Line& line :
+       {Line{{}, 2e-3, 3, worn}, Line{{{"plants.pipe.thickness", "1 mm"}}, 1e-3, 3, worn},
+        Line{{{"plants.pipe.wheel.distance", "1 m"}}, 2e-3, 1, worn},
+        Line{{{"plants.pipe.wheel.circumference_error", "0 %"}, {"controller.lx3vp.set.DD100", "13200"}},
+             2e-3,
+             3,
+             0}}) {
+    const LineRun run("web_pulled_encoder.yaml", line.overrides);
+    const auto clamped = run.column("saw.clamp.closed");
+    const auto position = run.column("pipe.position");
+    const auto stretch = run.column("pipe.wheel.stretch");
+    const auto tension = run.column("pipe.tension");
+    ASSERT_EQ(clamped.size(), tension.size());
+    const double area = std::numbers::pi * line.wall * (0.03 - line.wall);
+    const double spring = 3e9 * area / line.wheel / 1000;  // [N/mm]
+    double began = 0;
+    int passes = 0;
+    for (std::size_t i = 1; i < clamped.size(); ++i) {
+      const double wheel = position[i - 1] - stretch[i - 1];
+      if (clamped[i] > clamped[i - 1]) began = wheel;
+      if (clamped[i] >= clamped[i - 1] || ++passes < 7) continue;  // the line runs evenly then
+      const double pull = spring * line.faster * (wheel - began);
+      EXPECT_NEAR(tension[i - 1], pull, 0.08 * pull + 8) << line.wall << " " << line.wheel << " " << passes;
+    }
+    EXPECT_GE(passes, 10);
+  }
+}
+
+TEST(TrimLine, ItsSecondStationHalvesTheSheetsFromAnotherPlace) {
+  const LineRun run("trim_line.yaml", {{"plants.trimmer.place", "3600 mm"}});
+  const auto rests = run.values("cut", "rest");
+  ASSERT_GE(rests.size(), 8U);
+  for (std::size_t i = 1; i < rests.size(); ++i) EXPECT_NEAR(rests[i], 400, 0.5) << i;
+  EXPECT_EQ(run.values("scrap", "length").size(), 1U);  // the head of the web
+}
+
 // 002 §1.2.5.1: in mode 0 the input's hardware filter delays the acquisition, "and so influence the precision
 // of the loading": a card that filters for 5 ms does what a switch that is 5 ms late does in the scene.
 TEST(CardOfThePresetSearch, DelaysTheEnableInputByItsFilter) {
