@@ -176,8 +176,8 @@ TEST_F(ValueRanges, AMaterialGivesItsValuesAndOthersBesideIt) {
               IsEmpty());
   const auto scenario = read(line + "density: 8 g/cm3, material: steel, elasticity: 200 GPa}}\n");
   const auto& web = dynamic_cast<plants::WebDefinition&>(*scenario.plants.at(0).definition).data;
-  EXPECT_EQ(web.density, 8000);
-  EXPECT_EQ(web.strip.elasticity, 200e9);
+  EXPECT_DOUBLE_EQ(web.density, 8000);
+  EXPECT_DOUBLE_EQ(web.strip.elasticity, 200e9);
   EXPECT_EQ(web.shear_strength, 290e6);
   EXPECT_EQ(web.strip.retardation, 2e-6);
   EXPECT_FALSE(web.strip.on);
