@@ -26,12 +26,12 @@ using ::testing::StartsWith;
 /// The line that cuts pieces of 500 mm, with pictures of the test's own; its problems, or its run of 3.5 s.
 struct KnifeLine {
   explicit KnifeLine(const std::string& pictures) {
-    const auto file = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/rotary_knife_short.yaml";
+    const auto file = std::filesystem::path(DRYCUT_SOURCE_DIR) / "scenes/rotary_knife.yaml";
     auto text = content(file);
     text.resize(text.find("\npictures:") + 1);
     first_line = std::count(text.begin(), text.end(), '\n') + 1;
     scenario = read_scenario_text(text + "pictures: {" + pictures + "}\n", file,
-                                  {{"scene.duration", "3.5 s"}}, problems);
+                                  {{"scene.duration", "3.5 s"}, {"variables.length", "500 mm"}}, problems);
     simulation.emplace(scenario, problems);
     report::load_part_meshes(scenario, simulation->plants(), problems);
   }

@@ -21,7 +21,7 @@ void expect_problems(const std::vector<Case>& cases) {
 
 TEST(ScenarioProblems, Text) {
   const std::string sections =
-      "1:1: the scenario is empty; its sections are: scene, plants, controller, wiring, filters, "
+      "1:1: the scenario is empty; its sections are: extends, variables, scene, plants, controller, wiring, filters, "
       "timeline, disturbances, record, drives, checks, pictures";
   expect_problems({
       {"", {sections}},
@@ -61,7 +61,7 @@ TEST(ScenarioProblems, Yaml) {
       {"scene: {title: *x}\n", {"1:16: aliases (*name) are not used in scenarios; write the value out"}},
       {"scene: {title: !!str 4}\n", {"1:16: tags (!name) are not used in scenarios; write the value alone"}},
       {"scene: {}\n<<: {scene: {}}\n",
-       {"2:1: unknown key '<<'; known: scene, plants, controller, wiring, filters, timeline, disturbances, "
+       {"2:1: unknown key '<<'; known: extends, variables, scene, plants, controller, wiring, filters, timeline, disturbances, "
         "record, drives, checks, "
         "pictures"}},
       {"scene: {}\n---\nscene: {}\n",
