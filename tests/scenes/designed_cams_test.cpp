@@ -238,7 +238,7 @@ Effort effort_of(const Ran& run) {
 
 // The integral of the acceleration squared is 12 of the designed cam and 120/7 of the quintic that the scene
 // has: 30 % less copper loss from acceleration alone, for steps of the torque where the quintic has none.
-// What the cut and the loop need beside it is the same for both: 26 % of the whole are left.
+// The loss of the whole is seen to fall by 26 %: something of it is the same for both cams.
 TEST_F(DesignedCams, LeastRmsLosesLessThanTheQuintic) {
   std::vector<scenario::Override> overrides = {
       {"record.channels", "[knife.motor.copper_loss, knife.motor.torque]"},
