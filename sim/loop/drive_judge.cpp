@@ -97,6 +97,7 @@ void DriveJudge::end_cycle(Drive& drive, bool any) {
   drive.cycle_points.add((now.travel - last.travel) / cycle,
                          std::sqrt((now.torque_squared - last.torque_squared) / cycle));
   ++drive.cycles;
+  drive.worst.saturated_once = std::max(drive.worst.saturated_once, (now.saturated - last.saturated) / cycle);
   drive.energy += now.from_mains - last.from_mains;
   drive.ends.push_back(now);
   if (drive.ends.size() > cycles_in_a_row + 1) drive.ends.pop_front();
@@ -124,6 +125,7 @@ void DriveJudge::judge(Drive& drive, const plants::DriveTotals& from, const plan
     worst.current_squared = current_squared;
     worst.rotor_loss = (until.rotor_loss - from.rotor_loss) / time;
   }
+  worst.fed_squared = std::max(worst.fed_squared, (until.fed_squared - from.fed_squared) / time);
   worst.resistor = std::max(worst.resistor, (until.in_resistor - from.in_resistor) / time);
   worst.saturated = std::max(worst.saturated, (until.saturated - from.saturated) / time);
 }
@@ -148,6 +150,13 @@ void DriveJudge::happened(const RecordedEvent& event) {
     else
       begin_cycles(drive);
   }
+}
+
+double DriveJudge::cycle_of(const std::string& plant, Time now) const {
+  if (cycle_ > 0) return seconds(cycle_);
+  for (const auto& drive : drives_)
+    if (drive.plant == plant && drive.last > 0) return drive.last;
+  return seconds(now);
 }
 
 DriveVerdict DriveJudge::verdict(Drive drive) const {
@@ -188,7 +197,8 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
     add("winding over 40 degC, for ever", over_ambient(steady), winding_limit, "K", Goes::not_with_it, false);
   add("winding over 40 degC, so far", over_ambient(peaks.winding), winding_limit, "K", Goes::as_its_square);
   if (const auto& amplifier = stage.amplifier()) {
-    add("rms current, for the amplifier", current, amplifier->current, "A", Goes::as_the_torque, !whole);
+    add("rms current, for the amplifier", std::sqrt(worst.fed_squared), amplifier->current, "A",
+        Goes::as_the_torque, !whole);
     add("amplifier's I2t, so far", peaks.i2t * percent, percent, "%", Goes::as_its_square);
   }
   if (const auto& link = stage.link()) {
@@ -201,6 +211,9 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
   if (worst.saturated > 0)
     add("time at the torque limit", worst.saturated * percent, most_saturated * percent, "%",
         Goes::not_with_it, !whole);
+  if (worst.saturated_once > 0)
+    add("time at the torque limit, worst cycle", worst.saturated_once * percent, percent, "%",
+        Goes::not_with_it, false);
   verdict.inertia_ratio = drive.load_inertia / ratings.rotor_inertia;
   verdict.energy = whole ? stage.totals().from_mains : drive.energy / drive.cycles;
   verdict.trips = drive.trips;

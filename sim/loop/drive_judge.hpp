@@ -71,6 +71,9 @@ class DriveJudge : public Observer {
 
   void sample(Time now) override;
   void happened(const RecordedEvent& event) override;
+  /// Length of the machine cycle of a plant at `now`, for what is told as a share of it: as the scenario
+  /// names it, else the last from cut to cut, else the run so far [s].
+  [[nodiscard]] double cycle_of(const std::string& plant, Time now) const;
   /// The verdicts as they stand, a drive each.
   [[nodiscard]] std::vector<DriveVerdict> verdicts() const;
   /// The check "drive within its ratings"; none without drives, or where the scenario switches it off;
@@ -86,8 +89,10 @@ class DriveJudge : public Observer {
     double constant = 0;         ///< share of its square that friction and load have
     double current_squared = 0;  ///< mean [A2]
     double rotor_loss = 0;       ///< mean, then [W]
+    double fed_squared = 0;      ///< mean of the amplifier's current [A2]
     double resistor = 0;         ///< mean power [W]
     double saturated = 0;        ///< share of the time
+    double saturated_once = 0;   ///< of a single cycle
   };
   struct Drive {
     std::string plant;

@@ -157,6 +157,16 @@ void Simulation::step() {
   if (time_ >= shutter_.next()) snapshot();
 }
 
+// A drive tells how long it was saturated, the machine cycle says how much that is.
+void Simulation::add_share(RecordedEvent& event) const {
+  if (event.event != "saturated") return;
+  const auto* begin = event.find("begin");
+  const auto* end = event.find("end");
+  if (begin == nullptr || end == nullptr) return;
+  const double share = (end->number - begin->number) / drives_->cycle_of(event.source, event.time + step_);
+  event.values.push_back({"share", 100 * std::min(1.0, share), "%"});
+}
+
 void Simulation::collect_events() {
   for (const auto& [name, plant] : named_) {
     if (!plant->has_events()) continue;
@@ -165,6 +175,7 @@ void Simulation::collect_events() {
       for (const auto& value : event.values) {
         recorded.values.push_back({std::string(value.name), value.number, std::string(value.unit)});
       }
+      add_share(recorded);
       recording_.happened(std::move(recorded));
     }
   }

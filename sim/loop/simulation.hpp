@@ -120,6 +120,7 @@ class Simulation {
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
+  void add_share(RecordedEvent& event) const;
   void collect_events();
   void record();
   void snapshot();

@@ -28,14 +28,15 @@ struct Line {
   Problems problems;
   scenario::Scenario scenario;
   std::unique_ptr<Simulation> simulation;
-  explicit Line(const std::string& scene, const std::map<std::string, std::string>& set) {
+  explicit Line(const std::string& scene, const std::map<std::string, std::string>& set,
+                bool keeps_events = false) {
     std::vector<scenario::Override> overrides;
     overrides.reserve(set.size());
     for (const auto& [path, value] : set) overrides.push_back({path, value});
     scenario = scenario::read_scenario(scenes / scene, overrides, problems);
     simulation = std::make_unique<Simulation>(scenario, problems);
     if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
-    simulation->keep_nothing();
+    if (!keeps_events) simulation->keep_nothing();
   }
   [[nodiscard]] std::vector<CheckResult> ratings() const {
     std::vector<CheckResult> found;
@@ -136,6 +137,50 @@ TEST(DriveJudge, AScenarioNamesItsCycleOrSwitchesTheCheckOff) {
   silent.simulation->run();
   EXPECT_TRUE(silent.ratings().empty());
   EXPECT_THAT(silent.simulation->outcome().drives.at(0).cycles, testing::StartsWith("the whole run"));
+}
+
+/// Each saturation's share of the cycle, from the events alone.
+void expect_shares(const Line& line, double named) {
+  double cut = 0;
+  double cycle = 0;
+  int with_cycle = 0;
+  int without = 0;
+  for (const auto& event : line.simulation->recording().events()) {
+    const double now = event.at_seconds();
+    if (event.event == "cut") {
+      if (cut > 0) cycle = now - cut;
+      cut = now;
+    }
+    if (event.event != "saturated") continue;
+    ASSERT_EQ(event.values.size(), 4U);
+    EXPECT_EQ(event.values[3].name, "share");
+    EXPECT_EQ(event.values[3].unit, "%");
+    const double of = named > 0 ? named : cycle > 0 ? cycle : now;
+    ++(named > 0 || cycle > 0 ? with_cycle : without);
+    const double time = event.find("end")->number - event.find("begin")->number;
+    EXPECT_NEAR(event.values[3].number, std::min(100.0, 100 * time / of), 0.1) << now;
+  }
+  EXPECT_GT(with_cycle, 3);
+  EXPECT_EQ(without > 0, named == 0);
+}
+
+TEST(DriveJudge, ASaturationIsToldAsAShareOfTheCycle) {
+  Line cuts("rotary_knife_overload.yaml", {{"scene.duration", "8 s"}}, true);
+  cuts.simulation->run();
+  expect_shares(cuts, 0);
+  const auto of_cuts = figure(cuts.simulation->drives().at(0), "time at the torque limit, worst cycle");
+  EXPECT_FALSE(of_cuts.judged);
+  EXPECT_GE(of_cuts.value, figure(cuts.simulation->drives().at(0), "time at the torque limit").value);
+  // A cycle shorter than the saturations: all of it.
+  for (const double cycle : {0.5, 0.01}) {
+    Line named("rotary_knife_overload.yaml",
+               {{"scene.duration", "8 s"}, {"drives.cycle", cycle < 0.1 ? "10 ms" : "500 ms"}}, true);
+    named.simulation->run();
+    expect_shares(named, cycle);
+    if (cycle > 0.1) continue;
+    EXPECT_NEAR(figure(named.simulation->drives().at(0), "time at the torque limit, worst cycle").value, 100,
+                1e-6);
+  }
 }
 
 TEST(DriveJudge, ATripFailsWhateverTheMeansAre) {
