@@ -14,7 +14,7 @@ PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev
             libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs ffmpeg
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
-TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev python3-jsonschema python3-yaml $(PYTHON_PACKAGES)
+TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml $(PYTHON_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy

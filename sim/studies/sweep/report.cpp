@@ -16,7 +16,7 @@ namespace drycut::sim::studies {
 
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_rows = 2000;  // of the table in a page
 
 /// A study as its pages see it: a row a point with what it belongs to.
@@ -35,10 +35,10 @@ struct Studied {
 
 std::string short_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
-double number_of(const std::string& text) {
-  double value = no_number;
+double number_in(const std::string& text) {
+  double value = unknown;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc() && read.ptr == text.data() + text.size() ? value : no_number;
+  return read.ec == std::errc() && read.ptr == text.data() + text.size() ? value : unknown;
 }
 
 /// In quotes for a shell.
@@ -64,7 +64,7 @@ std::string command(const Studied& study, const std::vector<std::string>& values
 std::vector<double> scale_of(const SweepAxis& axis) {
   std::vector<double> values;
   values.reserve(axis.values.size());
-  for (const auto& text : axis.values) values.push_back(number_of(text));
+  for (const auto& text : axis.values) values.push_back(number_in(text));
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   const bool numbers = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -104,11 +104,11 @@ renders::ReportMap map_of(const Studied& study, const std::string& title, Output
   shown.cells.resize(count);
   const auto& lines = study.lines;
   for (const auto column : lines)
-    map.lines.push_back({study.columns[column], std::vector<double>(count, no_number)});
+    map.lines.push_back({study.columns[column], std::vector<double>(count, unknown)});
   for (std::size_t i = 0; i < study.points.size(); ++i) {
     const auto place = [&](const renders::MapAxis& axis, const std::string& text) {
       return static_cast<std::size_t>(
-          std::lower_bound(axis.values.begin(), axis.values.end(), number_of(text)) - axis.values.begin());
+          std::lower_bound(axis.values.begin(), axis.values.end(), number_in(text)) - axis.values.begin());
     };
     const auto at = place(map.y, study.points[i][1]) * map.x.values.size() + place(map.x, study.points[i][0]);
     map.region[at] = static_cast<std::size_t>(
@@ -135,7 +135,7 @@ renders::Plot curves_of(const Studied& study, const std::string& title, std::siz
   plot.panel_height = 240;
   std::vector<std::size_t> order(study.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto x = [&](std::size_t i) { return number_of(study.points[i][0]); };
+  const auto x = [&](std::size_t i) { return number_in(study.points[i][0]); };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
   for (std::size_t k = 0; k < order.size(); ++k) {
     if (!study.good[order[k]]) continue;
@@ -237,7 +237,7 @@ void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
     study.region.emplace_back(row.verdict == PointRow::Verdict::failed && !row.limit.empty()
                                   ? row.limit
                                   : std::string(name_of(row.verdict)));
-    study.numbers.push_back(good ? row.numbers : std::vector<double>(question.columns.size(), no_number));
+    study.numbers.push_back(good ? row.numbers : std::vector<double>(question.columns.size(), unknown));
   }
   for (std::size_t i = 0; i < study.columns.size(); ++i)
     for (const auto* words : {" accuracy [", " rms torque ["})
@@ -266,9 +266,9 @@ void write_envelope_report(const PointQuestion& question, const SweepAxes& axes,
     cells.emplace_back(name_of(bound.kind));
     cells.push_back(bound.limit);
     auto& numbers = study.numbers.emplace_back();
-    numbers = {good ? bound.value : no_number};
+    numbers = {good ? bound.value : unknown};
     numbers.insert(numbers.end(), bound.numbers.begin(), bound.numbers.end());
-    numbers.resize(study.columns.size(), no_number);
+    numbers.resize(study.columns.size(), unknown);
     add_numbers(numbers, cells);
     study.good.push_back(good);
     study.region.push_back(bound.limit.empty() ? std::string(name_of(bound.kind)) : bound.limit);
@@ -289,7 +289,7 @@ void write_envelope_report(const PointQuestion& question, const SweepAxes& axes,
         renders::Curve limited{region.label, {}, {}, renders::Curve::Style::points};
         for (std::size_t i = 0; i < points.size(); ++i) {
           if (study.region[i] != region.label) continue;
-          limited.x.push_back(number_of(points[i][0]));
+          limited.x.push_back(number_in(points[i][0]));
           limited.y.push_back(study.numbers[i][0]);
         }
         plot.panels[0].curves.push_back(std::move(limited));
