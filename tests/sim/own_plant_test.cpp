@@ -59,7 +59,7 @@ const plants::PlantType types[] = {
     {"flywheel", "a wheel that slows down",
      [] { return std::unique_ptr<plants::PlantDefinition>(std::make_unique<FlywheelDefinition>()); }}};
 
-constexpr auto* text = R"(scene: {title: A wheel, duration: 2 s, step: 1 ms}
+constexpr auto* wheel_scenario = R"(scene: {title: A wheel, duration: 2 s, step: 1 ms}
 plants: {wheel: {type: flywheel, speed: 600 deg/s}}
 timeline: [{at: 1 s, set: {wheel.brake: 1}}]
 record: {every: 100 ms, channels: [wheel.speed]}
@@ -68,7 +68,7 @@ checks: [{name: it slows down, eventually: wheel.speed < 1}]
 
 TEST(APlantOfOnesOwn, IsReadRunRecordedSetAndChecked) {
   Problems problems;
-  const auto scenario = scenario::read_scenario_text(text, "wheel.yaml", {}, problems, types);
+  const auto scenario = scenario::read_scenario_text(wheel_scenario, "wheel.yaml", {}, problems, types);
   EXPECT_EQ(lines_of(problems), "");
   loop::Simulation simulation(scenario, problems);
   ASSERT_EQ(lines_of(problems), "");
@@ -81,7 +81,7 @@ TEST(APlantOfOnesOwn, IsReadRunRecordedSetAndChecked) {
 
 TEST(APlantOfOnesOwn, IsWrittenOutWithItsDefaults) {
   Problems problems;
-  const auto scenario = scenario::read_scenario_text(text, "wheel.yaml", {}, problems, types);
+  const auto scenario = scenario::read_scenario_text(wheel_scenario, "wheel.yaml", {}, problems, types);
   EXPECT_THAT(scenario::expand(scenario), HasSubstr("decay: 2 s"));
 }
 
