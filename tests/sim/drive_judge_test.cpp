@@ -168,9 +168,9 @@ TEST(DriveJudge, ASaturationIsToldAsAShareOfTheCycle) {
   Line cuts("rotary_knife_overload.yaml", {{"scene.duration", "8 s"}}, true);
   cuts.simulation->run();
   expect_shares(cuts, 0);
-  const auto of_cuts = figure(cuts.simulation->drives().at(0), "time at the torque limit, worst cycle");
+  const auto of_cuts = figure(cuts.simulation->outcome().drives.at(0), "time at the torque limit, worst cycle");
   EXPECT_FALSE(of_cuts.judged);
-  EXPECT_GE(of_cuts.value, figure(cuts.simulation->drives().at(0), "time at the torque limit").value);
+  EXPECT_GE(of_cuts.value, figure(cuts.simulation->outcome().drives.at(0), "time at the torque limit").value);
   // A cycle shorter than the saturations: all of it.
   for (const double cycle : {0.5, 0.01}) {
     Line named("rotary_knife_overload.yaml",
@@ -178,7 +178,7 @@ TEST(DriveJudge, ASaturationIsToldAsAShareOfTheCycle) {
     named.simulation->run();
     expect_shares(named, cycle);
     if (cycle > 0.1) continue;
-    EXPECT_NEAR(figure(named.simulation->drives().at(0), "time at the torque limit, worst cycle").value, 100,
+    EXPECT_NEAR(figure(named.simulation->outcome().drives.at(0), "time at the torque limit, worst cycle").value, 100,
                 1e-6);
   }
 }
