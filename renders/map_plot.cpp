@@ -30,7 +30,8 @@ const std::array<Dash, 3> kLineDashes = {Dash{}, Dash{8, 4}, Dash{3, 3}};
 const Dash kCurveDash = {10, 4, 2, 4};
 constexpr double kLineWidth = 1.6;
 constexpr double kCurveWidth = 2.2;
-constexpr double kRow = 24;  ///< of the legend
+constexpr double kRow = 24;             ///< of the legend
+constexpr std::size_t kMostPieces = 3;  ///< of a level's lines, in the mean: more are noise
 
 /// Half-way to the neighbours, and as far beyond the ends.
 std::vector<double> borders(const std::vector<double>& values) {
@@ -44,7 +45,12 @@ std::vector<double> borders(const std::vector<double>& values) {
 class MapPainter : Paper {
  public:
   MapPainter(cairo_t* pen, const MapPlot& map)
-      : Paper(pen), map_(map), area_(map_area(map)), x_(borders(map.x.values)), y_(borders(map.y.values)) {}
+      : Paper(pen),
+        map_(map),
+        area_(map_area(map)),
+        x_(borders(map.x.values)),
+        y_(borders(map.y.values)),
+        uneven_(map.lines.size()) {}
 
   void paint() {
     blank();
@@ -124,11 +130,20 @@ class MapPainter : Paper {
     }
     if (!(low < high)) return;
     const Ink& colour = kLineInks[index % kLineInks.size()];
-    for (const Tick& level : axis_ticks(low, high, 6)) {
-      for (const Polyline& path : contours(map_.x.values, map_.y.values, shown.values, level.value)) {
+    const auto levels = axis_ticks(low, high, 6);
+    std::vector<std::vector<Polyline>> paths;
+    std::size_t pieces = 0;
+    for (const Tick& level : levels) {
+      paths.push_back(contours(map_.x.values, map_.y.values, shown.values, level.value));
+      pieces += paths.back().size();
+    }
+    uneven_[index] = pieces > kMostPieces * levels.size();
+    if (uneven_[index]) return;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      for (const Polyline& path : paths[i]) {
         draw(path);
         stroke(colour, kLineWidth, kLineDashes[index % kLineDashes.size()]);
-        label(path, level.label, colour, index);
+        label(path, levels[i].label, colour, index);
       }
     }
   }
@@ -189,6 +204,10 @@ class MapPainter : Paper {
     }
     y += kRow / 2;
     for (std::size_t i = 0; i < map_.lines.size(); ++i) {
+      if (uneven_[i]) {
+        words(map_.lines[i].label + ": no lines, it is uneven");
+        continue;
+      }
       line(left, y, left + sample, y, kLineInks[i % kLineInks.size()], kLineWidth,
            kLineDashes[i % kLineDashes.size()]);
       words(map_.lines[i].label);
@@ -214,6 +233,7 @@ class MapPainter : Paper {
   std::vector<double> x_;  // borders of the cells
   std::vector<double> y_;
   std::vector<PlotArea> labels_;
+  std::vector<bool> uneven_;  // of each quantity: noise without lines to speak of
 };
 
 [[noreturn]] void refuse(const MapPlot& map, const std::string& what) {

@@ -20,7 +20,8 @@ struct MapRegion {
   enum class Kind { good, bad, none } kind = Kind::bad;
 };
 
-/// Lines of equal value over a map.
+/// Lines of equal value over a map. Of a quantity that is all ups and downs none are drawn, and the legend
+/// says so.
 struct MapLines {
   std::string label;           ///< with unit: "rms torque [N m]"
   std::vector<double> values;  ///< a number a point; not a number where there is none

@@ -138,13 +138,25 @@ TEST(MapPlot, IsTheSameBytesAgainAndTellsItsLines) {
   EXPECT_NE(read_file(draw_map(bare, scratch.path / "bare")), bytes);
 }
 
+TEST(MapPlot, DrawsNoLinesOfWhatIsUneven) {
+  const Scratch scratch;
+  auto map = example();
+  map.curves.clear();
+  map.lines.resize(1);
+  const auto blue = [&](const std::function<double(std::size_t)>& value) {
+    for (std::size_t i = 0; i < map.region.size(); ++i) map.lines[0].values[i] = value(i);
+    return pixels_like(read_png(draw_map(map, scratch.path)), 0, 0x72, 0xb2);
+  };
+  EXPECT_GT(blue([](std::size_t i) { return static_cast<double>(i); }), 3000);
+  EXPECT_LT(blue([](std::size_t i) { return static_cast<double>(i * 7919 % 101); }), 10);
+}
+
 TEST(MapPlot, RefusesWhatItCannotDraw) {
   const Scratch scratch;
   const auto refuses = [&](const std::function<void(MapPlot&)>& spoil, const char* words) {
     auto map = example();
     spoil(map);
-    EXPECT_THAT([&] { draw_map(map, scratch.path); },
-                ThrowsMessage<std::invalid_argument>(HasSubstr(words)));
+    EXPECT_THAT([&] { draw_map(map, scratch.path); }, ThrowsMessage<std::invalid_argument>(HasSubstr(words)));
   };
   refuses([](MapPlot& map) { map.x.values = {1}; }, "'length [mm]' needs two or more ascending");
   refuses([](MapPlot& map) { map.y.values[3] = map.y.values[2]; }, "ascending");

@@ -149,6 +149,7 @@ renders::Plot curves_of(const Studied& study, const std::string& title, std::siz
   }
   for (std::size_t column = 0; column < study.columns.size() && plot.panels.size() < most; ++column) {
     const auto& name = study.columns[column];
+    if (name.starts_with("margin of ")) continue;  // the table has them
     const auto bracket = std::min(name.rfind(" ["), name.size());
     renders::Panel panel{
         name.substr(0, bracket), std::string(name, std::min(bracket + 1, name.size())), {}, {}, {}};
