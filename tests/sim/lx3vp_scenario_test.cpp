@@ -78,8 +78,10 @@ TEST_F(Lx3vpScenario, RunsAgainstTheBench) {
 TEST_F(Lx3vpScenario, IsWrittenBackWhole) {
   const auto scenario = read(line);
   const auto text = scenario::expand(scenario);
-  EXPECT_THAT(text, HasSubstr("  lx3vp:\n    program: saw.il\n    registers: saw.csv\n    scan: 1 ms\n    "
-                              "retentive: \"\"\n    set: {D100: 5, DD102: -70000, FD104: 1.5}\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("  lx3vp:\n    program: saw.il\n    registers: saw.csv\n    scan: 1 ms\n    "
+                "step_time: 0 s\n    retentive: \"\"\n    set: {D100: 5, DD102: -70000, FD104: 1.5}\n"));
   EXPECT_EQ(scenario::expand(read(text)), text);
   EXPECT_THAT(told(), IsEmpty());
 }

@@ -200,6 +200,7 @@ renders::Report page_of(const Studied& study, const std::string& title, const st
 void write(const Studied& study, renders::Report report, std::vector<renders::Plot> plots,
            const std::string& title, OutputFolder& folder) {
   if (over_axes(study, 2)) report.maps.push_back(map_of(study, title, folder));
+  std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
   if (!study.points.empty() && !over_axes(study, 2))
     report.texts.push_back(
         {"The command that repeats the first point with pictures", command(study, study.points.front())});

@@ -282,7 +282,7 @@ TEST(ScenarioProblems, Controller) {
        {"2:43: controller.lx3vp.scan 500 us is not a whole multiple of scene.step 200 us; for example 400 us "
         "or "
         "600 us",
-        "2:51: unknown key 'regs' in controller.lx3vp; known: program, registers, scan, retentive, set"}},
+        "2:51: unknown key 'regs' in controller.lx3vp; known: program, registers, scan, step_time, retentive, set"}},
       {"controller: {qmove: {tasks: [a.mod]}}\n",
        {"1:21: controller.qmove.configuration is missing; add configuration: programs/line.cnf"}},
       {"controller: {qmove: {configuration: a.cnf, tasks: a.mod}}\n",
