@@ -60,7 +60,7 @@ class MapPainter : Paper {
     axes();
     clipped(area_, [&] {
       for (std::size_t i = 0; i < map_.lines.size(); ++i) lines(i);
-      for (std::size_t i = 0; i < map_.curves.size(); ++i) curve(map_.curves[i]);
+      for (const MapCurve& shown : map_.curves) curve(shown);
     });
     legend();
   }
@@ -279,7 +279,7 @@ std::filesystem::path draw_map(const MapPlot& map, const std::filesystem::path& 
   MapPainter(pen.get(), map).paint();
   copy_rows(surface.get(), map.height, image, 0);
   std::filesystem::create_directories(directory);
-  const auto file = directory / (map.name + ".png");
+  auto file = directory / (map.name + ".png");
   constexpr int effort = 6;
   write_file(file, png_bytes(image, effort));
   return file;

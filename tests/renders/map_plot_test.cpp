@@ -22,6 +22,7 @@ using ::testing::ThrowsMessage;
 
 std::vector<double> steps(double low, double high, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) values.push_back(low + (high - low) * i / (count - 1));
   return values;
 }
@@ -29,6 +30,7 @@ std::vector<double> steps(double low, double high, int count) {
 std::vector<double> over(const std::vector<double>& x, const std::vector<double>& y,
                          const std::function<double(double, double)>& of) {
   std::vector<double> values;
+  values.reserve(x.size() * y.size());
   for (const double b : y)
     for (const double a : x) values.push_back(of(a, b));
   return values;

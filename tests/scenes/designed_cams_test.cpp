@@ -237,8 +237,9 @@ Effort effort_of(const Ran& run) {
 }
 
 // The integral of the acceleration squared is 12 of the designed cam and 120/7 of the quintic that the scene
-// has: 30 % less copper loss from acceleration alone, for steps of the torque where the quintic has none.
-// The loss of the whole is seen to fall by 26 %: something of it is the same for both cams.
+// has: 30 % less copper loss, for steps of the torque where the quintic has none. In the scene's loop the
+// steps ring, which costs 4 of the 30 %; the stiffer the gear, the quicker the drive and the softer the
+// position loop, the less.
 TEST_F(DesignedCams, LeastRmsLosesLessThanTheQuintic) {
   std::vector<scenario::Override> overrides = {
       {"record.channels", "[knife.motor.copper_loss, knife.motor.torque]"},
@@ -249,16 +250,21 @@ TEST_F(DesignedCams, LeastRmsLosesLessThanTheQuintic) {
     overrides.push_back({"plants.knife." + std::string(friction), "0 N m"});
   for (const auto* friction : {"motor_friction.viscous", "drum_friction.viscous"})
     overrides.push_back({"plants.knife." + std::string(friction), "0 N m s/rad"});
-  const Ran shipped("rotary_knife_mc_camin", scene("rotary_knife_mc_camin"), overrides);
-  const auto quintic = effort_of(shipped);
-  const auto designed = effort_of(knife_under_mc_camin(design(knife_job(), "mc_camin").file, overrides));
-  EXPECT_NEAR(designed.loss / quintic.loss, 12 / (120.0 / 7), 0.05)
-      << designed.loss << " W, " << quintic.loss;
-  EXPECT_GT(designed.step, 2 * quintic.step) << quintic.step << " N m";
-  RecordProperty("designed_W", fmt::format("{:.3f}", designed.loss));
-  RecordProperty("quintic_W", fmt::format("{:.3f}", quintic.loss));
-  RecordProperty("designed_step_Nm", fmt::format("{:.3f}", designed.step));
-  RecordProperty("quintic_step_Nm", fmt::format("{:.3f}", quintic.step));
+  const auto table = design(knife_job(), "mc_camin").file;
+  const auto loss_ratio = [&] {
+    const auto quintic = effort_of(Ran("rotary_knife_mc_camin", scene("rotary_knife_mc_camin"), overrides));
+    const auto designed = effort_of(knife_under_mc_camin(table, overrides));
+    EXPECT_GT(designed.step, 2 * quintic.step) << quintic.step << " N m";
+    return designed.loss / quintic.loss;
+  };
+  EXPECT_NEAR(loss_ratio(), 0.7355, 0.005);
+  const std::vector<scenario::Override> quiet = {{"plants.knife.gear.stiffness", "1e6 N m/rad"},
+                                                 {"plants.knife.servo.filter", "0 ms"},
+                                                 {"plants.knife.servo.current_lag", "0 ms"},
+                                                 {"plants.knife.servo.speed_gain", "600 rad/s"},
+                                                 {"controller.plcopen.set.Knife.kv", "2000"}};
+  overrides.insert(overrides.end(), quiet.begin(), quiet.end());
+  EXPECT_NEAR(loss_ratio(), 12 / (120.0 / 7), 0.01);
 }
 
 }  // namespace

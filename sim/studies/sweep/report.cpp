@@ -51,7 +51,8 @@ std::string quoted(const std::string& words) {
 /// Repeats a point with pictures; `values` of the axes, as a shell takes them.
 std::string command(const Studied& study, const std::vector<std::string>& values) {
   std::string text = "drycut run " + quoted(study.question.file.string());
-  for (const auto& [path, value] : study.question.set) text += " --set " + quoted(path + "=" + value);
+  for (const auto& [path, value] : study.question.set)
+    text += " --set " + quoted(fmt::format("{}={}", path, value));
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& parameter = study.axes[i].parameter;
     text += " --set " + quoted(fmt::format("{}={}{}{}", parameter.path, values[i],
@@ -188,7 +189,7 @@ renders::Report page_of(const Studied& study, const std::string& title, const st
   report.facts = {
       {{"scenario", study.question.file.string()}}, {{"over", over}}, {{"drycut", DRYCUT_VERSION}}};
   for (const auto& [path, value] : study.question.set)
-    report.facts.push_back({{"set", path + " = " + value}});
+    report.facts.push_back({{"set", fmt::format("{} = {}", path, value)}});
   renders::ReportTable rows{"Every point", study.headings, {}, true};
   for (std::size_t i = 0; i < std::min(most_rows, study.cells.size()); ++i)
     rows.rows.push_back({study.cells[i]});

@@ -21,7 +21,8 @@ void expect_problems(const std::vector<Case>& cases) {
 
 TEST(ScenarioProblems, Text) {
   const std::string sections =
-      "1:1: the scenario is empty; its sections are: extends, variables, scene, plants, controller, wiring, filters, "
+      "1:1: the scenario is empty; its sections are: extends, variables, scene, plants, controller, wiring, "
+      "filters, "
       "timeline, disturbances, record, drives, checks, pictures";
   expect_problems({
       {"", {sections}},
@@ -33,7 +34,8 @@ TEST(ScenarioProblems, Text) {
        {"2:3: byte 0x00 is no text; a scenario is a YAML text in UTF-8"}},
       {"scene: {title: \xFF}", {"1:16: byte 0xff is no text; a scenario is a YAML text in UTF-8"}},
       {"scene: \xE2\x89", {"1:8: byte 0xe2 is no text; a scenario is a YAML text in UTF-8"}},
-      {std::string(10'000'000, 'a'), {"1:1: the text has 10000000 bytes; a scenario has at most 1048576"}},
+      {std::string(10'000'000, 'a'),  // NOLINT(bugprone-string-constructor)
+       {"1:1: the text has 10000000 bytes; a scenario has at most 1048576"}},
   });
 }
 
@@ -61,7 +63,8 @@ TEST(ScenarioProblems, Yaml) {
       {"scene: {title: *x}\n", {"1:16: aliases (*name) are not used in scenarios; write the value out"}},
       {"scene: {title: !!str 4}\n", {"1:16: tags (!name) are not used in scenarios; write the value alone"}},
       {"scene: {}\n<<: {scene: {}}\n",
-       {"2:1: unknown key '<<'; known: extends, variables, scene, plants, controller, wiring, filters, timeline, disturbances, "
+       {"2:1: unknown key '<<'; known: extends, variables, scene, plants, controller, wiring, filters, "
+        "timeline, disturbances, "
         "record, drives, checks, "
         "pictures"}},
       {"scene: {}\n---\nscene: {}\n",
@@ -282,7 +285,8 @@ TEST(ScenarioProblems, Controller) {
        {"2:43: controller.lx3vp.scan 500 us is not a whole multiple of scene.step 200 us; for example 400 us "
         "or "
         "600 us",
-        "2:51: unknown key 'regs' in controller.lx3vp; known: program, registers, scan, step_time, retentive, set"}},
+        "2:51: unknown key 'regs' in controller.lx3vp; known: program, registers, scan, step_time, "
+        "retentive, set"}},
       {"controller: {qmove: {tasks: [a.mod]}}\n",
        {"1:21: controller.qmove.configuration is missing; add configuration: programs/line.cnf"}},
       {"controller: {qmove: {configuration: a.cnf, tasks: a.mod}}\n",
