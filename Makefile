@@ -57,7 +57,7 @@ test: setup
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
 # The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.
-SLOW := *Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:Witness.*
+SLOW := *Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:*Witness.*
 quick: setup
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
