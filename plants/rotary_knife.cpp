@@ -33,7 +33,6 @@ PositionSwitchData in_turns(const PositionSwitchData& radians) {
 RotaryKnife::RotaryKnife(const RotaryKnifeData& data, World& world, Web& web)
     : data_(data),
       world_(world),
-      web_(web),
       radius_(data.circumference / units::turn),
       along_web_(radius_ * std::cos(data.helix)),
       friction_(geared_friction(data.drum_friction, data.counter)),

@@ -84,7 +84,6 @@ class RotaryKnife : public Plant {
 
   RotaryKnifeData data_;
   World& world_;
-  Web& web_;
   double radius_;
   double along_web_;   // radius in speeds along the web [m]
   Friction friction_;  // of the drum and what is geared to it

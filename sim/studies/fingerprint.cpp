@@ -1,5 +1,11 @@
 #include "sim/studies/fingerprint.hpp"
 
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
 
@@ -15,6 +21,30 @@ void Fingerprint::add(const scenario::Scenario& scenario) {
   Problems ignored;  // what cannot be read is told by whoever runs it
   for (const auto& name : loop::controller_files(scenario))
     add(read_file(scenario.file.parent_path() / name.text, ignored).value_or(""));
+}
+
+namespace {
+
+/// Of the file that this code is in: the program, or Python's extension.
+std::uint64_t program_fingerprint() {
+  Fingerprint hash;
+  hash.add(DRYCUT_VERSION);
+  Dl_info found{};
+  if (dladdr(reinterpret_cast<const void*>(&program_fingerprint), &found) == 0) return hash.value();
+  // Of the program itself the name may be that of the command line.
+  const std::filesystem::path named = found.dli_fname;
+  std::ifstream file(named.extension() == ".so" ? named : "/proc/self/exe", std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  hash.add(bytes.view());
+  return hash.value();
+}
+
+}  // namespace
+
+void Fingerprint::add_program() {
+  static const std::uint64_t program = program_fingerprint();
+  add(std::to_string(program));
 }
 
 void Fingerprint::byte(unsigned char c) {

@@ -13,6 +13,8 @@ class Fingerprint {
   /// All that a run of it depends on: every value in force, its variables, and the texts of its controller's
   /// files.
   void add(const scenario::Scenario& scenario);
+  /// The program itself, to the byte: another build may compute something else.
+  void add_program();
   [[nodiscard]] std::uint64_t value() const { return value_; }
 
  private:

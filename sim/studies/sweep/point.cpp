@@ -211,7 +211,7 @@ PointScenario read_point(const PointQuestion& question, const std::vector<scenar
   PointScenario point;
   point.scenario = read(question, overrides, point.problems);
   Fingerprint hash;
-  hash.add(DRYCUT_VERSION);
+  hash.add_program();
   for (const auto& piece : question.pieces) {
     point.lengths.push_back(wanted_length(point.scenario.pictures, piece.source));
     hash.add(fmt::format("{} {} {}", piece.source, piece.from, point.lengths.back()));

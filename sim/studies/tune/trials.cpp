@@ -47,7 +47,7 @@ Trials::Trials(const Study& study, TunedParameters parameters, std::vector<scena
 
 std::string Trials::fingerprint() const {
   Fingerprint hash;
-  hash.add(DRYCUT_VERSION);
+  hash.add_program();
   hash.add("violations 2");  // how they are counted: rows of another way do not compare
   hash.add(study_.minimise);
   for (const auto& text : study_.constraints) hash.add(text);
