@@ -148,18 +148,18 @@ void add_pieces(const PointQuestion::Piece& piece, double wanted, const loop::Re
   numbers.push_back(worst);
 }
 
-void add_drive(const std::string& drive, const std::vector<loop::DriveVerdict>& verdicts,
+void add_drive(const std::string& drive, const std::vector<loop::DriveVerdict>& judged,
                std::vector<double>& numbers) {
-  const auto found = std::find_if(verdicts.begin(), verdicts.end(),
+  const auto found = std::find_if(judged.begin(), judged.end(),
                                   [&](const loop::DriveVerdict& verdict) { return verdict.drive == drive; });
   for (const auto* name : {"rms torque", "peak torque"}) {
     double value = no_number;
-    if (found != verdicts.end())
+    if (found != judged.end())
       for (const auto& figure : found->figures)
         if (figure.name == name) value = figure.value;
     numbers.push_back(value);
   }
-  numbers.push_back(found == verdicts.end() ? no_number : found->energy);
+  numbers.push_back(found == judged.end() ? no_number : found->energy);
 }
 
 /// The check that gave way first; those that are judged at the end come last, in the scenario's order.
