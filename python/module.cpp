@@ -18,6 +18,7 @@
 
 #include "sim/cams/study.hpp"
 #include "sim/file.hpp"
+#include "sim/library.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/studies/bode/loop.hpp"
 
@@ -51,17 +52,6 @@ auto column(const Items& items, Of of) {
   return values;
 }
 
-sim::scenario::Scenario read_scenario(const std::filesystem::path& file, const Settings& set) {
-  std::vector<sim::scenario::Override> overrides;
-  overrides.reserve(set.size());
-  for (const auto& [path, value] : set) overrides.push_back({path, value});
-  Problems problems;
-  auto scenario = sim::scenario::read_scenario(file, overrides, problems);
-  refuse(problems);
-  scenario.pictures = {};
-  return scenario;
-}
-
 /// Lets Python handle its signals in a long run: Ctrl-C ends it.
 void listen() {
   const py::gil_scoped_acquire lock;
@@ -74,7 +64,7 @@ py::dict run(const std::filesystem::path& file, const Settings& set) {
   sim::loop::Outcome outcome;
   {
     const py::gil_scoped_release unlocked;
-    scenario.emplace(read_scenario(file, set));
+    scenario.emplace(sim::read_for_program(file, set));
     Problems problems;
     simulation.emplace(*scenario, problems);
     refuse(problems);
@@ -124,13 +114,13 @@ py::dict cam(const std::filesystem::path& file, const std::string& device, const
       "device"_a = std::string(sim::cams::kind_name(table)), "findings"_a = findings,
       "sound"_a = !sim::cams::is_unsound(study.findings, false),
       "report"_a = sim::cams::cam_report(study.text, study.findings), "unit"_a = study.master_unit,
-      "columns"_a = py::dict("master"_a = numbers(column(points, [](const Point& p) { return p.master; })),
-                             "slave"_a = numbers(column(points, [](const Point& p) { return p.position; })),
-                             "velocity"_a = numbers(column(points, [](const Point& p) { return p.velocity; })),
-                             "acceleration"_a =
-                                 numbers(column(points, [](const Point& p) { return p.acceleration; })),
-                             "jerk"_a = numbers(column(points, [](const Point& p) { return p.jerk; })),
-                             "row"_a = numbers(column(points, [](const Point& p) { return p.row; }))));
+      "columns"_a =
+          py::dict("master"_a = numbers(column(points, [](const Point& p) { return p.master; })),
+                   "slave"_a = numbers(column(points, [](const Point& p) { return p.position; })),
+                   "velocity"_a = numbers(column(points, [](const Point& p) { return p.velocity; })),
+                   "acceleration"_a = numbers(column(points, [](const Point& p) { return p.acceleration; })),
+                   "jerk"_a = numbers(column(points, [](const Point& p) { return p.jerk; })),
+                   "row"_a = numbers(column(points, [](const Point& p) { return p.row; }))));
 }
 
 py::object at_frequency(const std::optional<sim::studies::AtFrequency>& margin) {
@@ -143,7 +133,7 @@ py::dict bode(const std::filesystem::path& file, const Settings& set,
   std::optional<sim::studies::LoopResult> result;
   {
     const py::gil_scoped_release unlocked;
-    auto scenario = read_scenario(file, set);
+    auto scenario = sim::read_for_program(file, set);
     Problems problems;
     sim::studies::check_request(request, problems);
     if (scenario.buildable) sim::studies::check_loop(scenario, request, problems);
@@ -156,15 +146,15 @@ py::dict bode(const std::filesystem::path& file, const Settings& set,
   using Point = sim::studies::BodePoint;
   constexpr const char* loops[] = {"closed", "open", "restless", "runaway", "unstable"};
   const auto& margins = result->margins;
-  return py::dict(
-      "wire"_a = result->wire, "loop"_a = loops[static_cast<int>(result->sweep.loop)],
-      "frequency"_a = numbers(column(points, [](const Point& p) { return p.frequency; })),
-      "open_loop"_a = numbers(column(points, [](const Point& p) { return p.open_loop; })),
-      "error"_a = numbers(column(points, [](const Point& p) { return p.error; })),
-      "phase_margin"_a = at_frequency(margins.phase), "gain_margin"_a = at_frequency(margins.gain),
-      "gain_margin_down"_a = at_frequency(margins.gain_down),
-      "peak_sensitivity"_a = at_frequency(margins.sensitivity), "bandwidth"_a = margins.closed_bandwidth,
-      "doubts"_a = sim::studies::loop_doubts(*result));
+  return py::dict("wire"_a = result->wire, "loop"_a = loops[static_cast<int>(result->sweep.loop)],
+                  "frequency"_a = numbers(column(points, [](const Point& p) { return p.frequency; })),
+                  "open_loop"_a = numbers(column(points, [](const Point& p) { return p.open_loop; })),
+                  "error"_a = numbers(column(points, [](const Point& p) { return p.error; })),
+                  "phase_margin"_a = at_frequency(margins.phase),
+                  "gain_margin"_a = at_frequency(margins.gain),
+                  "gain_margin_down"_a = at_frequency(margins.gain_down),
+                  "peak_sensitivity"_a = at_frequency(margins.sensitivity),
+                  "bandwidth"_a = margins.closed_bandwidth, "doubts"_a = sim::studies::loop_doubts(*result));
 }
 
 PyObject* bad_input = nullptr;
@@ -206,8 +196,8 @@ PYBIND11_MODULE(_core, module) {
   module.def(
       "bode",
       [](const std::filesystem::path& file, const Settings& set, const std::string& wire,
-         const std::optional<std::string>& at, std::optional<double> from, std::optional<double> to, int points,
-         double amplitude, double settle) {
+         const std::optional<std::string>& at, std::optional<double> from, std::optional<double> to,
+         int points, double amplitude, double settle) {
         sim::studies::LoopRequest request;
         request.wire = wire;
         request.at = at;

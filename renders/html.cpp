@@ -1,6 +1,9 @@
 #include "renders/html.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdint>
+#include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
 #include "renders/text.hpp"
@@ -20,6 +23,18 @@ std::string html_text(std::string_view text) {
   }
   append(text.substr(begin));
   return escaped;
+}
+
+std::string safe_in_script(const nlohmann::ordered_json& json) {
+  // Signs that could end the script element stand in strings only, and are escaped there.
+  std::string text;
+  for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
+    if (c == '<' || c == '>' || c == '&')
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      text += c;
+  }
+  return text;
 }
 
 std::string base64(std::string_view bytes) {

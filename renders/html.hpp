@@ -1,4 +1,5 @@
 #pragma once
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -7,6 +8,9 @@ namespace drycut::renders {
 /// `text` with everything escaped that means something in HTML, in text and in quoted attributes; newlines
 /// and tabs stay, other control characters and what is no UTF-8 are replaced.
 std::string html_text(std::string_view text);
+
+/// `json` for a script element, which nothing in it can end; what is no UTF-8 is replaced.
+std::string safe_in_script(const nlohmann::ordered_json& json);
 
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);

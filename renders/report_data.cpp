@@ -124,18 +124,6 @@ ordered_json plot_json(const Plot& plot, Columns& columns) {
           {"panels", list_of(plot.panels, [&](const Panel& one) { return panel_json(one, columns); })}};
 }
 
-/// Signs that could end the script element stand in strings only, and are escaped there.
-std::string safe_in_script(const ordered_json& json) {
-  std::string text;
-  for (const char c : json.dump()) {
-    if (c == '<' || c == '>' || c == '&')
-      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      text += c;
-  }
-  return text;
-}
-
 }  // namespace
 
 bool can_be_live(const Plot& plot) {

@@ -20,7 +20,7 @@ std::string map_figure(const ReportMap& map, std::size_t number) {
 
 std::string live_maps(const std::vector<ReportMap>& maps) {
   if (maps.empty()) return "";
-  auto all = nlohmann::json::array();
+  auto all = nlohmann::ordered_json::array();
   for (const ReportMap& shown : maps) {
     const PlotArea area = map_area(shown.map);
     const double width = shown.map.width;
@@ -37,12 +37,8 @@ std::string live_maps(const std::vector<ReportMap>& maps) {
                    {"cells", shown.cells},
                    {"command", shown.command}});
   }
-  // Nothing in it may end the script element.
-  std::string data = all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos; at += 6)
-    data.replace(at, 1, "\\u003c");
   return fmt::format("<script type=\"application/json\" id=\"map-data\">{}</script>\n<script>{}</script>\n",
-                     data, embedded_file("report_map.js"));
+                     safe_in_script(all), embedded_file("report_map.js"));
 }
 
 }  // namespace drycut::renders

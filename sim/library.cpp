@@ -1,4 +1,6 @@
 // The library's front, include/drycut/simulation.hpp, before the simulation that the program runs.
+#include "sim/library.hpp"
+
 #include <fmt/format.h>
 
 #include <drycut/simulation.hpp>
@@ -20,15 +22,7 @@ std::string lines_of(const Problems& problems) {
   return lines;
 }
 
-sim::scenario::Scenario read(const std::filesystem::path& file,
-                             const std::map<std::string, std::string>& set) {
-  std::vector<sim::scenario::Override> overrides;
-  overrides.reserve(set.size());
-  for (const auto& [path, value] : set) overrides.push_back({path, value});
-  Problems problems;
-  auto scenario = sim::scenario::read_scenario(file, overrides, problems);
-  if (!problems.empty()) throw BadInput(problems);
-  scenario.pictures = {};
+sim::scenario::Scenario without_records(sim::scenario::Scenario scenario) {
   scenario.record.channels.clear();
   return scenario;
 }
@@ -37,9 +31,21 @@ sim::scenario::Scenario read(const std::filesystem::path& file,
 
 BadInput::BadInput(Problems found) : std::invalid_argument(lines_of(found)), problems(std::move(found)) {}
 
+sim::scenario::Scenario sim::read_for_program(const std::filesystem::path& file,
+                                              const std::map<std::string, std::string>& set) {
+  std::vector<scenario::Override> overrides;
+  overrides.reserve(set.size());
+  for (const auto& [path, value] : set) overrides.push_back({path, value});
+  Problems problems;
+  auto scenario = scenario::read_scenario(file, overrides, problems);
+  if (!problems.empty()) throw BadInput(problems);
+  scenario.pictures = {};
+  return scenario;
+}
+
 struct Simulation::Run {
   Run(const std::filesystem::path& file, const std::map<std::string, std::string>& set)
-      : scenario(drycut::read(file, set)), simulation(scenario, problems) {
+      : scenario(without_records(sim::read_for_program(file, set))), simulation(scenario, problems) {
     if (!problems.empty()) throw BadInput(problems);
   }
 

@@ -203,6 +203,7 @@ class Simulation:
     def __init__(self, file: Path, set: Mapping[str, object] | None = None):
         """Reads the scenario (.yaml). Raises BadInput with all problems."""
         self._line = _core.Simulation(file, _settings(set))
+        # Past the methods below, which tell what they do: a call less each, and programs call them every step.
         self.step = self._line.step
         self.advance = self._line.advance
         self.read = self._line.read

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -20,6 +19,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/parallel.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/gallery.hpp"
 #include "sim/report/results.hpp"
@@ -237,23 +237,17 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
   const auto running = std::min<std::size_t>(static_cast<std::size_t>(options.jobs), jobs.size());
   const auto drawing_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency() / running));
   Progress bar;
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (auto i = next++; i < jobs.size(); i = next++) {
-      auto& job = *jobs[i];
-      const auto show = [&](const char* doing, double done) {
-        bar.show(fmt::format("{} {} ({} of {})", doing, job.result.name, i + 1, jobs.size()), done);
-      };
-      try {
-        run_job(job, options, drawing_threads, show);
-      } catch (const std::exception& error) {
-        job.trouble = error.what();
-      }
+  for_each_index(jobs.size(), static_cast<int>(running), [&](std::size_t i) {
+    auto& job = *jobs[i];
+    const auto show = [&](const char* doing, double done) {
+      bar.show(fmt::format("{} {} ({} of {})", doing, job.result.name, i + 1, jobs.size()), done);
+    };
+    try {
+      run_job(job, options, drawing_threads, show);
+    } catch (const std::exception& error) {
+      job.trouble = error.what();
     }
-  };
-  std::vector<std::jthread> threads;
-  for (std::size_t i = 1; i < running; ++i) threads.emplace_back(work);
-  work();
+  });
 }
 
 /// Compares the members of a scene from the files that they left.

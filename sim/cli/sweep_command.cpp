@@ -122,7 +122,7 @@ template <typename Work>
 int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& work) {
   try {
     folder.begin({points_file});
-    studies::PointStore store(folder.add(points_file));
+    studies::PointStore store(folder.add(points_file), options.jobs);
     work(store);
     fmt::print("{} runs simulated now\n", store.simulated());
     return all_passed;
@@ -166,7 +166,7 @@ int sweep_scenario(const SweepOptions& options) {
   if (!problems.empty()) return bad(problems);
   return in_folder(options, *folder, [&](studies::PointStore& store) {
     Countdown bar("sweeping");
-    const auto rows = studies::sweep(plan.question, plan.axes, plan.points, store, options.jobs,
+    const auto rows = studies::sweep(plan.question, plan.axes, plan.points, store,
                                      [&](std::size_t done, std::size_t of) { bar.show(done, of); });
     bar.clear();
     write_file(folder->add(sweep_file), studies::sweep_csv(plan.question, plan.axes, plan.points, rows));
@@ -201,9 +201,8 @@ int envelope_scenario(const EnvelopeOptions& options) {
   if (!problems.empty()) return bad(problems);
   return in_folder(options, *folder, [&](studies::PointStore& store) {
     Countdown bar("seeking");
-    const auto bounds =
-        studies::envelope(plan.question, plan.axes, plan.points, *request, store, options.jobs,
-                          [&](std::size_t done, std::size_t of) { bar.show(done, of); });
+    const auto bounds = studies::envelope(plan.question, plan.axes, plan.points, *request, store,
+                                          [&](std::size_t done, std::size_t of) { bar.show(done, of); });
     bar.clear();
     write_file(folder->add(envelope_file),
                studies::envelope_csv(plan.question, plan.axes, plan.points, *request, bounds));

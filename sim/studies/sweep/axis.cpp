@@ -144,9 +144,9 @@ std::vector<scenario::Override> overrides_of(const SweepAxes& axes, const SweepP
   std::vector<scenario::Override> overrides;
   overrides.reserve(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const auto& [path, low, high, unit, integer, option, low_column, high_column, relative] =
-        axes[i].parameter;
-    overrides.push_back({path, unit.empty() ? point[i] : fmt::format("{} {}", point[i], unit)});
+    const auto& parameter = axes[i].parameter;
+    overrides.push_back(
+        {parameter.path, parameter.unit.empty() ? point[i] : fmt::format("{} {}", point[i], parameter.unit)});
   }
   return overrides;
 }

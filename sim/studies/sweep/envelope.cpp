@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <optional>
 
+#include "base/text.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/sweep/study.hpp"
 
 namespace drycut::sim::studies {
@@ -20,79 +21,78 @@ constexpr int most_intervals = 32;     // looked at where nothing holds
 
 bool holds(const PointRow& row) { return row.verdict == PointRow::Verdict::passed; }
 
-/// The bound at one point of the envelope.
+/// The bound at one point of the envelope, found in rounds: asks for rows at values(), is given them by
+/// take(), until nothing is asked.
 class Seeker {
  public:
-  Seeker(const PointQuestion& question, const SweepAxes& axes, const SweepPoint& point,
-         const BoundRequest& request, PointStore& store, const std::function<void()>& ran)
-      : question_(question), fixed_(overrides_of(axes, point)), request_(request), store_(store), ran_(ran) {}
+  explicit Seeker(const TunedParameter& parameter, double tolerance)
+      : parameter_(parameter), tolerance_(tolerance) {
+    scan();
+  }
 
-  Bound run() {
-    std::vector<double> values;
-    std::vector<PointRow> rows;
-    for (int intervals = scanned_values - 1; intervals <= most_intervals; intervals *= 2) {
-      values.clear();
-      rows.clear();
-      for (int i = 0; i <= intervals; ++i) {
-        values.push_back(value_at(static_cast<double>(i) / intervals));
-        rows.push_back(at(values.back()));
-      }
-      if (std::any_of(rows.begin(), rows.end(), holds)) return bound_of(values, rows);
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+  [[nodiscard]] const Bound& bound() const { return bound_; }
+
+  /// The rows at values(), in their order.
+  void take(std::vector<PointRow> rows) {
+    if (beyond_) {
+      halve(std::move(rows.front()));
+    } else if (std::any_of(rows.begin(), rows.end(), holds)) {
+      bound_of(rows);
+    } else if (intervals_ < most_intervals) {
+      intervals_ *= 2;
+      return scan();
+    } else {
+      bound_ = {Bound::Kind::nowhere, no_bound, no_bound, {}, rows.front().limit, {}};
     }
-    return {Bound::Kind::nowhere, no_bound, no_bound, {}, rows[0].limit, {}};
+    values_.clear();
+    if (!beyond_ || *beyond_ - bound_.value <= tolerance_) return;
+    const double half = bound_.value + (*beyond_ - bound_.value) / 2;
+    const double middle = std::stod(number_text(parameter_.integer ? std::floor(half) : half));
+    if (middle > bound_.value && middle < *beyond_) values_ = {middle};
   }
 
  private:
-  Bound bound_of(const std::vector<double>& values, const std::vector<PointRow>& rows) {
-    const auto first = static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), holds) - rows.begin());
-    auto end = first;
-    while (end < rows.size() && holds(rows[end])) ++end;
-    if (end == rows.size())
-      return {Bound::Kind::throughout, values.back(), values[first], {}, "", rows.back().numbers};
-    Bound bound{Bound::Kind::found, values[end - 1],      values[first], {},
-                rows[end].limit,    rows[end - 1].numbers};
-    for (std::size_t i = rows.size(); i-- > end;)
-      if (holds(rows[i])) bound.again = values[i];
-    halve(bound, values[end]);
-    return bound;
-  }
-
-  // What holds at bound.value does not at `beyond`.
-  void halve(Bound& bound, double beyond) {
-    while (beyond - bound.value > request_.tolerance) {
-      const double half = bound.value + (beyond - bound.value) / 2;
-      const double middle = std::stod(number_text(request_.parameter.integer ? std::floor(half) : half));
-      if (middle <= bound.value || middle >= beyond) return;
-      auto row = at(middle);
-      if (holds(row)) {
-        bound.value = middle;
-        bound.numbers = std::move(row.numbers);
-      } else {
-        beyond = middle;
-        bound.limit = std::move(row.limit);
-      }
+  void scan() {
+    values_.clear();
+    for (int i = 0; i <= intervals_; ++i) {
+      const double value = parameter_.low + i * (parameter_.high - parameter_.low) / intervals_;
+      values_.push_back(std::stod(number_text(parameter_.integer ? std::rint(value) : value)));
     }
   }
 
-  [[nodiscard]] double value_at(double share) const {
-    const auto& parameter = request_.parameter;
-    const double value = parameter.low + share * (parameter.high - parameter.low);
-    return std::stod(number_text(parameter.integer ? std::rint(value) : value));
+  void bound_of(const std::vector<PointRow>& rows) {
+    const auto first = static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), holds) - rows.begin());
+    auto end = first;
+    while (end < rows.size() && holds(rows[end])) ++end;
+    if (end == rows.size()) {
+      bound_ = {Bound::Kind::throughout, values_.back(), values_[first], {}, "", rows.back().numbers};
+      return;
+    }
+    bound_ = {Bound::Kind::found, values_[end - 1],     values_[first], {},
+              rows[end].limit,    rows[end - 1].numbers};
+    for (std::size_t i = rows.size(); i-- > end;)
+      if (holds(rows[i])) bound_.again = values_[i];
+    beyond_ = values_[end];
   }
 
-  PointRow at(double value) {
-    auto overrides = fixed_;
-    overrides.push_back({request_.parameter.path, value_text(request_.parameter, value)});
-    auto row = store_.row(question_, overrides);
-    ran_();
-    return row;
+  // What holds at bound_.value does not at *beyond_.
+  void halve(PointRow row) {
+    if (holds(row)) {
+      bound_.value = values_.front();
+      bound_.numbers = std::move(row.numbers);
+    } else {
+      beyond_ = values_.front();
+      bound_.limit = std::move(row.limit);
+    }
   }
 
-  const PointQuestion& question_;
-  std::vector<scenario::Override> fixed_;
-  const BoundRequest& request_;
-  PointStore& store_;
-  const std::function<void()>& ran_;
+  const TunedParameter& parameter_;
+  double tolerance_;
+  int intervals_ = scanned_values - 1;
+  std::vector<double> values_;
+  std::optional<double> beyond_;
+  Bound bound_;
 };
 
 std::string number_cell(double number) { return std::isnan(number) ? "" : fmt::format("{:.9g}", number); }
@@ -129,16 +129,35 @@ std::optional<BoundRequest> parse_bound(const std::string& text, const std::stri
 
 std::vector<Bound> envelope(const PointQuestion& question, const SweepAxes& axes,
                             const std::vector<SweepPoint>& points, const BoundRequest& request,
-                            PointStore& store, int jobs, const StudyProgress& progress) {
-  std::vector<Bound> bounds(points.size());
-  const double halvings = std::ceil(
-      std::log2((request.parameter.high - request.parameter.low) / (scanned_values - 1) / request.tolerance));
+                            PointStore& store, const StudyProgress& progress) {
+  const auto& parameter = request.parameter;
+  std::vector<Seeker> seekers(points.size(), Seeker(parameter, request.tolerance));
+  const double halvings =
+      std::ceil(std::log2((parameter.high - parameter.low) / (scanned_values - 1) / request.tolerance));
   const auto runs = points.size() * static_cast<std::size_t>(scanned_values + std::max(0.0, halvings));
-  std::atomic<std::size_t> done = 0;
-  const std::function<void()> ran = [&] { progress(++done, runs); };
-  for_each_index(points.size(), jobs, [&](std::size_t i) {
-    bounds[i] = Seeker(question, axes, points[i], request, store, ran).run();
-  });
+  for (std::size_t done = 0;;) {
+    std::vector<std::vector<scenario::Override>> asked;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (const double value : seekers[i].values()) {
+        asked.push_back(overrides_of(axes, points[i]));
+        asked.back().push_back({parameter.path, value_text(parameter, value)});
+      }
+    }
+    if (asked.empty()) break;
+    auto rows =
+        store.rows(question, asked, [&](std::size_t now, std::size_t) { progress(done + now, runs); });
+    done += rows.size();
+    auto next = std::make_move_iterator(rows.begin());
+    for (auto& seeker : seekers) {
+      const auto count = static_cast<std::ptrdiff_t>(seeker.values().size());
+      if (count == 0) continue;
+      seeker.take({next, next + count});
+      next += count;
+    }
+  }
+  std::vector<Bound> bounds;
+  bounds.reserve(seekers.size());
+  for (const auto& seeker : seekers) bounds.push_back(seeker.bound());
   return bounds;
 }
 
@@ -153,10 +172,9 @@ std::string envelope_csv(const PointQuestion& question, const SweepAxes& axes,
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& bound = bounds[i];
     for (const auto& value : points[i]) text += value + ",";
-    const auto limit =
-        bound.limit.find_first_of(",\"") == std::string::npos ? bound.limit : csv_quoted(bound.limit);
-    text += fmt::format("{},{},{},{},{}", number_cell(bound.value), name_of(bound.kind), limit,
-                        number_cell(bound.from), number_cell(bound.again.value_or(no_bound)));
+    text +=
+        fmt::format("{},{},{},{},{}", number_cell(bound.value), name_of(bound.kind), csv_cell(bound.limit),
+                    number_cell(bound.from), number_cell(bound.again.value_or(no_bound)));
     for (std::size_t k = 0; k < question.columns.size(); ++k)
       text += "," + (k < bound.numbers.size() ? number_cell(bound.numbers[k]) : "");
     text += "\n";

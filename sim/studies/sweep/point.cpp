@@ -263,9 +263,7 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
 std::string row_text(const PointRow& row) {
   auto limit = row.limit;
   std::replace(limit.begin(), limit.end(), '\n', ' ');
-  std::string text(name_of(row.verdict));
-  text +=
-      limit.find_first_of(",\"") == std::string::npos ? "," + limit : fmt::format(",{}", csv_quoted(limit));
+  auto text = fmt::format("{},{}", name_of(row.verdict), csv_cell(limit));
   for (const double number : row.numbers)
     text += std::isnan(number) ? std::string(",") : fmt::format(",{:.9g}", number);
   return text;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,6 +10,7 @@
 #include <optional>
 
 #include "sim/report/report.hpp"
+#include "sim/studies/compare/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 
@@ -35,11 +35,7 @@ struct Studied {
 
 std::string short_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
-double number_in(const std::string& text) {
-  double value = unknown;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc() && read.ptr == text.data() + text.size() ? value : unknown;
-}
+double number_in(const std::string& text) { return number_of(text).value_or(unknown); }
 
 /// In quotes for a shell.
 std::string quoted(const std::string& words) {

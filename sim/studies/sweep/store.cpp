@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <charconv>
-#include <exception>
-#include <functional>
 #include <sstream>
-#include <thread>
 
 #include "sim/file.hpp"
+#include "sim/parallel.hpp"
 
 namespace drycut::sim::studies {
 
@@ -20,7 +17,7 @@ constexpr std::size_t key_digits = 16;
 
 }  // namespace
 
-PointStore::PointStore(const std::filesystem::path& file) {
+PointStore::PointStore(const std::filesystem::path& file, int jobs) : jobs_(jobs) {
   std::string kept;
   std::ifstream old(file, std::ios::binary);
   for (std::string line; std::getline(old, line) && !old.eof();) {
@@ -38,6 +35,18 @@ PointStore::PointStore(const std::filesystem::path& file) {
   stream_.open(file, std::ios::binary | std::ios::app);
 }
 
+std::vector<PointRow> PointStore::rows(const PointQuestion& question,
+                                       const std::vector<std::vector<scenario::Override>>& points,
+                                       const StudyProgress& progress) {
+  std::vector<PointRow> rows(points.size());
+  std::atomic<std::size_t> done = 0;
+  for_each_index(points.size(), jobs_, [&](std::size_t i) {
+    rows[i] = row(question, points[i]);
+    progress(++done, points.size());
+  });
+  return rows;
+}
+
 PointRow PointStore::row(const PointQuestion& question, const std::vector<scenario::Override>& overrides) {
   const auto point = read_point(question, overrides);
   {
@@ -53,30 +62,6 @@ PointRow PointStore::row(const PointQuestion& question, const std::vector<scenar
     ++simulated_;
   }
   return parse_row(text).value();
-}
-
-void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr trouble;
-  const auto run = [&] {
-    for (auto i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!trouble) trouble = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < std::min<std::size_t>(static_cast<std::size_t>(jobs), count); ++i)
-      threads.emplace_back(run);
-    run();
-  }
-  if (trouble) std::rethrow_exception(trouble);
 }
 
 }  // namespace drycut::sim::studies

@@ -4,11 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "sim/scenario/units.hpp"
-#include "sim/studies/compare/recorded_csv.hpp"
 
 namespace drycut::sim::studies {
 
@@ -93,25 +92,19 @@ std::vector<SweepPoint> points_of(const SweepAxes& axes, std::optional<std::size
 }
 
 std::vector<PointRow> sweep(const PointQuestion& question, const SweepAxes& axes,
-                            const std::vector<SweepPoint>& points, PointStore& store, int jobs,
+                            const std::vector<SweepPoint>& points, PointStore& store,
                             const StudyProgress& progress) {
-  std::vector<PointRow> rows(points.size());
-  std::atomic<std::size_t> done = 0;
-  for_each_index(points.size(), jobs, [&](std::size_t i) {
-    rows[i] = store.row(question, overrides_of(axes, points[i]));
-    progress(++done, points.size());
-  });
-  return rows;
+  std::vector<std::vector<scenario::Override>> asked;
+  asked.reserve(points.size());
+  for (const auto& point : points) asked.push_back(overrides_of(axes, point));
+  return store.rows(question, asked, progress);
 }
 
 std::string csv_heading(const PointQuestion& question, const SweepAxes& axes, const std::string& between) {
-  const auto cell = [](const std::string& text) {
-    return text.find_first_of(",\"") == std::string::npos ? text : csv_quoted(text);
-  };
   std::string line;
-  for (const auto& axis : axes) line += cell(heading(axis.parameter)) + ",";
+  for (const auto& axis : axes) line += csv_cell(heading(axis.parameter)) + ",";
   line += between;
-  for (const auto& column : question.columns) line += "," + cell(column);
+  for (const auto& column : question.columns) line += "," + csv_cell(column);
   return line + "\n";
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,12 +18,9 @@ void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& proble
 std::vector<SweepPoint> points_of(const SweepAxes& axes, std::optional<std::size_t> sampled,
                                   Problems& problems);
 
-/// Told how many of how many runs are done.
-using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
-
 /// The rows of points, in their order, whoever runs them when.
 std::vector<PointRow> sweep(const PointQuestion& question, const SweepAxes& axes,
-                            const std::vector<SweepPoint>& points, PointStore& store, int jobs,
+                            const std::vector<SweepPoint>& points, PointStore& store,
                             const StudyProgress& progress);
 /// The heading of a table of points: the axes, `between`, the question's numbers.
 std::string csv_heading(const PointQuestion& question, const SweepAxes& axes, const std::string& between);
@@ -62,7 +58,7 @@ std::optional<BoundRequest> parse_bound(const std::string& text, const std::stri
 inline constexpr int scanned_values = 9;
 std::vector<Bound> envelope(const PointQuestion& question, const SweepAxes& axes,
                             const std::vector<SweepPoint>& points, const BoundRequest& request,
-                            PointStore& store, int jobs, const StudyProgress& progress);
+                            PointStore& store, const StudyProgress& progress);
 std::string envelope_csv(const PointQuestion& question, const SweepAxes& axes,
                          const std::vector<SweepPoint>& points, const BoundRequest& request,
                          const std::vector<Bound>& bounds);

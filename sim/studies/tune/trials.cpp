@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <condition_variable>
 #include <mutex>
 #include <numeric>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "sim/file.hpp"
+#include "sim/parallel.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
 
@@ -143,37 +141,19 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
   std::size_t written = 0;
   int runs_done = runs();
   std::mutex mutex;
-  std::exception_ptr trouble;
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (auto i = next++; i < open.size(); i = next++) {
-      try {
-        auto& trial = trials_[open[i]];
-        auto overrides = fixed_;
-        for (auto& override : overrides_of(parameters_, trial.point))
-          overrides.push_back(std::move(override));
-        trial.verdict = measure(study_, overrides, to_beat);
-        const std::lock_guard lock(mutex);
-        done[i] = true;
-        while (written < open.size() && done[written]) {
-          runs_done += trials_[open[written]].verdict.runs;
-          append(trials_[open[written++]]);
-        }
-        if (progress_) progress_(runs_done);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!trouble) trouble = std::current_exception();
-        next = open.size();
-      }
+  for_each_index(open.size(), jobs_, [&](std::size_t i) {
+    auto& trial = trials_[open[i]];
+    auto overrides = fixed_;
+    for (auto& override : overrides_of(parameters_, trial.point)) overrides.push_back(std::move(override));
+    trial.verdict = measure(study_, overrides, to_beat);
+    const std::lock_guard lock(mutex);
+    done[i] = true;
+    while (written < open.size() && done[written]) {
+      runs_done += trials_[open[written]].verdict.runs;
+      append(trials_[open[written++]]);
     }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < std::min<std::size_t>(static_cast<std::size_t>(jobs_), open.size()); ++i)
-      threads.emplace_back(work);
-    work();
-  }
-  if (trouble) std::rethrow_exception(trouble);
+    if (progress_) progress_(runs_done);
+  });
   return indices;
 }
 
