@@ -14,28 +14,12 @@
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/usage.hpp"
 
 namespace {
 
 using namespace drycut;
 using namespace drycut::sim::cli;
-
-/// Tells an option that the command does not have, with the nearest that it has; false if there is none.
-bool unknown_option(const CLI::App& app) {
-  for (const auto* command : app.get_subcommands()) {
-    std::vector<std::string> known;
-    for (const auto* option : command->get_options())
-      for (const auto& name : option->get_lnames()) known.push_back("--" + name);
-    for (const auto& word : app.remaining(true)) {
-      if (!word.starts_with("--")) continue;
-      const auto option = word.substr(0, word.find('='));
-      fmt::print(stderr, "drycut {}: there is no option {}; {}\n", command->get_name(), option,
-                 did_you_mean(option, known));
-      return true;
-    }
-  }
-  return false;
-}
 
 int run(int argc, char** argv) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
@@ -64,11 +48,11 @@ int run(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    if (!unknown_option(app)) app.exit(error);
-    return bad_input;
+  } catch (const CLI::Success& asked) {  // --help, --version
+    app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? all_passed : bad_input;
+    tell_usage(app, error);
+    return bad_input;
   }
   return status;
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -64,12 +65,6 @@ bool has_parameters(const std::string& name) {
   return below("plants.") || below("controller.plcopen.axes.");
 }
 
-// The name of a list's entry; nullptr if it has none.
-const Text* name_of_item(const YamlNode& item) {
-  const auto* name = child(item, "name");
-  return name != nullptr && name->kind == Kind::scalar ? &name->text : nullptr;
-}
-
 class Merger {
  public:
   explicit Merger(Findings& findings) : findings_(findings) {}
@@ -81,6 +76,7 @@ class Merger {
       nest(own);
     }
     base.text.place = own.text.place;
+    std::vector<YamlNode::Entry> added;
     for (auto& entry : own.entries) {
       auto* const old = entry.is_repeated() ? nullptr : entry_of(base, entry.key.text);
       if (old != nullptr)
@@ -88,8 +84,14 @@ class Merger {
       else if (leaves_out(entry.value))
         nothing_to_leave_out(entry.key, keys_of(base));
       else
-        base.entries.push_back(std::move(entry));
+        added.push_back(std::move(entry));
     }
+    // Two that are new do not stand beside each other.
+    if (name == "variables" || name == "plants") {
+      const auto known = keys_of(base);
+      for (auto& entry : added) entry.value.beside = known;
+    }
+    std::move(added.begin(), added.end(), std::back_inserter(base.entries));
   }
 
  private:
@@ -104,6 +106,8 @@ class Merger {
       maps(old.value, std::move(own.value), full);
     else if (own.value.kind == Kind::map && has_names(old.value))
       list(old.value, std::move(own.value), full);
+    else if (name == "variables")
+      give(old, std::move(own.value));
     else
       old.value = std::move(own.value);
   }
@@ -141,6 +145,7 @@ class Merger {
       } else {
         auto& made = base.items.emplace_back(std::move(entry.value));
         made.entries.insert(made.entries.begin(), {Text{"name", key.place}, YamlNode(Kind::scalar, key)});
+        made.beside = names;
       }
     }
   }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/text.hpp"
 #include "sim/scenario/sections.hpp"
@@ -42,17 +41,22 @@ class OverrideSetter {
     }
   }
 
+  static bool begins_with(std::string_view path, const std::string& key) {
+    return path == key || (path.starts_with(key) && path.substr(key.size()).starts_with('.'));
+  }
+
   // Keys may contain dots themselves (wiring.2.CNT01): the longest that fits is meant.
   void set_in_map(YamlNode& map, std::string_view rest, const std::string& name) {
     YamlNode::Entry* best = nullptr;
     for (auto& entry : map.entries) {
       const auto& key = entry.key.text;
-      const bool fits = rest == key || (rest.starts_with(key) && rest.substr(key.size()).starts_with('.'));
-      if (fits && (best == nullptr || key.size() > best->key.text.size())) best = &entry;
+      if (begins_with(rest, key) && (best == nullptr || key.size() > best->key.text.size())) best = &entry;
     }
     if (best == nullptr) return add(map, rest, name);
     const auto full = name.empty() ? best->key.text : name + "." + best->key.text;
-    if (rest == best->key.text) {
+    if (rest == best->key.text && name == "variables") {
+      give(*best, value_);
+    } else if (rest == best->key.text) {
       best->value = value_;
     } else {
       // A key that stands without a value is as good as absent.
@@ -88,20 +92,30 @@ class OverrideSetter {
            (name.starts_with("timeline.") && (name.ends_with(".set") || name.ends_with(".ramp")));
   }
 
+  // By the name of an entry, which may contain dots itself, or by its number.
   void set_in_list(YamlNode& list, std::string_view rest, const std::string& name) {
-    const auto part = rest.substr(0, rest.find('.'));
-    std::size_t index = 0;
-    const auto read = std::from_chars(part.data(), part.data() + part.size(), index);
-    if (read.ec != std::errc() || read.ptr != part.data() + part.size() || index >= list.items.size()) {
-      const auto remedy =
+    auto part = rest.substr(0, rest.find('.'));
+    auto index = parsed<std::size_t>(part).value_or(list.items.size());
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < list.items.size(); ++i) {
+      const auto* own = name_of_item(list.items[i]);
+      if (own == nullptr) continue;
+      names.push_back(own->text);
+      if (!begins_with(rest, own->text) || own->text.size() < part.size()) continue;
+      part = rest.substr(0, own->text.size());
+      index = i;
+    }
+    if (index >= list.items.size()) {
+      const auto numbers =
           list.items.empty() ? std::string("it is empty") : fmt::format("0 to {}", list.items.size() - 1);
-      return refuse(fmt::format("'{}' is no entry of the list {}", part, name), remedy);
+      return refuse(fmt::format("'{}' is no entry of the list {}", part, name),
+                    did_you_mean(part, names, names.empty() ? numbers : numbers + ", or " + listed(names)));
     }
     auto& item = list.items[index];
     if (part.size() == rest.size()) {
       item = value_;
     } else {
-      set(item, rest.substr(part.size() + 1), fmt::format("{}.{}", name, index));
+      set(item, rest.substr(part.size() + 1), fmt::format("{}.{}", name, part));
     }
   }
 

@@ -32,8 +32,9 @@ std::optional<PlantEntry> read_plant(const YamlNode::Entry& entry, std::span<con
   const auto type = std::find_if(entry.value.entries.begin(), entry.value.entries.end(),
                                  [](const YamlNode::Entry& given) { return given.key.text == "type"; });
   if (type == entry.value.entries.end() || type->value.kind == YamlNode::Kind::null) {
-    findings.add(entry.key.place, fmt::format("{}.type is missing", full),
-                 fmt::format("known: {}", fmt::join(names, ", ")));
+    findings.add(
+        entry.key.place, fmt::format("{}.type is missing", full),
+        did_you_mean(entry.key.text, entry.value.beside, fmt::format("known: {}", fmt::join(names, ", "))));
     return {};
   }
   if (type->value.kind != YamlNode::Kind::scalar) {

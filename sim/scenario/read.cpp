@@ -138,6 +138,12 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
   scenario.buildable = reader.machine_is_sound() && findings.count() == singly;
 }
 
+std::vector<std::string> beside(const YamlNode& root, const std::string& variable) {
+  const auto* section = child(root, "variables");
+  const auto* value = section == nullptr ? nullptr : child(*section, variable);
+  return value == nullptr ? std::vector<std::string>() : value->beside;
+}
+
 // A scene that compares scenarios (sim/studies/compare/scene.hpp) is none itself.
 bool refuse_comparison(const YamlNode& root, Findings& findings) {
   const auto found = std::find_if(root.entries.begin(), root.entries.end(),
@@ -192,7 +198,11 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
         const bool resolved = findings.count() == before;
         read_sections(root, types, scenario, findings);
         scenario.buildable = scenario.buildable && resolved;
-        for (auto& variable : scenario.variables) variable.used = used.contains(variable.name.text);
+        for (auto& variable : scenario.variables) {
+          variable.used = used.contains(variable.name.text);
+          variable.beside = beside(root, variable.name.text);
+        }
+        refuse_slips(scenario, findings);
       }
     } else {
       refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);

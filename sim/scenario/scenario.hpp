@@ -296,8 +296,9 @@ struct Override {
 /// variables: {length: 800 mm}, used as ${length}
 struct Variable {
   Text name;
-  Text value;         ///< what it comes to: a quantity, a switch, a text
-  bool used = false;  ///< in the scenario; tables that it names are not looked at
+  Text value;                            ///< what it comes to: a quantity, a switch, a text
+  bool used = false;                     ///< in the scenario; tables that it names are not looked at
+  std::vector<std::string> beside = {};  ///< what is extended has none of this name but these
 };
 
 struct Scenario {

@@ -13,6 +13,7 @@
 #include "sim/file.hpp"
 #include "sim/scenario/constant.hpp"
 #include "sim/scenario/units.hpp"
+#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -169,10 +170,22 @@ std::optional<Text> computed(const Text& text, const Lookup& lookup, const Repor
   return {};
 }
 
+/// What values of variables come to, by name.
+using Values = std::map<std::string, Text>;
+
+/// "a length", "a number", "a text".
+std::string measure_of(const std::string& value) {
+  if (!is_quantity(value)) return "a text";
+  const auto unit = parse_quantity(value)->unit;
+  return needs_unit(unit) ? dimension_name(unit) : "a number without unit";
+}
+
 /// The variables of a tree, each computed when it is first asked for.
 class Resolver {
  public:
-  Resolver(YamlNode* section, Findings& findings) : section_(section), findings_(findings) {
+  /// `first`: of variables that had another value, which says what they measure.
+  Resolver(YamlNode* section, Values first, Findings& findings)
+      : section_(section), first_(std::move(first)), findings_(findings) {
     if (section_ == nullptr || section_->kind != YamlNode::Kind::map) return;
     for (auto& entry : section_->entries) {
       if (entry.is_repeated()) continue;
@@ -184,8 +197,14 @@ class Resolver {
     }
   }
 
+  Values values() {
+    Values sound;
+    for (const auto& name : names_)
+      if (value_of(*entries_.at(name)) != nullptr) sound[name] = entries_.at(name)->value.text;
+    return sound;
+  }
   std::set<std::string> run(YamlNode& root) {
-    for (const auto& name : names_) value_of(*entries_.at(name));
+    values();
     for (auto& entry : root.entries)
       if (&entry.value != section_) walk(entry.value);
     return std::move(used_);
@@ -243,7 +262,7 @@ class Resolver {
     const auto known = sound_.find(entry.key.text);
     if (known != sound_.end()) return known->second ? &text.text : nullptr;
     open_.push_back(entry.key.text);
-    const bool sound = make_value(entry);
+    const bool sound = make_value(entry) && measures_the_same(entry);
     open_.pop_back();
     sound_[entry.key.text] = sound;
     return sound ? &text.text : nullptr;
@@ -271,7 +290,23 @@ class Resolver {
     return constant.faults.empty();
   }
 
+  bool measures_the_same(const YamlNode::Entry& entry) {
+    const auto first = first_.find(entry.key.text);
+    if (first == first_.end() || !is_quantity(first->second.text)) return true;
+    const auto& [was, place, breaks] = first->second;
+    const auto& value = entry.value.text;
+    const auto unit = parse_quantity(was)->unit;
+    if (is_quantity(value.text) && same_dimension(parse_quantity(value.text)->unit, unit)) return true;
+    const auto& source = findings_.sources().at(static_cast<std::size_t>(place.source));
+    findings_.add(value.place,
+                  fmt::format("variables.{} is {} ({}, {}:{}:{}), not {}", entry.key.text, measure_of(was),
+                              was, source, place.line, place.column, measure_of(value.text)),
+                  fmt::format("for example {}", was));
+    return false;
+  }
+
   YamlNode* section_;
+  Values first_;
   Findings& findings_;
   std::vector<std::string> names_;
   std::map<std::string, YamlNode::Entry*> entries_;
@@ -279,6 +314,22 @@ class Resolver {
   std::vector<std::string> open_;      ///< being computed, each for the one before
   std::set<std::string> used_;
 };
+
+/// The first values of variables that were given another, with those of the others.
+Values first_values(const YamlNode* section, const Findings& findings) {
+  Values first;
+  if (section == nullptr) return first;
+  const auto has_first = [](const YamlNode::Entry& entry) { return !entry.value.first.empty(); };
+  if (std::none_of(section->entries.begin(), section->entries.end(), has_first)) return first;
+  auto before = *section;
+  for (auto& entry : before.entries)
+    if (has_first(entry)) entry.value = YamlNode(entry.value.first.front());
+  Findings unheard(findings.sources());
+  first = Resolver(&before, {}, unheard).values();
+  for (const auto& entry : section->entries)
+    if (!has_first(entry)) first.erase(entry.key.text);
+  return first;
+}
 
 // True if `at` stands in a remark, which is left alone: of the lines with # only "# key: value" says
 // something.
@@ -294,13 +345,29 @@ bool is_remark(std::string_view table, std::size_t at) {
 
 bool is_separator(char c) { return std::string_view(",;\t=:\"\n\r").find(c) != std::string_view::npos; }
 
+/// By the scenario or a file of its controller.
+std::vector<const Variable*> unused(const Scenario& scenario) {
+  std::vector<const Variable*> found;
+  for (const auto& variable : scenario.variables)
+    if (!variable.used) found.push_back(&variable);
+  if (found.empty() || !scenario.controller) return found;
+  std::string files;
+  Problems ignored;
+  for (const auto& file : scenario.controller->files())
+    files += read_file(scenario.file.parent_path() / file.text, ignored).value_or("");
+  std::erase_if(found, [&](const Variable* variable) {
+    return files.find("${" + variable->name.text + "}") != std::string::npos;
+  });
+  return found;
+}
+
 }  // namespace
 
 std::set<std::string> resolve_variables(YamlNode& root, Findings& findings) {
   YamlNode* section = nullptr;
   for (auto& entry : root.entries)
     if (entry.key.text == "variables" && !entry.is_repeated()) section = &entry.value;
-  return Resolver(section, findings).run(root);
+  return Resolver(section, first_values(section, findings), findings).run(root);
 }
 
 std::string with_variables(std::string_view table, const std::vector<Variable>& variables,
@@ -351,18 +418,31 @@ std::string with_variables(std::string_view table, const std::vector<Variable>& 
 
 std::vector<std::string> unused_variables(const Scenario& scenario) {
   std::vector<std::string> notes;
-  std::string files;
-  const bool all_used = std::all_of(scenario.variables.begin(), scenario.variables.end(),
-                                    [](const Variable& variable) { return variable.used; });
-  if (all_used) return notes;
-  Problems ignored;
-  if (scenario.controller)
-    for (const auto& file : scenario.controller->files())
-      files += read_file(scenario.file.parent_path() / file.text, ignored).value_or("");
-  for (const auto& variable : scenario.variables)
-    if (!variable.used && files.find("${" + variable.name.text + "}") == std::string::npos)
-      notes.push_back(fmt::format("the variable '{}' is not used", variable.name.text));
+  for (const auto* variable : unused(scenario)) {
+    const auto& beside = variable->beside;
+    notes.push_back(fmt::format("the variable '{}' is not used{}", variable->name.text,
+                                beside.empty() ? ""
+                                               : fmt::format(", and what is extended has none of this name: "
+                                                             "it has {}",
+                                                             listed(beside))));
+  }
   return notes;
+}
+
+void refuse_slips(const Scenario& scenario, Findings& findings) {
+  const auto meant = [](const Variable& variable) {
+    return did_you_mean(variable.name.text, variable.beside, "");
+  };
+  const auto is_slip = [&](const Variable& variable) {
+    return !variable.used && !variable.beside.empty() && !meant(variable).empty();
+  };
+  if (std::none_of(scenario.variables.begin(), scenario.variables.end(), is_slip)) return;
+  for (const auto* variable : unused(scenario))
+    if (is_slip(*variable))
+      findings.add(variable->name.place,
+                   fmt::format("the variable '{}' is not used, and what is extended has none of this name",
+                               variable->name.text),
+                   meant(*variable));
 }
 
 }  // namespace drycut::sim::scenario

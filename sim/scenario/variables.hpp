@@ -12,8 +12,8 @@ namespace drycut::sim::scenario {
 /// Gives every value of the tree with ${name} in it what it comes to, by the section `variables`, whose own
 /// values are arithmetic too. A value that is arithmetic alone becomes a quantity, an expression with names
 /// in it (a check) gets the variables' quantities, and in any other text they stand as they are written.
-/// Unknown names, cycles and units that do not fit are problems where they stand. Returns the names that are
-/// used.
+/// Unknown names, cycles and units that do not fit are problems where they stand; so is a value that measures
+/// something else than the variable's first one. Returns the names that are used.
 std::set<std::string> resolve_variables(YamlNode& root, Findings& findings);
 
 /// The same for a table in plain numbers (registers, a cam): every cell with ${name} in it is computed and
@@ -23,5 +23,7 @@ std::string with_variables(std::string_view table, const std::vector<Variable>& 
 
 /// Variables that neither the scenario nor a file of its controller uses, as notes.
 std::vector<std::string> unused_variables(const Scenario& scenario);
+/// One of them that looks like a slip for a variable of what the scenario extends is a problem.
+void refuse_slips(const Scenario& scenario, Findings& findings);
 
 }  // namespace drycut::sim::scenario

@@ -410,10 +410,22 @@ YamlNode parse_scenario(std::string_view text, int source, Findings& findings) {
   return parse_yaml(text, source, findings);
 }
 
+void give(YamlNode::Entry& entry, YamlNode value) {
+  value.first = std::move(entry.value.first);
+  value.beside = std::move(entry.value.beside);
+  if (value.first.empty()) value.first.push_back(std::move(entry.value));
+  entry.value = std::move(value);
+}
+
 const YamlNode* child(const YamlNode& node, std::string_view key) {
   for (const auto& entry : node.entries)
     if (entry.key.text == key) return &entry.value;
   return nullptr;
+}
+
+const Text* name_of_item(const YamlNode& item) {
+  const auto* name = child(item, "name");
+  return name != nullptr && name->kind == YamlNode::Kind::scalar ? &name->text : nullptr;
 }
 
 std::string_view name_of(YamlNode::Kind kind) {

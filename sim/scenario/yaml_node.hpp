@@ -23,6 +23,10 @@ struct YamlNode {
   Text text;  ///< of a scalar; of all kinds the place; "~" of nothing that is written so, or as null
   std::vector<YamlNode> items;  ///< of a sequence
   std::vector<Entry> entries;   ///< of a map, in the order of the file; duplicate keys are kept
+  /// Of a variable: the value that it had first, in what is extended or in the file, if it was given another.
+  std::vector<YamlNode> first;
+  /// What is extended has none of this name but these: of a variable, a plant, a list's entry.
+  std::vector<std::string> beside;
 };
 struct YamlNode::Entry {
   Text key;
@@ -72,8 +76,14 @@ YamlNode parse_scenario(std::string_view text, int source, Findings& findings);
 /// place in `source`, and then the tree is empty (null). Never throws.
 YamlNode parse_yaml(std::string_view text, int source, Findings& findings);
 
+/// Gives an entry another value, which remembers the first.
+void give(YamlNode::Entry& entry, YamlNode value);
+
 /// The first value of that key in a map; nullptr if there is none.
 const YamlNode* child(const YamlNode& node, std::string_view key);
+
+/// The name that an entry of a list gives itself; nullptr if it has none.
+const Text* name_of_item(const YamlNode& item);
 
 /// What kind of node it is, for messages: "a map", "a list", "a text", "nothing".
 std::string_view name_of(YamlNode::Kind kind);

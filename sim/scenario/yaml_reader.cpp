@@ -14,6 +14,15 @@ std::string below(const std::string& name, std::string_view key) {
   return name.empty() ? std::string(key) : fmt::format("{}.{}", name, key);
 }
 
+// What messages call an entry of a list.
+std::string shown_name(const YamlNode& item, std::size_t number) {
+  constexpr std::size_t longest = 60;
+  const auto* name = name_of_item(item);
+  const bool fits =
+      name != nullptr && !name->text.empty() && name->text.size() <= longest && name->text.front() != '.';
+  return fits ? name->text : std::to_string(number);
+}
+
 bool is_group(const ParameterTable& table, const std::string& name) {
   return std::any_of(table.rows.begin(), table.rows.end(),
                      [&](const auto& row) { return row.name.starts_with(name + "."); });
@@ -121,7 +130,7 @@ void MapReader::list(const Key& key, const Items& items) {
   const auto* node = of_kind(key.name, YamlNode::Kind::sequence);
   if (node == nullptr) return;
   for (std::size_t i = 0; i < node->items.size(); ++i) {
-    MapReader reader(node->items[i], fmt::format("{}.{}", full(key.name), i), findings_);
+    MapReader reader(node->items[i], below(full(key.name), shown_name(node->items[i], i)), findings_);
     items.add({});
     items.visit(reader, i);
     reader.finish();
@@ -212,7 +221,13 @@ void MapReader::refuse(std::string_view key, std::string what, std::string remed
 }
 
 void MapReader::missing(std::string_view key, std::string_view remedy) {
-  findings_.add(node_.text.place, fmt::format("{} is missing", full(key)), std::string(remedy));
+  findings_.add(node_.text.place, fmt::format("{} is missing", full(key)), meant(remedy));
+}
+
+// What lacks something and stands beside others of nearly its name was to change one of them.
+std::string MapReader::meant(std::string_view remedy) const {
+  const auto* name = name_of_item(node_);
+  return name == nullptr ? std::string(remedy) : did_you_mean(name->text, node_.beside, std::string(remedy));
 }
 
 void MapReader::require(std::string_view key, std::string_view remedy) {
@@ -225,7 +240,7 @@ void MapReader::require_one(const std::vector<std::string_view>& keys, std::stri
                             std::string_view remedy) {
   judge([keys, what, remedy](MapReader& reader) {
     if (std::any_of(keys.begin(), keys.end(), [&](auto key) { return reader.has(key); })) return;
-    reader.findings_.add(reader.place(), fmt::format("{} {}", reader.name(), what), std::string(remedy));
+    reader.findings_.add(reader.place(), fmt::format("{} {}", reader.name(), what), reader.meant(remedy));
   });
 }
 

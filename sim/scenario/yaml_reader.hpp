@@ -91,6 +91,7 @@ class MapReader : public Archive {
   void read_level(const ParameterTable& table, const YamlNode& node, const std::string& prefix);
   void read_parameter(const ParameterTable& table, const ParameterTable::Row& row,
                       const YamlNode::Entry& entry);
+  [[nodiscard]] std::string meant(std::string_view remedy) const;
 
   const YamlNode& node_;
   std::string name_;

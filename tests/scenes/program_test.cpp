@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -184,6 +185,52 @@ TEST_F(ProgramTest, AnUnknownOptionIsNamedWithTheNearest) {
   EXPECT_EQ(far.status, 2);
   EXPECT_THAT(far.text, testing::HasSubstr("drycut devices: there is no option --xyz; known: "));
   EXPECT_FALSE(fs::exists(out));
+}
+
+// Each names its command, what is wrong and what would be right.
+TEST_F(ProgramTest, CommandLinesThatCannotBeRead) {
+  struct Case {
+    const char* line;
+    std::vector<const char*> told;
+  };
+  const std::vector<Case> cases = {
+      {"", {"drycut: no command is given; known: run, check, cam, "}},
+      {"run", {"drycut run: scenarios are missing; give it: Scenario files (.yaml)\n"}},
+      {"run x.yaml --out", {"drycut run: --out has no value; give one: Directory for the results\n"}},
+      {"run x.yaml --jobs 0", {"drycut run: --jobs: '0' is no number in its range; give 1 to 256\n"}},
+      {"run x.yaml --jobs many", {"drycut run: --jobs: 'many' is no number in its range; give 1 to 256\n"}},
+      {"run x.yaml --seed x", {"drycut run: --seed: 'x' is no number; give one\n"}},
+      {"run x.yaml --sed 3 --job 4",
+       {"drycut run: there is no option --sed; did you mean --se",
+        "drycut run: there is no option --job; did"}},
+      {"tune --vray x=1..2",
+       {"drycut tune: there is no option --vray; did you mean --vary?\n",
+        "drycut tune: --vary is missing; give it: PATH=LO..HI[:integer], such as ",
+        "drycut tune: --minimise is missing; give it: Metric, such as rms(AxisX.follerr)"}},
+      {"bode a.yaml b.yaml",
+       {"drycut bode: nothing takes 'b.yaml'; drycut bode --help says what it takes\n"}},
+      {"bode a.yaml -x", {"drycut bode: there is no option -x; known: "}},
+      {"cam x.csv --device lx3pv", {"drycut cam: --device: there is no 'lx3pv'; did you mean lx3vp?\n"}},
+      {"cam x.csv --max-velocity fast", {"drycut cam: --max-velocity: 'fast' is no number; give one\n"}},
+      {"check", {"drycut check: files are missing; give it: Scenarios (.yaml), "}},
+      {"check --schema x", {"drycut check: files and --schema do not go together; leave one of them out\n"}},
+      {"design", {"drycut design: job is missing; give it: rotary_knife, flying_saw or feed\n"}},
+      {"design feed --blades 200",
+       {"drycut design: --blades: '200' is no number in its range; give 1 to 100\n"}},
+      {"sweep", {"drycut sweep: scenario is missing; ", "drycut sweep: --over is missing; "}},
+      {"envelope x.yaml", {"drycut envelope: --find-max is missing; "}},
+      {"compare", {"drycut compare: runs are missing; "}},
+      {"devices a b", {"drycut devices: nothing takes 'b'; "}},
+      {"plants a b", {"drycut plants: nothing takes 'b'; "}},
+  };
+  for (const auto& [line, all] : cases) {
+    const auto result = call(line);
+    EXPECT_EQ(result.status, 2) << line;
+    for (const auto* told : all) EXPECT_THAT(result.text, testing::HasSubstr(told)) << line;
+    EXPECT_EQ(std::count(result.text.begin(), result.text.end(), '\n'), all.size()) << line << result.text;
+  }
+  EXPECT_EQ(call("--help").status, 0);
+  EXPECT_EQ(call("tune --help").status, 0);
 }
 
 TEST_F(ProgramTest, CheckTakesOverrides) {

@@ -39,10 +39,11 @@ TEST(PicturesProblems, FramesAndPlots) {
       {"pictures: {plots: [{panels: []}]}\n",
        {"1:20: pictures.plots.0.name is missing; it names the file: name.png"}},
       {"pictures: {plots: [{name: a}]}\n",
-       {"1:20: pictures.plots.0.panels is missing; add panels: [{title: ..., "
+       {"1:20: pictures.plots.a.panels is missing; add panels: [{title: ..., "
         "channels: [...]}]"}},
       {"pictures: {plots: [{name: a/b, panels: []}]}\n",
-       {"1:27: pictures.plots.0.name 'a/b' is no file name; leave / and \\ out and begin with a letter, not "
+       {"1:27: pictures.plots.a/b.name 'a/b' is no file name; leave / and \\ out and begin with a letter, "
+        "not "
         "too long; it becomes name.png"}},
       {"pictures: {plots: [{name: .., panels: []}]}\n",
        {"1:27: pictures.plots.0.name '..' is no file name; leave / and \\ out and begin with a letter, not "
@@ -53,26 +54,26 @@ TEST(PicturesProblems, FramesAndPlots) {
       {"pictures: {plots: [{name: a, panels: []}, {name: a, panels: []}]}\n",
        {"1:50: there are two plots named 'a'; rename one: each is a file"}},
       {"pictures: {plots: [{name: a, panels: [{title: b}]}]}\n",
-       {"1:39: pictures.plots.0.panels.0.channels is missing; add channels: [knife.speed], lanes: [2.OUT01], "
+       {"1:39: pictures.plots.a.panels.0.channels is missing; add channels: [knife.speed], lanes: [2.OUT01], "
         "or "
         "event: cut and values: [length]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], event: cut, values: [c]}]}]}\n",
-       {"1:55: pictures.plots.0.panels.0 has both channels and an event; make two panels of it"}},
+       {"1:55: pictures.plots.a.panels.0 has both channels and an event; make two panels of it"}},
       {"pictures: {plots: [{name: a, panels: [{event: cut}]}]}\n",
-       {"1:40: pictures.plots.0.panels.0: event and values go together; write event: cut, values: [length]"}},
+       {"1:40: pictures.plots.a.panels.0: event and values go together; write event: cut, values: [length]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [2, 1]}]}]}\n",
-       {"1:63: pictures.plots.0.panels.0.limits must be a lower and an upper limit; for example [499.8, "
+       {"1:63: pictures.plots.a.panels.0.limits must be a lower and an upper limit; for example [499.8, "
         "500.2]"}},
       {"pictures: {plots: [{name: a, panels: [{channels: [b], limits: [x, 1]}]}]}\n",
-       {"1:64: pictures.plots.0.panels.0.limits: 'x' is not a number; write a number, with its unit if it "
+       {"1:64: pictures.plots.a.panels.0.limits: 'x' is not a number; write a number, with its unit if it "
         "has one: "
         "0.5, 60 m/min"}},
       {"pictures: {plots: [{name: a, against: number, panels: [{channels: [b]}]}]}\n",
-       {"1:39: pictures.plots.0.against: channels have no number; against: number is for plots whose panels "
+       {"1:39: pictures.plots.a.against: channels have no number; against: number is for plots whose panels "
         "all "
         "show events"}},
       {"pictures: {plots: [{name: a, against: wall, panels: []}]}\n",
-       {"1:39: pictures.plots.0.against: unknown choice 'wall'; known: time, number"}},
+       {"1:39: pictures.plots.a.against: unknown choice 'wall'; known: time, number"}},
   });
 }
 
@@ -108,21 +109,21 @@ TEST(PicturesProblems, LanesAndMarks) {
   const std::string plot = "pictures: {plots: [{name: a, ";
   expect_problems({
       {plot + "panels: [{lanes: [b], channels: [c]}]}]}\n",
-       {"1:52: pictures.plots.0.panels.0 has both lanes and channels; make two panels of it"}},
+       {"1:52: pictures.plots.a.panels.0 has both lanes and channels; make two panels of it"}},
       {plot + "panels: [{lanes: [b], limits: [0, 1]}]}]}\n",
-       {"1:52: pictures.plots.0.panels.0 has both lanes and limits; make two panels of it"}},
+       {"1:52: pictures.plots.a.panels.0 has both lanes and limits; make two panels of it"}},
       {plot + "panels: [{x: a, y: b, lanes: [b]}]}]}\n",
-       {"1:52: pictures.plots.0.panels.0 has both a path and lanes; make two plots of it"}},
+       {"1:52: pictures.plots.a.panels.0 has both a path and lanes; make two plots of it"}},
       {plot + "against: number, panels: [{lanes: [b]}]}]}\n",
-       {"1:39: pictures.plots.0.against: lanes have no number; against: number is for plots whose panels all "
+       {"1:39: pictures.plots.a.against: lanes have no number; against: number is for plots whose panels all "
         "show events"}},
       {plot + "marks: cut, panels: [{lanes: [b]}]}]}\n",
-       {"1:37: pictures.plots.0.marks must be a list, not a single value; write [first, second], or a line "
+       {"1:37: pictures.plots.a.marks must be a list, not a single value; write [first, second], or a line "
         "'- ...' for each"}},
       {plot + "marks: [cut], panels: [{x: a, y: b}]}]}\n",
-       {"1:30: pictures.plots.0: marks stand at times, this plot is not over time; leave marks out"}},
+       {"1:30: pictures.plots.a: marks stand at times, this plot is not over time; leave marks out"}},
       {plot + "marks: [cut], against: number, panels: [{event: a, values: [b]}]}]}\n",
-       {"1:30: pictures.plots.0: marks stand at times, this plot is not over time; leave marks out"}},
+       {"1:30: pictures.plots.a: marks stand at times, this plot is not over time; leave marks out"}},
   });
 }
 
@@ -130,25 +131,25 @@ TEST(PicturesProblems, HistogramsAndMotors) {
   const std::string plot = "pictures: {plots: [{name: a, ";
   expect_problems({
       {plot + "panels: [{event: b, values: [c, d], histogram: on}]}]}\n",
-       {"1:66: pictures.plots.0.panels.0: a histogram shows one value of an event; write event: cut, values: "
+       {"1:66: pictures.plots.a.panels.0: a histogram shows one value of an event; write event: cut, values: "
         "[length]"}},
       {plot + "panels: [{channels: [b], histogram: on}]}]}\n",
-       {"1:55: pictures.plots.0.panels.0: a histogram shows one value of an event; write event: cut, values: "
+       {"1:55: pictures.plots.a.panels.0: a histogram shows one value of an event; write event: cut, values: "
         "[length]"}},
       {plot + "panels: [{event: b, values: [c], histogram: 7}]}]}\n",
-       {"1:74: pictures.plots.0.panels.0.histogram: '7' is not a switch position; write on or off (or true, "
+       {"1:74: pictures.plots.a.panels.0.histogram: '7' is not a switch position; write on or off (or true, "
         "false)"}},
       {plot + "panels: [{event: b, values: [c], histogram: on}, {channels: [d]}]}]}\n",
-       {"1:30: pictures.plots.0: a histogram stands alone in its plot; make a plot of each"}},
+       {"1:30: pictures.plots.a: a histogram stands alone in its plot; make a plot of each"}},
       {plot + "against: number, panels: [{event: b, values: [c], histogram: on}]}]}\n",
-       {"1:30: pictures.plots.0: a histogram has its own x; leave against out"}},
+       {"1:30: pictures.plots.a: a histogram has its own x; leave against out"}},
       {plot + "panels: [{motor: b, lanes: [c]}]}]}\n",
-       {"1:40: pictures.plots.0.panels.0 has both lanes and motor; make two panels of it"}},
+       {"1:40: pictures.plots.a.panels.0 has both lanes and motor; make two panels of it"}},
       {plot + "panels: [{motor: b, limits: [0, 1]}]}]}\n",
-       {"1:50: pictures.plots.0.panels.0 has both motor and limits; make two panels of it"}},
+       {"1:50: pictures.plots.a.panels.0 has both motor and limits; make two panels of it"}},
       {plot + "panels: [{motor: b}, {motor: c}], marks: []}]}\n",
-       {"1:30: pictures.plots.0: a motor stands alone in its plot; make a plot of each",
-        "1:64: pictures.plots.0: marks stand at times, this plot is not over time; leave marks out"}},
+       {"1:30: pictures.plots.a: a motor stands alone in its plot; make a plot of each",
+        "1:64: pictures.plots.a: marks stand at times, this plot is not over time; leave marks out"}},
   });
 }
 
@@ -156,23 +157,23 @@ TEST(PicturesProblems, Spectra) {
   const std::string plot = "pictures: {plots: [{name: a, ";
   expect_problems({
       {plot + "panels: [{event: b, values: [c, d], spectrum: on}]}]}\n",
-       {"1:66: pictures.plots.0.panels.0: a spectrum is of one value of an event; write event: cut, values: "
+       {"1:66: pictures.plots.a.panels.0: a spectrum is of one value of an event; write event: cut, values: "
         "[length]"}},
       {plot + "panels: [{channels: [b], spectrum: on}]}]}\n",
-       {"1:55: pictures.plots.0.panels.0: a spectrum is of one value of an event; write event: cut, values: "
+       {"1:55: pictures.plots.a.panels.0: a spectrum is of one value of an event; write event: cut, values: "
         "[length]"}},
       {plot + "panels: [{event: b, values: [c], spectrum: on, limits: [1, 2]}]}]}\n",
-       {"1:77: pictures.plots.0.panels.0 has both a spectrum and limits; make two plots of it"}},
+       {"1:77: pictures.plots.a.panels.0 has both a spectrum and limits; make two plots of it"}},
       {plot + "panels: [{event: b, values: [c], spectrum: on, histogram: on}]}]}\n",
-       {"1:77: pictures.plots.0.panels.0 has both a spectrum and histogram; make two plots of it"}},
+       {"1:77: pictures.plots.a.panels.0 has both a spectrum and histogram; make two plots of it"}},
       {plot + "panels: [{event: b, values: [c], spectrum: on}, {channels: [d]}]}]}\n",
-       {"1:30: pictures.plots.0: a spectrum stands alone in its plot; make a plot of each"}},
+       {"1:30: pictures.plots.a: a spectrum stands alone in its plot; make a plot of each"}},
       {plot + "against: number, panels: [{event: b, values: [c], spectrum: on}]}]}\n",
-       {"1:30: pictures.plots.0: a spectrum has its own x; leave against out"}},
+       {"1:30: pictures.plots.a: a spectrum has its own x; leave against out"}},
       {plot + "panels: [{motor: b, spectrum: on}]}]}\n",
-       {"1:50: pictures.plots.0.panels.0: a spectrum is of one value of an event; write event: cut, values: "
+       {"1:50: pictures.plots.a.panels.0: a spectrum is of one value of an event; write event: cut, values: "
         "[length]",
-        "1:50: pictures.plots.0.panels.0 has both motor and spectrum; make two panels of it"}},
+        "1:50: pictures.plots.a.panels.0 has both motor and spectrum; make two panels of it"}},
   });
 }
 

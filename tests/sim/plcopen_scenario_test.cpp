@@ -245,7 +245,7 @@ TEST_F(PlcopenScenario, FaultsOfTheSectionAreToldAllAtOnce) {
           "us; for example 700 us",
           "line.yaml:6:14: controller.plcopen.tables.0.file is missing; add file: cams/knife.tab",
           HasSubstr("line.yaml:6:19: controller.plcopen.tables.0.id is 70000, out of range"),
-          HasSubstr("unknown key 'name' in controller.plcopen.tables.1"),
+          HasSubstr("unknown key 'name' in controller.plcopen.tables.x"),
           "line.yaml:7:5: unknown key 'programm' in controller.plcopen; did you mean program?"));
 }
 

@@ -55,6 +55,8 @@ TEST(ScenarioOverride, ReplacesWhatTheFileSays) {
                              {{"plants.web.speed", "80 m/min"},
                               {"plants.knife.servo.rated_torque", "5 N m"},
                               {"checks.0.expect", "abs(length - 800) <= 1"},
+                              {"checks.locks on.within", "2 s"},
+                              {"pictures.plots.cuts.until", "5 s"},
                               {"wiring.2.CNT01", "web.wheel"},
                               {"controller.qmove.set.slLength", "5000"},
                               {"timeline.0.set.panel.start", "off"},
@@ -63,6 +65,8 @@ TEST(ScenarioOverride, ReplacesWhatTheFileSays) {
   EXPECT_EQ(dynamic_cast<FakeWeb&>(*scenario.plants[0].definition).speed, 80 / 60.0);
   EXPECT_EQ(dynamic_cast<FakeKnife&>(*scenario.plants[1].definition).rated_torque, 5);
   EXPECT_EQ(scenario.checks[0].expression.text, "abs(length - 800) <= 1");
+  EXPECT_EQ(scenario.checks[2].within, 2 * second);
+  EXPECT_EQ(scenario.pictures.plots[1].until, 5 * second);
   EXPECT_EQ(scenario.wiring[0].plug.text, "web.wheel");
   EXPECT_EQ(scenario.controller->set[0].second, 5000);
   EXPECT_EQ(scenario.timeline[0].set[0].second.number, 0);
@@ -113,8 +117,13 @@ TEST(ScenarioOverride, FaultsCarryItsName) {
        "--set plants.web.sped:1:1: unknown key 'sped' in plants.web; did you mean speed?"},
       {"scene.step.x", "1",
        "--set scene.step.x:1:1: scene.step is a single value; nothing is below it; --set scene.step=value"},
-      {"checks.9.name", "x", "--set checks.9.name:1:1: '9' is no entry of the list checks; 0 to 4"},
-      {"checks.one.name", "x", "--set checks.one.name:1:1: 'one' is no entry of the list checks; 0 to 4"},
+      {"checks.9.name", "x",
+       "--set checks.9.name:1:1: '9' is no entry of the list checks; 0 to 4, or cut: length, follows, locks "
+       "on, spread, whole"},
+      {"timeline.one.at", "1 s", "--set timeline.one.at:1:1: 'one' is no entry of the list timeline; 0 to 3"},
+      {"checks.cut lenght.from", "1 s",
+       "--set checks.cut lenght.from:1:1: 'cut lenght' is no entry of the list checks; did you mean cut: "
+       "length?"},
       {"checks.0.expect", "length < ",
        "--set checks.0.expect:1:9: the expression ends where a value must follow; add a name or a number"},
       {"checks.0.", "x",

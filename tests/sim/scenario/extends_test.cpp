@@ -3,6 +3,7 @@
 
 #include "sim/controllers/kinds.hpp"
 #include "sim/loop/simulation.hpp"
+#include "sim/scenario/variables.hpp"
 #include "tests/sim/scenario/folder.hpp"
 
 namespace drycut::sim::scenario {
@@ -97,9 +98,140 @@ TEST_F(Extends, GoesOverSeveralFilesWhoseFileNamesStayTheirs) {
 TEST_F(Extends, ProblemsStandInTheFileThatHasThem) {
   write("base.yaml", base);
   read("extends: base.yaml\nvariables: {speed: 3 s}\nplants: {axis: {speed_at_10w: 1 m/s}}\n");
+  ASSERT_EQ(told().size(), 2U);
+  EXPECT_THAT(told()[0], testing::AllOf(HasSubstr("line.yaml:2:20: variables.speed is a speed (1 m/s, "),
+                                        HasSubstr("base.yaml:1:20), not a time; for example 1 m/s")));
+  EXPECT_THAT(told()[1], HasSubstr("line.yaml:3:17: unknown key 'speed_at_10w' in plants.axis; did you"));
+}
+
+// What was meant for something of the base and does not hit it, each alone and all at once.
+TEST_F(Extends, SlipsAreTold) {
+  struct Case {
+    std::string section;
+    std::string line;
+    std::string told;  ///< behind the line's number
+  };
+  const std::vector<Case> cases = {
+      {"variables", "spede: 2 m/s",
+       "3: the variable 'spede' is not used, and what is extended has none of this name; did you mean "
+       "speed?"},
+      {"plants", "axs: {speed_at_10v: 2 m/s}", "3: plants.axs.type is missing; did you mean axis?"},
+      {"checks", "slwo: {from: 2 s}", "9: checks.slwo does not say what it checks; did you mean slow?"},
+      {"scene", "tilte: x", "3: unknown key 'tilte' in scene; did you mean title?"},
+      {"record", "chanels: []", "3: unknown key 'chanels' in record; did you mean channels?"},
+  };
+  write("base.yaml", base);
+  std::string all = "extends: base.yaml\n";
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto& [section, line, what] = cases[i];
+    problems.clear();
+    read("extends: base.yaml\n" + section + ":\n  " + line + "\n");
+    EXPECT_THAT(told(), ElementsAre("line.yaml:3:" + what));
+    all += section + ":\n  " + line + "\n";
+  }
+  problems.clear();
+  read(all);
+  ASSERT_EQ(told().size(), cases.size());
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    EXPECT_EQ(told()[i], "line.yaml:" + std::to_string(3 + 2 * i) + ":" + cases[i].told);
+}
+
+// A new variable that is used, or is like none of the base's, is none; neither is a new plant or check.
+TEST_F(Extends, WhatIsNewAndWholeIsNoSlip) {
+  write("base.yaml", base);
+  write("middle.yaml", "extends: base.yaml\nvariables: {speeds: 3 m/s}\n");
+  for (const auto* text :
+       {"extends: base.yaml\nvariables: {speed2: 3 m/s}\nplants: {axis: {speed_at_10v: \"${speed2}\"}}\n",
+        "extends: base.yaml\nplants: {axis2: {type: ideal_axis}}\n",
+        "extends: base.yaml\nchecks: {slow2: {never: x}}\n",
+        "extends: middle.yaml\nvariables: {speeds: 4 m/s}\nplants: {axis: {speed_at_10v: "
+        "\"${speeds}\"}}\n"}) {
+    problems.clear();
+    read(text);
+    EXPECT_THAT(told(), IsEmpty()) << text;
+  }
+  read("extends: middle.yaml\nvariables: {speeds: 4 m/s}\n");
+  EXPECT_THAT(told(), ElementsAre(HasSubstr("line.yaml:2:13: the variable 'speeds' is not used")));
+  problems.clear();
+  const auto made = read("extends: base.yaml\nvariables: {other: 3 m/s}\n");
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_THAT(unused_variables(made),
+              ElementsAre("the variable 'other' is not used, and what is extended has none of this name: it "
+                          "has speed"));
+}
+
+// What a variable measures is said by its first value; another one is told where it is given, not where it is
+// used.
+TEST_F(Extends, AnOverrideOfAnotherDimensionIsToldWhereItIsGiven) {
+  struct Case {
+    std::string value;
+    std::string is;  ///< "" = it fits
+  };
+  write("base.yaml",
+        "variables: {gap: 3 mm, way: \"${gap} * 2\", n: 2, name: saw}\nscene: {title: \"${way}, ${n}\"}\n");
+  const auto refused = [](const std::string& name, const std::string& was, const std::string& is) {
+    return "variables." + name + " is " + was + ", not " + is;
+  };
+  for (const auto& [name, was, cases] :
+       {std::tuple{std::string("gap"), std::string("a length (3 mm, base.yaml:1:18)"),
+                   std::vector<Case>{{"4 cm", ""},
+                                     {"\"${n} * 1 mm\"", ""},
+                                     {"3 s", "a time; for example 3 mm"},
+                                     {"\"${n} * 1 s\"", "a time; for example 3 mm"},
+                                     {"4", "a number without unit; for example 3 mm"},
+                                     {"wide", "a text; for example 3 mm"}}},
+        {"way", "a length (6 mm, base.yaml:1:30)", {{"1 in", ""}, {"1 kg", "a mass; for example 6 mm"}}},
+        {"n", "a number without unit (2, base.yaml:1:46)", {{"3", ""}, {"3 mm", "a length; for example 2"}}},
+        {"name", "", {{"3 mm", ""}, {"knife", ""}}}})
+    for (const auto& [value, is] : cases) {
+      SCOPED_TRACE(name + ": " + value);
+      std::string unquoted = value;
+      std::erase(unquoted, '"');
+      for (const bool set : {false, true}) {
+        problems.clear();
+        if (set)
+          read("extends: base.yaml\n", {{"variables." + name, unquoted}});
+        else
+          read("extends: base.yaml\nvariables:\n  " + name + ": " + value + "\n");
+        if (is.empty()) {
+          EXPECT_THAT(told(), IsEmpty());
+          continue;
+        }
+        ASSERT_EQ(told().size(), 1U) << told().back();
+        auto text = told()[0];
+        const auto path = folder.path.string() + "/";
+        if (text.find(path) != std::string::npos) text.erase(text.find(path), path.size());
+        const auto place =
+            set ? "--set variables." + name + ":1:1: "
+                : "line.yaml:3:" + std::to_string(name.size() + (value[0] == '"' ? 6 : 5)) + ": ";
+        EXPECT_EQ(text, place + refused(name, was, is));
+      }
+    }
+}
+
+// The first value counts, whatever was given between.
+TEST_F(Extends, AnOverrideIsHeldAgainstTheFirstValue) {
+  write("base.yaml", "variables: {gap: 3 mm}\nscene: {title: \"${gap}\"}\n");
+  write("middle.yaml", "extends: base.yaml\nvariables: {gap: 3 s}\n");
+  read("extends: middle.yaml\nvariables: {gap: 4 s}\n");
+  EXPECT_THAT(told(), ElementsAre(HasSubstr("line.yaml:2:18: variables.gap is a length (3 mm, ")));
+  problems.clear();
+  read("extends: middle.yaml\nvariables: {gap: 4 mm}\n");
+  EXPECT_THAT(told(), IsEmpty());
+}
+
+// Cycles, unknown names and a base with problems of its own, all in one run in the order of the files.
+TEST_F(Extends, AllProblemsOfBothFilesAtOnce) {
+  write("base.yaml", "variables: {a: \"${b}\", b: 1 s}\nscene: {tilte: x, duration: \"${d}\"}\n");
+  read("extends: base.yaml\nvariables: {b: \"${a}\", c: \"${c}\"}\nscene: {seed: \"${bb}\"}\nplants: 3\n");
   EXPECT_THAT(told(),
-              ElementsAre(HasSubstr("line.yaml:3:17: unknown key 'speed_at_10w' in plants.axis; did you"),
-                          HasSubstr("base.yaml:4:43: plants.axis.speed_at_10v is a speed, not a time (s)")));
+              testing::UnorderedElementsAre(
+                  HasSubstr("line.yaml:2:17: the variable 'a' needs itself: a -> b -> a; give one of them"),
+                  HasSubstr("line.yaml:2:28: the variable 'c' needs itself: c -> c; give one of them"),
+                  HasSubstr("line.yaml:3:16: there is no variable 'bb'; did you mean b?"),
+                  HasSubstr("line.yaml:4:9: plants must be a map, not a single value"),
+                  HasSubstr("base.yaml:2:9: unknown key 'tilte' in scene; did you mean title?"),
+                  HasSubstr("base.yaml:2:30: there is no variable 'd'; add variables: {d: 800 mm}")));
 }
 
 TEST_F(Extends, PlacesOfTheRunToo) {

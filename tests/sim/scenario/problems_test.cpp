@@ -143,7 +143,7 @@ TEST(ScenarioProblems, Times) {
        {"1:22: scene.duration: unknown unit 'sek'; units are written like mm, m/min, N m, kg m^2, rpm, deg, "
         "%"}},
       {"checks: [{name: a, never: b, from: -1 s}]\n",
-       {"1:36: checks.0.from is -1 s; it must not be negative; for example 0 s"}},
+       {"1:36: checks.a.from is -1 s; it must not be negative; for example 0 s"}},
       {"scene: {seed: -1}\n", {"1:15: scene.seed: '-1' is not a whole number; 0 to 18446744073709551615"}},
   });
 }
@@ -351,35 +351,35 @@ TEST(ScenarioProblems, Timeline) {
 TEST(ScenarioProblems, Checks) {
   expect_problems({
       {"checks: [{name: a}]\n",
-       {"1:10: checks.0 does not say what it checks; add one of each, all, always, eventually, never"}},
+       {"1:10: checks.a does not say what it checks; add one of each, all, always, eventually, never"}},
       {"checks: [{never: tear}]\n", {"1:10: checks.0.name is missing; a check needs a name of its own"}},
       {"checks: [{name: a, each: cut}]\n",
-       {"1:10: checks.0.expect is missing; add expect: \"abs(length - 500) <= 0.2\" or the like"}},
+       {"1:10: checks.a.expect is missing; add expect: \"abs(length - 500) <= 0.2\" or the like"}},
       {"checks: [{name: a, always: x < 1, never: tear}]\n",
-       {"1:35: checks.0 is both always and never; make two checks of it"}},
+       {"1:35: checks.a is both always and never; make two checks of it"}},
       {"checks: [{name: a, never: tear, expect: x < 1}]\n",
-       {"1:33: checks.0.expect does not go with this kind of check; expect belongs to each and all"}},
+       {"1:33: checks.a.expect does not go with this kind of check; expect belongs to each and all"}},
       {"checks: [{name: a, never: tear, within: 1 s}]\n",
-       {"1:33: checks.0.within does not go with this kind of check; within belongs to eventually"}},
+       {"1:33: checks.a.within does not go with this kind of check; within belongs to eventually"}},
       {"checks: [{name: a, eventually: x < 1, until: 1 s}]\n",
-       {"1:39: checks.0.until does not go with this kind of check; until belongs to each, all, always and "
+       {"1:39: checks.a.until does not go with this kind of check; until belongs to each, all, always and "
         "never"}},
       {"checks: [{name: a, always: x < 1, at_least: 3}]\n",
-       {"1:35: checks.0.at_least does not go with this kind of check; at_least belongs to each and all"}},
+       {"1:35: checks.a.at_least does not go with this kind of check; at_least belongs to each and all"}},
       {"checks: [{name: a, each: cut, expect: x < 1, at_least: -1}]\n",
-       {"1:56: checks.0.at_least is -1, out of range; 0 to 2147483647"}},
+       {"1:56: checks.a.at_least is -1, out of range; 0 to 2147483647"}},
       {"checks: [{name: a, each: cut, expect: x < 1, at_least: few}]\n",
-       {"1:56: checks.0.at_least: 'few' is not a whole number; 0 to 2147483647"}},
+       {"1:56: checks.a.at_least: 'few' is not a whole number; 0 to 2147483647"}},
       {"checks: [{name: a, never: b, from: 2 s, until: 2 s}]\n",
-       {"1:41: checks.0.until is not after from; let until be later than from"}},
+       {"1:41: checks.a.until is not after from; let until be later than from"}},
       {"checks: [{name: a, never: b, every: 1 s}]\n",
-       {"1:30: checks.0.every does not go with this kind of check; every belongs to always and eventually"}},
+       {"1:30: checks.a.every does not go with this kind of check; every belongs to always and eventually"}},
       {"checks: [{name: a, always: x < 1, every: 1 s}]\n",
-       {"1:35: checks.0.every stands without a statistic; write a statistic, such as "
+       {"1:35: checks.a.every stands without a statistic; write a statistic, such as "
         "rms(knife.motor.torque), "
         "or leave every out"}},
       {"checks: [{name: a, eventually: rms(x) < 1}]\n",
-       {"1:20: checks.0 has statistics and no period; add every: 0.8 s, or write always"}},
+       {"1:20: checks.a has statistics and no period; add every: 0.8 s, or write always"}},
       {"checks: [{name: a, always: rms(x) < 1, every: 1 ms}]\n",
        {"1:28: the period of the check 'a' is shorter than record.every; every: 2 ms at least"}},
       {"checks: [{name: a, always: rms(max(x)) < 1}]\n",
@@ -390,7 +390,7 @@ TEST(ScenarioProblems, Checks) {
        {"1:43: this ( is not closed; add )"}},
       {"checks: [{name: a, always: max(x, y) < 1}]\n",
        {"1:31: this ( is not closed; add )",
-        "1:35: unknown key 'y) < 1' in checks.0; an expression with a comma in it stands in quotes"}},
+        "1:35: unknown key 'y) < 1' in checks.a; an expression with a comma in it stands in quotes"}},
       {"checks: [{name: a, always: sqr(x) < 1}]\n", {"1:28: unknown function 'sqr'; did you mean sqrt?"}},
   });
 }
@@ -401,7 +401,7 @@ TEST(ScenarioProblems, AllOfAFileComeInOneRunInItsOrder) {
                           "plants:\n"
                           "  knife: {type: rotary_knife, web: wep, angle: 1}\n"
                           "scene: {step: 1 mm, stop: 3}\n"),
-              ElementsAre(HasSubstr("1:30: checks.0.within"), HasSubstr("2:10: unknown key 'evry'"),
+              ElementsAre(HasSubstr("1:30: checks.a.within"), HasSubstr("2:10: unknown key 'evry'"),
                           HasSubstr("4:36: plants.knife.web"), HasSubstr("4:48: plants.knife.angle"),
                           HasSubstr("5:17: scene.step"), HasSubstr("5:21: unknown key 'stop'")));
 }

@@ -222,7 +222,7 @@ TEST_F(CompareScene, WhatItsMembersCannotGiveIsRefused) {
   refuses(with(two, "of: AxisX.follerr * 0.0025", "of: AxisX.foller * 0.0025"),
           "8:21: good: unknown name 'AxisX.foller'; did you mean AxisX.follerr?");
   refuses(with(two, "        error: {", "        axis.position: {"),
-          "8:9: compare.scenarios.0.channels: 'axis.position' is no name");
+          "8:9: compare.scenarios.good.channels: 'axis.position' is no name");
   refuses(with(two, "bad.largest / 10", "bad.larges / 10"),
           "22:58: unknown name 'bad.larges'; did you mean bad.largest?");
   refuses(with(two, "channels: [error]", "event: cut, values: [length]"),
@@ -246,12 +246,12 @@ TEST_F(CompareScene, WhatIsWrongInItselfIsRefused) {
   refuses(with(two, "compare:", "plants: {}\ncompare:"), "2:1: unknown key 'plants'; ");
   refuses(with(two, "  from: 100 ms", "  form: 100 ms"),
           "13:3: unknown key 'form' in compare; did you mean from?");
-  refuses(with(two, "of: max(abs(error)), ", ""), "15:7: compare.figures.0.of is missing; ");
+  refuses(with(two, "of: max(abs(error)), ", ""), "15:7: compare.figures.largest.of is missing; ");
   refuses("compare: {scenarios: [axis.yaml]}\n", "1:11: compare.scenarios needs two scenarios at least; ");
   refuses(with(two, "channels: [error]", "x: error, y: error"),
-          "20:7: compare.plots.0: a path, a histogram or a motor is not overlaid; ");
+          "20:7: compare.plots.errors: a path, a histogram or a motor is not overlaid; ");
   refuses(with(two, "title: Following,", "around: step, from: 1 s,"),
-          "20:42: compare.plots.0.from does not go with around; ");
+          "20:42: compare.plots.errors.from does not go with around; ");
 }
 
 TEST_F(CompareScene, AMemberMustBeAScenario) {
