@@ -130,15 +130,18 @@ void write_frames(std::string& page, const Report& report) {
   page += "</div>\n";
 }
 
+constexpr int narrowest_alone = 800;  // [pixels] a plot up to here stands beside another
+
 /// Figures whose data, if they have any, begin at `first` in the report's.
 void write_figures(std::string& page, const Report& report, const std::vector<ReportFigure>& plots,
                    std::size_t first) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const std::size_t data = first + i;
     const bool live = data < report.live.size() && can_be_live(report.live[data]);
-    page +=
-        fmt::format("<figure class=\"plot\"{}><div class=\"ground\">{}</div>{}</figure>\n",
-                    live ? fmt::format(" data-plot=\"{}\"", data) : "", picture(plots[i]), caption(plots[i]));
+    const bool narrow = data < report.live.size() && report.live[data].width <= narrowest_alone;
+    page += fmt::format("<figure class=\"plot{}\"{}><div class=\"ground\">{}</div>{}</figure>\n",
+                        narrow ? " narrow" : "", live ? fmt::format(" data-plot=\"{}\"", data) : "",
+                        picture(plots[i]), caption(plots[i]));
   }
 }
 

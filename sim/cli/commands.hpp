@@ -25,6 +25,7 @@ void add_design(CLI::App& app, int& status);
 void add_tune(CLI::App& app, int& status);
 void add_sweep(CLI::App& app, int& status);
 void add_envelope(CLI::App& app, int& status);
+void add_size(CLI::App& app, int& status);
 void add_bode(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_devices(CLI::App& app, int& status);

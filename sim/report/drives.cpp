@@ -33,8 +33,9 @@ renders::Curve points_of(const std::vector<std::pair<double, double>>& points, s
   return curve;
 }
 
-/// The border of what a motor can give for a short time over its speed: once round, backwards too where
-/// `both_ways`. The law has its corners at rated and at largest speed and is straight between them.
+}  // namespace
+
+// The law has its corners at rated and at largest speed and is straight between them.
 renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways) {
   std::vector<double> corners = {0, ratings.rated_speed, ratings.max_speed};
   if (both_ways) corners.insert(corners.begin(), {-ratings.max_speed, -ratings.rated_speed});
@@ -51,7 +52,6 @@ renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways) {
   return curve;
 }
 
-/// The same of what it can give for ever.
 renders::Curve continuous_curve(const plants::DriveRatings& ratings, bool both_ways) {
   std::vector<double> corners = {0, ratings.rated_speed};
   if (both_ways) corners.insert(corners.begin(), -ratings.rated_speed);
@@ -67,8 +67,6 @@ renders::Curve continuous_curve(const plants::DriveRatings& ratings, bool both_w
   if (both_ways) add(corners.back(), 1);
   return curve;
 }
-
-}  // namespace
 
 void draw_torque_over_speed(const loop::DriveVerdict& drive, renders::Curve points, const std::string& title,
                             renders::Plot& plot) {

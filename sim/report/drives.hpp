@@ -15,6 +15,11 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
 /// The drive of a plant; nullptr where it has none.
 const loop::DriveVerdict* drive_of(const std::vector<loop::DriveVerdict>& verdicts, const std::string& plant);
 
+/// The border of what a motor can give for a short time over its speed: once round, backwards too where
+/// `both_ways`; the same of what it can give for ever (S1). Speed [rpm], torque [N m].
+renders::Curve peak_curve(const plants::DriveRatings& ratings, bool both_ways);
+renders::Curve continuous_curve(const plants::DriveRatings& ratings, bool both_ways);
+
 /// Adds to a plot the operating points of a drive, speed [rpm] and torque [N m], in the borders of what its
 /// motor can give for a short time and for ever, and a point for each machine cycle.
 void draw_torque_over_speed(const loop::DriveVerdict& drive, renders::Curve points, const std::string& title,

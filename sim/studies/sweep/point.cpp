@@ -11,6 +11,7 @@
 #include "sim/report/statistics.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
+#include "sim/studies/sweep/rated_drive.hpp"
 #include "sim/studies/tune/metric.hpp"
 
 namespace drycut::sim::studies {
@@ -124,6 +125,8 @@ std::vector<std::string> columns_of(const PointQuestion& question,
         fmt::format("margin of {}{}", checks[i].name, unit.empty() ? "" : fmt::format(" [{}]", unit)));
   }
   for (const auto& figure : question.figures) columns.push_back(figure.name);
+  if (!question.rated.empty())
+    for (auto& column : rated_columns(question.rated)) columns.push_back(std::move(column));
   return columns;
 }
 
@@ -253,6 +256,9 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
     row.numbers.push_back(i < outcome.checks.size() ? outcome.checks[i].margin.value_or(no_number)
                                                     : no_number);
   for (auto& metric : metrics) row.numbers.push_back(metric.value(recording, 0));
+  for (const auto& drive : outcome.drives)
+    if (drive.drive == question.rated)
+      for (const double number : rated_numbers(drive)) row.numbers.push_back(number);
   if (const auto* failed = first_failed(outcome.checks)) {
     row.verdict = Verdict::failed;
     row.limit = failed->name;

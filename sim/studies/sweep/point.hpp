@@ -26,6 +26,8 @@ struct PointQuestion {
     std::string term;  ///< as in `drycut tune`: "max(abs(knife.motor.torque))"
   };
   std::vector<Figure> figures;
+  std::string rated =
+      {};  ///< a drive of which a row has all that it is rated for (rated_drive.hpp); "" = none
 
   // What follows is found out by prepare().
   std::vector<loop::KnownEvent> events = {};

@@ -1,0 +1,195 @@
+#include "sim/cli/size_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "base/plain_text.hpp"
+#include "sim/cli/arguments.hpp"
+#include "sim/cli/progress.hpp"
+#include "sim/file.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/studies/size/report.hpp"
+#include "sim/studies/sweep/report.hpp"
+#include "sim/studies/sweep/study.hpp"
+
+namespace drycut::sim::cli {
+
+namespace {
+
+constexpr auto* size_file = "size.csv";
+constexpr auto* runs_file = "points.cache";  // goes on where it ended
+constexpr std::size_t most_told = 5;
+
+/// The command line, read and found sound.
+struct SizePlan {
+  studies::PointQuestion question;
+  studies::SizeChoices choices;
+  std::vector<studies::Candidate> candidates;
+  std::vector<studies::Corner> corners;
+};
+
+/// Means over a run that has no cycles are told and not judged.
+void check_cycle(const SizePlan& plan, const scenario::Scenario& scenario, Problems& problems) {
+  const auto& drive = plan.choices.drive;
+  const bool cuts =
+      std::any_of(plan.question.events.begin(), plan.question.events.end(),
+                  [&](const auto& event) { return event.source == drive.plant && event.name == "cut"; });
+  if (scenario.drives.cycle == 0 && !cuts)
+    problems.push_back(
+        {"--drive", 1, 1,
+         fmt::format("nothing says what {} must bear for ever: {} does not cut, and the scenario names "
+                     "no machine cycle",
+                     drive.full_name(), drive.plant),
+         "drives: {cycle: 2 s} in the scenario, or --set \"drives.cycle=2 s\""});
+}
+
+SizePlan read_size(const SizeOptions& options, Problems& problems) {
+  SizePlan plan;
+  auto& question = plan.question;
+  question.file = options.scenario;
+  question.set = overrides_of(options.set, problems);
+  auto text = read_file(options.scenario, problems);
+  if (!text) return plan;
+  question.text = std::move(*text);
+  const auto before = problems.size();
+  studies::prepare(question, problems);
+  if (problems.size() != before) return plan;
+  const auto scenario = scenario::read_scenario_text(question.text, question.file, question.set, problems);
+  plan.choices = studies::read_choices({options.drive, options.motors, options.gears, options.resistors},
+                                       question, scenario, problems);
+  const auto& drive = plan.choices.drive;
+  std::vector<std::string> sized;
+  if (!drive.plant.empty()) {
+    sized.push_back(drive.path(drive.kind + "."));
+    for (const auto& axis : plan.choices.gears) sized.push_back(axis.parameter.path);
+  }
+  plan.corners = studies::read_corners(options.at, options.corners, question, sized, problems);
+  if (drive.plant.empty()) return plan;
+  check_cycle(plan, scenario, problems);
+  if (problems.empty()) plan.candidates = studies::candidates_of(plan.choices, question, scenario, problems);
+  if (plan.candidates.size() > studies::most_points / std::max<std::size_t>(1, plan.corners.size()))
+    problems.push_back(
+        {"--motors", 1, 1,
+         fmt::format("{} candidates at {} corners", plan.candidates.size(), plan.corners.size()),
+         fmt::format("at most {} runs", studies::most_points)});
+  studies::PointQuestion rated;
+  rated.file = question.file;
+  rated.text = question.text;
+  rated.set = question.set;
+  rated.rated = drive.full_name();
+  if (problems.empty()) studies::prepare(rated, problems);
+  question = std::move(rated);
+  return plan;
+}
+
+void print_best(const SizePlan& plan, const std::vector<studies::Sized>& sized,
+                const std::vector<std::size_t>& order) {
+  using Kind = studies::Sized::Kind;
+  for (std::size_t rank = 0; rank < std::min(order.size(), most_told); ++rank) {
+    const auto& one = sized[order[rank]];
+    const auto name = printable(name_of(plan.candidates[order[rank]]));
+    if (one.kind == Kind::fits || one.kind == Kind::close)
+      fmt::print("{:>3}. {}: {:.0f} % left of {}, {}\n", rank + 1, name, one.reserve, one.nearest,
+                 printable(one.hardest));
+    else
+      fmt::print("{:>3}. {} {}: {}{}\n", rank + 1, name, name_of(one.kind), printable(one.reason),
+                 one.where.empty() ? "" : ", " + printable(one.where));
+  }
+}
+
+}  // namespace
+
+int size_drive(const SizeOptions& options) {
+  Problems problems;
+  auto plan = read_size(options, problems);
+  std::optional<OutputFolder> folder;
+  std::vector<std::string> files = {size_file, runs_file};
+  files.insert(files.end(), studies::study_pages.begin(), studies::study_pages.end());
+  if (problems.empty()) folder.emplace(options.out, "size", files, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  try {
+    folder->begin({runs_file});
+    studies::PointStore store(folder->add(runs_file), options.jobs);
+    Progress bar;
+    const auto sized = studies::size_drives(plan.question, plan.candidates, plan.corners, store,
+                                            [&](std::size_t done, std::size_t of) {
+                                              bar.show(fmt::format("sizing, run {} of {}", done, of),
+                                                       static_cast<double>(done) / static_cast<double>(of));
+                                            });
+    bar.clear();
+    const auto order = studies::ranked(plan.candidates, sized);
+    write_file(folder->add(size_file), studies::size_csv(plan.candidates, sized, order));
+    studies::write_size_report(plan.question, plan.choices, plan.candidates, plan.corners, sized, order,
+                               *folder);
+    print_best(plan, sized, order);
+    const auto fitting = std::count_if(sized.begin(), sized.end(), [](const auto& one) {
+      return one.kind == studies::Sized::Kind::fits || one.kind == studies::Sized::Kind::close;
+    });
+    fmt::print("{} of {} candidates fit at {} corners: {}\nreport: {}\n{} runs simulated now\n", fitting,
+               sized.size(), plan.corners.size(), (options.out / size_file).string(),
+               (options.out / "report.html").string(), store.simulated());
+    return fitting > 0 ? all_passed : check_failed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", options.out.string(), error.what());
+    return simulation_failed;
+  }
+}
+
+void add_size(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<SizeOptions>();
+  auto& options = *chosen;
+  options.out = "out/size";
+  auto* size = app.add_subcommand(
+      "size",
+      "Find the motor, the gear and the brake resistor of a drive: every candidate runs in closed loop at "
+      "the "
+      "corners of what the line must do. It fits where every check and every rating holds at each of them.\n"
+      "size.csv: a row a candidate, ranked: 10 % of reserve or more before less, then the smallest motor by "
+      "rated "
+      "power, the smallest brake resistor, the largest reserve, the least energy; why each other falls out, "
+      "and "
+      "where. Reserve: the least distance to a rating over all corners.\n"
+      "What was interrupted goes on where it was. Status 1: none fits.");
+  size->add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
+  size->add_option("--drive", options.drive,
+                   "The drive, such as knife.servo; may be left out where there is one");
+  size->add_option(
+          "--motors", options.motors,
+          "all, or names and patterns of the catalogue with commas between, such as \"HG-SR202,SGM7*\", "
+          "with the amplifier of each: drycut plants --motors")
+      ->capture_default_str();
+  size->add_option(
+      "--gears", options.gears,
+      "Ratios: 5..20:16, that many from end to end, or 5,7,10; it stays as it is if not given. So that the "
+      "controller "
+      "sees the same machine, the speed at 10 V or the electronic gear goes along, and the lines of a motor "
+      "encoder "
+      "that is counted; where what goes along is tied to a variable of the scenario: variables.gear=5,7,10");
+  size->add_option(
+      "--resistors", options.resistors,
+      "Brake resistors: \"100,200 W\", \"13 ohm 100 W, 6.7 ohm 3 kW\", none; it stays as it is if not "
+      "given");
+  size->add_option(
+          "--at", options.at,
+          "A corner of what the line must do: \"variables.length=500 mm,plants.web.speed=120 m/min\"; may be "
+          "repeated; the scenario as it is if there is none")
+      ->allow_extra_args(false);
+  size->add_option(
+      "--corners", options.corners,
+      "envelope.csv of drycut envelope: a corner at each of its points, at the largest value found");
+  size->add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  add_set(*size, options.set, "scenario");
+  add_out(*size, options.out, "Directory for the results; runs in it are not run again");
+  size->callback([chosen, &status] { status = size_drive(*chosen); });
+}
+
+}  // namespace drycut::sim::cli

@@ -1,0 +1,64 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/scenario/motor_catalogue.hpp"
+#include "sim/studies/sweep/axis.hpp"
+#include "sim/studies/sweep/point.hpp"
+
+namespace drycut::sim::studies {
+
+/// The drive of a scenario whose motor is sought.
+struct SizedDrive {
+  std::string plant;  ///< "knife"
+  std::string name;   ///< "servo"; "drive" behind an inverter or contactors
+  std::string kind;   ///< of its motor: "servo", "induction_motor"
+
+  [[nodiscard]] std::string full_name() const { return plant + "." + name; }
+  /// As an override names a parameter of its plant: "plants.knife.gear.ratio".
+  [[nodiscard]] std::string path(const std::string& parameter) const {
+    return "plants." + plant + "." + parameter;
+  }
+  [[nodiscard]] bool is_servo() const { return kind == scenario::motor_kinds[0]; }
+  /// The group of its mains and brake resistor: "servo.supply.".
+  [[nodiscard]] std::string supply() const { return is_servo() ? "servo.supply." : "inverter.supply."; }
+};
+
+/// The plant that it belongs to.
+const scenario::PlantEntry& plant_of(const SizedDrive& drive, const scenario::Scenario& scenario);
+/// A number of a plant's table in SI; nothing if there is none of that name.
+std::optional<double> number_in(const scenario::PlantEntry& plant, std::string_view parameter);
+/// A word of it; "" if there is none.
+std::string word_in(const scenario::PlantEntry& plant, std::string_view parameter);
+
+struct BrakeResistor {
+  std::string text;             ///< as given, with its unit: "13 ohm 100 W", "none"
+  std::optional<double> ohm;    ///< absent: as the scenario has it; 0 = none
+  std::optional<double> power;  ///< that it bears for ever [W]
+};
+
+/// What is tried in place of what the scenario has.
+struct SizeChoices {
+  SizedDrive drive;
+  std::vector<scenario::MotorModel> motors;
+  SweepAxes gears;  ///< none: the gear stays; else one axis
+  bool gear_is_tied =
+      false;  ///< the axis is another value of the scenario, which ties to it what goes with it
+  std::vector<BrakeResistor> resistors;  ///< none: it stays
+};
+
+struct SizeTexts {
+  std::string drive;      ///< "knife.servo"; "" = the only one
+  std::string motors;     ///< "all", "HG-SR202,HG-SR3*"
+  std::string gears;      ///< "5..20:16", "5,7,10", "variables.gear=5,7,10"; "" = as it is
+  std::string resistors;  ///< "100,200 W", "13 ohm 100 W, none"; "" = as it is
+};
+
+/// Reads what is to be tried on `scenario`, which is that of the question. Gears are read and not tried yet.
+/// What is wrong goes to `problems`, by the option's name.
+SizeChoices read_choices(const SizeTexts& texts, const PointQuestion& question,
+                         const scenario::Scenario& scenario, Problems& problems);
+
+}  // namespace drycut::sim::studies

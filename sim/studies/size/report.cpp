@@ -1,0 +1,310 @@
+#include "sim/studies/size/report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "base/units.hpp"
+#include "sim/report/drives.hpp"
+#include "sim/report/report.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+constexpr std::size_t most_rows_of_sizes = 200;
+constexpr std::size_t most_motors_drawn = 9;
+constexpr std::size_t most_corners_drawn = 6;
+constexpr std::size_t most_curves = 6;
+constexpr std::size_t fewest_gears = 3;  // of which a curve is drawn
+
+/// A sizing as its page sees it.
+struct SizePage {
+  const PointQuestion& question;
+  const SizeChoices& choices;
+  const std::vector<Candidate>& candidates;
+  const std::vector<Corner>& corners;
+  const std::vector<Sized>& sized;
+  const std::vector<std::size_t>& order;
+};
+
+bool holds(Sized::Kind kind) { return kind == Sized::Kind::fits || kind == Sized::Kind::close; }
+
+std::string share_text(double share) { return std::isnan(share) ? "" : fmt::format("{:.0f}", share); }
+
+std::string share_of(const Sized& one, std::string_view rating) {
+  return share_text(one.shares.at(rating_index(rating)));
+}
+
+std::string ratio_text(const Candidate& candidate) {
+  return candidate.ratio > 0 ? fmt::format("{:.5g}", candidate.ratio) : "";
+}
+
+renders::ReportTable what_fits(const SizePage& page) {
+  renders::ReportTable table{
+      "What fits, in this order",
+      {"", "motor", "rated power [kW]", "gear", "brake resistor", "reserve [%]", "nearest limit", "at",
+       "load / rotor inertia", "rms torque [%]", "peak torque [%]", "largest speed [%]", "brake resistor [%]",
+       "energy a cycle [J]"},
+      {}};
+  for (std::size_t rank = 0; rank < page.order.size() && table.rows.size() < most_rows_of_sizes; ++rank) {
+    const auto& candidate = page.candidates[page.order[rank]];
+    const auto& one = page.sized[page.order[rank]];
+    if (!holds(one.kind)) break;
+    table.rows.push_back(
+        {{std::to_string(rank + 1), candidate.motor, fmt::format("{:.3g}", candidate.rated_power / 1e3),
+          ratio_text(candidate), candidate.resistor.text.empty() ? "as it is" : candidate.resistor.text,
+          fmt::format("{:.1f}{}", one.reserve, one.kind == Sized::Kind::close ? " close" : ""), one.nearest,
+          one.hardest, fmt::format("{:.3g}", candidate.inertia_ratio), share_of(one, "rms torque"),
+          share_of(one, "peak torque"), share_of(one, "largest speed"), share_of(one, "brake resistor"),
+          fmt::format("{:.4g}", one.energy)}});
+  }
+  return table;
+}
+
+renders::ReportTable what_falls_out(const SizePage& page) {
+  renders::ReportTable table{"What falls out and why, the nearest to its limits first",
+                             {"motor", "gear", "brake resistor", "why", "at", "rms torque [%]",
+                              "peak torque [%]", "largest speed [%]", "load / rotor inertia"},
+                             {},
+                             true};
+  std::size_t more = 0;
+  for (const auto i : page.order) {
+    const auto& candidate = page.candidates[i];
+    const auto& one = page.sized[i];
+    if (holds(one.kind)) continue;
+    if (table.rows.size() == most_rows_of_sizes) {
+      ++more;
+      continue;
+    }
+    table.rows.push_back(
+        {{candidate.motor, ratio_text(candidate),
+          candidate.resistor.text.empty() ? "as it is" : candidate.resistor.text, one.reason, one.where,
+          share_of(one, "rms torque"), share_of(one, "peak torque"), share_of(one, "largest speed"),
+          candidate.inertia_ratio > 0 ? fmt::format("{:.3g}", candidate.inertia_ratio) : ""}});
+  }
+  if (more > 0) table.title += fmt::format("; {} more are in size.csv", more);
+  return table;
+}
+
+/// The first of each motor in the order, of those that have run at every corner.
+std::vector<std::size_t> best_of_motors(const SizePage& page) {
+  std::set<std::string> seen;
+  std::vector<std::size_t> best;
+  for (const auto i : page.order)
+    if (page.sized[i].drives.size() == page.corners.size() && seen.insert(page.candidates[i].motor).second)
+      best.push_back(i);
+  return best;
+}
+
+/// The corners in which most of a rating is used, the hardest first.
+std::vector<std::size_t> hardest_corners(const Sized& one) {
+  const auto used = [&](std::size_t corner) {
+    double most = 0;
+    for (const auto& figure : one.drives[corner].figures) most = std::fmax(most, figure.share);
+    return most;
+  };
+  std::vector<std::size_t> corners(one.drives.size());
+  std::iota(corners.begin(), corners.end(), std::size_t{0});
+  std::stable_sort(corners.begin(), corners.end(),
+                   [&](std::size_t a, std::size_t b) { return used(a) > used(b); });
+  corners.resize(std::min(corners.size(), most_corners_drawn));
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Operating points of a candidate at its hardest corners, in the borders of its motor.
+renders::Plot operating_points(const SizePage& page, std::size_t rank, std::size_t which) {
+  const auto& candidate = page.candidates[which];
+  const auto& one = page.sized[which];
+  renders::Plot plot;
+  plot.name = fmt::format("motor_{}", rank + 1);
+  plot.title = name_of(candidate);
+  plot.x_label = "motor speed [rpm]";
+  plot.width = 760;
+  plot.panel_height = 430;
+  renders::Panel panel;
+  panel.title = holds(one.kind)
+                    ? fmt::format("{}: {:.0f} % left of {}", name_of(one.kind), one.reserve, one.nearest)
+                    : one.reason.substr(0, one.reason.find(';'));
+  panel.y_label = "motor torque [N m]";
+  bool both_ways = false;
+  renders::Curve rms{"rms of the hardest cycle", {}, {}, renders::Curve::Style::points};
+  for (const auto corner : hardest_corners(one)) {
+    const auto& drive = one.drives[corner];
+    renders::Curve points{page.corners[corner].name, {}, {}, renders::Curve::Style::points};
+    for (const auto& [speed, torque] : drive.outline) {
+      if (std::isnan(speed)) continue;
+      points.x.push_back(speed * units::rpm);
+      points.y.push_back(torque);
+      both_ways = both_ways || speed < -0.02 * candidate.ratings.max_speed;
+    }
+    if (!std::isnan(drive.rms.first)) {
+      rms.x.push_back(drive.rms.first * units::rpm);
+      rms.y.push_back(drive.rms.second);
+    }
+    panel.curves.push_back(std::move(points));
+  }
+  panel.curves.push_back(std::move(rms));
+  panel.curves.push_back(report::peak_curve(candidate.ratings, both_ways));
+  panel.curves.push_back(report::continuous_curve(candidate.ratings, both_ways));
+  plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+renders::ReportSection operating_section(const SizePage& page, std::vector<renders::Plot>& plots) {
+  const auto best = best_of_motors(page);
+  renders::ReportSection section;
+  for (std::size_t rank = 0; rank < std::min(best.size(), most_motors_drawn); ++rank)
+    plots.push_back(operating_points(page, rank, best[rank]));
+  section.title = "Operating points over the motors' curves";
+  section.notes = {fmt::format(
+      "The best gear and resistor of {} of {} motors, in the order of the table, then those that come "
+      "nearest. At each speed the highest and the lowest "
+      "torque of the whole run, at {} of {} corners{}.",
+      plots.size(), best.size(), std::min(page.corners.size(), most_corners_drawn), page.corners.size(),
+      page.corners.size() > most_corners_drawn ? ", those that use most" : "")};
+  return section;
+}
+
+/// Reserve, torque and inertia over the gear, a curve a motor.
+std::optional<renders::Plot> over_gears(const SizePage& page) {
+  if (page.choices.gears.empty() || page.choices.gears.front().values.size() < fewest_gears) return {};
+  renders::Plot plot;
+  plot.name = "over_gears";
+  plot.title = "Over the gear's ratio, the best motors; at the hardest corner of each";
+  plot.x_label = "gear ratio";
+  plot.panel_height = 260;
+  plot.panels = {{"reserve; a motor falls out below 0", "reserve [%]", {}, {}, std::pair(-50.0, 100.0)},
+                 {"rms torque", "rms torque [% of S1]", {}, {}, std::pair(0.0, 150.0)},
+                 {"load over rotor inertia", "load / rotor inertia", {}, {}, {}}};
+  plot.panels[0].bands = {{"", 0, 0}};
+  const auto rms = rating_index("rms torque");
+  for (const auto best : best_of_motors(page)) {
+    std::vector<std::size_t> same;
+    for (std::size_t i = 0; i < page.candidates.size(); ++i)
+      if (page.candidates[i].motor == page.candidates[best].motor &&
+          page.candidates[i].resistor.text == page.candidates[best].resistor.text &&
+          !std::isnan(page.sized[i].reserve))
+        same.push_back(i);
+    if (same.size() < 2) continue;
+    std::sort(same.begin(), same.end(),
+              [&](auto a, auto b) { return page.candidates[a].ratio < page.candidates[b].ratio; });
+    std::array<renders::Curve, 3> curves;
+    for (auto& curve : curves) curve.label = page.candidates[best].motor;
+    for (const auto i : same) {
+      const std::array<double, 3> values = {std::max(-50.0, page.sized[i].reserve),
+                                            std::min(150.0, page.sized[i].shares.at(rms)),
+                                            page.candidates[i].inertia_ratio};
+      for (std::size_t k = 0; k < curves.size(); ++k) {
+        curves.at(k).x.push_back(page.candidates[i].ratio);
+        curves.at(k).y.push_back(values.at(k));
+      }
+    }
+    for (std::size_t k = 0; k < curves.size(); ++k) plot.panels[k].curves.push_back(std::move(curves.at(k)));
+    if (plot.panels[0].curves.size() == most_curves) break;
+  }
+  if (plot.panels[0].curves.empty()) return {};
+  return plot;
+}
+
+/// What the command changes beside motor, gear and resistor, as a fact.
+std::string taken_along(const SizePage& page) {
+  std::string text =
+      page.choices.drive.is_servo()
+          ? "inertia ratio set in the amplifier: the speed loop stays as quick as the scenario has it"
+          : "nothing";
+  if (page.choices.gears.empty()) return text;
+  if (page.choices.gear_is_tied) return text + "; with the gear what the scenario ties to it";
+  return text +
+         "; with the gear the speed at 10 V or the electronic gear, and the lines of a motor encoder that "
+         "the "
+         "controller counts";
+}
+
+std::string in_shell(const std::string& words) {
+  std::string text = "'";
+  for (const char c : words) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+renders::Report size_page(const SizePage& page) {
+  renders::Report report;
+  const auto fitting = static_cast<std::size_t>(
+      std::count_if(page.sized.begin(), page.sized.end(), [](const auto& one) { return holds(one.kind); }));
+  report.title =
+      fmt::format("Sizing of {} in {}", page.choices.drive.full_name(), page.question.file.stem().string());
+  report.scenario = page.question.file.filename().string();
+  report.passed = fitting > 0;
+  report.word = fmt::format("{} FIT", fitting);
+  report.verdict = fmt::format("of {} candidates at {} corners", page.candidates.size(), page.corners.size());
+  std::vector<std::string> names;
+  for (const auto& corner : page.corners) names.push_back(corner.name);
+  report.facts = {
+      {{"scenario", page.question.file.string()}},
+      {{"drive", page.choices.drive.full_name()}},
+      {{"candidates", fmt::format("{} motors, {} gears, {} brake resistors", page.choices.motors.size(),
+                                  page.choices.gears.empty() ? 1 : page.choices.gears.front().values.size(),
+                                  std::max<std::size_t>(1, page.choices.resistors.size()))}},
+      {{"corners", fmt::format("{}", fmt::join(names, " | "))}},
+      {{"fits",
+        "every check and every rating holds at every corner, in closed loop with the controller's program"}},
+      {{"reserve",
+        "least distance to a rating over all corners; of the bus voltage from where the brake resistor "
+        "holds it"}},
+      {{"order",
+        fmt::format("a reserve of {:.0f} % or more before less; then the smallest motor by rated power, the "
+                    "smallest brake resistor, the largest reserve, the least energy",
+                    good_reserve)}},
+      {{"set up with each", taken_along(page)}},
+      {{"drycut", DRYCUT_VERSION}}};
+  report::add_overrides(page.question.set, report);
+  report.summary = {what_fits(page)};
+  report.tables = {what_falls_out(page)};
+  if (page.order.empty()) return report;
+  const auto first = page.order.front();
+  if (page.sized[first].drives.size() != page.corners.size()) return report;
+  const auto hardest = std::find_if(page.corners.begin(), page.corners.end(), [&](const auto& corner) {
+    return corner.name == page.sized[first].hardest;
+  });
+  report.texts.push_back({"The command that runs the first of them at its hardest corner with pictures",
+                          command_for(page.question, page.candidates[first],
+                                      hardest == page.corners.end() ? page.corners.front() : *hardest)});
+  return report;
+}
+
+}  // namespace
+
+std::string command_for(const PointQuestion& question, const Candidate& candidate, const Corner& corner) {
+  auto text = "drycut run " + in_shell(question.file.string());
+  for (const auto* overrides : {&question.set, &candidate.overrides, &corner.overrides})
+    for (const auto& [path, value] : *overrides)
+      text += " --set " + in_shell(fmt::format("{}={}", path, value));
+  return text;
+}
+
+void write_size_report(const PointQuestion& question, const SizeChoices& choices,
+                       const std::vector<Candidate>& candidates, const std::vector<Corner>& corners,
+                       const std::vector<Sized>& sized, const std::vector<std::size_t>& order,
+                       OutputFolder& folder) {
+  const SizePage page{question, choices, candidates, corners, sized, order};
+  auto report = size_page(page);
+  if (auto plot = over_gears(page)) report::add_plots({std::move(*plot)}, folder, report);
+  std::vector<renders::Plot> small;
+  auto section = operating_section(page, small);
+  if (!small.empty()) {
+    std::vector<std::string> names;
+    for (const auto& plot : small) names.push_back(plot.name + ".png");
+    for (const auto& png : renders::draw_plots(small, folder.add(report::plots_folder, names)))
+      section.plots.push_back({png, fmt::format("{}/{}", report::plots_folder, png.filename().string())});
+    report.sections.push_back(std::move(section));
+    for (auto& plot : small) report.live.push_back(std::move(plot));
+  }
+  report::write_report(std::move(report), {}, folder);
+}
+
+}  // namespace drycut::sim::studies
