@@ -93,12 +93,16 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::step() { run_->step(); }
 
-void Simulation::advance(double seconds) {
+void Simulation::advance(double seconds, const std::function<void()>& meanwhile) {
+  constexpr long long often = 4096;
   constexpr double longest = 1e9;
   if (!(seconds >= 0 && seconds <= longest))
     throw BadInput(fmt::format("{} s cannot be simulated; give 0 to {} s", seconds, longest));
   const auto steps = std::llround(seconds / step_length());
-  for (long long i = 0; i < steps; ++i) run_->step();
+  for (long long i = 1; i <= steps; ++i) {
+    run_->step();
+    if (i % often == 0 && meanwhile) meanwhile();
+  }
 }
 
 double Simulation::time() const { return sim::seconds(run_->simulation.time()); }

@@ -2,6 +2,7 @@
 #include <drycut/problem.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -61,7 +62,8 @@ class Simulation {
   /// One step of the machine, scene.step long. Throws Diverged, then and at every later call.
   void step();
   /// So many seconds, 0 or more, rounded to whole steps. Throws Diverged; BadInput for other numbers.
-  void advance(double seconds);
+  /// `meanwhile` is called every few thousand steps; what it throws ends it there.
+  void advance(double seconds, const std::function<void()>& meanwhile = {});
   /// [s] since the beginning of the run.
   [[nodiscard]] double time() const;
   /// [s] of a step.

@@ -1,8 +1,12 @@
 """The Python package against the program: same numbers, same problems."""
 
 import csv
+import inspect
 import math
 import os
+import pydoc
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -142,6 +146,57 @@ class SimulationTest(unittest.TestCase):
             time.sleep(0)
         self.assertGreater(ticks, 10)  # held, the lock would let this count once
 
+    def test_is_of_one_thread_at_a_time(self):
+        worker = threading.Thread(target=lambda: self.line.advance(200.0))
+        worker.start()
+        refused = False
+        while worker.is_alive() and not refused:
+            try:
+                self.line.read("knife.angle")
+            except RuntimeError as error:
+                refused = "another thread" in str(error)
+        worker.join()
+        self.assertTrue(refused)
+        self.assertAlmostEqual(self.line.time, 200)
+        self.line.read("knife.angle")  # again
+
+    def test_is_interrupted(self):
+        with self.assertRaises(KeyboardInterrupt):
+            threading.Thread(target=lambda: signal.raise_signal(signal.SIGINT)).start()
+            self.line.advance(1e6)
+        self.assertLess(self.line.time, 1e6)
+        self.line.step()  # goes on
+
+    def test_takes_arguments_by_place_or_name(self):
+        line = self.line
+        line.advance(seconds=0.5)
+        self.assertEqual(line.time, 0.5)
+        line.write("web.speed", value=np.float32(30))
+        line.write(value=40, name="web.speed")
+        line.advance(np.float64(0.5))
+        self.assertAlmostEqual(line.read(name="web.speed"), 40, places=1)
+        for call in (lambda: line.read(), lambda: line.read("web.speed", 1), lambda: line.read(7), lambda: line.step(1),
+                     lambda: line.write("web.speed"), lambda: line.write("web.speed", "40"),
+                     lambda: line.write("web.speed", name="web.speed"), lambda: line.write("web.speed", speed=40),
+                     lambda: line.advance(None), lambda: drycut.Simulation.read(3, "web.speed")):
+            self.assertRaises(TypeError, call)
+        self.assertEqual(line.time, 1.0)
+
+    def test_may_be_a_base(self):
+        class Logged(drycut.Simulation):
+            def read(self, name):
+                return 2 * super().read(name)
+
+        line = Logged(KNIFE)
+        line.advance(1)
+        self.assertAlmostEqual(line.read("web.speed"), 120, places=5)
+
+        class Empty(drycut.Simulation):
+            def __init__(self):
+                pass
+
+        self.assertRaises((RuntimeError, TypeError), lambda: Empty().read("web.speed"))
+
     def test_threads_do_not_disturb_each_other(self):
         traces = [b""] * 3
 
@@ -195,13 +250,260 @@ class BodeTest(unittest.TestCase):
         np.testing.assert_allclose(bode.closed_loop, bode.open_loop / (1 + bode.open_loop))
 
 
+GRID = {"variables.length": "500..1000 mm:3", "plants.web.speed": "60..90 m/min:2"}
+
+
+class SweepTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.figures = {"peak": "max(abs(knife.motor.torque))"}
+        cls.told = []
+        cls.sweep = drycut.sweep(KNIFE, GRID, set=SHORT, figures=cls.figures, jobs=2,
+                                 progress=lambda done, of: cls.told.append((done, of)))
+
+    def command(self, folder, *arguments):
+        subprocess.run([PROGRAM, *arguments, "--set", "scene.duration=5 s", "--out", folder], check=True,
+                       capture_output=True)
+
+    def test_has_the_bytes_and_numbers_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.command(folder, "sweep", KNIFE, "--over", "variables.length=500..1000 mm:3", "--over",
+                         "plants.web.speed=60..90 m/min:2", "--figure", "peak=max(abs(knife.motor.torque))")
+            with open(os.path.join(folder, "sweep.csv"), encoding="utf-8") as file:
+                written = file.read()
+        self.assertEqual(self.sweep.csv, written)
+        rows = list(csv.reader(written.splitlines()))
+        points, units = self.sweep.points, self.sweep.units
+        headings = [f"{name} [{units[name]}]" if units[name] else name for name in points.dtype.names]
+        self.assertEqual(headings, rows[0])
+        self.assertEqual(len(points), len(rows) - 1)
+        for i, name in enumerate(points.dtype.names):
+            cells = [row[i] for row in rows[1:]]
+            if points.dtype[name].kind == "U":
+                self.assertEqual(list(points[name]), cells)
+            else:
+                np.testing.assert_array_equal(points[name], [float(cell) if cell else math.nan for cell in cells])
+        self.assertEqual({name for name in points.dtype.names if points.dtype[name].kind == "U"}, {"verdict", "limit"})
+
+    def test_is_a_map_over_its_axes(self):
+        self.assertEqual(self.sweep.axes, ["variables.length", "plants.web.speed"])
+        self.assertEqual(self.sweep.shape, (3, 2))
+        np.testing.assert_array_equal(self.sweep.points["variables.length"].reshape(self.sweep.shape)[:, 0],
+                                      [500, 750, 1000])
+        np.testing.assert_array_equal(self.sweep.points["plants.web.speed"].reshape(self.sweep.shape)[0], [60, 90])
+        self.assertEqual(self.sweep.points.dtype.fields["knife.cut accuracy"][0].metadata["unit"], "mm")
+
+    def test_tells_its_progress(self):
+        self.assertEqual(self.told[-1], (6, 6))
+        self.assertEqual(self.told, sorted(self.told))
+
+    def test_is_kept_and_goes_on_where_it_was(self):
+        with tempfile.TemporaryDirectory() as folder:
+            drycut.sweep(KNIFE, {"variables.length": "500..1000 mm:2"}, set=SHORT, figures=self.figures, out=folder)
+            swept = drycut.sweep(KNIFE, {"variables.length": "500..1000 mm:3"}, set=SHORT, figures=self.figures,
+                                 out=folder)
+            self.assertEqual(swept.simulated, 1)
+            with open(os.path.join(folder, "sweep.csv"), encoding="utf-8") as file:
+                self.assertEqual(file.read(), swept.csv)
+            self.assertTrue(os.path.exists(os.path.join(folder, "report.html")))
+            again = drycut.sweep(KNIFE, {"variables.length": "500..1000 mm:3"}, set=SHORT, figures=self.figures,
+                                 out=folder)
+            self.assertEqual((again.simulated, again.csv), (0, swept.csv))
+
+    def test_leaves_nothing_unless_it_is_asked_to(self):
+        with tempfile.TemporaryDirectory() as folder:
+            code = ("import drycut, sys; drycut.sweep(sys.argv[1], {'variables.length': ['500 mm']}, "
+                    "set={'scene.duration': '1 s'})")
+            subprocess.run([sys.executable, "-c", code, KNIFE], check=True, cwd=folder,
+                           env={**os.environ, "TMPDIR": folder})
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_takes_values_as_a_list_and_words(self):
+        swept = drycut.sweep(KNIFE, {"plants.web.speed": [60, np.float64(80)], "plants.web.elastic": [True, False]},
+                             set={"scene.duration": "1 s"})
+        self.assertEqual(list(swept.points["plants.web.speed"]), [60, 60, 80, 80])
+        self.assertEqual(list(swept.points["plants.web.elastic"]), ["true", "false"] * 2)
+        self.assertEqual(swept.shape, (2, 2))
+
+    def test_samples(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.command(folder, "sweep", KNIFE, "--over", "variables.length=500..1000 mm", "--sample", "sobol:5")
+            with open(os.path.join(folder, "sweep.csv"), encoding="utf-8") as file:
+                written = file.read()
+        swept = drycut.sweep(KNIFE, {"variables.length": "500..1000 mm"}, set=SHORT, sample=5)
+        self.assertEqual(swept.csv, written)
+        self.assertEqual(swept.shape, (5,))
+
+    def test_is_interrupted(self):
+        def interrupt(done, of):
+            signal.raise_signal(signal.SIGINT)
+
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(KeyboardInterrupt):
+                drycut.sweep(KNIFE, GRID, set=SHORT, out=folder, progress=interrupt)
+            swept = drycut.sweep(KNIFE, GRID, set=SHORT, out=folder)
+            self.assertEqual(swept.simulated, 5)  # one was kept
+
+    def test_passes_on_what_a_callback_raises(self):
+        with self.assertRaises(ZeroDivisionError):
+            drycut.sweep(KNIFE, GRID, set=SHORT, jobs=2, progress=lambda done, of: 1 / 0)
+
+    def test_tells_what_does_not_fit(self):
+        length = {"variables.length": "500..1000 mm:3"}
+        cases = [(lambda: drycut.sweep(KNIFE, {}), [("over", 1)]),
+                 (lambda: drycut.sweep(KNIFE, {"variables.length": "500..1000 mm"}), [("over", 30)]),
+                 (lambda: drycut.sweep(KNIFE, {"variables.length": ["1,2 mm"]}), [("over", 1)]),
+                 (lambda: drycut.sweep(KNIFE, {"variables.length": ["1..2 mm"]}), [("over", 1)]),
+                 (lambda: drycut.sweep(KNIFE, {"variables.lengt": "500..1000 mm:3"}), [("over", 17)]),
+                 (lambda: drycut.sweep(KNIFE, length, set={"plants.web.sped": 1}), [("set plants.web.sped", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, jobs=0), [("jobs", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, jobs=257), [("jobs", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, sample=0), [("sample", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, sample=-1), [("sample", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, sample=1000001), [("sample", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, figures={"": "max(knife.angle)"}), [("figures", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, figures={"limit": "max(knife.angle)"}), [("figures", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, figures={"knife.cut accuracy": "max(knife.angle)"}),
+                  [("figures", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, figures={"x": "max(knife.angl)"}), [("figures", 7)]),
+                 (lambda: drycut.sweep(KNIFE, length, out=""), [("out", 1)]),
+                 (lambda: drycut.sweep(KNIFE, length, out=KNIFE), [("out", 1)]),
+                 (lambda: drycut.envelope(KNIFE, {}, {}), [("find_max", 1)]),
+                 (lambda: drycut.envelope(KNIFE, {}, {"plants.web.speed": "20 m/min"}), [("find_max", 18)]),
+                 (lambda: drycut.tune(KNIFE, {}, "rms(AxisX.follerr)"), [("vary", 1)]),
+                 (lambda: drycut.tune([], {"a": "1..2"}, "rms(AxisX.follerr)"), [("files", 1)]),
+                 (lambda: drycut.tune(KNIFE, {"controller.qmove.set.AxisX.pgain": "1..9"}, "rms(AxisX.follerr)",
+                                      start="3 kg", budget=0, spread_runs=0),
+                  [("budget", 1), ("spread_runs", 1), ("start", 1)])]
+        for call, expected in cases:
+            with self.assertRaises(drycut.BadInput) as caught:
+                call()
+            told = [(problem.file, problem.column) for problem in caught.exception.problems]
+            self.assertEqual(told, expected, str(caught.exception))
+            for problem in caught.exception.problems:
+                self.assertIn(f"{problem.file}:1:{problem.column}: {problem.what}; {problem.remedy}",
+                              str(caught.exception))
+
+
+class EnvelopeTest(unittest.TestCase):
+    def test_has_the_bytes_and_numbers_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "envelope", KNIFE, "--over", "variables.length=700..1000 mm:2", "--find-max",
+                            "plants.web.speed=20..200 m/min:10", "--set", "scene.duration=5 s", "--out", folder],
+                           check=True, capture_output=True)
+            with open(os.path.join(folder, "envelope.csv"), encoding="utf-8") as file:
+                written = file.read()
+            found = drycut.envelope(KNIFE, {"variables.length": "700..1000 mm:2"},
+                                    {"plants.web.speed": "20..200 m/min:10"}, set=SHORT, jobs=2)
+            self.assertGreater(found.simulated, 0)
+            kept = drycut.envelope(KNIFE, {"variables.length": "700..1000 mm:2"},
+                                   {"plants.web.speed": "20..200 m/min:10"}, set=SHORT, out=folder)
+            again = drycut.envelope(KNIFE, {"variables.length": "700..1000 mm:2"},
+                                    {"plants.web.speed": "20..200 m/min:10"}, set=SHORT, out=folder)
+            with open(os.path.join(folder, "envelope.csv"), encoding="utf-8") as file:
+                self.assertEqual(file.read(), written)
+        self.assertEqual((found.csv, kept.csv), (written, written))
+        self.assertEqual((again.simulated, again.csv), (0, written))
+        rows = list(csv.DictReader(written.splitlines()))
+        np.testing.assert_array_equal(found.points["plants.web.speed"],
+                                      [float(row["plants.web.speed [m/min]"]) for row in rows])
+        self.assertEqual(list(found.points["verdict"]), [row["verdict"] for row in rows])
+        self.assertEqual((found.axes, found.shape), (["variables.length"], (2,)))
+        self.assertEqual(found.units["plants.web.speed"], "m/min")
+
+
+class TuneTest(unittest.TestCase):
+    def test_finds_what_the_program_finds(self):
+        vary = {"controller.qmove.set.AxisX.pgain": "1..100", "controller.qmove.set.AxisX.feedfw": "900..1000"}
+        spread = {"plants.knife.drum_inertia": "\N{PLUS-MINUS SIGN}30%"}
+        told = []
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "tune", KNIFE, "--minimise", "rms(AxisX.follerr)", "--from", "3 s", "--budget",
+                            "8", "--spread-runs", "3", "--spread", "plants.knife.drum_inertia=±30%", "--set",
+                            "scene.duration=5 s", "--no-pictures", "--out", folder,
+                            *(f"--vary={path}={span}" for path, span in vary.items())], check=False,
+                           capture_output=True)
+            tables = {}
+            for name in ("evaluations.csv", "spread.csv", "patch.txt"):
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    tables[name] = file.read()
+            tuning = drycut.tune(KNIFE, vary, "rms(AxisX.follerr)", start="3 s", budget=8, spread=spread, spread_runs=3,
+                                 set=SHORT, jobs=2, progress=lambda done, of: told.append((done, of)))
+            for simulated in (tuning.simulated, 0):
+                kept = drycut.tune([KNIFE], vary, "rms(AxisX.follerr)", start="3 s", budget=8, spread=spread,
+                                   spread_runs=3, set=SHORT, out=folder)
+                self.assertEqual(kept.simulated, simulated)
+                self.assertEqual((kept.patch, kept.summary), (tuning.patch, tuning.summary))
+            self.assertTrue(os.path.exists(os.path.join(folder, "report.html")))
+        self.assertEqual((kept.values, kept.metric), (tuning.values, tuning.metric))
+        self.assertEqual(tuning.patch, tables["patch.txt"])
+        for table, name in ((tuning.trials, "evaluations.csv"), (tuning.spread, "spread.csv")):
+            rows = list(csv.DictReader(tables[name].splitlines()[1:]))
+            self.assertEqual(len(table), len(rows))
+            np.testing.assert_array_equal(table["rms(AxisX.follerr)"],
+                                          [float(row["rms(AxisX.follerr)"]) for row in rows])
+            self.assertEqual(list(table["phase"]), [row["phase"] for row in rows])
+        self.assertTrue(tuning.passed)
+        self.assertLessEqual(tuning.metric, tuning.metric_before)
+        self.assertEqual(tuning.metric, min(row for row, bad in zip(tuning.trials["rms(AxisX.follerr)"],
+                                                                    tuning.trials["violation"]) if bad == 0))
+        self.assertEqual(set(tuning.settings), set(vary))
+        self.assertEqual({path: float(value) for path, value in tuning.settings.items()}, tuning.values)
+        self.assertIn("Before and after", tuning.summary)
+        self.assertEqual(told[-1], (8, 8))
+        # The settings are those of another call.
+        run = drycut.run(KNIFE, set={**SHORT, **tuning.settings})
+        later = run.trace["AxisX.follerr"][run.trace["time"] >= 3]
+        self.assertAlmostEqual(np.sqrt(np.mean(later**2)) / tuning.metric, 1, delta=0.01)
+
+
 class HelpTest(unittest.TestCase):
-    def test_everything_is_documented(self):
+    """help(drycut) is the manual page: every argument and every field is told of."""
+
+    def test_every_argument_is_told(self):
+        for name in drycut.__all__:
+            call = getattr(drycut, name)
+            if inspect.isfunction(call):
+                for parameter in inspect.signature(call).parameters:
+                    self.assertRegex(call.__doc__, rf"\b{parameter}\b", f"{name}({parameter})")
+
+    def test_every_field_is_told(self):
+        for name in drycut.__all__:
+            kind = getattr(drycut, name)
+            for field in getattr(kind, "_fields", None) or getattr(kind, "__dataclass_fields__", ()):
+                self.assertRegex(kind.__doc__, rf"(?m)^ +{field} ", f"{name}.{field}")
+
+    def test_everything_public_has_a_place_in_help(self):
+        text = pydoc.plain(pydoc.render_doc(drycut))
         for name in drycut.__all__:
             self.assertTrue(getattr(drycut, name).__doc__, name)
-        for name in ("step", "advance", "read", "write", "unit", "names", "take_events", "checks"):
-            self.assertTrue(getattr(drycut.Simulation, name).__doc__, name)
+            self.assertIn(name, text)
+        for name in ("step", "advance", "read", "write", "unit", "names", "time", "step_length", "duration",
+                     "take_events", "checks"):
+            self.assertTrue(drycut.Simulation.__dict__[name].__doc__, name)
+        self.assertEqual(str(inspect.signature(drycut.Simulation.write)), "(self, /, name, value)")
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
+    def test_types_are_right_and_seen(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def mypy(*arguments):
+                return subprocess.run(["mypy", "--strict", "--python-executable", sys.executable, "--cache-dir",
+                                       os.path.join(folder, "cache"), *arguments], capture_output=True, text=True,
+                                      cwd=folder, check=False,
+                                      env={**os.environ, "MYPYPATH": os.path.dirname(os.path.dirname(drycut.__file__))}
+                                      ).stdout
+
+            self.assertIn("Success", mypy(os.path.dirname(drycut.__file__)))
+            uses = {"drycut.run('x.yaml').checks[0].margin + 1": "None", "drycut.run(3)": "run",
+                    "drycut.Simulation('x.yaml').write(1, 2)": "str", "drycut.sweep('x.yaml')": "over",
+                    "drycut.bode('x.yaml').phase_margin.value": "None"}
+            for line, told in uses.items():
+                with open(os.path.join(folder, "use.py"), "w", encoding="utf-8") as file:
+                    file.write(f"import drycut\n{line}\n")
+                said = mypy("use.py")
+                self.assertIn("use.py:2: error:", said, line)
+                self.assertIn(told, said, line)
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-q"])
+    unittest.main(argv=[sys.argv[0], "-q", *sys.argv[1:]])

@@ -1,0 +1,138 @@
+"""Scenarios run: whole, and step by step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from . import _core
+from ._problems import Path, Settings, settings
+from ._tables import Table, frame, table
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import]
+
+
+class Event(NamedTuple):
+    """Something that happened: in a plant, a device, a task or the timeline.
+
+    time    [s] since the beginning of the run; it may lie inside a step
+    source  "knife"
+    name    "cut"
+    values  {"length": 800.012, "mismatch": 5.1, ...}, in the units that events.csv gives
+    text    of a remark, else ""
+    """
+
+    time: float
+    source: str
+    name: str
+    values: dict[str, float]
+    text: str
+
+
+class Check(NamedTuple):
+    """What a check of the scenario came to.
+
+    name         as the scenario has it
+    expectation  "each cut: abs(length - 800) <= 0.1, from 4 s"; "" of Simulation.checks()
+    passed       True where it holds
+    margin       how far the worst moment was from the limit; negative: beyond it; None: there is none to tell
+    unit         of the margin, "" = a pure number
+    at           the worst moment [s]; None: not known
+    detail       in words
+    """
+
+    name: str
+    expectation: str
+    passed: bool
+    margin: float | None
+    unit: str
+    at: float | None
+    detail: str
+
+
+@dataclass
+class Run:
+    """What drycut.run() gives.
+
+    passed   every check held and the simulation came to its end
+    failure  why the simulation itself stopped before, "" if it did not
+    checks   a Check each
+    events   an Event each, in the order of time
+    trace    numpy structured array, shape (instants,): field `time` [s], then a float64 field a recorded channel
+    units    of the fields of `trace`, "" = a pure number
+    notes    what a reader should know that is no fault
+    """
+
+    passed: bool
+    failure: str
+    checks: list[Check]
+    events: list[Event]
+    trace: Table
+    units: dict[str, str]
+    notes: list[str]
+
+    def frame(self) -> "pandas.DataFrame":
+        """The trace as a pandas DataFrame over time [s]; units in its `attrs["units"]`. Needs pandas."""
+        return frame(self.trace, self.units, "time")
+
+
+def run(file: Path, set: Settings | None = None) -> Run:
+    """Runs a scenario from time zero to its end, without pictures and files.
+
+    file  scenario (.yaml)
+    set   overrides, {"plants.web.speed": "80 m/min"}
+
+    Raises BadInput with all problems of the scenario and its programs.
+    """
+    got = _core.run(file, settings(set))
+    return Run(passed=got["passed"], failure=got["failure"], checks=[Check(*check) for check in got["checks"]],
+               events=[Event(*event) for event in got["events"]], trace=table(got["columns"], got["units"]),
+               units=got["units"], notes=got["notes"])
+
+
+class Simulation(_core.Simulation):
+    """A scenario put together and run step by step: the controller with its program, the machine, wires, timeline
+    and checks as run() has them. One object is one run from time zero; the same calls give the same numbers. One
+    thread at a time works on it."""
+
+    def __init__(self, file: Path, set: Settings | None = None):
+        """Reads the scenario (.yaml) with its overrides. Raises BadInput with all problems."""
+        super().__init__(file, settings(set))
+
+    # Named once more, so that help() tells of them here.
+    step = _core.Simulation.step
+    advance = _core.Simulation.advance
+    read = _core.Simulation.read
+    write = _core.Simulation.write
+
+    def unit(self, name: str) -> str:
+        """Of what is read or written under a name; "" = a pure number."""
+        return super().unit(name)
+
+    def names(self) -> list[str]:
+        """All names that read() takes."""
+        return super().names()
+
+    @property
+    def time(self) -> float:
+        """[s] since the beginning of the run."""
+        return super().time
+
+    @property
+    def step_length(self) -> float:
+        """[s] of a step."""
+        return super().step_length
+
+    @property
+    def duration(self) -> float:
+        """[s] that run() would run; a program may go on beyond it."""
+        return super().duration
+
+    def take_events(self) -> list[Event]:  # type: ignore[override]
+        """What happened since the last call."""
+        return [Event(*event) for event in super().take_events()]
+
+    def checks(self) -> list[Check]:  # type: ignore[override]
+        """The checks of the scenario as if the run ended now."""
+        return [Check(*check) for check in super().checks()]

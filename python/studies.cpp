@@ -1,0 +1,329 @@
+// Studies of many runs: sweep, envelope, tune. Their tables go to Python as the text of the command's own
+// files.
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "python/shared.hpp"
+#include "sim/file.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/studies/sweep/report.hpp"
+#include "sim/studies/sweep/study.hpp"
+#include "sim/studies/tune/patch.hpp"
+#include "sim/studies/tune/plan.hpp"
+
+namespace drycut::python {
+
+namespace {
+
+namespace studies = sim::studies;
+using Figures = std::vector<std::pair<std::string, std::string>>;
+
+constexpr auto* points_file = "points.cache";
+constexpr int most_jobs = 256;
+const ArgumentNames argument_names = {
+    {"--figure", "figures"}, {"--constraint", "constraints"}, {"--from", "start"}};
+
+/// Where the files of a study go.
+struct Place {
+  std::filesystem::path folder;
+  bool kept = false;  ///< with the command's report; else the folder is a temporary one
+  int jobs = 1;
+};
+
+/// Tells the caller's own thread how far a study is: Python's signals are handled there, and a callback need
+/// not know of threads.
+class Teller {
+ public:
+  explicit Teller(py::object callback) : callback_(std::move(callback)) {}
+  void operator()(std::size_t done, std::size_t of) {
+    if (std::this_thread::get_id() == caller_) tell(done, of);
+  }
+  /// The last word, also where another thread had it.
+  void end(std::size_t of) {
+    if (told_ != of) tell(of, of);
+  }
+
+ private:
+  void tell(std::size_t done, std::size_t of) {
+    told_ = done;
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!callback_.is_none()) callback_(done, of);
+  }
+  py::object callback_;
+  std::thread::id caller_ = std::this_thread::get_id();
+  std::size_t told_ = 0;
+};
+
+void check_jobs(int jobs, Problems& problems) {
+  if (jobs < 1 || jobs > most_jobs)
+    problems.push_back(
+        {"jobs", 1, 1, std::to_string(jobs) + " runs at the same time", "1 to " + std::to_string(most_jobs)});
+}
+
+bool is_number(const std::string& text) {
+  double number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size();
+}
+
+/// A field of the table has one name: a figure must not be called like another column.
+void check_names(const studies::PointQuestion& question, const studies::SweepAxes& axes, Problems& problems) {
+  std::set<std::string> taken = {"verdict", "limit"};
+  for (const auto& axis : axes) taken.insert(axis.parameter.path);
+  const auto own = question.columns.size() - question.figures.size();
+  for (std::size_t i = 0; i < own; ++i) {
+    taken.insert(question.columns[i]);
+    taken.insert(question.columns[i].substr(0, question.columns[i].rfind(" [")));
+  }
+  for (const auto& figure : question.figures)
+    if (figure.name.empty() || !taken.insert(figure.name).second)
+      problems.push_back({"figures", 1, 1, "'" + figure.name + "' cannot be the name of a figure",
+                          figure.name.empty() ? "give it one" : "a column has this name, give another"});
+}
+
+struct SweepCall {
+  std::filesystem::path file;
+  Settings set;
+  std::vector<std::string> over;
+  Figures figures;
+};
+
+/// Reads everything; what is wrong is thrown, all at once.
+class Asked {
+ public:
+  studies::PointQuestion question;
+  studies::SweepAxes axes;
+  std::optional<studies::BoundRequest> bound;
+  std::vector<studies::SweepPoint> points;
+  std::optional<sim::OutputFolder> folder;
+
+  Asked(const SweepCall& call, const std::string& find_max, std::optional<std::size_t> sample,
+        const Place& place) {
+    Problems problems;
+    check_jobs(place.jobs, problems);
+    auto text = sim::read_file(call.file, problems);
+    question.file = call.file;
+    question.set = overrides_of(call.set);
+    for (const auto& [name, term] : call.figures) question.figures.push_back({name, term});
+    for (const auto& over : call.over)
+      if (auto axis = studies::parse_axis(over, "over", sample.has_value(), problems))
+        axes.push_back(std::move(*axis));
+    if (!find_max.empty()) bound = studies::parse_bound(find_max, "find_max", problems);
+    if (text) {
+      question.text = std::move(*text);
+      studies::prepare(question, problems);
+    }
+    check_size(sample, problems);
+    refuse(problems, argument_names);
+    auto all = axes;
+    if (bound) all.push_back({bound->parameter, {}});
+    studies::check_axes(all, question, problems);
+    check_names(question, all, problems);
+    refuse(problems, argument_names);
+    if (bound) {
+      bound->parameter = all.back().parameter;
+      all.pop_back();
+    }
+    axes = std::move(all);
+    points = studies::points_of(axes, sample, problems);
+    refuse(problems, argument_names);
+    const auto* const kind = bound ? "envelope" : "sweep";
+    std::vector<std::string> files = {table(), points_file};
+    files.insert(files.end(), studies::study_pages.begin(), studies::study_pages.end());
+    folder.emplace(place.folder, kind, files, problems);
+    refuse(problems, argument_names);
+    folder->begin({points_file});
+  }
+
+  [[nodiscard]] std::string table() const { return bound ? "envelope.csv" : "sweep.csv"; }
+  /// Columns of words; all others are numbers.
+  [[nodiscard]] std::vector<std::string> words() const {
+    std::vector<std::string> words = {"verdict", "limit"};
+    for (const auto& axis : axes)
+      if (!std::all_of(axis.values.begin(), axis.values.end(), is_number))
+        words.push_back(heading(axis.parameter));
+    return words;
+  }
+
+ private:
+  void check_size(std::optional<std::size_t> sample, Problems& problems) const {
+    if (sample && (*sample < 1 || *sample > studies::most_points))
+      problems.push_back({"sample", 1, 1, std::to_string(*sample) + " points",
+                          "1 to " + std::to_string(studies::most_points)});
+    if (sample && axes.size() > studies::sobol_axes)
+      problems.push_back({"sample", 1, 1, std::to_string(axes.size()) + " axes",
+                          "a Sobol sequence is over " + std::to_string(studies::sobol_axes) + " at most"});
+    // Before axes of a million values are made.
+    if (problems.empty() && !sample && !studies::grid_size(axes, studies::most_points))
+      studies::points_of(axes, {}, problems);
+  }
+};
+
+py::dict answer(const Asked& asked, const std::string& csv, std::size_t simulated) {
+  std::vector<std::size_t> shape;
+  for (const auto& axis : asked.axes) shape.push_back(axis.values.size());
+  return py::dict("csv"_a = csv, "words"_a = asked.words(),
+                  "axes"_a = column(asked.axes, [](const auto& axis) { return heading(axis.parameter); }),
+                  "shape"_a = shape, "figures"_a = asked.question.figures.size(), "simulated"_a = simulated);
+}
+
+py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const Place& place,
+               const py::object& progress) {
+  Teller teller(progress);
+  std::optional<Asked> asked;
+  std::string csv;
+  std::size_t simulated = 0;
+  {
+    const py::gil_scoped_release unlocked;
+    asked.emplace(call, "", sample, place);
+    studies::PointStore store(asked->folder->add(points_file), place.jobs);
+    const auto rows = studies::sweep(asked->question, asked->axes, asked->points, store, std::ref(teller));
+    teller.end(rows.size());
+    csv = studies::sweep_csv(asked->question, asked->axes, asked->points, rows);
+    simulated = store.simulated();
+    if (place.kept) {
+      sim::write_file(asked->folder->add(asked->table()), csv);
+      studies::write_sweep_report(asked->question, asked->axes, asked->points, rows, *asked->folder);
+    }
+  }
+  return answer(*asked, csv, simulated);
+}
+
+py::dict envelope(const SweepCall& call, const std::string& find_max, const Place& place,
+                  const py::object& progress) {
+  Teller teller(progress);
+  std::optional<Asked> asked;
+  std::string csv;
+  std::size_t simulated = 0;
+  {
+    const py::gil_scoped_release unlocked;
+    asked.emplace(call, find_max, std::nullopt, place);
+    studies::PointStore store(asked->folder->add(points_file), place.jobs);
+    const auto bounds = studies::envelope(asked->question, asked->axes, asked->points, *asked->bound, store,
+                                          std::ref(teller));
+    csv = studies::envelope_csv(asked->question, asked->axes, asked->points, *asked->bound, bounds);
+    simulated = store.simulated();
+    if (place.kept) {
+      sim::write_file(asked->folder->add(asked->table()), csv);
+      studies::write_envelope_report(asked->question, asked->axes, asked->points, *asked->bound, bounds,
+                                     *asked->folder);
+    }
+  }
+  return answer(*asked, csv, simulated);
+}
+
+void check_counts(const studies::TuneRequest& request, Problems& problems) {
+  check_jobs(request.jobs, problems);
+  const auto check = [&](const char* name, int value, int most) {
+    if (value < 1 || value > most)
+      problems.push_back({name, 1, 1, std::to_string(value) + " runs", "1 to " + std::to_string(most)});
+  };
+  check("budget", request.budget, 100'000);
+  check("spread_runs", request.spread_runs, 10'000);
+  if (request.scenarios.empty())
+    problems.push_back({"files", 1, 1, "there are none", "give a scenario at least"});
+  if (request.vary.empty())
+    problems.push_back(
+        {"vary", 1, 1, "it is empty", "give a range, such as {\"...AxisX.pgain\": \"1..100\"}"});
+}
+
+py::dict tune(const studies::TuneRequest& request, const Settings& set, const std::filesystem::path& out,
+              const py::object& progress) {
+  Teller teller(progress);
+  const auto budget = static_cast<std::size_t>(std::max(0, request.budget));
+  std::optional<studies::TunePlan> plan;
+  std::optional<studies::Tuned> tuned;
+  std::string evaluations;
+  std::optional<std::string> spread;
+  {
+    const py::gil_scoped_release unlocked;
+    Problems problems;
+    check_counts(request, problems);
+    plan = studies::plan_tuning(request, overrides_of(set), problems);
+    refuse(problems, argument_names);
+    sim::OutputFolder folder(out, "tune", studies::tuning_files, problems);
+    refuse(problems, argument_names);
+    tuned.emplace(studies::tune(*plan, request, folder, [&](const char* /*doing*/, double share) {
+      teller(static_cast<std::size_t>(share * static_cast<double>(budget)), budget);
+    }));
+    teller.end(budget);
+    evaluations = sim::read_file(out / studies::evaluations_file, problems).value_or("");
+    if (tuned->spread) spread = sim::read_file(out / studies::spread_file, problems);
+  }
+  const auto& best = tuned->best();
+  py::dict values;
+  for (std::size_t i = 0; i < plan->vary.size(); ++i) values[py::str(plan->vary[i].path)] = best.point[i];
+  Settings settings;
+  for (const auto& override : studies::overrides_of(plan->vary, best.point))
+    settings[override.path] = override.value;
+  py::dict units;
+  for (const auto& parameter : plan->vary) units[py::str(parameter.path)] = parameter.unit;
+  return py::dict(
+      "passed"_a = best.verdict.feasible(), "values"_a = values, "units"_a = units, "settings"_a = settings,
+      "metric"_a = best.verdict.metric, "metric_before"_a = tuned->found.before.metric,
+      "summary"_a = studies::summary_text(tuned->found), "patch"_a = studies::patch_text(tuned->found),
+      "evaluations"_a = evaluations, "spread"_a = spread, "simulated"_a = tuned->trials->simulated());
+}
+
+}  // namespace
+
+void add_studies(py::module_& module) {
+  module.def(
+      "sweep",
+      [](const std::filesystem::path& file, const Settings& set, const std::vector<std::string>& over,
+         const Figures& figures, std::optional<std::int64_t> sample, int jobs,
+         const std::filesystem::path& folder, bool kept, const py::object& progress) {
+        if (sample && *sample < 0) sample = 0;  // refused as such
+        return sweep({file, set, over, figures}, sample, {folder, kept, jobs}, progress);
+      },
+      "file"_a, "set"_a, "over"_a, "figures"_a, "sample"_a, "jobs"_a, "folder"_a, "kept"_a, "progress"_a);
+  module.def(
+      "envelope",
+      [](const std::filesystem::path& file, const Settings& set, const std::vector<std::string>& over,
+         const std::string& find_max, const Figures& figures, int jobs, const std::filesystem::path& folder,
+         bool kept, const py::object& progress) {
+        return envelope({file, set, over, figures}, find_max, {folder, kept, jobs}, progress);
+      },
+      "file"_a, "set"_a, "over"_a, "find_max"_a, "figures"_a, "jobs"_a, "folder"_a, "kept"_a, "progress"_a);
+  module.def(
+      "tune",
+      [](const std::vector<std::filesystem::path>& files, const Settings& set,
+         const std::vector<std::string>& vary, const std::string& minimise,
+         const std::vector<std::string>& constraints, const std::string& start, bool ignore_checks,
+         const std::string& wire, const std::optional<std::string>& at, double amplitude, int budget,
+         std::uint64_t seed, const std::vector<std::string>& spread, int spread_runs, int jobs,
+         const std::filesystem::path& folder, bool kept, const py::object& progress) {
+        studies::TuneRequest request;
+        request.scenarios = files;
+        request.vary = vary;
+        request.minimise = minimise;
+        request.constraints = constraints;
+        request.from = start;
+        request.ignore_checks = ignore_checks;
+        request.loop.wire = wire;
+        request.loop.at = at;
+        request.loop.amplitude = amplitude;
+        request.budget = budget;
+        request.seed = seed;
+        request.spread = spread;
+        request.spread_runs = spread_runs;
+        request.jobs = jobs;
+        request.pictures = kept;
+        return tune(request, set, folder, progress);
+      },
+      "files"_a, "set"_a, "vary"_a, "minimise"_a, "constraints"_a, "start"_a, "ignore_checks"_a, "wire"_a,
+      "at"_a, "amplitude"_a, "budget"_a, "seed"_a, "spread"_a, "spread_runs"_a, "jobs"_a, "folder"_a,
+      "kept"_a, "progress"_a);
+}
+
+}  // namespace drycut::python

@@ -1,0 +1,188 @@
+#include "sim/studies/tune/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/file.hpp"
+#include "sim/loop/simulation.hpp"
+#include "sim/scenario/units.hpp"
+#include "sim/studies/tune/patch.hpp"
+#include "sim/studies/tune/search.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+void read_cases(const TuneRequest& request, Study& study, Problems& problems) {
+  for (const auto& file : request.scenarios)
+    if (auto text = read_file(file, problems)) study.cases.push_back({file, std::move(*text), {}});
+}
+
+void read_from(const TuneRequest& request, Study& study, Problems& problems) {
+  const auto from = scenario::parse_quantity(request.from);
+  if (!from || !(from->number >= 0) || !scenario::is_unit(from->unit) ||
+      !scenario::same_dimension(from->unit, "s") || scenario::to_si(from->number, from->unit) > 1e9) {
+    problems.push_back({"--from", 1, 1, fmt::format("'{}' is no time", request.from), "such as 3 s"});
+  } else {
+    study.from = static_cast<Time>(scenario::to_si(from->number, from->unit) * 1e9 + 0.5);
+  }
+}
+
+void read_parameters(const std::vector<std::string>& texts, const std::string& option, bool relative,
+                     TunedParameters& parameters, Problems& problems) {
+  for (const auto& text : texts) {
+    auto parameter = parse_parameter(text, option, relative, problems);
+    if (!parameter) continue;
+    const bool twice = std::any_of(parameters.begin(), parameters.end(),
+                                   [&](const TunedParameter& p) { return p.path == parameter->path; });
+    if (twice) {
+      problems.push_back({option, 1, 1, parameter->path + " is given twice", "keep one"});
+    } else {
+      parameters.push_back(std::move(*parameter));
+    }
+  }
+}
+
+/// --spread PATH=±30% around what the scenario says.
+bool place_relative(TunedParameter& parameter, std::optional<double> present, Problems& problems) {
+  if (!parameter.relative) return true;
+  if (!present || *present == 0) {
+    problems.push_back({parameter.option, 1, parameter.low_column,
+                        fmt::format("{} has no value to spread around", parameter.path),
+                        "give a range LO..HI, or a quantity that is not 0"});
+    return false;
+  }
+  const double size = std::abs(*present) * *parameter.relative;
+  parameter.low = *present - size;
+  parameter.high = *present + size;
+  if (parameter.integer) {
+    parameter.low = std::rint(parameter.low);
+    parameter.high = std::rint(parameter.high);
+  }
+  return true;
+}
+
+/// Both ends of the range must be values that the scenario takes.
+void try_bounds(const TunedParameter& parameter, const Study& study, const Study::Case& entry,
+                Problems& problems) {
+  for (const bool upper : {false, true}) {
+    auto overrides = study.set;
+    overrides.push_back({parameter.path, value_text(parameter, upper ? parameter.high : parameter.low)});
+    Problems own;
+    const auto scenario = scenario::read_scenario_text(entry.text, entry.file, overrides, own);
+    if (own.empty()) const loop::Simulation probe(scenario, own);
+    for (auto& problem : own) {
+      problem.file = parameter.option;
+      problem.line = 1;
+      problem.column = upper ? parameter.high_column : parameter.low_column;
+      problem.what = parameter.path + ": " + problem.what;
+      const bool told = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
+        return other.what == problem.what && other.file == problem.file;
+      });
+      if (!told) problems.push_back(std::move(problem));
+    }
+  }
+}
+
+void check_parameter(TunedParameter& parameter, const Study& study, std::optional<double>& present,
+                     Problems& problems) {
+  const auto told = problems.size();
+  for (const auto& entry : study.cases) {
+    const auto before = problems.size();
+    Problems ignored;
+    const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, ignored);
+    if (!ignored.empty()) return;
+    const auto value = present_value(parameter, scenario);
+    if (&entry == &study.cases.front()) present = value;
+    if (!place_relative(parameter, value, problems)) return;
+    try_bounds(parameter, study, entry, problems);
+    if (problems.size() == before) check_against_controller(parameter, scenario, problems);
+  }
+  if (problems.size() == told && parameter.integer &&
+      (parameter.low != std::rint(parameter.low) || parameter.high != std::rint(parameter.high)))
+    problems.push_back({parameter.option, 1, parameter.low_column, parameter.path + " is a whole number",
+                        "end the range at whole numbers"});
+}
+
+/// The scenario's own values as a place to start, where it says them all and they lie in the ranges.
+std::optional<Point> start_of(const TunePlan& plan) {
+  Point point;
+  for (std::size_t i = 0; i < plan.vary.size(); ++i) {
+    const auto& value = plan.present[i];
+    const auto& p = plan.vary[i];
+    if (!value || *value < p.low || *value > p.high || (p.integer && *value != std::rint(*value))) return {};
+    point.push_back(*value);
+  }
+  return point;
+}
+
+}  // namespace
+
+TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override> set, Problems& problems) {
+  TunePlan plan;
+  plan.study.set = std::move(set);
+  read_cases(request, plan.study, problems);
+  read_from(request, plan.study, problems);
+  plan.study.minimise = request.minimise;
+  plan.study.constraints = request.constraints;
+  plan.study.ignore_checks = request.ignore_checks;
+  plan.study.loop = request.loop;
+  check_request(plan.study.loop, problems);
+  prepare(plan.study, problems);
+  if (problems.empty() && !plan.study.needs_loop && !request.loop.wire.empty())
+    problems.push_back({"--wire", 1, 1, "no constraint is on the loop",
+                        "add --constraint \"phase_margin >= 45\", or leave it out"});
+  read_parameters(request.vary, "--vary", false, plan.vary, problems);
+  read_parameters(request.spread, "--spread", true, plan.spread, problems);
+  for (const auto& parameter : plan.spread)
+    for (const auto& varied : plan.vary)
+      if (varied.path == parameter.path)
+        problems.push_back(
+            {"--spread", 1, 1, parameter.path + " is what --vary tunes", "spread something else"});
+  for (auto& parameter : plan.vary)
+    check_parameter(parameter, plan.study, plan.present.emplace_back(), problems);
+  for (auto& parameter : plan.spread) {
+    std::optional<double> ignored;
+    check_parameter(parameter, plan.study, ignored, problems);
+  }
+  return plan;
+}
+
+Tuned tune(const TunePlan& plan, const TuneRequest& request, OutputFolder& folder,
+           const TuneProgress& progress) {
+  folder.begin({evaluations_file, spread_file});
+  const auto& study = plan.study;
+  auto trials = std::make_unique<Trials>(
+      study, plan.vary, std::vector<scenario::Override>{}, folder.add(evaluations_file), request.jobs,
+      [&](int runs) { progress("tuning", std::min(1.0, static_cast<double>(runs) / request.budget)); });
+  Tuning tuning{study, *trials, plan.present, measure(study, {}), 0, {}, nullptr, {}, {}};
+  tuning.best = search(*trials, start_of(plan), request.budget, request.seed);
+  const int searched = trials->runs();
+  tuning.slices = look_around(*trials, tuning.best);
+
+  const auto best = overrides_of(plan.vary, trials->at(tuning.best).point);
+  std::unique_ptr<Trials> spread;
+  if (!plan.spread.empty()) {
+    const double all = request.spread_runs * study.runs_of_a_trial();
+    spread = std::make_unique<Trials>(study, plan.spread, best, folder.add(spread_file), request.jobs,
+                                      [&](int runs) { progress("spreading", std::min(1.0, runs / all)); });
+    spread->run("spread", latin_hypercube(plan.spread, request.spread_runs,
+                                          plants::Random(request.seed, "drycut tune spread")));
+    tuning.spread = spread.get();
+  }
+  write_file(folder.add(patch_file), patch_text(tuning));
+  const bool has_report = request.pictures && !trials->at(tuning.best).verdict.stopped;
+  if (has_report) {
+    for (const auto& entry : study.cases) {
+      tuning.runs_before.push_back(keep_run(study, entry, {}));
+      tuning.runs_after.push_back(keep_run(study, entry, best));
+    }
+    write_tuning_report(tuning, folder);
+  }
+  return {std::move(trials), std::move(spread), searched, has_report, std::move(tuning)};
+}
+
+}  // namespace drycut::sim::studies

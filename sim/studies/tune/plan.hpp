@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim/studies/bode/loop.hpp"
+#include "sim/studies/tune/report.hpp"
+#include "sim/studies/tune/trials.hpp"
+
+namespace drycut::sim::studies {
+
+/// A tuning as it is asked for.
+struct TuneRequest {
+  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::string> vary;         ///< "controller.qmove.set.AxisX.pgain=1..100"
+  std::string minimise;                  ///< "rms(AxisX.follerr)"
+  std::vector<std::string> constraints;  ///< "max(abs(knife.motor.torque)) <= 20", "phase_margin >= 45"
+  LoopRequest loop;                      ///< how stability margins in the constraints are measured
+  std::string from = "0 s";              ///< metric and constraints look from here on
+  bool ignore_checks = false;            ///< failed checks of the scenarios do not count
+  int budget = 100;                 ///< simulated runs of the search, those that measure margins included
+  int jobs = 1;                     ///< runs at the same time; the result is the same
+  std::uint64_t seed = 1;           ///< of the search and the spread
+  std::vector<std::string> spread;  ///< "plants.knife.inertia=±30%"
+  int spread_runs = 20;
+  bool pictures = true;
+};
+
+/// The request, read and found sound.
+struct TunePlan {
+  Study study;
+  TunedParameters vary;
+  TunedParameters spread;
+  std::vector<std::optional<double>> present;  ///< of `vary`, where the scenario says it
+};
+/// `set` applies before what is tuned. What is wrong is told by the command line's options.
+TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override> set, Problems& problems);
+
+/// The files of a tuning. The first two go on where they ended.
+inline constexpr auto* evaluations_file = "evaluations.csv";
+inline constexpr auto* spread_file = "spread.csv";
+inline constexpr auto* patch_file = "patch.txt";
+inline const std::vector<std::string> tuning_files = {evaluations_file, spread_file, patch_file,
+                                                      "report.html", "plots/"};
+
+/// A tuning carried out.
+struct Tuned {
+  std::unique_ptr<Trials> trials;
+  std::unique_ptr<Trials> spread;  ///< none if nothing is spread
+  int searched = 0;                ///< simulated runs of the search; the surroundings come on top
+  bool has_report = false;
+  Tuning found;  ///< refers to the plan and to the trials above
+
+  [[nodiscard]] const Trials::Trial& best() const { return trials->at(found.best); }
+};
+/// Tells what is being done and which share of it is.
+using TuneProgress = std::function<void(const char* doing, double share)>;
+/// Searches, tries the surroundings and the spread, writes the files into `folder`; the report only where a
+/// run with the best values can be shown. Throws std::runtime_error if something cannot be written.
+Tuned tune(const TunePlan& plan, const TuneRequest& request, OutputFolder& folder,
+           const TuneProgress& progress);
+
+}  // namespace drycut::sim::studies
