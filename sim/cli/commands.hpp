@@ -19,6 +19,8 @@ enum ExitStatus : int {
 
 // Each adds its command with its options to the program; what the chosen one comes to goes to `status`.
 void add_run(CLI::App& app, int& status);
+void add_live(CLI::App& app, int& status);
+void add_replay(CLI::App& app, int& status);
 void add_check(CLI::App& app, int& status);
 void add_cam(CLI::App& app, int& status);
 void add_design(CLI::App& app, int& status);

@@ -16,6 +16,7 @@
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
 #include "sim/file.hpp"
+#include "sim/live/session.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/output_folder.hpp"
@@ -40,9 +41,10 @@ struct Job {
   report::PartMeshes meshes;
   report::RunResult result;
   std::optional<OutputFolder> folder;
-  std::string trouble;          ///< a result could not be written
-  std::string left_out;         ///< because a helper program is missing, and what to install
-  std::filesystem::path scene;  ///< the glTF file, "" = none
+  std::vector<std::string> notes;  ///< of what was read
+  std::string trouble;             ///< a result could not be written
+  std::string left_out;            ///< because a helper program is missing, and what to install
+  std::filesystem::path scene;     ///< the glTF file, "" = none
 };
 
 /// A scene that compares some of the jobs.
@@ -156,7 +158,15 @@ Work prepare(const RunOptions& options, Problems& problems) {
   for (const auto& file : options.scenarios) {
     claims.results(file.stem().string(), file, problems);
     Problems own;
-    if (auto scene = studies::read_comparison(file, own)) {
+    if (live::is_session(file)) {
+      auto job = std::make_unique<Job>();
+      if (!options.set.empty())
+        own.push_back({"--set", 1, 1, fmt::format("{} is a session, which has its own", file.string()),
+                       "drycut replay --to-scenario makes a scenario of it"});
+      if (auto session = live::read_session(file, job->notes, own)) job->scenario = std::move(*session);
+      put_together(*job, file.stem().string(), options, claims, own);
+      work.jobs.push_back(std::move(job));
+    } else if (auto scene = studies::read_comparison(file, own)) {
       if (own.empty()) prepare_members(std::move(*scene), overrides, options, claims, work, own);
     } else {
       auto job = std::make_unique<Job>();
@@ -314,6 +324,7 @@ void print_result(const Job& job) {
     if (!margins.rows.empty())
       fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
   }
+  for (const auto& note : job.notes) fmt::print("  note {}\n", printable(note));
   for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
   if (!job.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left_out);
   if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());

@@ -167,6 +167,19 @@ std::vector<std::string> Names::reading_names() const {
   return names;
 }
 
+std::vector<std::string> Names::setting_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, port] : panel_.switches) names.push_back(std::string(panel_prefix) + name);
+  for (const auto& [name, setting] : settings_) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> Names::lamp_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, port] : panel_.lamps) names.push_back(std::string(panel_prefix) + name);
+  return names;
+}
+
 std::string Names::suggest_reading(const std::string& name) const {
   constexpr auto* where_names_are =
       "name a plant's channel (drycut plants), a device variable or state (drycut devices) or a "

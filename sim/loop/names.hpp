@@ -69,6 +69,12 @@ class Names {
   [[nodiscard]] std::string suggest_disturbed(const std::string& name) const;
   /// All names that `reading` knows.
   [[nodiscard]] std::vector<std::string> reading_names() const;
+  /// What an operator works: switches of the panel, then settings and live parameters of plants.
+  [[nodiscard]] std::vector<std::string> setting_names() const;
+  /// "panel.in_sync"
+  [[nodiscard]] std::vector<std::string> lamp_names() const;
+  /// All of the plants, each under its component's full name.
+  [[nodiscard]] const std::vector<std::pair<std::string, plants::Fault>>& faults() const { return faults_; }
 
  private:
   // "knife.encoder.jitter"

@@ -75,6 +75,18 @@ class Simulation {
     if (failure_.empty()) step();
     return failure_.empty();
   }
+  /// Tells one more, from now on; it outlives the simulation.
+  void tell(Observer& observer) { observers_.push_back(&observer); }
+  /// What has been written is in the files; of whoever steps it in place of run().
+  void flush() {
+    if (files_) files_->finish();
+  }
+  /// Takes an entry of the timeline more, before the step at which it is due: at() in the future, or now. The
+  /// run is the same as if it had stood behind the scenario's own. False, and nothing taken, if it does not
+  /// fit.
+  bool act(const scenario::Stimulus& stimulus, Problems& problems) {
+    return timeline_->add(stimulus, problems);
+  }
   /// What came of the run, if it ended now.
   [[nodiscard]] Outcome outcome();
   [[nodiscard]] Time time() const { return time_; }

@@ -85,51 +85,69 @@ class Binder {
 
 Timeline::Timeline(const scenario::Scenario& scenario, Names& names, devices::Controller* controller,
                    Problems& problems)
-    : watch_(names),
+    : scenario_(scenario),
+      names_(names),
+      watch_(names),
       controller_(controller),
       look_every_((millisecond + scenario.scene.step - 1) / scenario.scene.step * scenario.scene.step) {
-  Binder binder(names, scenario, problems);
   auto known = names.reading_names();
-  const auto slot = [this](const std::string& name) { return watch_.operand(name); };
   for (const auto& stimulus : scenario.timeline) {
     if (problems.size() > most_suggestions) known.clear();
-    Entry entry;
-    entry.after = stimulus.after;
-    entry.every = stimulus.every;
-    entry.over = stimulus.over;
-    entry.power = stimulus.power;
-    entry.from = stimulus.at.value_or(0);
-    entry.line = stimulus.place.line;
-    if (stimulus.when) {
-      entry.when = scenario::Expression::compile(*stimulus.when, scenario, slot, known, problems);
-    } else {
-      entry.due = stimulus.at.value_or(0) + stimulus.after;
-    }
-    for (const auto& [name, quantity] : stimulus.set) {
-      const auto target = binder.target(name);
-      if (!target) continue;
-      const auto value = binder.value(name.text, target->unit, target->range, quantity);
-      if (value) entry.sets.push_back({*target, *value, text_of(name.text, quantity, "=")});
-    }
-    for (const auto& [name, quantity] : stimulus.ramp) {
-      const auto target = binder.target(name);
-      if (!target) continue;
-      const auto value = binder.value(name.text, target->unit, target->range, quantity);
-      if (value) entry.ramps.push_back({*target, *value, text_of(name.text, quantity, "->")});
-    }
-    for (const auto& action : stimulus.faults) {
-      const auto fault = binder.fault(action);
-      if (!fault) continue;
-      const auto name = action.component.text + "." + action.fault.text;
-      const auto value = binder.value(name, fault->unit, range_of(fault->range), action.value);
-      if (value) entry.faults.push_back({fault->act, *value, text_of(name, action.value, "=")});
-    }
-    if (stimulus.power && controller == nullptr) {
-      binder.problem(stimulus.place, "there is no controller to switch",
-                     "add a controller section or leave power away");
-    }
-    entries_.push_back(std::move(entry));
+    entries_.push_back(bind(stimulus, known, problems));
   }
+}
+
+bool Timeline::add(const scenario::Stimulus& stimulus, Problems& problems) {
+  const auto before = problems.size();
+  auto entry = bind(stimulus, {}, problems);
+  if (problems.size() > before) return false;
+  // What has been done for good need not be looked at again: a panel may send thousands.
+  std::erase_if(entries_, [](const Entry& done) { return done.acted && !done.due; });
+  entries_.push_back(std::move(entry));
+  next_ = std::min(next_, entries_.back().due.value_or(0));
+  return true;
+}
+
+Timeline::Entry Timeline::bind(const scenario::Stimulus& stimulus, const std::vector<std::string>& known,
+                               Problems& problems) {
+  Binder binder(names_, scenario_, problems);
+  const auto slot = [this](const std::string& name) { return watch_.operand(name); };
+  Entry entry;
+  entry.after = stimulus.after;
+  entry.every = stimulus.every;
+  entry.over = stimulus.over;
+  entry.power = stimulus.power;
+  entry.from = stimulus.at.value_or(0);
+  entry.line = stimulus.place.line;
+  if (stimulus.when) {
+    entry.when = scenario::Expression::compile(*stimulus.when, scenario_, slot, known, problems);
+  } else {
+    entry.due = stimulus.at.value_or(0) + stimulus.after;
+  }
+  for (const auto& [name, quantity] : stimulus.set) {
+    const auto target = binder.target(name);
+    if (!target) continue;
+    const auto value = binder.value(name.text, target->unit, target->range, quantity);
+    if (value) entry.sets.push_back({*target, *value, text_of(name.text, quantity, "=")});
+  }
+  for (const auto& [name, quantity] : stimulus.ramp) {
+    const auto target = binder.target(name);
+    if (!target) continue;
+    const auto value = binder.value(name.text, target->unit, target->range, quantity);
+    if (value) entry.ramps.push_back({*target, *value, text_of(name.text, quantity, "->")});
+  }
+  for (const auto& action : stimulus.faults) {
+    const auto fault = binder.fault(action);
+    if (!fault) continue;
+    const auto name = action.component.text + "." + action.fault.text;
+    const auto value = binder.value(name, fault->unit, range_of(fault->range), action.value);
+    if (value) entry.faults.push_back({fault->act, *value, text_of(name, action.value, "=")});
+  }
+  if (stimulus.power && controller_ == nullptr) {
+    binder.problem(stimulus.place, "there is no controller to switch",
+                   "add a controller section or leave power away");
+  }
+  return entry;
 }
 
 std::vector<std::string> Timeline::left_undone(Time end) const {

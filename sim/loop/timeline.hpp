@@ -19,6 +19,10 @@ class Timeline {
   Timeline(const scenario::Scenario& scenario, Names& names, devices::Controller* controller,
            Problems& problems);
 
+  /// Takes another entry, as if it had stood behind the others from the beginning; false, and nothing taken,
+  /// if something does not fit.
+  bool add(const scenario::Stimulus& stimulus, Problems& problems);
+
   /// Acts on everything due at `now`; what was done is told to `record`.
   void run(Time now, Recording& recording) {
     if (now >= next_) work(now, recording);
@@ -60,12 +64,16 @@ class Timeline {
     Time over = 0;
   };
 
+  [[nodiscard]] Entry bind(const scenario::Stimulus& stimulus, const std::vector<std::string>& known,
+                           Problems& problems);
   void work(Time now, Recording& recording);
   void trigger(Time now);
   void act(Entry& entry, Time now, Recording& recording);
   void move_ramps(Time now);
   [[nodiscard]] Time next_after(Time now) const;
 
+  const scenario::Scenario& scenario_;
+  Names& names_;
   Watch watch_;
   devices::Controller* controller_;
   Time look_every_;

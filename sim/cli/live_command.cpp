@@ -1,0 +1,180 @@
+#include "sim/cli/live_command.hpp"
+
+#include <fmt/format.h>
+#include <pthread.h>
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <random>
+#include <thread>
+
+#include "base/plain_text.hpp"
+#include "sim/cli/arguments.hpp"
+#include "sim/cli/run_command.hpp"
+#include "sim/file.hpp"
+#include "sim/live/line.hpp"
+#include "sim/live/server.hpp"
+#include "sim/live/session.hpp"
+#include "sim/output_folder.hpp"
+
+namespace drycut::sim::cli {
+
+namespace {
+
+/// Calls `act` when the program is told to end, from a thread of its own; as long as it lives, the signal
+/// does nothing else.
+class OnEnd {
+ public:
+  explicit OnEnd(const std::function<void()>& act) {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+    thread_ = std::thread([this, act] {
+      int which = 0;
+      sigwait(&signals_, &which);
+      act();
+    });
+  }
+  ~OnEnd() {
+    pthread_kill(thread_.native_handle(), SIGTERM);  // in case nobody has
+    thread_.join();
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  OnEnd(const OnEnd&) = delete;
+  OnEnd& operator=(const OnEnd&) = delete;
+
+ private:
+  sigset_t signals_{};
+  sigset_t before_{};
+  std::thread thread_;
+};
+
+std::optional<double> read_pace(const std::string& text, Problems& problems) {
+  if (text == "max") return 0;
+  double pace = 0;
+  const auto* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, pace);
+  if (read.ec == std::errc() && read.ptr == end && pace >= live::least_pace && pace <= live::most_pace)
+    return pace;
+  problems.push_back(
+      {"--pace", 1, 1, fmt::format("'{}' is no pace", text),
+       fmt::format("machine seconds a second, from {} to {}, or max", live::least_pace, live::most_pace)});
+  return {};
+}
+
+bool is_own(const std::string& address) { return address == "127.0.0.1" || address == "::1"; }
+
+std::string make_token() {
+  std::random_device random;
+  std::string token;
+  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", random());
+  return token;
+}
+
+std::filesystem::path session_in(const std::filesystem::path& given) {
+  return std::filesystem::is_directory(given) ? given / live::session_file : given;
+}
+
+}  // namespace
+
+int live_scenario(const LiveOptions& options) {
+  Problems problems;
+  const auto pace = read_pace(options.pace, problems);
+  live::Line::Options wanted{options.scenario, overrides_of(options.set, problems), pace.value_or(1),
+                             !options.paused, options.record};
+  std::optional<live::Line> line;
+  if (problems.empty()) line.emplace(wanted, problems);
+  std::optional<OutputFolder> folder;
+  if (problems.empty() && !options.record.empty())
+    folder.emplace(options.record, "live", std::vector<std::string>{"1/", "2/"}, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  try {
+    const OnEnd end([&] { line->stop(); });
+    live::Server server({options.listen, static_cast<std::uint16_t>(options.port),
+                         is_own(options.listen) ? "" : make_token()},
+                        *line);
+    fmt::print("the line: {} (open it in a browser; Ctrl-C ends it)\n", server.url());
+    std::fflush(stdout);
+    if (options.ready) options.ready(server.url());
+    line->run([&](auto news) { server.tell(std::move(news)); },
+              [&](auto description) { server.describe(std::move(description)); });
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "drycut live: {}\n", printable(error.what()));
+    return simulation_failed;
+  }
+  if (!options.record.empty())
+    fmt::print("again, to the byte: drycut replay {}/1\n", options.record.string());
+  return all_passed;
+}
+
+int replay_session(const ReplayOptions& options) {
+  const auto session = session_in(options.session);
+  if (options.to_scenario.empty()) {
+    RunOptions run;
+    run.scenarios = {session};
+    run.out = options.out;
+    run.pictures = options.pictures;
+    return run_scenarios(run);
+  }
+  Problems problems;
+  check_output("--to-scenario", options.to_scenario.string(), {session, "session"}, problems);
+  std::string text;
+  if (problems.empty())
+    text = live::scenario_of_session(session, std::filesystem::absolute(options.to_scenario).parent_path(),
+                                     problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  write_file(options.to_scenario, text);
+  fmt::print("scenario: {}\n", options.to_scenario.string());
+  return all_passed;
+}
+
+void add_live(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<LiveOptions>();
+  auto& options = *chosen;
+  auto* command = app.add_subcommand(
+      "live",
+      "Run a scenario in real time with a page in the browser: the machine, the operator's panel, a scope");
+  command->add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
+  command->add_option("--port", options.port, "Of the page; 0 = any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--pace", options.pace, "Machine seconds a second, or max: as fast as it goes")
+      ->capture_default_str();
+  command->add_flag("--paused", options.paused, "Stand still at time zero");
+  command
+      ->add_option("--listen", options.listen,
+                   "Address to listen on; from another machine the page needs the token that is printed then")
+      ->capture_default_str();
+  command->add_option(
+      "--record", options.record,
+      "Folder for what came from outside, trace.csv and events.csv: drycut replay runs it again");
+  add_set(*command, options.set, "scenario");
+  command->callback([chosen, &status] { status = live_scenario(*chosen); });
+}
+
+void add_replay(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<ReplayOptions>();
+  auto& options = *chosen;
+  auto* command = app.add_subcommand(
+      "replay",
+      "Run a recorded live session again, to the byte: traces, events, checks, pictures and a report");
+  command->add_option("session", options.session, "Folder of the session, or its session.yaml")->required();
+  add_out(*command, options.out, "Directory for the results");
+  add_no_pictures(*command, options.pictures, "No frames, plots or report");
+  command->add_option("--to-scenario", options.to_scenario,
+                      "Write it as a scenario with a timeline, and run nothing");
+  command->callback([chosen, &status] { status = replay_session(*chosen); });
+}
+
+}  // namespace drycut::sim::cli

@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/cli/commands.hpp"
+
+namespace drycut::sim::cli {
+
+struct LiveOptions {
+  std::filesystem::path scenario;
+  std::vector<std::string> set;
+  int port = 8080;         ///< 0 = any free one
+  std::string pace = "1";  ///< machine seconds a second, or "max"
+  bool paused = false;     ///< stands still at time zero
+  std::string listen =
+      "127.0.0.1";               ///< address; from another one than this machine's own a token is demanded
+  std::filesystem::path record;  ///< folder for the session; "" = none
+  std::function<void(const std::string& url)> ready = {};  ///< is told where the page is
+};
+/// drycut live: until SIGINT or SIGTERM; 0, 2 bad input, 3 it cannot listen or record
+int live_scenario(const LiveOptions& options);
+
+struct ReplayOptions {
+  std::filesystem::path session;  ///< a session's folder, or its file
+  std::filesystem::path out = "out/replay";
+  std::filesystem::path to_scenario;  ///< is written in place of a run; "" = run
+  bool pictures = true;
+};
+/// drycut replay: as drycut run
+int replay_session(const ReplayOptions& options);
+
+}  // namespace drycut::sim::cli

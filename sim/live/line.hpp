@@ -1,0 +1,200 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "sim/live/session.hpp"
+#include "sim/loop/simulation.hpp"
+
+namespace drycut::sim::live {
+
+// Machine seconds a second.
+inline constexpr double least_pace = 1e-4;
+inline constexpr double most_pace = 1e4;
+
+/// Who asked, so that the answer finds its way: 0 = nobody waits for one.
+using Asker = std::uint64_t;
+
+// What can be asked of a line. Each acts between two cycles.
+
+/// Something is done to the line, as a timeline does it: JSON or YAML, see read_act().
+struct Act {
+  std::string text;
+};
+/// Run, or stand still.
+struct Go {
+  bool on = false;
+};
+/// So much machine time, then stand still.
+struct Advance {
+  Time by = 0;
+};
+/// As fast as it goes to the next event of that name ("cut", "knife.cut"), "" = of any; then stand still.
+struct UntilEvent {
+  std::string name;
+};
+/// Machine seconds a second; 0 = as fast as it goes.
+struct Pace {
+  double value = 1;
+};
+/// From time zero, with scenario and programs read again.
+struct Restart {};
+/// What the asker wants to have sampled every cycle, in place of what it wanted before.
+struct Sample {
+  std::vector<std::string> names;
+};
+/// The asker is gone.
+struct Leave {};
+
+struct Request {
+  Asker asker = 0;
+  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave> what;
+};
+
+/// How well the line keeps its pace, since it last began to run.
+struct Punctuality {
+  std::uint64_t cycles = 0;
+  std::uint64_t late = 0;  ///< of them, by more than a millisecond
+  double worst = 0;        ///< [s]
+  double dropped = 0;      ///< machine was too slow: so much was not made good [s]
+};
+
+/// What the line tells, thirty times a second and at once when it stops.
+struct News {
+  int run = 0;  ///< number of the run: each restart is another one
+  Time time = 0;
+  bool running = false;
+  double pace = 1;
+  std::string failure;  ///< the simulation itself cannot go on
+  Punctuality punctuality;
+  std::vector<plants::PartPose> poses;      ///< as LineDescription::parts
+  std::vector<double> values;               ///< as LineDescription::targets
+  std::vector<double> lamps;                ///< as LineDescription::lamps
+  std::vector<loop::RecordedEvent> events;  ///< since the last news
+  struct Samples {
+    std::shared_ptr<const std::vector<std::string>> names;
+    std::vector<Time> times;
+    std::vector<double> rows;  ///< a row a time
+  };
+  Samples samples;  ///< since the last news
+  struct Answer {
+    Asker asker;
+    Problems problems;  ///< none: done
+  };
+  std::vector<Answer> answers;
+  std::optional<loop::Outcome> outcome;  ///< of the checks as if it ended now; twice a second
+};
+
+/// What there is to see and to set; of one run.
+struct LineDescription {
+  int run = 0;
+  std::string title;
+  std::string scenario;
+  Time step = 0;
+  Time duration = 0;
+  struct Target {
+    std::string name;
+    std::string unit;
+    std::optional<devices::ValueRange> range;
+    bool of_panel = false;
+  };
+  std::vector<Target> targets;     ///< switches of the panel, then settings of plants
+  std::vector<std::string> lamps;  ///< of the panel
+  struct Fault {
+    std::string component;
+    std::string name;
+    std::string unit;
+    std::string meaning;
+    devices::ValueRange range;
+  };
+  std::vector<Fault> faults;
+  struct Channel {
+    std::string name;
+    std::string unit;
+    bool writable = false;
+  };
+  std::vector<Channel> channels;    ///< all that can be sampled
+  std::vector<std::string> parts;   ///< of the machine, in order of the poses
+  std::string machine;              ///< they and their meshes as a .glb
+  std::vector<std::string> checks;  ///< names
+  std::vector<std::string> notes;
+};
+
+/// A line that runs in real time in a thread of its own: the same loop as of `drycut run`, which is told what
+/// to do and tells what it sees. All functions may be called from any thread.
+class Line {
+ public:
+  struct Options {
+    std::filesystem::path scenario;
+    std::vector<scenario::Override> set;
+    double pace = 1;               ///< 0 = as fast as it goes
+    bool running = true;           ///< from the beginning on
+    std::filesystem::path record;  ///< folder of sessions, each run in one of its own: 1, 2 ...; "" = none
+  };
+  using Listener = std::function<void(std::shared_ptr<const News>)>;
+  using Describe = std::function<void(std::shared_ptr<const LineDescription>)>;
+
+  /// Puts the scenario together; run() may be called if there are no problems.
+  Line(Options options, Problems& problems);
+  ~Line();
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  /// Runs until stop() is called, in the calling thread. What is told goes to the listeners, in this thread.
+  /// Throws std::runtime_error if a record cannot be written.
+  void run(const Listener& listener, const Describe& describe);
+  void stop();
+  void ask(Request request);
+
+ private:
+  class OneRun;
+  using Clock = std::chrono::steady_clock;
+
+  /// False if the line is to stop.
+  bool take_mail();
+  void wait_for_mail();
+  void act_on(const Request& request);
+  Problems restart();
+  void go(bool on);
+  void cycle();
+  void keep_pace();
+  void begin_pace();
+  void tell();
+  [[nodiscard]] Time cycle_time() const;
+
+  Options options_;
+  std::unique_ptr<OneRun> run_;
+  Listener listener_;
+  Describe describe_;
+
+  struct Inbox {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<Request> requests;
+    bool stopped = false;
+  };
+  Inbox inbox_;
+  std::atomic<bool> has_mail_ = false;  ///< something is in it
+  bool running_ = false;
+  double pace_ = 1;
+  std::optional<Time> until_;               ///< stands still then
+  std::optional<std::string> until_event_;  ///< or behind such an event
+  Clock::time_point begun_;                 ///< where the pace is measured from
+  Time begun_at_ = 0;
+  Clock::time_point next_news_;
+  int news_ = 0;
+  Punctuality punctuality_;
+  std::vector<News::Answer> answers_;
+};
+
+}  // namespace drycut::sim::live

@@ -1,0 +1,230 @@
+#include "sim/live/protocol.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/text.hpp"
+#include "sim/scenario/yaml_reader.hpp"
+
+namespace drycut::sim::live {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// As many digits as a picture needs.
+double rounded(double number, double unit) {
+  return std::isfinite(number) ? std::round(number / unit) * unit : 0;
+}
+
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+ordered_json list_of(const Problems& problems) {
+  auto list = ordered_json::array();
+  for (const auto& problem : problems) list.push_back({{"what", problem.what}, {"remedy", problem.remedy}});
+  return list;
+}
+
+ordered_json range_json(const devices::ValueRange& range) {
+  return {{"low", range.low}, {"high", range.high}, {"whole", range.whole}};
+}
+
+/// Reads one request.
+class Parser {
+ public:
+  explicit Parser(Problems& problems) : problems_(problems) {}
+
+  std::optional<decltype(Request::what)> read(const ordered_json& message) {
+    if (message.contains("act")) return Act{text_of(message["act"])};
+    if (message.contains("run")) return read_switch(message["run"]);
+    if (message.contains("advance")) return read_advance(message["advance"]);
+    if (message.contains("until")) return read_until(message["until"]);
+    if (message.contains("pace")) return read_pace(message["pace"]);
+    if (message.contains("restart")) return Restart{};
+    if (message.contains("sample")) return read_sample(message["sample"]);
+    refuse("the message asks for nothing", "one of act, run, advance, until, pace, restart, sample");
+    return {};
+  }
+
+  void refuse(std::string what, std::string remedy) {
+    problems_.push_back({"message", 1, 1, std::move(what), std::move(remedy)});
+  }
+
+ private:
+  std::optional<decltype(Request::what)> read_switch(const ordered_json& on) {
+    if (on.is_boolean()) return Go{on.get<bool>()};
+    refuse("run is true or false", "{\"run\": true}");
+    return {};
+  }
+  std::optional<decltype(Request::what)> read_advance(const ordered_json& by) {
+    scenario::Findings findings({"message"});
+    if (by.is_string()) {
+      const auto time = scenario::read_time({by.get<std::string>(), {1, 1, 0}, {}}, "advance",
+                                            scenario::Sign::positive, findings);
+      if (time && *time <= most_advance) return Advance{*time};
+    }
+    refuse("advance is a time of an hour at most", "{\"advance\": \"1 ms\"}");
+    return {};
+  }
+  std::optional<decltype(Request::what)> read_until(const ordered_json& event) {
+    if (event.is_string()) return UntilEvent{event.get<std::string>()};
+    refuse("until is an event's name", "{\"until\": \"cut\"}, \"\" for any");
+    return {};
+  }
+  std::optional<decltype(Request::what)> read_pace(const ordered_json& pace) {
+    if (pace == "max") return Pace{0};
+    if (pace.is_number() && pace.get<double>() >= least_pace && pace.get<double>() <= most_pace)
+      return Pace{pace.get<double>()};
+    refuse(fmt::format("pace is a number from {} to {}, or \"max\"", least_pace, most_pace), "{\"pace\": 1}");
+    return {};
+  }
+  std::optional<decltype(Request::what)> read_sample(const ordered_json& names) {
+    Sample sample;
+    bool sound = names.is_array();
+    for (std::size_t i = 0; sound && i < names.size(); ++i) {
+      sound = names[i].is_string();
+      if (sound) sample.names.push_back(names[i].get<std::string>());
+    }
+    if (sound) return sample;
+    refuse("sample is a list of channels", "{\"sample\": [\"web.speed\"]}");
+    return {};
+  }
+
+  static constexpr Time most_advance = 3600 * second;
+  Problems& problems_;
+};
+
+ordered_json events_json(const std::vector<loop::RecordedEvent>& events) {
+  auto list = ordered_json::array();
+  for (const auto& event : events)
+    list.push_back({{"time", event.at_seconds()},
+                    {"source", event.source},
+                    {"event", event.event},
+                    {"values", loop::values_text(event, 6)}});
+  return list;
+}
+
+ordered_json poses_json(const std::vector<plants::PartPose>& poses) {
+  constexpr double length = 1e-5;
+  constexpr double turn = 1e-5;
+  auto numbers = ordered_json::array();
+  for (const auto& [pose, visible, scale] : poses) {
+    for (const double x : pose.position) numbers.push_back(rounded(x, length));
+    for (const double x : pose.rotation) numbers.push_back(rounded(x, turn));
+    for (const double x : scale) numbers.push_back(visible ? rounded(x, turn) : 0);
+  }
+  return numbers;
+}
+
+ordered_json drive_json(const loop::DriveVerdict& drive) {
+  auto figures = ordered_json::array();
+  for (const auto& figure : drive.figures)
+    figures.push_back({{"name", figure.name}, {"share", figure.share}});
+  return {{"name", drive.drive}, {"holds", drive.holds()}, {"figures", figures}};
+}
+
+ordered_json outcome_json(const loop::Outcome& outcome) {
+  auto checks = ordered_json::array();
+  for (const auto& check : outcome.checks)
+    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
+  auto drives = ordered_json::array();
+  for (const auto& drive : outcome.drives) drives.push_back(drive_json(drive));
+  return {{"checks", checks}, {"drives", drives}};
+}
+
+}  // namespace
+
+std::optional<Request> parse_request(std::string_view message, Asker asker, double& id, Problems& problems) {
+  Parser parser(problems);
+  const auto json = ordered_json::parse(message, nullptr, false);
+  id = 0;
+  if (!json.is_object()) {
+    parser.refuse("the message is no JSON object", "{\"run\": true}");
+    return {};
+  }
+  if (json.contains("id") && json["id"].is_number()) id = json["id"].get<double>();
+  auto what = parser.read(json);
+  if (!what) return {};
+  return Request{asker, std::move(*what)};
+}
+
+std::string description_json(const LineDescription& line) {
+  auto targets = ordered_json::array();
+  for (const auto& target : line.targets) {
+    ordered_json one = {{"name", target.name}, {"unit", target.unit}, {"panel", target.of_panel}};
+    if (target.range) one["range"] = range_json(*target.range);
+    targets.push_back(std::move(one));
+  }
+  auto faults = ordered_json::array();
+  for (const auto& fault : line.faults)
+    faults.push_back({{"component", fault.component},
+                      {"name", fault.name},
+                      {"unit", fault.unit},
+                      {"meaning", fault.meaning},
+                      {"range", range_json(fault.range)}});
+  auto channels = ordered_json::array();
+  for (const auto& channel : line.channels)
+    channels.push_back({{"name", channel.name}, {"unit", channel.unit}, {"writable", channel.writable}});
+  return text_of({{"line",
+                   {{"run", line.run},
+                    {"title", line.title},
+                    {"scenario", line.scenario},
+                    {"step", seconds(line.step)},
+                    {"duration", seconds(line.duration)},
+                    {"targets", targets},
+                    {"lamps", line.lamps},
+                    {"faults", faults},
+                    {"channels", channels},
+                    {"parts", line.parts},
+                    {"checks", line.checks},
+                    {"notes", line.notes}}}});
+}
+
+std::string news_json(const News& news) {
+  const auto& kept = news.punctuality;
+  ordered_json json = {
+      {"run", news.run},
+      {"time", seconds(news.time)},
+      {"running", news.running},
+      {"pace", news.pace},
+      {"late",
+       {{"cycles", kept.cycles}, {"late", kept.late}, {"worst", kept.worst}, {"dropped", kept.dropped}}},
+      {"poses", poses_json(news.poses)},
+      {"values", news.values},
+      {"lamps", news.lamps}};
+  if (!news.failure.empty()) json["failure"] = news.failure;
+  if (!news.events.empty()) json["events"] = events_json(news.events);
+  if (news.outcome) json["outcome"] = outcome_json(*news.outcome);
+  return text_of({{"news", std::move(json)}});
+}
+
+std::string samples_json(const News::Samples& samples, const std::vector<std::string>& wanted) {
+  if (samples.times.empty() || !samples.names || wanted.empty()) return "";
+  std::vector<std::size_t> columns;
+  for (const auto& name : wanted) {
+    const auto found = std::find(samples.names->begin(), samples.names->end(), name);
+    if (found == samples.names->end()) return "";  // the line does not know yet
+    columns.push_back(static_cast<std::size_t>(found - samples.names->begin()));
+  }
+  auto times = ordered_json::array();
+  auto rows = ordered_json::array();
+  for (std::size_t i = 0; i < samples.times.size(); ++i) {
+    times.push_back(seconds(samples.times[i]));
+    for (const auto column : columns) {
+      const double number = samples.rows[i * samples.names->size() + column];
+      std::isfinite(number) ? rows.push_back(static_cast<float>(number)) : rows.push_back(nullptr);
+    }
+  }
+  return text_of({{"samples", {{"names", wanted}, {"times", times}, {"rows", rows}}}});
+}
+
+std::string answer_json(double id, const Problems& problems) {
+  return text_of({{"done", id}, {"problems", list_of(problems)}});
+}
+
+}  // namespace drycut::sim::live

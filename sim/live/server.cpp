@@ -1,0 +1,341 @@
+#include "sim/live/server.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "renders/embedded.hpp"
+#include "sim/live/protocol.hpp"
+
+namespace drycut::sim::live {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+
+namespace {
+
+constexpr std::size_t largest_message = 64U << 10U;  // [bytes] from a client
+constexpr std::size_t largest_request = 16U << 10U;  // heading and body of HTTP
+constexpr std::size_t most_connections = 256;
+constexpr std::size_t most_waiting = 4U << 20U;  // [bytes] for one client; what comes then is left out
+constexpr auto patience = std::chrono::seconds(10);
+
+using Text = std::shared_ptr<const std::string>;
+using Asked = http::request<http::empty_body>;
+using Response = http::response<http::string_body>;
+
+/// The value of `key` in the target's query; "" if there is none.
+std::string query(std::string_view target, std::string_view key) {
+  auto rest = target.substr(std::min(target.find('?'), target.size()));
+  while (!rest.empty()) {
+    rest.remove_prefix(1);
+    const auto end = std::min(rest.find('&'), rest.size());
+    const auto pair = rest.substr(0, end);
+    const auto equals = pair.find('=');
+    if (equals != std::string_view::npos && pair.substr(0, equals) == key)
+      return std::string(pair.substr(equals + 1));
+    rest.remove_prefix(end);
+  }
+  return "";
+}
+
+/// Takes as long for each of the same length.
+bool same_token(std::string_view given, std::string_view wanted) {
+  if (given.size() != wanted.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < given.size(); ++i)
+    difference |= static_cast<unsigned char>(given[i]) ^ static_cast<unsigned char>(wanted[i]);
+  return difference == 0;
+}
+
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+/// All of it, in the one thread of the server; others post into it.
+struct Server::Core {
+  class Client;
+
+  Core(Options given, Line& of) : options(std::move(given)), line(of), acceptor(context) {
+    const auto address = asio::ip::make_address(options.address);
+    const tcp::endpoint endpoint(address, options.port);
+    acceptor.open(endpoint.protocol());
+    acceptor.set_option(asio::socket_base::reuse_address(true));
+    acceptor.bind(endpoint);
+    acceptor.listen();
+    options.port = acceptor.local_endpoint().port();
+  }
+
+  void accept();
+  [[nodiscard]] bool knows_host(std::string_view host) const;
+  [[nodiscard]] bool may(const Asked& request) const;
+  Response answer(const Asked& request) const;
+
+  Options options;
+  Line& line;
+  // Clients take themselves out as they go, with the context at the latest.
+  std::size_t connections = 0;
+  Asker next_asker = 1;
+  std::map<Asker, std::weak_ptr<Client>> clients;  ///< that talk over a WebSocket
+  asio::io_context context{1};
+  tcp::acceptor acceptor;
+  std::thread thread;
+  std::shared_ptr<const LineDescription> description;
+  Text described;
+};
+
+/// One connection: requests of HTTP, until one asks for a WebSocket.
+class Server::Core::Client : public std::enable_shared_from_this<Client> {
+ public:
+  Client(Core& core, tcp::socket socket) : core_(core), stream_(std::move(socket)) { ++core_.connections; }
+  ~Client() {
+    --core_.connections;
+    if (asker_ == 0) return;
+    core_.clients.erase(asker_);
+    core_.line.ask({asker_, Leave{}});
+  }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  void read_request() {
+    parser_.emplace();
+    parser_->header_limit(largest_request);
+    parser_->body_limit(largest_request);
+    stream_.expires_after(patience);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](beast::error_code error, std::size_t) {
+                       if (!error) self->take_request();
+                     });
+  }
+
+  /// To the client, if it takes it in; `needed`: it goes down rather than without it.
+  void send(const Text& text, bool needed) {
+    if (waiting_bytes_ + text->size() > most_waiting) {
+      if (needed) beast::get_lowest_layer(*socket_).cancel();
+      return;
+    }
+    waiting_.push_back(text);
+    waiting_bytes_ += text->size();
+    if (waiting_.size() == 1) write();
+  }
+
+  void tell(const News& news, const Text& text) {
+    send(text, false);
+    if (const auto samples = samples_json(news.samples, wanted_); !samples.empty())
+      send(std::make_shared<const std::string>(samples), false);
+  }
+  void answered(const Problems& problems) {
+    if (open_.empty()) return;
+    const auto [id, wanted] = std::move(open_.front());
+    open_.pop_front();
+    if (wanted && problems.empty()) wanted_ = *wanted;
+    if (id != 0 || !problems.empty())
+      send(std::make_shared<const std::string>(answer_json(id, problems)), true);
+  }
+
+ private:
+  void take_request() {
+    const auto& request = parser_->get();
+    if (websocket::is_upgrade(request) && core_.may(request) && view(request.target()).substr(0, 3) == "/ws")
+      return open_socket(request);
+    response_ = std::make_unique<Response>(core_.answer(request));
+    http::async_write(stream_, *response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (!error && self->response_->keep_alive()) return self->read_request();
+      beast::error_code ignored;
+      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    });
+  }
+
+  void open_socket(const Asked& request) {
+    stream_.expires_never();
+    socket_.emplace(std::move(stream_));
+    auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    timeout.handshake_timeout = patience;
+    timeout.idle_timeout = 3 * patience;  // with pings of its own: who lives keeps its connection
+    timeout.keep_alive_pings = true;
+    socket_->set_option(timeout);
+    socket_->read_message_max(largest_message);
+    socket_->async_accept(request, [self = shared_from_this()](beast::error_code error) {
+      if (!error) self->begin();
+    });
+  }
+
+  void begin() {
+    asker_ = core_.next_asker++;
+    core_.clients[asker_] = weak_from_this();
+    buffer_.clear();
+    if (core_.described) send(core_.described, true);
+    read_message();
+  }
+
+  void read_message() {
+    socket_->async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error) return;
+      self->take_message();
+      self->read_message();
+    });
+  }
+
+  void take_message() {
+    const auto message = beast::buffers_to_string(buffer_.data());
+    buffer_.consume(buffer_.size());
+    double id = 0;
+    Problems problems;
+    auto request = parse_request(message, asker_, id, problems);
+    if (!request) return send(std::make_shared<const std::string>(answer_json(id, problems)), true);
+    const auto* sample = std::get_if<Sample>(&request->what);
+    open_.emplace_back(id, sample == nullptr ? std::nullopt : std::optional(sample->names));
+    core_.line.ask(std::move(*request));
+  }
+
+  void write() {
+    socket_->text(true);
+    socket_->async_write(asio::buffer(*waiting_.front()),
+                         [self = shared_from_this()](beast::error_code error, std::size_t) {
+                           self->waiting_bytes_ -= self->waiting_.front()->size();
+                           self->waiting_.pop_front();
+                           if (!error && !self->waiting_.empty()) self->write();
+                         });
+  }
+
+  Core& core_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{largest_message + largest_request};
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  std::unique_ptr<Response> response_;
+  std::optional<websocket::stream<beast::tcp_stream>> socket_;
+  Asker asker_ = 0;  ///< 0 = it has no WebSocket
+  std::deque<Text> waiting_;
+  std::size_t waiting_bytes_ = 0;
+  std::vector<std::string> wanted_;  ///< channels that it is sent
+  /// What the line has been asked and not answered: the message's number, channels to be sampled.
+  std::deque<std::pair<double, std::optional<std::vector<std::string>>>> open_;
+};
+
+void Server::Core::accept() {
+  acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (!error && connections < most_connections) {
+      socket.set_option(tcp::no_delay(true), error);
+      std::make_shared<Client>(*this, std::move(socket))->read_request();
+    }
+    accept();
+  });
+}
+
+// A page of another site can have a name of its own lead here: then the host is that name.
+bool Server::Core::knows_host(std::string_view host) const {
+  const auto port = fmt::format(":{}", options.port);
+  for (const auto* name : {"localhost", "127.0.0.1", "[::1]"})
+    if (host == name + port || (options.port == 80 && host == name)) return true;
+  return !options.token.empty() && host.ends_with(port);
+}
+
+bool Server::Core::may(const Asked& request) const {
+  const auto host = view(request[http::field::host]);
+  if (!knows_host(host)) return false;
+  const auto origin = view(request[http::field::origin]);
+  if (!origin.empty() && origin != fmt::format("http://{}", host)) return false;
+  return options.token.empty() || same_token(query(view(request.target()), "token"), options.token);
+}
+
+Response Server::Core::answer(const Asked& request) const {
+  Response response(http::status::ok, request.version());
+  response.keep_alive(request.keep_alive());
+  response.set(http::field::cache_control, "no-store");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Content-Security-Policy",
+               "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'unsafe-inline'; img-src "
+               "data: blob:; "
+               "connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+  const auto give = [&](const char* type, std::string body) {
+    response.set(http::field::content_type, type);
+    response.body() = std::move(body);
+  };
+  const auto path = view(request.target()).substr(0, view(request.target()).find('?'));
+  if (!may(request)) {
+    response.result(http::status::forbidden);
+    give("text/plain; charset=utf-8", "this line takes requests of its own page only\n");
+  } else if (request.method() != http::verb::get && request.method() != http::verb::head) {
+    response.result(http::status::method_not_allowed);
+    give("text/plain; charset=utf-8", "GET\n");
+  } else if (path == "/") {
+    give("text/html; charset=utf-8", std::string(renders::embedded_file("live.html")));
+  } else if (path == "/line.json" && described) {
+    give("application/json", *described);
+  } else if (path == "/machine.glb" && description) {
+    give("model/gltf-binary", description->machine);
+  } else {
+    response.result(http::status::not_found);
+    give("text/plain; charset=utf-8", "there is no such page\n");
+  }
+  response.prepare_payload();
+  if (request.method() == http::verb::head) response.body().clear();
+  return response;
+}
+
+Server::Server(Options options, Line& line) {
+  const auto where = fmt::format("{} port {}", options.address, options.port);
+  try {
+    core_ = std::make_unique<Core>(std::move(options), line);
+  } catch (const boost::system::system_error& error) {
+    throw std::runtime_error(fmt::format("cannot listen on {}: {}", where, error.code().message()));
+  }
+  core_->accept();
+  core_->thread = std::thread([this] { core_->context.run(); });
+}
+
+Server::~Server() {
+  core_->context.stop();
+  core_->thread.join();
+}
+
+std::uint16_t Server::port() const { return core_->options.port; }
+
+std::string Server::url() const {
+  const auto& [address, port, token] = core_->options;
+  return fmt::format("http://{}:{}/{}",
+                     address.find(':') == std::string::npos ? address : "[" + address + "]", port,
+                     token.empty() ? "" : "?token=" + token);
+}
+
+void Server::tell(std::shared_ptr<const News> news) {
+  asio::post(core_->context, [this, news = std::move(news)] {
+    for (const auto& answer : news->answers) {
+      const auto found = core_->clients.find(answer.asker);
+      if (found == core_->clients.end()) continue;
+      if (const auto client = found->second.lock()) client->answered(answer.problems);
+    }
+    if (core_->clients.empty()) return;
+    const auto text = std::make_shared<const std::string>(news_json(*news));
+    for (const auto& [asker, held] : core_->clients)
+      if (const auto client = held.lock()) client->tell(*news, text);
+  });
+}
+
+void Server::describe(std::shared_ptr<const LineDescription> line) {
+  asio::post(core_->context, [this, line = std::move(line)] {
+    core_->description = line;
+    core_->described = std::make_shared<const std::string>(description_json(*line));
+    for (const auto& [asker, held] : core_->clients)
+      if (const auto client = held.lock()) client->send(core_->described, true);
+  });
+}
+
+}  // namespace drycut::sim::live
