@@ -89,6 +89,7 @@ class Line::OneRun : public loop::Observer {
     }
     machine_ = machine_of(read(options, problems), parts_, problems);
     if (!problems.empty()) return;
+    fingerprint_ = fingerprint_of(scenario_);
     scenario_.pictures = {};
     simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
     if (!problems.empty()) return;
@@ -101,7 +102,7 @@ class Line::OneRun : public loop::Observer {
   /// Records the run in a folder of its own. Throws std::runtime_error.
   void record_in(const fs::path& folder) {
     fs::create_directories(folder);
-    session_.emplace(folder / session_file, scenario_);
+    session_.emplace(folder / session_file, scenario_, fingerprint_);
     simulation_->write_to(folder / report::trace_file, folder / report::events_file);
   }
 
@@ -113,7 +114,7 @@ class Line::OneRun : public loop::Observer {
     const bool sound = simulation_->advance();
     if (session_ && now() >= next_reached_) {
       session_->reached(now());
-      next_reached_ = now() + second;
+      next_reached_ = (now() / second + 1) * second;
     }
     return sound;
   }
@@ -237,6 +238,7 @@ class Line::OneRun : public loop::Observer {
 
   scenario::Scenario scenario_;
   int number_;
+  std::uint64_t fingerprint_ = 0;
   std::vector<std::string> parts_;
   std::string machine_;
   std::unique_ptr<loop::Simulation> simulation_;

@@ -206,13 +206,14 @@ std::uint64_t fingerprint_of(const scenario::Scenario& scenario) {
   return hash.value();
 }
 
-SessionFile::SessionFile(const std::filesystem::path& file, const scenario::Scenario& scenario)
+SessionFile::SessionFile(const std::filesystem::path& file, const scenario::Scenario& scenario,
+                         std::uint64_t fingerprint)
     : lines_(file) {
   Head head;
   head.scenario.text = std::filesystem::absolute(scenario.file).lexically_normal().string();
   for (const auto& [path, value] : scenario.overrides)
     head.set.push_back({fmt::format("{}={}", path, value), {}, {}});
-  head.fingerprint.text = fmt::format("{:016x}", fingerprint_of(scenario));
+  head.fingerprint.text = fmt::format("{:016x}", fingerprint);
   lines_.write(
       fmt::format("- {}", in_one_line([&](scenario::Archive& archive) { visit_head(archive, head); })));
   reached(0);

@@ -43,7 +43,8 @@ std::uint64_t fingerprint_of(const scenario::Scenario& scenario);
 class SessionFile {
  public:
   /// Makes the file anew. Throws std::runtime_error if it cannot be written.
-  SessionFile(const std::filesystem::path& file, const scenario::Scenario& scenario);
+  SessionFile(const std::filesystem::path& file, const scenario::Scenario& scenario,
+              std::uint64_t fingerprint);
   void add(const scenario::Stimulus& act);
   /// The run has come so far; to the disk.
   void reached(Time now);
