@@ -11,7 +11,7 @@
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
 PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libassimp-dev libeigen3-dev libyaml-cpp-dev \
-            libudunits2-dev libnlopt-cxx-dev libcli11-dev libfmt-dev nlohmann-json3-dev \
+            libudunits2-dev libnlopt-cxx-dev libcli11-dev libboost-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs ffmpeg
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
 TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml $(PYTHON_PACKAGES)

@@ -6,6 +6,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(PNG REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers: Beast
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 pkg_check_modules(assimp REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)

@@ -81,12 +81,6 @@ class Line::OneRun : public loop::Observer {
   OneRun(const Options& options, int number, Problems& problems)
       : scenario_(read(options, problems)), number_(number) {
     if (!problems.empty()) return;
-    if (scenario_.scene.step > most_step) {
-      problems.push_back(scenario::problem_at(scenario_, scenario_.scene.step_place,
-                                              fmt::format("a live line steps by {} at most", "10 ms"),
-                                              "--set \"scene.step=1 ms\""));
-      return;
-    }
     machine_ = machine_of(read(options, problems), parts_, problems);
     if (!problems.empty()) return;
     fingerprint_ = fingerprint_of(scenario_);
@@ -208,8 +202,6 @@ class Line::OneRun : public loop::Observer {
   }
 
  private:
-  static constexpr Time most_step = 10 * millisecond;
-
   static scenario::Scenario read(const Options& options, Problems& problems) {
     return scenario::read_scenario(options.scenario, options.set, problems);
   }

@@ -1,0 +1,180 @@
+// A line that runs live: what it is asked acts at its step, and what it tells is so.
+#include "tests/sim/live/live_bench.hpp"
+
+namespace drycut::sim::live {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+
+struct LiveLine : testing::Test {
+  LiveLine() { options.scenario = folder.file("web.yaml", web_alone); }
+
+  double value(const News& news, const LineDescription& line, const std::string& name) {
+    for (std::size_t i = 0; i < line.targets.size(); ++i)
+      if (line.targets[i].name == name) return news.values.at(i);
+    ADD_FAILURE() << name;
+    return 0;
+  }
+
+  TestFolder folder;
+  Line::Options options{.scenario = {}, .set = {}, .pace = 0, .running = false, .record = {}};
+};
+
+TEST_F(LiveLine, TellsWhatThereIs) {
+  RunningLine line(options);
+  const auto told = line.description();
+  EXPECT_EQ(told->run, 1);
+  EXPECT_EQ(told->title, "A web");
+  EXPECT_EQ(told->scenario, "web.yaml");
+  EXPECT_EQ(told->step, millisecond);
+  EXPECT_EQ(told->duration, 2 * second);
+  EXPECT_THAT(told->targets, Contains(Field(&LineDescription::Target::name, "web.speed")));
+  EXPECT_THAT(told->channels, Contains(Field(&LineDescription::Channel::name, "web.position")));
+  EXPECT_THAT(told->faults, Contains(Field(&LineDescription::Fault::component, "web.wheel")));
+  EXPECT_THAT(told->checks, Contains("slow enough"));
+  EXPECT_EQ(told->machine.substr(0, 4), "glTF");
+  EXPECT_GT(told->parts.size(), 0U);
+  EXPECT_EQ(line.until([](const News&) { return true; })->poses.size(), told->parts.size());
+}
+
+TEST_F(LiveLine, StandsStillUntilItIsAsked) {
+  RunningLine line(options);
+  EXPECT_EQ(line.until([](const News&) { return true; })->time, 0);
+  EXPECT_THAT(line.ask(Advance{millisecond}), testing::IsEmpty());
+  const auto there = line.until([](const News& news) { return !news.running && news.time > 0; });
+  EXPECT_EQ(there->time, millisecond);
+  line.ask(Advance{50 * millisecond});
+  EXPECT_EQ(line.until([](const News& news) { return !news.running && news.time > millisecond; })->time,
+            51 * millisecond);
+}
+
+TEST_F(LiveLine, GoesOnToTheNextEvent) {
+  RunningLine line(options);
+  line.ask(UntilEvent{"timeline.set"});
+  const auto there = line.until([](const News& news) { return !news.running && news.time > 0; });
+  EXPECT_EQ(there->time, 101 * millisecond);  // behind the step that begins at 0.1 s
+}
+
+TEST_F(LiveLine, WhatIsDoneActsAtTheNextStep) {
+  RunningLine line(options);
+  line.ask(Advance{200 * millisecond});
+  line.until([](const News& news) { return !news.running && news.time > 0; });
+  EXPECT_THAT(line.ask(Act{R"({"set": {"web.speed": "45 m/min"}})"}), testing::IsEmpty());
+  line.ask(Advance{millisecond});
+  const auto after = line.until([](const News& news) { return news.time == 201 * millisecond; });
+  EXPECT_NEAR(value(*after, *line.description(), "web.speed"), 0.75, 1e-12);  // [m/s]
+  ASSERT_EQ(after->events.size(), 1U);
+  EXPECT_EQ(after->events[0].text, "web.speed = 45 m/min");
+  EXPECT_EQ(after->events[0].time, 200 * millisecond);
+}
+
+TEST_F(LiveLine, WhatDoesNotFitIsToldAndNothingHappens) {
+  struct Case {
+    const char* act;
+    const char* told;
+  };
+  const Case cases[] = {
+      {R"({"set": {"web.sped": 1}})",
+       "act:1:11: nothing called 'web.sped' can be set; did you mean web.speed?"},
+      {R"({"set": {"web.speed": "3 s"}})", "web.speed"},
+      {R"({"set": {"web.position": 1}})", "it can only be read"},
+      {R"({"ramp": {"web.speed": "3 m/min"}})", "ramp has no duration"},
+      {R"({"fault": {"web.wheel": {"no_such": 1}}})", "offers no fault 'no_such'"},
+      {R"({"power": false})", "there is no controller to switch"},
+      {R"({"at": "5 s", "set": {"web.speed": "3 m/min"}})", "acts now, and once; leave at out"},
+      {R"({"when": "1 > 0", "set": {"web.speed": "3 m/min"}})", "leave when out"},
+      {R"({})", "does nothing"},
+      {R"([1])", "act"},
+      {R"({"set": )", "act:1:"},
+  };
+  RunningLine line(options);
+  for (const auto& [act, told] : cases) EXPECT_THAT(lines_of(line.ask(Act{act})), HasSubstr(told)) << act;
+  line.ask(Advance{50 * millisecond});
+  const auto after = line.until([](const News& news) { return news.time == 50 * millisecond; });
+  EXPECT_THAT(after->events, testing::IsEmpty());
+  EXPECT_NEAR(value(*after, *line.description(), "web.speed"), 1, 1e-12);
+}
+
+TEST_F(LiveLine, SamplesEachOnesChannelsEveryCycle) {
+  options.pace = 1;
+  RunningLine line(options);
+  EXPECT_THAT(lines_of(line.ask(Sample{{"web.sped"}})), HasSubstr("did you mean web.speed?"));
+  EXPECT_THAT(lines_of(line.ask(Sample{std::vector<std::string>(65, "web.speed")})), HasSubstr("64 at most"));
+  line.ask(Sample{{"web.position", "web.speed"}});
+  std::vector<Time> times;
+  line.ask(Advance{20 * millisecond});
+  line.until([&](const News& news) {
+    times.insert(times.end(), news.samples.times.begin(), news.samples.times.end());
+    if (!news.samples.times.empty()) {
+      EXPECT_THAT(*news.samples.names, ElementsAre("web.position", "web.speed"));
+      EXPECT_EQ(news.samples.rows.size(), 2 * news.samples.times.size());
+    }
+    return !news.running && news.time > 0;
+  });
+  ASSERT_EQ(times.size(), 20U);
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_EQ(times[i], static_cast<Time>(i + 1) * millisecond);
+}
+
+TEST_F(LiveLine, WhoHasGoneIsSampledForNoLonger) {
+  RunningLine line(options);
+  line.line->ask({1000, Sample{{"web.position"}}});
+  line.ask(Sample{{"web.speed"}});
+  line.line->ask({1000, Leave{}});
+  line.ask(Advance{10 * millisecond});
+  const auto after = line.until([](const News& news) { return !news.samples.times.empty(); });
+  EXPECT_THAT(*after->samples.names, ElementsAre("web.speed"));
+}
+
+TEST_F(LiveLine, RestartsFromTimeZeroWithTheFilesReadAgain) {
+  RunningLine line(options);
+  line.ask(Advance{20 * millisecond});
+  line.until([](const News& news) { return news.time == 20 * millisecond; });
+  folder.file("web.yaml", "scene: {step: 1 ms\n");
+  EXPECT_THAT(line.ask(Restart{}), testing::Not(testing::IsEmpty()));
+  EXPECT_EQ(line.until([](const News&) { return true; })->run, 1);  // the one that runs stays
+  auto other = web_alone;
+  other.replace(other.find("A web"), 5, "Other");
+  folder.file("web.yaml", other);
+  EXPECT_THAT(line.ask(Restart{}), testing::IsEmpty());
+  const auto fresh = line.until([](const News& news) { return news.run == 2; });
+  EXPECT_EQ(fresh->time, 0);
+  EXPECT_EQ(line.description()->title, "Other");
+}
+
+TEST_F(LiveLine, KeepsItsPace) {
+  options.pace = 10;
+  options.running = true;
+  RunningLine line(options);
+  const auto first = line.until([](const News& news) { return news.time > 0; });
+  const auto begin = std::chrono::steady_clock::now();
+  const auto later = line.until([&](const News& news) { return news.time >= first->time + 2 * second; });
+  // Not faster than its pace; how much slower is the machine's business.
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(took.count() + 0.1, seconds(later->time - first->time) / 10 - later->punctuality.worst);
+  EXPECT_GT(later->punctuality.cycles, 0U);
+}
+
+TEST_F(LiveLine, ChecksAreToldAsTheyStand) {
+  RunningLine line(options);
+  line.ask(Advance{500 * millisecond});
+  line.until([](const News& news) { return news.time == 500 * millisecond; });
+  line.ask(Act{R"({"set": {"web.speed": "120 m/min"}})"});
+  line.ask(Advance{2500 * millisecond});
+  const auto after = line.until([](const News& news) { return news.time == 3 * second && news.outcome; });
+  ASSERT_FALSE(after->outcome->checks.empty());
+  EXPECT_EQ(after->outcome->checks[0].name, "slow enough");
+  EXPECT_FALSE(after->outcome->checks[0].passed);
+}
+
+TEST_F(LiveLine, TellsAllThatIsWrongWithTheScenario) {
+  Problems problems;
+  options.set = {{"plants.web.speed", "3 s"}, {"record.every", "7 us"}};
+  const Line line(options, problems);
+  EXPECT_EQ(problems.size(), 2U) << lines_of(problems);
+}
+
+}  // namespace
+}  // namespace drycut::sim::live
