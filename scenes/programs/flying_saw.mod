@@ -59,7 +59,10 @@ gbPhase = 2
 
 MAIN:
 IF gbPhase EQ 2 AND ifStart
-    CALL Program
+    glZone = slZone
+    IF slZone EQ 0
+        CALL Program
+    ENDIF
     ofTooLong = slTravel GT 0 AND glOut GT slTravel
     IF NOT ofTooLong
         AxisX:positm = 0
@@ -77,7 +80,7 @@ ENDIF
 ;-----
 ; The cut, while the carriage runs with the tube
 ;-----
-IF gbSaw EQ 0 AND gbPhase EQ 3 AND AxisX:rowex EQ 2
+IF gbSaw EQ 0 AND gbPhase EQ 3 AND AxisX:rowex EQ glZone
     ofClamp = 1
     gbSaw = 1
 ENDIF
@@ -94,12 +97,12 @@ IF gbSaw EQ 3 AND ifUp
     gbSaw = 4
 ENDIF
 IF gbSaw EQ 4 AND NOT ifClamped
-    IF AxisX:rowex NE 2
+    IF AxisX:rowex NE glZone
         glLate = glLate + 1
     ENDIF
     gbSaw = 5
 ENDIF
-IF gbSaw EQ 5 AND AxisX:rowex GT 2
+IF gbSaw EQ 5 AND AxisX:rowex GT glZone
     gbSaw = 0                     ; ready for the next piece
 ENDIF
 WAIT 1
@@ -115,6 +118,7 @@ SUB Program
     AxisX:codeQs1 = cRunUp / 2
     AxisX:codeM1  = 0
     ; 2: cut
+    glZone        = 2
     AxisX:codeG2  = 133
     AxisX:codeQm2 = slCut
     AxisX:codeQs2 = slCut

@@ -59,7 +59,9 @@ gbPhase = 2
 
 MAIN:
 IF gbPhase EQ 2 AND ifStart
-    CALL Program
+    IF slZone EQ 0
+        CALL Program
+    ENDIF
     STARTCAM AxisX
     WAIT AxisX:st_camex
     ofCutting = 1

@@ -17,7 +17,7 @@
 #include "sim/report/report.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_reader.hpp"
-#include "sim/studies/design/sheet.hpp"
+#include "sim/studies/design/scene.hpp"
 
 namespace drycut::sim::cli {
 
@@ -59,7 +59,8 @@ class JobReader {
   JobReader(const DesignOptions& options, Problems& problems) : options_(options), problems_(problems) {}
 
   DesignJob read() {
-    if (const auto kind = chosen("design", options_.kind, kinds, problems_)) job_.kind = *kind;
+    const auto kind = chosen("job", options_.kind, kinds, problems_);
+    if (kind) job_.kind = *kind;
     if (const auto goal = chosen("--minimise", options_.minimise, goals, problems_)) job_.goal = *goal;
     job_.length = needed("--length", options_.length);
     job_.sync = quantity("--sync", options_.sync, "mm", 0).value_or(0);
@@ -69,6 +70,7 @@ class JobReader {
     job_.max_acceleration = quantity("--max-acceleration", options_.max_acceleration, "m/s2");
     job_.max_travel = quantity("--max-travel", options_.max_travel, "mm");
     job_.no_reverse = options_.no_reverse;
+    if (!kind) return job_;  // what else it needs hangs on it
     read_slave();
     read_loads();
     check_combinations();
@@ -88,7 +90,8 @@ class JobReader {
                                  double least = 1e-9) {
     if (text.empty()) return {};
     scenario::Findings findings({option});
-    const auto value = scenario::read_si({text, {1, 1}}, option, unit, findings);
+    const auto name = std::string(option).substr(2);
+    const auto value = scenario::read_si({text, {1, 1}}, name, unit, findings);
     for (auto& found : findings.sorted()) problems_.push_back(std::move(found));
     constexpr double most = 1e9;
     if (!value || (*value >= least && *value <= most)) return value;
@@ -160,6 +163,10 @@ class JobReader {
         if (given) problem(option, "it means nothing without the master's speed", "give --speed too");
     if (options_.device.empty() && !options_.table.empty())
       problem("--table", "whose table?", "give --device camming4, lx3vp or mc_camin");
+    if (!options_.table.empty() && std::filesystem::path(options_.table).extension() != ".csv")
+      problem("--table", fmt::format("{} does not end in .csv", options_.table), "name it x.csv");
+    if (options_.table.empty() && !options_.scene.empty())
+      problem("--scene", "there is nothing to run in it", "give --table too");
     if (options_.decpt && options_.device != "camming4")
       problem("--decpt", "only CAMMING4 has it", "leave it out");
     if (!options_.table.empty()) check_output("--table", options_.table, {"", "job"}, problems_);
@@ -212,6 +219,17 @@ std::optional<studies::DesignSheet> designed(const DesignOptions& options, Probl
   return sheet;
 }
 
+/// The scenario that plays the table, if one is asked for.
+std::optional<studies::CamScene> scene_of(const DesignOptions& options, const studies::DesignSheet& sheet,
+                                          Problems& problems) {
+  if (options.scene.empty()) return {};
+  auto made = studies::cam_scene(sheet, options.scene, options.table, problems);
+  if (!made) return {};
+  for (const auto& file : {made->file, made->registers_file})
+    if (!file.empty()) check_output("--scene", file.string(), {options.scene, "scene"}, problems);
+  return made;
+}
+
 /// The table as a file, judged as `drycut cam` judges what it reads from there.
 std::string table_text(const DesignOptions& options, studies::DesignSheet& sheet) {
   const auto name = options.table.empty() ? options.device : options.table;
@@ -229,6 +247,8 @@ std::string table_text(const DesignOptions& options, studies::DesignSheet& sheet
 int design_cam(const DesignOptions& options) {
   Problems problems;
   auto sheet = designed(options, problems);
+  std::optional<studies::CamScene> scene;
+  if (problems.empty()) scene = scene_of(options, *sheet, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty() && !options.out.empty())
     folder.emplace(options.out, "design", std::vector<std::string>{"design.png"}, problems);
@@ -242,6 +262,14 @@ int design_cam(const DesignOptions& options) {
     if (!options.table.empty()) {
       write_file(options.table, table);
       fmt::print("  table: {}\n", options.table);
+    }
+    if (scene && !scene->registers.empty()) {
+      write_file(scene->registers_file, scene->registers);
+      fmt::print("  registers: {}\n", scene->registers_file.string());
+    }
+    if (scene) {
+      write_file(scene->file, scene->scenario);
+      fmt::print("  scenario: {}; drycut run takes it\n", scene->file.string());
     }
     if (folder) {
       folder->begin();
@@ -293,6 +321,9 @@ void add_design(CLI::App& app, int& status) {
   add("--coulomb", options.coulomb, "For energy: friction without, N, of a drum also N m");
   add("--device", options.device, "What is to play it: camming4, lx3vp, mc_camin");
   add("--table", options.table, "Write the device's table");
+  add("--scene", options.scene,
+      "Scenario (.yaml) in which the table is to run: writes one beside the table that extends it, with the "
+      "registers that the PLC needs");
   add("--master-pulse", options.master_pulse,
       "Way of the master a pulse (count x4), of CAMMING4 and LX3VP; also as \"500 mm/10000\"");
   add("--slave-pulse", options.slave_pulse, "The same of the slave");

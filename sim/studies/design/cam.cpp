@@ -87,6 +87,14 @@ std::optional<DesignedCam> design_cam(const DesignJob& job, const DesignGrid& gr
     return cam;
   };
   auto cam = made();
+  // The limit holds where the steps meet; a turning point lies within one, a little beyond.
+  for (int i = 0; i < 3 && cam && job.max_travel; ++i) {
+    const auto figures = figures_of(*cam);
+    const double beyond = figures.high - figures.low - *job.max_travel;
+    if (beyond <= 0) break;
+    *problem.limits.excursion -= beyond;
+    cam = made();
+  }
   if (!cam || !grid.stands_at_step) return cam;
   // The nearest step on this side of the middle; the move is the same backwards.
   const double width = job.way() / cam->steps;

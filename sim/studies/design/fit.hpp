@@ -35,7 +35,10 @@ struct DeviceCam {
   double sync_end = 0;
   std::string unit = {};                ///< of the master in the table
   std::vector<std::string> notes = {};  ///< what the table consists of
-  cams::CamDuty duty = {};              ///< of the job, in the table's units
+  /// Of what was to be small, the least that the device can do, where that is known and more than the cam's.
+  std::optional<double> least = {};
+  std::string why = {};     ///< it is not less
+  cams::CamDuty duty = {};  ///< of the job, in the table's units
 };
 
 /// Each fits the cam to what its device can play, and tells in `problems` what it cannot.

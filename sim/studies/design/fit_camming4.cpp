@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/cams/study.hpp"
 #include "sim/studies/design/fit.hpp"
@@ -207,6 +208,24 @@ std::optional<SectorTable> table_of(const DesignedCam& cam, const DesignJob& ask
   return made;
 }
 
+/// The least jerk of S ramps over half the way back, by master lengths: of one ramp to the speed in the
+/// middle, or of two with standstill between them. A ramp that changes the speed by dv over L has 2 pi
+/// dv/L^2, so two of the same jerk have dv in proportion to L^2.
+double least_jerk(const DesignJob& job, bool turns) {
+  const double half = job.way() / 2;
+  const double slave = (job.slave - job.ratio() * job.sync) / 2;
+  if (!turns) return 2 * std::numbers::pi * 2 * std::abs(slave - job.ratio() * half) / std::pow(half, 3);
+  // The way of the first ramp less that of the second is the slave's: l/2 - m^3/(2 l^2), with l + m the half.
+  const auto second = [&](double first) { return std::cbrt(first * first * (first - 2 * slave)); };
+  double least = 0;
+  double most = half;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (least + most) / 2;
+    (middle + second(middle) < half ? least : most) = middle;
+  }
+  return 2 * std::numbers::pi / (least * least);
+}
+
 /// What the device makes of a table.
 DeviceCam played(SectorTable table, const DesignJob& job, const UmJob& um) {
   DeviceCam made{.job = job, .unit = "Um"};
@@ -246,6 +265,14 @@ std::optional<DeviceCam> fit_camming4(const DesignJob& job, const DesignAxes& ax
     if (!table) return false;
     table->table.settings = head.settings;
     made = played(std::move(*table), stretched, *um);
+    const bool turns = standstill(cam).has_value();
+    const bool free = !job.max_velocity && !job.max_acceleration && !job.max_travel && !job.no_reverse;
+    if (job.goal == MoveGoal::jerk && free && !job.is_steady()) {
+      made->least = least_jerk(stretched, turns);
+      made->why =
+          turns ? "its S ramps begin and end without acceleration, and one ends where the slave turns round"
+                : "its S ramps have pi/2 of the jerk of the best ones";
+    }
     if (!keeps_limits(job, made->figures)) made.reset();
     return made.has_value();
   });

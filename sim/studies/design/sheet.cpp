@@ -53,10 +53,9 @@ std::string limits_text(const DesignJob& job) {
   if (job.max_velocity) limits.push_back(velocity_text(*job.max_velocity));
   if (job.max_acceleration) limits.push_back(acceleration_text(*job.max_acceleration));
   if (job.max_travel) limits.push_back(length_text(*job.max_travel) + " of travel");
-  if (job.no_reverse) limits.emplace_back("never backwards");
   std::string text;
   for (const auto& limit : limits) text += (text.empty() ? ", within " : ", ") + limit;
-  return text;
+  return text + (job.no_reverse ? ", never backwards" : "");
 }
 
 /// A cam's line of the table.
@@ -74,6 +73,9 @@ class Line {
         number(figures_.gradient * v * v),
         has_jerk() ? number(figures_.jerk * v * v * v) : "-",
         number(figures_.ratio * v)};
+    if (job_.kind == DesignKind::flying_saw)
+      cells.push_back(
+          figures_.high > figures_.low ? number((figures_.high - figures_.low) * units::millimetres) : "-");
     if (job_.goal == MoveGoal::energy)
       cells.push_back(figures_.forces > 0
                           ? number(job_.inertia * v * v * std::sqrt(figures_.forces / job_.length))
@@ -109,10 +111,17 @@ std::string loss_text(const DesignSheet& sheet) {
   const bool squared = sheet.cam.job.goal == MoveGoal::rms || sheet.cam.job.goal == MoveGoal::energy;
   if (best <= 0) return "";
   if (fitted <= 0) return "straight pieces have no jerk to compare";
-  const double loss = 100 * (fitted / best - 1);
   constexpr double shown = 0.005;
-  return fmt::format("the fit costs {:.2f} % {}", std::abs(loss) < shown ? 0 : loss,
-                     squared ? "copper loss" : "of it");
+  const auto percent = [&](double of) {
+    const double loss = 100 * (of / best - 1);
+    return fmt::format("{:.2f} %", std::abs(loss) < shown ? 0 : loss);
+  };
+  auto text = fmt::format("the fit costs {} {}", percent(fitted), squared ? "copper loss" : "of it");
+  const auto& least = sheet.device->least;
+  if (least)
+    text +=
+        fmt::format("\n{}: no table of the device costs less than {}", sheet.device->why, percent(*least));
+  return text;
 }
 
 std::string table_of_figures(const DesignSheet& sheet) {
@@ -125,6 +134,7 @@ std::string table_of_figures(const DesignSheet& sheet) {
                                                   {"peak a", unit("m/s2", "1/m")},
                                                   {"peak j", unit("m/s3", "1/m2")},
                                                   {"peak v", unit("m/s", "")}};
+  if (job.kind == DesignKind::flying_saw) headings.push_back({"travel", "mm"});
   if (job.goal == MoveGoal::energy) headings.push_back({"rms force", "N"});
   cams::Columns columns(headings);
   const auto add = [&](const std::string& name, const CamFigures& figures) {
@@ -137,16 +147,19 @@ std::string table_of_figures(const DesignSheet& sheet) {
   return columns.text();
 }
 
+const char* sync_text(const DesignJob& job) { return job.ratio() > 0 ? "synchronous" : "at rest"; }
+
 std::string device_text(const DesignSheet& sheet) {
   const auto& device = *sheet.device;
   auto text = fmt::format("{}: ", sheet.device_name);
   for (const auto& note : device.notes) text += note + "; ";
   text += loss_text(sheet) + '\n';
-  text += fmt::format("synchronous from master {:.0f} to {:.0f} {}", device.sync_begin, device.sync_end,
-                      device.unit);
+  if (device.job.sync > 0)
+    text += fmt::format("{} from master {:.0f} to {:.0f} {}", sync_text(device.job), device.sync_begin,
+                        device.sync_end, device.unit);
   const double longer = device.job.sync - sheet.cam.job.sync;
   if (longer > 1e-9) text += fmt::format(", {} longer than asked for", length_text(longer));
-  return text + '\n' + cams::findings_text(sheet.findings);
+  return text + (device.job.sync > 0 ? "\n" : "") + cams::findings_text(sheet.findings);
 }
 
 /// A panel's curve of the law, and of the quintic behind it.
@@ -194,9 +207,9 @@ std::string remarks_text(const DesignSheet& sheet) {
 std::string sheet_text(const DesignSheet& sheet) {
   const auto& job = sheet.cam.job;
   auto text = fmt::format("{}\n{}{}\n", job_text(job), goal_text(job.goal), limits_text(job));
-  text += fmt::format("T = {}{} from cut to cut, d = {}\n", length_text(job.way()),
+  text += fmt::format("T = {}{} of the master are left to move in, by d = {}{}\n", length_text(job.way()),
                       job.speed ? fmt::format(" ({} ms)", number_text(1000 * job.way() / *job.speed, 7)) : "",
-                      length_text(job.distance()));
+                      length_text(job.distance()), job.ratio() > 0 ? " against it" : "");
   text += '\n' + table_of_figures(sheet);
   if (sheet.device) text += '\n' + device_text(sheet);
   return text;
@@ -218,8 +231,7 @@ renders::Plot design_plot(const DesignSheet& sheet) {
       panel_of(sheet, "acceleration", timed ? "m/s2" : "1/m", 2, v * v),
       panel_of(sheet, "jerk, between the steps of acceleration", timed ? "m/s3" : "1/m2", 3, v * v * v)};
   std::vector<cams::CamZone> zones;
-  if (job.sync > 0)
-    zones.push_back({0, job.sync * units::millimetres, job.ratio() > 0 ? "synchronous" : "at rest", true});
+  if (job.sync > 0) zones.push_back({0, job.sync * units::millimetres, sync_text(job), true});
   zones.push_back({job.sync * units::millimetres, job.length * units::millimetres, "to the next", false});
   cams::draw_zones(plot, zones);
   if (timed) plot.second_x = renders::SecondScale{"time [s]", 1 / (v * units::millimetres)};

@@ -145,6 +145,139 @@ TEST_F(DesignCommand, EnergyNeedsLessForceThanRmsWhereFrictionIsLarge) {
   EXPECT_GT(factor, 12.1);
 }
 
+/// What an option says must be seen: a figure of the designed cam with it, and that it is another without.
+struct Option {
+  std::string name;
+  DesignOptions with;
+  DesignOptions without;
+  std::string line;
+  std::size_t column;  ///< factor, rms a, peak a, peak j, peak v, of a saw travel, of energy rms force
+  double least;        ///< of the figure with it
+  double most;
+  friend void PrintTo(const Option& option, std::ostream* out) { *out << option.name; }
+};
+
+std::vector<Option> options_that_show() {
+  const auto change = [](DesignOptions options, const std::function<void(DesignOptions&)>& how) {
+    how(options);
+    return options;
+  };
+  std::vector<Option> all;
+  const auto add = [&](const char* name, const DesignOptions& base,
+                       const std::function<void(DesignOptions&)>& how, std::size_t column, double least,
+                       double most, const char* line = "designed") {
+    all.push_back({name, change(base, how), base, line, column, least, most});
+  };
+  // The peak acceleration of the least rms is 6 |L - C| v^2 / (L - sync)^2.
+  const auto peak = [](double length, double drum, double sync, double speed) {
+    return 6 * std::abs(length - drum) * speed * speed / ((length - sync) * (length - sync));
+  };
+  const auto near = [&](const char* name, const std::function<void(DesignOptions&)>& how, double value) {
+    add(name, knife(), how, 2, 0.999 * value, 1.001 * value);
+  };
+  near(
+      "length", [](auto& o) { o.length = "900 mm"; }, peak(0.9, 0.6, 0.12, 1));
+  near(
+      "circumference", [](auto& o) { o.circumference = "700 mm"; }, peak(0.8, 0.7, 0.12, 1));
+  near(
+      "sync", [](auto& o) { o.sync = "200 mm"; }, peak(0.8, 0.6, 0.2, 1));
+  near(
+      "speed", [](auto& o) { o.speed = "2 m/s"; }, peak(0.8, 0.6, 0.12, 2));
+  near(
+      "blades", [](auto& o) { o.blades = 2; }, peak(0.8, 0.3, 0.12, 1));
+  add(
+      "feed", feed(), [](auto& o) { o.feed = "150 mm"; }, 2, 0.999 * 6 * 0.15 * 0.25 / 0.04,
+      1.001 * 6 * 0.15 * 0.25 / 0.04);
+  // Of the least peak 4 |d| v^2 / T^2, of the least jerk 32 |d| v^3 / T^3.
+  add(
+      "minimise_peak", knife(), [](auto& o) { o.minimise = "peak"; }, 2, 0.999 * 0.8 / 0.4624,
+      1.001 * 0.8 / 0.4624);
+  add(
+      "minimise_jerk", knife(), [](auto& o) { o.minimise = "jerk"; }, 3, 0.999 * 6.4 / 0.314432,
+      1.001 * 6.4 / 0.314432);
+  const auto brief = change(knife(), [](auto& o) { o.length = "400 mm"; });
+  add(
+      "max_velocity", brief, [](auto& o) { o.max_velocity = "1.9 m/s"; }, 4, 1.85, 1.9);
+  add(
+      "max_acceleration", brief, [](auto& o) { o.max_acceleration = "12 m/s2"; }, 2, 11.5, 12);
+  const auto far = change(saw(), [](auto& o) { o.length = "2 m"; });
+  add(
+      "max_travel", far, [](auto& o) { o.max_travel = "300 mm"; }, 5, 295, 300);
+  const auto dwelling = change(knife(), [](auto& o) { o.length = "3 m"; });
+  add(
+      "no_reverse", dwelling, [](auto& o) { o.no_reverse = true; }, 0, 13, 1000);
+  const auto heavy = change(knife(), [](auto& o) {
+    o.minimise = "energy";
+    o.inertia = "20 kg";
+  });
+  add(
+      "inertia", heavy, [](auto& o) { o.inertia = "40 kg"; }, 5, 30, 60);
+  add(
+      "viscous", heavy, [](auto& o) { o.viscous = "60 N s/m"; }, 5, 40, 200);
+  add(
+      "coulomb", heavy, [](auto& o) { o.coulomb = "100 N"; }, 5, 90, 200);
+  return all;
+}
+
+class DesignOption : public testing::WithParamInterface<Option>, public DesignCommand {};
+
+TEST_P(DesignOption, Shows) {
+  const auto& option = GetParam();
+  ASSERT_EQ(run(option.with), cli::all_passed) << err;
+  const auto with = line(option.line);
+  ASSERT_GT(with.size(), option.column) << out;
+  EXPECT_GE(with[option.column], option.least) << out;
+  EXPECT_LE(with[option.column], option.most) << out;
+  ASSERT_EQ(run(option.without), cli::all_passed) << err;
+  const double without = line(option.line).at(option.column);
+  EXPECT_TRUE(without < option.least || without > option.most) << out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Options, DesignOption, testing::ValuesIn(options_that_show()),
+                         [](const auto& info) { return info.param.name; });
+
+// Ways of a pulse: the table's ends are the job's ways in them.
+TEST_F(DesignCommand, PulsesAreTheTablesUnits) {
+  auto options = knife();
+  options.device = "lx3vp";
+  options.table = folder / "cam.csv";
+  options.master_pulse = "500 mm/20000";
+  options.slave_pulse = "0.03 mm";
+  ASSERT_EQ(run(options), cli::all_passed) << err;
+  EXPECT_THAT(content(options.table), HasSubstr("\n32000,20000\n"));
+  options.device = "camming4";
+  ASSERT_EQ(run(options), cli::all_passed) << err;
+  EXPECT_THAT(content(options.table), testing::AllOf(HasSubstr("# measurem: 5000\n# pulsem: 20000\n"),
+                                                     HasSubstr("# measure: 3\n# pulse: 10\n")));
+}
+
+// S ramps begin and end without acceleration: pi/2 of the least jerk, and more where one must end because the
+// slave turns round. The sheet says so, and the table comes near to it.
+TEST_F(DesignCommand, SaysWhatTheDeviceCanDoAtBest) {
+  for (const bool turns : {false, true}) {
+    auto options = turns ? saw() : knife();
+    options.minimise = "jerk";
+    ASSERT_EQ(run(options), cli::all_passed) << err;
+    EXPECT_THAT(out, Not(HasSubstr("no table of the device")));
+    options.device = "camming4";
+    ASSERT_EQ(run(options), cli::all_passed) << err;
+    std::smatch part;
+    ASSERT_TRUE(std::regex_search(
+        out, part,
+        std::regex("the fit costs ([0-9.]+) % of it\n.*no table of the device costs less than ([0-9.]+) %")))
+        << out;
+    const double cost = std::stod(part[1]);
+    const double least = std::stod(part[2]);
+    if (!turns) {
+      EXPECT_NEAR(least, 100 * (M_PI / 2 - 1), 0.2);
+    }
+    EXPECT_GT(least, turns ? 200 : 50);
+    EXPECT_GE(cost, least - 0.1);
+    EXPECT_LE(cost, least + 5);
+    EXPECT_THAT(out, HasSubstr(turns ? "where the slave turns round" : "pi/2 of the jerk"));
+  }
+}
+
 /// A job for a device and the most that its fit may cost, in per cent of what was to be small.
 struct Fit {
   std::string name;
@@ -363,6 +496,16 @@ std::vector<Refused> refusals() {
        {"--circumference:1:1", "--feed:1:1", "--no-reverse:1:1"}},
       {"travel_of_a_knife", change(knife(), [](auto& o) { o.max_travel = "1 m"; }), {"--max-travel:1:1"}},
       {"table_of_nobody", change(knife(), [](auto& o) { o.table = "x.csv"; }), {"--table:1:1: whose table?"}},
+      {"table_of_another_kind",
+       change(knife(),
+              [](auto& o) {
+                o.device = "mc_camin";
+                o.table = "x.tab";
+              }),
+       {"--table:1:1: x.tab does not end in .csv; name it x.csv"}},
+      {"scene_without_table",
+       change(knife(), [](auto& o) { o.scene = "x.yaml"; }),
+       {"--scene:1:1: there is nothing to run in it; give --table too"}},
       {"decpt", change(knife(), [](auto& o) { o.decpt = 2; }), {"--decpt:1:1"}},
       {"pulse", change(knife(), [](auto& o) { o.master_pulse = "1 kg/3"; }), {"--master-pulse:1:1"}},
       {"pulse_count", change(knife(), [](auto& o) { o.slave_pulse = "1 mm/0"; }), {"--slave-pulse:1:1"}},

@@ -1,0 +1,198 @@
+// A scenario that plays a designed table: what the program of a controller would have to write is there
+// before power-up.
+#include "sim/studies/design/scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "devices/lx3vp/block.hpp"
+#include "sim/cams/study.hpp"
+#include "sim/controllers/kinds.hpp"
+#include "sim/scenario/format.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace word = devices::lx3vp::word;
+
+/// The first group of each match.
+std::vector<std::string> found(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern, std::regex::ECMAScript | std::regex::multiline);
+  std::vector<std::string> all;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), regex); match != std::sregex_iterator();
+       ++match)
+    all.push_back((*match)[1]);
+  return all;
+}
+
+class SceneMaker {
+ public:
+  SceneMaker(const DesignSheet& sheet, const scenario::Scenario& scene, fs::path table, Problems& problems)
+      : sheet_(sheet), scene_(scene), table_(std::move(table)), problems_(problems) {
+    made_.file = fs::path(table_).replace_extension(".yaml");
+  }
+
+  std::optional<CamScene> make() {
+    const auto before = problems_.size();
+    if (const auto* qmove = section<controllers::QmoveSection>("camming4"))
+      take(std::get<devices::camming4::CamTable>(sheet_.device->table), *qmove);
+    else if (const auto* lx3vp = section<controllers::Lx3vpSection>("lx3vp"))
+      take(std::get<devices::lx3vp::EcamTable>(sheet_.device->table), *lx3vp);
+    else if (const auto* plcopen = section<controllers::PlcopenSection>("mc_camin"))
+      take(*plcopen);
+    else
+      refuse(fmt::format("{} does not run {}", scene_.file.string(), sheet_.device_name),
+             "name a scene of its controller");
+    if (problems_.size() != before) return {};
+    made_.scenario = text();
+    return made_;
+  }
+
+ private:
+  template <typename Section>
+  const Section* section(const char* device) const {
+    return sheet_.device_name == device ? controllers::controller_of<Section>(scene_) : nullptr;
+  }
+  void refuse(std::string what, std::string remedy) {
+    problems_.push_back({"--scene", 1, 1, std::move(what), std::move(remedy)});
+  }
+  std::string content(const scenario::Text& file) {
+    return controllers::read_named(file, scene_, problems_).value_or("");
+  }
+
+  void take(const devices::camming4::CamTable& cam, const controllers::QmoveSection& section) {
+    const auto configuration = content(section.configuration);
+    const auto axes = found(configuration, R"(^\s*(\w+)\s+CAMMING4\b)");
+    if (axes.size() != 1)
+      return refuse(fmt::format("its configuration has {} axes with CAMMING4", axes.size()),
+                    "name a scene with one");
+    if (found(configuration, R"(^\s*(slZone)\s+L\b)").empty())
+      return refuse("its program takes no cam: there is no slZone to tell it that one is given",
+                    "give it one, as in scenes/programs/rotary_knife.mod");
+    const auto& axis = axes.front();
+    std::vector<std::string> values;
+    int zone = 1;
+    for (int i = 1; i <= devices::camming4::cam_rows; ++i) {
+      if (!cam.has(i)) continue;
+      const auto& row = cam.sector(i).row;
+      if (row.codeM != 0) zone = i;
+      values.push_back(
+          fmt::format("{0}.codeG{1}: {2}, {0}.codeQm{1}: {3}, {0}.codeQs{1}: {4}, {0}.codeM{1}: "
+                      "{5}",
+                      axis, i, row.codeG, row.codeQm, row.codeQs, row.codeM));
+    }
+    controller_ = fmt::format("qmove:\n    set:\n      {{slZone: {},\n       {}}}", zone,
+                              fmt::join(values, ",\n       "));
+    const auto& row = cam.sector(zone).row;
+    check_ = fmt::format("{0}.decpt == {1} && {0}.codeQm{2} == {3} && {0}.codeQs{2} == {4}", axis,
+                         cam.settings.decpt, zone, row.codeQm, row.codeQs);
+  }
+
+  void take(const devices::lx3vp::EcamTable& cam, const controllers::Lx3vpSection& section) {
+    const auto program = content(section.program);
+    const auto blocks = found(program, R"(^\s*DECAM\s+\S+\s+D(\d+)\b)");
+    if (blocks.size() != 1)
+      return refuse(fmt::format("its program has {} DECAM", blocks.size()), "name a scene with one");
+    const int block = std::stoi(blocks.front());
+    const auto rows = static_cast<int>(cam.rows.size());
+    if (block + word::table + devices::lx3vp::row_words * rows - 1 > devices::lx3vp::last_block_word)
+      return refuse(fmt::format("{} rows behind D{} reach into the special registers", rows, block),
+                    "let the block begin lower");
+    made_.registers_file = table_.parent_path() / (table_.stem().string() + "_registers.csv");
+    auto& text = made_.registers;
+    const auto line = [&](int offset, const char* kind, auto value, const char* meaning) {
+      text += fmt::format("D{}{},{} ; {}\n", block + offset, kind, value, meaning);
+    };
+    text = fmt::format("# The block of DECAM at D{} with the cam of {}.\naddress,value\n", block,
+                       table_.filename().string());
+    if (!section.registers.text.empty())
+      text += controllers::read_named_table(section.registers, scene_, problems_).value_or("") + '\n';
+    const auto answers = found(program, fmt::format(R"(^\s*ECAMTBX\s+\S+\s+\S+\s+D{}\s+D(\d+)\b)", block));
+    if (!answers.empty())
+      text += fmt::format("D{}:L,{} ; rows, where ECAMTBX would answer\n", answers.front(), rows);
+    line(word::sync_low, ":L", static_cast<long>(sheet_.device->sync_begin), "synchronous from here");
+    line(word::sync_high, ":L", static_cast<long>(sheet_.device->sync_end), "to here");
+    line(word::rows, "", rows, "rows");
+    line(word::table_offset, "", word::table, "where the first one is");
+    for (int i = 0; i < rows; ++i) {
+      const auto& row = cam.rows[static_cast<std::size_t>(i)];
+      const int offset = word::table + i * devices::lx3vp::row_words;
+      line(offset, ":L", row.master, "master");
+      line(offset + 2, ":L", row.slave, "slave");
+    }
+    controller_ = fmt::format("lx3vp: {{registers: {}}}",
+                              scenario::yaml_text(made_.registers_file.filename().string()));
+    const int middle = rows / 2;
+    const auto& row = cam.rows[static_cast<std::size_t>(middle)];
+    const int offset = block + word::table + middle * devices::lx3vp::row_words;
+    check_ = fmt::format("D{} == {} && DD{} == {} && DD{} == {}", block + word::rows, rows, offset,
+                         row.master, offset + 2, row.slave);
+  }
+
+  void take(const controllers::PlcopenSection& section) {
+    if (section.tables.size() != 1)
+      return refuse(fmt::format("it has {} cam tables", section.tables.size()), "name a scene with one");
+    const auto& old = section.tables.front();
+    const auto program = content(section.program);
+    if (!found(program, R"(\b(File)\s*:=)").empty())
+      return refuse("its program asks for its table by the name of the file", "let it ask by ID");
+    const auto table = fmt::format("{{file: {}, id: {}}}", scenario::yaml_text(table_.filename().string()),
+                                   old.id == 0 ? id_of(old.file) : old.id);
+    std::string zone;
+    if (!found(program, R"((\bzoneBegins\b))").empty())
+      zone = fmt::format(", set: {{zoneBegins: {:.0f}, zoneEnds: {:.0f}}}", sheet_.device->sync_begin,
+                         sheet_.device->sync_end);
+    controller_ = fmt::format("plcopen: {{tables: [{}]{}}}", table, zone);
+  }
+
+  /// A table's own.
+  int id_of(const scenario::Text& file) {
+    Problems ignored;  // the scene's
+    const auto table = cams::read_cam("mc_camin", content(file), file.text, ignored);
+    const auto* cam = std::get_if<devices::plcopen::CamFile>(&table);
+    return cam == nullptr ? 0 : cam->table.id;
+  }
+
+  [[nodiscard]] std::string text() const {
+    const auto folder = fs::absolute(table_).lexically_normal().parent_path();
+    const auto scene = fs::absolute(scene_.file).lexically_normal().lexically_relative(folder);
+    auto text =
+        fmt::format("# The cam of {} in {}, by drycut design: {}.\nextends: {}\n", table_.filename().string(),
+                    scene_.file.filename().string(), sheet_.device_name, scenario::yaml_text(scene.string()));
+    const auto has_length = std::any_of(scene_.variables.begin(), scene_.variables.end(),
+                                        [](const auto& variable) { return variable.name.text == "length"; });
+    if (has_length) text += fmt::format("variables: {{length: {}}}\n", length_text(sheet_.cam.job.length));
+    text += fmt::format("controller:\n  {}\n", controller_);
+    if (!check_.empty())
+      text += scene_.checks.empty()
+                  ? fmt::format("checks:\n  - {{name: plays the designed cam, always: \"{}\", from: 3 s}}\n",
+                                check_)
+                  : fmt::format("checks:\n  plays the designed cam: {{always: \"{}\", from: 3 s}}\n", check_);
+    return text;
+  }
+
+  const DesignSheet& sheet_;
+  const scenario::Scenario& scene_;
+  fs::path table_;
+  Problems& problems_;
+  CamScene made_;
+  std::string controller_;
+  std::string check_;  ///< that the controller has the table
+};
+
+}  // namespace
+
+std::optional<CamScene> cam_scene(const DesignSheet& sheet, const fs::path& scene, const fs::path& table,
+                                  Problems& problems) {
+  const auto before = problems.size();
+  const auto base = scenario::read_scenario(scene, {}, problems);
+  if (problems.size() != before) return {};
+  return SceneMaker(sheet, base, table, problems).make();
+}
+
+}  // namespace drycut::sim::studies
