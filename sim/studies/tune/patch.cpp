@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -31,12 +32,16 @@ std::vector<std::string> keys_of(const std::string& path) {
   return keys;
 }
 
-/// A list's entry cannot be pasted: the rest of the list is not known here.
+/// A list's entry, by its number or its name, cannot be pasted: the rest of the list is not known here.
 bool lies_in_a_list(const std::string& path) {
+  constexpr std::array<std::string_view, 4> lists = {"timeline", "disturbances", "checks", "plots"};
   const auto keys = keys_of(path);
-  return std::any_of(keys.begin(), keys.end(), [](const std::string& key) {
-    return std::all_of(key.begin(), key.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-  });
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    if (std::all_of(keys[i].begin(), keys[i].end(), is_digit)) return true;
+    if (i + 1 < keys.size() && std::find(lists.begin(), lists.end(), keys[i]) != lists.end()) return true;
+  }
+  return false;
 }
 
 std::vector<Entry> entries_of(const Tuning& tuning) {

@@ -78,7 +78,7 @@ void try_bounds(const TunedParameter& parameter, const Study& study, const Study
       problem.file = parameter.option;
       problem.line = 1;
       problem.column = upper ? parameter.high_column : parameter.low_column;
-      problem.what = parameter.path + ": " + problem.what;
+      if (!problem.what.starts_with(parameter.path)) problem.what = parameter.path + ": " + problem.what;
       const bool told = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
         return other.what == problem.what && other.file == problem.file;
       });

@@ -49,6 +49,29 @@ TEST_F(BodeCommand, JudgesTheLoop) {
   EXPECT_THAT(err, IsEmpty());
 }
 
+// Half the speed at 10 V is half the loop's gain: L(z) = gain / (z - 1) crosses over at half the frequency.
+TEST_F(BodeCommand, TakesVariables) {
+  auto text = bode_axis::Folder::scenario("");
+  const std::string speed = "1000 mm/s";
+  text.replace(text.find(speed), speed.size(), "\"${speed}\"");
+  folder.file("axis.yaml", "variables: {speed: 1 m/s}\n" + text);
+  const auto crossover = [&] {
+    EXPECT_EQ(run(), cli::all_passed) << err;
+    const auto at = out.find("at the crossover of ");
+    return at == std::string::npos ? 0 : std::stod(out.substr(at + 20));
+  };
+  const double full = crossover();
+  options.set = {"variables.speed=500 mm/s"};
+  EXPECT_NEAR(crossover(), full / 2, 0.01 * full);
+  options.set = {"variables.sped=500 mm/s"};
+  EXPECT_EQ(run(), cli::bad_input);
+  EXPECT_THAT(err,
+              HasSubstr("--set variables.sped:1:1: there is no 'sped' in variables; did you mean speed?"));
+  options.set = {"variables.speed=500 mm"};
+  EXPECT_EQ(run(), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("--set variables.speed:1:1: variables.speed is a speed (1 m/s, "));
+}
+
 TEST_F(BodeCommand, FailsBelowALimit) {
   options.min_phase_margin = 89;
   options.min_gain_margin = 30;

@@ -94,6 +94,19 @@ TEST_F(CompareScene, MembersRunInFoldersOfTheirOwn) {
   EXPECT_EQ(*read("bad").parameter("controller.qmove.set.AxisX.feedfw"), "900");
 }
 
+TEST_F(CompareScene, MembersDifferInVariables) {
+  test_folder.file("axis.yaml", "variables: {lead: 900}\n" +
+                                    with(tuning::scenario, "AxisX.feedfw: 900", "AxisX.feedfw: \"${lead}\""));
+  const auto scene = with(two, "controller.qmove.set.AxisX.feedfw: 1000", "variables.lead: 1000");
+  refuses(with(scene, "variables.lead", "variables.laed"),
+          "6:29: there is no 'laed' in variables; did you mean lead?");
+  EXPECT_EQ(run(scene), cli::all_passed) << err << out;
+  EXPECT_EQ(*read("good").parameter("variables.lead"), "1000");
+  EXPECT_EQ(*read("bad").parameter("variables.lead"), "900");
+  EXPECT_EQ(*read("good").parameter("controller.qmove.set.AxisX.feedfw"), "1000");
+  EXPECT_EQ(*read("bad").parameter("controller.qmove.set.AxisX.feedfw"), "900");
+}
+
 TEST_F(CompareScene, FiguresAreThoseOfTheTraces) {
   ASSERT_EQ(run(two), cli::all_passed) << err;
   const auto bad = read("bad");

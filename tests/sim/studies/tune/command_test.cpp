@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "sim/scenario/yaml_node.hpp"
 #include "sim/studies/tune/study.hpp"
@@ -48,6 +49,70 @@ TEST_F(TuneCommand, TunesThePlantAsWell) {
   ASSERT_EQ(root.entries.size(), 2U) << "all else is comment: " << patch;
   const auto* axis = scenario::child(*scenario::child(root, "plants"), "axis");
   EXPECT_NEAR(std::stod(scenario::child(*axis, "speed_at_10v")->text.text), 1.0, 0.002);
+}
+
+/// The axis with its speed as a variable.
+const std::string with_variable =
+    "variables: {speed: 500 mm/s}\n" + std::regex_replace(scenario, std::regex("1000 mm/s"), "\"${speed}\"");
+
+TEST_F(TuneCommand, VariesAVariable) {
+  test_folder.file("axis.yaml", with_variable);
+  options.set = {feedfw + "=1000"};
+  options.vary = {"variables.speed=0.5..1.6 m/s"};
+  options.budget = 60;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  const auto patch = content(folder / "out/patch.txt");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      patch, found, std::regex("variables:\n  speed: ([0-9.]+) m/s  # drycut tune; before: 0.5 m/s\n")))
+      << patch;
+  EXPECT_NEAR(std::stod(found[1]), 1.0, 0.002);
+  EXPECT_THAT(patch, HasSubstr("--set \"variables.speed=" + found[1].str() + " m/s\""));
+}
+
+// As fast as the checks let it: the speed finder.
+TEST_F(TuneCommand, FindsTheLargestValueThatKeepsTheChecks) {
+  test_folder.file("axis.yaml",
+                   with_variable + "checks: [{name: not too fast, always: abs(axis.speed) < 400}]\n");
+  options.set = {feedfw + "=1000"};
+  options.vary = {"variables.speed=0.3..1.6 m/s"};
+  options.minimise = "-max(axis.speed)";
+  options.budget = 60;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  const auto patch = content(folder / "out/patch.txt");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(patch, found, std::regex("  speed: ([0-9.]+) m/s")));
+  // The program asks for half of maxvel, so the axis has half of its speed at 10 V.
+  EXPECT_NEAR(std::stod(found[1]), 0.8, 0.01);
+  EXPECT_LT(std::stod(found[1]), 0.8);
+}
+
+TEST_F(TuneCommand, VariablesThatCannotBeVaried) {
+  struct Case {
+    const char* vary;
+    const char* told;
+  };
+  test_folder.file("axis.yaml", with_variable);
+  for (const auto& [vary, told] : {
+           Case{"variables.sped=1..2 m/s", "there is no 'sped' in variables; did you mean speed?"},
+           Case{"variables.speed=1..2 s", "--vary:1:17: variables.speed is a speed (500 mm/s, "},
+           Case{"variables.speed=2..1 m/s", "--vary:1:17: the range 2..1 m/s is empty"},
+       }) {
+    options.vary = {vary};
+    EXPECT_EQ(run(), cli::bad_input) << vary;
+    EXPECT_THAT(err, HasSubstr(told)) << vary;
+    EXPECT_FALSE(fs::exists(folder / "out/patch.txt"));
+  }
+}
+
+// A list's entry by its name is told as a path: it is nothing to paste.
+TEST_F(TuneCommand, AnEntryOfAListIsToldAsAPath) {
+  test_folder.file("axis.yaml", with_variable + "checks: [{name: fast, always: abs(axis.speed) < 900}]\n");
+  options.set = {"checks.fast.from=10 ms"};
+  options.budget = 10;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  EXPECT_THAT(content(folder / "out/patch.txt"),
+              HasSubstr("# In lists of the scenario, at these paths\n#   checks.fast.from: 10 ms (--set)\n"));
 }
 
 /// The loop of the bench is L(z) = pgain / 1000 / (z - 1).
