@@ -87,7 +87,7 @@ class Merger {
         added.push_back(std::move(entry));
     }
     // Two that are new do not stand beside each other.
-    if (name == "variables" || name == "plants") {
+    if (name == "variables" || name == "plants" || name == "controller.plcopen.axes") {
       const auto known = keys_of(base);
       for (auto& entry : added) entry.value.beside = known;
     }
@@ -233,9 +233,22 @@ class TreeReader {
     auto text = read_file(path, problems, {here, named.place.line, named.place.column, "", ""});
     for (auto& problem : problems) {
       const auto source = problem.file == here ? named.place.source : findings_.add_source(problem.file);
-      findings_.add({problem.line, problem.column, source}, problem.what, problem.remedy);
+      const auto remedy = source == named.place.source
+                              ? did_you_mean(path.filename().string(), files_beside(path), problem.remedy)
+                              : problem.remedy;
+      findings_.add({problem.line, problem.column, source}, problem.what, remedy);
     }
     return text;
+  }
+
+  /// Scenarios in the folder of a file, in order.
+  static std::vector<std::string> files_beside(const fs::path& path) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(path.parent_path(), ignored))
+      if (entry.path().extension() == ".yaml") names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
   }
 
   Findings& findings_;

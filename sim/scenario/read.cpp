@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/extends.hpp"
@@ -144,6 +145,28 @@ std::vector<std::string> beside(const YamlNode& root, const std::string& variabl
   return value == nullptr ? std::vector<std::string>() : value->beside;
 }
 
+// An axis drives something, so it has wires.
+void refuse_axes_without_wires(const YamlNode& root, Findings& findings) {
+  const auto* node = &root;
+  for (const auto* key : {"controller", "plcopen", "axes"})
+    if (node != nullptr) node = child(*node, key);
+  if (node == nullptr) return;
+  const auto* wiring = child(root, "wiring");
+  for (const auto& axis : node->entries) {
+    const auto meant = did_you_mean(axis.key.text, axis.value.beside, "");
+    if (axis.value.beside.empty() || meant.empty() || child(axis.value, "kind") != nullptr) continue;
+    const auto is_of_axis = [&](const YamlNode::Entry& wire) {
+      return wire.key.text.starts_with(axis.key.text + ".");
+    };
+    if (wiring != nullptr && std::any_of(wiring->entries.begin(), wiring->entries.end(), is_of_axis))
+      continue;
+    findings.add(
+        axis.key.place,
+        fmt::format("the axis '{}' has no wire, and what is extended has none of this name", axis.key.text),
+        meant);
+  }
+}
+
 // A scene that compares scenarios (sim/studies/compare/scene.hpp) is none itself.
 bool refuse_comparison(const YamlNode& root, Findings& findings) {
   const auto found = std::find_if(root.entries.begin(), root.entries.end(),
@@ -203,6 +226,7 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
           variable.beside = beside(root, variable.name.text);
         }
         refuse_slips(scenario, findings);
+        refuse_axes_without_wires(root, findings);
       }
     } else {
       refuse_kind(root, "a scenario", YamlNode::Kind::map, findings);

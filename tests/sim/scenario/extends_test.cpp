@@ -136,6 +136,31 @@ TEST_F(Extends, SlipsAreTold) {
     EXPECT_EQ(told()[i], "line.yaml:" + std::to_string(3 + 2 * i) + ":" + cases[i].told);
 }
 
+TEST_F(Extends, AnAxisWithoutWiresIsASlip) {
+  write("base.yaml",
+        "plants: {axis: {type: ideal_axis}}\n"
+        "controller: {plcopen: {program: p.st, axes: {Knife: {path: [1 mm, 100]}, Web: {kind: virtual}}}}\n"
+        "wiring: {Knife.encoder: axis.encoder}\n");
+  const std::string mine = "extends: base.yaml\ncontroller: {plcopen: {axes: ";
+  read(mine + "{Knive: {kv: 30 1/s}}}}\n");
+  EXPECT_THAT(told(),
+              ElementsAre("line.yaml:2:32: the axis 'Knive' has no wire, and what is extended has none of "
+                          "this name; did you mean Knife?"));
+  for (const auto* axes :
+       {"{Knife: {kv: 30 1/s}}}}\n", "{Web2: {kind: virtual}}}}\n", "{Other: {kv: 30 1/s}}}}\n",
+        "{Knife2: {kv: 30 1/s}}}}\nwiring: {Knife2.encoder: axis.encoder}\n"}) {
+    problems.clear();
+    read(mine + axes);
+    EXPECT_THAT(told(), IsEmpty()) << axes;
+  }
+}
+
+TEST_F(Extends, AFileThatIsNotThereIsToldWithTheNearest) {
+  write("base.yaml", base);
+  read("extends: bsae.yaml\n");
+  EXPECT_THAT(told(), ElementsAre(testing::EndsWith("; did you mean base.yaml?")));
+}
+
 // A new variable that is used, or is like none of the base's, is none; neither is a new plant or check.
 TEST_F(Extends, WhatIsNewAndWholeIsNoSlip) {
   write("base.yaml", base);
