@@ -11,10 +11,10 @@
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
 PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libassimp-dev libeigen3-dev libyaml-cpp-dev \
-            libudunits2-dev libnlopt-cxx-dev libcli11-dev libboost-dev libfmt-dev nlohmann-json3-dev \
+            libudunits2-dev libnlopt-cxx-dev libhdf5-dev zlib1g-dev libzstd-dev libcli11-dev libboost-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs ffmpeg
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
-TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml $(PYTHON_PACKAGES)
+TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml python3-h5py python3-pandas $(PYTHON_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy

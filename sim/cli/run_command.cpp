@@ -21,6 +21,7 @@
 #include "sim/loop/simulation.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/parallel.hpp"
+#include "sim/records/run_files.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/gallery.hpp"
 #include "sim/report/results.hpp"
@@ -191,8 +192,8 @@ void open_folders(Work& work, const RunOptions& options, Problems& problems) {
     group.folder.emplace(group.result.directory, "compare", studies::comparison_files, problems);
   for (auto& job : work.jobs) {
     auto names = report::picture_files;
-    for (const auto* name :
-         {report::trace_file, report::events_file, report::checks_file, report::scenario_file})
+    for (const auto* name : {report::trace_file, report::events_file, report::hdf5_file, report::checks_file,
+                             report::scenario_file})
       names.emplace_back(name);
     names.push_back(scene_file_of(*job));
     job->folder.emplace(job->result.directory, "run", names, problems);
@@ -215,7 +216,7 @@ void run_job(Job& job, const RunOptions& options, int threads,
   const auto duration = static_cast<double>(job.scenario.scene.duration);
   if (options.pictures) job.simulation->follow_cams();
   if (!options.pictures && !options.gltf) job.simulation->keep_nothing();
-  job.simulation->write_to(folder.add(report::trace_file), folder.add(report::events_file));
+  records::RunFiles files(job.scenario, *job.simulation, folder);
   job.result.outcome =
       job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
   if (job.half)
@@ -226,6 +227,7 @@ void run_job(Job& job, const RunOptions& options, int threads,
   if (const auto kept = loop::retentive_file(job.scenario)) {
     write_file(*kept, job.simulation->retentive_state());
   }
+  files.finish(job.result.outcome);
   const auto finished = [&] { report::write_checks(job.result.outcome, folder.add(report::checks_file)); };
   if (!options.pictures && !options.gltf) return finished();
   const auto film = job.simulation->snapshots().empty()

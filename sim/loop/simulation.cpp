@@ -103,8 +103,12 @@ void Simulation::delay_outputs(Problems& problems) {
 }
 
 void Simulation::write_to(const std::filesystem::path& trace, const std::filesystem::path& events) {
-  recording_.spool_in(trace.parent_path());
-  files_ = std::make_unique<TraceFiles>(recording_, trace, events);
+  write_to(std::make_unique<TraceFiles>(recording_, trace, events), trace.parent_path());
+}
+
+void Simulation::write_to(std::unique_ptr<Observer> files, const std::filesystem::path& folder) {
+  recording_.spool_in(folder);
+  files_ = std::move(files);
   observers_.push_back(files_.get());
 }
 

@@ -58,6 +58,8 @@ class Simulation {
 
   /// Writes trace.csv and events.csv, here and while it runs; before run().
   void write_to(const std::filesystem::path& trace, const std::filesystem::path& events);
+  /// The same into any other files; `folder` has room for what waits for pictures of the run.
+  void write_to(std::unique_ptr<Observer> files, const std::filesystem::path& folder);
   /// Keeps nothing for pictures of the run: no rows, no events, no poses. Before run().
   void keep_nothing();
   /// Keeps what the controller's cams play, for pictures of it; before run().
@@ -154,7 +156,7 @@ class Simulation {
   std::unique_ptr<Checks> checks_;
   std::unique_ptr<DriveJudge> drives_;
   Recording recording_;
-  std::unique_ptr<TraceFiles> files_;
+  std::unique_ptr<Observer> files_;
   std::unique_ptr<cams::CamRecorder> cams_;
   std::size_t events_seen_ = 0;
   Time next_record_ = 0;

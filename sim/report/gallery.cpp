@@ -52,8 +52,8 @@ class TableRows {
     if (count_ <= 2 * most) return;
     const auto oldest = static_cast<std::ptrdiff_t>(most + count_ % most);
     std::rotate(table_.rows.begin() + most, table_.rows.begin() + oldest, table_.rows.end());
-    table_.title +=
-        fmt::format(": the first {0} and the last {0} of {1}, all are in events.csv", most, count_);
+    table_.title += fmt::format(": the first {0} and the last {0} of {1}, all are in the record of the run",
+                                most, count_);
   }
 
  private:
@@ -197,7 +197,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   if (const auto samples = simulation.recording().times().size(); samples > renders::kMostSamples)
     report.facts.push_back(
         {{"note", fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
-                              "highest of {} stretches of equal length; all are in trace.csv",
+                              "highest of {} stretches of equal length; all are in the record of the run",
                               samples, renders::kStretches)}});
   for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
   add_checks(outcome.checks, report);

@@ -75,11 +75,14 @@ void write_checks(const loop::Outcome& outcome, const std::filesystem::path& fil
   write_file(file, json.dump(2) + "\n");
 }
 
+std::string scenario_text(const scenario::Scenario& scenario) {
+  return "# The scenario of this run with every default in force. Paths are relative to the original "
+         "file.\n" +
+         expand(scenario);
+}
+
 void write_scenario(const scenario::Scenario& scenario, const std::filesystem::path& file) {
-  write_file(
-      file,
-      "# The scenario of this run with every default in force. Paths are relative to the original file.\n" +
-          expand(scenario));
+  write_file(file, scenario_text(scenario));
 }
 
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file) {

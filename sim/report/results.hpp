@@ -23,6 +23,7 @@ void write_checks(const loop::Outcome& outcome, const std::filesystem::path& fil
 /// The files of a run that a comparison reads.
 inline constexpr auto* trace_file = "trace.csv";
 inline constexpr auto* events_file = "events.csv";
+inline constexpr auto* hdf5_file = "trace.h5";  ///< in place of both with record.format: hdf5
 inline constexpr auto* checks_file = "checks.json";
 inline constexpr auto* scenario_file = "scenario.yaml";
 
@@ -31,6 +32,7 @@ loop::Outcome outcome_to_come();
 
 /// scenario.yaml: the scenario as it ran, with every default and override in force, to be compared with other
 /// runs' and kept. Paths in it are relative to the scenario's own file.
+std::string scenario_text(const scenario::Scenario& scenario);
 void write_scenario(const scenario::Scenario& scenario, const std::filesystem::path& file);
 
 /// junit.xml over all scenarios: a suite a scenario, a case a check; a run that stopped is an error.

@@ -166,6 +166,8 @@ struct Disturbance {
 };
 
 struct RecordSection {
+  enum class Format { csv, hdf5 };
+  Format format = Format::csv;
   Time every = 2 * millisecond;
   std::vector<Text> channels;
   Place place;

@@ -206,7 +206,9 @@ void judge_check(MapReader& reader, const Check& check) {
 }
 
 void visit_record(Archive& archive, RecordSection& record) {
-  archive.value({"every", "a row of trace.csv"}, form(record.every, Sign::positive));
+  archive.value({"format", "csv: trace.csv, events.csv; hdf5: both in trace.h5"},
+                choice_form({"csv", "hdf5"}, record.format));
+  archive.value({"every", "a row of the trace"}, form(record.every, Sign::positive));
   archive.value({"channels", "columns: AxisX.posit, knife.angle, web.speed"}, form(record.channels));
   archive.judge([&record](MapReader& reader) {
     record.place = reader.place();
@@ -325,7 +327,7 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.list({"disturbances", "what is added to settings, live parameters and faults of plants",
                 !scenario.disturbances.empty()},
                scenario.disturbances);
-  archive.section({"record", "what trace.csv holds"},
+  archive.section({"record", "what trace.csv or trace.h5 holds"},
                   [&](Archive& inner) { visit_record(inner, scenario.record); });
   archive.section({"drives", "how the drives are judged by their ratings"},
                   [&](Archive& inner) { visit_drives(inner, scenario.drives); });

@@ -11,6 +11,8 @@
 
 #include "sim/file.hpp"
 #include "sim/loop/known_events.hpp"
+#include "sim/records/csv_files.hpp"
+#include "sim/records/hdf5_reader.hpp"
 #include "sim/report/results.hpp"
 #include "sim/scenario/yaml_node.hpp"
 #include "sim/scenario/yaml_reader.hpp"
@@ -78,9 +80,11 @@ bool is_run(const fs::path& folder, Problems& problems) {
   if (!fs::exists(folder, ignored)) return refuse("there is no such folder", "check the path");
   if (!fs::is_directory(folder, ignored))
     return refuse("it is not a folder", "name a folder that drycut run made of a scenario");
+  std::vector<const char*> files = {report::checks_file, report::scenario_file};
+  if (!fs::is_regular_file(folder / report::hdf5_file, ignored))
+    files.insert(files.begin(), {report::trace_file, report::events_file});
   std::vector<std::string> missing;
-  for (const auto* file :
-       {report::trace_file, report::events_file, report::checks_file, report::scenario_file})
+  for (const auto* file : files)
     if (!fs::is_regular_file(folder / file, ignored)) missing.emplace_back(file);
   if (missing.empty()) return true;
   const auto what = fmt::format("it is not the folder of a run: there is no {}", fmt::join(missing, ", "));
@@ -193,6 +197,23 @@ void read_scenario_yaml(const std::string& text, const std::string& file, RunFol
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
 }
 
+/// What the folder of a run says beside its record, as far as the run has come.
+void add_about(const fs::path& folder, records::Record& record, Problems& problems) {
+  std::error_code ignored;
+  RunFolder run;
+  if (const auto file = folder / report::checks_file; fs::exists(file, ignored))
+    if (const auto text = whole_file(file, problems)) read_checks_json(*text, file.string(), run, problems);
+  if (!run.version.empty()) record.about.emplace_back("drycut", run.version);
+  record.checks = std::move(run.checks);
+  const auto file = folder / report::scenario_file;
+  if (!fs::exists(file, ignored)) return;
+  if (const auto text = whole_file(file, problems)) {
+    read_scenario_yaml(*text, file.string(), run, problems);
+    if (const auto* step = run.parameter("scene.step")) record.about.emplace_back("step", *step);
+    record.about.emplace_back("scenario", *text);
+  }
+}
+
 }  // namespace
 
 const Tolerance* RunFolder::tolerance(const std::string& source, const std::string& event,
@@ -209,19 +230,40 @@ const std::string* RunFolder::parameter(const std::string& path) const {
   return found == parameters.end() ? nullptr : &found->second;
 }
 
+records::Record read_record(const fs::path& run, Problems& problems) {
+  std::error_code ignored;
+  const bool is_folder = fs::is_directory(run, ignored);
+  if (const auto hdf5 = is_folder ? run / report::hdf5_file : run;
+      is_folder ? fs::exists(hdf5, ignored) : records::is_hdf5(hdf5))
+    return records::read_hdf5(hdf5, problems);
+  const auto file = is_folder ? run / report::trace_file : run;
+  records::Record record;
+  if (is_folder && !fs::exists(file, ignored)) {
+    problems.push_back({run.string(), 1, 1,
+                        fmt::format("it is not the folder of a run: there is no {}, no {}",
+                                    report::trace_file, report::hdf5_file),
+                        nearest_run(run)});
+    return record;
+  }
+  const MappedFile trace(file);
+  if (trace.text().empty())
+    refuse_file(file, problems);
+  else
+    record.recording = read_trace(trace.text(), file.string(), problems);
+  const auto events = records::events_beside(file);
+  if (const auto text = whole_file(events, problems))
+    read_events(*text, events.string(), record.recording, problems);
+  if (is_folder) add_about(run, record, problems);
+  return record;
+}
+
 RunFolder read_run(const fs::path& folder, Problems& problems) {
   RunFolder run;
   run.folder = folder;
   run.label = folder.string();
   if (!is_run(folder, problems)) return run;
   const auto name = [&](const char* file) { return (folder / file).string(); };
-  const MappedFile trace(folder / report::trace_file);
-  if (trace.text().empty())
-    refuse_file(folder / report::trace_file, problems);
-  else
-    run.recording = read_trace(trace.text(), name(report::trace_file), problems);
-  if (const auto text = whole_file(folder / report::events_file, problems))
-    read_events(*text, name(report::events_file), run.recording, problems);
+  run.recording = read_record(folder, problems).recording;
   if (const auto text = whole_file(folder / report::checks_file, problems))
     read_checks_json(*text, name(report::checks_file), run, problems);
   if (const auto text = whole_file(folder / report::scenario_file, problems))

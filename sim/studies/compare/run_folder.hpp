@@ -8,6 +8,7 @@
 #include "base/problem.hpp"
 #include "sim/loop/checks.hpp"
 #include "sim/loop/recorder.hpp"
+#include "sim/records/record.hpp"
 
 namespace drycut::sim::studies {
 
@@ -41,6 +42,10 @@ struct RunFolder {
   [[nodiscard]] const Tolerance* tolerance(const std::string& source, const std::string& event,
                                            const std::string& value) const;
 };
+
+/// Reads what a run recorded, from its folder or from a file of it: trace.csv, with its events beside it, or
+/// trace.h5. Whatever is missing or broken is told in `problems`; then the result is not to be used.
+records::Record read_record(const std::filesystem::path& run, Problems& problems);
 
 /// Reads the folder that `drycut run` made of one scenario. Whatever is missing or broken in it is told in
 /// `problems` with file, line and column; then the result is not to be used.
