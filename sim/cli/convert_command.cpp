@@ -1,0 +1,105 @@
+#include "sim/cli/convert_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "base/plain_text.hpp"
+#include "base/text.hpp"
+#include "sim/cli/arguments.hpp"
+#include "sim/records/csv_files.hpp"
+#include "sim/studies/compare/run_folder.hpp"
+#include "sim/studies/convert.hpp"
+
+namespace drycut::sim::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> formats = {"csv", "hdf5", "mcap"};  // as studies::RecordFormat
+constexpr std::array endings = {".csv", ".h5", ".mcap"};
+
+/// out/rotary_knife.mcap for the folder out/rotary_knife, x/trace.mcap for x/trace.csv.
+fs::path file_beside(const fs::path& run, const char* ending) {
+  std::error_code ignored;
+  if (!fs::is_directory(run, ignored)) return fs::path(run).replace_extension(ending);
+  auto folder = (run / "").lexically_normal().parent_path();
+  if (folder.empty() || folder == "." || folder.filename() == "..") folder = fs::canonical(run, ignored);
+  return folder.parent_path() / (folder.filename().string() + ending);
+}
+
+/// The files that are written: none is in the way, and none is what is read.
+void check_files(const ConvertOptions& options, const std::vector<fs::path>& files, Problems& problems) {
+  std::error_code ignored;
+  for (const auto& file : files) {
+    if (!options.out.empty())
+      check_output("--out", file.string(), {options.run, "record"}, problems);
+    else if (fs::exists(file, ignored))
+      problems.push_back({file.string(), 1, 1, "there is such a file already",
+                          "name the file with --out: one that is named is replaced"});
+  }
+}
+
+}  // namespace
+
+int convert_run(const ConvertOptions& options) {
+  Problems problems;
+  const auto chosen = std::find(formats.begin(), formats.end(), options.to);
+  if (chosen == formats.end())
+    problems.push_back({"--to", 1, 1, fmt::format("there is no format {}", in_quotes(options.to)),
+                        did_you_mean(options.to, formats)});
+  std::error_code ignored;
+  if (!fs::exists(options.run, ignored))
+    problems.push_back({options.run.string(), 1, 1, "there is no such run",
+                        "name a folder that drycut run made of a scenario, or its trace.csv or trace.h5"});
+  if (problems.empty()) {
+    const auto format = static_cast<studies::RecordFormat>(chosen - formats.begin());
+    const auto out = options.out.empty()
+                         ? file_beside(options.run, endings.at(static_cast<std::size_t>(format)))
+                         : options.out;
+    std::vector<fs::path> files = {out};
+    if (format == studies::RecordFormat::csv) files.push_back(records::events_beside(out));
+    check_files(options, files, problems);
+    auto record = problems.empty() ? studies::read_record(options.run, problems) : records::Record{};
+    if (format == studies::RecordFormat::hdf5) studies::check_names(record, options.run, problems);
+    if (problems.empty()) {
+      try {
+        studies::write_record(record, format, out);
+      } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", printable(error.what()));
+        return simulation_failed;
+      }
+      std::string names;
+      for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.string();
+      fmt::print("{} rows of {} channels, {} events: {}\n", record.recording.times().size(),
+                 record.recording.columns().size(), record.recording.events().size(), names);
+      return all_passed;
+    }
+  }
+  print_problems(problems);
+  return bad_input;
+}
+
+void add_convert(CLI::App& app, int& status) {
+  const auto chosen = std::make_shared<ConvertOptions>();
+  auto& options = *chosen;
+  auto* convert = app.add_subcommand(
+      "convert",
+      "Write what a run recorded into a file of another format: csv, two files for channels and events;\n"
+      "hdf5 for Python, Octave, MATLAB; mcap for Foxglove and PlotJuggler.\n"
+      "Exit status: 0 converted, 2 bad input, 3 the file could not be written");
+  convert->add_option("run", options.run, "Folder that drycut run made, or trace.csv or trace.h5 of one")
+      ->required();
+  convert->add_option("--to", options.to, "csv, hdf5, mcap")->required();
+  convert->add_option(
+      "--out", options.out,
+      "The file, which is replaced if there is one; else the run's name with .csv, .h5, .mcap");
+  convert->callback([chosen, &status] { status = convert_run(*chosen); });
+}
+
+}  // namespace drycut::sim::cli

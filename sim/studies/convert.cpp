@@ -1,0 +1,96 @@
+#include "sim/studies/convert.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "base/text.hpp"
+#include "sim/loop/trace_files.hpp"
+#include "sim/records/csv_files.hpp"
+#include "sim/records/hdf5_file.hpp"
+#include "sim/records/mcap_file.hpp"
+
+namespace drycut::sim::studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Channels that are told again, a row after the other.
+struct Channels {
+  explicit Channels(const loop::Recording& of) : numbers(of.columns().size()) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      recording.add(of.columns()[i].name, of.columns()[i].unit).slot = &numbers[i];
+  }
+  loop::Recording recording;
+  std::vector<double> numbers;
+};
+
+/// Rows and events in the order of their times.
+void tell(const loop::Recording& recording, std::vector<double>& numbers, loop::Observer& to) {
+  std::size_t event = 0;
+  const auto& events = recording.events();
+  for (std::size_t row = 0; row < recording.times().size(); ++row) {
+    const Time now = recording.times()[row];
+    for (; event < events.size() && events[event].time <= now; ++event) to.happened(events[event]);
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = recording.columns()[i].values[row];
+    to.sample(now);
+  }
+  for (; event < events.size(); ++event) to.happened(events[event]);
+  to.finish();
+}
+
+/// A file under another name until it is whole.
+class Part {
+ public:
+  explicit Part(fs::path file) : file_(std::move(file)), part_(file_.string() + ".part") {}
+  ~Part() {
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+  [[nodiscard]] const fs::path& path() const { return part_; }
+  void finish() const { fs::rename(part_, file_); }
+
+ private:
+  fs::path file_;
+  fs::path part_;
+};
+
+}  // namespace
+
+void write_record(const records::Record& record, RecordFormat format, const fs::path& file) {
+  const auto& recording = record.recording;
+  Channels channels(recording);
+  const Part part(file);
+  const auto told = [&](loop::Observer&& to) { tell(recording, channels.numbers, to); };
+  switch (format) {
+    case RecordFormat::csv: {
+      const Part events(records::events_beside(file));
+      told(loop::TraceFiles(channels.recording, part.path(), events.path()));
+      events.finish();
+      break;
+    }
+    case RecordFormat::hdf5:
+      told(records::Hdf5File(channels.recording, part.path(), record.about));
+      if (!record.checks.empty()) records::add_checks(part.path(), record.checks);
+      break;
+    case RecordFormat::mcap:
+      told(records::McapFile(channels.recording, part.path(), record.about));
+      break;
+  }
+  part.finish();
+}
+
+void check_names(const records::Record& record, const fs::path& run, Problems& problems) {
+  for (const auto& column : record.recording.columns())
+    if (column.name == "." || column.name.find('/') != std::string::npos)
+      problems.push_back({run.string(), 1, 1,
+                          fmt::format("HDF5 can have no channel {}", in_quotes(column.name)),
+                          "rename it, or convert to csv or mcap"});
+}
+
+}  // namespace drycut::sim::studies
