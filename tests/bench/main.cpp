@@ -12,6 +12,7 @@
 
 #include "sim/loop/simulation.hpp"
 #include "tests/bench/mechanism.hpp"
+#include "tests/bench/recording.hpp"
 
 namespace {
 
@@ -76,4 +77,7 @@ int main() {
   fmt::print(", MuJoCo {:.6f} rad/s", mujoco_speed);
 #endif
   fmt::print("\n");
+  double recorded = 1e9;
+  for (int round = 0; round < rounds; ++round) recorded = std::min(recorded, bench::write_hdf5());
+  fmt::print("trace.h5, 10^6 rows of 30 channels: {:.2f} s of the processor, the bar is 1 s\n", recorded);
 }
