@@ -5,6 +5,7 @@
 #   make quick   the tests that take seconds
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
+#   make cluster the tests of sweeps on Dask and Slurm, with clusters on this machine
 #   make python  builds the Python package in build/python
 #   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
 
@@ -16,6 +17,7 @@ PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
 TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml python3-h5py python3-pandas $(PYTHON_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
+CLUSTER_PACKAGES := python3-distributed slurm-wlm munge
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
 SOURCES := $(wildcard base/*.?pp devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp tests/*/*/*.?pp)
@@ -35,7 +37,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test quick python bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup demo test quick cluster python bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -63,6 +65,12 @@ quick: setup
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
 	cmake --build $(BUILD) -j $(JOBS) --target base_tests devices_tests plants_tests sim_tests
 	cd $(BUILD) && GTEST_FILTER='-$(SLOW)' ctest --output-on-failure -j $(JOBS) -R '^(base|devices|plants|sim)\.part'
+
+cluster: setup
+	$(call install,$(TEST_PACKAGES) $(CLUSTER_PACKAGES))
+	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
+	cmake --build $(BUILD) -j $(JOBS) --target drycut
+	cd $(BUILD) && ctest --verbose -R '^cluster\.'
 
 python: setup
 	$(call install,$(PYTHON_PACKAGES))

@@ -253,7 +253,7 @@ py::dict tune(const studies::TuneRequest& request, const Settings& set, const st
     refuse(problems, argument_names);
     sim::OutputFolder folder(out, "tune", studies::tuning_files, problems);
     refuse(problems, argument_names);
-    tuned.emplace(studies::tune(*plan, request, folder, [&](const char* /*doing*/, double share) {
+    tuned.emplace(studies::tune(*plan, request, request.jobs, folder, [&](const char* /*doing*/, double share) {
       teller(static_cast<std::size_t>(share * static_cast<double>(budget)), budget);
     }));
     teller.end(budget);

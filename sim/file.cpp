@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -56,7 +57,75 @@ std::optional<std::string> plain(std::string text, const fs::path& file, Problem
 
 std::string last_error() { return std::strerror(errno); }
 
+FileSet::File from_disk(const fs::path& file, std::uintmax_t largest) {
+  using State = FileSet::State;
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) return {State::missing, ""};
+  if (fs::is_directory(status)) return {State::folder, ""};
+  if (!fs::is_regular_file(status)) return {State::irregular, ""};
+  if (fs::file_size(file, error) > largest) return {State::large, ""};
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  if (!stream && !stream.eof()) return {State::unreadable, ""};
+  return {State::present, std::move(bytes).str()};
+}
+
+std::vector<fs::path> from_folder(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+thread_local FileSet* files_in_use = nullptr;
+
+FileSet::File fetch(const fs::path& file, std::uintmax_t largest) {
+  return files_in_use != nullptr ? files_in_use->file(file, largest) : from_disk(file, largest);
+}
+
 }  // namespace
+
+FileSet::File FileSet::file(const fs::path& name, std::uintmax_t largest) {
+  const std::lock_guard lock(mutex_);
+  const auto known = files.find(name.string());
+  if (known != files.end()) return known->second;
+  if (sealed_) throw std::logic_error(fmt::format("{} is read, but was not staged", name.string()));
+  auto found = from_disk(name, largest);
+  if (found.state == State::missing && name.has_parent_path())
+    files.emplace(name.parent_path().string(), from_disk(name.parent_path(), largest));
+  return files.emplace(name.string(), std::move(found)).first->second;
+}
+
+std::vector<fs::path> FileSet::files_in(const fs::path& folder) {
+  const std::lock_guard lock(mutex_);
+  auto known = folders.find(folder.string());
+  if (known == folders.end()) {
+    if (sealed_) throw std::logic_error(fmt::format("{} is read, but was not staged", folder.string()));
+    known = folders.emplace(folder.string(), std::vector<std::string>()).first;
+    for (const auto& file : from_folder(folder)) known->second.push_back(file.string());
+  }
+  return {known->second.begin(), known->second.end()};
+}
+
+std::size_t FileSet::size() const {
+  const std::lock_guard lock(mutex_);
+  return files.size() + folders.size();
+}
+
+UseFiles::UseFiles(FileSet& files) : before_(std::exchange(files_in_use, &files)) {}
+UseFiles::~UseFiles() { files_in_use = before_; }
+
+bool file_exists(const fs::path& file) { return fetch(file, largest_input).state != FileSet::State::missing; }
+bool folder_exists(const fs::path& folder) { return fetch(folder, 0).state == FileSet::State::folder; }
+
+std::vector<fs::path> files_in(const fs::path& folder, std::string_view extension) {
+  auto files = files_in_use != nullptr ? files_in_use->files_in(folder) : from_folder(folder);
+  std::erase_if(files, [&](const fs::path& file) { return file.extension() != extension; });
+  return files;
+}
 
 std::optional<std::string> read_file(const fs::path& file, Problems& problems, std::uintmax_t largest) {
   return read_file(file, problems, {file.string(), 1, 1, "", ""}, largest);
@@ -68,27 +137,25 @@ std::optional<std::string> read_file(const fs::path& file, Problems& problems, c
     problems.push_back({where.file, where.line, where.column, what, remedy});
     return std::nullopt;
   };
-  std::error_code error;
-  const auto status = fs::status(file, error);
-  if (!fs::exists(status)) {
-    return problem(fmt::format("there is no file {}", file.string()),
-                   where.file == file.string() ? "check the path"
-                                               : "check the path; it is relative to the file that names it");
+  auto found = fetch(file, largest);
+  switch (found.state) {
+    case FileSet::State::missing:
+      return problem(fmt::format("there is no file {}", file.string()),
+                     where.file == file.string()
+                         ? "check the path"
+                         : "check the path; it is relative to the file that names it");
+    case FileSet::State::folder:
+    case FileSet::State::irregular:
+      return problem(fmt::format("{} is not a regular file", file.string()), "name a text file");
+    case FileSet::State::large:
+      return problem(fmt::format("{} is larger than {} MiB", file.string(), largest >> 20U),
+                     "name a text file of a program or scenario");
+    case FileSet::State::unreadable:
+      return problem(fmt::format("{} cannot be read", file.string()), "check its permissions");
+    case FileSet::State::present:
+      break;
   }
-  if (!fs::is_regular_file(status)) {
-    return problem(fmt::format("{} is not a regular file", file.string()), "name a text file");
-  }
-  if (fs::file_size(file, error) > largest) {
-    return problem(fmt::format("{} is larger than {} MiB", file.string(), largest >> 20U),
-                   "name a text file of a program or scenario");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream && !stream.eof()) {
-    return problem(fmt::format("{} cannot be read", file.string()), "check its permissions");
-  }
-  return plain(std::move(text).str(), file, problems);
+  return plain(std::move(found.bytes), file, problems);
 }
 
 std::string hindrance(const fs::path& file) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "sim/file.hpp"
+#include "sim/studies/cluster/engine.hpp"
 
 namespace drycut::sim::cli {
 
@@ -22,6 +23,29 @@ void add_out(CLI::App& command, fs::path& out, const std::string& help) {
       [](std::string& text) { return text.empty() ? "it is empty; name a folder" : ""; }, "");
   auto* option = command.add_option("--out", out, help)->check(named);
   if (!out.empty()) option->capture_default_str();
+}
+
+void add_on(CLI::App& command, ClusterOptions& cluster) {
+  const CLI::Validator known([](std::string& text) { return cluster::engine_fault(text); }, "");
+  command
+      .add_option(
+          "--on", cluster.on,
+          "Where the runs are run, if not here: dask://HOST:PORT, slurm or slurm:PARTITION; the result "
+          "is the same (docs/clusters.md)")
+      ->check(known);
+  command.add_option("--stage", cluster.stage,
+                     "A folder that all machines of Slurm see, if they do not see that of --out");
+}
+
+cluster::Workers workers_of(const ClusterOptions& options, int jobs, const fs::path& out,
+                            Problems& problems) {
+  if (options.on.empty()) {
+    if (!options.stage.empty())
+      problems.push_back(
+          {"--stage", 1, 1, "nothing is staged for runs here", "add --on slurm, or leave it out"});
+    return jobs;
+  }
+  return {jobs, cluster::open_engine(options.on, out, options.stage, problems)};
 }
 
 void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help) {

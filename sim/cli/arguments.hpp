@@ -5,6 +5,7 @@
 
 #include "base/problem.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "sim/studies/cluster/workers.hpp"
 
 namespace CLI {
 class App;
@@ -18,6 +19,16 @@ namespace drycut::sim::cli {
 void add_set(CLI::App& command, std::vector<std::string>& set, const std::string& whose);
 /// `--out FOLDER`; what it is already is the default.
 void add_out(CLI::App& command, std::filesystem::path& out, const std::string& help);
+/// `--on` and `--stage`: where a study's runs are run, "" = here.
+struct ClusterOptions {
+  std::string on;               ///< "dask://HOST:PORT", "slurm", "slurm:PARTITION"
+  std::filesystem::path stage;  ///< a folder that Slurm's machines see, "" = that of the results
+};
+void add_on(CLI::App& command, ClusterOptions& cluster);
+/// Whoever does the runs of a study whose results go to `out`; what is wrong with the cluster goes to
+/// `problems`.
+cluster::Workers workers_of(const ClusterOptions& cluster, int jobs, const std::filesystem::path& out,
+                            Problems& problems);
 /// `--no-pictures`
 void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help);
 

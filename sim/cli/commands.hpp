@@ -13,8 +13,9 @@ namespace drycut::sim::cli {
 enum ExitStatus : int {
   all_passed = 0,
   check_failed = 1,
-  bad_input = 2,         ///< one line a problem on standard error; nothing was written
-  simulation_failed = 3  ///< diverged, or a result could not be written; what was recorded is kept
+  bad_input = 2,          ///< one line a problem on standard error; nothing was written
+  simulation_failed = 3,  ///< diverged, or a result could not be written; what was recorded is kept
+  interrupted_status = 130
 };
 
 // Each adds its command with its options to the program; what the chosen one comes to goes to `status`.
@@ -37,6 +38,8 @@ void add_plants(CLI::App& app, int& status);
 /// for bash, and in Markdown `commands.md`, `devices.md`, `plants.md`, a page for each device and plant,
 /// `scenario.md`, `comparison.md` and `cam_tables.md`.
 void add_reference(CLI::App& app, int& status);
+/// drycut work BUNDLE, which --help does not list either: runs what a study has asked of a cluster.
+void add_work(CLI::App& app, int& status);
 
 /// drycut devices, drycut plants, drycut plants --motors: the tables; of one if `name` is given.
 int list_devices(const std::string& name, bool json);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -15,6 +16,7 @@
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/usage.hpp"
+#include "sim/studies/cluster/interrupt.hpp"
 
 namespace {
 
@@ -29,7 +31,7 @@ int run(int argc, char** argv) {
 
   for (const auto add : {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep,
                          add_envelope, add_size, add_bode, add_compare, add_convert, add_devices, add_plants,
-                         add_reference})
+                         add_reference, add_work})
     add(app, status);
 
   const auto commands = app.get_subcommands({});
@@ -71,6 +73,11 @@ int main(int argc, char** argv) {
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return status;
     return failed(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
+  } catch (const drycut::sim::cluster::Interrupted& interrupted) {
+    // All is cleared up: it ends as the signal would have ended it.
+    std::signal(interrupted.signal, SIG_DFL);
+    std::raise(interrupted.signal);
+    return interrupted_status;
   } catch (const std::exception& error) {
     return failed(error.what());
   }

@@ -115,8 +115,13 @@ int size_drive(const SizeOptions& options) {
     return bad_input;
   }
   try {
+    auto workers = workers_of(options.cluster, options.jobs, options.out, problems);
+    if (!problems.empty()) {
+      print_problems(problems);
+      return bad_input;
+    }
     folder->begin({runs_file});
-    studies::PointStore store(folder->add(runs_file), options.jobs);
+    studies::PointStore store(folder->add(runs_file), std::move(workers));
     Progress bar;
     const auto sized = studies::size_drives(plan.question, plan.candidates, plan.corners, store,
                                             [&](std::size_t done, std::size_t of) {
@@ -135,6 +140,8 @@ int size_drive(const SizeOptions& options) {
     fmt::print("{} of {} candidates fit at {} corners: {}\nreport: {}\n{} runs simulated now\n", fitting,
                sized.size(), plan.corners.size(), (options.out / size_file).string(),
                (options.out / "report.html").string(), store.simulated());
+    for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
+    if (!store.lost().empty()) return simulation_failed;
     return fitting > 0 ? all_passed : check_failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", options.out.string(), error.what());
@@ -187,6 +194,7 @@ void add_size(CLI::App& app, int& status) {
   size->add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  add_on(*size, options.cluster);
   add_set(*size, options.set, "scenario");
   add_out(*size, options.out, "Directory for the results; runs in it are not run again");
   size->callback([chosen, &status] { status = size_drive(*chosen); });

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
 
 namespace drycut::sim::cli {
@@ -18,6 +19,7 @@ struct SizeOptions {
   std::vector<std::string> set;
   int jobs = 1;  ///< runs at the same time; the result is the same
   std::filesystem::path out;
+  ClusterOptions cluster;
 };
 
 /// drycut size: 0 one fits, 1 none does, 2 bad input, 3 nothing could be simulated or written

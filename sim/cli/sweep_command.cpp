@@ -121,11 +121,15 @@ int bad(const Problems& problems) {
 template <typename Work>
 int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& work) {
   try {
+    Problems problems;
+    auto workers = workers_of(options.cluster, options.jobs, options.out, problems);
+    if (!problems.empty()) return bad(problems);
     folder.begin({points_file});
-    studies::PointStore store(folder.add(points_file), options.jobs);
+    studies::PointStore store(folder.add(points_file), std::move(workers));
     work(store);
     fmt::print("{} runs simulated now\n", store.simulated());
-    return all_passed;
+    for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
+    return store.lost().empty() ? all_passed : simulation_failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", options.out.string(), error.what());
     return simulation_failed;
@@ -144,6 +148,7 @@ void add_study(CLI::App& command, StudyOptions& options, const char* over_help) 
   command.add_option("--jobs", options.jobs, "Runs at the same time; the result is the same")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  add_on(command, options.cluster);
   add_set(command, options.set, "scenario");
   add_out(command, options.out, "Directory for the results; runs in it are not run again");
 }

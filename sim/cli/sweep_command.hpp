@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
 
 namespace drycut::sim::cli {
@@ -15,6 +16,7 @@ struct StudyOptions {
   std::vector<std::string> set;      ///< "plants.web.speed=80 m/min", before everything else
   int jobs = 1;                      ///< runs at the same time; the result is the same
   std::filesystem::path out;
+  ClusterOptions cluster;
 };
 struct SweepOptions : StudyOptions {
   std::string sample;  ///< "sobol:1000" in place of the grid

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/plain_text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
 
@@ -15,9 +16,15 @@ namespace drycut::sim::cli {
 namespace {
 
 int tune(const TuneOptions& options, const studies::TunePlan& plan, OutputFolder& folder) {
+  Problems problems;
+  const auto workers = workers_of(options.cluster, options.jobs, options.out, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
   Progress bar;
-  const auto tuned =
-      studies::tune(plan, options, folder, [&](const char* doing, double share) { bar.show(doing, share); });
+  const auto tuned = studies::tune(plan, options, workers, folder,
+                                   [&](const char* doing, double share) { bar.show(doing, share); });
   bar.clear();
   fmt::print("{}", studies::summary_text(tuned.found));
   const auto& trials = tuned.trials;
@@ -29,7 +36,10 @@ int tune(const TuneOptions& options, const studies::TunePlan& plan, OutputFolder
              trials->runs() - tuned.searched, spread ? fmt::format(", spread {}", spread->runs()) : "");
   if (tuned.has_report) fmt::print("report: {}\n", (options.out / "report.html").string());
   const auto& best = tuned.best().verdict;
-  if (best.stopped) return simulation_failed;
+  auto lost = trials->lost();
+  if (spread) lost.insert(lost.end(), spread->lost().begin(), spread->lost().end());
+  for (const auto& text : lost) fmt::print(stderr, "{}\n", printable(text));
+  if (best.stopped || !lost.empty()) return simulation_failed;
   return best.feasible() ? all_passed : check_failed;
 }
 
@@ -97,6 +107,7 @@ void add_tune(CLI::App& app, int& status) {
   tune->add_option("--spread-runs", options.spread_runs, "How many such machines")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  add_on(*tune, options.cluster);
   add_set(*tune, options.set, "scenarios");
   add_out(*tune, options.out, "Directory for the results; evaluations in it are used again");
   add_no_pictures(*tune, options.pictures, "No plots and no report");

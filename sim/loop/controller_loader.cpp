@@ -37,9 +37,8 @@ void restore(const scenario::Text& retentive, const scenario::Scenario& scenario
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
     problems.push_back(scenario::problem_at(scenario, retentive.place, what, remedy));
   };
-  std::error_code ignored;
   const auto folder = file->has_parent_path() ? file->parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, ignored)) {
+  if (file->has_parent_path() && !folder_exists(folder)) {
     refuse(fmt::format("there is no directory {}", folder.string()), "make it first, or name another file");
     return;
   }
@@ -48,7 +47,7 @@ void restore(const scenario::Text& retentive, const scenario::Scenario& scenario
            "name another file");
     return;
   }
-  if (!std::filesystem::exists(*file)) return;
+  if (!file_exists(*file)) return;
   const auto kept = read_file(*file, problems, scenario::problem_at(scenario, retentive.place, "", ""));
   if (kept) controller.restore(*kept, problems, file->string());
 }

@@ -253,12 +253,7 @@ void read_series(std::string_view text, int source, bool is_spare, std::vector<M
 }
 
 void read_own(const std::filesystem::path& folder, std::vector<MotorModel>& motors, Findings& findings) {
-  std::vector<std::filesystem::path> files;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "catalogue", ignored))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) {
+  for (const auto& file : files_in(folder / "catalogue", ".yaml")) {
     const int source = findings.add_source(file.string());
     Problems problems;
     const auto text = read_file(file, problems, largest_series);

@@ -149,5 +149,45 @@ TEST_F(Files, EscapesOfAScenarioCanMakeACharacterButNoControlCharacter) {
   EXPECT_THAT(err, HasSubstr("axis.yaml:8:"));
 }
 
+TEST_F(Files, ASetReadsEachOnceAndIsAllThatASealedOneHas) {
+  const TestFolder folder;
+  const auto there = folder / "there.txt";
+  folder.file("there.txt", "first");
+  folder.file("sub/b.yaml", "");
+  folder.file("sub/a.yaml", "");
+  folder.file("sub/c.txt", "");
+  const std::vector<fs::path> names = {there, folder / "missing.txt", folder / "sub"};
+  Problems at_first;
+  Problems later;
+  FileSet seen;
+  {
+    const UseFiles use(seen);
+    EXPECT_EQ(read_file(there, at_first), "first");
+    for (const auto& name : names) read_file(name, at_first);
+    EXPECT_THAT(files_in(folder / "sub", ".yaml"),
+                testing::ElementsAre(folder / "sub/a.yaml", folder / "sub/b.yaml"));
+    EXPECT_TRUE(folder_exists(there.parent_path())) << "known of a file that is missing";
+  }
+  folder.file("there.txt", "second");
+  EXPECT_EQ(read_file(there, later), "second");
+  FileSet elsewhere;
+  elsewhere.files = seen.files;
+  elsewhere.folders = seen.folders;
+  elsewhere.seal();
+  fs::remove_all(folder / "sub");
+  const UseFiles use(elsewhere);
+  EXPECT_EQ(read_file(there, later), "first");
+  for (const auto& name : names) read_file(name, later);
+  ASSERT_EQ(at_first.size(), 2U);
+  ASSERT_EQ(later.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(to_string(at_first[i]), to_string(later[i]));
+  EXPECT_EQ(files_in(folder / "sub", ".yaml").size(), 2U);
+  EXPECT_TRUE(file_exists(there));
+  EXPECT_FALSE(file_exists(folder / "missing.txt"));
+  EXPECT_TRUE(folder_exists(there.parent_path()));
+  EXPECT_THROW(read_file(folder / "unknown.txt", later), std::logic_error);
+  EXPECT_THROW(files_in(folder / "unknown", ".yaml"), std::logic_error);
+}
+
 }  // namespace
 }  // namespace drycut::sim

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr auto* figure_option = "--figure";
-constexpr std::array<std::string_view, 4> verdicts = {"passed", "failed", "refused", "diverged"};
+constexpr std::array<std::string_view, 5> verdicts = {"passed", "failed", "refused", "diverged", "lost"};
 
 std::vector<Metric> metrics_of(const PointQuestion& question, Problems& problems) {
   std::vector<Metric> metrics;

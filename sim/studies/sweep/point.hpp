@@ -48,10 +48,11 @@ struct PointQuestion {
 /// What came of a point.
 struct PointRow {
   enum class Verdict {
-    passed,   ///< every check and every rating holds
-    failed,   ///< one does not
-    refused,  ///< the scenario is none, or no machine can be built of it
-    diverged  ///< the simulation itself failed
+    passed,    ///< every check and every rating holds
+    failed,    ///< one does not
+    refused,   ///< the scenario is none, or no machine can be built of it
+    diverged,  ///< the simulation itself failed
+    lost       ///< whoever ran it, on a cluster, died of it
   };
   Verdict verdict = Verdict::passed;
   std::string limit;            ///< what gave way first; "" if nothing did

@@ -2,22 +2,39 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <charconv>
-#include <sstream>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
 #include "sim/file.hpp"
-#include "sim/parallel.hpp"
+#include "sim/studies/override_json.hpp"
 
 namespace drycut::sim::studies {
 
 namespace {
 
+using nlohmann::json;
+using Overrides = std::vector<scenario::Override>;
+
 constexpr std::size_t key_digits = 16;
+
+/// What prepare() has not found out.
+std::string text_of(const PointQuestion& question) {
+  auto figures = json::array();
+  for (const auto& figure : question.figures) figures.push_back({figure.name, figure.term});
+  return json{
+      {"file", question.file.string()}, {"text", question.text}, {"set", question.set}, {"figures", figures}}
+      .dump();
+}
 
 }  // namespace
 
-PointStore::PointStore(const std::filesystem::path& file, int jobs) : jobs_(jobs) {
+PointStore::PointStore(const std::filesystem::path& file, cluster::Workers workers)
+    : workers_(std::move(workers)) {
   std::string kept;
   std::ifstream old(file, std::ios::binary);
   for (std::string line; std::getline(old, line) && !old.eof();) {
@@ -35,33 +52,71 @@ PointStore::PointStore(const std::filesystem::path& file, int jobs) : jobs_(jobs
   stream_.open(file, std::ios::binary | std::ios::app);
 }
 
-std::vector<PointRow> PointStore::rows(const PointQuestion& question,
-                                       const std::vector<std::vector<scenario::Override>>& points,
+std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std::vector<Overrides>& points,
                                        const StudyProgress& progress) {
   std::vector<PointRow> rows(points.size());
-  std::atomic<std::size_t> done = 0;
-  for_each_index(points.size(), jobs_, [&](std::size_t i) {
-    rows[i] = row(question, points[i]);
+  std::vector<std::uint64_t> keys(points.size());
+  std::unordered_map<std::uint64_t, std::size_t> asked;
+  std::vector<std::size_t> twins;  // points that are asked already
+  std::size_t done = 0;
+  std::mutex mutex;
+  const auto ask = [&](std::size_t i) -> std::optional<cluster::Ask> {
+    auto point = std::make_shared<PointScenario>(read_point(question, points[i]));
+    keys[i] = point->fingerprint;
+    const std::lock_guard lock(mutex);
+    const auto known = rows_.find(point->fingerprint);
+    if (known != rows_.end()) {
+      rows[i] = parse_row(known->second).value();
+      progress(++done, points.size());
+      return {};
+    }
+    if (!asked.emplace(point->fingerprint, i).second) {
+      twins.push_back(i);
+      return {};
+    }
+    return cluster::Ask{json(points[i]).dump(),
+                        [&question, point] { return row_text(run_point(question, *point)); }};
+  };
+  const auto take = [&](std::size_t i, const cluster::Answer& answer) {
+    const std::lock_guard lock(mutex);
     progress(++done, points.size());
-  });
+    if (!answer.lost.empty()) {
+      rows[i] =
+          PointRow{PointRow::Verdict::lost, answer.lost,
+                   std::vector<double>(question.columns.size(), std::numeric_limits<double>::quiet_NaN())};
+      std::string what;
+      for (const auto& override : points[i]) what += fmt::format("{}={} ", override.path, override.value);
+      lost_.push_back(what + "was lost: " + answer.lost);
+      return;
+    }
+    // As it is read back: numbers of as many digits, whoever has run it.
+    rows[i] = parse_row(answer.text).value();
+    rows_.emplace(keys[i], answer.text);
+    stream_ << fmt::format("{:0{}x},{}\n", keys[i], key_digits, answer.text) << std::flush;
+    ++simulated_;
+  };
+  workers_.run({"point", text_of(question), points.size(), ask, take});
+  for (const auto i : twins) {
+    rows[i] = rows[asked.at(keys[i])];
+    progress(++done, points.size());
+  }
   return rows;
 }
 
-PointRow PointStore::row(const PointQuestion& question, const std::vector<scenario::Override>& overrides) {
-  const auto point = read_point(question, overrides);
-  {
-    const std::lock_guard lock(mutex_);
-    const auto known = rows_.find(point.fingerprint);
-    if (known != rows_.end()) return parse_row(known->second).value();
-  }
-  // As it is read back: numbers of as many digits, whoever has run it.
-  const auto text = row_text(run_point(question, point));
-  const std::lock_guard lock(mutex_);
-  if (rows_.emplace(point.fingerprint, text).second) {
-    stream_ << fmt::format("{:0{}x},{}\n", point.fingerprint, key_digits, text) << std::flush;
-    ++simulated_;
-  }
-  return parse_row(text).value();
+std::function<std::string(const std::string&)> point_answerer(const std::string& text) {
+  const auto asked = json::parse(text);
+  auto question = std::make_shared<PointQuestion>();
+  question->file = asked.at("file").get<std::string>();
+  question->text = asked.at("text").get<std::string>();
+  question->set = asked.at("set").get<Overrides>();
+  for (const auto& figure : asked.at("figures"))
+    question->figures.push_back({figure.at(0).get<std::string>(), figure.at(1).get<std::string>()});
+  Problems problems;
+  prepare(*question, problems);
+  if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
+  return [question](const std::string& ask) {
+    return row_text(run_point(*question, read_point(*question, json::parse(ask).get<Overrides>())));
+  };
 }
 
 }  // namespace drycut::sim::studies

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "sim/studies/cluster/workers.hpp"
 #include "sim/studies/sweep/point.hpp"
 
 namespace drycut::sim::studies {
@@ -22,24 +22,29 @@ using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
 class PointStore {
  public:
   /// Takes what is in the file; a line cut short is left out. Throws std::runtime_error if it cannot be
-  /// written. `jobs` run at the same time.
-  PointStore(const std::filesystem::path& file, int jobs);
+  /// written. `workers` run what is not in it; a number of jobs is so many threads here.
+  PointStore(const std::filesystem::path& file, cluster::Workers workers);
 
-  /// The rows of points, each given by its overrides, in their order: from the file, else run now.
+  /// The rows of points, each given by its overrides, in their order: from the file, else run now. One that
+  /// was lost is a row that says so, and is not kept.
   std::vector<PointRow> rows(const PointQuestion& question,
                              const std::vector<std::vector<scenario::Override>>& points,
                              const StudyProgress& progress);
   /// Rows that were not in the file.
   [[nodiscard]] std::size_t simulated() const { return simulated_; }
+  /// Why each row that was lost was: "variables.end=9 s was lost: whoever ran it died, 3 times: ..."
+  [[nodiscard]] const std::vector<std::string>& lost() const { return lost_; }
 
  private:
-  PointRow row(const PointQuestion& question, const std::vector<scenario::Override>& overrides);
-
-  int jobs_;
-  std::mutex mutex_;
+  cluster::Workers workers_;
   std::unordered_map<std::uint64_t, std::string> rows_;
   std::ofstream stream_;
   std::size_t simulated_ = 0;
+  std::vector<std::string> lost_;
 };
+
+/// Answers the points of a question as a store asks them elsewhere: JSON in, the row's text out. Throws
+/// std::runtime_error if the question is none.
+std::function<std::string(const std::string& ask)> point_answerer(const std::string& question);
 
 }  // namespace drycut::sim::studies

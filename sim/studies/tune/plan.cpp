@@ -151,12 +151,12 @@ TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override>
   return plan;
 }
 
-Tuned tune(const TunePlan& plan, const TuneRequest& request, OutputFolder& folder,
-           const TuneProgress& progress) {
+Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Workers& workers,
+           OutputFolder& folder, const TuneProgress& progress) {
   folder.begin({evaluations_file, spread_file});
   const auto& study = plan.study;
   auto trials = std::make_unique<Trials>(
-      study, plan.vary, std::vector<scenario::Override>{}, folder.add(evaluations_file), request.jobs,
+      study, plan.vary, std::vector<scenario::Override>{}, folder.add(evaluations_file), workers,
       [&](int runs) { progress("tuning", std::min(1.0, static_cast<double>(runs) / request.budget)); });
   Tuning tuning{study, *trials, plan.present, measure(study, {}), 0, {}, nullptr, {}, {}};
   tuning.best = search(*trials, start_of(plan), request.budget, request.seed);
@@ -167,7 +167,7 @@ Tuned tune(const TunePlan& plan, const TuneRequest& request, OutputFolder& folde
   std::unique_ptr<Trials> spread;
   if (!plan.spread.empty()) {
     const double all = request.spread_runs * study.runs_of_a_trial();
-    spread = std::make_unique<Trials>(study, plan.spread, best, folder.add(spread_file), request.jobs,
+    spread = std::make_unique<Trials>(study, plan.spread, best, folder.add(spread_file), workers,
                                       [&](int runs) { progress("spreading", std::min(1.0, runs / all)); });
     spread->run("spread", latin_hypercube(plan.spread, request.spread_runs,
                                           plants::Random(request.seed, "drycut tune spread")));

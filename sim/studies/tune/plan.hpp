@@ -11,6 +11,7 @@
 #include "sim/output_folder.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/studies/bode/loop.hpp"
+#include "sim/studies/cluster/workers.hpp"
 #include "sim/studies/tune/report.hpp"
 #include "sim/studies/tune/trials.hpp"
 
@@ -62,9 +63,9 @@ struct Tuned {
 };
 /// Tells what is being done and which share of it is.
 using TuneProgress = std::function<void(const char* doing, double share)>;
-/// Searches, tries the surroundings and the spread, writes the files into `folder`; the report only where a
+/// Searches on `workers`, tries the surroundings and the spread, writes the files into `folder`; the report only where a
 /// run with the best values can be shown. Throws std::runtime_error if something cannot be written.
-Tuned tune(const TunePlan& plan, const TuneRequest& request, OutputFolder& folder,
-           const TuneProgress& progress);
+Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Workers& workers,
+           OutputFolder& folder, const TuneProgress& progress);
 
 }  // namespace drycut::sim::studies

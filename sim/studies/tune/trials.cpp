@@ -1,42 +1,110 @@
 #include "sim/studies/tune/trials.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <mutex>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
 #include "sim/file.hpp"
-#include "sim/parallel.hpp"
+#include "sim/loop/controller_loader.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
+#include "sim/studies/override_json.hpp"
 
 namespace drycut::sim::studies {
 
 namespace {
 
+using nlohmann::json;
+using Overrides = std::vector<scenario::Override>;
+
+/// A verdict as the cells of a row behind the values, the same way and back: numbers keep every digit.
+std::string text_of(const Verdict& verdict) {
+  auto row = fmt::format("{}", verdict.metric);
+  for (const double room : verdict.room) row += fmt::format(",{}", room);
+  return row + fmt::format(",{},{},{},{},{}", verdict.failed_checks, verdict.violation,
+                           verdict.stopped ? 1 : 0, verdict.runs, csv_quoted(verdict.note));
+}
+
+std::optional<Verdict> verdict_of(std::span<const CsvRow::Cell> cells, std::size_t rooms) {
+  if (cells.size() != 1 + rooms + 5) return {};
+  std::vector<double> numbers;
+  for (const auto& cell : cells.first(cells.size() - 1)) {
+    const auto number = number_of(cell.text);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  Verdict verdict;
+  verdict.metric = numbers.front();
+  verdict.room.assign(numbers.begin() + 1, numbers.end() - 4);
+  verdict.failed_checks = static_cast<int>(numbers.end()[-4]);
+  verdict.violation = numbers.end()[-3];
+  verdict.stopped = numbers.end()[-2] != 0;
+  verdict.runs = static_cast<int>(numbers.end()[-1]);
+  verdict.note = cells.back().text;
+  return verdict;
+}
+
+std::optional<Verdict> parsed_verdict(const std::string& text, std::size_t rooms) {
+  Problems ignored;
+  cams::TableProblems broken("", ignored);
+  const auto line = text + "\n";
+  CsvRows rows(line, broken);
+  CsvRow row;
+  return rows.next(row) ? verdict_of(row.cells, rooms) : std::nullopt;
+}
+
 std::string row_of(std::size_t number, const Trials::Trial& trial) {
   std::string row = fmt::format("{},{}", number, trial.phase);
   for (const double value : trial.point) row += fmt::format(",{}", value);
-  const auto& verdict = trial.verdict;
-  row += fmt::format(",{}", verdict.metric);
-  for (const double room : verdict.room) row += fmt::format(",{}", room);
-  return row + fmt::format(",{},{},{},{},{}\n", verdict.failed_checks, verdict.violation,
-                           verdict.stopped ? 1 : 0, verdict.runs, csv_quoted(verdict.note));
+  return row + "," + text_of(trial.verdict) + "\n";
+}
+
+/// What prepare() has not found out.
+std::string text_of(const Study& study) {
+  auto cases = json::array();
+  for (const auto& entry : study.cases) cases.push_back({entry.file.string(), entry.text});
+  const auto& loop = study.loop;
+  json question = {{"cases", cases},
+                   {"set", study.set},
+                   {"minimise", study.minimise},
+                   {"constraints", study.constraints},
+                   {"from", study.from},
+                   {"ignore_checks", study.ignore_checks},
+                   {"wire", loop.wire},
+                   {"amplitude", loop.amplitude}};
+  if (loop.at) question["at"] = *loop.at;
+  return question.dump();
+}
+
+/// Reads all that the trials read; their values, numbers, name no files.
+void read_cases(const Study& study) {
+  for (const auto& entry : study.cases) {
+    Problems ignored;
+    const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, ignored);
+    for (const auto& name : loop::controller_files(scenario))
+      read_file(scenario.file.parent_path() / name.text, ignored);
+  }
 }
 
 }  // namespace
 
 Trials::Trials(const Study& study, TunedParameters parameters, std::vector<scenario::Override> fixed,
-               std::filesystem::path file, int jobs, std::function<void(int)> progress)
+               std::filesystem::path file, cluster::Workers workers, std::function<void(int)> progress)
     : study_(study),
       parameters_(std::move(parameters)),
       fixed_(std::move(fixed)),
       file_(std::move(file)),
-      jobs_(std::max(1, jobs)),
+      workers_(std::move(workers)),
       progress_(std::move(progress)) {
   load();
   stream_.exceptions(std::ios::failbit | std::ios::badbit);
@@ -94,24 +162,17 @@ void Trials::load() {
 }
 
 std::optional<Trials::Trial> Trials::trial_of(const CsvRow& row) const {
-  const std::size_t columns = 2 + parameters_.size() + 1 + study_.constraints.size() + 5;
-  if (row.cells.size() != columns) return {};
-  std::vector<double> numbers;
-  for (std::size_t i = 2; i + 1 < columns; ++i) {
+  const auto values = 2 + parameters_.size();
+  if (row.cells.size() < values) return {};
+  Trial trial{row.cells[1].text, {}, {}};
+  for (std::size_t i = 2; i < values; ++i) {
     const auto number = number_of(row.cells[i].text);
     if (!number) return {};
-    numbers.push_back(*number);
+    trial.point.push_back(*number);
   }
-  const auto split = numbers.begin() + static_cast<std::ptrdiff_t>(parameters_.size());
-  Trial trial{row.cells[1].text, Point(numbers.begin(), split), {}};
-  auto& verdict = trial.verdict;
-  verdict.metric = *split;
-  verdict.room.assign(split + 1, numbers.end() - 4);
-  verdict.failed_checks = static_cast<int>(numbers.end()[-4]);
-  verdict.violation = numbers.end()[-3];
-  verdict.stopped = numbers.end()[-2] != 0;
-  verdict.runs = static_cast<int>(numbers.end()[-1]);
-  verdict.note = row.cells.back().text;
+  auto verdict = verdict_of(std::span(row.cells).subspan(values), study_.constraints.size());
+  if (!verdict) return {};
+  trial.verdict = std::move(*verdict);
   return trial;
 }
 
@@ -137,23 +198,38 @@ std::vector<std::size_t> Trials::run(const std::string& phase, const std::vector
     }
   }
   // Rows go into the file in order, whoever finishes first.
-  std::vector<bool> done(open.size());
+  std::vector<std::string> came(open.size());  // "" = not yet
   std::size_t written = 0;
   int runs_done = runs();
-  std::mutex mutex;
-  for_each_index(open.size(), jobs_, [&](std::size_t i) {
-    auto& trial = trials_[open[i]];
+  const auto ask = [&](std::size_t i) {
+    if (i == 0) read_cases(study_);
     auto overrides = fixed_;
-    for (auto& override : overrides_of(parameters_, trial.point)) overrides.push_back(std::move(override));
-    trial.verdict = measure(study_, overrides, to_beat);
-    const std::lock_guard lock(mutex);
-    done[i] = true;
-    while (written < open.size() && done[written]) {
+    for (auto& override : overrides_of(parameters_, trials_[open[i]].point))
+      overrides.push_back(std::move(override));
+    json asked = {{"overrides", overrides}};
+    if (std::isfinite(to_beat)) asked["to_beat"] = to_beat;
+    return std::optional(cluster::Ask{
+        asked.dump(), [this, overrides, to_beat] { return text_of(measure(study_, overrides, to_beat)); }});
+  };
+  const auto take = [&](std::size_t i, const cluster::Answer& answer) {
+    auto& trial = trials_[open[i]];
+    came[i] = answer.lost.empty() ? answer.text : "lost";
+    if (answer.lost.empty()) {
+      trial.verdict = parsed_verdict(answer.text, study_.constraints.size()).value();
+    } else {
+      trial.verdict.stopped = true;
+      trial.verdict.note = answer.lost;
+      trial.verdict.metric = std::numeric_limits<double>::quiet_NaN();
+      trial.verdict.room.assign(study_.constraints.size(), std::numeric_limits<double>::quiet_NaN());
+      lost_.push_back(fmt::format("{} was lost: {}", fmt::join(trial.point, ", "), answer.lost));
+    }
+    for (; written < open.size() && !came[written].empty(); ++written) {
       runs_done += trials_[open[written]].verdict.runs;
-      append(trials_[open[written++]]);
+      if (came[written] != "lost") append(trials_[open[written]]);
     }
     if (progress_) progress_(runs_done);
-  });
+  };
+  workers_.run({"trial", text_of(study_), open.size(), ask, take});
   return indices;
 }
 
@@ -167,6 +243,29 @@ std::size_t Trials::best() const {
   for (std::size_t i = 1; i < trials_.size(); ++i)
     if (trials_[i].verdict.rank() < trials_[best].verdict.rank()) best = i;
   return best;
+}
+
+std::function<std::string(const std::string&)> trial_answerer(const std::string& text) {
+  const auto asked = json::parse(text);
+  auto study = std::make_shared<Study>();
+  for (const auto& entry : asked.at("cases"))
+    study->cases.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>(), {}});
+  study->set = asked.at("set").get<Overrides>();
+  study->minimise = asked.at("minimise").get<std::string>();
+  study->constraints = asked.at("constraints").get<std::vector<std::string>>();
+  study->from = asked.at("from").get<Time>();
+  study->ignore_checks = asked.at("ignore_checks").get<bool>();
+  study->loop.wire = asked.at("wire").get<std::string>();
+  study->loop.amplitude = asked.at("amplitude").get<double>();
+  if (asked.contains("at")) study->loop.at = asked.at("at").get<std::string>();
+  Problems problems;
+  prepare(*study, problems);
+  if (!problems.empty()) throw std::runtime_error(to_string(problems.front()));
+  return [study](const std::string& ask) {
+    const auto trial = json::parse(ask);
+    return text_of(measure(*study, trial.at("overrides").get<Overrides>(),
+                           trial.value("to_beat", std::numeric_limits<double>::infinity())));
+  };
 }
 
 }  // namespace drycut::sim::studies

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/studies/cluster/workers.hpp"
 #include "sim/studies/tune/parameter.hpp"
 #include "sim/studies/tune/study.hpp"
 
@@ -25,10 +26,11 @@ class Trials {
     Point point;
     Verdict verdict;
   };
-  /// `fixed` is set before the point's values; `progress` is told the runs so far. Throws std::runtime_error
-  /// if the file cannot be written.
+  /// `fixed` is set before the point's values; `workers` run what is not in the file, a number of jobs is so
+  /// many threads here; `progress` is told the runs so far. Throws std::runtime_error if the file cannot be
+  /// written.
   Trials(const Study& study, TunedParameters parameters, std::vector<scenario::Override> fixed,
-         std::filesystem::path file, int jobs, std::function<void(int)> progress = {});
+         std::filesystem::path file, cluster::Workers workers, std::function<void(int)> progress = {});
 
   /// Tries all of `points`, several at the same time; returns the index of each in trials(). `to_beat`: see
   /// measure().
@@ -41,6 +43,8 @@ class Trials {
   [[nodiscard]] const TunedParameters& parameters() const { return parameters_; }
   /// Sets of values that were not found in the file.
   [[nodiscard]] int simulated() const { return simulated_; }
+  /// Why each set of values that was lost was; it stands as stopped, and is not kept.
+  [[nodiscard]] const std::vector<std::string>& lost() const { return lost_; }
   /// Simulated runs of all trials, those in the file included.
   [[nodiscard]] int runs() const;
   /// Simulated runs that one more set of values may take.
@@ -59,7 +63,7 @@ class Trials {
   TunedParameters parameters_;
   std::vector<scenario::Override> fixed_;
   std::filesystem::path file_;
-  int jobs_;
+  cluster::Workers workers_;
   std::function<void(int)> progress_;
   std::ofstream stream_;
   std::map<Point, Verdict> kept_;  ///< of the file, not asked for yet
@@ -67,6 +71,11 @@ class Trials {
   std::vector<Trial> trials_;
   std::map<Point, std::size_t> index_;
   int simulated_ = 0;
+  std::vector<std::string> lost_;
 };
+
+/// Answers the trials of a study as Trials asks them elsewhere: JSON in, the row's cells behind the values
+/// out. Throws std::runtime_error if the study is none.
+std::function<std::string(const std::string& ask)> trial_answerer(const std::string& question);
 
 }  // namespace drycut::sim::studies

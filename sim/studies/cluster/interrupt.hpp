@@ -1,0 +1,26 @@
+#pragma once
+#include <csignal>
+
+namespace drycut::sim::cluster {
+
+/// The user, or the system, has had enough. No std::exception: nobody takes it for a fault, all clean up, and
+/// the program ends by the signal it was given.
+struct Interrupted {
+  int signal = 0;
+};
+
+/// While it lives SIGINT, SIGTERM and SIGHUP are kept for check().
+class InterruptWatch {
+ public:
+  InterruptWatch();
+  ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+  /// Throws Interrupted if one has come.
+  static void check();
+
+ private:
+  struct sigaction before_[3] = {};  // NOLINT(modernize-avoid-c-arrays): as POSIX has them
+};
+
+}  // namespace drycut::sim::cluster
