@@ -253,9 +253,10 @@ py::dict tune(const studies::TuneRequest& request, const Settings& set, const st
     refuse(problems, argument_names);
     sim::OutputFolder folder(out, "tune", studies::tuning_files, problems);
     refuse(problems, argument_names);
-    tuned.emplace(studies::tune(*plan, request, request.jobs, folder, [&](const char* /*doing*/, double share) {
-      teller(static_cast<std::size_t>(share * static_cast<double>(budget)), budget);
-    }));
+    tuned.emplace(
+        studies::tune(*plan, request, request.jobs, folder, [&](const char* /*doing*/, double share) {
+          teller(static_cast<std::size_t>(share * static_cast<double>(budget)), budget);
+        }));
     teller.end(budget);
     evaluations = sim::read_file(out / studies::evaluations_file, problems).value_or("");
     if (tuned->spread) spread = sim::read_file(out / studies::spread_file, problems);

@@ -29,9 +29,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", DRYCUT_VERSION);
   int status = all_passed;
 
-  for (const auto add : {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep,
-                         add_envelope, add_size, add_bode, add_compare, add_convert, add_devices, add_plants,
-                         add_reference, add_work})
+  for (const auto add :
+       {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep, add_envelope,
+        add_size, add_bode, add_compare, add_convert, add_devices, add_plants, add_reference, add_work})
     add(app, status);
 
   const auto commands = app.get_subcommands({});
