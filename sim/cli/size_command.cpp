@@ -61,6 +61,7 @@ SizePlan read_size(const SizeOptions& options, Problems& problems) {
   const auto scenario = scenario::read_scenario_text(question.text, question.file, question.set, problems);
   plan.choices = studies::read_choices({options.drive, options.motors, options.gears, options.resistors},
                                        question, scenario, problems);
+  if (options.inertia_ratio > 0) plan.choices.most_inertia_ratio = options.inertia_ratio;
   const auto& drive = plan.choices.drive;
   std::vector<std::string> sized;
   if (!drive.plant.empty()) {
@@ -183,6 +184,11 @@ void add_size(CLI::App& app, int& status) {
       "--resistors", options.resistors,
       "Brake resistors: \"100,200 W\", \"13 ohm 100 W, 6.7 ohm 3 kW\", none; it stays as it is if not "
       "given");
+  size->add_option("--inertia-ratio", options.inertia_ratio,
+                   "The largest of load over rotor inertia, such as the motor's maker recommends; above, a "
+                   "candidate is "
+                   "ruled out without a run")
+      ->check(CLI::PositiveNumber);
   size->add_option(
           "--at", options.at,
           "A corner of what the line must do: \"variables.length=500 mm,plants.web.speed=120 m/min\"; may be "

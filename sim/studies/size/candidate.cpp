@@ -140,6 +140,9 @@ class CandidateMaker {
     }
     made.ratings = machine.drive->ratings;
     made.inertia_ratio = machine.drive->inertia_ratio;
+    if (made.unfit.empty() && made.inertia_ratio > choices_.most_inertia_ratio)
+      made.unfit = fmt::format("load over rotor inertia {:.3g}, at most {:.3g} is asked for",
+                               made.inertia_ratio, choices_.most_inertia_ratio);
     if (drive.is_servo())
       made.overrides.push_back({inertia_ratio, number_text(std::clamp(set_up_ * (1 + made.inertia_ratio) - 1,
                                                                       0.0, largest_inertia_ratio))});

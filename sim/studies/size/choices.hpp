@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,7 +47,8 @@ struct SizeChoices {
   SweepAxes gears;  ///< none: the gear stays; else one axis
   bool gear_is_tied =
       false;  ///< the axis is another value of the scenario, which ties to it what goes with it
-  std::vector<BrakeResistor> resistors;  ///< none: it stays
+  std::vector<BrakeResistor> resistors;                                 ///< none: it stays
+  double most_inertia_ratio = std::numeric_limits<double>::infinity();  ///< load over rotor; above, ruled out
 };
 
 struct SizeTexts {

@@ -44,24 +44,34 @@ std::string ratio_text(const Candidate& candidate) {
   return candidate.ratio > 0 ? fmt::format("{:.5g}", candidate.ratio) : "";
 }
 
-renders::ReportTable what_fits(const SizePage& page) {
+/// `each`: every candidate that fits, else the best of each motor.
+renders::ReportTable what_fits(const SizePage& page, bool each) {
   renders::ReportTable table{
-      "What fits, in this order",
-      {"", "motor", "rated power [kW]", "gear", "brake resistor", "reserve [%]", "nearest limit", "at",
-       "load / rotor inertia", "rms torque [%]", "peak torque [%]", "largest speed [%]", "brake resistor [%]",
-       "energy a cycle [J]"},
-      {}};
+      each ? "All that fit, in this order" : "What fits: the best of each motor, in this order",
+      {"", "motor", "rated power [kW]"},
+      {},
+      each};
+  auto& headings = table.headings;
+  if (!page.choices.gears.empty()) headings.emplace_back("gear");
+  if (!page.choices.resistors.empty()) headings.emplace_back("brake resistor");
+  headings.insert(headings.end(),
+                  {"reserve [%]", "nearest limit", "at", "load / rotor inertia", "rms torque [%]",
+                   "peak torque [%]", "largest speed [%]", "brake resistor [%]", "energy a cycle [J]"});
+  std::set<std::string> seen;
   for (std::size_t rank = 0; rank < page.order.size() && table.rows.size() < most_rows_of_sizes; ++rank) {
     const auto& candidate = page.candidates[page.order[rank]];
     const auto& one = page.sized[page.order[rank]];
     if (!holds(one.kind)) break;
-    table.rows.push_back(
-        {{std::to_string(rank + 1), candidate.motor, fmt::format("{:.3g}", candidate.rated_power / 1e3),
-          ratio_text(candidate), candidate.resistor.text.empty() ? "as it is" : candidate.resistor.text,
-          fmt::format("{:.1f}{}", one.reserve, one.kind == Sized::Kind::close ? " close" : ""), one.nearest,
-          one.hardest, fmt::format("{:.3g}", candidate.inertia_ratio), share_of(one, "rms torque"),
-          share_of(one, "peak torque"), share_of(one, "largest speed"), share_of(one, "brake resistor"),
-          fmt::format("{:.4g}", one.energy)}});
+    if (!seen.insert(candidate.motor).second && !each) continue;
+    std::vector<std::string> cells = {std::to_string(rank + 1), candidate.motor,
+                                      fmt::format("{:.3g}", candidate.rated_power / 1e3)};
+    if (!page.choices.gears.empty()) cells.push_back(ratio_text(candidate));
+    if (!page.choices.resistors.empty()) cells.push_back(candidate.resistor.text);
+    cells.insert(cells.end(), {fmt::format("{:.1f}", one.reserve), one.nearest, one.hardest,
+                               fmt::format("{:.3g}", candidate.inertia_ratio), share_of(one, "rms torque"),
+                               share_of(one, "peak torque"), share_of(one, "largest speed"),
+                               share_of(one, "brake resistor"), fmt::format("{:.4g}", one.energy)});
+    table.rows.push_back({std::move(cells)});
   }
   return table;
 }
@@ -176,12 +186,13 @@ std::optional<renders::Plot> over_gears(const SizePage& page) {
   if (page.choices.gears.empty() || page.choices.gears.front().values.size() < fewest_gears) return {};
   renders::Plot plot;
   plot.name = "over_gears";
-  plot.title = "Over the gear's ratio, the best motors; at the hardest corner of each";
+  plot.title =
+      "Over the gear's ratio, the best motors, at the hardest corner; without reserve a motor falls out";
   plot.x_label = "gear ratio";
   plot.panel_height = 260;
-  plot.panels = {{"reserve; a motor falls out below 0", "reserve [%]", {}, {}, std::pair(-50.0, 100.0)},
-                 {"rms torque", "rms torque [% of S1]", {}, {}, std::pair(0.0, 150.0)},
-                 {"load over rotor inertia", "load / rotor inertia", {}, {}, {}}};
+  plot.panels = {{"", "reserve [%]", {}, {}, std::pair(-50.0, 100.0)},
+                 {"", "rms torque [% of S1]", {}, {}, std::pair(0.0, 150.0)},
+                 {"", "load / rotor inertia", {}, {}, {}}};
   plot.panels[0].bands = {{"", 0, 0}};
   const auto rms = rating_index("rms torque");
   for (const auto best : best_of_motors(page)) {
@@ -263,8 +274,8 @@ renders::Report size_page(const SizePage& page) {
       {{"set up with each", taken_along(page)}},
       {{"drycut", DRYCUT_VERSION}}};
   report::add_overrides(page.question.set, report);
-  report.summary = {what_fits(page)};
-  report.tables = {what_falls_out(page)};
+  report.summary = {what_fits(page, false)};
+  report.tables = {what_fits(page, true), what_falls_out(page)};
   if (page.order.empty()) return report;
   const auto first = page.order.front();
   if (page.sized[first].drives.size() != page.corners.size()) return report;

@@ -31,7 +31,9 @@ double used_share(const Candidate& candidate, std::size_t rating, double share) 
 std::string fault_of(const PointRow& row, const RatedDrive& drive) {
   std::vector<std::string> faults;
   if (row.verdict == PointRow::Verdict::failed && row.limit != of_ratings) faults.push_back(row.limit);
-  if (drive.trips > 0) faults.push_back(fmt::format("the drive trips {:.0f} times", drive.trips));
+  if (drive.trips > 0)
+    faults.push_back(drive.trips > 1 ? fmt::format("the drive trips {:.0f} times", drive.trips)
+                                     : "the drive trips");
   std::vector<std::pair<double, std::string>> over;
   for (std::size_t i = 0; i < ratings.size(); ++i) {
     const auto& [value, share] = drive.figures[i];
@@ -77,7 +79,7 @@ class CandidateJudge {
     }
     if (faults_ > 1) sized_.where += fmt::format(" and {} more", faults_ - 1);
     using Kind = Sized::Kind;
-    sized_.kind = !ran                             ? Kind::cannot
+    sized_.kind = !ran                             ? Kind::ruled_out
                   : faults_ > 0                    ? Kind::falls_out
                   : sized_.reserve >= good_reserve ? Kind::fits
                                                    : Kind::close;
@@ -117,7 +119,7 @@ std::string sized_cell(double number) { return std::isnan(number) ? "" : fmt::fo
 }  // namespace
 
 std::string_view name_of(Sized::Kind kind) {
-  constexpr std::array<std::string_view, 4> names = {"fits", "fits closely", "falls out", "cannot be run"};
+  constexpr std::array<std::string_view, 4> names = {"fits", "fits closely", "falls out", "ruled out"};
   return names.at(static_cast<std::size_t>(kind));
 }
 

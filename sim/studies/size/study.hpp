@@ -16,9 +16,9 @@ struct Sized {
     fits,       ///< every check and every rating holds at every corner, with `good_reserve` or more
     close,      ///< the same with less
     falls_out,  ///< one does not hold
-    cannot      ///< no machine or no run of it
+    ruled_out   ///< it cannot be set up, or there is no run of it
   };
-  Kind kind = Kind::cannot;
+  Kind kind = Kind::ruled_out;
   std::string reason;   ///< why it falls out
   std::string where;    ///< at which corner, and at how many more
   double reserve = 0;   ///< least distance to a rating over all corners, below 0: beyond it [%]; NaN = none
@@ -36,7 +36,7 @@ std::vector<Sized> size_drives(const PointQuestion& question, const std::vector<
                                const std::vector<Corner>& corners, PointStore& store,
                                const StudyProgress& progress);
 
-/// Who comes first: what fits with good reserve, what fits, what falls out, what cannot be run; of what fits
+/// Who comes first: what fits with good reserve, what fits, what falls out, what is ruled out; of what fits
 /// the smallest motor (rated power), the smallest brake resistor, the largest reserve, the least energy; of
 /// what falls out the nearest to its limits. Equal ones stay as they are.
 std::vector<std::size_t> ranked(const std::vector<Candidate>& candidates, const std::vector<Sized>& sized);
