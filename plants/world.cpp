@@ -149,13 +149,21 @@ Pose pose_of(const btRigidBody& body) {
   return {{t.getOrigin().x(), t.getOrigin().y(), t.getOrigin().z()}, {q.x(), q.y(), q.z(), q.w()}};
 }
 
+/// Nothing collides here: no room for the contacts of thousands, which each run would have to clear first.
+btDefaultCollisionConstructionInfo without_contacts() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = 1;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = 1;
+  return info;
+}
+
 }  // namespace
 
 struct World::Bodies {
   explicit Bodies(std::uint64_t world_seed) : seed(world_seed) {}
   std::uint64_t seed;
   std::vector<std::pair<std::string, std::uint64_t>> sources;
-  btDefaultCollisionConfiguration configuration;
+  btDefaultCollisionConfiguration configuration{without_contacts()};
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btSequentialImpulseConstraintSolver solver;
