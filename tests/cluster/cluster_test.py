@@ -18,10 +18,10 @@ import engines
 PROGRAM = os.path.abspath(sys.argv[1])
 HERE = os.path.dirname(os.path.abspath(__file__))
 KINDS = {"dask": engines.Dask, "slurm": engines.Slurm}
-CPU_SECONDS = 4  # a process at a worker that computes for longer is ended by the kernel
+CPU_SECONDS = 2  # a process at a worker that computes for longer is ended by the kernel
 SCENE = os.path.join(HERE, "web.yaml")
 POINTS = ["sweep", SCENE, "--over", "variables.speed=5..125 m/min:50", "--over", "variables.limit=40..119 m/min:40"]
-LONGER = ["sweep", SCENE, "--over", "variables.speed=5..125 m/min:200", "--set", "variables.end=60 s"]
+LONGER = ["sweep", SCENE, "--over", "variables.speed=5..125 m/min:100", "--set", "variables.end=200 s"]
 
 
 def read(path):
@@ -64,10 +64,14 @@ class ClusterTest(unittest.TestCase):
     def out(self, name):
         return os.path.join(self.folder, name)
 
-    def start(self, words, out, program=PROGRAM, on=True):
+    def start(self, words, out, program=PROGRAM, on=True, cpu_seconds=None):
+        def limit():
+            if cpu_seconds:
+                resource.setrlimit(resource.RLIMIT_CPU, (cpu_seconds, resource.RLIM_INFINITY))
+
         more = ["--on", self.engine.address] if on else []
         return subprocess.Popen([program, *words, *more, "--out", self.out(out)], stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, cwd=self.folder)
+                                stderr=subprocess.PIPE, text=True, cwd=self.folder, preexec_fn=limit)
 
     def run_it(self, words, out, status=0, **more):
         child = self.start(words, out, **more)
@@ -113,7 +117,7 @@ class ClusterTest(unittest.TestCase):
     def test_same_bytes_when_a_worker_is_killed(self):
         self.run_it(LONGER, "here", on=False)
         child = self.start(LONGER, "there")
-        self.begun(child, 20, "there")
+        self.begun(child, 10, "there")
         if KIND == "dask":
             self.engine.workers[0].kill()
             self.engine.workers[0] = self.engine.add_worker()
@@ -122,13 +126,15 @@ class ClusterTest(unittest.TestCase):
                 os.kill(process, signal.SIGKILL)
         said, errors = child.communicate()
         self.assertEqual(child.returncode, 0, said + errors)
-        self.assertIn("\n200 runs simulated", said)
+        self.assertIn("\n100 runs simulated", said)
         self.assertEqual(read(self.out("here/sweep.csv")), read(self.out("there/sweep.csv")))
 
     def test_a_poisoned_point_is_told_and_left(self):
-        words = ["sweep", SCENE, "--over", "variables.end=0.3,0.4,1e6,0.5,0.6,0.7 s"]
-        said, errors = self.run_it(words, "there", status=3)
-        self.assertRegex(errors, r"variables.end=1e6 s was lost: whoever ran it died, 3 times: .*")
+        words = ["sweep", SCENE, "--over", "variables.end=0.3,0.4,100000,0.5,0.6,0.7 s"]
+        # Slurm's jobs have the limits of who submits them, Dask's those of the worker.
+        limit = CPU_SECONDS if KIND == "slurm" else None
+        said, errors = self.run_it(words, "there", status=3, cpu_seconds=limit)
+        self.assertRegex(errors, r"variables.end=100000 s was lost: whoever ran it died, 3 times: .*")
         self.assertIn("\n5 runs simulated", said)
         rows = read(self.out("there/sweep.csv")).decode().splitlines()
         self.assertEqual([row.split(",")[1] for row in rows[1:]], ["passed", "passed", "lost", "passed", "passed", "passed"])
@@ -147,7 +153,7 @@ class ClusterTest(unittest.TestCase):
             self.nothing_left(out)
             kept = lines(self.out(out + "/points.cache"))
             said = self.run_it(LONGER, out, on=number == 0)[0]
-            self.assertIn(f"\n{200 - kept} runs simulated", said)
+            self.assertIn(f"\n{100 - kept} runs simulated", said)
             self.assertEqual(read(self.out("here/sweep.csv")), read(self.out(out + "/sweep.csv")))
 
     def test_killed_itself_the_next_one_clears_up(self):
@@ -156,7 +162,7 @@ class ClusterTest(unittest.TestCase):
         child.kill()
         child.communicate()
         kept = lines(self.out("there/points.cache"))
-        self.assertIn(f"\n{200 - kept} runs simulated", self.run_it(LONGER, "there")[0])
+        self.assertIn(f"\n{100 - kept} runs simulated", self.run_it(LONGER, "there")[0])
         self.nothing_left("there")
 
     def test_another_version_is_refused(self):

@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-PATIENCE = 30  # seconds for a process to come up
+PATIENCE = 60  # seconds for a process to come up
 PYTHON = next((p for p in ("python3", "/usr/bin/python3") if shutil.which(p) and
                subprocess.run([p, "-c", "import distributed"], capture_output=True).returncode == 0), None)
 
@@ -71,8 +71,12 @@ class Processes:
                 child.wait()
 
     def said(self):
-        return "\n".join(open(os.path.join(self.folder, name)).read() for name in sorted(os.listdir(self.folder))
-                         if name.endswith(".log"))
+        texts = []
+        for name in sorted(os.listdir(self.folder)):
+            if name.endswith(".log"):
+                with open(os.path.join(self.folder, name)) as file:
+                    texts.append(file.read())
+        return "\n".join(texts)
 
 
 class Dask:
@@ -90,6 +94,7 @@ class Dask:
                              "--no-dashboard", "--no-show", cwd=self.folder)
         wait_for(lambda: listens(self.port), "the scheduler")
         self.workers = [self.add_worker() for _ in range(workers)]
+        wait_for(lambda: self.processes.said().count("Registered to") >= workers, "the workers")
 
     def add_worker(self):
         """A worker in a folder of its own; a limit of processor time is its children's."""
@@ -105,7 +110,7 @@ class Dask:
     def left_behind(self):
         """Files of ours at the workers."""
         return [os.path.join(where, name) for where, _, names in os.walk(self.folder) for name in names
-                if name.startswith("drycut-") or name.startswith("tmp")]
+                if name.startswith("drycut-")]
 
     def environment(self):
         return {"DRYCUT_ON": self.address}
@@ -139,7 +144,7 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 SchedulerType=sched/builtin
 SchedulerParameters=batch_sched_delay=0,sched_min_interval=50000,defer
-PropagateResourceLimits=NONE
+PropagateResourceLimits=CPU
 MpiDefault=none
 SwitchType=switch/none
 ReturnToService=2
@@ -156,7 +161,7 @@ class Slurm:
     missing = ("" if all(shutil.which(p) for p in ("munged", "slurmctld", "slurmd", "sbatch"))
                else "slurm-wlm and munge") or ("" if os.getuid() == 0 else "to be root")
 
-    def __init__(self, cpu_seconds=None):
+    def __init__(self, **_):  # limits are those of whoever submits
         self.folder = tempfile.mkdtemp()
         os.chmod(self.folder, 0o755)
         self.processes = Processes(self.folder)
@@ -179,7 +184,7 @@ class Slurm:
         self.address = "slurm"
         environment = {**os.environ, **self.environment()}
         self.processes.start("slurmctld", "-D", "-f", self.conf, env=environment)
-        self.processes.start("slurmd", "-D", "-f", self.conf, "-N", host, env=environment, cpu_seconds=cpu_seconds)
+        self.processes.start("slurmd", "-D", "-f", self.conf, "-N", host, env=environment)
         wait_for(lambda: "idle" in self.ask("sinfo", "--noheader", "--partition=main", "--format=%t"), "slurmd")
 
     def environment(self):

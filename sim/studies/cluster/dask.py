@@ -50,7 +50,7 @@ def work(chunk, name, data, items, program, topic):
     files, children = worker.drycut.setdefault(topic, (set(), set()))
     file = os.path.join(worker.local_directory, "drycut-" + name)
     if not os.path.exists(file):
-        with tempfile.NamedTemporaryFile(dir=worker.local_directory, delete=False) as part:
+        with tempfile.NamedTemporaryFile(dir=worker.local_directory, prefix="drycut-", delete=False) as part:
             part.write(data)
         os.replace(part.name, file)
     files.add(file)

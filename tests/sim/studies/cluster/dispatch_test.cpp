@@ -179,7 +179,7 @@ TEST_F(ClusterDispatch, NothingRunsAnywhere) {
   engine.blank = 99;
   answers.clear();
   try {
-    run(10);
+    run(100);
     FAIL() << "it went on";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("4 chunks in a row ended before their first run: no such program"));
