@@ -7,6 +7,7 @@
 #   make         builds build/drycut
 #   make cluster the tests of sweeps on Dask and Slurm, with clusters on this machine
 #   make python  builds the Python package in build/python
+#   make notebooks  runs docs/notebooks anew and stores what they say
 #   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
 
 BUILD    ?= build
@@ -15,7 +16,9 @@ PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev
             libudunits2-dev libnlopt-cxx-dev libhdf5-dev zlib1g-dev libzstd-dev libcli11-dev libboost-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs ffmpeg
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
-TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml python3-h5py python3-pandas $(PYTHON_PACKAGES)
+NOTEBOOK_PACKAGES := jupyter-nbconvert python3-ipykernel python3-matplotlib
+TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml python3-h5py python3-pandas mypy \
+                  $(PYTHON_PACKAGES) $(NOTEBOOK_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
 CLUSTER_PACKAGES := python3-distributed slurm-wlm munge
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
@@ -37,7 +40,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test quick cluster python bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup demo test quick cluster python notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -78,6 +81,11 @@ python: setup
 	@rm -f $(BUILD).log
 	cmake --build $(BUILD) -j $(JOBS) --target drycut_python
 	@echo "PYTHONPATH=$(CURDIR)/$(BUILD)/python /usr/bin/python3 -c 'import drycut; help(drycut)'"
+
+# What the notebooks of docs/notebooks say now, stored in them.
+notebooks: python
+	$(call install,$(NOTEBOOK_PACKAGES))
+	PYTHONPATH=$(CURDIR)/$(BUILD)/python /usr/bin/python3 tests/python/test_notebooks.py --store
 
 bench: setup
 	$(call install,$(BENCH_PACKAGES))

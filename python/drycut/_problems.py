@@ -54,6 +54,11 @@ def refuse(argument: str, what: str, remedy: str) -> BadInput:
     return BadInput(f"{argument}:1:1: {what}; {remedy}", [(argument, 1, 1, what, remedy)])
 
 
+def check_folder(out: Path | None) -> None:
+    if out is not None and not os.fspath(out):
+        raise refuse("out", "it is empty", "name a folder")
+
+
 def text(value: object) -> str:
     """A value as the command line takes it."""
     if isinstance(value, (bool, np.bool_)):

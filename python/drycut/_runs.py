@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
-from ._problems import Path, Settings, settings
+from ._problems import Path, Settings, check_folder, settings
 from ._tables import Table, frame, table
 
 if TYPE_CHECKING:
@@ -77,15 +77,18 @@ class Run:
         return frame(self.trace, self.units, "time")
 
 
-def run(file: Path, set: Settings | None = None) -> Run:
-    """Runs a scenario from time zero to its end, without pictures and files.
+def run(file: Path, set: Settings | None = None, *, out: Path | None = None) -> Run:
+    """Runs a scenario from time zero to its end.
 
     file  scenario (.yaml)
     set   overrides, {"plants.web.speed": "80 m/min"}
+    out   folder for what `drycut run` puts into the scenario's own: trace.csv, events.csv, checks.json, report.html,
+          plots and film; else nothing is drawn or written
 
-    Raises BadInput with all problems of the scenario and its programs.
+    Retentive values are read and not written. Raises BadInput with all problems of the scenario and its programs.
     """
-    got = _core.run(file, settings(set))
+    check_folder(out)
+    got = _core.run(file, settings(set), out)
     return Run(passed=got["passed"], failure=got["failure"], checks=[Check(*check) for check in got["checks"]],
                events=[Event(*event) for event in got["events"]], trace=table(got["columns"], got["units"]),
                units=got["units"], notes=got["notes"])

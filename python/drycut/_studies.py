@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, Union
 
 from . import _core
-from ._problems import Path, Progress, Settings, refuse, settings, text
+from ._problems import Path, Progress, Settings, check_folder, refuse, settings, text
 from ._tables import Table, frame, read_csv
 
 if TYPE_CHECKING:
@@ -88,9 +88,8 @@ def _axes(over: Axes) -> list[str]:
 
 @contextlib.contextmanager
 def _folder(out: Path | None) -> Iterator[str]:
+    check_folder(out)
     if out is not None:
-        if not os.fspath(out):
-            raise refuse("out", "it is empty", "name a folder")
         yield os.fspath(out)
     else:
         with tempfile.TemporaryDirectory(prefix="drycut-") as folder:

@@ -4,6 +4,7 @@ import csv
 import inspect
 import math
 import os
+import pathlib
 import pydoc
 import shutil
 import signal
@@ -68,6 +69,33 @@ class RunTest(unittest.TestCase):
         again = drycut.run(KNIFE, set=SHORT)
         self.assertEqual(again.trace.tobytes(), self.run_.trace.tobytes())
         self.assertEqual(again.events, self.run_.events)
+
+    def test_writes_what_the_program_writes_where_it_is_asked_to(self):
+        with tempfile.TemporaryDirectory() as folder:
+            brief = {"scene.duration": "1 s", "pictures.frames.every": "500 ms", "pictures.video": "off"}
+            ours, theirs = os.path.join(folder, "ours"), os.path.join(folder, "rotary_knife")
+            subprocess.run([PROGRAM, "run", KNIFE, "--out", folder, *(f"--set={p}={v}" for p, v in brief.items())],
+                           check=False, capture_output=True)
+            with_files, without = drycut.run(KNIFE, set=brief, out=ours), drycut.run(KNIFE, set=brief)
+
+            def contents(folder, kinds):
+                files = [os.path.join(place, name) for place, _, names in os.walk(folder) for name in names
+                         if name.endswith(kinds)]
+                return {os.path.relpath(file, folder): pathlib.Path(file).read_bytes() for file in files}
+
+            self.assertGreater(len(contents(ours, ".png")), 4)
+            self.assertEqual(contents(ours, (".csv", ".json", ".png", ".html")).keys(),
+                             contents(theirs, (".csv", ".json", ".png", ".html")).keys())
+            self.assertEqual(contents(ours, (".csv", ".json")), contents(theirs, (".csv", ".json")))
+            self.assertEqual((with_files.trace.tobytes(), with_files.events), (without.trace.tobytes(), without.events))
+            with open(os.path.join(ours, "mine.txt"), "w", encoding="utf-8") as file:
+                file.write("not Drycut's")
+            drycut.run(KNIFE, set=brief, out=ours)
+            self.assertTrue(os.path.exists(os.path.join(ours, "mine.txt")))
+        for out in ("", KNIFE):
+            with self.assertRaises(drycut.BadInput) as caught:
+                drycut.run(KNIFE, set=brief, out=out)
+            self.assertEqual([problem.file for problem in caught.exception.problems], ["out"])
 
     def test_gives_a_frame(self):
         try:
