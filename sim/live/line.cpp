@@ -14,6 +14,7 @@
 #include "sim/loop/known_events.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/results.hpp"
+#include "sim/scenario/units.hpp"
 
 namespace drycut::sim::live {
 
@@ -169,7 +170,7 @@ class Line::OneRun : public loop::Observer {
     news.failure = failure();
     news.poses.reserve(shown_.size());
     for (const auto& part : shown_) news.poses.push_back(part.now());
-    for (const auto& target : targets()) news.values.push_back(target.read());
+    for (const auto& target : targets()) news.values.push_back(scenario::from_si(target.read(), target.unit));
     for (const auto& lamp : lamps_) news.lamps.push_back(lamp.read());
     news.events = std::exchange(events_, {});
     news.samples = std::exchange(samples_, {sample_names_, {}, {}});
@@ -407,6 +408,7 @@ void Line::keep_pace() {
 
 void Line::tell() {
   auto news = std::make_shared<News>();
+  if (!running_) run_->take_samples();  // what was written is seen
   run_->tell(*news);
   news->running = running_;
   news->pace = pace_;

@@ -52,6 +52,7 @@ struct Restart {};
 /// What the asker wants to have sampled every cycle, in place of what it wanted before.
 struct Sample {
   std::vector<std::string> names;
+  std::size_t watched = 0;  ///< of so many at the end the latest value is enough
 };
 /// The asker is gone.
 struct Leave {};

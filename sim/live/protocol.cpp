@@ -46,8 +46,8 @@ class Parser {
     if (message.contains("until")) return read_until(message["until"]);
     if (message.contains("pace")) return read_pace(message["pace"]);
     if (message.contains("restart")) return Restart{};
-    if (message.contains("sample")) return read_sample(message["sample"]);
-    refuse("the message asks for nothing", "one of act, run, advance, until, pace, restart, sample");
+    if (message.contains("sample") || message.contains("watch")) return read_sample(message);
+    refuse("the message asks for nothing", "one of act, run, advance, until, pace, restart, sample, watch");
     return {};
   }
 
@@ -83,16 +83,25 @@ class Parser {
     refuse(fmt::format("pace is a number from {} to {}, or \"max\"", least_pace, most_pace), "{\"pace\": 1}");
     return {};
   }
-  std::optional<decltype(Request::what)> read_sample(const ordered_json& names) {
+  std::optional<decltype(Request::what)> read_sample(const ordered_json& message) {
     Sample sample;
-    bool sound = names.is_array();
-    for (std::size_t i = 0; sound && i < names.size(); ++i) {
-      sound = names[i].is_string();
-      if (sound) sample.names.push_back(names[i].get<std::string>());
+    if (!read_names(message, "sample", sample.names)) return {};
+    const auto sampled = sample.names.size();
+    if (!read_names(message, "watch", sample.names)) return {};
+    sample.watched = sample.names.size() - sampled;
+    return sample;
+  }
+  /// Adds the names under `key`, if there are any.
+  bool read_names(const ordered_json& message, const char* key, std::vector<std::string>& names) {
+    if (!message.contains(key)) return true;
+    const auto& list = message[key];
+    const auto is_name = [](const ordered_json& item) { return item.is_string(); };
+    if (!list.is_array() || !std::all_of(list.begin(), list.end(), is_name)) {
+      refuse(fmt::format("{} is a list of channels", key), fmt::format(R"({{"{}": ["web.speed"]}})", key));
+      return false;
     }
-    if (sound) return sample;
-    refuse("sample is a list of channels", "{\"sample\": [\"web.speed\"]}");
-    return {};
+    for (const auto& item : list) names.push_back(item.get<std::string>());
+    return true;
   }
 
   static constexpr Time most_advance = 3600 * second;
@@ -203,24 +212,34 @@ std::string news_json(const News& news) {
   return text_of({{"news", std::move(json)}});
 }
 
-std::string samples_json(const News::Samples& samples, const std::vector<std::string>& wanted) {
-  if (samples.times.empty() || !samples.names || wanted.empty()) return "";
+std::string samples_json(const News::Samples& samples, const Sample& wanted) {
+  if (samples.times.empty() || !samples.names || wanted.names.empty()) return "";
   std::vector<std::size_t> columns;
-  for (const auto& name : wanted) {
+  columns.reserve(wanted.names.size());
+  for (const auto& name : wanted.names) {
     const auto found = std::find(samples.names->begin(), samples.names->end(), name);
     if (found == samples.names->end()) return "";  // the line does not know yet
     columns.push_back(static_cast<std::size_t>(found - samples.names->begin()));
   }
+  const auto value = [&](std::size_t row, std::size_t item) -> ordered_json {
+    const double number = samples.rows[row * samples.names->size() + columns[item]];
+    if (std::isfinite(number)) return number;
+    return nullptr;
+  };
+  const auto sampled = columns.size() - wanted.watched;
+  auto names = ordered_json::array();
   auto times = ordered_json::array();
   auto rows = ordered_json::array();
-  for (std::size_t i = 0; i < samples.times.size(); ++i) {
-    times.push_back(seconds(samples.times[i]));
-    for (const auto column : columns) {
-      const double number = samples.rows[i * samples.names->size() + column];
-      std::isfinite(number) ? rows.push_back(static_cast<float>(number)) : rows.push_back(nullptr);
-    }
+  auto watched = ordered_json::object();
+  for (std::size_t item = 0; item < sampled; ++item) names.push_back(wanted.names[item]);
+  for (std::size_t row = 0; sampled > 0 && row < samples.times.size(); ++row) {
+    times.push_back(seconds(samples.times[row]));
+    for (std::size_t item = 0; item < sampled; ++item) rows.push_back(value(row, item));
   }
-  return text_of({{"samples", {{"names", wanted}, {"times", times}, {"rows", rows}}}});
+  for (std::size_t item = sampled; item < columns.size(); ++item)
+    watched[wanted.names[item]] = value(samples.times.size() - 1, item);
+  return text_of(
+      {{"samples", {{"names", names}, {"times", times}, {"rows", rows}, {"watched", std::move(watched)}}}});
 }
 
 std::string answer_json(double id, const Problems& problems) {

@@ -10,7 +10,7 @@ namespace drycut::sim::live {
 // What goes over the wire, as JSON. A client says one thing a message:
 //   {"act": {"set": {"panel.start": 1}}}   also ramp with over, fault, power; as an entry of a timeline
 //   {"run": true}  {"advance": "1 ms"}  {"until": "cut"}  {"pace": 0.1}  {"pace": "max"}  {"restart": true}
-//   {"sample": ["knife.speed", "web.speed"]}
+//   {"sample": ["knife.speed", "web.speed"], "watch": ["slLength"]}   every cycle; the latest value
 // each with "id", a number, if it wants to know what became of it: {"done": id, "problems": [...]}.
 
 /// nullopt if the message is none, with what is wrong in `problems`. `id`: what the client calls it, 0 =
@@ -21,9 +21,9 @@ std::optional<Request> parse_request(std::string_view message, Asker asker, doub
 std::string description_json(const LineDescription& line);
 /// {"news": {...}}, the same for everybody.
 std::string news_json(const News& news);
-/// {"samples": {"names": [...], "times": [...], "rows": [...]}} of the channels that one client wants; "" =
-/// none.
-std::string samples_json(const News::Samples& samples, const std::vector<std::string>& wanted);
+/// {"samples": {"names": [...], "times": [...], "rows": [...], "watched": {"slLength": 800}}} of the channels
+/// that one client wants; "" = none.
+std::string samples_json(const News::Samples& samples, const Sample& wanted);
 /// {"done": id, "problems": [...]}
 std::string answer_json(double id, const Problems& problems);
 

@@ -17,8 +17,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "renders/embedded.hpp"
 #include "sim/live/protocol.hpp"
+#include "sim/live/site.hpp"
 
 namespace drycut::sim::live {
 
@@ -84,11 +84,13 @@ struct Server::Core {
 
   void accept();
   [[nodiscard]] bool knows_host(std::string_view host) const;
+  [[nodiscard]] bool is_ours(const Asked& request) const;
   [[nodiscard]] bool may(const Asked& request) const;
   Response answer(const Asked& request) const;
 
   Options options;
   Line& line;
+  Site site;
   // Clients take themselves out as they go, with the context at the latest.
   std::size_t connections = 0;
   Asker next_asker = 1;
@@ -200,7 +202,7 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     auto request = parse_request(message, asker_, id, problems);
     if (!request) return send(std::make_shared<const std::string>(answer_json(id, problems)), true);
     const auto* sample = std::get_if<Sample>(&request->what);
-    open_.emplace_back(id, sample == nullptr ? std::nullopt : std::optional(sample->names));
+    open_.emplace_back(id, sample == nullptr ? std::nullopt : std::optional(*sample));
     core_.line.ask(std::move(*request));
   }
 
@@ -223,9 +225,9 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
   Asker asker_ = 0;  ///< 0 = it has no WebSocket
   std::deque<Text> waiting_;
   std::size_t waiting_bytes_ = 0;
-  std::vector<std::string> wanted_;  ///< channels that it is sent
+  Sample wanted_;  ///< channels that it is sent
   /// What the line has been asked and not answered: the message's number, channels to be sampled.
-  std::deque<std::pair<double, std::optional<std::vector<std::string>>>> open_;
+  std::deque<std::pair<double, std::optional<Sample>>> open_;
 };
 
 void Server::Core::accept() {
@@ -247,11 +249,16 @@ bool Server::Core::knows_host(std::string_view host) const {
   return !options.token.empty() && host.ends_with(port);
 }
 
-bool Server::Core::may(const Asked& request) const {
+/// Asked by a page of this server, or by nobody's.
+bool Server::Core::is_ours(const Asked& request) const {
   const auto host = view(request[http::field::host]);
   if (!knows_host(host)) return false;
   const auto origin = view(request[http::field::origin]);
-  if (!origin.empty() && origin != fmt::format("http://{}", host)) return false;
+  return origin.empty() || origin == fmt::format("http://{}", host);
+}
+
+bool Server::Core::may(const Asked& request) const {
+  if (!is_ours(request)) return false;
   return options.token.empty() || same_token(query(view(request.target()), "token"), options.token);
 }
 
@@ -261,22 +268,24 @@ Response Server::Core::answer(const Asked& request) const {
   response.set(http::field::cache_control, "no-store");
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Content-Security-Policy",
-               "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'unsafe-inline'; img-src "
-               "data: blob:; "
-               "connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+               "default-src 'none'; script-src 'self'; style-src 'self'; img-src data:; connect-src 'self'; "
+               "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
   const auto give = [&](const char* type, std::string body) {
     response.set(http::field::content_type, type);
     response.body() = std::move(body);
   };
   const auto path = view(request.target()).substr(0, view(request.target()).find('?'));
-  if (!may(request)) {
+  // The page's parts tell nothing of the line: they need no token, which they could not show.
+  const auto file = site.find(path);
+  const bool is_part = file && path != "/";
+  if (!may(request) && !(is_part && is_ours(request))) {
     response.result(http::status::forbidden);
     give("text/plain; charset=utf-8", "this line takes requests of its own page only\n");
   } else if (request.method() != http::verb::get && request.method() != http::verb::head) {
     response.result(http::status::method_not_allowed);
     give("text/plain; charset=utf-8", "GET\n");
-  } else if (path == "/") {
-    give("text/html; charset=utf-8", std::string(renders::embedded_file("live.html")));
+  } else if (file) {
+    give(file->type, std::string(file->bytes));
   } else if (path == "/line.json" && described) {
     give("application/json", *described);
   } else if (path == "/machine.glb" && description) {
