@@ -1,11 +1,13 @@
 /* global THREE */
 // The machine in 3-D: the parts of machine.glb, moved by the poses of the news, drawn in between.
-import { by, make, colour } from "./live_dom.js";
+import { by, make } from "./live_dom.js";
 import { address } from "./live_link.js";
+import { Look, isSlow } from "./live_look.js";
 
 const numbersAPart = 10;  // position 3, quaternion 4, scale 3
 const jump = 0.25;        // [m] who moves so far between two news is put there
-const slowFrame = 45;     // [ms] then less is drawn
+const slowFrame = 45;     // [ms] then it is drawn plainly
+const restAfter = 400;    // [ms] without a change: then there is time for a fine picture
 const directions = {
   free: [0.5, 0.42, 0.85],
   front: [0, 0.12, 1],
@@ -13,43 +15,13 @@ const directions = {
   end: [1, 0.15, 0.001],
 };
 
-/// What a shiny surface mirrors: floor, walls, a ceiling with a row of lamps.
-function hall() {
-  const face = (paint) => {
-    const canvas = make("canvas", { width: 64, height: 64 });
-    paint(canvas.getContext("2d"));
-    return canvas;
-  };
-  const wall = (g) => {
-    const shade = g.createLinearGradient(0, 0, 0, 64);
-    shade.addColorStop(0, "#e8edf2");
-    shade.addColorStop(0.5, "#aeb7c0");
-    shade.addColorStop(1, "#4b5055");
-    g.fillStyle = shade;
-    g.fillRect(0, 0, 64, 64);
-  };
-  const ceiling = (g) => {
-    g.fillStyle = "#cfd8e0";
-    g.fillRect(0, 0, 64, 64);
-    g.fillStyle = "#ffffff";
-    for (const x of [8, 28, 48]) g.fillRect(x, 4, 8, 56);
-  };
-  const floor = (g) => {
-    g.fillStyle = "#3c4044";
-    g.fillRect(0, 0, 64, 64);
-  };
-  const texture = new THREE.CubeTexture([wall, wall, ceiling, floor, wall, wall].map(face));
-  texture.needsUpdate = true;
-  return texture;
-}
-
 export class Machine {
   constructor() {
     this.holder = by("view");
     this.parts = [];
     this.frames = 0;  // drawn so far
-    this.level = 0;   // 0 = all of it, 1 = shadows stand still, 2 = without shadows, coarser
     this.stale = true;
+    this.judged = 0;
     try {
       if (typeof THREE === "undefined")
         throw new Error("The machine cannot be shown: three.js (package libjs-three) is not installed.");
@@ -67,13 +39,9 @@ export class Machine {
     // What three.js writes to the console about a missing WebGL is said in the page.
     const canvas = make("canvas", { tabIndex: 0, attributes: {
       "aria-label": "The machine in 3-D. Arrows turn it, plus and minus come nearer and go away.", role: "img" } });
-    const context = canvas.getContext("webgl", { antialias: true, powerPreference: "high-performance" });
-    if (!context) throw new Error("no WebGL");
-    this.renderer = new THREE.WebGLRenderer({ canvas, context });
-    this.renderer.gammaOutput = true;
-    this.renderer.gammaFactor = 2;
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    const slow = isSlow();
+    const context = canvas.getContext("webgl", { alpha: true, antialias: !slow, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ canvas, context, alpha: true });
     this.holder.append(canvas);
     this.canvas = canvas;
 
@@ -86,32 +54,13 @@ export class Machine {
     this.orbit.addEventListener("start", () => this.choose(null));
     canvas.addEventListener("keydown", (event) => this.key(event));
 
-    this.sky = new THREE.HemisphereLight(0xffffff, 0x777570, 0.62);
-    this.lamp = new THREE.DirectionalLight(0xfff4e6, 0.78);
-    this.lamp.castShadow = true;
-    this.lamp.shadow.mapSize.set(1024, 1024);
-    this.lamp.shadow.bias = -0.0008;
-    const fill = new THREE.DirectionalLight(0xdfe8f2, 0.16);
-    fill.position.set(0.75, 0.25, 0.6);
-    this.floor = new THREE.Mesh(new THREE.CircleBufferGeometry(1, 48).rotateX(-Math.PI / 2),
-      new THREE.MeshLambertMaterial({ color: 0xffffff }));
-    this.floor.receiveShadow = true;
-    this.scene.add(this.sky, this.lamp, this.lamp.target, fill, this.floor);
-    this.mirrored = hall();
+    this.look = new Look(this.renderer, this.scene, !slow);
     new ResizeObserver(() => this.fit()).observe(this.holder);
     requestAnimationFrame((now) => this.draw(now));
-    this.paint();
   }
 
-  /// Colours of the hall, by day or night.
   paint() {
-    if (this.broken) return;
-    const of = (name) => new THREE.Color(colour(name)).convertGammaToLinear(2);
-    this.scene.background = new THREE.Color(colour("hall")).convertGammaToLinear(2);
-    this.scene.fog = new THREE.Fog(this.scene.background, 1, 100);
-    this.floor.material.color = of("hall-floor");
-    this.grid?.material.color.copy(of("hall-line"));
-    this.fogAt();
+    this.look?.paint();
     this.stale = true;
   }
 
@@ -127,7 +76,7 @@ export class Machine {
     const first = !this.model;
     if (this.model) this.scene.remove(this.model);
     this.model = model.scene;
-    this.dress(model.scene);
+    this.look.dress(model.scene);
     // As the loader calls a node: without what its own paths cannot hold.
     const called = (name) => THREE.PropertyBinding.sanitizeNodeName(name);
     const nodes = new Map();
@@ -144,24 +93,6 @@ export class Machine {
       this.pending = true;
     }
     this.stale = true;
-  }
-
-  dress(model) {
-    const looks = new Map();
-    model.traverse((node) => {
-      if (!node.isMesh) return;
-      node.castShadow = node.receiveShadow = true;
-      node.frustumCulled = false;
-      const from = node.material;
-      if (!looks.has(from.name)) {
-        const metal = from.metalness > 0.5;
-        looks.set(from.name, metal
-          ? new THREE.MeshPhongMaterial({ vertexColors: THREE.VertexColors, shininess: 90, specular: 0x777777,
-            envMap: this.mirrored, combine: THREE.MixOperation, reflectivity: 0.38 })
-          : new THREE.MeshPhongMaterial({ vertexColors: THREE.VertexColors, shininess: 24, specular: 0x1c1c1c }));
-      }
-      node.material = looks.get(from.name);
-    });
   }
 
   news(news) {
@@ -184,7 +115,7 @@ export class Machine {
     if (this.pending) {
       this.pending = false;
       this.place(1);
-      this.look("free", null);
+      this.view("free", null);
     }
   }
 
@@ -228,12 +159,12 @@ export class Machine {
     return box;
   }
 
-  look(from, plant) {
+  view(from, plant) {
     if (this.broken || !this.after) return;
     const all = this.boundsOf(null);
     if (all.isEmpty()) return;
     this.bounds = all;
-    this.furnish(all);
+    this.look.furnish(all, this.model);
     const box = plant === null ? all : this.boundsOf(plant);
     const ball = (box.isEmpty() ? all : box).getBoundingSphere(new THREE.Sphere());
     const way = new THREE.Vector3(...directions[from]).normalize();
@@ -258,45 +189,13 @@ export class Machine {
     this.stale = true;
   }
 
-  /// Floor and lamp for a machine of that size.
-  furnish(box) {
-    const ball = box.getBoundingSphere(new THREE.Sphere());
-    const reach = 14 * ball.radius;
-    this.floor.scale.setScalar(reach);
-    this.floor.position.set(ball.center.x, box.min.y - 0.002, ball.center.z);
-    if (!this.grid) {
-      const squares = 56;
-      this.grid = new THREE.GridHelper(1, squares, 0xffffff, 0xffffff);
-      this.grid.material = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.5 });
-      this.scene.add(this.grid);
-    }
-    const spacing = ball.radius > 2.5 ? 1 : ball.radius > 1 ? 0.5 : 0.2;
-    this.grid.scale.setScalar(56 * spacing);
-    this.grid.position.set(ball.center.x, box.min.y, ball.center.z);
-    const { shadow } = this.lamp;
-    this.lamp.target.position.copy(ball.center);
-    this.lamp.position.copy(ball.center).addScaledVector(new THREE.Vector3(0.45, 1, 0.55).normalize(), 3 * ball.radius);
-    const reached = 1.1 * ball.radius;
-    Object.assign(shadow.camera, { left: -reached, right: reached, top: reached, bottom: -reached,
-      near: ball.radius, far: 6 * ball.radius });
-    shadow.camera.updateProjectionMatrix();
-    this.size = ball.radius;
-    this.paint();
-  }
-
-  fogAt() {
-    if (!this.size || !this.scene.fog) return;
-    this.scene.fog.near = 5 * this.size;
-    this.scene.fog.far = 13 * this.size;
-  }
-
   offerViews(parts) {
     const plants = [...new Set(parts.map((name) => name.split(".")[0]))];
     const views = [["whole line", "free", null], ...(plants.length > 1 ? plants.map((name) => [name, "free", name]) : []),
       ["front", "front", null], ["top", "top", null], ["end", "end", null]];
     by("views").replaceChildren(...views.map(([text, from, plant]) => make("button", {
       type: "button", textContent: text, data: { view: from === "free" ? plant ?? "" : from },
-      onclick: () => this.look(from, plant) })));
+      onclick: () => this.view(from, plant) })));
     this.choose(this.chosen ?? null);
   }
   choose(view) {
@@ -325,49 +224,54 @@ export class Machine {
   fit() {
     const { clientWidth: width, clientHeight: height } = this.holder;
     if (width === 0 || height === 0) return;
-    const fine = Math.min(2, window.devicePixelRatio);
-    this.renderer.setPixelRatio(this.level > 1 ? Math.min(1, 0.75 * fine) : fine);
+    this.fineness(false);
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     const { chosen } = this;
     if (chosen !== null && chosen !== undefined && this.bounds)
-      this.look(chosen in directions ? chosen : "free", chosen in directions || chosen === "" ? null : chosen);
+      this.view(chosen in directions ? chosen : "free", chosen in directions || chosen === "" ? null : chosen);
     this.stale = true;
   }
 
-  /// Where drawing is slow (no graphics card), less is drawn.
+  /// Pixels of the picture: the screen's, and more where a plain one stands still.
+  fineness(resting) {
+    if (this.resting === resting) return;
+    this.resting = resting;
+    const screen = Math.min(2, window.devicePixelRatio);
+    this.renderer.setPixelRatio(resting ? 2 : this.look.fine ? screen : 1);
+  }
+
+  /// Where the fine look is too much, the plain one is taken.
   judge(now) {
-    if (this.lastDrawn && now - this.lastDrawn < 250) {
+    if (this.look.fine && this.lastDrawn && now - this.lastDrawn < 250) {
       this.mean = 0.95 * (this.mean ?? 16) + 0.05 * (now - this.lastDrawn);
-      this.judged = (this.judged ?? 0) + 1;
+      if (++this.judged > 90 && this.mean > slowFrame) this.plain();
     }
     this.lastDrawn = now;
-    if (this.mean > slowFrame && this.judged > 60 && this.level < 2) {
-      this.level += 1;
-      this.judged = 0;
-      this.mean = 16;
-      this.lamp.castShadow = this.level < 2;
-      if (this.level === 2) {
-        this.model.traverse((node) => { if (node.isMesh) node.material.needsUpdate = true; });
-        this.floor.material.needsUpdate = true;
-        this.fit();
-      }
-    }
+  }
+  plain() {
+    this.look.go();
+    this.look = new Look(this.renderer, this.scene, false);
+    this.look.dress(this.model);
+    this.resting = undefined;
+    this.fineness(false);
+    this.look.furnish(this.bounds, this.model);
   }
 
   draw(now) {
     requestAnimationFrame((then) => this.draw(then));
-    if (this.holder.clientHeight === 0) return;
+    if (this.holder.clientHeight === 0 || !this.bounds) return;
     if (this.after && !this.settled) {
       const share = Math.min(1, Math.max(0, (performance.now() - this.after.at) / this.interval));
       this.place(share);
       this.settled = share >= 1;
       this.stale = true;
     }
-    if (!this.stale || !this.size) return;
+    const rested = !this.look.fine && !this.resting && now - this.lastDrawn > restAfter;
+    if (!this.stale && !rested) return;
     this.stale = false;
-    this.renderer.shadowMap.autoUpdate = this.level === 0 || this.frames % 8 === 0;
+    this.fineness(rested);
     this.renderer.render(this.scene, this.camera);
     this.frames += 1;
     this.judge(now);
