@@ -77,9 +77,10 @@ TEST_F(SizeCommand, ThePresentMotorIsThePresentMachine) {
   ASSERT_EQ(lines_of(problems), "");
   const auto verdict = simulation.run().drives.front();
   const auto present = row("HG-SR202", "5");
-  for (const auto& figure : verdict.figures)
-    if (figure.judged && figure.name == "rms torque")
-      EXPECT_NEAR(number(present, "rms torque [% of its rating]"), 100 * figure.share, 1e-3);
+  for (const auto& figure : verdict.figures) {
+    if (!figure.judged || figure.name != "rms torque") continue;
+    EXPECT_NEAR(number(present, "rms torque [% of its rating]"), 100 * figure.share, 1e-3);
+  }
   EXPECT_NEAR(number(present, "energy a cycle [J]"), verdict.energy, 1e-4 * verdict.energy);
   EXPECT_THAT(present.at("set"), HasSubstr("servo.inertia_ratio=3.5"));
   EXPECT_THAT(present.at("set"), Not(HasSubstr("gear_numerator")));
