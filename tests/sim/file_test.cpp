@@ -153,6 +153,7 @@ TEST_F(Files, ASetReadsEachOnceAndIsAllThatASealedOneHas) {
   const TestFolder folder;
   const auto there = folder / "there.txt";
   folder.file("there.txt", "first");
+  fs::create_directory(folder / "sub");
   folder.file("sub/b.yaml", "");
   folder.file("sub/a.yaml", "");
   folder.file("sub/c.txt", "");
