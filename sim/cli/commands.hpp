@@ -13,9 +13,9 @@ namespace drycut::sim::cli {
 enum ExitStatus : int {
   all_passed = 0,
   check_failed = 1,
-  bad_input = 2,          ///< one line a problem on standard error; nothing was written
-  simulation_failed = 3,  ///< diverged, or a result could not be written; what was recorded is kept
-  interrupted_status = 130
+  bad_input = 2,            ///< one line a problem on standard error; nothing was written
+  simulation_failed = 3,    ///< diverged, or a result could not be written; what was recorded is kept
+  interrupted_status = 130  ///< by a signal, where that itself does not end it
 };
 
 // Each adds its command with its options to the program; what the chosen one comes to goes to `status`.
