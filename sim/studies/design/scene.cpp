@@ -88,9 +88,13 @@ class SceneMaker {
     }
     controller_ = fmt::format("qmove:\n    set:\n      {{slZone: {},\n       {}}}", zone,
                               fmt::join(values, ",\n       "));
-    const auto& row = cam.sector(zone).row;
-    check_ = fmt::format("{0}.decpt == {1} && {0}.codeQm{2} == {3} && {0}.codeQs{2} == {4}", axis,
-                         cam.settings.decpt, zone, row.codeQm, row.codeQs);
+    // The synchronous row and the first of the way back: no other cam has both.
+    check_ = fmt::format("{}.decpt == {}", axis, cam.settings.decpt);
+    for (const int i : {zone, zone + 1}) {
+      const auto& row = cam.sector(i).row;
+      check_ +=
+          fmt::format(" && {0}.codeQm{1} == {2} && {0}.codeQs{1} == {3}", axis, i, row.codeQm, row.codeQs);
+    }
   }
 
   void take(const devices::lx3vp::EcamTable& cam, const controllers::Lx3vpSection& section) {
