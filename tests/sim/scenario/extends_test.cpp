@@ -144,7 +144,7 @@ TEST_F(Extends, AnAxisWithoutWiresIsASlip) {
   const std::string mine = "extends: base.yaml\ncontroller: {plcopen: {axes: ";
   read(mine + "{Knive: {kv: 30 1/s}}}}\n");
   EXPECT_THAT(told(),
-              ElementsAre("line.yaml:2:32: the axis 'Knive' has no wire, and what is extended has none of "
+              ElementsAre("line.yaml:2:31: the axis 'Knive' has no wire, and what is extended has none of "
                           "this name; did you mean Knife?"));
   for (const auto* axes :
        {"{Knife: {kv: 30 1/s}}}}\n", "{Web2: {kind: virtual}}}}\n", "{Other: {kv: 30 1/s}}}}\n",
