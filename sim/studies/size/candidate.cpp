@@ -18,7 +18,8 @@ namespace drycut::sim::studies {
 
 namespace {
 
-constexpr double largest_inertia_ratio = 300;  // that servo.inertia_ratio takes
+constexpr double largest_inertia_ratio = 300;    // that servo.inertia_ratio takes
+constexpr std::size_t most_candidates = 20'000;  // each is put together once before any runs
 constexpr std::int64_t largest_gear_word = 16'777'216;
 
 /// A ratio of whole numbers, in lowest terms.
@@ -238,6 +239,17 @@ void check_ratios(const SweepAxis& axis, Problems& problems) {
   }
 }
 
+void check_count(const SizeChoices& choices, Problems& problems) {
+  const auto gears = choices.gears.empty() ? 1 : grid_size(choices.gears, most_points).value_or(most_points);
+  const auto resistors = std::max<std::size_t>(1, choices.resistors.size());
+  const auto count = static_cast<double>(choices.motors.size() * resistors) * static_cast<double>(gears);
+  if (count > static_cast<double>(most_candidates))
+    problems.push_back({"--gears", 1, 1,
+                        fmt::format("{} motors x {} gears x {} brake resistors are {:.0f} candidates",
+                                    choices.motors.size(), gears, resistors, count),
+                        fmt::format("at most {}", most_candidates)});
+}
+
 /// A gear by another value of the scenario that does not reach it would be none.
 void check_gear_tie(const SizeChoices& choices, const PointQuestion& question, Problems& problems) {
   const auto& axis = choices.gears.front();
@@ -275,8 +287,8 @@ std::string name_of(const Candidate& candidate) {
 std::vector<Candidate> candidates_of(SizeChoices& choices, const PointQuestion& question,
                                      const scenario::Scenario& scenario, Problems& problems) {
   const auto before = problems.size();
+  check_count(choices, problems);
   if (!choices.gears.empty()) {
-    if (!grid_size(choices.gears, most_points)) points_of(choices.gears, {}, problems);
     if (problems.size() == before) check_axes(choices.gears, question, problems);
     if (problems.size() == before && !choices.gear_is_tied) check_ratios(choices.gears.front(), problems);
     if (problems.size() == before && choices.gear_is_tied) check_gear_tie(choices, question, problems);

@@ -42,6 +42,8 @@ TEST_F(SizeCommand, BadInputIsToldBeforeAnythingRuns) {
       {"--gears:1:1: plants.knife.gear.ratio", [](auto& o) { o.gears = "5,7 mm"; }},
       {"does not say how many values", [](auto& o) { o.gears = "5..7"; }},
       {"--gears:1:6: 1 values from end to end", [](auto& o) { o.gears = "5..7:1"; }},
+      {"--gears:1:1: 1 motors x 20001 gears x 1 brake resistors are 20001 candidates; at most 20000",
+       [](auto& o) { o.gears = "5..7:20001"; }},
       {"variables.ger: there is no 'ger' in variables", [](auto& o) { o.gears = "variables.ger=5,7"; }},
       {"--resistors:1:7: 'warm' is no brake resistor", [](auto& o) { o.resistors = "100 W,warm"; }},
       {"--resistors:1:1: '5 ohm' is no brake resistor", [](auto& o) { o.resistors = "5 ohm"; }},
