@@ -77,7 +77,7 @@ cluster: setup
 
 python: setup
 	$(call install,$(PYTHON_PACKAGES))
-	@$(CONFIGURE) -S . -B $(BUILD) $(PYTHON) > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF $(PYTHON) > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 	@rm -f $(BUILD).log
 	cmake --build $(BUILD) -j $(JOBS) --target drycut_python
 	@echo "PYTHONPATH=$(CURDIR)/$(BUILD)/python /usr/bin/python3 -c 'import drycut; help(drycut)'"
@@ -125,8 +125,8 @@ reference: all
 	$(BUILD)/drycut reference docs/reference
 	rm docs/reference/drycut.1 docs/reference/drycut.bash
 
-# Debian packages of the program and of the library.
-deb: all
+# Debian packages of the program, of the library and of the Python package.
+deb: all python
 	$(call install,dpkg-dev)
 	cd $(BUILD) && cpack
 
