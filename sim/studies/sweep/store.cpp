@@ -26,8 +26,11 @@ constexpr std::size_t key_digits = 16;
 std::string text_of(const PointQuestion& question) {
   auto figures = json::array();
   for (const auto& figure : question.figures) figures.push_back({figure.name, figure.term});
-  return json{
-      {"file", question.file.string()}, {"text", question.text}, {"set", question.set}, {"figures", figures}}
+  return json{{"file", question.file.string()},
+              {"text", question.text},
+              {"set", question.set},
+              {"figures", figures},
+              {"rated", question.rated}}
       .dump();
 }
 
@@ -109,6 +112,7 @@ std::function<std::string(const std::string&)> point_answerer(const std::string&
   question->file = asked.at("file").get<std::string>();
   question->text = asked.at("text").get<std::string>();
   question->set = asked.at("set").get<Overrides>();
+  question->rated = asked.at("rated").get<std::string>();
   for (const auto& figure : asked.at("figures"))
     question->figures.push_back({figure.at(0).get<std::string>(), figure.at(1).get<std::string>()});
   Problems problems;
