@@ -49,15 +49,6 @@ bool put_attribute(hid_t object, const char* name, const std::string& text) {
   return made.good() && H5Awrite(made, type, text.c_str()) >= 0;
 }
 
-/// A text of any length, where an attribute takes 64 KB.
-bool put_text(hid_t file, const char* name, const std::string& text) {
-  const hdf5::Handle type = hdf5::text_type(std::max<std::size_t>(1, text.size()));
-  const hdf5::Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const hdf5::Handle made(
-      H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation(H5P_DATASET_CREATE), H5P_DEFAULT), H5Dclose);
-  return made.good() && H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0;
-}
-
 hdf5::Handle make_column(hid_t group, const std::string& name, const std::string& unit) {
   const hsize_t rows = block_rows;
   const auto list = creation(H5P_DATASET_CREATE);
@@ -90,11 +81,11 @@ Hdf5File::Hdf5File(const loop::Recording& recording, const std::filesystem::path
   errno = 0;
   auto made = std::make_unique<Open>();
   auto& open = *made;
-  open.file = {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation(H5P_FILE_CREATE), access()), H5Fclose};
+  const auto list_of_file = creation(H5P_FILE_CREATE);
+  H5Pset_attr_phase_change(list_of_file, 0, 0);  // attributes may be longer than 64 KB
+  open.file = {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, list_of_file, access()), H5Fclose};
   require(open.file.good());
-  for (const auto& [name, text] : about)
-    require(name == hdf5::scenario_name ? put_text(open.file, name.c_str(), text)
-                                        : put_attribute(open.file, name.c_str(), text));
+  for (const auto& [name, text] : about) require(put_attribute(open.file, name.c_str(), text));
   {
     const auto list = creation(H5P_GROUP_CREATE);
     H5Pset_link_creation_order(list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);

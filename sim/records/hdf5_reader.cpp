@@ -51,23 +51,17 @@ hdf5::Handle open_data(hid_t place, const std::string& name) {
   return data;
 }
 
-/// The text of a scalar of texts, an attribute or data.
-template <typename Read>
-std::optional<std::string> text_of(const hdf5::Handle& type, const Read& read) {
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) return {};
-  std::string text(H5Tget_size(type), '\0');
-  if (read(text.data()) < 0) return {};
-  text.resize(std::min(text.find('\0'), text.size()));
-  return text;
-}
-
 std::optional<std::string> attribute_of(hid_t object, const char* name) {
   if (H5Aexists(object, name) <= 0) return {};
   const hdf5::Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   const hdf5::Handle space(H5Aget_space(attribute), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != 1) return {};
   const hdf5::Handle type(H5Aget_type(attribute), H5Tclose);
-  return text_of(type, [&](char* text) { return H5Aread(attribute, type, text); });
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) return {};
+  std::string text(H5Tget_size(type), '\0');
+  if (H5Aread(attribute, type, text.data()) < 0) return {};
+  text.resize(std::min(text.find('\0'), text.size()));
+  return text;
 }
 
 std::vector<std::string> names_in(hid_t group) {
@@ -231,15 +225,8 @@ std::vector<loop::CheckResult> read_checks(hid_t file) {
 
 About read_about(hid_t file) {
   About about;
-  for (const auto* name : {"drycut", "step", "set"})
+  for (const auto* name : {"drycut", "step", "set", "scenario"})
     if (auto text = attribute_of(file, name)) about.emplace_back(name, std::move(*text));
-  if (H5Lexists(file, hdf5::scenario_name, H5P_DEFAULT) <= 0) return about;
-  const auto data = open_data(file, hdf5::scenario_name);
-  const hdf5::Handle type(H5Dget_type(data), H5Tclose);
-  const hdf5::Handle space(H5Dget_space(data), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) != 1) return about;
-  auto text = text_of(type, [&](char* to) { return H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to); });
-  if (text) about.emplace_back(hdf5::scenario_name, std::move(*text));
   return about;
 }
 

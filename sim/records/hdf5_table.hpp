@@ -83,12 +83,11 @@ class Rows {
 };
 
 // The layout (docs/records.md): channels/NAME and time, a number a row, with the attribute `unit`; events,
-// checks, tables; scenario, a text; what is known of the run as attributes of the file.
+// checks, tables; what is known of the run, attributes of the file.
 inline constexpr auto* time_name = "time";
 inline constexpr auto* channels_name = "channels";
 inline constexpr auto* events_name = "events";
 inline constexpr auto* checks_name = "checks";
-inline constexpr auto* scenario_name = "scenario";
 inline constexpr auto* unit_name = "unit";
 
 /// Of an event a row a value, one at least. Where a text is longer than its field, it goes on in the row

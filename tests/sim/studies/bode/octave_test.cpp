@@ -32,7 +32,7 @@ TEST_P(OctaveMargin, IsThatOfBode) {
   if (octave("disp(1)").empty()) GTEST_SKIP() << "needs octave and octave-control";
   cli::BodeOptions options;
   options.scenario = folder.path / "axis.yaml";
-  options.loop.amplitude = 1;
+  options.loop.amplitude = 4;  // hundreds of counts at every frequency
   options.set = {"controller.qmove.set.Axis.pgain=" + std::to_string(GetParam())};
   ASSERT_EQ(captured([&] { return cli::measure_bode(options); }), cli::all_passed) << err;
   const auto said = octave(fmt::format(
