@@ -8,6 +8,9 @@ names = strsplit(header, ",")(2:end);
 assert(numel(fieldnames(trace.channels)), numel(names));
 for i = 1:numel(names)
   field = strrep(strsplit(names{i}, " "){1}, ".", "_");
+  if (isdigit(field(1)))
+    field = ["_" field];
+  endif
   assert(trace.channels.(field)(:), numbers(:, i + 1));
 end
 disp("equal");
