@@ -31,7 +31,7 @@ const Dash kCurveDash = {10, 4, 2, 4};
 constexpr double kLineWidth = 1.6;
 constexpr double kCurveWidth = 2.2;
 constexpr double kRow = 24;             ///< of the legend
-constexpr std::size_t kMostPieces = 3;  ///< of a level's lines, in the mean: more are noise
+constexpr std::size_t kMostPieces = 4;  ///< of a level's line: more are noise
 
 /// Half-way to the neighbours, and as far beyond the ends.
 std::vector<double> borders(const std::vector<double>& values) {
@@ -50,7 +50,7 @@ class MapPainter : Paper {
         area_(map_area(map)),
         x_(borders(map.x.values)),
         y_(borders(map.y.values)),
-        uneven_(map.lines.size()) {}
+        drawn_(map.lines.size()) {}
 
   void paint() {
     blank();
@@ -121,6 +121,23 @@ class MapPainter : Paper {
 
   void lines(std::size_t index) {
     const MapLines& shown = map_.lines[index];
+    const Ink& colour = kLineInks[index % kLineInks.size()];
+    for (const Tick& level : levels_of(shown)) {
+      const auto paths = contours(map_.x.values, map_.y.values, shown.values, level.value);
+      if (paths.empty() || paths.size() > kMostPieces) continue;
+      drawn_[index] = true;
+      for (const Polyline& path : paths) {
+        draw(path);
+        stroke(colour, kLineWidth, kLineDashes[index % kLineDashes.size()]);
+        label(path, level.label, colour, index);
+      }
+    }
+  }
+
+  static std::vector<Tick> levels_of(const MapLines& shown) {
+    std::vector<Tick> levels;
+    for (const double level : shown.levels) levels.push_back({level, fmt::format("{:.6g}", level)});
+    if (!levels.empty()) return levels;
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
     for (const double value : shown.values) {
@@ -128,24 +145,7 @@ class MapPainter : Paper {
       low = std::min(low, value);
       high = std::max(high, value);
     }
-    if (!(low < high)) return;
-    const Ink& colour = kLineInks[index % kLineInks.size()];
-    const auto levels = axis_ticks(low, high, 6);
-    std::vector<std::vector<Polyline>> paths;
-    std::size_t pieces = 0;
-    for (const Tick& level : levels) {
-      paths.push_back(contours(map_.x.values, map_.y.values, shown.values, level.value));
-      pieces += paths.back().size();
-    }
-    uneven_[index] = pieces > kMostPieces * levels.size();
-    if (uneven_[index]) return;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-      for (const Polyline& path : paths[i]) {
-        draw(path);
-        stroke(colour, kLineWidth, kLineDashes[index % kLineDashes.size()]);
-        label(path, levels[i].label, colour, index);
-      }
-    }
+    return low < high ? axis_ticks(low, high, 6) : levels;
   }
 
   void curve(const MapCurve& shown) {
@@ -204,8 +204,8 @@ class MapPainter : Paper {
     }
     y += kRow / 2;
     for (std::size_t i = 0; i < map_.lines.size(); ++i) {
-      if (uneven_[i]) {
-        words(map_.lines[i].label + ": no lines, it is uneven");
+      if (!drawn_[i]) {
+        words(map_.lines[i].label + ": no lines");
         continue;
       }
       line(left, y, left + sample, y, kLineInks[i % kLineInks.size()], kLineWidth,
@@ -233,7 +233,7 @@ class MapPainter : Paper {
   std::vector<double> x_;  // borders of the cells
   std::vector<double> y_;
   std::vector<PlotArea> labels_;
-  std::vector<bool> uneven_;  // of each quantity: noise without lines to speak of
+  std::vector<bool> drawn_;  // of each quantity: a line at least
 };
 
 [[noreturn]] void refuse(const MapPlot& map, const std::string& what) {

@@ -20,11 +20,13 @@ struct MapRegion {
   enum class Kind { good, bad, none } kind = Kind::bad;
 };
 
-/// Lines of equal value over a map. Of a quantity that is all ups and downs none are drawn, and the legend
-/// says so.
+/// Lines of equal value over a map. A level whose line is in pieces all over is noise and not drawn; where
+/// none is left, the legend says so.
 struct MapLines {
   std::string label;           ///< with unit: "rms torque [N m]"
   std::vector<double> values;  ///< a number a point; not a number where there is none
+  std::vector<double>
+      levels;  ///< empty: some between the least and the greatest value, in steps of 1, 2 or 5
 };
 
 /// A border that is known from elsewhere: a closed form, an envelope.

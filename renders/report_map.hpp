@@ -14,7 +14,8 @@ struct ReportMap {
   std::string caption;
   std::vector<std::string> headings;            ///< of what is told: "length [mm]", "verdict", ...
   std::vector<std::vector<std::string>> cells;  ///< a row a point, in the map's order
-  std::string command;  ///< repeats a point; {x} and {y} stand for its first and second cell
+  std::string
+      command;  ///< repeats a point; {0} stands for its first cell, {1} for the next; none where one is empty
 };
 
 /// The figure of a page; `number` tells its maps apart.

@@ -46,7 +46,12 @@
         element("dt", heading, pair);
         element("dd", cells[i], pair);
       });
-      const command = map.command.replaceAll("{x}", cells[0]).replaceAll("{y}", cells[1]);
+      let known = true;
+      const command = map.command.replace(/\{(\d+)\}/g, (whole, index) => {
+        known = known && cells[index] !== "";
+        return cells[index];
+      });
+      if (!known) return;  // no machine to show
       const line = element("p", "", told);
       element("code", command, line);
       const copy = element("button", "copy", line);

@@ -1,6 +1,7 @@
 #include "sim/cli/sweep_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -32,13 +33,6 @@ std::vector<std::string> files_of(const std::string& table) {
   return files;
 }
 
-/// The command line, read and found sound.
-struct StudyPlan {
-  studies::PointQuestion question;
-  studies::SweepAxes axes;
-  std::vector<studies::SweepPoint> points;
-};
-
 void read_figures(const StudyOptions& options, studies::PointQuestion& question, Problems& problems) {
   for (const auto& text : options.figures) {
     const auto equals = text.find('=');
@@ -56,19 +50,17 @@ void read_figures(const StudyOptions& options, studies::PointQuestion& question,
   }
 }
 
-StudyPlan read_plan(const StudyOptions& options, bool sampled, Problems& problems) {
-  StudyPlan plan;
-  auto text = read_file(options.scenario, problems);
-  plan.question.file = options.scenario;
-  plan.question.set = overrides_of(options.set, problems);
-  read_figures(options, plan.question, problems);
-  for (const auto& over : options.over)
-    if (auto axis = studies::parse_axis(over, "--over", sampled, problems))
-      plan.axes.push_back(std::move(*axis));
-  if (!text) return plan;
-  plan.question.text = std::move(*text);
-  studies::prepare(plan.question, problems);
-  return plan;
+studies::PointQuestion read_question(const StudyOptions& options, const std::filesystem::path& scenario,
+                                     Problems& problems) {
+  studies::PointQuestion question;
+  question.file = scenario;
+  question.set = overrides_of(options.set, problems);
+  read_figures(options, question, problems);
+  auto text = read_file(scenario, problems);
+  if (!text) return question;
+  question.text = std::move(*text);
+  studies::prepare(question, problems);
+  return question;
 }
 
 /// "sobol:1000"
@@ -112,8 +104,14 @@ void print_counts(const std::map<std::string, std::size_t>& counts) {
   for (const auto& [name, count] : all) fmt::print("{:>8} {}\n", count, printable(name));
 }
 
+/// What several scenarios have to say alike is told once.
 int bad(const Problems& problems) {
-  print_problems(problems);
+  Problems once;
+  for (const auto& problem : problems)
+    if (std::none_of(once.begin(), once.end(),
+                     [&](const Problem& other) { return to_string(other) == to_string(problem); }))
+      once.push_back(problem);
+  print_problems(once);
   return bad_input;
 }
 
@@ -137,7 +135,6 @@ int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& wor
 }
 
 void add_study(CLI::App& command, StudyOptions& options, const char* over_help) {
-  command.add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
   command.add_option("--over", options.over, over_help)->allow_extra_args(false);
   command
       .add_option(
@@ -158,24 +155,25 @@ void add_study(CLI::App& command, StudyOptions& options, const char* over_help) 
 int sweep_scenario(const SweepOptions& options) {
   Problems problems;
   const auto sampled = read_sample(options.sample, problems);
-  auto plan = read_plan(options, !options.sample.empty(), problems);
-  if (sampled && plan.axes.size() > studies::sobol_axes)
-    problems.push_back({"--sample", 1, 1, fmt::format("{} axes", plan.axes.size()),
+  studies::SweepAxes axes;
+  for (const auto& over : options.over)
+    if (auto axis = studies::parse_axis(over, "--over", !options.sample.empty(), problems))
+      axes.push_back(std::move(*axis));
+  auto question = read_question(options, options.scenario, problems);
+  if (sampled && axes.size() > studies::sobol_axes)
+    problems.push_back({"--sample", 1, 1, fmt::format("{} axes", axes.size()),
                         fmt::format("a Sobol sequence is over {} at most", studies::sobol_axes)});
-  if (problems.empty() && !sampled && !studies::grid_size(plan.axes, studies::most_points))
-    studies::points_of(plan.axes, {}, problems);  // before axes of a million values are made
-  if (problems.empty()) studies::check_axes(plan.axes, plan.question, problems);
-  if (problems.empty()) plan.points = studies::points_of(plan.axes, sampled, problems);
+  const auto points = studies::planned(axes, sampled, question, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty()) folder.emplace(options.out, "sweep", files_of(sweep_file), problems);
   if (!problems.empty()) return bad(problems);
   return in_folder(options, *folder, [&](studies::PointStore& store) {
     Countdown bar("sweeping");
-    const auto rows = studies::sweep(plan.question, plan.axes, plan.points, store,
+    const auto rows = studies::sweep(question, axes, points, store,
                                      [&](std::size_t done, std::size_t of) { bar.show(done, of); });
     bar.clear();
-    write_file(folder->add(sweep_file), studies::sweep_csv(plan.question, plan.axes, plan.points, rows));
-    studies::write_sweep_report(plan.question, plan.axes, plan.points, rows, *folder);
+    write_file(folder->add(sweep_file), studies::sweep_csv(question, axes, points, rows));
+    studies::write_sweep_report(question, axes, points, rows, *folder);
     std::map<std::string, std::size_t> verdicts;
     for (const auto& row : rows)
       ++verdicts[row.limit.empty() ? std::string(name_of(row.verdict))
@@ -186,39 +184,154 @@ int sweep_scenario(const SweepOptions& options) {
   });
 }
 
+namespace {
+
+/// What stands before "NAME:PATH=..."; "" where no name does.
+std::string name_before(const std::string& option) {
+  const auto colon = option.find(':');
+  return colon < option.find('=') ? option.substr(0, colon) : "";
+}
+
+/// The options that are for a scenario: those that name it, else those without a name.
+std::vector<std::string> options_for(const std::string& scene, const std::vector<std::string>& options) {
+  std::vector<std::string> named;
+  std::vector<std::string> common;
+  for (const auto& option : options) {
+    const auto name = name_before(option);
+    if (name.empty()) common.push_back(option);
+    if (!name.empty() && scene.starts_with(name)) named.push_back(option);
+  }
+  return named.empty() ? common : named;
+}
+
+void refuse_unknown_names(const std::vector<std::string>& options, const char* option,
+                          const std::vector<std::string>& scenes, Problems& problems) {
+  for (const auto& text : options) {
+    const auto name = name_before(text);
+    const bool known =
+        name.empty() || std::any_of(scenes.begin(), scenes.end(),
+                                    [&](const std::string& scene) { return scene.starts_with(name); });
+    if (!known)
+      problems.push_back({option, 1, 1, fmt::format("no scenario's name begins with '{}'", name),
+                          fmt::format("the scenarios are {}", fmt::join(scenes, ", "))});
+  }
+}
+
+/// Reads what stands behind the name with `read`; columns are those of the whole option.
+template <typename Read>
+auto behind_name(const std::string& option, Problems& problems, const Read& read) {
+  const auto name = name_before(option);
+  const auto skipped = name.empty() ? 0 : name.size() + 1;
+  Problems own;
+  auto made = read(option.substr(skipped), own);
+  for (auto& problem : own) {
+    problem.column += static_cast<int>(skipped);
+    problems.push_back(std::move(problem));
+  }
+  return std::pair(std::move(made), static_cast<int>(skipped));
+}
+
+void shift(studies::TunedParameter& parameter, int by) {
+  parameter.low_column += by;
+  parameter.high_column += by;
+}
+
+std::optional<studies::BoundRequest> read_request(const std::vector<std::string>& given,
+                                                  const std::string& scene, Problems& problems) {
+  constexpr auto* option = "--find-max";
+  if (given.size() != 1) {
+    problems.push_back({option, 1, 1,
+                        given.empty() ? fmt::format("nothing says what to find of {}", scene)
+                                      : fmt::format("there are {} of them for {}", given.size(), scene),
+                        fmt::format("one for all, or one that begins with {}:", scene)});
+    return {};
+  }
+  auto [request, by] = behind_name(given[0], problems, [&](const std::string& text, Problems& own) {
+    return studies::parse_bound(text, option, own);
+  });
+  if (request) shift(request->parameter, by);
+  return request;
+}
+
+/// One scenario of the command line, read and found sound; what is wrong goes to `problems`.
+studies::Envelope read_envelope(const EnvelopeOptions& options, const std::filesystem::path& file,
+                                Problems& problems) {
+  Problems own;
+  studies::Envelope envelope;
+  envelope.scene = file.stem().string();
+  for (const auto& over : options_for(envelope.scene, options.over)) {
+    auto [axis, by] = behind_name(over, own, [](const std::string& text, Problems& told) {
+      return studies::parse_axis(text, "--over", false, told);
+    });
+    if (!axis) continue;
+    shift(axis->parameter, by);
+    envelope.axes.push_back(std::move(*axis));
+  }
+  const auto request = read_request(options_for(envelope.scene, options.find_max), envelope.scene, own);
+  envelope.question = read_question(options, file, own);
+  if (request) envelope.request = *request;
+  const bool sound = own.empty();
+  if (sound) envelope.points = studies::planned(envelope, own);
+  // Whether a value fits is another question for each scenario.
+  if (sound && options.scenarios.size() > 1)
+    for (auto& problem : own) problem.what = fmt::format("{}: {}", envelope.scene, problem.what);
+  problems.insert(problems.end(), own.begin(), own.end());
+  return envelope;
+}
+
+std::vector<studies::Envelope> read_envelopes(const EnvelopeOptions& options, Problems& problems) {
+  std::vector<std::string> scenes;
+  for (const auto& file : options.scenarios) {
+    auto name = file.stem().string();
+    if (std::find(scenes.begin(), scenes.end(), name) != scenes.end())
+      problems.push_back({file.string(), 1, 1, fmt::format("there are two scenarios named {}", name),
+                          "give each once, with a name of its own"});
+    scenes.push_back(std::move(name));
+  }
+  refuse_unknown_names(options.over, "--over", scenes, problems);
+  refuse_unknown_names(options.find_max, "--find-max", scenes, problems);
+  std::vector<studies::Envelope> envelopes;
+  if (!problems.empty()) return envelopes;
+  envelopes.reserve(options.scenarios.size());
+  for (const auto& file : options.scenarios) envelopes.push_back(read_envelope(options, file, problems));
+  return envelopes;
+}
+
+void print_envelope(const studies::Envelope& envelope, bool several) {
+  if (several) fmt::print("{}\n", printable(envelope.scene));
+  std::map<std::string, std::size_t> limits;
+  for (const auto& bound : envelope.bounds) {
+    ++limits[bound.limit.empty() ? std::string(name_of(bound.kind))
+                                 : fmt::format("{}: {}", name_of(bound.kind), bound.limit)];
+    if (bound.again) ++limits["holds again beyond the bound"];
+  }
+  print_counts(limits);
+}
+
+}  // namespace
+
 int envelope_scenario(const EnvelopeOptions& options) {
   Problems problems;
-  auto request = studies::parse_bound(options.find_max, "--find-max", problems);
-  auto plan = read_plan(options, false, problems);
-  if (problems.empty() && !studies::grid_size(plan.axes, studies::most_points))
-    studies::points_of(plan.axes, {}, problems);
-  if (problems.empty()) {
-    auto all = plan.axes;
-    all.push_back({request->parameter, {}});
-    studies::check_axes(all, plan.question, problems);
-    request->parameter = all.back().parameter;
-    all.pop_back();
-    plan.axes = std::move(all);
-  }
-  if (problems.empty()) plan.points = studies::points_of(plan.axes, {}, problems);
+  auto envelopes = read_envelopes(options, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty()) folder.emplace(options.out, "envelope", files_of(envelope_file), problems);
   if (!problems.empty()) return bad(problems);
   return in_folder(options, *folder, [&](studies::PointStore& store) {
-    Countdown bar("seeking");
-    const auto bounds = studies::envelope(plan.question, plan.axes, plan.points, *request, store,
-                                          [&](std::size_t done, std::size_t of) { bar.show(done, of); });
-    bar.clear();
-    write_file(folder->add(envelope_file),
-               studies::envelope_csv(plan.question, plan.axes, plan.points, *request, bounds));
-    studies::write_envelope_report(plan.question, plan.axes, plan.points, *request, bounds, *folder);
-    std::map<std::string, std::size_t> limits;
-    for (const auto& bound : bounds)
-      ++limits[bound.limit.empty() ? std::string(name_of(bound.kind))
-                                   : fmt::format("{}: {}", name_of(bound.kind), bound.limit)];
-    print_counts(limits);
-    fmt::print("{} points, {} to {:.6g} {}: {}\nreport: {}\n", bounds.size(), request->parameter.path,
-               request->tolerance, request->parameter.unit, (options.out / envelope_file).string(),
+    std::size_t points = 0;
+    for (auto& envelope : envelopes) {
+      Countdown bar("seeking, " + envelope.scene);
+      studies::seek(envelope, store, [&](std::size_t done, std::size_t of) { bar.show(done, of); });
+      bar.clear();
+      points += envelope.points.size();
+    }
+    write_file(folder->add(envelope_file), studies::envelope_csv(envelopes));
+    studies::write_envelope_report(envelopes, *folder);
+    for (const auto& envelope : envelopes) print_envelope(envelope, envelopes.size() > 1);
+    const auto& request = envelopes.front().request;
+    const auto sought = envelopes.size() > 1 ? std::string()
+                                             : fmt::format(", {} to {:.6g} {}", request.parameter.path,
+                                                           request.tolerance, request.parameter.unit);
+    fmt::print("{} points{}: {}\nreport: {}\n", points, sought, (options.out / envelope_file).string(),
                (options.out / "report.html").string());
   });
 }
@@ -231,13 +344,15 @@ void add_sweep(CLI::App& app, int& status) {
                                    "Run a scenario at every point of a grid or a sample: sweep.csv, a row a "
                                    "point with its verdict, what gave "
                                    "way first, and figures.\nWhat was interrupted goes on where it was.");
+  sweep->add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
   add_study(
       *sweep, options,
       "PATH=A..B UNIT:N, N values from end to end (PATH=A..B UNIT:N:log, each so many times the one before), "
       "or PATH=1,2,5 UNIT; may be repeated");
   sweep->get_option("--over")->required();
-  sweep->add_option("--sample", options.sample,
-                    "sobol:N, N points that fill the ranges evenly, in place of the grid; ranges need no :N");
+  sweep->add_option(
+      "--sample", options.sample,
+      "sobol:N, N points that fill the ranges evenly, in place of the grid; ranges have no :N then");
   sweep->callback([chosen, &status] { status = sweep_scenario(*chosen); });
 }
 
@@ -245,19 +360,30 @@ void add_envelope(CLI::App& app, int& status) {
   const auto chosen = std::make_shared<EnvelopeOptions>();
   auto& options = *chosen;
   options.out = "out/envelope";
-  auto* envelope = app.add_subcommand(
-      "envelope",
-      "Find the largest value of a parameter at which every check and every rating holds, and what gives way "
-      "there: envelope.csv, a row a point.\nNine values from end to end are looked at, up to 33 where none "
-      "of them holds; where what held first gives way, the interval is halved down to the tolerance. That it "
-      "holds again beyond is told.");
-  add_study(*envelope, options, "PATH=A..B UNIT:N[:log] or PATH=1,2,5 UNIT; may be repeated");
+  auto* envelope = app.add_subcommand("envelope",
+                                      "Find the largest value of a parameter up to which every check and "
+                                      "every rating holds, and what gives way "
+                                      "behind it: envelope.csv, a row a point.\nNine values from end to end "
+                                      "are looked at, up to 33 where none "
+                                      "of them holds; where what held first gives way, the interval is "
+                                      "halved down to the tolerance. Then it is "
+                                      "looked below the bound: no stretch stays that is wider than a "
+                                      "sixteenth of the range, or than a quarter of "
+                                      "its distance from the bound. What fails there ends a lower bound; "
+                                      "that it holds again beyond is told.\n"
+                                      "Several scenarios come into one report.");
+  envelope->add_option("scenarios", options.scenarios, "Scenario files (.yaml)")->required();
+  add_study(
+      *envelope, options,
+      "[NAME:]PATH=A..B UNIT:N[:log] or [NAME:]PATH=1,2,5 UNIT; may be repeated. One with NAME: is for the "
+      "scenarios whose files' names begin so, in place of those without");
   envelope
-      ->add_option(
-          "--find-max", options.find_max,
-          "PATH=LO..HI UNIT[:TOLERANCE], such as \"plants.web.speed=20..300 m/min:1\"; a two-hundredth of "
-          "the range unless given")
-      ->required();
+      ->add_option("--find-max", options.find_max,
+                   "[NAME:]PATH=LO..HI UNIT[:TOLERANCE], such as \"plants.web.speed=20..300 m/min:1\"; a "
+                   "two-hundredth of "
+                   "the range unless given")
+      ->required()
+      ->allow_extra_args(false);
   envelope->callback([chosen, &status] { status = envelope_scenario(*chosen); });
 }
 

@@ -10,7 +10,6 @@ namespace drycut::sim::cli {
 
 /// What drycut sweep and drycut envelope have in common.
 struct StudyOptions {
-  std::filesystem::path scenario;
   std::vector<std::string> over;     ///< "variables.length=500..3000 mm:26"
   std::vector<std::string> figures;  ///< "peak=max(abs(knife.motor.torque))"
   std::vector<std::string> set;      ///< "plants.web.speed=80 m/min", before everything else
@@ -19,10 +18,14 @@ struct StudyOptions {
   ClusterOptions cluster;
 };
 struct SweepOptions : StudyOptions {
+  std::filesystem::path scenario;
   std::string sample;  ///< "sobol:1000" in place of the grid
 };
+/// An --over or --find-max that begins with NAME: is for the scenarios whose files' names begin so, in place
+/// of those without: "flying_saw:variables.length=1..6 m:11".
 struct EnvelopeOptions : StudyOptions {
-  std::string find_max;  ///< "plants.web.speed=20..300 m/min:1"
+  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::string> find_max;  ///< "plants.web.speed=20..300 m/min:1", one a scenario
 };
 
 /// drycut sweep, drycut envelope: 0 all points have been looked at, whatever came of them, 2 bad input, 3

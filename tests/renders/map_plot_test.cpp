@@ -151,6 +151,15 @@ TEST(MapPlot, DrawsNoLinesOfWhatIsUneven) {
   };
   EXPECT_GT(blue([](std::size_t i) { return static_cast<double>(i); }), 3000);
   EXPECT_LT(blue([](std::size_t i) { return static_cast<double>(i * 7919 % 101); }), 10);
+  // Noise at one level takes no line from another: below 300 all ups and downs, above it a plane.
+  map.lines[0].levels = {50, 500};
+  const auto torn = [](std::size_t i) { return static_cast<double>(i < 300 ? i * 7919 % 101 : i); };
+  const auto both = blue(torn);
+  EXPECT_GT(both, 500);
+  map.lines[0].levels = {500};
+  EXPECT_EQ(blue(torn), both);
+  map.lines[0].levels = {2000};  // there is none
+  EXPECT_LT(blue(torn), 10);
 }
 
 TEST(MapPlot, RefusesWhatItCannotDraw) {

@@ -1,67 +1,73 @@
-// The boundary that the acceleration of a knife sets (its torque, over the inertia of an ideal one), with a
-// quintic cam behind the web. The cut's synchronous way is Ls = 120 mm; over the rest of the piece, in T = (L
-// - Ls) / v, the blade makes good C - L with a peak acceleration of k |C - L| / T^2, k = 10 / sqrt(3). So the
-// boundary is v^2 = a_max (L - Ls)^2 / (k |C - L|).
+// The boundary that the torque of an ideal knife's motor sets, with a quintic cam behind the web. The cut's
+// synchronous way is Ls = 120 mm; over the rest of the piece, in T = (L - Ls) / v, the blade makes good C - L
+// with a peak acceleration of k |C - L| / T^2, k = 10 / sqrt(3). So the boundary is v^2 = a_max (L - Ls)^2 /
+// (k |C - L|), a_max = torque / inertia at the motor * radius of the blades.
+//
+// What the shipped knife needs beyond that, at 500 mm and 86 m/min, where inertia times acceleration is 9.07
+// N m and its peak 10.15 N m (of frictions and cuts freed): 7 % are counts of its wheel, 0.0125 mm, which the
+// controller's 1 ms turns into steps of 0.9 % of the speed, and the speed loop answers with torque; 1.6 % the
+// steps of 1 ms themselves; 2 % the position loop (kv 60/s), which adds to a feed-forward that comes 3 ms
+// late. So the ideal one has a fine wheel, a quick controller and a quick drive, no friction, no cut, a stiff
+// gear.
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <sstream>
 
 #include "sim/cli/sweep_command.hpp"
+#include "sim/loop/simulation.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim::cli {
 namespace {
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  if (at != std::string::npos) text.replace(at, what.size(), by);
-  return text;
-}
+using KnifeEnvelope = CommandTest;
 
-struct KnifeEnvelope : CommandTest {
-  static std::string shipped(const std::string& name) {
-    std::ifstream stream(source_root / "scenes" / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  TestFolder folder;
-};
-
-TEST_F(KnifeEnvelope, LiesWhereTheClosedFormSays) {
-  // The program begins in the middle of the cam's turn; the table's master is a piece.
-  folder.file("knife.st",
-              replaced(shipped("programs/rotary_knife.st"), "VAR CONSTANT\n  SLOW", "VAR\n  SLOW"));
-  folder.file("mc_rotary_knife.tab", replaced(shipped("cams/mc_rotary_knife.tab"), "master_modulo: 8000000",
-                                              "master_modulo: ${length} / 0.0001 mm"));
-  folder.file("knife.yaml", "extends: " + (source_root / "scenes/rotary_knife_mc_camin.yaml").string() + R"(
-variables: {length: 800 mm, speed: 60 m/min, limit: 5000}
-scene: {duration: 8 s}
+TEST_F(KnifeEnvelope, LiesWhereTheClosedFormOfTheTorqueSays) {
+  const TestFolder folder;
+  folder.file("knife.yaml",
+              "extends: " + (source_root / "scenes/envelope/rotary_knife_mc_camin.yaml").string() + R"(
+variables: {torque: 9.2 N m}
+scene: {duration: 5 s}
+plants:
+  web: {wheel: {lines: 1000000}}
+  knife:
+    grip: 0 N
+    encoder: {lines: 500000}
+    motor_friction: {coulomb: 0 N m, viscous: 0 N m s/rad}
+    drum_friction: {coulomb: 0 N m, viscous: 0 N m s/rad}
+    gear: {stiffness: 5e5 N m/rad, damping: 50 N m s/rad}
+    servo: {adc_bits: 24, speed_gain: 500 rad/s, filter: 0.3 ms, current_lag: 0.2 ms}
 controller:
   plcopen:
-    program: knife.st
+    cycle: 100 us
     axes:
-      Web: {modulo: "${length}"}
-      Knife: {dynamik: {vb_max: 100000 deg/s, a_max: 1e6 deg/s2}, following_error_max: 90 deg}
-    tables: [mc_rotary_knife.tab]
-    set: {WEB_AT_TOP: "(${length} / 2 + 60 mm) / 0.0001 mm"}
-timeline:
-  - {at: 100 ms, set: {panel.start: 1}}
-  - {when: panel.in_sync == 1, after: 100 ms, ramp: {web.speed: "${speed}"}, over: 2 s}
+      Web: {path: [500 mm, 4000000]}
+      Knife:
+        path: [360 deg, 10000000]
+        dynamik: {vb_max: 100000 deg/s, a_max: 1e6 deg/s2}
+        kv: 200 1/s
+        following_error_max: 90 deg
+record: {every: 500 us, channels: [web.speed]}
 drives: {judge: off}
 checks:
-  - {name: acceleration, always: "abs(Knife.set_acceleration) <= ${limit}", from: 5 s}
-  - {name: runs, always: "Knife.coupling_phase == 5 && error_id == 0", from: 5 s}
+  - {name: torque, always: "abs(knife.motor.torque) <= ${torque}", from: 4.1 s}
+  - {name: runs, always: "Knife.coupling_phase == 5 && error_id == 0", from: 4.1 s}
 )");
   EnvelopeOptions options;
-  options.scenario = folder / "knife.yaml";
+  options.scenarios = {folder / "knife.yaml"};
   options.out = folder / "out";
   options.over = {"variables.length=500,800 mm"};
-  options.find_max = "variables.speed=60..160 m/min:0.5";
+  options.find_max = {"variables.speed=80..120 m/min:0.3"};
   options.jobs = 2;
   ASSERT_EQ(captured([&] { return envelope_scenario(options); }), all_passed) << err;
 
-  const double a_max = 5000 / 360.0 * 0.6;  // of the blade [m/s2], by the limit in deg/s2 of the drum
+  constexpr double ratio = 5;
+  constexpr double rotor = 0.00468;  // [kg m2]
+  constexpr double drum = 0.41;
+  constexpr double circumference = 0.6;                                   // [m]
+  const double drum_acceleration = 9.2 / (rotor * ratio + drum / ratio);  // [rad/s2]
+  const double a_max = drum_acceleration * circumference / (2 * std::numbers::pi);
   const double k = 10 / std::numbers::sqrt3;
   std::istringstream rows([&] {
     std::ifstream stream(folder / "out/envelope.csv");
@@ -75,12 +81,34 @@ checks:
     double speed = 0;
     ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,", &length, &speed), 2) << line;
     length /= 1000;
-    const double expected = 60 * (length - 0.12) * std::sqrt(a_max / (k * std::abs(0.6 - length)));
+    const double expected = 60 * (length - 0.12) * std::sqrt(a_max / (k * std::abs(circumference - length)));
     EXPECT_NEAR(speed, expected, 0.01 * expected) << line;
-    EXPECT_THAT(line, testing::HasSubstr(",found,acceleration,"));
+    EXPECT_THAT(line, testing::HasSubstr(",found,torque,80,"));
     ++count;
   }
   EXPECT_EQ(count, 2);
+}
+
+// What drycut envelope is shown with in the README: each is a scene of its own, for any length.
+TEST(EnvelopeScenes, PassWithPiecesOfTwoLengths) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source_root / "scenes/envelope")) {
+    if (entry.path().extension() != ".yaml") continue;
+    for (const auto* length : {"700 mm", "1200 mm"}) {
+      Problems problems;
+      const auto scenario = scenario::read_scenario(entry.path(), {{"variables.length", length}}, problems);
+      ASSERT_TRUE(problems.empty()) << to_string(problems[0]);
+      loop::Simulation simulation(scenario, problems);
+      ASSERT_TRUE(problems.empty()) << to_string(problems[0]);
+      const auto outcome = simulation.run();
+      EXPECT_EQ(outcome.failure, "");
+      for (const auto& check : outcome.checks)
+        EXPECT_TRUE(check.passed) << entry.path().stem() << ", " << length << ": " << check.name << ": "
+                                  << check.detail;
+    }
+    ++scenes;
+  }
+  EXPECT_EQ(scenes, 5);
 }
 
 }  // namespace

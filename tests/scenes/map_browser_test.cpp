@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "renders/report.hpp"
+#include "sim/cli/sweep_command.hpp"
 #include "tests/scenes/browser.hpp"
 #include "tests/test_folder.hpp"
 
@@ -24,7 +25,7 @@ renders::ReportMap example(const std::filesystem::path& folder) {
       .caption = "Point at it.",
       .headings = {"length [mm]", "speed [m/min]", "verdict", "limit"},
       .cells = {},
-      .command = "drycut run line.yaml --set length='{x} mm' --set speed='{y} m/min'"};
+      .command = "drycut run line.yaml --set length='{0} mm' --set speed='{1} m/min'"};
   for (const double y : shown.map.y.values)
     for (const double x : shown.map.x.values) {
       const bool good = y <= x / 10;
@@ -98,6 +99,74 @@ TEST(MapInAReport, TellsItsPoints) {
   for (int i = 0; i < 5; ++i) press("ArrowDown");
   EXPECT_THAT(told(), HasSubstr("length='1500 mm' --set speed='50 m/min'"));
   EXPECT_EQ(browser.evaluate("document.querySelector('figure.map .ground').tabIndex"), 0);
+  EXPECT_THAT(browser.complaints(), IsEmpty());
+}
+
+// A page as drycut sweep writes it: its points tell what sweep.csv has, to the pointer and to the keys.
+TEST(MapInAReport, OfASweepTellsItsTable) {
+  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+  const TestFolder folder;
+  sim::cli::SweepOptions sweep;
+  sweep.scenario = folder.file("web.yaml", R"(variables: {limit: 100 m/min, speed: 60 m/min}
+scene: {step: 1 ms, duration: 0.2 s}
+plants: {web: {type: web, speed: "${speed}"}}
+record: {every: 10 ms, channels: [web.speed]}
+checks:
+  - {name: slow enough, always: "web.speed <= ${limit}"}
+  - {name: fast enough, always: "web.speed >= 10 m/min"}
+)");
+  sweep.over = {"variables.limit=80..120 m/min:5", "variables.speed=5..125 m/min:7"};
+  sweep.out = folder / "out";
+  testing::internal::CaptureStdout();
+  const int status = sweep_scenario(sweep);
+  testing::internal::GetCapturedStdout();
+  ASSERT_EQ(status, sim::cli::all_passed);
+  Browser browser(folder.path);
+  browser.window(1280, 900);
+  browser.open(sweep.out / "report.html");
+  const auto told = [&] {
+    return browser.evaluate("document.querySelector('.map-point').innerText").get<std::string>();
+  };
+  // Where the page itself has the point, by its own account of its axes.
+  const auto place = [&](int column, int row) {
+    const auto at = browser.evaluate(fmt::format(
+        "(() => {{ const map = JSON.parse(document.getElementById('map-data').textContent)[0];"
+        "const b = document.querySelector('figure.map img').getBoundingClientRect();"
+        "const share = (value, range) => (value - range[0]) / (range[1] - range[0]);"
+        "return [b.left + b.width * (map.left + share(map.x[{}], map.xRange) * (map.right - map.left)),"
+        "b.top + b.height * (map.bottom - share(map.y[{}], map.yRange) * (map.bottom - map.top))]; }})()",
+        column, row));
+    return std::pair{at[0].get<double>(), at[1].get<double>()};
+  };
+  const auto says = [&](int column, int row) {
+    const int limit = 80 + 10 * column;
+    const int speed = 5 + 20 * row;
+    EXPECT_THAT(told(),
+                HasSubstr(fmt::format("--set 'variables.limit={} m/min' --set 'variables.speed={} m/min'",
+                                      limit, speed)));
+    EXPECT_THAT(told(), HasSubstr(speed < 10 || speed > limit ? "failed" : "passed"));
+    if (speed < 10 || speed > limit)
+      EXPECT_THAT(told(), HasSubstr(speed < 10 ? "fast enough" : "slow enough"));
+  };
+  for (int row = 0; row < 7; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      const auto [x, y] = place(column, row);
+      browser.mouse("mouseMoved", x, y);
+      says(column, row);
+    }
+  }
+  const auto press = [&](const std::string& key) {
+    browser.evaluate(
+        fmt::format("document.querySelector('figure.map .ground').dispatchEvent(new KeyboardEvent("
+                    "'keydown', {{key: '{}', bubbles: true}})), 0",
+                    key));
+  };
+  for (int i = 0; i < 3; ++i) press("ArrowLeft");
+  for (int i = 0; i < 2; ++i) press("ArrowDown");
+  says(1, 4);
+  for (int i = 0; i < 9; ++i) press("ArrowUp");
+  for (int i = 0; i < 9; ++i) press("ArrowRight");
+  says(4, 6);
   EXPECT_THAT(browser.complaints(), IsEmpty());
 }
 

@@ -30,6 +30,12 @@ class AxisReader {
       rest.resize(rest.size() - log_suffix.size());
     }
     const auto colon = rest.rfind(':');
+    if (colon != std::string::npos && sampled_) {
+      return refuse(
+          colon,
+          fmt::format("'{}' says how many values a grid has, and a sample has none", rest.substr(colon)),
+          "leave it out");
+    }
     if (colon != std::string::npos) {
       axis.steps = steps(rest, colon + 1);
       if (!axis.steps) return {};
@@ -76,29 +82,58 @@ class AxisReader {
     axis.parameter.option = option_;
     axis.parameter.path = trimmed(std::string_view(text_).substr(0, equals));
     axis.parameter.low_column = axis.parameter.high_column = static_cast<int>(equals) + 2;
-    std::vector<scenario::ParsedQuantity> quantities;
-    std::size_t at = equals + 1;
-    for (;; ++at) {
-      const auto comma = std::min(text_.find(',', at), text_.size());
-      const std::string item(trimmed(std::string_view(text_).substr(at, comma - at)));
+    const auto items = items_from(equals + 1);
+    for (const auto& [item, at] : items) {
       if (item.empty()) return refuse(at, "an empty value", "write PATH=1,2,5 mm");
-      if (auto quantity = scenario::parse_quantity(item)) quantities.push_back(*quantity);
-      const bool twice = std::find(axis.values.begin(), axis.values.end(), item) != axis.values.end();
-      if (twice) return refuse(at, fmt::format("{} is given twice", item), "keep one");
+      if (std::find(axis.values.begin(), axis.values.end(), item) != axis.values.end())
+        return refuse(at, fmt::format("{} is given twice", item), "keep one");
       axis.values.push_back(item);
-      at = comma;
-      if (at == text_.size()) break;
     }
-    if (quantities.size() != axis.values.size()) return axis;  // words
-    axis.parameter.unit = quantities.back().unit;
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const auto& unit = quantities[i].unit;
+    const auto is_number = [](const Item& item) { return quantity_in(item.text).has_value(); };
+    const auto word = std::find_if_not(items.begin(), items.end(), is_number);
+    if (std::none_of(items.begin(), items.end(), is_number)) return axis;  // words
+    if (word != items.end())
+      return refuse(word->at, fmt::format("'{}' is no number as the others are", word->text),
+                    "numbers with one unit, or words");
+    axis.parameter.unit = quantity_in(items.back().text)->unit;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const auto quantity = *quantity_in(items[i].text);
+      const auto& unit = quantity.unit;
       if (!unit.empty() && unit != axis.parameter.unit)
         return refuse(equals + 1, fmt::format("values in {} and {}", unit, axis.parameter.unit),
                       "give all of them in one unit");
-      axis.values[i] = number_text(quantities[i].number);
+      const auto value = number_text(quantity.number);
+      const auto same =
+          std::find(axis.values.begin(), axis.values.begin() + static_cast<std::ptrdiff_t>(i), value);
+      if (same != axis.values.begin() + static_cast<std::ptrdiff_t>(i))
+        return refuse(items[i].at, fmt::format("{} is given twice", value), "keep one");
+      axis.values[i] = value;
     }
     return axis;
+  }
+
+  struct Item {
+    std::string text;
+    std::size_t at;  // in text_
+  };
+  [[nodiscard]] std::vector<Item> items_from(std::size_t at) const {
+    std::vector<Item> items;
+    for (;; ++at) {
+      const auto comma = std::min(text_.find(',', at), text_.size());
+      auto begin = at;
+      while (begin < comma && text_[begin] == ' ') ++begin;
+      items.push_back({std::string(trimmed(std::string_view(text_).substr(at, comma - at))), begin});
+      at = comma;
+      if (at == text_.size()) return items;
+    }
+  }
+
+  /// A number with a unit that there is, or without: 1FK7 is a word.
+  static std::optional<scenario::ParsedQuantity> quantity_in(const std::string& text) {
+    const auto quantity = scenario::parse_quantity(text);
+    const bool known = quantity && std::isfinite(quantity->number) &&
+                       (quantity->unit.empty() || scenario::is_unit(quantity->unit));
+    return known ? quantity : std::nullopt;
   }
 
   const std::string& text_;

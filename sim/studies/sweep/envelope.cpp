@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "base/text.hpp"
@@ -21,79 +22,103 @@ constexpr int most_intervals = 32;     // looked at where nothing holds
 
 bool holds(const PointRow& row) { return row.verdict == PointRow::Verdict::passed; }
 
-/// The bound at one point of the envelope, found in rounds: asks for rows at values(), is given them by
+/// The bound at one point of an envelope, found in rounds: asks for rows at values(), is given them by
 /// take(), until nothing is asked.
 class Seeker {
  public:
-  explicit Seeker(const TunedParameter& parameter, double tolerance)
-      : parameter_(parameter), tolerance_(tolerance) {
-    scan();
-  }
+  explicit Seeker(const BoundRequest& request) : request_(request) { scan(); }
 
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
-  [[nodiscard]] const Bound& bound() const { return bound_; }
 
   /// The rows at values(), in their order.
   void take(std::vector<PointRow> rows) {
-    if (beyond_) {
-      halve(std::move(rows.front()));
-    } else if (std::any_of(rows.begin(), rows.end(), holds)) {
-      bound_of(rows);
-    } else if (intervals_ < most_intervals) {
+    for (std::size_t i = 0; i < rows.size(); ++i) seen_.insert_or_assign(values_[i], std::move(rows[i]));
+    values_.clear();
+    const auto [least, end] = first_stretch();
+    if (least == seen_.end()) {
+      if (intervals_ == most_intervals) return;
       intervals_ *= 2;
       return scan();
-    } else {
-      bound_ = {Bound::Kind::nowhere, no_bound, no_bound, {}, rows.front().limit, {}};
     }
-    values_.clear();
-    if (!beyond_ || *beyond_ - bound_.value <= tolerance_) return;
-    const double half = bound_.value + (*beyond_ - bound_.value) / 2;
-    const double middle = std::stod(number_text(parameter_.integer ? std::floor(half) : half));
-    if (middle > bound_.value && middle < *beyond_) values_ = {middle};
+    const double bound = std::prev(end)->first;
+    if (end != seen_.end()) ask_between(bound, end->first, request_.tolerance);
+    if (!values_.empty()) return;
+    const double widest = widest_share * (request_.parameter.high - request_.parameter.low);
+    for (auto upper = std::next(least); upper != end; ++upper) {
+      const double lower = std::prev(upper)->first;
+      const double close = std::min(widest, distance_share * (bound - lower));
+      ask_between(lower, upper->first, std::max(request_.tolerance, close));
+    }
+  }
+
+  [[nodiscard]] Bound bound() const {
+    const auto [least, end] = first_stretch();
+    Bound bound{Bound::Kind::nowhere, no_bound, no_bound, {}, {}, {}, {}, {}};
+    for (const auto& [value, row] : seen_) bound.looks.push_back({value, holds(row)});
+    if (least == seen_.end()) {
+      bound.limit = seen_.begin()->second.limit;
+      return bound;
+    }
+    const auto& [value, row] = *std::prev(end);
+    bound.kind = end == seen_.end() ? Bound::Kind::throughout : Bound::Kind::found;
+    bound.value = value;
+    bound.from = least->first;
+    bound.numbers = row.numbers;
+    if (end == seen_.end()) return bound;
+    bound.limit = end->second.limit;
+    for (auto fails = end; fails != seen_.end();) {
+      const auto held = std::find_if(fails, seen_.end(), holds_at);
+      if (held == seen_.end()) break;
+      if (!bound.again) bound.again = held->first;
+      bound.gaps.emplace_back(fails->first, std::prev(held)->first);
+      fails = std::find_if_not(held, seen_.end(), holds_at);
+    }
+    return bound;
   }
 
  private:
+  using Seen = std::map<double, PointRow>;
+  static bool holds_at(const Seen::value_type& look) { return holds(look.second); }
+
+  /// From the least value that holds, and behind the last that holds as all between them do.
+  [[nodiscard]] std::pair<Seen::const_iterator, Seen::const_iterator> first_stretch() const {
+    const auto least = std::find_if(seen_.begin(), seen_.end(), holds_at);
+    return {least, std::find_if_not(least, seen_.end(), holds_at)};
+  }
+
   void scan() {
-    values_.clear();
+    const auto& [low, high] = std::pair(request_.parameter.low, request_.parameter.high);
     for (int i = 0; i <= intervals_; ++i) {
-      const double value = parameter_.low + i * (parameter_.high - parameter_.low) / intervals_;
-      values_.push_back(std::stod(number_text(parameter_.integer ? std::rint(value) : value)));
+      const double value = rounded(low + i * (high - low) / intervals_);
+      if (!seen_.contains(value) && (values_.empty() || values_.back() < value)) values_.push_back(value);
     }
   }
 
-  void bound_of(const std::vector<PointRow>& rows) {
-    const auto first = static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), holds) - rows.begin());
-    auto end = first;
-    while (end < rows.size() && holds(rows[end])) ++end;
-    if (end == rows.size()) {
-      bound_ = {Bound::Kind::throughout, values_.back(), values_[first], {}, "", rows.back().numbers};
-      return;
-    }
-    bound_ = {Bound::Kind::found, values_[end - 1],     values_[first], {},
-              rows[end].limit,    rows[end - 1].numbers};
-    for (std::size_t i = rows.size(); i-- > end;)
-      if (holds(rows[i])) bound_.again = values_[i];
-    beyond_ = values_[end];
+  /// In the middle of two values, if they are further apart than `closest`.
+  void ask_between(double lower, double upper, double closest) {
+    if (upper - lower <= closest) return;
+    const double half = lower + (upper - lower) / 2;
+    const double middle = rounded(request_.parameter.integer ? std::floor(half) : half);
+    if (middle > lower && middle < upper) values_.push_back(middle);
   }
 
-  // What holds at bound_.value does not at *beyond_.
-  void halve(PointRow row) {
-    if (holds(row)) {
-      bound_.value = values_.front();
-      bound_.numbers = std::move(row.numbers);
-    } else {
-      beyond_ = values_.front();
-      bound_.limit = std::move(row.limit);
-    }
+  /// As it stands in a row.
+  [[nodiscard]] double rounded(double value) const {
+    return std::stod(number_text(request_.parameter.integer ? std::rint(value) : value));
   }
 
-  const TunedParameter& parameter_;
-  double tolerance_;
+  const BoundRequest& request_;
   int intervals_ = scanned_values - 1;
+  Seen seen_;
   std::vector<double> values_;
-  std::optional<double> beyond_;
-  Bound bound_;
 };
+
+/// How many runs a point takes, about.
+double runs_expected(const BoundRequest& request) {
+  const double width = request.parameter.high - request.parameter.low;
+  const double halvings = std::log2(std::max(2.0, width / (scanned_values - 1) / request.tolerance));
+  return scanned_values + halvings + std::log(width / request.tolerance) / distance_share;
+}
 
 std::string number_cell(double number) { return std::isnan(number) ? "" : fmt::format("{:.9g}", number); }
 
@@ -127,25 +152,23 @@ std::optional<BoundRequest> parse_bound(const std::string& text, const std::stri
   return {};
 }
 
-std::vector<Bound> envelope(const PointQuestion& question, const SweepAxes& axes,
-                            const std::vector<SweepPoint>& points, const BoundRequest& request,
-                            PointStore& store, const StudyProgress& progress) {
-  const auto& parameter = request.parameter;
-  std::vector<Seeker> seekers(points.size(), Seeker(parameter, request.tolerance));
-  const double halvings =
-      std::ceil(std::log2((parameter.high - parameter.low) / (scanned_values - 1) / request.tolerance));
-  const auto runs = points.size() * static_cast<std::size_t>(scanned_values + std::max(0.0, halvings));
+void seek(Envelope& envelope, PointStore& store, const StudyProgress& progress) {
+  const auto& parameter = envelope.request.parameter;
+  std::vector<Seeker> seekers(envelope.points.size(), Seeker(envelope.request));
+  const auto expected =
+      static_cast<std::size_t>(runs_expected(envelope.request)) * std::max<std::size_t>(1, seekers.size());
   for (std::size_t done = 0;;) {
     std::vector<std::vector<scenario::Override>> asked;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < seekers.size(); ++i) {
       for (const double value : seekers[i].values()) {
-        asked.push_back(overrides_of(axes, points[i]));
+        asked.push_back(overrides_of(envelope.axes, envelope.points[i]));
         asked.back().push_back({parameter.path, value_text(parameter, value)});
       }
     }
     if (asked.empty()) break;
-    auto rows =
-        store.rows(question, asked, [&](std::size_t now, std::size_t) { progress(done + now, runs); });
+    const auto in_all = std::max(expected, done + asked.size());
+    auto rows = store.rows(envelope.question, asked,
+                           [&](std::size_t now, std::size_t) { progress(done + now, in_all); });
     done += rows.size();
     auto next = std::make_move_iterator(rows.begin());
     for (auto& seeker : seekers) {
@@ -155,29 +178,65 @@ std::vector<Bound> envelope(const PointQuestion& question, const SweepAxes& axes
       next += count;
     }
   }
-  std::vector<Bound> bounds;
-  bounds.reserve(seekers.size());
-  for (const auto& seeker : seekers) bounds.push_back(seeker.bound());
-  return bounds;
+  envelope.bounds.clear();
+  envelope.bounds.reserve(seekers.size());
+  for (const auto& seeker : seekers) envelope.bounds.push_back(seeker.bound());
 }
 
-std::string envelope_csv(const PointQuestion& question, const SweepAxes& axes,
-                         const std::vector<SweepPoint>& points, const BoundRequest& request,
-                         const std::vector<Bound>& bounds) {
-  const auto& parameter = request.parameter;
-  const auto unit = parameter.unit.empty() ? "" : fmt::format(" [{}]", parameter.unit);
-  auto text = csv_heading(
-      question, axes,
-      fmt::format("{},verdict,limit,holds from{},holds again at{}", heading(parameter), unit, unit));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& bound = bounds[i];
-    for (const auto& value : points[i]) text += value + ",";
-    text +=
-        fmt::format("{},{},{},{},{}", number_cell(bound.value), name_of(bound.kind), csv_cell(bound.limit),
-                    number_cell(bound.from), number_cell(bound.again.value_or(no_bound)));
-    for (std::size_t k = 0; k < question.columns.size(); ++k)
-      text += "," + (k < bound.numbers.size() ? number_cell(bound.numbers[k]) : "");
-    text += "\n";
+namespace {
+
+/// "115..121.875; 140": where it fails though it holds again behind.
+std::string gaps_cell(const Bound& bound) {
+  std::string text;
+  for (const auto& [from, to] : bound.gaps) {
+    if (!text.empty()) text += "; ";
+    text += from == to ? number_cell(from) : fmt::format("{}..{}", number_cell(from), number_cell(to));
+  }
+  return text;
+}
+
+using Cell = std::pair<std::string, std::string>;  // heading and what stands under it
+std::vector<Cell> cells_of(const Envelope& envelope, std::size_t point) {
+  const auto& bound = envelope.bounds[point];
+  const auto& sought = envelope.request.parameter;
+  const auto unit = sought.unit.empty() ? "" : fmt::format(" [{}]", sought.unit);
+  std::vector<Cell> cells;
+  for (std::size_t i = 0; i < envelope.axes.size(); ++i)
+    cells.emplace_back(heading(envelope.axes[i].parameter), csv_cell(envelope.points[point][i]));
+  cells.emplace_back(heading(sought), number_cell(bound.value));
+  cells.emplace_back("verdict", name_of(bound.kind));
+  cells.emplace_back("limit", csv_cell(bound.limit));
+  cells.emplace_back("holds from" + unit, number_cell(bound.from));
+  cells.emplace_back("fails at" + unit, gaps_cell(bound));
+  cells.emplace_back("holds again at" + unit, number_cell(bound.again.value_or(no_bound)));
+  const auto& columns = envelope.question.columns;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    cells.emplace_back(columns[k], k < bound.numbers.size() ? number_cell(bound.numbers[k]) : "");
+  return cells;
+}
+
+}  // namespace
+
+std::string envelope_csv(const std::vector<Envelope>& envelopes) {
+  std::vector<std::string> headings;
+  for (const auto& envelope : envelopes)
+    for (const auto& [name, text] : cells_of(envelope, 0))
+      if (std::find(headings.begin(), headings.end(), name) == headings.end()) headings.push_back(name);
+  const bool several = envelopes.size() > 1;
+  std::string text = several ? "scene" : "";
+  for (const auto& name : headings) text += (text.empty() ? "" : ",") + csv_cell(name);
+  text += "\n";
+  for (const auto& envelope : envelopes) {
+    for (std::size_t i = 0; i < envelope.points.size(); ++i) {
+      const auto cells = cells_of(envelope, i);
+      if (several) text += csv_cell(envelope.scene) + ",";
+      for (const auto& name : headings) {
+        const auto found =
+            std::find_if(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.first == name; });
+        text += (&name == &headings.front() ? "" : ",") + (found == cells.end() ? "" : found->second);
+      }
+      text += "\n";
+    }
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <regex>
 
 #include "base/text.hpp"
 #include "sim/report/statistics.hpp"
@@ -68,14 +69,21 @@ void strip(scenario::Scenario& scenario) {
   scenario.record.channels.clear();
 }
 
-/// The middle of the limits that a plot states for the length of the pieces.
-double wanted_length(const scenario::PicturesSection& pictures, const std::string& source) {
+/// The limits that a plot states for the length of the pieces.
+std::optional<std::pair<double, double>> length_limits(const scenario::PicturesSection& pictures,
+                                                       const std::string& source) {
   for (const auto& plot : pictures.plots)
     for (const auto& panel : plot.panels)
       if (panel.limits && panel.values.size() == 1 && panel.values[0].text == "length" &&
           (panel.event.text == "cut" || panel.event.text == source + ".cut"))
-        return (panel.limits->first + panel.limits->second) / 2;
-  return no_number;
+        return panel.limits;
+  return {};
+}
+
+/// Their middle.
+double wanted_length(const scenario::PicturesSection& pictures, const std::string& source) {
+  const auto limits = length_limits(pictures, source);
+  return limits ? (limits->first + limits->second) / 2 : no_number;
 }
 
 /// What cuts, and from when on its pieces are looked at.
@@ -85,6 +93,8 @@ std::vector<PointQuestion::Piece> pieces_of(const std::vector<loop::KnownEvent>&
   for (const auto& event : events) {
     if (event.name != "cut") continue;
     PointQuestion::Piece piece{event.source, 0, false, "", ""};
+    if (const auto limits = length_limits(scenario.pictures, event.source))
+      piece.tolerance = loop::without_noise((limits->second - limits->first) / 2);
     for (const auto& [value, unit] : event.values) {
       if (value == "length") piece.length_unit = unit;
       piece.has_mismatch = piece.has_mismatch || value == "mismatch";
@@ -234,7 +244,8 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
   using Verdict = PointRow::Verdict;
   const auto refused = [&](const Problems& problems) {
     const auto& first = problems.front();
-    return row_without_run(Verdict::refused, fmt::format("{}; {}", first.what, first.remedy), question);
+    const auto why = fmt::format("{}; {}", first.what, first.remedy);
+    return row_without_run(Verdict::refused, with_check_names(question, why), question);
   };
   if (!point.problems.empty()) return refused(point.problems);
   if (!point.scenario.buildable)
@@ -264,6 +275,21 @@ PointRow run_point(const PointQuestion& question, const PointScenario& point) {
     row.limit = failed->name;
   }
   return row;
+}
+
+std::string with_check_names(const PointQuestion& question, const std::string& text) {
+  static const std::regex by_number("checks[.]([0-9]+)");
+  std::string named;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator found(text.begin(), text.end(), by_number), end; found != end; ++found) {
+    const auto number = number_of((*found)[1].str()).value_or(HUGE_VAL);
+    const bool known = number < static_cast<double>(question.checks.size());
+    named.append(rest, (*found)[0].first);
+    named +=
+        known ? fmt::format("checks[{}]", question.checks[static_cast<std::size_t>(number)]) : found->str();
+    rest = (*found)[0].second;
+  }
+  return named.append(rest, text.cend());
 }
 
 std::string row_text(const PointRow& row) {

@@ -38,6 +38,7 @@ struct PointQuestion {
     bool has_mismatch = false;
     std::string length_unit;
     std::string mismatch_unit;
+    double tolerance = 0;  ///< of the length, either way, as a plot states it; 0 = not said
   };
   std::vector<Piece> pieces = {};         ///< what cuts
   std::vector<std::string> drives = {};   ///< "knife.servo"
@@ -72,6 +73,9 @@ struct PointScenario {
 };
 PointScenario read_point(const PointQuestion& question, const std::vector<scenario::Override>& overrides);
 PointRow run_point(const PointQuestion& question, const PointScenario& point);
+
+/// "checks[cut length].from" in place of "checks.0.from".
+std::string with_check_names(const PointQuestion& question, const std::string& text);
 
 /// A row's cells behind the point's own: "passed,,0.04,...", always the same way and back; nothing if `text`
 /// is no such row.

@@ -18,10 +18,9 @@ void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
                         const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows,
                         OutputFolder& folder);
 
-/// The same of the largest values found: over one axis a curve with what gives way beyond it, over two axes a
-/// map.
-void write_envelope_report(const PointQuestion& question, const SweepAxes& axes,
-                           const std::vector<SweepPoint>& points, const BoundRequest& request,
-                           const std::vector<Bound>& bounds, OutputFolder& folder);
+/// The same of the largest values found. Over one axis: the curves of scenes that share it over each other,
+/// then each with all that was looked at and what gives way behind its bound; over two axes a map a scene.
+/// `envelopes` is one at least.
+void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder& folder);
 
 }  // namespace drycut::sim::studies

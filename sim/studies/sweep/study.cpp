@@ -47,7 +47,8 @@ void try_ends(const SweepAxis& axis, const PointQuestion& question, Problems& pr
   auto told = objections(axis, first, question);
   if (told.empty() || objections(axis, last, question).empty()) return;
   for (auto& problem : told) {
-    problem.what = fmt::format("{}: {}", parameter.path, problem.what);
+    if (problem.what.find(parameter.path) == std::string::npos)
+      problem.what = fmt::format("{}: {}", parameter.path, problem.what);
     problem.file = parameter.option;
     problem.line = 1;
     problem.column = parameter.low_column;
@@ -55,7 +56,24 @@ void try_ends(const SweepAxis& axis, const PointQuestion& question, Problems& pr
   }
 }
 
-}  // namespace
+/// Nobody should have to know in which unit a number without one is read.
+bool says_its_unit(const SweepAxis& axis, const scenario::Scenario& scenario, Problems& problems) {
+  auto known = axis.parameter;
+  present_value(known, scenario);
+  if (!axis.parameter.unit.empty() || known.unit.empty()) return true;
+  const auto kind = scenario::dimension_name(known.unit);
+  const auto first = axis.is_range() ? number_text(known.low) : axis.values.front();
+  if (!axis.is_range() && !scenario::parse_quantity(first))
+    problems.push_back({known.option, 1, known.low_column,
+                        fmt::format("{} is {}, not '{}'", known.path, kind, first),
+                        fmt::format("numbers, and behind the last the unit: 1,2 {}", known.unit)});
+  else
+    problems.push_back(
+        {known.option, 1, known.low_column, fmt::format("{} is {}, and no unit is given", known.path, kind),
+         axis.is_range() ? fmt::format("such as {}..{} {}", first, number_text(known.high), known.unit)
+                         : fmt::format("such as {} {}", first, known.unit)});
+  return false;
+}
 
 void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& problems) {
   Problems told;  // by prepare()
@@ -67,6 +85,7 @@ void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& proble
       problems.push_back({parameter.option, 1, 1, parameter.path + " is given twice", "keep one"});
       continue;
     }
+    if (!says_its_unit(*axis, scenario, problems)) continue;
     const auto before = problems.size();
     present_value(parameter, scenario);
     if (has_own_dimension(parameter, scenario, problems)) try_ends(*axis, question, problems);
@@ -74,10 +93,9 @@ void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& proble
   }
 }
 
-std::vector<SweepPoint> points_of(const SweepAxes& axes, std::optional<std::size_t> sampled,
-                                  Problems& problems) {
-  if (sampled) return sobol(axes, *sampled);
-  if (grid_size(axes, most_points)) return grid(axes);
+/// Before axes of a million values are made.
+void refuse_too_many(const SweepAxes& axes, Problems& problems) {
+  if (grid_size(axes, most_points)) return;
   std::vector<std::string> counts;
   double size = 1;
   for (const auto& axis : axes) {
@@ -88,7 +106,28 @@ std::vector<SweepPoint> points_of(const SweepAxes& axes, std::optional<std::size
   problems.push_back({axes.front().parameter.option, 1, 1,
                       fmt::format("{} are {:.3g} points", fmt::join(counts, " x "), size),
                       fmt::format("at most {}: fewer values an axis, or --sample sobol:1000", most_points)});
-  return {};
+}
+
+}  // namespace
+
+std::vector<SweepPoint> planned(SweepAxes& axes, std::optional<std::size_t> sampled,
+                                const PointQuestion& question, Problems& problems) {
+  if (problems.empty() && !sampled) refuse_too_many(axes, problems);
+  if (problems.empty()) check_axes(axes, question, problems);
+  if (!problems.empty()) return {};
+  return sampled ? sobol(axes, *sampled) : grid(axes);
+}
+
+std::vector<SweepPoint> planned(Envelope& envelope, Problems& problems) {
+  refuse_too_many(envelope.axes, problems);
+  if (!problems.empty()) return {};
+  auto all = envelope.axes;
+  all.push_back({envelope.request.parameter, {}});
+  check_axes(all, envelope.question, problems);
+  envelope.request.parameter = all.back().parameter;
+  all.pop_back();
+  envelope.axes = std::move(all);
+  return problems.empty() ? grid(envelope.axes) : std::vector<SweepPoint>();
 }
 
 std::vector<PointRow> sweep(const PointQuestion& question, const SweepAxes& axes,

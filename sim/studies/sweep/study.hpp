@@ -11,12 +11,12 @@ namespace drycut::sim::studies {
 /// A study of more points than this is a slip of the keyboard.
 inline constexpr std::size_t most_points = 1'000'000;
 
-/// Fills the axes in from the scenario (units, whole numbers, values) and tells what is wrong with them: a
-/// path that the scenario does not know, a unit of another dimension, ends none of which it takes.
-void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& problems);
-/// The points of a grid, or `sampled` of a Sobol sequence; too many are a problem.
-std::vector<SweepPoint> points_of(const SweepAxes& axes, std::optional<std::size_t> sampled,
-                                  Problems& problems);
+/// The points of a grid over the axes, or `sampled` of a Sobol sequence. Fills the axes in from the scenario
+/// (units, whole numbers, values) and tells what is wrong with them: a path that the scenario does not know,
+/// a unit of another dimension or none, ends none of which it takes, too many points. Nothing if there are
+/// `problems` already.
+std::vector<SweepPoint> planned(SweepAxes& axes, std::optional<std::size_t> sampled,
+                                const PointQuestion& question, Problems& problems);
 
 /// The rows of points, in their order, whoever runs them when.
 std::vector<PointRow> sweep(const PointQuestion& question, const SweepAxes& axes,
@@ -28,7 +28,13 @@ std::string csv_heading(const PointQuestion& question, const SweepAxes& axes, co
 std::string sweep_csv(const PointQuestion& question, const SweepAxes& axes,
                       const std::vector<SweepPoint>& points, const std::vector<PointRow>& rows);
 
-/// The largest value of an axis at which every check and every rating holds.
+/// A value of the sought parameter that was looked at.
+struct Look {
+  double value = 0;
+  bool holds = false;
+};
+
+/// The largest value of a parameter up to which every check and every rating holds.
 struct Bound {
   enum class Kind {
     found,       ///< it holds up to `value`, and `tolerance` above it does not
@@ -36,11 +42,13 @@ struct Bound {
     nowhere      ///< it holds at none of the values that were looked at
   };
   Kind kind = Kind::nowhere;
-  double value = 0;             ///< NaN = nowhere
-  double from = 0;              ///< the least value looked at from which on it holds; NaN = nowhere
-  std::optional<double> again;  ///< beyond the bound it holds again, here
-  std::string limit;            ///< what gives way behind the bound
-  std::vector<double> numbers;  ///< of the row at `value`
+  double value = 0;  ///< NaN = nowhere
+  double from = 0;   ///< the least value looked at that holds, as all do from there to `value`; NaN = nowhere
+  std::string limit;                            ///< what gives way behind the bound
+  std::vector<double> numbers;                  ///< of the row at `value`
+  std::vector<std::pair<double, double>> gaps;  ///< beyond the bound: fails from here to there, then holds
+  std::optional<double> again;                  ///< beyond the bound it holds again, here
+  std::vector<Look> looks;                      ///< all of them, ascending
 };
 std::string_view name_of(Bound::Kind kind);
 
@@ -53,14 +61,28 @@ struct BoundRequest {
 std::optional<BoundRequest> parse_bound(const std::string& text, const std::string& option,
                                         Problems& problems);
 
-/// Looks at nine values from end to end, at 17 and 33 where none of them holds, then halves the interval in
-/// which what held first gives way.
+/// What is sought of one scene, and what was found.
+struct Envelope {
+  std::string scene;  ///< what it is called among others
+  PointQuestion question;
+  SweepAxes axes;
+  BoundRequest request;
+  std::vector<SweepPoint> points = {};
+  std::vector<Bound> bounds = {};  ///< one a point
+};
+
+/// The points of its axes, as above, with what is sought in place of a last axis.
+std::vector<SweepPoint> planned(Envelope& envelope, Problems& problems);
+
+/// Looks at nine values from end to end, at 17 and 33 where none of them holds, and halves the interval in
+/// which what held first gives way. Then it looks below the bound: no stretch stays that is wider than a
+/// sixteenth of the range, or than a quarter of what lies between its lower end and the bound, so that what
+/// an offer would use is looked at closest. What fails there is the end of a lower bound, and so on.
 inline constexpr int scanned_values = 9;
-std::vector<Bound> envelope(const PointQuestion& question, const SweepAxes& axes,
-                            const std::vector<SweepPoint>& points, const BoundRequest& request,
-                            PointStore& store, const StudyProgress& progress);
-std::string envelope_csv(const PointQuestion& question, const SweepAxes& axes,
-                         const std::vector<SweepPoint>& points, const BoundRequest& request,
-                         const std::vector<Bound>& bounds);
+inline constexpr double widest_share = 1.0 / 16;   ///< of the range
+inline constexpr double distance_share = 1.0 / 4;  ///< of the way to the bound
+void seek(Envelope& envelope, PointStore& store, const StudyProgress& progress);
+/// A line a point; of several scenes under the headings of all of them, the first of them "scene".
+std::string envelope_csv(const std::vector<Envelope>& envelopes);
 
 }  // namespace drycut::sim::studies

@@ -43,6 +43,7 @@ TEST(SweepAxis, IsAListOfNumbersOrWords) {
   const auto words = sound("plants.knife.drive=servo,pulses");
   EXPECT_THAT(words.values, ElementsAre("servo", "pulses"));
   EXPECT_EQ(overrides_of({words}, {"servo"})[0].value, "servo");
+  EXPECT_THAT(sound("plants.knife.servo.model=1FK7,HG").values, ElementsAre("1FK7", "HG"));
 }
 
 TEST(SweepAxis, RefusesWhatIsNone) {
@@ -68,12 +69,28 @@ TEST(SweepAxis, RefusesWhatIsNone) {
            Case{"x=1,2,", 7, "an empty value"},
            Case{"x=1 mm,2 m", 3, "values in mm and m"},
            Case{"x=1,2,1", 7, "1 is given twice"},
+           Case{"x=1, 1.0 mm", 6, "1 is given twice"},
+           Case{"x=1,abc,3 mm", 5, "'abc' is no number as the others are"},
+           Case{"x=1,2, 3 mmm", 8, "'3 mmm' is no number as the others are"},
+           Case{"x=servo,3", 3, "'servo' is no number as the others are"},
        }) {
     Problems problems;
     EXPECT_FALSE(parse_axis(text, "--over", false, problems)) << text;
     ASSERT_EQ(problems.size(), 1U) << text;
     EXPECT_EQ(problems[0].column, column) << text;
     EXPECT_THAT(problems[0].what, HasSubstr(what)) << text;
+  }
+}
+
+TEST(SweepAxis, ASampleHasNoNumberOfValues) {
+  EXPECT_TRUE(sound("x=1..2 mm", true).is_range());
+  EXPECT_TRUE(sound("x=1..2 mm:log", true).logarithmic);
+  for (const auto* text : {"x=1..2 mm:5", "x=1..2 mm:5:log"}) {
+    Problems problems;
+    EXPECT_FALSE(parse_axis(text, "--over", true, problems)) << text;
+    ASSERT_EQ(problems.size(), 1U) << text;
+    EXPECT_EQ(problems[0].column, 10) << text;
+    EXPECT_THAT(problems[0].what, HasSubstr("a sample has none")) << text;
   }
 }
 
@@ -129,8 +146,7 @@ TEST(Sobol, FillsEveryAxisEvenly) {
 }
 
 TEST(Sobol, LiesInTheRanges) {
-  const SweepAxes axes = {sound("a=500..3000 mm", true), sound("b=1..100:5:log", true),
-                          sound("c=x,y,z", true)};
+  const SweepAxes axes = {sound("a=500..3000 mm", true), sound("b=1..100:log", true), sound("c=x,y,z", true)};
   const auto points = sobol(axes, 8);
   ASSERT_EQ(points.size(), 8U);
   EXPECT_EQ(points[0], (SweepPoint{"500", "1", "x"}));

@@ -24,7 +24,8 @@ checks:
   - {name: slow enough, always: "web.speed <= ${limit}"}
   - {name: fast enough, always: "web.speed >= 10 m/min"}
 )");
-    sweep.scenario = envelope.scenario = folder / "it's web.yaml";
+    sweep.scenario = folder / "it's web.yaml";
+    envelope.scenarios = {sweep.scenario};
     sweep.out = envelope.out = folder / "out";
   }
   std::string page() const {
@@ -65,8 +66,8 @@ TEST_F(SweepReport, OverTwoAxesItIsAMap) {
     }
   // A shell takes it as it stands.
   EXPECT_EQ(shown["command"], "drycut run '" + (folder / "it'\\''s web.yaml").string() +
-                                  "' --set 'scene.seed=3' --set 'variables.limit={x} m/min' --set "
-                                  "'variables.speed={y} m/min'");
+                                  "' --set 'scene.seed=3' --set 'variables.limit={0} m/min' --set "
+                                  "'variables.speed={1} m/min'");
   EXPECT_THAT(page(), HasSubstr("points, 5 of them passed"));
 }
 
@@ -100,19 +101,52 @@ TEST_F(SweepReport, OfWordsSamplesAndThreeAxesItIsATable) {
 
 TEST_F(SweepReport, AnEnvelopeShowsItsBoundAndWhatGivesWay) {
   envelope.over = {"variables.limit=40..120 m/min:5"};
-  envelope.find_max = "variables.speed=20..300 m/min:0.5";
+  envelope.find_max = {"variables.speed=20..300 m/min:0.5"};
   ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
-  EXPECT_TRUE(fs::exists(folder / "out/plots/curves.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/plots/envelope.png"));
   EXPECT_THAT(page(), HasSubstr("slow enough"));
+  // What was looked at, and the command of the first bound.
+  EXPECT_THAT(page(), HasSubstr("looked at, fails"));
+  EXPECT_THAT(page(), HasSubstr("variables.limit=40 m/min"));
+  EXPECT_THAT(page(), testing::ContainsRegex("variables.speed=(39[.][5-9][0-9]*|40) m/min"));
   envelope.over.emplace_back("plants.web.thickness=1,2 mm");
   ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
-  EXPECT_FALSE(fs::exists(folder / "out/plots/curves.png"));
+  EXPECT_FALSE(fs::exists(folder / "out/plots/envelope.png"));
   const auto shown = map();
   ASSERT_EQ(shown["cells"].size(), 10);
   for (const auto& cells : shown["cells"]) {
-    EXPECT_NEAR(std::stod(cells[4].get<std::string>()), std::stod(cells[0].get<std::string>()), 0.5);
-    EXPECT_EQ(cells[3], "slow enough");
+    EXPECT_NEAR(std::stod(cells[2].get<std::string>()), std::stod(cells[0].get<std::string>()), 0.5);
+    EXPECT_EQ(cells[4], "slow enough");
   }
+  // The command repeats the bound, not only its point.
+  EXPECT_THAT(shown["command"].get<std::string>(), HasSubstr("--set 'variables.speed={2} m/min'"));
+}
+
+TEST_F(SweepReport, EnvelopesOfSeveralScenesLieOverEachOther) {
+  folder.file("saw.yaml", "extends: it's web.yaml\nchecks: {slow enough: {always: web.speed <= 50}}\n");
+  envelope.scenarios.push_back(folder / "saw.yaml");
+  envelope.over = {"variables.limit=40..120 m/min:5"};
+  envelope.find_max = {"variables.speed=20..300 m/min:0.5"};
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  EXPECT_TRUE(fs::exists(folder / "out/plots/envelope.png"));
+  const auto text = page();
+  const auto from = text.find("id=\"plot-data\">");
+  ASSERT_NE(from, std::string::npos);
+  const auto begin = from + 16;
+  const auto data = nlohmann::json::parse(text.substr(begin, text.find("</script>", begin) - begin));
+  const auto& panels = data["plots"][0]["panels"];
+  ASSERT_EQ(panels.size(), 3U);  // over each other, then each alone
+  ASSERT_EQ(panels[0]["curves"].size(), 2U);
+  EXPECT_EQ(panels[0]["curves"][0]["label"], "it's web");
+  EXPECT_EQ(panels[0]["curves"][1]["label"], "saw");
+  EXPECT_EQ(panels[1]["title"], "it's web");
+  EXPECT_EQ(panels[2]["title"], "saw");
+  // With other axes each has a plot of its own.
+  envelope.over = {"it:variables.limit=40..120 m/min:5", "saw:plants.web.thickness=1..2 mm:3"};
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  EXPECT_FALSE(fs::exists(folder / "out/plots/envelope.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/plots/envelope_1.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/plots/envelope_2.png"));
 }
 
 }  // namespace

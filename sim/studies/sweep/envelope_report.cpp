@@ -1,0 +1,270 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "sim/report/report.hpp"
+#include "sim/studies/sweep/page.hpp"
+#include "sim/studies/sweep/report.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+constexpr std::size_t bound_cell = 0;  // of those behind the axes'
+
+std::string without_unit(const std::string& heading) { return heading.substr(0, heading.rfind(" [")); }
+
+/// The bound in digits that the tolerance warrants, never above it.
+std::string bound_text(const Envelope& envelope, const Bound& bound) {
+  if (std::isnan(bound.value)) return "none";
+  const double step = std::pow(10, std::floor(std::log10(envelope.request.tolerance)));
+  return short_text(std::floor(bound.value / step + 1e-9) * step);
+}
+
+/// The bounds as a page shows them: the bound is the first number.
+Studied studied(const Envelope& envelope) {
+  const auto& question = envelope.question;
+  Studied study{envelope.scene, question, envelope.axes, envelope.points,
+                axis_headings(question, envelope.axes)};
+  study.columns = {heading(envelope.request.parameter)};
+  study.columns.insert(study.columns.end(), question.columns.begin(), question.columns.end());
+  study.headings.insert(study.headings.end(), {study.columns[0], "bound", "what gives way behind it"});
+  study.headings.insert(study.headings.end(), question.columns.begin(), question.columns.end());
+  renders::MapLines lines{study.columns[0], {}, {}};
+  for (std::size_t i = 0; i < envelope.points.size(); ++i) {
+    const auto& bound = envelope.bounds[i];
+    const bool good = bound.kind != Bound::Kind::nowhere;
+    auto& cells = study.cells.emplace_back(envelope.points[i]);
+    cells.push_back(good ? number_text(bound.value) : "");
+    cells.emplace_back(name_of(bound.kind));
+    cells.push_back(bound.limit);
+    auto& numbers = study.numbers.emplace_back();
+    numbers = {good ? bound.value : unknown};
+    numbers.insert(numbers.end(), bound.numbers.begin(), bound.numbers.end());
+    numbers.resize(study.columns.size(), unknown);
+    for (std::size_t k = 1; k < numbers.size(); ++k) cells.push_back(short_text(numbers[k]));
+    study.good.push_back(good);
+    study.region.push_back(bound.limit.empty() ? std::string(name_of(bound.kind)) : bound.limit);
+    lines.values.push_back(numbers[0]);
+  }
+  study.lines = {std::move(lines)};
+  return study;
+}
+
+std::vector<std::string> x_headings(const Studied& study) {
+  return axis_headings(study.question, study.axes);
+}
+
+/// Scenes whose curves lie on the same axes.
+struct Family {
+  std::vector<const Envelope*> envelopes;
+  std::vector<const Studied*> studies;
+  std::string of;  ///< the heading of what is sought
+};
+std::vector<Family> families_of(const std::vector<Envelope>& envelopes, const std::vector<Studied>& studies) {
+  std::vector<Family> families;
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    const auto alike = [&](const Family& family) {
+      return family.of == studies[i].columns[0] && x_headings(*family.studies[0]) == x_headings(studies[i]);
+    };
+    auto family = std::find_if(families.begin(), families.end(), alike);
+    if (family == families.end()) family = families.insert(family, Family{{}, {}, studies[i].columns[0]});
+    family->envelopes.push_back(&envelopes[i]);
+    family->studies.push_back(&studies[i]);
+  }
+  return families;
+}
+
+/// A row a point that any of the scenes has, a column a scene: how far, and what gives way behind it.
+renders::ReportTable key_figures(const Family& family) {
+  renders::ReportTable table{"Largest " + family.of, x_headings(*family.studies[0]), {}};
+  table.verdicts = true;  // what gives way stands small under the number
+  std::vector<SweepPoint> points;
+  for (const auto* study : family.studies) {
+    table.headings.push_back(family.studies.size() > 1 ? study->scene : family.of);
+    for (const auto& point : study->points)
+      if (std::find(points.begin(), points.end(), point) == points.end()) points.push_back(point);
+  }
+  std::stable_sort(points.begin(), points.end(), [](const SweepPoint& a, const SweepPoint& b) {
+    return std::lexicographical_compare(
+        a.begin(), a.end(), b.begin(), b.end(),
+        [](const auto& x, const auto& y) { return number_in(x) < number_in(y); });
+  });
+  for (const auto& point : points) {
+    auto cells = point;
+    for (const auto* envelope : family.envelopes) {
+      const auto at = std::find(envelope->points.begin(), envelope->points.end(), point);
+      if (at == envelope->points.end()) {
+        cells.emplace_back("");
+        continue;
+      }
+      const auto& bound = envelope->bounds[static_cast<std::size_t>(at - envelope->points.begin())];
+      auto text = bound_text(*envelope, bound);
+      if (!bound.limit.empty()) text += "\n" + bound.limit;
+      if (bound.kind == Bound::Kind::throughout) text += "\nthe end of the range";
+      if (bound.again) text += fmt::format("; holds again at {:.4g}", *bound.again);
+      cells.push_back(std::move(text));
+    }
+    table.rows.push_back({std::move(cells)});
+  }
+  return table;
+}
+
+/// The bound with all that was looked at about it, and what gives way behind it.
+renders::Panel scene_panel(const Envelope& envelope, const Studied& study, const std::string& title) {
+  std::vector<renders::Curve> curves = {curve_of(study, 0, "largest")};
+  auto panel = panel_of(study.columns[0], std::move(curves));
+  panel.title = title;
+  // What lies far above all bounds is not worth its room.
+  constexpr double headroom = 1.15;
+  if (panel.y_range) panel.y_range->second *= headroom;
+  const double top = panel.y_range ? panel.y_range->second : HUGE_VAL;
+  using Style = renders::Curve::Style;
+  renders::Curve fails{"looked at, fails", {}, {}, Style::points};
+  renders::Curve holds{"looked at, holds", {}, {}, Style::points};
+  for (std::size_t i = 0; i < envelope.points.size(); ++i) {
+    for (const auto& look : envelope.bounds[i].looks) {
+      if (look.value > top) continue;
+      auto& curve = look.holds ? holds : fails;
+      curve.x.push_back(number_in(envelope.points[i][0]));
+      curve.y.push_back(look.value);
+    }
+  }
+  panel.curves.push_back(std::move(fails));
+  panel.curves.push_back(std::move(holds));
+  for (const auto& region : regions_of(study)) {
+    renders::Curve limited{region.label, {}, {}, Style::points};
+    for (std::size_t i = 0; i < study.points.size(); ++i) {
+      if (study.region[i] != region.label || !study.good[i]) continue;
+      limited.x.push_back(number_in(study.points[i][0]));
+      limited.y.push_back(study.numbers[i][0]);
+    }
+    if (!limited.x.empty()) panel.curves.push_back(std::move(limited));
+  }
+  return panel;
+}
+
+/// The bounds over each other, then each alone.
+renders::Plot bounds_plot(const Family& family, const std::string& name) {
+  const auto x_label = family.studies[0]->headings[0];
+  renders::Plot plot{
+      name, fmt::format("Largest {} over {}", without_unit(family.of), without_unit(x_label)), x_label, {}};
+  const bool several = family.studies.size() > 1;
+  if (several) {
+    std::vector<renders::Curve> curves;
+    curves.reserve(family.studies.size());
+    for (const auto* study : family.studies) curves.push_back(curve_of(*study, 0, study->scene));
+    plot.panels.push_back(panel_of(family.of, std::move(curves)));
+  }
+  for (std::size_t i = 0; i < family.studies.size(); ++i)
+    plot.panels.push_back(scene_panel(*family.envelopes[i], *family.studies[i],
+                                      several ? family.studies[i]->scene : plot.title));
+  return plot;
+}
+
+/// What the figures are at the bound, those of the same name over each other.
+renders::Plot figures_plot(const Family& family, const std::string& name) {
+  renders::Plot plot{
+      name, "At the bound: figures of the pieces and drives", family.studies[0]->headings[0], {}};
+  plot.panel_height = 220;
+  std::vector<std::string> columns;
+  for (const auto* study : family.studies)
+    for (auto& column : curve_columns(*study))
+      if (column != family.of && std::find(columns.begin(), columns.end(), column) == columns.end())
+        columns.push_back(std::move(column));
+  for (const auto& column : columns) {
+    std::vector<renders::Curve> curves;
+    for (const auto* study : family.studies) {
+      const auto found = std::find(study->columns.begin(), study->columns.end(), column);
+      if (found == study->columns.end()) continue;
+      auto curve = curve_of(*study, static_cast<std::size_t>(found - study->columns.begin()),
+                            family.studies.size() > 1 ? study->scene : "");
+      if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); }))
+        curves.push_back(std::move(curve));
+    }
+    if (!curves.empty()) plot.panels.push_back(panel_of(column, std::move(curves)));
+  }
+  return plot;
+}
+
+/// Of the first point that has a bound, at it.
+std::string first_command(const Envelope& envelope, const Studied& study) {
+  const auto good = std::find(study.good.begin(), study.good.end(), true);
+  if (good == study.good.end()) return "";
+  const auto i = static_cast<std::size_t>(good - study.good.begin());
+  return point_command(study, study.points[i],
+                       {setting(envelope.request.parameter, study.cells[i][study.axes.size() + bound_cell])});
+}
+
+renders::Report page_of(const std::vector<Envelope>& envelopes, const std::vector<Studied>& studies) {
+  renders::Report report;
+  const bool several = studies.size() > 1;
+  std::set<std::string> sought;
+  std::set<std::string> tolerances;
+  std::size_t points = 0;
+  std::vector<const Studied*> all;
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    const auto& request = envelopes[i].request;
+    sought.insert(studies[i].columns[0]);
+    tolerances.insert(fmt::format("{:.6g} {}", request.tolerance, request.parameter.unit));
+    points += studies[i].points.size();
+    all.push_back(&studies[i]);
+    report.scenario += (i > 0 ? ", " : "") + studies[i].question.file.filename().string();
+  }
+  report.title = several ? "Envelopes" : "Envelope of " + studies[0].scene;
+  if (sought.size() == 1) report.title += ": largest " + *sought.begin();
+  report.passed = true;
+  report.word = fmt::format("{}", points);
+  report.verdict = several ? fmt::format("points of {} scenarios", studies.size()) : "points";
+  if (tolerances.size() == 1) report.verdict += ", each bound found to " + *tolerances.begin();
+  report.facts = facts_of(all);
+  return report;
+}
+
+}  // namespace
+
+void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder& folder) {
+  std::vector<Studied> studies;
+  studies.reserve(envelopes.size());
+  for (const auto& envelope : envelopes) studies.push_back(studied(envelope));
+  auto report = page_of(envelopes, studies);
+  std::vector<renders::Plot> plots;
+  const auto families = families_of(envelopes, studies);
+  for (std::size_t k = 0; k < families.size(); ++k) {
+    const auto& family = families[k];
+    const auto number = families.size() > 1 ? fmt::format("_{}", k + 1) : "";
+    const bool curves = std::all_of(family.studies.begin(), family.studies.end(),
+                                    [](const Studied* study) { return over_axes(*study, 1); });
+    if (family.studies[0]->axes.size() < 2) report.summary.push_back(key_figures(family));
+    if (!curves) continue;
+    plots.push_back(bounds_plot(family, "envelope" + number));
+    plots.push_back(figures_plot(family, "figures" + number));
+  }
+  std::string commands;
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    const auto& study = studies[i];
+    const auto of = studies.size() > 1 ? study.scene + ": " : "";
+    (studies.size() > 1 ? report.tables : report.summary)
+        .push_back(counts_of(study, of.empty() ? "What gives way behind the bound" : of + "what gives way"));
+    report.tables.push_back(rows_of(study, of.empty() ? "Every point" : of + "every point"));
+    if (over_axes(study, 2)) {
+      const auto name = studies.size() > 1 ? fmt::format("map_{}", i + 1) : "map";
+      const auto sought = setting(envelopes[i].request.parameter, "{2}");
+      report.maps.push_back(map_of(study, name, fmt::format("{}largest {}", of, study.columns[0]),
+                                   point_command(study, {"{0}", "{1}"}, {sought}), folder));
+    } else if (const auto command = first_command(envelopes[i], study); !command.empty()) {
+      commands += command + "\n";
+    }
+  }
+  if (!commands.empty())
+    report.texts.push_back({studies.size() > 1 ? "The first bound of each scenario, once more with pictures"
+                                               : "The first bound, once more with pictures",
+                            commands});
+  std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
+  report::write_report(std::move(report), std::move(plots), folder);
+}
+
+}  // namespace drycut::sim::studies

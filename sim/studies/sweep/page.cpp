@@ -1,0 +1,193 @@
+#include "sim/studies/sweep/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sim/studies/compare/recorded_csv.hpp"
+
+namespace drycut::sim::studies {
+
+namespace {
+
+constexpr std::size_t most_rows = 2000;  // of the table in a page
+
+/// In quotes for a shell.
+std::string quoted(const std::string& words) {
+  std::string text = "'";
+  for (const char c : words) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// The values of an axis that are numbers, ascending, each once.
+std::vector<double> scale_of(const SweepAxis& axis) {
+  std::vector<double> values;
+  values.reserve(axis.values.size());
+  for (const auto& text : axis.values) values.push_back(number_in(text));
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  const bool numbers = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  return numbers && values.size() > 1 ? values : std::vector<double>();
+}
+
+bool ends_with_word(const std::string& column, std::string_view word) {
+  return column.substr(0, column.rfind(" [")).ends_with(word);
+}
+
+}  // namespace
+
+std::vector<std::string> axis_headings(const PointQuestion& question, const SweepAxes& axes) {
+  std::vector<std::string> headings;
+  headings.reserve(axes.size());
+  for (const auto& axis : axes) headings.push_back(with_check_names(question, heading(axis.parameter)));
+  return headings;
+}
+
+std::string short_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+
+double number_in(const std::string& text) { return number_of(text).value_or(unknown); }
+
+bool over_axes(const Studied& study, std::size_t count) {
+  return study.axes.size() == count && std::all_of(study.axes.begin(), study.axes.end(),
+                                                   [](const auto& a) { return !scale_of(a).empty(); });
+}
+
+std::string setting(const TunedParameter& parameter, const std::string& value) {
+  return fmt::format("{}={}{}{}", parameter.path, value, parameter.unit.empty() ? "" : " ", parameter.unit);
+}
+
+std::string point_command(const Studied& study, const std::vector<std::string>& values,
+                          const std::vector<std::string>& more) {
+  std::string text = "drycut run " + quoted(study.question.file.string());
+  for (const auto& [path, value] : study.question.set)
+    text += " --set " + quoted(fmt::format("{}={}", path, value));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    text += " --set " + quoted(setting(study.axes[i].parameter, values[i]));
+  for (const auto& one : more) text += " --set " + quoted(one);
+  return text;
+}
+
+std::vector<renders::ReportRow> facts_of(const std::vector<const Studied*>& studies) {
+  std::vector<renders::ReportRow> facts;
+  for (const auto* study : studies) {
+    std::string over;
+    for (const auto& axis : axis_headings(study->question, study->axes))
+      over += (over.empty() ? "" : ", ") + axis;
+    facts.push_back({{"scenario", study->question.file.string()}});
+    if (!over.empty()) facts.push_back({{"over", over}});
+  }
+  for (const auto& [path, value] : studies.front()->question.set)
+    facts.push_back({{"set", fmt::format("{} = {}", path, value)}});
+  facts.push_back({{"drycut", DRYCUT_VERSION}});
+  return facts;
+}
+
+std::vector<renders::MapRegion> regions_of(const Studied& study) {
+  std::vector<renders::MapRegion> regions;
+  for (const bool good : {true, false})
+    for (std::size_t i = 0; i < study.region.size(); ++i) {
+      const bool known = std::any_of(regions.begin(), regions.end(),
+                                     [&](const auto& region) { return region.label == study.region[i]; });
+      if (study.good[i] != good || known) continue;
+      using Kind = renders::MapRegion::Kind;
+      const bool none = study.region[i] == name_of(PointRow::Verdict::refused);
+      regions.push_back({study.region[i], good ? Kind::good : none ? Kind::none : Kind::bad});
+    }
+  return regions;
+}
+
+renders::ReportTable counts_of(const Studied& study, const std::string& title) {
+  renders::ReportTable table{title, {"points", "what came of them"}, {}};
+  for (const auto& region : regions_of(study))
+    table.rows.push_back(
+        {{std::to_string(std::count(study.region.begin(), study.region.end(), region.label)), region.label}});
+  return table;
+}
+
+renders::ReportTable rows_of(const Studied& study, const std::string& title) {
+  renders::ReportTable rows{title, study.headings, {}, true};
+  for (std::size_t i = 0; i < std::min(most_rows, study.cells.size()); ++i)
+    rows.rows.push_back({study.cells[i]});
+  if (study.cells.size() > most_rows) rows.title = fmt::format("{}: the first {}", title, most_rows);
+  return rows;
+}
+
+renders::ReportMap map_of(const Studied& study, const std::string& name, const std::string& title,
+                          const std::string& command, OutputFolder& folder) {
+  renders::ReportMap shown;
+  auto& map = shown.map;
+  map.name = name;
+  map.title = title;
+  map.x = {study.headings[0], scale_of(study.axes[0])};
+  map.y = {study.headings[1], scale_of(study.axes[1])};
+  map.regions = regions_of(study);
+  const auto count = map.x.values.size() * map.y.values.size();
+  map.region.resize(count);
+  shown.cells.resize(count);
+  map.lines = study.lines;
+  for (auto& lines : map.lines) lines.values.assign(count, unknown);
+  for (std::size_t i = 0; i < study.points.size(); ++i) {
+    const auto place = [&](const renders::MapAxis& axis, const std::string& text) {
+      return static_cast<std::size_t>(
+          std::lower_bound(axis.values.begin(), axis.values.end(), number_in(text)) - axis.values.begin());
+    };
+    const auto at = place(map.y, study.points[i][1]) * map.x.values.size() + place(map.x, study.points[i][0]);
+    map.region[at] = static_cast<std::size_t>(
+        std::find_if(map.regions.begin(), map.regions.end(),
+                     [&](const auto& region) { return region.label == study.region[i]; }) -
+        map.regions.begin());
+    shown.cells[at] = study.cells[i];
+    for (std::size_t k = 0; k < map.lines.size(); ++k) map.lines[k].values[at] = study.lines[k].values[i];
+  }
+  shown.headings = study.headings;
+  shown.command = command;
+  shown.caption = "Green: every check and every rating holds. The other colours say what gives way first.";
+  shown.png = folder.add(fmt::format("plots/{}.png", name));
+  draw_map(map, shown.png.parent_path());
+  return shown;
+}
+
+renders::Curve curve_of(const Studied& study, std::size_t column, const std::string& label) {
+  std::vector<std::size_t> order(study.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto x = [&](std::size_t i) { return number_in(study.points[i][0]); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
+  renders::Curve curve{label, {}, {}};
+  for (const auto i : order) {
+    curve.x.push_back(x(i));
+    curve.y.push_back(study.numbers[i][column]);
+  }
+  return curve;
+}
+
+std::vector<std::string> curve_columns(const Studied& study) {
+  std::vector<std::string> worth;
+  for (const auto& column : study.columns)
+    if (!column.starts_with("margin of ") && !ends_with_word(column, ".cut number") &&
+        !ends_with_word(column, ".cut mean length"))
+      worth.push_back(column);
+  return worth;
+}
+
+renders::Panel panel_of(const std::string& heading, std::vector<renders::Curve> curves) {
+  const auto bracket = std::min(heading.rfind(" ["), heading.size());
+  renders::Panel panel{
+      heading.substr(0, bracket), std::string(heading, std::min(bracket + 1, heading.size())), {}, {}, {}};
+  double low = 0;
+  double high = 0;
+  for (const auto& curve : curves) {
+    for (const double y : curve.y) {
+      if (!std::isfinite(y)) continue;
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+  }
+  constexpr double headroom = 1.08;
+  if (low == 0 && high > 0) panel.y_range = {0, headroom * high};
+  panel.curves = std::move(curves);
+  return panel;
+}
+
+}  // namespace drycut::sim::studies

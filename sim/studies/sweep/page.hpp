@@ -1,0 +1,66 @@
+#pragma once
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "renders/report.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/studies/sweep/study.hpp"
+
+namespace drycut::sim::studies {
+
+// What the pages of drycut sweep and drycut envelope have in common.
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A study of one scene as its page sees it: a row a point with what it belongs to.
+struct Studied {
+  std::string scene;  ///< what it is called
+  const PointQuestion& question;
+  const SweepAxes& axes;
+  const std::vector<SweepPoint>& points;
+  std::vector<std::string> headings = {};            ///< of `cells`
+  std::vector<std::vector<std::string>> cells = {};  ///< a row a point, the axes' first
+  std::vector<std::string> region = {};              ///< of each point
+  std::vector<bool> good = {};
+  std::vector<std::string> columns = {};          ///< of `numbers`
+  std::vector<std::vector<double>> numbers = {};  ///< a row a point; only of good points, else not a number
+  std::vector<renders::MapLines> lines = {};      ///< that a map shows, with a value a point
+};
+
+/// The headings of the axes, checks by their names, and numbers as cells show them.
+std::vector<std::string> axis_headings(const PointQuestion& question, const SweepAxes& axes);
+std::string short_text(double value);
+double number_in(const std::string& text);
+
+/// True of a grid over so many axes of numbers.
+bool over_axes(const Studied& study, std::size_t count);
+/// A command that repeats a point with pictures: `values` of the axes, then "PATH=VALUE" of `more`.
+std::string point_command(const Studied& study, const std::vector<std::string>& values,
+                          const std::vector<std::string>& more = {});
+/// "variables.length=500 mm"
+std::string setting(const TunedParameter& parameter, const std::string& value);
+
+/// What the page says of where it comes from: scenarios, axes, what was set.
+std::vector<renders::ReportRow> facts_of(const std::vector<const Studied*>& studies);
+
+/// The kinds of regions in the order of their first point, good ones first, and how many points are in each.
+std::vector<renders::MapRegion> regions_of(const Studied& study);
+renders::ReportTable counts_of(const Studied& study, const std::string& title);
+/// Every point, folded.
+renders::ReportTable rows_of(const Studied& study, const std::string& title);
+
+/// The study over its two axes; `name` is the picture's in plots/, `command` that of a point, with {0} for
+/// its first cell and so on.
+renders::ReportMap map_of(const Studied& study, const std::string& name, const std::string& title,
+                          const std::string& command, OutputFolder& folder);
+
+/// A number of the points over their one axis, in the axis' order.
+renders::Curve curve_of(const Studied& study, std::size_t column, const std::string& label);
+/// The columns that are worth a curve: margins are in the table, and number and mean length of the pieces say
+/// nothing about a machine that works.
+std::vector<std::string> curve_columns(const Studied& study);
+/// "rms torque [N m]" as title and unit. From 0 where nothing is below it.
+renders::Panel panel_of(const std::string& heading, std::vector<renders::Curve> curves);
+
+}  // namespace drycut::sim::studies
