@@ -132,7 +132,7 @@ TEST_F(SweepReport, EnvelopesOfSeveralScenesLieOverEachOther) {
   const auto text = page();
   const auto from = text.find("id=\"plot-data\">");
   ASSERT_NE(from, std::string::npos);
-  const auto begin = from + 16;
+  const auto begin = from + 15;
   const auto data = nlohmann::json::parse(text.substr(begin, text.find("</script>", begin) - begin));
   const auto& panels = data["plots"][0]["panels"];
   ASSERT_EQ(panels.size(), 3U);  // over each other, then each alone
