@@ -127,15 +127,15 @@ class Asked {
     refuse(problems, argument_names);
     auto all = axes;
     if (bound) all.push_back({bound->parameter, {}});
-    studies::check_axes(all, question, problems);
     check_names(question, all, problems);
-    refuse(problems, argument_names);
     if (bound) {
-      bound->parameter = all.back().parameter;
-      all.pop_back();
+      studies::Envelope sought{call.file.stem().string(), question, axes, *bound};
+      points = studies::planned(sought, problems);
+      axes = std::move(sought.axes);
+      bound = std::move(sought.request);
+    } else {
+      points = studies::planned(axes, sample, question, problems);
     }
-    axes = std::move(all);
-    points = studies::points_of(axes, sample, problems);
     refuse(problems, argument_names);
     const auto* const kind = bound ? "envelope" : "sweep";
     std::vector<std::string> files = {table(), points_file};
@@ -163,9 +163,6 @@ class Asked {
     if (sample && axes.size() > studies::sobol_axes)
       problems.push_back({"sample", 1, 1, std::to_string(axes.size()) + " axes",
                           "a Sobol sequence is over " + std::to_string(studies::sobol_axes) + " at most"});
-    // Before axes of a million values are made.
-    if (problems.empty() && !sample && !studies::grid_size(axes, studies::most_points))
-      studies::points_of(axes, {}, problems);
   }
 };
 
@@ -209,14 +206,14 @@ py::dict envelope(const SweepCall& call, const std::string& find_max, const Plac
     const py::gil_scoped_release unlocked;
     asked.emplace(call, find_max, std::nullopt, place);
     studies::PointStore store(asked->folder->add(points_file), place.jobs);
-    const auto bounds = studies::envelope(asked->question, asked->axes, asked->points, *asked->bound, store,
-                                          std::ref(teller));
-    csv = studies::envelope_csv(asked->question, asked->axes, asked->points, *asked->bound, bounds);
+    std::vector<studies::Envelope> sought = {
+        {call.file.stem().string(), asked->question, asked->axes, *asked->bound, asked->points}};
+    studies::seek(sought.front(), store, std::ref(teller));
+    csv = studies::envelope_csv(sought);
     simulated = store.simulated();
     if (place.kept) {
       sim::write_file(asked->folder->add(asked->table()), csv);
-      studies::write_envelope_report(asked->question, asked->axes, asked->points, *asked->bound, bounds,
-                                     *asked->folder);
+      studies::write_envelope_report(sought, *asked->folder);
     }
   }
   return answer(*asked, csv, simulated);

@@ -25,8 +25,8 @@ struct MapRegion {
 struct MapLines {
   std::string label;           ///< with unit: "rms torque [N m]"
   std::vector<double> values;  ///< a number a point; not a number where there is none
-  std::vector<double>
-      levels;  ///< empty: some between the least and the greatest value, in steps of 1, 2 or 5
+  /// Empty: some between the least and the greatest value, in steps of 1, 2 or 5.
+  std::vector<double> levels = {};
 };
 
 /// A border that is known from elsewhere: a closed form, an envelope.

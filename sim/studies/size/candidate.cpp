@@ -289,7 +289,7 @@ std::vector<Candidate> candidates_of(SizeChoices& choices, const PointQuestion& 
   const auto before = problems.size();
   check_count(choices, problems);
   if (!choices.gears.empty()) {
-    if (problems.size() == before) check_axes(choices.gears, question, problems);
+    if (problems.size() == before) planned(choices.gears, {}, question, problems);
     if (problems.size() == before && !choices.gear_is_tied) check_ratios(choices.gears.front(), problems);
     if (problems.size() == before && choices.gear_is_tied) check_gear_tie(choices, question, problems);
   }
