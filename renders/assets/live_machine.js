@@ -7,6 +7,7 @@ import { Look, isSlow } from "./live_look.js";
 const numbersAPart = 10;  // position 3, quaternion 4, scale 3
 const jump = 0.25;        // [m] who moves so far between two news is put there
 const slowFrame = 45;     // [ms] then it is drawn plainly
+const plainFrame = 28;    // [ms] a plain picture stands at least
 const restAfter = 400;    // [ms] without a change: then there is time for a fine picture
 const directions = {
   free: [0.5, 0.42, 0.85],
@@ -87,11 +88,8 @@ export class Machine {
     this.before = this.after = null;
     this.scene.add(model.scene);
     this.offerViews(line.parts);
-    if (this.waiting) this.take(this.waiting);
-    if (first || !this.bounds) {
-      this.bounds = null;
-      this.pending = true;
-    }
+    this.pending = first || !this.bounds;
+    if (this.waiting?.run === run) this.take(this.waiting);
     this.stale = true;
   }
 
@@ -147,43 +145,40 @@ export class Machine {
     });
   }
 
-  /// Around the parts of a plant, of all if it is null; pieces do not count.
-  boundsOf(plant) {
-    const box = new THREE.Box3();
+  /// The boxes of the parts of a plant, of all if it is null; pieces do not count.
+  boxesOf(plant) {
     this.scene.updateMatrixWorld(true);
-    this.parts.forEach((part, i) => {
-      const name = this.names[i];
-      if (part?.visible && (plant === null || name.startsWith(plant + ".")) && !/\.(piece|belt mark)/.test(name))
-        box.expandByObject(part);
-    });
-    return box;
+    const counts = (name) => (plant === null || name.startsWith(plant + ".")) && !/\.(piece|belt mark)/.test(name);
+    return this.parts.filter((part, i) => part?.visible && counts(this.names[i])).map((part) => new THREE.Box3().setFromObject(part));
   }
 
   view(from, plant) {
     if (this.broken || !this.after) return;
-    const all = this.boundsOf(null);
-    if (all.isEmpty()) return;
+    const around = (boxes) => boxes.reduce((all, box) => all.union(box), new THREE.Box3());
+    const everything = this.boxesOf(null);
+    if (everything.length === 0) return;
+    const all = around(everything);
     this.bounds = all;
     this.look.furnish(all, this.model);
-    const box = plant === null ? all : this.boundsOf(plant);
-    const ball = (box.isEmpty() ? all : box).getBoundingSphere(new THREE.Sphere());
+    const own = plant === null ? [] : this.boxesOf(plant);
+    const boxes = own.length > 0 ? own : everything;
     const way = new THREE.Vector3(...directions[from]).normalize();
-    // As far as the box needs, from there: its corners are inside the picture.
+    // As near as all corners are inside the picture.
     const half = Math.tan(THREE.Math.degToRad(this.camera.fov / 2));
     const right = new THREE.Vector3().crossVectors(new THREE.Vector3(0, 1, 0), way).normalize();
     const up = new THREE.Vector3().crossVectors(way, right);
-    const centre = (box.isEmpty() ? all : box).getCenter(new THREE.Vector3());
-    let far = 0.2 * ball.radius;
-    for (const x of [box.min.x, box.max.x]) for (const y of [box.min.y, box.max.y]) for (const z of [box.min.z, box.max.z]) {
-      const corner = new THREE.Vector3(x, y, z).sub(centre);
-      const wide = Math.abs(corner.dot(right)) / (half * this.camera.aspect);
-      const high = Math.abs(corner.dot(up)) / half;
-      far = Math.max(far, corner.dot(way) + 1.08 * Math.max(wide, high));
-    }
+    const { center: centre, radius } = around(boxes).getBoundingSphere(new THREE.Sphere());
+    let far = 0.2 * radius;
+    for (const { min, max } of boxes)
+      for (const x of [min.x, max.x]) for (const y of [min.y, max.y]) for (const z of [min.z, max.z]) {
+        const corner = new THREE.Vector3(x, y, z).sub(centre);
+        const wide = Math.abs(corner.dot(right)) / this.camera.aspect;
+        far = Math.max(far, corner.dot(way) + (1.1 / half) * Math.max(wide, Math.abs(corner.dot(up))));
+      }
     this.orbit.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(way, far);
-    this.orbit.minDistance = 0.1 * ball.radius;
-    this.orbit.maxDistance = 12 * all.getBoundingSphere(new THREE.Sphere()).radius;
+    this.orbit.minDistance = 0.1 * radius;
+    this.orbit.maxDistance = 6 * this.look.size;
     this.orbit.update();
     this.choose(from === "free" ? plant ?? "" : from);
     this.stale = true;
@@ -262,6 +257,7 @@ export class Machine {
   draw(now) {
     requestAnimationFrame((then) => this.draw(then));
     if (this.holder.clientHeight === 0 || !this.bounds) return;
+    if (!this.look.fine && now - this.lastDrawn < plainFrame) return;
     if (this.after && !this.settled) {
       const share = Math.min(1, Math.max(0, (performance.now() - this.after.at) / this.interval));
       this.place(share);

@@ -43,6 +43,7 @@ export class Panel {
   }
 
   news(news) {
+    this.time = news.time;
     this.controls?.forEach((control, i) => control.show(news.values[i]));
     this.lamps?.forEach((lamp, i) => lamp.show(news.lamps[i]));
   }
@@ -67,12 +68,20 @@ export class Panel {
     const stop = isEmergency(name);
     const key = "momentary." + name;
     let momentary = !stop && memory.get(key, isPushed(name)), value = 0, held = false;
+    let asked = null;  // what acts in the next step, while the line stands still
     const problem = make("p", { className: "problem", hidden: true, attributes: { role: "alert" } });
     const state = make("small", {});
     const button = make("button", { type: "button", className: stop ? "stop" : "switch" },
       make("i", {}), make("span", { textContent: plainName(name) }), state);
     button.title = name + (stop ? " (E)" : "");
-    const set = async (on) => tell(problem, await this.link.act({ set: { [name]: on ? 1 : 0 } }));
+    const set = async (on) => {
+      const { time } = this;
+      const problems = await this.link.act({ set: { [name]: on ? 1 : 0 } });
+      tell(problem, problems);
+      if (problems.length > 0) return;
+      asked = { value: on ? 1 : 0, time };
+      show(value);
+    };
     const down = () => {
       if (!momentary || held) return;
       held = true;
@@ -111,11 +120,14 @@ export class Panel {
     };
     label();
     const element = make("div", { className: stop ? "switch-place wide" : "switch-place", data: { name } }, button, kind, problem);
-    return { target, element, switch: true, press: toggle, show(now) {
-      value = now;
-      button.setAttribute("aria-pressed", String(now !== 0));
-      state.textContent = stop ? (now !== 0 ? "pressed" : "released") : now !== 0 ? "on" : "off";
-    } };
+    const show = (told) => {
+      if (asked && (this.time !== asked.time || told === asked.value)) asked = null;
+      value = asked ? asked.value : told;
+      button.setAttribute("aria-pressed", String(value !== 0));
+      const word = stop ? (value !== 0 ? "pressed" : "released") : value !== 0 ? "on" : "off";
+      state.textContent = word + (asked ? ", next step" : "");
+    };
+    return { target, element, switch: true, press: toggle, show };
   }
 
   /// From where to where the slider goes: about twice the value, within what is allowed.
@@ -146,7 +158,7 @@ export class Panel {
       pin.setAttribute("aria-label", on ? `Move ${name} down to the other settings` : `Keep ${name} at the top`);
       pin.title = on ? "Move down to the other settings" : "Keep at the top";
     };
-    let ends = null, sent = 0, last = 0, waiting = null;
+    let ends = null, sent = 0, sentAt = null, last = 0, waiting = null;
     const stretch = (value) => {
       if (!range) return;
       ends = Panel.reach(value, range);
@@ -159,6 +171,7 @@ export class Panel {
       const given = unit === "" ? value : value + " " + unit;
       const over = Number(by("ramp").value);
       const slowly = over > 0 && value !== last;
+      sentAt = this.time;
       tell(problem, await this.link.act(slowly ? { ramp: { [name]: given }, over: over + " s" } : { set: { [name]: given } }));
     };
     const sendSoon = () => {
@@ -206,6 +219,7 @@ export class Panel {
       if (ends === null) stretch(value);
       if (range && (value < ends[0] || value > ends[1])) stretch(value);
       last = value;
+      if (this.time === sentAt && problem.hidden) return;  // it acts in the next step
       if (this.touched !== slider && performance.now() - sent > 250) slider.value = value;
       if (document.activeElement !== number && this.touched !== slider) {
         const text = typed(value);

@@ -116,6 +116,7 @@ export class Values {
         field.setAttribute("aria-invalid", "true");
         return tell(problem, problems);
       }
+      value.textContent = number ? shown(Number(text), 7) : text;  // it acts in the next step
       close();
       value.focus();
     };

@@ -24,6 +24,7 @@ class Browser {
   void window(int width, int height, bool phone = false);  ///< [CSS pixels]; a phone has no scroll bars
   void media(const std::string& scheme, const std::string& medium = "screen");  ///< "light" or "dark"
   void open(const std::filesystem::path& page);        ///< and waits until it is loaded
+  void visit(const std::string& url);                  ///< the same, of a server: "http://127.0.0.1:8080/"
   nlohmann::json evaluate(const std::string& script);  ///< a promise: what comes of it
 
   void mouse(const std::string& what, double x, double y, int clicks = 0);  ///< mouseMoved, mousePressed, ...

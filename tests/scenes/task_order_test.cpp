@@ -42,8 +42,7 @@ std::vector<std::string> scenes_of_several_tasks() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(source_root / "scenes")) {
     Problems problems;
-    if (entry.path().extension() != ".yaml" || studies::read_comparison(entry.path(), problems))
-      continue;
+    if (entry.path().extension() != ".yaml" || studies::read_comparison(entry.path(), problems)) continue;
     const scenario::Scenario scenario = scenario::read_scenario(entry.path(), {}, problems);
     const auto* qmove = controllers::controller_of<controllers::QmoveSection>(scenario);
     if (qmove && qmove->tasks.size() > 1) names.push_back(entry.path().stem().string());

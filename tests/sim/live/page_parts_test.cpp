@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/live/protocol.hpp"
+#include "sim/live/site.hpp"
+#include "tests/test_folder.hpp"
+
+namespace drycut::sim::live {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(LiveSite, HasThePageAndItsParts) {
+  const Site site;
+  EXPECT_THAT(std::string(site.find("/")->bytes), HasSubstr("live.css"));
+  EXPECT_STREQ(site.find("/")->type, "text/html; charset=utf-8");
+  EXPECT_STREQ(site.find("/live.css")->type, "text/css; charset=utf-8");
+  EXPECT_STREQ(site.find("/live.js")->type, "text/javascript; charset=utf-8");
+}
+
+TEST(LiveSite, HasEveryPartThatThePageNames) {
+  const Site site;
+  const std::string page(site.find("/")->bytes);
+  for (const auto* part : {"live.css", "live.js", "three.min.js", "GLTFLoader.js", "OrbitControls.js"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+    EXPECT_TRUE(site.find(std::string("/") + part).has_value()) << part;
+  }
+}
+
+TEST(LiveSite, GivesNothingElse) {
+  const Site site;
+  for (const auto* path :
+       {"", "/report.css", "/drum.stl", "/../Makefile", "/live", "/live.html/", "/line.json", "live.html"})
+    EXPECT_FALSE(site.find(path).has_value()) << path;
+}
+
+TEST(LiveSite, TakesThreeFromItsFolder) {
+  const TestFolder folder;
+  folder.file("three.min.js", "var THREE;");
+  const Site site(folder.path);
+  EXPECT_EQ(site.find("/three.min.js")->bytes, "var THREE;");
+  EXPECT_EQ(site.find("/GLTFLoader.js")->bytes, "");  // the page says what is missing
+}
+
+News::Samples two_rows() {
+  return {std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"a", "b", "c"}),
+          {0, millisecond},
+          {1, 2, 3, 4, 5, std::nan("")}};
+}
+
+TEST(LiveSamples, EveryRowOrTheLatestValue) {
+  const auto json = json::parse(samples_json(two_rows(), {{"c", "a", "b"}, 1}))["samples"];
+  EXPECT_EQ(json, json::parse(R"({"names": ["c", "a"], "times": [0.0, 0.001], "rows": [3.0, 1.0, null, 4.0],
+                                  "watched": {"b": 5.0}})"));
+}
+
+TEST(LiveSamples, WatchedAlone) {
+  const auto json = json::parse(samples_json(two_rows(), {{"c", "a"}, 2}))["samples"];
+  EXPECT_EQ(json, json::parse(R"({"names": [], "times": [], "rows": [], "watched": {"c": null, "a": 4.0}})"));
+}
+
+TEST(LiveSamples, NothingWithoutWishOrKnowledge) {
+  EXPECT_EQ(samples_json(two_rows(), {}), "");
+  EXPECT_EQ(samples_json(two_rows(), {{"d"}, 0}), "");
+  EXPECT_EQ(samples_json({}, {{"a"}, 0}), "");
+}
+
+TEST(LiveSamples, AreAskedFor) {
+  const auto sample_of = [](const char* message) {
+    double id = 0;
+    Problems problems;
+    const auto request = parse_request(message, 1, id, problems);
+    EXPECT_TRUE(problems.empty() && request) << message;
+    return std::get<Sample>(request.value().what);
+  };
+  EXPECT_THAT(sample_of(R"({"sample": ["a"], "watch": ["b", "c"]})").names, ElementsAre("a", "b", "c"));
+  EXPECT_EQ(sample_of(R"({"sample": ["a"], "watch": ["b", "c"]})").watched, 2U);
+  EXPECT_EQ(sample_of(R"({"sample": ["a"]})").watched, 0U);
+  EXPECT_EQ(sample_of(R"({"watch": ["a"]})").watched, 1U);
+}
+
+TEST(LiveSamples, ListsOfNames) {
+  for (const auto* message :
+       {R"({"sample": "a"})", R"({"watch": [1]})", R"({"sample": ["a"], "watch": {}})"}) {
+    double id = 0;
+    Problems problems;
+    EXPECT_FALSE(parse_request(message, 1, id, problems)) << message;
+    EXPECT_EQ(problems.size(), 1U) << message;
+  }
+}
+
+}  // namespace
+}  // namespace drycut::sim::live
