@@ -145,8 +145,9 @@ checks:
                 HasSubstr(fmt::format("--set 'variables.limit={} m/min' --set 'variables.speed={} m/min'",
                                       limit, speed)));
     EXPECT_THAT(told(), HasSubstr(speed < 10 || speed > limit ? "failed" : "passed"));
-    if (speed < 10 || speed > limit)
+    if (speed < 10 || speed > limit) {
       EXPECT_THAT(told(), HasSubstr(speed < 10 ? "fast enough" : "slow enough"));
+    }
   };
   for (int row = 0; row < 7; ++row) {
     for (int column = 0; column < 5; ++column) {
