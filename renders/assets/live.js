@@ -35,7 +35,7 @@ function takeLine(told) {
 function takeNews(told) {
   news = told;
   if (!line || news.run !== line.run) return;
-  for (const part of [machine, panel, events, verdicts, faults]) part.news(news);
+  for (const part of [machine, panel, values, events, verdicts, faults]) part.news(news);
   by("time").textContent = news.time.toFixed(news.running ? 2 : 4);
   const failed = news.failure !== undefined;
   const state = failed ? "failed" : news.running ? "running" : "paused";

@@ -1,7 +1,7 @@
 // Draws curves in lanes on a canvas: a lane for each unit, with its own scale.
 import { colour, nice, shown } from "./live_dom.js";
 
-const gutter = 62, foot = 22, rim = 10, between = 6;
+const gutter = 72, foot = 22, rim = 10, between = 6;
 export const curveCount = 8;
 
 /// Lanes of the channels: those of one unit share one, pure numbers stand alone.

@@ -56,8 +56,14 @@ export class Values {
     for (const button of by("value-kinds").children) button.setAttribute("aria-pressed", String(button.dataset.kind === this.only));
   }
 
+  news(news) {
+    this.time = news.time;
+  }
   samples({ watched }) {
-    for (const [name, value] of Object.entries(watched)) this.rows.get(name)?.show(value);
+    for (const [name, value] of Object.entries(watched)) {
+      const row = this.rows.get(name);
+      if (row && row.writtenAt !== this.time) row.show(value);
+    }
   }
 
   row(channel) {
@@ -111,12 +117,14 @@ export class Values {
       const number = text !== "" && Number.isFinite(Number(text));
       const unit = this.units.get(name) ?? "";  // the program's values are bare numbers
       const given = number ? (unit === "" ? Number(text) : text + " " + unit) : text;
+      const { time } = this;
       const problems = await this.link.act({ set: { [name]: given } });
       if (problems.length > 0) {
         field.setAttribute("aria-invalid", "true");
         return tell(problem, problems);
       }
-      value.textContent = number ? shown(Number(text), 7) : text;  // it acts in the next step
+      value.textContent = number ? shown(Number(text), 7) : text;
+      this.rows.get(name).writtenAt = time;  // it acts in the next step: until then it is told
       close();
       value.focus();
     };

@@ -213,8 +213,10 @@ TEST_F(LivePage, ShowsAndWritesValuesAndFaults) {
   stand.type("#value-search", "failure");
   const std::string row = "document.querySelector('#values [data-name=failure]')";
   EXPECT_TRUE(stand.becomes(row + ".querySelector('.value').textContent === '0'"));
-  EXPECT_EQ(stand.look("[...document.querySelectorAll('#values li')].filter((one) => !one.hidden).length"),
-            1);
+  EXPECT_EQ(
+      stand.look("[...document.querySelectorAll('#values li')].filter((one) => !one.hidden).every((one) => "
+                 "one.dataset.name.includes('failure'))"),
+      true);
   stand.click("#values [data-name=failure] .value");
   stand.type("#values [data-name=failure] input", "much");
   EXPECT_TRUE(stand.becomes(row + ".querySelector('.problem').innerText.includes('much')"));
@@ -241,6 +243,7 @@ TEST_F(LivePage, TriggersOnAnEdge) {
   stand.look("(() => { for (const name of drycut.scope.wanted) drycut.scope.remove(name); })()");
   stand.type("#pick", "web.position");
   EXPECT_EQ(stand.look("drycut.scope.wanted"), json::parse(R"(["web.position"])"));
+  EXPECT_TRUE(stand.becomes("drycut.scope.traces.count > 0"));  // it is sampled from now on
   // Set, the level is crossed once: at half a metre.
   const auto choose = [&](const char* id, const char* value) {
     stand.look(
