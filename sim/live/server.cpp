@@ -1,5 +1,6 @@
 #include "sim/live/server.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -76,6 +77,7 @@ struct Server::Core {
     const auto address = asio::ip::make_address(options.address);
     const tcp::endpoint endpoint(address, options.port);
     acceptor.open(endpoint.protocol());
+    fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // no program started from here keeps the port
     acceptor.set_option(asio::socket_base::reuse_address(true));
     acceptor.bind(endpoint);
     acceptor.listen();
