@@ -79,6 +79,9 @@ def _words(values: Sequence[object], path: str) -> str:
     for word in words:
         if "," in word or ".." in word:
             raise refuse("over", f"'{word}' is no value of {path}", "one value an entry; a range is a text of its own")
+    numbers, units = zip(*(word.partition(" ")[::2] for word in words)) if words else ((), ())
+    if len(set(units)) == 1:  # of all of them, as the command has it
+        return ",".join(numbers) + f" {units[0]}".rstrip()
     return ",".join(words)
 
 

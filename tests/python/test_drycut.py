@@ -347,7 +347,7 @@ class SweepTest(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [])
 
     def test_takes_values_as_a_list_and_words(self):
-        swept = drycut.sweep(KNIFE, {"plants.web.speed": [60, np.float64(80)], "plants.web.elastic": [True, False]},
+        swept = drycut.sweep(KNIFE, {"plants.web.speed": ["60 m/min", "80 m/min"], "plants.web.elastic": [True, False]},
                              set={"scene.duration": "1 s"})
         self.assertEqual(list(swept.points["plants.web.speed"]), [60, 60, 80, 80])
         self.assertEqual(list(swept.points["plants.web.elastic"]), ["true", "false"] * 2)
@@ -378,6 +378,7 @@ class SweepTest(unittest.TestCase):
 
     def test_tells_what_does_not_fit(self):
         length = {"variables.length": "500..1000 mm:3"}
+        whole = {"variables.length": "500..1000 mm"}
         cases = [(lambda: drycut.sweep(KNIFE, {}), [("over", 1)]),
                  (lambda: drycut.sweep(KNIFE, {"variables.length": "500..1000 mm"}), [("over", 30)]),
                  (lambda: drycut.sweep(KNIFE, {"variables.length": ["1,2 mm"]}), [("over", 1)]),
@@ -386,9 +387,9 @@ class SweepTest(unittest.TestCase):
                  (lambda: drycut.sweep(KNIFE, length, set={"plants.web.sped": 1}), [("set plants.web.sped", 1)]),
                  (lambda: drycut.sweep(KNIFE, length, jobs=0), [("jobs", 1)]),
                  (lambda: drycut.sweep(KNIFE, length, jobs=257), [("jobs", 1)]),
-                 (lambda: drycut.sweep(KNIFE, length, sample=0), [("sample", 1)]),
-                 (lambda: drycut.sweep(KNIFE, length, sample=-1), [("sample", 1)]),
-                 (lambda: drycut.sweep(KNIFE, length, sample=1000001), [("sample", 1)]),
+                 (lambda: drycut.sweep(KNIFE, whole, sample=0), [("sample", 1)]),
+                 (lambda: drycut.sweep(KNIFE, whole, sample=-1), [("sample", 1)]),
+                 (lambda: drycut.sweep(KNIFE, whole, sample=1000001), [("sample", 1)]),
                  (lambda: drycut.sweep(KNIFE, length, figures={"": "max(knife.angle)"}), [("figures", 1)]),
                  (lambda: drycut.sweep(KNIFE, length, figures={"limit": "max(knife.angle)"}), [("figures", 1)]),
                  (lambda: drycut.sweep(KNIFE, length, figures={"knife.cut accuracy": "max(knife.angle)"}),

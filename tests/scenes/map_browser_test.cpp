@@ -127,6 +127,7 @@ checks:
   const auto told = [&] {
     return browser.evaluate("document.querySelector('.map-point').innerText").get<std::string>();
   };
+  browser.evaluate("document.querySelector('figure.map').scrollIntoView({block: 'center'}); 0");
   // Where the page itself has the point, by its own account of its axes.
   const auto place = [&](int column, int row) {
     const auto at = browser.evaluate(fmt::format(

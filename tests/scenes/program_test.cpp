@@ -194,7 +194,7 @@ TEST_F(ProgramTest, CommandLinesThatCannotBeRead) {
     std::vector<const char*> told;
   };
   const std::vector<Case> cases = {
-      {"", {"drycut: no command is given; known: run, check, cam, "}},
+      {"", {"drycut: no command is given; known: run, live, replay, check, cam, "}},
       {"run", {"drycut run: scenarios are missing; give it: Scenario files (.yaml)\n"}},
       {"run x.yaml --out", {"drycut run: --out has no value; give one: Directory for the results\n"}},
       {"run x.yaml --jobs 0", {"drycut run: --jobs: '0' is no number in its range; give 1 to 256\n"}},

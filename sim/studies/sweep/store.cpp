@@ -82,7 +82,6 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
   };
   const auto take = [&](std::size_t i, const cluster::Answer& answer) {
     const std::lock_guard lock(mutex);
-    progress(++done, points.size());
     if (!answer.lost.empty()) {
       rows[i] =
           PointRow{PointRow::Verdict::lost, answer.lost,
@@ -90,13 +89,14 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
       std::string what;
       for (const auto& override : points[i]) what += fmt::format("{}={} ", override.path, override.value);
       lost_.push_back(what + "was lost: " + answer.lost);
-      return;
+      return progress(++done, points.size());
     }
     // As it is read back: numbers of as many digits, whoever has run it.
     rows[i] = parse_row(answer.text).value();
     rows_.emplace(keys[i], answer.text);
     stream_ << fmt::format("{:0{}x},{}\n", keys[i], key_digits, answer.text) << std::flush;
     ++simulated_;
+    progress(++done, points.size());
   };
   workers_.run({"point", text_of(question), points.size(), ask, take});
   for (const auto i : twins) {

@@ -180,7 +180,7 @@ TEST_F(Hdf5Test, RefusesTimesThatAreNone) {
 }
 
 TEST_F(Hdf5Test, TellsAFullDisk) {
-  std::signal(SIGXFSZ, SIG_IGN);
+  const auto before_it = std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   std::string told;
@@ -195,6 +195,7 @@ TEST_F(Hdf5Test, TellsAFullDisk) {
     }
     setrlimit(RLIMIT_FSIZE, &before);
   }
+  std::signal(SIGXFSZ, before_it);
   EXPECT_EQ(told, "cannot write " + file.string() + ": File too large");
   EXPECT_THROW(Hdf5File(recording, folder / "nowhere/trace.h5", {}), std::runtime_error);
 }

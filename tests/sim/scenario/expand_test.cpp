@@ -203,6 +203,7 @@ TEST(ScenarioExpand, SaysEveryDefaultInItsUnit) {
             "      stiffness: 4000 N m/rad\n"
             "    servo.loop.gain: 1\n"
             "record:\n"
+            "  format: csv\n"
             "  every: 2 ms\n"
             "  channels: []\n"
             "drives:\n"

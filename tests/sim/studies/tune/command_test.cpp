@@ -402,7 +402,7 @@ TEST_F(TuneCommand, TellsAllThatIsWrongAndWritesNothing) {
         "did "
         "you mean AxisX.feedfw?",
         "--vary:1:34: controller.qmove.set.AxisX.pgain: AxisX.pgain holds whole numbers, not 0.5",
-        "--vary:1:24: plants.axis.resolution: ", "is given twice; keep one", "--vary:1:38: 'x' is no number",
+        "--vary:1:24: plants.axis.resolution", "is given twice; keep one", "--vary:1:38: 'x' is no number",
         "the ends are in m and s; give both ends in one unit",
         "--minimise:1:5: there is no channel 'AxisX.foller'; did you mean AxisX.follerr?",
         "--constraint:1:1: a constraint compares by < <= > >=", "--from:1:1: '3 kg' is no time; such as 3 s",
