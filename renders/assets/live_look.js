@@ -76,17 +76,18 @@ void main() {
   gl_Position = vec4((fallen - centre.xz) / reach * vec2(1.0, -1.0), 0.0, 1.0);
 }`;
 const shadowFragment = "void main() { gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0); }";
-const blurredVertex = "varying vec2 at;\nvoid main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }";
-const blurredFragment = `
+// It is blurred once: on the floor a pixel looks it up and no more.
+const blurVertex = "varying vec2 at;\nvoid main() { at = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }";
+const blurFragment = `
 uniform sampler2D map;
-uniform float depth;
 varying vec2 at;
 void main() {
   float covered = 0.0;
-  for (int x = -1; x <= 1; ++x) for (int y = -1; y <= 1; ++y)
-    covered += texture2D(map, at + vec2(x, y) * 0.004, 1.0).a;
-  gl_FragColor = vec4(0.05, 0.06, 0.08, depth * covered / 9.0);
+  for (int x = -4; x <= 4; ++x) for (int y = -4; y <= 4; ++y) covered += texture2D(map, at + vec2(x, y) * 0.0022).a;
+  gl_FragColor = vec4(0.05, 0.06, 0.08, 0.4 * covered / 81.0);
 }`;
+const fallenVertex = "varying vec2 at;\nvoid main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }";
+const fallenFragment = "uniform sampler2D map;\nvarying mediump vec2 at;\nvoid main() { gl_FragColor = texture2D(map, at); }";
 
 export class Look {
   constructor(renderer, scene, fine) {
@@ -112,11 +113,15 @@ export class Look {
       this.floor.material = new THREE.ShadowMaterial({ opacity: 0.38 });
       this.floor.receiveShadow = true;
     } else {
-      this.target = new THREE.WebGLRenderTarget(512, 512, { generateMipmaps: true, minFilter: THREE.LinearMipMapLinearFilter, stencilBuffer: false });
+      const target = () => new THREE.WebGLRenderTarget(512, 512, { minFilter: THREE.LinearFilter, depthBuffer: false, stencilBuffer: false });
+      [this.sharp, this.soft] = [target(), target()];
       const uniforms = { centre: { value: new THREE.Vector3() }, reach: { value: 1 } };
       this.caster = new THREE.ShaderMaterial({ vertexShader: shadowVertex, fragmentShader: shadowFragment, uniforms, depthTest: false, side: THREE.DoubleSide });
-      this.floor.material = new THREE.ShaderMaterial({ vertexShader: blurredVertex, fragmentShader: blurredFragment, transparent: true,
-        depthWrite: false, uniforms: { map: { value: this.target.texture }, depth: { value: 0.4 } } });
+      this.blur = new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), new THREE.ShaderMaterial({ vertexShader: blurVertex,
+        fragmentShader: blurFragment, depthTest: false, uniforms: { map: { value: this.sharp.texture } } }));
+      this.blur.frustumCulled = false;
+      this.floor.material = new THREE.ShaderMaterial({ vertexShader: fallenVertex, fragmentShader: fallenFragment, transparent: true,
+        depthWrite: false, uniforms: { map: { value: this.soft.texture } } });
     }
     this.looks = new Map();
     this.paint();
@@ -157,16 +162,16 @@ export class Look {
   }
 
   /// Floor and lamp for a machine in that box.
-  furnish(box, model) {
+  furnish(box) {
     const { center, radius } = box.getBoundingSphere(new THREE.Sphere());
     this.size = radius;
     const spacing = radius > 2.5 ? 0.5 : radius > 1 ? 0.2 : 0.1;
     this.grid.scale.setScalar(squares * spacing);
     this.grid.position.set(center.x, box.min.y, center.z);
     this.floor.position.set(center.x, box.min.y + 0.001, center.z);
-    this.floor.scale.setScalar(1.7 * radius);
+    this.floor.scale.setScalar((this.fine ? 1.7 : 1.4) * radius);
     this.fogAt();
-    if (!this.fine) return this.drop(model, center, box.min.y, 1.7 * radius);
+    if (!this.fine) return this.drop(center, box.min.y, 1.4 * radius);
     this.lamp.target.position.copy(center);
     this.lamp.position.copy(center).addScaledVector(new THREE.Vector3(...toLight).normalize(), 3 * radius);
     const reached = 1.1 * radius;
@@ -176,19 +181,21 @@ export class Look {
   }
 
   /// The plain look's shadow, as the machine stands now.
-  drop(model, center, level, reach) {
+  drop(center, level, reach) {
     const { renderer, scene, caster } = this;
     caster.uniforms.centre.value.set(center.x, level, center.z);
     caster.uniforms.reach.value = reach;
     this.grid.visible = this.floor.visible = false;
     scene.overrideMaterial = caster;
-    renderer.setRenderTarget(this.target);
+    renderer.setRenderTarget(this.sharp);
     renderer.clear();
     renderer.render(scene, new THREE.Camera());
+    renderer.setRenderTarget(this.soft);
+    renderer.clear();
+    renderer.render(this.blur, new THREE.Camera());
     renderer.setRenderTarget(null);
     scene.overrideMaterial = null;
     this.grid.visible = this.floor.visible = true;
-    model.visible = true;
   }
 
   /// Leaves the scene as it was before.

@@ -159,7 +159,7 @@ export class Machine {
     if (everything.length === 0) return;
     const all = around(everything);
     this.bounds = all;
-    this.look.furnish(all, this.model);
+    this.look.furnish(all);
     const own = plant === null ? [] : this.boxesOf(plant);
     const boxes = own.length > 0 ? own : everything;
     const way = new THREE.Vector3(...directions[from]).normalize();
@@ -251,7 +251,7 @@ export class Machine {
     this.look.dress(this.model);
     this.resting = undefined;
     this.fineness(false);
-    this.look.furnish(this.bounds, this.model);
+    this.look.furnish(this.bounds);
   }
 
   draw(now) {
@@ -264,7 +264,7 @@ export class Machine {
       this.settled = share >= 1;
       this.stale = true;
     }
-    const rested = !this.look.fine && !this.resting && now - this.lastDrawn > restAfter;
+    const rested = !this.stale && !this.look.fine && !this.resting && now - this.lastDrawn > restAfter;
     if (!this.stale && !rested) return;
     this.stale = false;
     this.fineness(rested);
