@@ -19,7 +19,6 @@
 #include "sim/live/line.hpp"
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
-#include "sim/output_folder.hpp"
 
 namespace drycut::sim::cli {
 
@@ -89,9 +88,6 @@ int live_scenario(const LiveOptions& options) {
                              !options.paused, options.record};
   std::optional<live::Line> line;
   if (problems.empty()) line.emplace(wanted, problems);
-  std::optional<OutputFolder> folder;
-  if (problems.empty() && !options.record.empty())
-    folder.emplace(options.record, "live", std::vector<std::string>{"1/", "2/"}, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
@@ -110,8 +106,7 @@ int live_scenario(const LiveOptions& options) {
     fmt::print(stderr, "drycut live: {}\n", printable(error.what()));
     return simulation_failed;
   }
-  if (!options.record.empty())
-    fmt::print("again, to the byte: drycut replay {}/1\n", options.record.string());
+  if (!options.record.empty()) fmt::print("again, to the byte: drycut replay {}\n", line->record().string());
   return all_passed;
 }
 

@@ -131,6 +131,8 @@ struct LineDescription {
   std::vector<std::string> notes;
 };
 
+class LineRun;
+
 /// A line that runs in real time in a thread of its own: the same loop as of `drycut run`, which is told what
 /// to do and tells what it sees. All functions may be called from any thread.
 class Line {
@@ -140,7 +142,7 @@ class Line {
     std::vector<scenario::Override> set;
     double pace = 1;               ///< 0 = as fast as it goes
     bool running = true;           ///< from the beginning on
-    std::filesystem::path record;  ///< folder of sessions, each run in one of its own: 1, 2 ...; "" = none
+    std::filesystem::path record;  ///< folder of sessions, each run in a new one: 1, 2 ...; "" = none
   };
   using Listener = std::function<void(std::shared_ptr<const News>)>;
   using Describe = std::function<void(std::shared_ptr<const LineDescription>)>;
@@ -154,11 +156,12 @@ class Line {
   /// Runs until stop() is called, in the calling thread. What is told goes to the listeners, in this thread.
   /// Throws std::runtime_error if a record cannot be written.
   void run(const Listener& listener, const Describe& describe);
+  /// The folder of the present run's record, "" = none; once run() has returned.
+  [[nodiscard]] const std::filesystem::path& record() const;
   void stop();
   void ask(Request request);
 
  private:
-  class OneRun;
   using Clock = std::chrono::steady_clock;
 
   /// False if the line is to stop.
@@ -174,7 +177,7 @@ class Line {
   [[nodiscard]] Time cycle_time() const;
 
   Options options_;
-  std::unique_ptr<OneRun> run_;
+  std::unique_ptr<LineRun> run_;
   Listener listener_;
   Describe describe_;
 

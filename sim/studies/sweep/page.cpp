@@ -1,6 +1,7 @@
 #include "sim/studies/sweep/page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,14 +71,17 @@ std::string point_command(const Studied& study, const std::vector<std::string>& 
 }
 
 std::vector<renders::ReportRow> facts_of(const std::vector<const Studied*>& studies) {
-  std::vector<renders::ReportRow> facts;
+  std::vector<std::string> files;
+  std::vector<std::string> over;  // each once
   for (const auto* study : studies) {
-    std::string over;
-    for (const auto& axis : axis_headings(study->question, study->axes))
-      over += (over.empty() ? "" : ", ") + axis;
-    facts.push_back({{"scenario", study->question.file.string()}});
-    if (!over.empty()) facts.push_back({{"over", over}});
+    files.push_back(study->question.file.string());
+    for (auto& axis : axis_headings(study->question, study->axes))
+      if (std::find(over.begin(), over.end(), axis) == over.end()) over.push_back(std::move(axis));
   }
+  std::vector<renders::ReportRow> facts;
+  facts.push_back(
+      {{files.size() == 1 ? "scenario" : "scenarios", fmt::format("{}", fmt::join(files, ", "))}});
+  if (!over.empty()) facts.push_back({{"over", fmt::format("{}", fmt::join(over, ", "))}});
   for (const auto& [path, value] : studies.front()->question.set)
     facts.push_back({{"set", fmt::format("{} = {}", path, value)}});
   facts.push_back({{"drycut", DRYCUT_VERSION}});

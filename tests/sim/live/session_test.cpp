@@ -73,6 +73,22 @@ TEST_F(LiveSession, RunAgainIsTheSameBytes) {
   expect_same(folder / "record/2", folder / "again/session");
 }
 
+TEST_F(LiveSession, EveryRunTakesTheNextFolder) {
+  const auto scenario = folder.file("web.yaml", web_alone);
+  const auto run = [&] {
+    RunningLine line(
+        {.scenario = scenario, .set = {}, .pace = 0, .running = false, .record = folder / "record"});
+    line.ask(Advance{10 * millisecond});
+  };
+  run();
+  const auto first = bytes_of(folder / "record/1/session.yaml");
+  fs::create_directory(folder / "record/2");  // somebody else's
+  run();
+  EXPECT_EQ(bytes_of(folder / "record/1/session.yaml"), first);
+  EXPECT_TRUE(fs::is_empty(folder / "record/2"));
+  EXPECT_THAT(bytes_of(folder / "record/3/session.yaml"), testing::StartsWith("- {scenario: "));
+}
+
 TEST_F(LiveSession, BecomesAScenario) {
   const auto scenario = folder.file("web.yaml", web_alone);
   {

@@ -1,0 +1,216 @@
+#include "sim/live/line_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "renders/gltf.hpp"
+#include "sim/loop/known_events.hpp"
+#include "sim/report/film.hpp"
+#include "sim/report/results.hpp"
+#include "sim/scenario/units.hpp"
+
+namespace drycut::sim::live {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_channels = 64;  ///< of an asker
+
+std::string read_bytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return bytes.str();
+}
+
+/// A folder that goes again.
+struct PassingFolder {
+  PassingFolder() {
+    auto name = (fs::temp_directory_path() / "drycut-live-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder in " + name);
+    path = name;
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  fs::path path;
+};
+
+/// The machine as a .glb: its first frame, with all that may ever be seen.
+std::string machine_of(scenario::Scenario scenario, std::vector<std::string>& parts, Problems& problems) {
+  auto& pictures = scenario.pictures;
+  pictures.frames = true;
+  pictures.from = 0;
+  pictures.until.reset();
+  pictures.around.reset();
+  pictures.every = scenario.scene.step;
+  pictures.slow = 1;
+  pictures.live.clear();
+  scenario.record.channels.clear();
+  loop::Simulation simulation(scenario, problems);
+  const auto meshes = report::load_part_meshes(scenario, simulation.plants(), problems);
+  if (!problems.empty()) return "";
+  simulation.advance();
+  auto film = report::film_of(scenario, simulation, meshes);
+  for (const auto& part : film.parts) parts.push_back(part.name);
+  if (film.frames.empty() || film.parts.empty()) return "";
+  for (auto& placement : film.frames.front().placements) placement.visible = true;
+  const PassingFolder folder;
+  renders::write_gltf(film, folder.path / "machine.glb");
+  return read_bytes(folder.path / "machine.glb");
+}
+
+scenario::Scenario read(const Line::Options& options, Problems& problems) {
+  return scenario::read_scenario(options.scenario, options.set, problems);
+}
+
+}  // namespace
+
+LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
+    : scenario_(read(options, problems)), number_(number) {
+  if (!problems.empty()) return;
+  machine_ = machine_of(read(options, problems), parts_, problems);
+  if (!problems.empty()) return;
+  fingerprint_ = fingerprint_of(scenario_);
+  scenario_.pictures = {};
+  simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
+  if (!problems.empty()) return;
+  simulation_->keep_nothing();
+  simulation_->tell(*this);
+  for (const auto& [name, plant] : simulation_->plants())
+    for (auto& part : plant->parts()) shown_.push_back(std::move(part));
+  auto& names = simulation_->names();
+  for (const auto& name : names.setting_names())
+    if (auto target = names.target(name)) targets_.push_back(std::move(*target));
+  for (const auto& name : names.lamp_names())
+    if (auto lamp = names.reading(name)) lamps_.push_back(std::move(*lamp));
+}
+
+void LineRun::record_in(const fs::path& folder) {
+  fs::create_directories(folder);
+  // Nothing that is there is touched: each run takes the next number.
+  for (int number = 1; record_.empty(); ++number) {
+    const auto next = folder / std::to_string(number);
+    if (fs::create_directory(next)) record_ = next;
+  }
+  session_.emplace(record_ / session_file, scenario_, fingerprint_);
+  simulation_->write_to(record_ / report::trace_file, record_ / report::events_file);
+}
+
+void LineRun::finish_record() {
+  if (!session_) return;
+  session_->reached(now());
+  simulation_->flush();
+}
+
+bool LineRun::advance() {
+  const bool sound = simulation_->advance();
+  if (session_ && now() >= next_reached_) {
+    session_->reached(now());
+    next_reached_ = (now() / second + 1) * second;
+  }
+  return sound;
+}
+
+Problems LineRun::act(const std::string& text) {
+  Problems problems;
+  const auto stimulus = read_act(text, "act", now(), problems);
+  if (stimulus && simulation_->act(*stimulus, problems) && session_) session_->add(*stimulus);
+  for (auto& problem : problems) problem.file = "act";
+  return problems;
+}
+
+void LineRun::happened(const loop::RecordedEvent& event) {
+  events_.push_back(event);
+  if (awaited_ && loop::names_event(*awaited_, event.source, event.event)) seen_ = true;
+  if (awaited_ && awaited_->empty()) seen_ = true;
+}
+
+void LineRun::await(const std::string& event) {
+  awaited_ = event;
+  seen_ = false;
+}
+
+Problems LineRun::want(Asker asker, const std::vector<std::string>& names) {
+  Problems problems;
+  if (names.size() > most_channels)
+    problems.push_back(
+        {"sample", 1, 1, fmt::format("{} channels", names.size()), fmt::format("{} at most", most_channels)});
+  for (const auto& name : names) {
+    if (problems.size() < most_channels && !simulation_->names().reading(name))
+      problems.push_back({"sample", 1, 1, fmt::format("there is no channel '{}'", name),
+                          simulation_->names().suggest_reading(name)});
+  }
+  if (!problems.empty()) return problems;
+  wanted_[asker] = names;
+  choose_samples();
+  return {};
+}
+
+void LineRun::leave(Asker asker) {
+  if (wanted_.erase(asker) > 0) choose_samples();
+}
+
+void LineRun::take_samples() {
+  if (readings_.empty()) return;
+  samples_.times.push_back(now());
+  for (const auto& reading : readings_) samples_.rows.push_back(reading.read());
+}
+
+void LineRun::tell(News& news) {
+  news.run = number_;
+  news.time = now();
+  news.failure = failure();
+  news.poses.reserve(shown_.size());
+  for (const auto& part : shown_) news.poses.push_back(part.now());
+  for (const auto& target : targets_) news.values.push_back(scenario::from_si(target.read(), target.unit));
+  for (const auto& lamp : lamps_) news.lamps.push_back(lamp.read());
+  news.events = std::exchange(events_, {});
+  news.samples = std::exchange(samples_, {sample_names_, {}, {}});
+}
+
+std::shared_ptr<const LineDescription> LineRun::describe() {
+  auto told = std::make_shared<LineDescription>();
+  told->run = number_;
+  told->title = scenario_.scene.title;
+  told->scenario = scenario_.file.filename().string();
+  told->step = scenario_.scene.step;
+  told->duration = scenario_.scene.duration;
+  auto& names = simulation_->names();
+  for (const auto& target : targets_)
+    told->targets.push_back({target.name, target.unit, target.range, target.name.starts_with("panel.")});
+  for (const auto& lamp : lamps_) told->lamps.push_back(lamp.name);
+  for (const auto& [component, fault] : names.faults())
+    told->faults.push_back(
+        {component, fault.name, std::string(fault.unit), fault.meaning, loop::range_of(fault.range)});
+  for (const auto& name : names.reading_names()) {
+    if (const auto reading = names.reading(name))
+      told->channels.push_back({name, reading->unit, names.target(name).has_value()});
+  }
+  told->parts = parts_;
+  told->machine = machine_;
+  for (const auto& check : simulation_->outcome().checks) told->checks.push_back(check.name);
+  told->notes = simulation_->notes();
+  return told;
+}
+
+void LineRun::choose_samples() {
+  auto names = std::make_shared<std::vector<std::string>>();
+  for (const auto& [asker, own] : wanted_)
+    for (const auto& name : own)
+      if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
+  readings_.clear();
+  for (const auto& name : *names) readings_.push_back(simulation_->names().reading(name).value());
+  sample_names_ = std::move(names);
+  samples_ = {sample_names_, {}, {}};
+}
+
+}  // namespace drycut::sim::live

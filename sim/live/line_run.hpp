@@ -1,0 +1,76 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/live/line.hpp"
+
+namespace drycut::sim::live {
+
+/// One run of a live line, from time zero: the simulation, its record, and what is seen of it.
+class LineRun : public loop::Observer {
+ public:
+  /// May be used if there are no problems.
+  LineRun(const Line::Options& options, int number, Problems& problems);
+
+  /// Records the run in a new folder in `folder`, which has the next number. Throws std::runtime_error.
+  void record_in(const std::filesystem::path& folder);
+  /// All that was recorded is in its files.
+  void finish_record();
+  /// The folder of the record, "" = none.
+  [[nodiscard]] const std::filesystem::path& record() const { return record_; }
+
+  [[nodiscard]] int number() const { return number_; }
+  [[nodiscard]] Time now() const { return simulation_->time(); }
+  [[nodiscard]] Time step() const { return scenario_.scene.step; }
+  [[nodiscard]] const std::string& failure() const { return simulation_->failure(); }
+  /// One step; false if the simulation itself failed.
+  bool advance();
+  /// Does something to the line, before the next step.
+  Problems act(const std::string& text);
+
+  void happened(const loop::RecordedEvent& event) override;
+  /// From now on seen() tells whether such an event has happened; "" = any.
+  void await(const std::string& event);
+  [[nodiscard]] bool seen() const { return seen_; }
+
+  /// Has an asker's channels sampled by take_samples().
+  Problems want(Asker asker, const std::vector<std::string>& names);
+  void leave(Asker asker);
+  [[nodiscard]] const std::map<Asker, std::vector<std::string>>& wanted() const { return wanted_; }
+  void take_samples();
+
+  /// What is to be seen now, and what has come since it was told last.
+  void tell(News& news);
+  [[nodiscard]] loop::Outcome outcome() { return simulation_->outcome(); }
+  std::shared_ptr<const LineDescription> describe();
+
+ private:
+  void choose_samples();
+
+  scenario::Scenario scenario_;
+  int number_;
+  std::uint64_t fingerprint_ = 0;
+  std::vector<std::string> parts_;
+  std::string machine_;
+  std::unique_ptr<loop::Simulation> simulation_;
+  std::filesystem::path record_;
+  std::optional<SessionFile> session_;
+  Time next_reached_ = 0;
+  std::vector<plants::Part> shown_;
+  std::vector<loop::Target> targets_;  ///< what an operator sets: switches of the panel, settings of plants
+  std::vector<loop::Reading> lamps_;
+  std::vector<loop::RecordedEvent> events_;
+  std::optional<std::string> awaited_;
+  bool seen_ = false;
+  std::map<Asker, std::vector<std::string>> wanted_;
+  std::vector<loop::Reading> readings_;
+  std::shared_ptr<const std::vector<std::string>> sample_names_;
+  News::Samples samples_;
+};
+
+}  // namespace drycut::sim::live
