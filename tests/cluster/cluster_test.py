@@ -180,8 +180,11 @@ class ClusterTest(unittest.TestCase):
         self.assertRegex(errors, r"has drycut [0-9.]+ \([0-9a-f]{16}\), the study is drycut [0-9.]+ \([0-9a-f]{16}\)'s")
         self.nothing_left("there")
 
-    def test_envelope_and_tune_too(self):
-        for words, file in ((["envelope", SCENE, "--over", "variables.limit=40,60 m/min",
+    def test_every_study(self):
+        knife = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scenes/rotary_knife_lx3vp.yaml")
+        for words, file in ((["size", knife, "--set", "scene.duration=3 s", "--motors", "HG-SR202,HG-SR352",
+                              "--gears", "5,7"], "size.csv"),
+                            (["envelope", SCENE, "--over", "variables.limit=40,60 m/min",
                               "--find-max", "variables.speed=5..300 m/min:8"], "envelope.csv"),
                             (["tune", SCENE, "--vary", "variables.speed=20..90 m/min", "--minimise",
                               "max(abs(web.speed - 61))", "--constraint", "max(web.speed) <= 80", "--budget", "6",
