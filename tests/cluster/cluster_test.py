@@ -182,7 +182,7 @@ class ClusterTest(unittest.TestCase):
 
     def test_every_study(self):
         knife = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scenes/rotary_knife_lx3vp.yaml")
-        for words, file in ((["size", knife, "--set", "scene.duration=3 s", "--motors", "HG-SR202,HG-SR352",
+        for words, file in ((["size", knife, "--motors", "HG-SR202,HG-SR352",
                               "--gears", "5,7"], "size.csv"),
                             (["envelope", SCENE, "--over", "variables.limit=40,60 m/min",
                               "--find-max", "variables.speed=5..300 m/min:8"], "envelope.csv"),
