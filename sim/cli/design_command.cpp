@@ -198,10 +198,15 @@ PulseWay pulse_way(const char* option, const std::string& text, Problems& proble
   return sound ? made : refuse();
 }
 
+std::string given(const std::string& text, const std::string& otherwise) {
+  return text.empty() ? otherwise : text;
+}
+
 std::optional<studies::DesignSheet> designed(const DesignOptions& options, Problems& problems) {
   const auto job = JobReader(options, problems).read();
-  const DesignAxes axes{pulse_way("--master-pulse", options.master_pulse, problems),
-                        pulse_way("--slave-pulse", options.slave_pulse, problems), options.decpt};
+  const DesignAxes axes{pulse_way("--master-pulse", given(options.master_pulse, "0.01 mm"), problems),
+                        pulse_way("--slave-pulse", given(options.slave_pulse, "0.02 mm"), problems),
+                        options.decpt};
   const auto fit = options.device.empty() ? std::optional<Fit>(nullptr)
                                           : chosen("--device", options.device, devices, problems);
   if (problems.empty()) problems = studies::hindrances(job);
@@ -223,6 +228,11 @@ std::optional<studies::DesignSheet> designed(const DesignOptions& options, Probl
 std::optional<studies::CamScene> scene_of(const DesignOptions& options, const studies::DesignSheet& sheet,
                                           Problems& problems) {
   if (options.scene.empty()) return {};
+  // The program counts pulses of the scene's machine.
+  if (options.device == "lx3vp" && (options.master_pulse.empty() || options.slave_pulse.empty()))
+    problems.push_back({options.master_pulse.empty() ? "--master-pulse" : "--slave-pulse", 1, 1,
+                        "it is not given, and the scene has pulses of its own",
+                        "such as --master-pulse \"0.05 mm\" --slave-pulse \"600 mm/20000\""});
   auto made = studies::cam_scene(sheet, options.scene, options.table, problems);
   if (!made) return {};
   for (const auto& file : {made->file, made->registers_file})
@@ -262,6 +272,8 @@ int design_cam(const DesignOptions& options) {
     if (!options.table.empty()) {
       write_file(options.table, table);
       fmt::print("  table: {}\n", options.table);
+      if (const auto speed = sheet->device->duty.master_speed)
+        fmt::print("  judge it again: drycut cam {} --master-speed {:.9g}\n", options.table, *speed);
     }
     if (scene && !scene->registers.empty()) {
       write_file(scene->registers_file, scene->registers);
@@ -325,8 +337,9 @@ void add_design(CLI::App& app, int& status) {
       "Scenario (.yaml) in which the table is to run: writes one beside the table that extends it, with the "
       "registers that the PLC needs");
   add("--master-pulse", options.master_pulse,
-      "Way of the master a pulse (count x4), of CAMMING4 and LX3VP; also as \"500 mm/10000\"");
-  add("--slave-pulse", options.slave_pulse, "The same of the slave");
+      "Way of the master a pulse (count x4), of CAMMING4 and LX3VP; also as \"500 mm/10000\"; 0.01 mm unless "
+      "given");
+  add("--slave-pulse", options.slave_pulse, "The same of the slave; 0.02 mm unless given");
   design->add_option("--decpt", options.decpt, "CAMMING4: 1 Um is 10^-decpt mm; else the coarsest that fits")
       ->check(CLI::Range(0, 3));
   add_out(*design, options.out, "Directory for a picture: position, velocity, acceleration, jerk");

@@ -24,11 +24,11 @@ struct DesignOptions {
   std::string coulomb;
   bool no_reverse = false;
   std::string minimise = "rms";
-  std::string device;                    ///< camming4, lx3vp, mc_camin; "" = the cam alone
-  std::string table;                     ///< file for the device's table, "" = none
-  std::string scene;                     ///< in which the table is to run: a scenario beside it, "" = none
-  std::string master_pulse = "0.01 mm";  ///< also "500 mm/10000"
-  std::string slave_pulse = "0.02 mm";
+  std::string device;        ///< camming4, lx3vp, mc_camin; "" = the cam alone
+  std::string table;         ///< file for the device's table, "" = none
+  std::string scene;         ///< in which the table is to run: a scenario beside it, "" = none
+  std::string master_pulse;  ///< "500 mm/10000"; "" = 0.01 mm
+  std::string slave_pulse;   ///< "" = 0.02 mm
   std::optional<int> decpt = {};
   std::filesystem::path out;  ///< folder for the picture, "" = none
 };

@@ -188,7 +188,7 @@ void add_size(CLI::App& app, int& status) {
                    "The largest of load over rotor inertia, such as the motor's maker recommends; above, a "
                    "candidate is "
                    "ruled out without a run")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-6, 1e6));
   size->add_option(
           "--at", options.at,
           "A corner of what the line must do: \"variables.length=500 mm,plants.web.speed=120 m/min\"; may be "

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 
 #include "devices/lx3vp/block.hpp"
@@ -39,6 +40,7 @@ class SceneMaker {
 
   std::optional<CamScene> make() {
     const auto before = problems_.size();
+    check_drum();
     if (const auto* qmove = section<controllers::QmoveSection>("camming4"))
       take(std::get<devices::camming4::CamTable>(sheet_.device->table), *qmove);
     else if (const auto* lx3vp = section<controllers::Lx3vpSection>("lx3vp"))
@@ -63,6 +65,39 @@ class SceneMaker {
   }
   std::string content(const scenario::Text& file) {
     return controllers::read_named(file, scene_, problems_).value_or("");
+  }
+
+  /// The scene's knife must be the job's.
+  void check_drum() {
+    if (sheet_.cam.job.kind != DesignKind::rotary_knife) return;
+    const double wanted = sheet_.cam.job.slave * sheet_.cam.job.blades;
+    for (const auto& plant : scene_.plants) {
+      for (const auto& row : plant.definition->parameters()) {
+        const auto* const value = std::get_if<double*>(&row.value);
+        if (row.name != "circumference" || value == nullptr || std::abs(**value - wanted) <= 1e-9) continue;
+        refuse(fmt::format("{} has a drum of {}, the job one of {}", scene_.file.string(),
+                           length_text(**value), length_text(wanted)),
+               fmt::format("--circumference \"{}\", or another scene", length_text(**value)));
+      }
+    }
+  }
+
+  /// Where the job's speed goes: a variable, or the web that nothing else sets; "" = the scene has its own.
+  [[nodiscard]] std::string speed_path() const {
+    for (const auto& variable : scene_.variables)
+      if (variable.name.text == "speed") return "variables";
+    for (const auto& plant : scene_.plants) {
+      if (plant.type.text != "web") continue;
+      const auto setting = plant.name.text + ".speed";
+      const auto sets = [&](const auto& actions) {
+        return std::any_of(actions.begin(), actions.end(),
+                           [&](const auto& action) { return action.first.text == setting; });
+      };
+      const bool set = std::any_of(scene_.timeline.begin(), scene_.timeline.end(),
+                                   [&](const auto& entry) { return sets(entry.set) || sets(entry.ramp); });
+      return set ? "" : plant.name.text;
+    }
+    return "";
   }
 
   void take(const devices::camming4::CamTable& cam, const controllers::QmoveSection& section) {
@@ -170,7 +205,16 @@ class SceneMaker {
                     scene_.file.filename().string(), sheet_.device_name, scenario::yaml_text(scene.string()));
     const auto has_length = std::any_of(scene_.variables.begin(), scene_.variables.end(),
                                         [](const auto& variable) { return variable.name.text == "length"; });
-    if (has_length) text += fmt::format("variables: {{length: {}}}\n", length_text(sheet_.cam.job.length));
+    std::vector<std::string> variables;
+    if (has_length) variables.push_back("length: " + length_text(sheet_.cam.job.length));
+    const auto& speed = sheet_.cam.job.speed;
+    const auto path = speed ? speed_path() : "";
+    const auto its_speed = speed ? fmt::format("speed: {:.9g} m/min", *speed * 60) : "";
+    if (path == "variables") variables.push_back(its_speed);
+    if (!variables.empty()) text += fmt::format("variables: {{{}}}\n", fmt::join(variables, ", "));
+    if (!path.empty() && path != "variables")
+      text += fmt::format("plants: {{{}: {{{}}}}}\n", path, its_speed);
+    if (speed && path.empty()) text += "# The scene sets the speed of its web itself, not the job.\n";
     text += fmt::format("controller:\n  {}\n", controller_);
     if (!check_.empty())
       text += scene_.checks.empty()

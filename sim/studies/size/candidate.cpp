@@ -127,7 +127,10 @@ class CandidateMaker {
     if (!gear.empty()) {
       for (auto& override : overrides_of(choices_.gears, {gear}))
         made.overrides.push_back(std::move(override));
-      if (!choices_.gear_is_tied) take_along(made, number_of_text(gear) / *present, *present);
+      if (!choices_.gear_is_tied) {
+        made.ratio = number_of_text(gear);
+        take_along(made, made.ratio / *present, *present);
+      }
     }
     auto without = made.overrides;
     const auto inertia_ratio = drive.path("servo.inertia_ratio");

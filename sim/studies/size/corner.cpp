@@ -64,7 +64,9 @@ std::pair<std::string, std::string> path_and_unit(const std::string& heading) {
   return {heading.substr(0, bracket), heading.substr(bracket + 2, heading.size() - bracket - 3)};
 }
 
-void read_envelope(const std::filesystem::path& file, std::vector<Corner>& corners, Problems& problems) {
+/// `scene` is what the scenario is called in an envelope of several.
+void read_envelope(const std::filesystem::path& file, const std::string& scene, std::vector<Corner>& corners,
+                   Problems& problems) {
   const auto text = read_file(file, problems);
   if (!text) return;
   cams::TableProblems broken(file.string(), problems);
@@ -83,7 +85,9 @@ void read_envelope(const std::filesystem::path& file, std::vector<Corner>& corne
     if (broken.none()) broken.add(1, 1, "this is no envelope.csv", "drycut envelope writes one");
     return;
   }
+  const std::size_t first = heading.front().text == "scene" ? 1 : 0;
   std::size_t taken = 0;
+  std::size_t own = 0;
   while (rows.next(row)) {
     const auto& cells = row.cells;
     if (cells.size() != heading.size()) {
@@ -91,9 +95,11 @@ void read_envelope(const std::filesystem::path& file, std::vector<Corner>& corne
                  "run the envelope again: it writes the file");
       continue;
     }
+    if (first == 1 && cells.front().text != scene) continue;
+    ++own;
     if (cells[verdict].text == "nowhere") continue;
     Corner corner;
-    for (std::size_t i = 0; i < verdict; ++i) {
+    for (std::size_t i = first; i < verdict; ++i) {
       const auto [path, unit] = path_and_unit(heading[i].text);
       if (cells[i].text.empty())
         broken.add(row.line, cells[i].column, fmt::format("{} has no value", path),
@@ -103,7 +109,10 @@ void read_envelope(const std::filesystem::path& file, std::vector<Corner>& corne
     ++taken;
     add_corner(std::move(corner), corners);
   }
-  if (taken == 0 && broken.none())
+  if (own == 0 && broken.none())
+    broken.add(1, 1, fmt::format("it has no points of the scene {}", scene),
+               "the envelope of this scenario, or the scenario of this envelope");
+  else if (taken == 0 && broken.none())
     broken.add(1, 1, "at none of its points everything holds",
                "an envelope with a point that has a largest value");
 }
@@ -137,7 +146,7 @@ std::vector<Corner> read_corners(const std::vector<std::string>& texts, const st
   const auto before = problems.size();
   for (const auto& text : texts) read_corner(text, corners, problems);
   const auto typed = corners.size();
-  if (!file.empty()) read_envelope(file, corners, problems);
+  if (!file.empty()) read_envelope(file, question.file.stem().string(), corners, problems);
   if (problems.size() == before)
     for (std::size_t i = 0; i < corners.size(); ++i)
       check_corner(corners[i], i < typed ? at_option : file.string(), question, sized, problems);
