@@ -116,6 +116,33 @@ TEST_F(DesignedCams, TheLengthGoesWithTheTable) {
   EXPECT_EQ(run.scenario.variables.at(0).value.text, "700 mm");
 }
 
+// And so does the speed; where the scene sets that itself, the scenario says so.
+TEST_F(DesignedCams, TheSpeedGoesWithTheTable) {
+  auto job = knife_job();
+  job.speed = "75 m/min";
+  const Ran run(design(job, "camming4", scenes / "rotary_knife.yaml"));
+  expect_passed(run, 9);
+  EXPECT_THAT(scenario::expand(run.scenario), testing::HasSubstr("speed: 75 m/min"));
+  std::ifstream made(design(job, "camming4", scenes / "rotary_knife_ramp.yaml"));
+  EXPECT_THAT((std::string{std::istreambuf_iterator<char>(made), {}}),
+              testing::HasSubstr("# The scene sets the speed of its web itself"));
+}
+
+// A table for another machine is none for the scene.
+TEST_F(DesignedCams, AnotherMachineIsRefused) {
+  auto job = knife_job();
+  job.circumference = "500 mm";
+  job.device = "lx3vp";
+  job.table = folder / "cam.csv";
+  job.scene = scenes / "rotary_knife_lx3vp.yaml";
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(cli::design_cam(job), cli::bad_input);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(testing::HasSubstr("has a drum of 600 mm, the job one of 500 mm"),
+                             testing::HasSubstr("--master-pulse:1:1: it is not given")));
+  EXPECT_FALSE(fs::exists(job.table));
+}
+
 /// A feed of 120 mm in 300 mm of the master, of which it rests for 100 mm.
 cli::DesignOptions feed_job() {
   cli::DesignOptions options;
@@ -143,7 +170,10 @@ TEST_F(DesignedCams, FeedUnderLx3vp) {
       "  - {name: goes on, eventually: DD1019 > 5990}\n"
       "  - {name: three pieces, eventually: DD8140 == 18000}\n"
       "  - {name: no more, always: DD8140 <= 24000}\n  - {name: no error, always: M8067 == 0}\n");
-  expect_passed(Ran(design(feed_job(), "lx3vp", scene)), 6);
+  auto job = feed_job();
+  job.master_pulse = "0.01 mm";
+  job.slave_pulse = "0.02 mm";
+  expect_passed(Ran(design(job, "lx3vp", scene)), 6);
 }
 
 TEST_F(DesignedCams, FeedUnderCamming4) {

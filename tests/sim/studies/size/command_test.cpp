@@ -167,6 +167,19 @@ TEST_F(SizeCommand, CornersAreThoseOfAnEnvelope) {
   EXPECT_EQ(text_of(options.out / "size.csv"), by_file);
   EXPECT_THAT(out, HasSubstr("\n0 runs simulated now"));
   EXPECT_THAT(by_file, HasSubstr("\"length=1000 mm, web.wheel.distance=650 mm\""));
+  // Of an envelope of several scenes the points of this one.
+  const auto stem = options.scenario.stem().string();
+  folder.file(
+      "several.csv",
+      "scene,variables.length [mm],plants.web.wheel.distance [mm],verdict,limit,holds from [mm],holds "
+      "again at [mm]\n" +
+          stem + ",800,600,found,x,600,\n" + stem + ",1000,650,throughout,,600,\nsaw,10,20,found,x,5,\n");
+  options.at.clear();
+  options.corners = folder / "several.csv";
+  ASSERT_EQ(run(), all_passed) << err;
+  EXPECT_THAT(out, AllOf(HasSubstr("at 2 corners"), HasSubstr("\n0 runs simulated now")));
+  options.at = {"variables.length=800 mm, plants.web.wheel.distance=600 mm",
+                "variables.length=1000 mm,plants.web.wheel.distance=650 mm"};
   // A corner twice is one.
   options.corners = folder / "envelope.csv";
   ASSERT_EQ(run(), all_passed) << err;
