@@ -232,7 +232,7 @@ std::optional<studies::CamScene> scene_of(const DesignOptions& options, const st
   if (options.device == "lx3vp" && (options.master_pulse.empty() || options.slave_pulse.empty()))
     problems.push_back({options.master_pulse.empty() ? "--master-pulse" : "--slave-pulse", 1, 1,
                         "it is not given, and the scene has pulses of its own",
-                        "such as --master-pulse \"0.05 mm\" --slave-pulse \"600 mm/20000\""});
+                        R"(such as --master-pulse "0.05 mm" --slave-pulse "600 mm/20000")"});
   auto made = studies::cam_scene(sheet, options.scene, options.table, problems);
   if (!made) return {};
   for (const auto& file : {made->file, made->registers_file})
@@ -243,7 +243,7 @@ std::optional<studies::CamScene> scene_of(const DesignOptions& options, const st
 /// The table as a file, judged as `drycut cam` judges what it reads from there.
 std::string table_text(const DesignOptions& options, studies::DesignSheet& sheet) {
   const auto name = options.table.empty() ? options.device : options.table;
-  const auto text = studies::remarks_text(sheet) + cams::cam_file(sheet.device->table, name);
+  auto text = studies::remarks_text(sheet) + cams::cam_file(sheet.device->table, name);
   Problems problems;
   const auto table = cams::read_cam(options.device, text, name, problems);
   const auto study = cams::study_cam(table, {sheet.device->duty}, problems);

@@ -40,7 +40,7 @@ class OnEnd {
     });
   }
   ~OnEnd() {
-    pthread_kill(thread_.native_handle(), SIGTERM);  // in case nobody has
+    pthread_kill(thread_.native_handle(), SIGINT);  // in case nobody has
     thread_.join();
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }

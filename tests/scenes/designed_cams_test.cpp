@@ -1,5 +1,7 @@
 // Cams that `drycut design` makes, in the shipped scenes of the knife and the saw under each controller: the
 // scenes' own checks hold.
+#include <fmt/format.h>
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -254,7 +256,7 @@ TEST_F(DesignedCams, ScenesThatTakeNoTableAreRefused) {
            NoScene{"another controller", "lx3vp", scenes / "rotary_knife.yaml", "--scene:1:1: "},
            NoScene{"no file", "camming4", folder / "nowhere.yaml", "nowhere.yaml"},
            NoScene{"no axis", "camming4", qcl("no", ""), "0 axes with CAMMING4; name a scene with one"},
-           NoScene{"two axes", "camming4", qcl("two", "A" + axis + "B" + axis), "2 axes with CAMMING4"},
+           NoScene{"two axes", "camming4", qcl("two", fmt::format("A{0}B{0}", axis)), "2 axes with CAMMING4"},
            NoScene{"no slZone", "camming4", qcl("one", "A" + axis), "there is no slZone"},
            NoScene{"no DECAM", "lx3vp", il("none.il"), "its program has 0 DECAM; name a scene with one"},
            NoScene{"no room", "lx3vp", il("high.il"), "rows behind D7900 reach into the special registers"},

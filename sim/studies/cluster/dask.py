@@ -46,19 +46,29 @@ def work(chunk, name, data, items, program, topic):
     if program is None:
         return ['{"refused": "there is no drycut at %s"}' % worker.address], "there is no drycut"
     if not hasattr(worker, "drycut"):
-        worker.drycut = {}  # by topic: files and processes
-    files, children = worker.drycut.setdefault(topic, (set(), set()))
+        worker.drycut = {}  # by topic: files and processes; None: it has been forgotten
+    mine = worker.drycut.setdefault(topic, (set(), set()))
+    forgotten = [], "the study has ended"
+    if mine is None:
+        return forgotten
+    files, children = mine
     file = os.path.join(worker.local_directory, "drycut-" + name)
     if not os.path.exists(file):
         with tempfile.NamedTemporaryFile(dir=worker.local_directory, prefix="drycut-", delete=False) as part:
             part.write(data)
         os.replace(part.name, file)
     files.add(file)
+    if worker.drycut[topic] is None:  # meanwhile, which did not see this file
+        if os.path.exists(file):
+            os.remove(file)
+        return forgotten
     with tempfile.TemporaryFile() as given, tempfile.TemporaryFile() as said:
         given.write(items.encode())
         given.seek(0)
         child = subprocess.Popen([program, "work", file], stdin=given, stdout=subprocess.PIPE, stderr=said, text=True)
         children.add(child)
+        if worker.drycut[topic] is None:
+            child.kill()
         lines, waiting, sent = [], [], 0.0
         for line in child.stdout:
             waiting.append(line.rstrip("\n"))
@@ -78,10 +88,13 @@ def work(chunk, name, data, items, program, topic):
 
 def forget(topic, dask_worker):
     """Runs at every worker: nothing of this study is left."""
-    files, children = getattr(dask_worker, "drycut", {}).pop(topic, ((), ()))
-    for child in children:
+    if not hasattr(dask_worker, "drycut"):
+        dask_worker.drycut = {}
+    files, children = dask_worker.drycut.get(topic) or ((), ())
+    dask_worker.drycut[topic] = None
+    for child in list(children):
         child.kill()
-    for file in files:
+    for file in list(files):
         if os.path.exists(file):
             os.remove(file)
 
