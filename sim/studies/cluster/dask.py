@@ -18,6 +18,7 @@ try:
 except ImportError:
     sys.exit(77)
 import base64
+import contextlib
 import json
 import logging
 import os
@@ -35,7 +36,10 @@ def keep(data):
 
 def work(chunk, name, data, items, program, topic):
     """Runs at a worker: `drycut work` on one chunk. Its lines are sent as they come, and returned."""
+    import contextlib
+    import os
     import shutil
+    import signal
     import subprocess
     import tempfile
     import time
@@ -59,7 +63,7 @@ def work(chunk, name, data, items, program, topic):
         os.replace(part.name, file)
     files.add(file)
     if worker.drycut[topic] is None:  # meanwhile, which did not see this file
-        if os.path.exists(file):
+        with contextlib.suppress(FileNotFoundError):
             os.remove(file)
         return forgotten
     with tempfile.TemporaryFile() as given, tempfile.TemporaryFile() as said:
@@ -88,6 +92,9 @@ def work(chunk, name, data, items, program, topic):
 
 def forget(topic, dask_worker):
     """Runs at every worker: nothing of this study is left."""
+    import contextlib
+    import os
+
     if not hasattr(dask_worker, "drycut"):
         dask_worker.drycut = {}
     files, children = dask_worker.drycut.get(topic) or ((), ())
@@ -95,7 +102,7 @@ def forget(topic, dask_worker):
     for child in list(children):
         child.kill()
     for file in list(files):
-        if os.path.exists(file):
+        with contextlib.suppress(FileNotFoundError):
             os.remove(file)
 
 
@@ -178,13 +185,14 @@ def main(address, program):
                 say(chunk=chunk, lines=[], end=f"{type(error).__name__}: {str(error).splitlines()[0]}")
             future.release()
 
-    try:
-        client.unsubscribe_topic(topic)
-        client.cancel(list(running.values()) + list(bundles.values()))
-        client.run(forget, topic)
-        client.close(timeout=SECONDS)
-    except Exception:  # whoever has gone needs no clearing up
-        os._exit(0)
+    futures = list(running.values()) + list(bundles.values())
+    for farewell in (lambda: client.cancel(futures), lambda: client.run(forget, topic),
+                     lambda: client.unsubscribe_topic(topic), lambda: client.close(timeout=SECONDS)):
+        try:
+            farewell()
+        except Exception:  # whoever has gone needs no clearing up
+            pass
+    os._exit(0)
 
 
 main(*sys.argv[1:])
