@@ -174,49 +174,54 @@ py::dict answer(const Asked& asked, const std::string& csv, std::size_t simulate
                   "shape"_a = shape, "figures"_a = asked.question.figures.size(), "simulated"_a = simulated);
 }
 
-py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const Place& place,
-               const py::object& progress) {
-  Teller teller(progress);
+/// Asks and runs, while other threads of Python go on: `work` runs it and gives the table, and what writes
+/// its report.
+template <typename Work>
+py::dict studied(const SweepCall& call, const std::string& find_max, std::optional<std::size_t> sample,
+                 const Place& place, const Work& work) {
   std::optional<Asked> asked;
   std::string csv;
   std::size_t simulated = 0;
   {
     const py::gil_scoped_release unlocked;
-    asked.emplace(call, "", sample, place);
+    asked.emplace(call, find_max, sample, place);
     studies::PointStore store(asked->folder->add(points_file), place.jobs);
-    const auto rows = studies::sweep(asked->question, asked->axes, asked->points, store, std::ref(teller));
-    teller.end(rows.size());
-    csv = studies::sweep_csv(asked->question, asked->axes, asked->points, rows);
+    const auto [table, write_report] = work(*asked, store);
+    csv = table;
     simulated = store.simulated();
     if (place.kept) {
       sim::write_file(asked->folder->add(asked->table()), csv);
-      studies::write_sweep_report(asked->question, asked->axes, asked->points, rows, *asked->folder);
+      write_report();
     }
   }
   return answer(*asked, csv, simulated);
 }
 
+py::dict sweep(const SweepCall& call, std::optional<std::size_t> sample, const Place& place,
+               const py::object& progress) {
+  Teller teller(progress);
+  return studied(call, "", sample, place, [&](Asked& asked, studies::PointStore& store) {
+    auto rows = studies::sweep(asked.question, asked.axes, asked.points, store, std::ref(teller));
+    teller.end(rows.size());
+    auto csv = studies::sweep_csv(asked.question, asked.axes, asked.points, rows);
+    return std::pair(std::move(csv), [&asked, rows = std::move(rows)] {
+      studies::write_sweep_report(asked.question, asked.axes, asked.points, rows, *asked.folder);
+    });
+  });
+}
+
 py::dict envelope(const SweepCall& call, const std::string& find_max, const Place& place,
                   const py::object& progress) {
   Teller teller(progress);
-  std::optional<Asked> asked;
-  std::string csv;
-  std::size_t simulated = 0;
-  {
-    const py::gil_scoped_release unlocked;
-    asked.emplace(call, find_max, std::nullopt, place);
-    studies::PointStore store(asked->folder->add(points_file), place.jobs);
+  return studied(call, find_max, std::nullopt, place, [&](Asked& asked, studies::PointStore& store) {
     std::vector<studies::Envelope> sought = {
-        {call.file.stem().string(), asked->question, asked->axes, *asked->bound, asked->points}};
+        {call.file.stem().string(), asked.question, asked.axes, *asked.bound, asked.points}};
     studies::seek(sought.front(), store, std::ref(teller));
-    csv = studies::envelope_csv(sought);
-    simulated = store.simulated();
-    if (place.kept) {
-      sim::write_file(asked->folder->add(asked->table()), csv);
-      studies::write_envelope_report(sought, *asked->folder);
-    }
-  }
-  return answer(*asked, csv, simulated);
+    auto csv = studies::envelope_csv(sought);
+    return std::pair(std::move(csv), [&asked, sought = std::move(sought)] {
+      studies::write_envelope_report(sought, *asked.folder);
+    });
+  });
 }
 
 void check_counts(const studies::TuneRequest& request, Problems& problems) {

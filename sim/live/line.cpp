@@ -100,6 +100,9 @@ void Line::act_on(const Request& request) {
     problems = restart();
   } else if (const auto* sampled = std::get_if<Sample>(&what)) {
     problems = run_->want(request.asker, sampled->names);
+  } else if (const auto* visit = std::get_if<Visit>(&what)) {
+    visit->visit(*run_);
+    return;
   } else {
     run_->leave(request.asker);
     return;

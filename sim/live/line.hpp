@@ -22,6 +22,8 @@ namespace drycut::sim::live {
 inline constexpr double least_pace = 1e-4;
 inline constexpr double most_pace = 1e4;
 
+class LineRun;
+
 /// Who asked, so that the answer finds its way: 0 = nobody waits for one.
 using Asker = std::uint64_t;
 
@@ -56,10 +58,14 @@ struct Sample {
 };
 /// The asker is gone.
 struct Leave {};
+/// Looks at the run and does something to it, in the line's thread; whoever asked is not answered otherwise.
+struct Visit {
+  std::function<void(LineRun&)> visit;
+};
 
 struct Request {
   Asker asker = 0;
-  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave> what;
+  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave, Visit> what;
 };
 
 /// How well the line keeps its pace, since it last began to run.
@@ -130,8 +136,6 @@ struct LineDescription {
   std::vector<std::string> checks;  ///< names
   std::vector<std::string> notes;
 };
-
-class LineRun;
 
 /// A line that runs in real time in a thread of its own: the same loop as of `drycut run`, which is told what
 /// to do and tells what it sees. All functions may be called from any thread.

@@ -123,8 +123,14 @@ bool LineRun::advance() {
 Problems LineRun::act(const std::string& text) {
   Problems problems;
   const auto stimulus = read_act(text, "act", now(), problems);
-  if (stimulus && simulation_->act(*stimulus, problems) && session_) session_->add(*stimulus);
+  if (stimulus) problems = act(*stimulus);
   for (auto& problem : problems) problem.file = "act";
+  return problems;
+}
+
+Problems LineRun::act(const scenario::Stimulus& stimulus) {
+  Problems problems;
+  if (simulation_->act(stimulus, problems) && session_) session_->add(stimulus);
   return problems;
 }
 

@@ -32,6 +32,8 @@ class LineRun : public loop::Observer {
   bool advance();
   /// Does something to the line, before the next step.
   Problems act(const std::string& text);
+  Problems act(const scenario::Stimulus& stimulus);
+  [[nodiscard]] loop::Simulation& simulation() { return *simulation_; }
 
   void happened(const loop::RecordedEvent& event) override;
   /// From now on seen() tells whether such an event has happened; "" = any.

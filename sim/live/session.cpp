@@ -50,6 +50,23 @@ std::string act_text(const scenario::Stimulus& act) {
   return in_one_line([&](scenario::Archive& archive) { visit(archive, written); });
 }
 
+/// Every place of an act, to be put where it belongs.
+template <typename Move>
+void move_places(scenario::Stimulus& act, const Move& move) {
+  move(act.place);
+  for (auto* const actions : {&act.set, &act.ramp}) {
+    for (auto& [name, quantity] : *actions) {
+      move(name.place);
+      move(quantity.place);
+    }
+  }
+  for (auto& fault : act.faults) {
+    move(fault.component.place);
+    move(fault.fault.place);
+    move(fault.value.place);
+  }
+}
+
 /// Reads the lines of a session, each on its own: a session of a day has a hundred thousand of them.
 class Reader {
  public:
@@ -104,18 +121,10 @@ class Reader {
       return;
     }
     session_.reached = std::max(session_.reached, *act.at);
-    move(act.place);
-    for (auto* const actions : {&act.set, &act.ramp}) {
-      for (auto& [name, quantity] : *actions) {
-        move(name.place);
-        move(quantity.place);
-      }
-    }
-    for (auto& fault : act.faults) {
-      move(fault.component.place);
-      move(fault.fault.place);
-      move(fault.value.place);
-    }
+    move_places(act, [this](scenario::Place& place) {
+      place.line += number_ - 1;
+      place.column += static_cast<int>(item.size());
+    });
     session_.acts.push_back(std::move(act));
   }
 
@@ -134,11 +143,6 @@ class Reader {
     }
     const auto& digits = head.fingerprint.text;
     std::from_chars(digits.data(), digits.data() + digits.size(), session_.fingerprint, 16);
-  }
-
-  void move(scenario::Place& place) const {
-    place.line += number_ - 1;
-    place.column += static_cast<int>(item.size());
   }
 
   void problem(std::string what, std::string remedy) {
@@ -240,11 +244,7 @@ std::optional<scenario::Scenario> read_session(const std::filesystem::path& file
   const auto source = static_cast<int>(scenario.sources.size());
   scenario.sources.push_back(file.string());
   for (auto& act : session->acts) {
-    act.place.source = source;
-    for (auto* const actions : {&act.set, &act.ramp})
-      for (auto& [name, quantity] : *actions) name.place.source = quantity.place.source = source;
-    for (auto& fault : act.faults)
-      fault.component.place.source = fault.fault.place.source = fault.value.place.source = source;
+    move_places(act, [source](scenario::Place& place) { place.source = source; });
     scenario.timeline.push_back(std::move(act));
   }
   scenario.scene.duration = std::max(session->reached, scenario.scene.step);

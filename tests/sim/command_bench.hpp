@@ -1,9 +1,12 @@
 #pragma once
 #include <gmock/gmock.h>
+#include <sys/types.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "sim/cli/commands.hpp"
 #include "tests/test_folder.hpp"
@@ -27,6 +30,20 @@ struct CommandTest : testing::Test {
   std::string out;
   std::string err;
 };
+
+/// Starts a program that goes on beside the test; the child's number.
+inline pid_t started(const std::string& program, const std::vector<std::string>& words) {
+  std::vector<char*> arguments = {const_cast<char*>(program.c_str())};
+  arguments.reserve(words.size() + 2);
+  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    execv(program.c_str(), arguments.data());
+    _exit(127);
+  }
+  return child;
+}
 
 /// What `drycut devices NAME` prints.
 inline std::string printed(const std::string& name, bool json) {

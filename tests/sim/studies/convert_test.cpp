@@ -1,6 +1,5 @@
 // drycut convert, and runs that are recorded as HDF5.
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <csignal>
 
@@ -168,8 +167,7 @@ TEST_F(ConvertCommand, AScenarioKnowsItsFormats) {
 TEST_F(ConvertCommand, WhatWasKilledIsAPrefix) {
   const std::string program = DRYCUT_PROGRAM;
   if (!fs::exists(program)) GTEST_SKIP() << "needs the program, which is not built here";
-  const std::vector<std::string> words = {program,
-                                          "run",
+  const std::vector<std::string> words = {"run",
                                           (folder / "web.yaml").string(),
                                           "--no-pictures",
                                           "--out",
@@ -178,15 +176,7 @@ TEST_F(ConvertCommand, WhatWasKilledIsAPrefix) {
                                           "record.format=hdf5",
                                           "--set",
                                           "scene.duration=100000 s"};
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
-    execv(program.c_str(), arguments.data());
-    _exit(127);
-  }
+  const pid_t child = started(program, words);
   ASSERT_GT(child, 0);
   const auto file = folder / "killed/web/trace.h5";
   const auto rows = [&] {

@@ -1,6 +1,5 @@
 // drycut sweep and drycut envelope on a web whose speed a check limits: what holds where is known beforehand.
 #include <sys/wait.h>
-#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -160,15 +159,7 @@ TEST_F(SweepCommand, GoesOnAfterKill9) {
                                           "--set",  sweep.set[0],
                                           "--out",  sweep.out.string(),
                                           "--jobs", "2"};
-  std::vector<char*> arguments = {const_cast<char*>(program.c_str())};
-  arguments.reserve(words.size() + 2);
-  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
-    execv(program.c_str(), arguments.data());
-    _exit(127);
-  }
+  const pid_t child = started(program, words);
   ASSERT_GT(child, 0);
   int status = 0;
   const auto lines = [&] {
