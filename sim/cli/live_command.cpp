@@ -19,6 +19,7 @@
 #include "sim/live/line.hpp"
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
+#include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::cli {
 
@@ -79,13 +80,43 @@ std::filesystem::path session_in(const std::filesystem::path& given) {
   return std::filesystem::is_directory(given) ? given / live::session_file : given;
 }
 
+/// "out/today/1@12.5 s"
+std::optional<live::Line::Options::From> read_from(const std::string& text, Problems& problems) {
+  const auto mark = text.rfind('@');
+  if (mark == std::string::npos || std::filesystem::exists(text)) return {{session_in(text), {}}};
+  scenario::Findings findings({"--from"});
+  const auto at = scenario::read_time({text.substr(mark + 1), {1, static_cast<int>(mark) + 2, 0}, {}},
+                                      "the time to go on from", scenario::Sign::not_negative, findings);
+  for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
+  if (!at) return {};
+  return {{session_in(text.substr(0, mark)), at}};
+}
+
+/// What is to run: a scenario, or a session from a time on.
+live::Line::Options line_options(const LiveOptions& options, Problems& problems) {
+  live::Line::Options wanted{.scenario = options.scenario,
+                             .set = overrides_of(options.set, problems),
+                             .pace = read_pace(options.pace, problems).value_or(1),
+                             .running = !options.paused,
+                             .record = options.record};
+  if (options.from.empty() == options.scenario.empty())
+    problems.push_back({"drycut live", 1, 1,
+                        options.from.empty() ? "neither a scenario nor a session"
+                                             : "both a scenario and a session, which has its own",
+                        "drycut live SCENARIO, or drycut live --from DIR@12.5s"});
+  if (options.from.empty()) return wanted;
+  if (!options.set.empty())
+    problems.push_back({"--set", 1, 1, "a session has its own values",
+                        "drycut replay --to-scenario makes a scenario of it"});
+  wanted.from = read_from(options.from, problems);
+  return wanted;
+}
+
 }  // namespace
 
 int live_scenario(const LiveOptions& options) {
   Problems problems;
-  const auto pace = read_pace(options.pace, problems);
-  live::Line::Options wanted{options.scenario, overrides_of(options.set, problems), pace.value_or(1),
-                             !options.paused, options.record};
+  const auto wanted = line_options(options, problems);
   std::optional<live::Line> line;
   if (problems.empty()) line.emplace(wanted, problems);
   if (!problems.empty()) {
@@ -140,7 +171,11 @@ void add_live(CLI::App& app, int& status) {
   auto* command = app.add_subcommand(
       "live",
       "Run a scenario in real time with a page in the browser: the machine, the operator's panel, a scope");
-  command->add_option("scenario", options.scenario, "Scenario file (.yaml)")->required();
+  command->add_option("scenario", options.scenario, "Scenario file (.yaml)");
+  command->add_option(
+      "--from", options.from,
+      "In place of a scenario: a session's folder, to go on from its end, or from a time in it "
+      "(out/today/1@12.5s)");
   command->add_option("--port", options.port, "Of the page; 0 = any free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

@@ -10,6 +10,7 @@ namespace drycut::sim::cli {
 
 struct LiveOptions {
   std::filesystem::path scenario;
+  std::string from;  ///< a session to go on from, in place of a scenario: "out/today/1@12.5 s"
   std::vector<std::string> set;
   int port = 8080;         ///< 0 = any free one
   std::string pace = "1";  ///< machine seconds a second, or "max"

@@ -97,7 +97,7 @@ class Claims {
 bool put_together(Job& job, const std::string& name, const RunOptions& options, Claims& claims,
                   Problems& problems) {
   if (options.seed) job.scenario.scene.seed = *options.seed;
-  if (const auto kept = loop::retentive_file(job.scenario))
+  if (const auto kept = loop::retentive_file(job.scenario); kept && job.scenario.controller->retains)
     claims.retentive(*kept, job.scenario.file, problems);
   if (options.gltf) job.scenario.pictures.frames = true;
   if (job.scenario.buildable) {
@@ -164,7 +164,10 @@ Work prepare(const RunOptions& options, Problems& problems) {
       if (!options.set.empty())
         own.push_back({"--set", 1, 1, fmt::format("{} is a session, which has its own", file.string()),
                        "drycut replay --to-scenario makes a scenario of it"});
-      if (auto session = live::read_session(file, job->notes, own)) job->scenario = std::move(*session);
+      if (auto session = live::read_session(file, {}, job->notes, own)) {
+        job->scenario = std::move(session->scenario);
+        job->scenario.scene.duration = std::max(session->reached, job->scenario.scene.step);
+      }
       put_together(*job, file.stem().string(), options, claims, own);
       work.jobs.push_back(std::move(job));
     } else if (auto scene = studies::read_comparison(file, own)) {
@@ -224,9 +227,7 @@ void run_job(Job& job, const RunOptions& options, int threads,
       progress("at half the step", static_cast<double>(now) / duration);
     });
   report::write_scenario(job.scenario, folder.add(report::scenario_file));
-  if (const auto kept = loop::retentive_file(job.scenario)) {
-    write_file(*kept, job.simulation->retentive_state());
-  }
+  loop::keep_retentive(job.scenario, job.simulation->retentive_state());
   files.finish(job.result.outcome);
   const auto finished = [&] { report::write_checks(job.result.outcome, folder.add(report::checks_file)); };
   if (!options.pictures && !options.gltf) return finished();

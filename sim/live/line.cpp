@@ -39,7 +39,7 @@ void Line::ask(Request request) {
 void Line::run(const Listener& listener, const Describe& describe) {
   listener_ = listener;
   describe_ = describe;
-  if (!options_.record.empty()) run_->record_in(options_.record);
+  run_->begin(options_.record);
   describe_(run_->describe());
   begin_pace();
   next_news_ = Clock::now();
@@ -53,7 +53,7 @@ void Line::run(const Listener& listener, const Describe& describe) {
     if (Clock::now() >= next_news_) tell();
   }
   tell();
-  run_->finish_record();
+  run_->end();
 }
 
 const std::filesystem::path& Line::record() const { return run_->record(); }
@@ -118,12 +118,13 @@ void Line::go(bool on) {
 
 Problems Line::restart() {
   Problems problems;
+  run_->keep_retentive();
   auto fresh = std::make_unique<LineRun>(options_, run_->number() + 1, problems);
   if (!problems.empty()) return problems;
-  run_->finish_record();
+  run_->end();
   for (const auto& [asker, names] : run_->wanted()) fresh->want(asker, names);
   run_ = std::move(fresh);
-  if (!options_.record.empty()) run_->record_in(options_.record);
+  run_->begin(options_.record);
   until_.reset();
   until_event_.reset();
   describe_(run_->describe());

@@ -49,7 +49,7 @@ struct UntilEvent {
 struct Pace {
   double value = 1;
 };
-/// From time zero, with scenario and programs read again.
+/// From the beginning, with scenario and programs read again.
 struct Restart {};
 /// What the asker wants to have sampled every cycle, in place of what it wanted before.
 struct Sample {
@@ -142,11 +142,17 @@ struct LineDescription {
 class Line {
  public:
   struct Options {
-    std::filesystem::path scenario;
-    std::vector<scenario::Override> set;
-    double pace = 1;               ///< 0 = as fast as it goes
-    bool running = true;           ///< from the beginning on
-    std::filesystem::path record;  ///< folder of sessions, each run in a new one: 1, 2 ...; "" = none
+    std::filesystem::path scenario;  ///< "" with a session
+    std::vector<scenario::Override> set = {};
+    /// A recorded session to go on from, in place of a scenario.
+    struct From {
+      std::filesystem::path session;  ///< its file
+      std::optional<Time> at;         ///< absent = where it ended
+    };
+    std::optional<From> from = {};
+    double pace = 1;                    ///< 0 = as fast as it goes
+    bool running = true;                ///< from the beginning on
+    std::filesystem::path record = {};  ///< folder of sessions, each run in a new one: 1, 2 ...; "" = none
   };
   using Listener = std::function<void(std::shared_ptr<const News>)>;
   using Describe = std::function<void(std::shared_ptr<const LineDescription>)>;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "renders/gltf.hpp"
+#include "sim/loop/controller_loader.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/results.hpp"
@@ -68,16 +69,18 @@ std::string machine_of(scenario::Scenario scenario, std::vector<std::string>& pa
   return read_bytes(folder.path / "machine.glb");
 }
 
-scenario::Scenario read(const Line::Options& options, Problems& problems) {
-  return scenario::read_scenario(options.scenario, options.set, problems);
+Replay read(const Line::Options& options, std::vector<std::string>& notes, Problems& problems) {
+  if (!options.from) return {scenario::read_scenario(options.scenario, options.set, problems)};
+  return read_session(options.from->session, options.from->at, notes, problems).value_or(Replay{});
 }
 
 }  // namespace
 
 LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
-    : scenario_(read(options, problems)), number_(number) {
+    : replay_(read(options, notes_, problems)), number_(number) {
   if (!problems.empty()) return;
-  machine_ = machine_of(read(options, problems), parts_, problems);
+  std::vector<std::string> told;
+  machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
   if (!problems.empty()) return;
   fingerprint_ = fingerprint_of(scenario_);
   scenario_.pictures = {};
@@ -94,6 +97,15 @@ LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
     if (auto lamp = names.reading(name)) lamps_.push_back(std::move(*lamp));
 }
 
+void LineRun::begin(const fs::path& folder) {
+  if (!folder.empty()) record_in(folder);
+  next_reached_ = replay_.reached;
+  while (now() < replay_.reached && advance()) {
+  }
+  constexpr std::size_t most_shown = 200;
+  if (events_.size() > most_shown) events_.erase(events_.begin(), events_.end() - most_shown);
+}
+
 void LineRun::record_in(const fs::path& folder) {
   fs::create_directories(folder);
   // Nothing that is there is touched: each run takes the next number.
@@ -102,14 +114,21 @@ void LineRun::record_in(const fs::path& folder) {
     if (fs::create_directory(next)) record_ = next;
   }
   session_.emplace(record_ / session_file, scenario_, fingerprint_);
+  const auto& timeline = scenario_.timeline;
+  for (auto act = timeline.end() - static_cast<std::ptrdiff_t>(replay_.acts); act != timeline.end(); ++act)
+    session_->add(*act);
   simulation_->write_to(record_ / report::trace_file, record_ / report::events_file);
 }
 
-void LineRun::finish_record() {
-  if (!session_) return;
-  session_->reached(now());
-  simulation_->flush();
+void LineRun::end() {
+  if (session_) {
+    session_->reached(now());
+    simulation_->flush();
+  }
+  keep_retentive();
 }
+
+void LineRun::keep_retentive() const { loop::keep_retentive(scenario_, simulation_->retentive_state()); }
 
 bool LineRun::advance() {
   const bool sound = simulation_->advance();
@@ -205,6 +224,7 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
   told->machine = machine_;
   for (const auto& check : simulation_->outcome().checks) told->checks.push_back(check.name);
   told->notes = simulation_->notes();
+  told->notes.insert(told->notes.begin(), notes_.begin(), notes_.end());
   return told;
 }
 

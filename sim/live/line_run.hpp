@@ -17,10 +17,13 @@ class LineRun : public loop::Observer {
   /// May be used if there are no problems.
   LineRun(const Line::Options& options, int number, Problems& problems);
 
-  /// Records the run in a new folder in `folder`, which has the next number. Throws std::runtime_error.
-  void record_in(const std::filesystem::path& folder);
-  /// All that was recorded is in its files.
-  void finish_record();
+  /// Simulates up to where the session ended that it goes on from. Records all of the run in a new folder in
+  /// `folder`, which has the next number, unless that is "". Throws std::runtime_error.
+  void begin(const std::filesystem::path& folder);
+  /// Retentive values are in their file, for who begins next. Throws std::runtime_error.
+  void keep_retentive() const;
+  /// All that was recorded is in its files, and retentive values in theirs. Throws std::runtime_error.
+  void end();
   /// The folder of the record, "" = none.
   [[nodiscard]] const std::filesystem::path& record() const { return record_; }
 
@@ -52,9 +55,12 @@ class LineRun : public loop::Observer {
   std::shared_ptr<const LineDescription> describe();
 
  private:
+  void record_in(const std::filesystem::path& folder);
   void choose_samples();
 
-  scenario::Scenario scenario_;
+  Replay replay_;  ///< of nothing, unless it goes on from a session
+  std::vector<std::string> notes_;
+  scenario::Scenario& scenario_ = replay_.scenario;
   int number_;
   std::uint64_t fingerprint_ = 0;
   std::vector<std::string> parts_;

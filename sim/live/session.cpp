@@ -201,12 +201,17 @@ bool is_session(const std::filesystem::path& file) {
   return stream.read(beginning.data(), static_cast<std::streamsize>(first.size())) && beginning == first;
 }
 
-std::uint64_t fingerprint_of(const scenario::Scenario& scenario) {
+std::uint64_t fingerprint_of(scenario::Scenario& scenario) {
   studies::Fingerprint hash;
-  hash.add(scenario);
-  // What the controller begins with.
   Problems ignored;
-  if (const auto kept = loop::retentive_file(scenario)) hash.add(read_file(*kept, ignored).value_or(""));
+  if (const auto kept = loop::retentive_file(scenario)) {
+    hash.add(read_file(*kept, ignored).value_or(""));
+    const auto named = std::exchange(scenario.controller->retentive, {});
+    hash.add(scenario);
+    scenario.controller->retentive = named;
+  } else {
+    hash.add(scenario);
+  }
   return hash.value();
 }
 
@@ -215,6 +220,12 @@ SessionFile::SessionFile(const std::filesystem::path& file, const scenario::Scen
     : lines_(file) {
   Head head;
   head.scenario.text = std::filesystem::absolute(scenario.file).lexically_normal().string();
+  if (const auto kept = loop::retentive_file(scenario); kept && file_exists(*kept)) {
+    Problems unreadable;
+    const auto values = read_file(*kept, unreadable);
+    if (!values) throw std::runtime_error(to_string(unreadable.front()));
+    write_file(file.parent_path() / retentive_copy, *values);
+  }
   for (const auto& [path, value] : scenario.overrides)
     head.set.push_back({fmt::format("{}={}", path, value), {}, {}});
   head.fingerprint.text = fmt::format("{:016x}", fingerprint);
@@ -230,13 +241,27 @@ void SessionFile::reached(Time now) {
   lines_.flush();
 }
 
-std::optional<scenario::Scenario> read_session(const std::filesystem::path& file,
-                                               std::vector<std::string>& notes, Problems& problems) {
+std::optional<Replay> read_session(const std::filesystem::path& file, std::optional<Time> until,
+                                   std::vector<std::string>& notes, Problems& problems) {
   auto session = read_lines(file, problems);
   if (!session) return {};
+  if (until && *until > session->reached) {
+    problems.push_back({file.string(), 1, 1,
+                        fmt::format("the session ends at {}, before {}",
+                                    scenario::format_time(session->reached), scenario::format_time(*until)),
+                        "name a time in it"});
+    return {};
+  }
   const auto before = problems.size();
-  auto scenario = scenario::read_scenario(session->scenario, session->set, problems);
+  Replay replay;
+  auto& scenario = replay.scenario;
+  scenario = scenario::read_scenario(session->scenario, session->set, problems);
   if (problems.size() > before) return {};
+  if (scenario.controller && !scenario.controller->retentive.text.empty()) {
+    scenario.controller->retentive.text =
+        (std::filesystem::absolute(file).parent_path() / retentive_copy).string();
+    scenario.controller->retains = false;
+  }
   if (fingerprint_of(scenario) != session->fingerprint)
     notes.push_back(
         fmt::format("{} or one of its files is not what it was in the session: this run may differ",
@@ -244,11 +269,13 @@ std::optional<scenario::Scenario> read_session(const std::filesystem::path& file
   const auto source = static_cast<int>(scenario.sources.size());
   scenario.sources.push_back(file.string());
   for (auto& act : session->acts) {
+    if (until && *act.at >= *until) continue;
     move_places(act, [source](scenario::Place& place) { place.source = source; });
     scenario.timeline.push_back(std::move(act));
+    ++replay.acts;
   }
-  scenario.scene.duration = std::max(session->reached, scenario.scene.step);
-  return scenario;
+  replay.reached = until.value_or(session->reached);
+  return replay;
 }
 
 std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& folder,
@@ -256,8 +283,8 @@ std::string scenario_of_session(const std::filesystem::path& file, const std::fi
   const auto session = read_lines(file, problems);
   if (!session) return "";
   std::vector<std::string> notes;
-  const auto scenario = read_session(file, notes, problems);
-  if (!scenario) return "";
+  const auto replay = read_session(file, {}, notes, problems);
+  if (!replay) return "";
   for (const auto& [path, value] : session->set) {
     problems.push_back({file.string(), 1, 1, fmt::format("the session ran with --set \"{}={}\"", path, value),
                         "put the value into a scenario and run the session of that one"});
@@ -266,9 +293,10 @@ std::string scenario_of_session(const std::filesystem::path& file, const std::fi
   const auto base = std::filesystem::proximate(session->scenario, folder, unknown);
   return fmt::format("# {}: a session of drycut live as a scenario\nextends: {}\nscene: {{duration: {}}}\n",
                      file.string(), scenario::yaml_text((unknown ? session->scenario : base).string()),
-                     scenario::format_time(scenario->scene.duration)) +
+                     scenario::format_time(std::max(replay->reached, replay->scenario.scene.step))) +
          scenario::yaml_of([&](scenario::Archive& archive) {
-           archive.list({"timeline", ""}, const_cast<std::vector<scenario::Stimulus>&>(scenario->timeline));
+           archive.list({"timeline", ""},
+                        const_cast<std::vector<scenario::Stimulus>&>(replay->scenario.timeline));
          });
 }
 

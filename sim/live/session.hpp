@@ -21,8 +21,10 @@ namespace drycut::sim::live {
 std::optional<scenario::Stimulus> read_act(std::string_view text, const std::string& name, Time at,
                                            Problems& problems);
 
-/// What it is called in its folder.
+/// What it is called in its folder; and the retentive values that it began with, where the scenario keeps
+/// some.
 inline constexpr auto* session_file = "session.yaml";
+inline constexpr auto* retentive_copy = "retentive.txt";
 
 /// Whether a file is one.
 bool is_session(const std::filesystem::path& file);
@@ -35,14 +37,16 @@ struct Session {
   Time reached = 0;  ///< it ran until then
 };
 
-/// Of a scenario and its files; those of the session are to be compared with it.
-std::uint64_t fingerprint_of(const scenario::Scenario& scenario);
+/// Of a scenario and its files; those of the session are to be compared with it. Of retentive values it is
+/// what they are, not where they are kept.
+std::uint64_t fingerprint_of(scenario::Scenario& scenario);
 
 /// The file that a live run writes: a line an act, each complete on the disk a second later at the latest.
 /// Whatever ends the program, the file is a session up to there.
 class SessionFile {
  public:
-  /// Makes the file anew. Throws std::runtime_error if it cannot be written.
+  /// Makes the file anew, and the copy of retentive values beside it. Throws std::runtime_error if one cannot
+  /// be written.
   SessionFile(const std::filesystem::path& file, const scenario::Scenario& scenario,
               std::uint64_t fingerprint);
   void add(const scenario::Stimulus& act);
@@ -53,11 +57,17 @@ class SessionFile {
   loop::GrowingFile lines_;
 };
 
-/// Reads a session and its scenario, which then has the acts at the end of its timeline and the session's
-/// duration: run, it is what the live line was. A last line that was cut short is left out. That the scenario
-/// or one of its files is another one than it was is said in `notes`.
-std::optional<scenario::Scenario> read_session(const std::filesystem::path& file,
-                                               std::vector<std::string>& notes, Problems& problems);
+/// A session to be run again: simulated to `reached`, it is what the live line was.
+struct Replay {
+  scenario::Scenario scenario;  ///< the acts are the end of its timeline
+  std::size_t acts = 0;         ///< so many
+  Time reached = 0;
+};
+
+/// Reads a session and its scenario, of the acts those before `until` only. A last line that was cut short is
+/// left out. That the scenario or one of its files is another one than it was is said in `notes`.
+std::optional<Replay> read_session(const std::filesystem::path& file, std::optional<Time> until,
+                                   std::vector<std::string>& notes, Problems& problems);
 
 /// The same as a scenario of its own: extends, duration and the whole timeline, for a file in `folder`. A
 /// problem if an override of the session has no place there.

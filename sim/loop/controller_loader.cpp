@@ -29,7 +29,8 @@ void set_values(const scenario::ControllerSection& section, const scenario::Scen
   }
 }
 
-/// Puts the values of the retentive file back, if there is one. It must be possible to write it at the end.
+/// Puts the values of the retentive file back, if there is one. Where the run keeps them it must be possible
+/// to write it at the end.
 void restore(const scenario::Text& retentive, const scenario::Scenario& scenario,
              devices::Controller& controller, Problems& problems) {
   const auto file = retentive_file(scenario);
@@ -42,7 +43,7 @@ void restore(const scenario::Text& retentive, const scenario::Scenario& scenario
     refuse(fmt::format("there is no directory {}", folder.string()), "make it first, or name another file");
     return;
   }
-  if (const auto why = hindrance(*file); !why.empty()) {
+  if (const auto why = hindrance(*file); scenario.controller->retains && !why.empty()) {
     refuse(fmt::format("{} cannot be written at the end of the run: {}", file->string(), why),
            "name another file");
     return;
@@ -65,6 +66,11 @@ std::vector<scenario::Text> controller_files(const scenario::Scenario& scenario)
 std::optional<std::filesystem::path> retentive_file(const scenario::Scenario& scenario) {
   if (!scenario.controller || scenario.controller->retentive.text.empty()) return {};
   return scenario.file.parent_path() / scenario.controller->retentive.text;
+}
+
+void keep_retentive(const scenario::Scenario& scenario, const std::string& state) {
+  const auto file = retentive_file(scenario);
+  if (file && scenario.controller->retains) write_file(*file, state);
 }
 
 std::unique_ptr<devices::Controller> load_controller(const scenario::Scenario& scenario, Problems& problems,

@@ -23,5 +23,7 @@ std::vector<scenario::Text> controller_files(const scenario::Scenario& scenario)
 
 /// The file that keeps the controller's retentive values from run to run, if the scenario names one.
 std::optional<std::filesystem::path> retentive_file(const scenario::Scenario& scenario);
+/// Writes it at the end of a run, where the scenario names one. Throws std::runtime_error.
+void keep_retentive(const scenario::Scenario& scenario, const std::string& state);
 
 }  // namespace drycut::sim::loop

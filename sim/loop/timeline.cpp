@@ -93,18 +93,25 @@ Timeline::Timeline(const scenario::Scenario& scenario, Names& names, devices::Co
   auto known = names.reading_names();
   for (const auto& stimulus : scenario.timeline) {
     if (problems.size() > most_suggestions) known.clear();
-    entries_.push_back(bind(stimulus, known, problems));
+    take(bind(stimulus, known, problems));
   }
+}
+
+void Timeline::take(Entry entry) {
+  const auto number = taken_++;
+  if (entry.when)
+    waiting_.insert(number);
+  else
+    timed_.emplace(entry.due, number);
+  entries_.emplace(number, std::move(entry));
 }
 
 bool Timeline::add(const scenario::Stimulus& stimulus, Problems& problems) {
   const auto before = problems.size();
   auto entry = bind(stimulus, {}, problems);
   if (problems.size() > before) return false;
-  // What has been done for good need not be looked at again: a panel may send thousands.
-  std::erase_if(entries_, [](const Entry& done) { return done.acted && !done.due; });
-  entries_.push_back(std::move(entry));
-  next_ = std::min(next_, entries_.back().due.value_or(0));
+  next_ = std::min(next_, entry.when ? 0 : entry.due);
+  take(std::move(entry));
   return true;
 }
 
@@ -152,7 +159,7 @@ Timeline::Entry Timeline::bind(const scenario::Stimulus& stimulus, const std::ve
 
 std::vector<std::string> Timeline::left_undone(Time end) const {
   std::vector<std::string> undone;
-  for (const auto& entry : entries_) {
+  for (const auto& [number, entry] : entries_) {
     if (entry.acted) continue;
     undone.push_back(
         entry.when ? fmt::format("the timeline's entry of line {} never happened: its `when` did not "
@@ -160,7 +167,7 @@ std::vector<std::string> Timeline::left_undone(Time end) const {
                                  entry.line, seconds_text(end))
                    : fmt::format("the timeline's entry of line {} never happened: it is due at {} s, the "
                                  "run ended at {} s",
-                                 entry.line, seconds_text(*entry.due), seconds_text(end)));
+                                 entry.line, seconds_text(entry.due), seconds_text(end)));
   }
   return undone;
 }
@@ -170,8 +177,20 @@ void Timeline::work(Time now, Recording& recording) {
     trigger(now);
     next_look_ = now + look_every_;
   }
-  for (auto& entry : entries_) {
-    if (entry.due && *entry.due <= now) act(entry, now, recording);
+  std::vector<std::size_t> due;
+  for (; !timed_.empty() && timed_.begin()->first <= now; timed_.erase(timed_.begin()))
+    due.push_back(timed_.begin()->second);
+  std::sort(due.begin(), due.end());
+  for (const auto number : due) {
+    auto& entry = entries_.at(number);
+    act(entry, now, recording);
+    if (!entry.every) {
+      entries_.erase(number);
+      continue;
+    }
+    entry.acted = true;
+    entry.due += *entry.every;
+    timed_.emplace(entry.due, number);
   }
   move_ramps(now);
   next_ = next_after(now);
@@ -180,15 +199,17 @@ void Timeline::work(Time now, Recording& recording) {
 void Timeline::trigger(Time now) {
   if (watch_.empty()) return;
   watch_.update();
-  for (auto& entry : entries_) {
-    if (entry.when && now >= entry.from && entry.when->evaluate().holds) {
-      entry.when.reset();
-      entry.due = now + entry.after;
-    }
-  }
+  std::erase_if(waiting_, [&](std::size_t number) {
+    auto& entry = entries_.at(number);
+    if (now < entry.from || !entry.when->evaluate().holds) return false;
+    entry.when.reset();
+    entry.due = now + entry.after;
+    timed_.emplace(entry.due, number);
+    return true;
+  });
 }
 
-void Timeline::act(Entry& entry, Time now, Recording& recording) {
+void Timeline::act(const Entry& entry, Time now, Recording& recording) {
   const auto tell = [&](const char* event, const std::string& text) {
     recording.happened({now, 0, "timeline", event, {}, text});
   };
@@ -211,8 +232,6 @@ void Timeline::act(Entry& entry, Time now, Recording& recording) {
     controller_->power(*entry.power);
     tell("power", *entry.power ? "on" : "off");
   }
-  entry.acted = true;
-  entry.due = entry.every ? std::optional(*entry.due + *entry.every) : std::nullopt;
 }
 
 void Timeline::move_ramps(Time now) {
@@ -226,11 +245,8 @@ void Timeline::move_ramps(Time now) {
 
 Time Timeline::next_after(Time now) const {
   if (!ramps_.empty()) return now + 1;
-  Time next = never;
-  for (const auto& entry : entries_) {
-    if (entry.due) next = std::min(next, *entry.due);
-    if (entry.when) next = std::min(next, std::max(entry.from, next_look_));
-  }
+  Time next = timed_.empty() ? never : timed_.begin()->first;
+  for (const auto number : waiting_) next = std::min(next, std::max(entries_.at(number).from, next_look_));
   return next;
 }
 

@@ -1,7 +1,11 @@
 #pragma once
+#include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/loop/names.hpp"
@@ -45,7 +49,7 @@ class Timeline {
   struct Entry {
     std::optional<scenario::Expression> when;  ///< still waited for
     Time from = 0;                             ///< `when` is not looked at before
-    std::optional<Time> due;                   ///< acts then
+    Time due = 0;                              ///< acts then, unless it waits
     Time after = 0;
     std::optional<Time> every;
     Time over = 0;
@@ -66,9 +70,10 @@ class Timeline {
 
   [[nodiscard]] Entry bind(const scenario::Stimulus& stimulus, const std::vector<std::string>& known,
                            Problems& problems);
+  void take(Entry entry);
   void work(Time now, Recording& recording);
   void trigger(Time now);
-  void act(Entry& entry, Time now, Recording& recording);
+  void act(const Entry& entry, Time now, Recording& recording);
   void move_ramps(Time now);
   [[nodiscard]] Time next_after(Time now) const;
 
@@ -79,7 +84,12 @@ class Timeline {
   Time look_every_;
   Time next_look_ = 0;
   Time next_ = 0;
-  std::vector<Entry> entries_;
+  // A recorded day has a hundred thousand entries: what is done for good goes, and only what is due is
+  // touched.
+  std::map<std::size_t, Entry> entries_;  ///< by the order in which they stand
+  std::size_t taken_ = 0;
+  std::set<std::size_t> waiting_;                 ///< those with a `when`
+  std::set<std::pair<Time, std::size_t>> timed_;  ///< the others, by when they are due
   std::vector<Ramp> ramps_;
 };
 

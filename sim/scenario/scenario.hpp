@@ -75,6 +75,8 @@ struct ControllerSection {
   ControllerSection& operator=(const ControllerSection&) = delete;
 
   Text retentive;  ///< file that keeps retentive values over power cycles and runs, "" = memory only
+  bool retains =
+      true;  ///< a run writes it at its end; not of a recorded session, which begins again as it did
   std::vector<std::pair<Text, double>> set;  ///< values before power-up, after the retentive file
   /// From the latch of the counters to the analogue output: what a device takes to compute. At most its
   /// sampling time.

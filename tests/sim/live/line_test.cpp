@@ -125,7 +125,8 @@ TEST_F(LiveLine, WhoHasGoneIsSampledForNoLonger) {
   line.ask(Sample{{"web.speed"}});
   line.line->ask({1000, Leave{}});
   line.ask(Advance{10 * millisecond});
-  const auto after = line.until([](const News& news) { return news.time == 10 * millisecond && !news.samples.times.empty(); });
+  const auto after = line.until(
+      [](const News& news) { return news.time == 10 * millisecond && !news.samples.times.empty(); });
   EXPECT_THAT(*after->samples.names, ElementsAre("web.speed"));
 }
 

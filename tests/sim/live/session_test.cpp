@@ -121,10 +121,11 @@ TEST_F(LiveSession, WhatWasCutShortEndsThere) {
                                    "- {at: 1.2 s, set: {web.sp");
   std::vector<std::string> notes;
   Problems problems;
-  const auto scenario = read_session(session, notes, problems);
-  ASSERT_TRUE(scenario) << lines_of(problems);
-  EXPECT_EQ(scenario->scene.duration, second);
-  EXPECT_EQ(scenario->timeline.size(), 2U);
+  const auto replay = read_session(session, {}, notes, problems);
+  ASSERT_TRUE(replay) << lines_of(problems);
+  EXPECT_EQ(replay->reached, second);
+  EXPECT_EQ(replay->scenario.timeline.size(), 2U);
+  EXPECT_EQ(replay->acts, 1U);
   ASSERT_EQ(notes.size(), 1U);  // another fingerprint
   EXPECT_THAT(notes[0], HasSubstr("is not what it was"));
 }
@@ -141,7 +142,7 @@ TEST_F(LiveSession, EveryFaultIsToldWithItsPlace) {
                                    "- {reached: soon}\n");
   std::vector<std::string> notes;
   Problems problems;
-  EXPECT_FALSE(read_session(session, notes, problems));
+  EXPECT_FALSE(read_session(session, {}, notes, problems));
   std::vector<int> lines;
   lines.reserve(problems.size());
   for (const auto& problem : problems) lines.push_back(problem.line);
@@ -163,6 +164,132 @@ TEST_F(LiveSession, WhatIsNoneIsTold) {
   EXPECT_EQ(replay(folder / "nowhere"), cli::bad_input);
   EXPECT_EQ(replay(folder.file("web.yaml", web_alone)), cli::all_passed);  // a scenario: it has no session
   EXPECT_EQ(replay(folder.file("session.yaml", "")), cli::bad_input);
+}
+
+// A counter that survives: each power-up finds what the last one left.
+TEST_F(LiveSession, KeepsRetentiveValuesAndBeginsAgainAsItDid) {
+  folder.file("saw.il", "LD M8002\nINC D300\nEND\n");
+  folder.file("kept.txt", "");
+  const auto scenario = folder.file("line.yaml",
+                                    "scene: {duration: 1 s}\nplants: {bench: {type: bench}}\n"
+                                    "controller: {lx3vp: {program: saw.il, retentive: kept.txt}}\n"
+                                    "record: {every: 10 ms, channels: [D300]}\n");
+  const auto live = [&](Line::Options options) {
+    options.pace = 0;
+    options.running = false;
+    options.record = folder / "record";
+    RunningLine line(options);
+    const auto begun = line.until([](const News&) { return true; })->time;
+    line.ask(Advance{50 * millisecond});
+    line.until([&](const News& news) { return news.time == begun + 50 * millisecond; });
+    line.ask(Restart{});  // it is off and on again
+    line.until([](const News& news) { return news.run == 2; });
+  };
+  const auto d300 = [&](const fs::path& run) {
+    const auto text = bytes_of(run / "trace.csv");
+    const auto last = text.find_last_of(',');
+    return text.substr(last + 1, text.size() - last - 2);
+  };
+  live({.scenario = scenario});
+  live({.scenario = scenario});
+  EXPECT_EQ(d300(folder / "record/1"), "1");
+  EXPECT_EQ(d300(folder / "record/3"), "2");  // the second run was off before its first scan
+  const auto kept = bytes_of(folder / "kept.txt");
+  EXPECT_THAT(kept, HasSubstr("D300 = 2"));
+  // Again it is what it was, and leaves what there is now.
+  replay(folder / "record/3");
+  EXPECT_THAT(out, testing::Not(HasSubstr("may differ")));
+  EXPECT_EQ(bytes_of(folder / "kept.txt"), kept);
+  expect_same(folder / "record/3", folder / "again/session");
+  live({.scenario = {}, .from = Line::Options::From{folder / "record/3/session.yaml", {}}});
+  EXPECT_EQ(d300(folder / "record/5"), "2");
+  EXPECT_EQ(bytes_of(folder / "kept.txt"), kept);
+}
+
+struct LiveFrom : LiveSession {
+  void SetUp() override {
+    scenario = folder.file("web.yaml", web_alone);
+    RunningLine line({.scenario = scenario, .pace = 0, .running = false, .record = folder / "record"});
+    go(line, 200 * millisecond);
+    line.ask(Act{faster});
+    go(line, 200 * millisecond);
+  }
+  void go(RunningLine& line, Time by) const {
+    const auto from = line.until([](const News&) { return true; })->time;
+    line.ask(Advance{by});
+    line.until([&](const News& news) { return news.time == from + by; });
+    line.ask(Go{false});
+  }
+  [[nodiscard]] Line::Options from(std::optional<Time> at) const {
+    return {.scenario = {},
+            .from = Line::Options::From{folder / "record/1/session.yaml", at},
+            .pace = 0,
+            .running = false,
+            .record = folder / "record"};
+  }
+  const char* faster = R"({"set": {"web.speed": "0.1 m/s"}})";
+  fs::path scenario;
+};
+
+TEST_F(LiveFrom, GoesOnFromATime) {
+  // What was done at that time or later is to be done again.
+  for (const auto at : {150, 200}) {
+    RunningLine line(from(at * millisecond));
+    if (at == 150) go(line, 50 * millisecond);
+    line.ask(Act{faster});
+    go(line, 200 * millisecond);
+  }
+  expect_same(folder / "record/1", folder / "record/2");
+  expect_same(folder / "record/1", folder / "record/3");
+}
+
+TEST_F(LiveFrom, GoesOnFromTheEndAndOfItself) {
+  {
+    RunningLine line(from({}));
+    EXPECT_EQ(line.until([](const News&) { return true; })->time, 400 * millisecond);
+    line.ask(Act{R"({"set": {"web.speed": "0.2 m/s"}})"});
+    go(line, 100 * millisecond);
+    line.ask(Restart{});  // from there again
+    EXPECT_EQ(line.until([](const News& news) { return news.run == 2; })->time, 400 * millisecond);
+  }
+  replay(folder / "record/2");
+  expect_same(folder / "record/2", folder / "again/session");
+  EXPECT_THAT(bytes_of(folder / "record/2/events.csv"), HasSubstr("web.speed = 0.1 m/s"));
+  EXPECT_THAT(bytes_of(folder / "record/2/events.csv"), HasSubstr("web.speed = 0.2 m/s"));
+}
+
+TEST_F(LiveFrom, SlipsAreTold) {
+  const auto told = [&](const std::string& session, const fs::path& file = {},
+                        const std::vector<std::string>& set = {}) {
+    cli::LiveOptions options;
+    options.from = session;
+    options.scenario = file;
+    options.set = set;
+    EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::bad_input);
+    return err;
+  };
+  const auto session = (folder / "record/1").string();
+  EXPECT_THAT(told(session + "@0.5s"), HasSubstr("the session ends at 400 ms, before 500 ms"));
+  EXPECT_THAT(told(session + "@soon"), HasSubstr("--from:1:"));
+  EXPECT_THAT(told(session + "@"), HasSubstr("--from:1:"));
+  EXPECT_THAT(told(session + "x@0.1s"), HasSubstr("1x"));
+  EXPECT_THAT(told(session, scenario), HasSubstr("both a scenario and a session"));
+  EXPECT_THAT(told("", {}), HasSubstr("neither a scenario nor a session"));
+  EXPECT_THAT(told(session, {}, {"scene.step=2 ms"}), HasSubstr("--set"));
+}
+
+// As many acts as a busy day has: each is touched when it is due, and then no more.
+TEST_F(LiveSession, HasRoomForADay) {
+  folder.file("web.yaml", web_alone);
+  constexpr int acts = 100'000;
+  std::string text = "- {scenario: web.yaml, set: [], fingerprint: 0}\n";
+  for (int i = 1; i <= acts; ++i)
+    text += fmt::format("- {{at: {} ms, set: {{web.speed: {} m/min}}}}\n", i, i % 60);
+  text += "- {reached: 101 s}\n";
+  EXPECT_EQ(replay(folder.file("session.yaml", text)), cli::all_passed) << err;
+  const auto events = bytes_of(folder / "again/session/events.csv");
+  EXPECT_EQ(std::count(events.begin(), events.end(), '\n'),
+            acts + 2);  // and the heading, and the scenario's own
 }
 
 }  // namespace
