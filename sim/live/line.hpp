@@ -181,6 +181,8 @@ class Line {
   Problems restart();
   void go(bool on);
   void cycle();
+  /// It runs by the clock.
+  [[nodiscard]] bool keeps_pace() const { return running_ && pace_ != 0 && !until_event_; }
   void keep_pace();
   void begin_pace();
   void tell();

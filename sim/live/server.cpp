@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <pthread.h>
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -310,6 +311,7 @@ Server::Server(Options options, Line& line) {
   }
   core_->accept();
   core_->thread = std::thread([this] { core_->context.run(); });
+  pthread_setname_np(core_->thread.native_handle(), "server");
 }
 
 Server::~Server() {
