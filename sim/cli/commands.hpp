@@ -41,6 +41,11 @@ void add_reference(CLI::App& app, int& status);
 /// drycut work BUNDLE, which --help does not list either: runs what a study has asked of a cluster.
 void add_work(CLI::App& app, int& status);
 
+/// drycut help, drycut help TOPIC: a command's --help, or a page of docs/.
+void add_help(CLI::App& app, int& status);
+/// All of them, in the order of --help, which is then a HelpPage.
+void add_commands(CLI::App& app, int& status);
+
 /// drycut devices, drycut plants, drycut plants --motors: the tables; of one if `name` is given.
 int list_devices(const std::string& name, bool json);
 int list_plants(const std::string& name, bool json);

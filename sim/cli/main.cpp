@@ -9,14 +9,16 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/help.hpp"
 #include "sim/cli/usage.hpp"
-#include "sim/studies/cluster/interrupt.hpp"
+#include "sim/interrupt.hpp"
 
 namespace {
 
@@ -26,13 +28,10 @@ using namespace drycut::sim::cli;
 int run(int argc, char** argv) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", DRYCUT_VERSION);
+  app.set_version_flag("--version", version_text());
   int status = all_passed;
 
-  for (const auto add :
-       {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep, add_envelope,
-        add_size, add_bode, add_compare, add_convert, add_devices, add_plants, add_reference, add_work})
-    add(app, status);
+  add_commands(app, status);
 
   const auto commands = app.get_subcommands({});
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
@@ -73,7 +72,7 @@ int main(int argc, char** argv) {
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return status;
     return failed(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
-  } catch (const drycut::sim::cluster::Interrupted& interrupted) {
+  } catch (const drycut::sim::Interrupted& interrupted) {
     // All is cleared up: it ends as the signal would have ended it.
     std::signal(interrupted.signal, SIG_DFL);
     std::raise(interrupted.signal);

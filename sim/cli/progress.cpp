@@ -8,7 +8,7 @@
 
 namespace drycut::sim::cli {
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() { clear(); }
 

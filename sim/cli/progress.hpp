@@ -8,7 +8,8 @@ namespace drycut::sim::cli {
 /// threads.
 class Progress {
  public:
-  Progress();
+  /// `wanted`: else nothing anywhere.
+  explicit Progress(bool wanted = true);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

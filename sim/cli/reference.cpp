@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/help.hpp"
 #include "sim/cli/pages.hpp"
 #include "sim/file.hpp"
 
@@ -23,32 +24,6 @@ std::vector<const CLI::App*> commands_of(const CLI::App& program) {
 std::vector<const CLI::Option*> options_of(const CLI::App& command) {
   const auto all = command.get_options();
   return {all.begin(), all.end()};
-}
-
-bool is_positional(const CLI::Option& option) { return option.get_positional(); }
-
-/// "--jobs N", "scenarios".
-std::string spelling(const CLI::Option& option) {
-  if (is_positional(option)) return option.get_name(true);
-  const auto type = option.get_type_name();  // "INT:INT in [1 - 256]": what it takes is the latter
-  return option.get_name(false, true) +
-         (option.get_expected_max() > 0 ? " " + type.substr(type.find(':') + 1) : "");
-}
-
-/// "drycut run scenarios... [options]"
-std::string synopsis(const CLI::App& command) {
-  auto text = "drycut " + command.get_name();
-  for (const auto* option : options_of(command)) {
-    if (!is_positional(*option)) continue;
-    const auto name = option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
-    text += option->get_required() ? ' ' + name : fmt::format(" [{}]", name);
-  }
-  return text + " [options]";
-}
-
-std::string default_of(const CLI::Option& option) {
-  const auto value = option.get_default_str();
-  return value.empty() ? "" : fmt::format(" (default: {})", value);
 }
 
 // The manual page.
@@ -83,12 +58,13 @@ std::string manual_page(const CLI::App& program) {
       page += fmt::format(".TP\n.B {}\n{}\n", troff(spelling(*option)),
                           troff(option->get_description() + default_of(*option)));
   }
-  return page +
-         ".SH EXIT STATUS\n.TP\n.B 0\nAll passed.\n.TP\n.B 1\nA check failed.\n.TP\n.B 2\nBad input: a line "
-         "a "
-         "problem on standard error; nothing was written.\n.TP\n.B 3\nThe simulation failed, or a result "
-         "could "
-         "not be written.\n.SH FILES\n.TP\n.I /usr/share/drycut/scenes\nScenarios to begin with.\n";
+  page += ".SH EXIT STATUS\n";
+  for (const auto& [status, meaning] : exit_statuses())
+    page += fmt::format(".TP\n.B {}\n{}\n", status, troff(meaning));
+  page += ".SH EXAMPLES\n.nf\n";
+  for (const auto* command : commands_of(program))
+    for (const auto line : examples_of(command->get_name())) page += troff(line) + "\n";
+  return page + ".fi\n.SH FILES\n.TP\n.I /usr/share/drycut/scenes\nScenarios to begin with.\n";
 }
 
 // Completion.

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -11,15 +12,15 @@
 #include <thread>
 
 #include "base/plain_text.hpp"
-#include "base/sheet.hpp"
 #include "renders/gltf.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
+#include "sim/cli/run_work.hpp"
 #include "sim/file.hpp"
+#include "sim/interrupt.hpp"
 #include "sim/live/session.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
-#include "sim/output_folder.hpp"
 #include "sim/parallel.hpp"
 #include "sim/records/run_files.hpp"
 #include "sim/report/film.hpp"
@@ -33,37 +34,6 @@ namespace drycut::sim::cli {
 namespace {
 
 constexpr auto* junit_file = "junit.xml";
-
-/// One scenario on its way from file to report.
-struct Job {
-  scenario::Scenario scenario;
-  std::optional<scenario::Scenario> half;  ///< the same at half its step, with --verify-step
-  std::unique_ptr<loop::Simulation> simulation;
-  report::PartMeshes meshes;
-  report::RunResult result;
-  std::optional<OutputFolder> folder;
-  std::vector<std::string> notes;  ///< of what was read
-  std::string trouble;             ///< a result could not be written
-  std::string left_out;            ///< because a helper program is missing, and what to install
-  std::filesystem::path scene;     ///< the glTF file, "" = none
-};
-
-/// A scene that compares some of the jobs.
-struct Group {
-  studies::ComparisonScene scene;
-  std::vector<Job*> members;
-  std::vector<studies::MemberNames> names;
-  report::RunResult result;
-  std::optional<OutputFolder> folder;
-  std::string trouble;
-};
-
-/// What is to be run: scenarios, and those of scenes that compare.
-struct Work {
-  std::optional<OutputFolder> folder;
-  std::vector<std::unique_ptr<Job>> jobs;
-  std::vector<Group> groups;
-};
 
 /// Claims what the results of `file` are called; a problem if another file has claimed it.
 class Claims {
@@ -216,20 +186,32 @@ void begin(Work& work) {
 void run_job(Job& job, const RunOptions& options, int threads,
              const std::function<void(const char*, double)>& progress) {
   auto& folder = *job.folder;
+  using Clock = std::chrono::steady_clock;
+  const auto since = [begun = Clock::now()] {
+    return std::chrono::duration<double>(Clock::now() - begun).count();
+  };
   const auto duration = static_cast<double>(job.scenario.scene.duration);
   if (options.pictures) job.simulation->follow_cams();
   if (!options.pictures && !options.gltf) job.simulation->keep_nothing();
   records::RunFiles files(job.scenario, *job.simulation, folder);
-  job.result.outcome =
-      job.simulation->run([&](Time now) { progress("running", static_cast<double>(now) / duration); });
-  if (job.half)
+  job.result.outcome = job.simulation->run([&](Time now) {
+    progress("running", static_cast<double>(now) / duration);
+    if (InterruptWatch::come() != 0)
+      job.simulation->stop(
+          fmt::format("interrupted at {} s; what was recorded until then is kept", loop::seconds_text(now)));
+  });
+  job.simulating = since();
+  if (job.half && InterruptWatch::come() == 0)
     job.result.outcome.half_step = studies::run_half_step(std::move(*job.half), [&](Time now) {
       progress("at half the step", static_cast<double>(now) / duration);
     });
   report::write_scenario(job.scenario, folder.add(report::scenario_file));
   loop::keep_retentive(job.scenario, job.simulation->retentive_state());
   files.finish(job.result.outcome);
-  const auto finished = [&] { report::write_checks(job.result.outcome, folder.add(report::checks_file)); };
+  const auto finished = [&] {
+    report::write_checks(job.result.outcome, folder.add(report::checks_file));
+    job.took = since();
+  };
   if (!options.pictures && !options.gltf) return finished();
   const auto film = job.simulation->snapshots().empty()
                         ? renders::Film{}
@@ -249,12 +231,16 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
   // Cores that no scenario runs on help to draw; the pictures are the same whoever draws them.
   const auto running = std::min<std::size_t>(static_cast<std::size_t>(options.jobs), jobs.size());
   const auto drawing_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency() / running));
-  Progress bar;
+  Progress bar(options.say != Say::failures);
   for_each_index(jobs.size(), static_cast<int>(running), [&](std::size_t i) {
     auto& job = *jobs[i];
     const auto show = [&](const char* doing, double done) {
       bar.show(fmt::format("{} {} ({} of {})", doing, job.result.name, i + 1, jobs.size()), done);
     };
+    if (InterruptWatch::come() != 0) {
+      job.trouble = "not run: interrupted before";
+      return;
+    }
     try {
       run_job(job, options, drawing_threads, show);
     } catch (const std::exception& error) {
@@ -282,56 +268,12 @@ void run_group(Group& group, bool pictures) {
 void run_groups(std::vector<Group>& groups, bool pictures) {
   for (auto& group : groups) {
     try {
+      if (InterruptWatch::come() != 0) throw std::runtime_error("interrupted before");
       run_group(group, pictures);
     } catch (const std::exception& error) {
       group.trouble = fmt::format("not compared: {}", error.what());
     }
   }
-}
-
-void print_checks(const std::vector<loop::CheckResult>& checks) {
-  for (const auto& check : checks) {
-    const auto margin = report::margin_text(check);
-    fmt::print("  {} {}: {}{}{}\n", check.passed ? "ok  " : "FAIL", printable(check.name),
-               printable(check.detail), margin.empty() ? "" : "; ", margin);
-  }
-}
-
-void print_place(const report::RunResult& result) {
-  fmt::print("  {}: {}\n", result.has_report ? "report" : "results",
-             (result.has_report ? result.directory / "report.html" : result.directory).string());
-}
-
-void print_group(const Group& group) {
-  const auto& outcome = group.result.outcome;
-  fmt::print("{}: {}\n", printable(group.result.name),
-             !group.trouble.empty()   ? group.trouble
-             : outcome.checks.empty() ? fmt::format("compared {} runs", group.members.size())
-                                      : fmt::format("{}, {}", outcome.passed() ? "passed" : "FAILED",
-                                                    report::verdict_text(outcome)));
-  print_checks(outcome.checks);
-  if (group.trouble.empty()) print_place(group.result);
-}
-
-void print_result(const Job& job) {
-  const auto& result = job.result;
-  const auto word = !job.trouble.empty() || !result.outcome.failure.empty() ? "STOPPED"
-                    : result.outcome.passed()                               ? "passed"
-                                                                            : "FAILED";
-  fmt::print("{}: {}, {} ({} s simulated)\n", printable(result.name), word,
-             job.trouble.empty() ? report::verdict_text(result.outcome) : job.trouble,
-             loop::seconds_text(result.outcome.end));
-  print_checks(result.outcome.checks);
-  if (result.outcome.half_step) {
-    const auto margins = studies::margin_table(result.outcome, job.scenario.scene.step);
-    if (!margins.rows.empty())
-      fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
-  }
-  for (const auto& note : job.notes) fmt::print("  note {}\n", printable(note));
-  for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
-  if (!job.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left_out);
-  if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());
-  print_place(result);
 }
 
 int status_of(const Work& work) {
@@ -367,6 +309,7 @@ int run_scenarios(const RunOptions& options) {
     return bad_input;
   }
   begin(work);
+  const InterruptWatch watch;
   run_all(work.jobs, options);
   run_groups(work.groups, options.pictures);
   std::vector<report::RunResult> results;
@@ -375,11 +318,11 @@ int run_scenarios(const RunOptions& options) {
     if (!trouble.empty()) results.back().outcome.failure = trouble;
   };
   for (const auto& job : work.jobs) {
-    print_result(*job);
+    print_result(*job, options.say);
     keep(job->result, job->trouble);
   }
   for (const auto& group : work.groups) {
-    print_group(group);
+    print_group(group, options.say);
     keep(group.result, group.trouble);
   }
   try {
@@ -388,7 +331,7 @@ int run_scenarios(const RunOptions& options) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;
   }
-  return status_of(work);
+  return InterruptWatch::come() == 0 ? status_of(work) : interrupted_status;
 }
 
 void add_run(CLI::App& app, int& status) {
@@ -407,6 +350,11 @@ void add_run(CLI::App& app, int& status) {
   run->add_flag("--verify-step", options.verify_step,
                 "Run again at half scene.step and tell how far every check's margin moved");
   add_set(*run, options.set, "scenarios");
+  auto* quiet = run->add_flag_callback(
+      "-q,--quiet", [&options] { options.say = Say::failures; }, "Tell only what failed");
+  run->add_flag_callback(
+         "-v,--verbose", [&options] { options.say = Say::more; }, "Tell how long it took, too")
+      ->excludes(quiet);
   run->callback([chosen, &status] { status = run_scenarios(*chosen); });
 }
 

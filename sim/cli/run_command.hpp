@@ -9,6 +9,9 @@
 
 namespace drycut::sim::cli {
 
+/// How much the terminal is told.
+enum class Say { failures, results, more };
+
 struct RunOptions {
   std::vector<std::filesystem::path> scenarios;
   std::filesystem::path out = "out";
@@ -18,6 +21,7 @@ struct RunOptions {
   bool verify_step = false;      ///< again at half the step: how far every margin moves
   bool gltf = false;             ///< the run as an animated .glb file, with or without pictures
   std::vector<std::string> set;  ///< "plants.web.speed=80 m/min"
+  Say say = Say::results;
 };
 /// drycut run
 int run_scenarios(const RunOptions& options);

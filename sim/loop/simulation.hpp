@@ -67,6 +67,11 @@ class Simulation {
   /// What was kept; nullptr if nothing was asked for.
   [[nodiscard]] const cams::CamRecorder* cams() const { return cams_.get(); }
 
+  /// Ends it where it is, as a failure of its own; while it runs, of `progress`.
+  void stop(const std::string& why) {
+    if (failure_.empty()) failure_ = why;
+  }
+
   /// Runs to the end of the scenario. `progress` is told the simulated time now and then.
   Outcome run(const std::function<void(Time)>& progress = {});
 

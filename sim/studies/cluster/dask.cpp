@@ -19,7 +19,7 @@
 #include "renders/embedded.hpp"
 #include "renders/html.hpp"
 #include "sim/studies/cluster/engine.hpp"
-#include "sim/studies/cluster/interrupt.hpp"
+#include "sim/interrupt.hpp"
 
 extern char** environ;  // NOLINT: POSIX gives the environment to hand on under this name
 

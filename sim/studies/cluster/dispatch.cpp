@@ -11,7 +11,7 @@
 
 #include "sim/parallel.hpp"
 #include "sim/studies/cluster/bundle.hpp"
-#include "sim/studies/cluster/interrupt.hpp"
+#include "sim/interrupt.hpp"
 
 namespace drycut::sim::cluster {
 

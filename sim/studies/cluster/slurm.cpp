@@ -17,7 +17,7 @@
 #include "base/text.hpp"
 #include "renders/process.hpp"
 #include "sim/studies/cluster/engine.hpp"
-#include "sim/studies/cluster/interrupt.hpp"
+#include "sim/interrupt.hpp"
 #include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::cluster {

@@ -1,8 +1,8 @@
-#include "sim/studies/cluster/interrupt.hpp"
+#include "sim/interrupt.hpp"
 
 #include <array>
 
-namespace drycut::sim::cluster {
+namespace drycut::sim {
 
 namespace {
 
@@ -14,6 +14,7 @@ constexpr std::array<int, 3> watched = {SIGINT, SIGTERM, SIGHUP};
 InterruptWatch::InterruptWatch() {
   struct sigaction action {};
   action.sa_handler = [](int signal) { came = signal; };
+  action.sa_flags = SA_RESETHAND;
   for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &action, &before_[i]);
 }
 
@@ -25,4 +26,6 @@ void InterruptWatch::check() {
   if (came != 0) throw Interrupted{came};
 }
 
-}  // namespace drycut::sim::cluster
+int InterruptWatch::come() { return came; }
+
+}  // namespace drycut::sim

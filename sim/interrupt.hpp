@@ -1,7 +1,7 @@
 #pragma once
 #include <csignal>
 
-namespace drycut::sim::cluster {
+namespace drycut::sim {
 
 /// The user, or the system, has had enough. No std::exception: nobody takes it for a fault, all clean up, and
 /// the program ends by the signal it was given.
@@ -9,7 +9,7 @@ struct Interrupted {
   int signal = 0;
 };
 
-/// While it lives SIGINT, SIGTERM and SIGHUP are kept for check().
+/// While it lives the first SIGINT, SIGTERM and SIGHUP are kept for who asks; a second one ends the program.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -18,9 +18,11 @@ class InterruptWatch {
   InterruptWatch& operator=(const InterruptWatch&) = delete;
   /// Throws Interrupted if one has come.
   static void check();
+  /// The one that has come, 0 = none.
+  [[nodiscard]] static int come();
 
  private:
   struct sigaction before_[3] = {};  // NOLINT(modernize-avoid-c-arrays): as POSIX has them
 };
 
-}  // namespace drycut::sim::cluster
+}  // namespace drycut::sim
