@@ -10,6 +10,7 @@
 #include "base/problem.hpp"
 #include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
+#include "devices/modbus_face.hpp"
 #include "devices/value_range.hpp"
 
 namespace drycut::devices {
@@ -103,6 +104,11 @@ class Controller {
 
   /// The axes that can play cams.
   [[nodiscard]] virtual std::vector<CamAxis> cam_axes() { return {}; }
+
+  /// What it shows to Modbus, which lives as long as it; else what would have to be there.
+  [[nodiscard]] virtual std::variant<const ModbusFace*, std::string> modbus() const {
+    return "a controller that has Modbus";
+  }
 
   [[nodiscard]] virtual bool has_events() const = 0;
   virtual std::vector<ControllerEvent> take_events() = 0;

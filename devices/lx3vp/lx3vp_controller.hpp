@@ -16,6 +16,7 @@
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/il_scan.hpp"
 #include "devices/lx3vp/instructions.hpp"
+#include "devices/lx3vp/modbus_map.hpp"
 #include "devices/lx3vp/pulse_unit.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/lx3vp/registers.hpp"
@@ -47,13 +48,16 @@ class Lx3vpController : public Controller, private Instructions {
   void interrupt(int line, bool rising) override;
   void power(bool on) override;
 
-  /// Registers by name, see RegisterName. X and Y are the levels of the terminals and read-only.
+  /// Registers by name, see RegisterName. X and Y are the levels of the terminals; X is read-only, Y is
+  /// written into the image, which the end of a scan gives out unless the program drives it.
   std::optional<ControllerValue> find(const std::string& name) override;
   /// The registers that the program names, those of its cams' blocks, and the pulse positions.
   [[nodiscard]] std::vector<std::string> names() const override { return names_; }
 
   /// One a DECAM.
   [[nodiscard]] std::vector<CamAxis> cam_axes() override;
+
+  [[nodiscard]] std::variant<const ModbusFace*, std::string> modbus() const override { return &modbus_; }
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }
@@ -112,6 +116,7 @@ class Lx3vpController : public Controller, private Instructions {
   std::array<bool, terminals> outputs_{};
   std::array<std::int64_t, pulse_outputs> pulses_before_{};  ///< given in earlier times of power
   bool powered_ = true;
+  ModbusMap modbus_{powered_};
   bool first_scan_ = true;
   bool stopped_ = false;  ///< by the watchdog, until power-up
   std::int64_t power_up_ns_ = 0;

@@ -93,6 +93,8 @@ std::optional<ControllerValue> Lx3vpController::find(const std::string& name) {
     value.read = [this, at] { return inputs_[at] ? 1.0 : 0.0; };
   } else if (named->kind == RegisterName::Kind::y) {
     value.read = [this, at] { return outputs_[at] ? 1.0 : 0.0; };
+    value.write = [this, at](double on) { registers_.y[at] = on != 0; };
+    value.range = range_of(*named);
   } else {
     value.read = [this, at = *named] { return lx3vp::read(registers_, at); };
     value.write = [this, at = *named](double number) { lx3vp::write(registers_, at, number); };

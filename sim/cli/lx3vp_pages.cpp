@@ -9,6 +9,7 @@
 #include "devices/lx3vp/ecamtbx_words.hpp"
 #include "devices/lx3vp/il_mnemonics.hpp"
 #include "devices/lx3vp/il_operands.hpp"
+#include "devices/lx3vp/modbus_map.hpp"
 #include "sim/cli/pages.hpp"
 
 namespace drycut::sim::cli {
@@ -103,6 +104,21 @@ std::vector<std::string> spellings_of(const lx3vp::il::Mnemonic& mnemonic) {
   return names;
 }
 
+Sheet modbus_sheet() {
+  Sheet sheet("modbus", "Modbus addresses (Wecon, PLC Editor, 8.1)",
+              {"registers", "functions", "address", "access", "meaning"});
+  for (const auto& row : lx3vp::modbus_rows()) {
+    auto last = row.first;
+    last.number += row.count - 1;
+    const int end = row.address + row.count * lx3vp::addresses_each(row) - 1;
+    const auto* functions = row.bits ? (row.may_write ? "1, 2, 5, 15" : "1, 2") : "3, 4, 6, 16, 22, 23";
+    sheet.add({fmt::format("{}..{}", to_string(row.first), to_string(last)), functions,
+               fmt::format("0x{:04X}..0x{:04X}", row.address, end), row.may_write ? "read/write" : "read",
+               row.meaning});
+  }
+  return sheet;
+}
+
 Page lx3vp_page() {
   Sheet registers("registers", "Special registers", {"name=register", "type", "access", "meaning"});
   for (const auto& special : lx3vp::special_registers())
@@ -118,9 +134,9 @@ Page lx3vp_page() {
                       entry.meaning});
   }
   return {"LX3VP",
-          "WECON LX3VP: special registers and instructions",
+          "WECON LX3VP: special registers, Modbus addresses and instructions",
           "",
-          {registers, instructions, readings_of(lx3vp::il::instruction_readings())}};
+          {registers, modbus_sheet(), instructions, readings_of(lx3vp::il::instruction_readings())}};
 }
 
 }  // namespace

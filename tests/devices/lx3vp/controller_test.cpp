@@ -385,9 +385,19 @@ TEST(Lx3vpController, NamesAreTheProgramsAndItsBlocks) {
   for (const auto& name : names) EXPECT_TRUE(controller.find(name)) << name;
   EXPECT_FALSE(controller.find("AxisX.posit"));
   EXPECT_FALSE(controller.find("X2")->write);
-  EXPECT_FALSE(controller.find("Y0")->write);
   EXPECT_TRUE(controller.find("dd2025")->write);
   EXPECT_EQ(controller.find("dd2025")->name, "DD2025");
+}
+
+TEST(Lx3vpController, AnOutputThatIsWrittenIsGivenUntilTheProgramDrivesIt) {
+  Lx3vpController controller(Plc::compile("LD M0\nOUT Y1\nEND\n"), ms);
+  ASSERT_TRUE(controller.offer(*parse_base_terminal("Y2")));
+  for (const char* name : {"Y1", "Y2"}) controller.find(name)->write(1);
+  EXPECT_EQ(controller.find("Y2")->read(), 0) << "the scan gives it out";
+  controller.run_tasks(0);
+  EXPECT_EQ(controller.find("Y1")->read(), 0);
+  EXPECT_EQ(controller.find("Y2")->read(), 1);
+  EXPECT_TRUE(controller.cards().outputs.at(*parse_base_terminal("Y2")).level);
 }
 
 TEST(Lx3vpController, PeriodsAreTheTickAndTheScan) {
