@@ -5,6 +5,7 @@
 #include "devices/camming4/camming4.hpp"
 #include "devices/eanpos/eanpos.hpp"
 #include "devices/epicpos/epicpos.hpp"
+#include "devices/modbus/modbus.hpp"
 #include "devices/oopos2/oopos2.hpp"
 
 namespace drycut::devices {
@@ -14,6 +15,7 @@ std::span<const CatalogueEntry> catalogue() {
       CatalogueEntry{&camming4::camming4_type, camming4::make_camming4},
       CatalogueEntry{&eanpos::eanpos_type, eanpos::make_eanpos},
       CatalogueEntry{&epicpos::epicpos_type, epicpos::make_epicpos},
+      CatalogueEntry{&modbus::modbus_type, modbus::make_modbus},
       CatalogueEntry{&oopos2::oopos2_type, oopos2::make_oopos2},
   };
   return entries;

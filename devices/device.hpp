@@ -71,10 +71,10 @@ struct Command {
 
 /// One field of the device's INTDEVICE record in the .CNF, after name and type.
 struct Field {
-  enum class Kind : std::uint8_t { period_ms, counter, interrupt_line, input, output, analogue };
+  enum class Kind : std::uint8_t { period_ms, counter, interrupt_line, input, output, analogue, port };
   std::string_view name;  ///< "TCamp", "CountS", "IntL" ...
   Kind kind = Kind::period_ms;
-  int min = 0;  ///< range of a number: period [ms] or interrupt line
+  int min = 0;  ///< range of a number: period [ms], interrupt line or communication port
   int max = 0;
   std::string_view meaning = {};
 };
@@ -123,7 +123,7 @@ std::int32_t wrap(Size size, std::int64_t value);
 
 /// The terminals of one device, in the order of DeviceType::fields.
 struct Resource {
-  int number = 0;                  ///< period_ms and interrupt_line: the number; 0 = unused ("X")
+  int number = 0;                  ///< period_ms, port and interrupt_line: the number; 0 = unused ("X")
   std::optional<Address> address;  ///< the others; nullopt = unused ("X.X")
 };
 using Resources = std::vector<Resource>;

@@ -90,7 +90,8 @@ std::optional<std::size_t> CnfParser::device_type(const Word& word) {
 }
 
 std::optional<Resource> CnfParser::resource(const Field& field, const Word& word, const DeviceType& type) {
-  if (field.kind == Field::Kind::period_ms || field.kind == Field::Kind::interrupt_line)
+  if (field.kind == Field::Kind::period_ms || field.kind == Field::Kind::interrupt_line ||
+      field.kind == Field::Kind::port)
     return number_resource(field, word, type);
   if (same_word(word.text, "X.X")) return Resource{};
   const TerminalKind wanted = terminal_kind(field.kind);
@@ -113,9 +114,12 @@ std::optional<Resource> CnfParser::number_resource(const Field& field, const Wor
   if (line && same_word(word.text, "X")) return Resource{};
   const std::optional<int> value = parsed<int>(word.text);
   if (!value || *value < field.min || *value > field.max) {
-    complain(word.place, fmt::format("{} of {} cannot be {}", field.name, type.name, in_quotes(word.text)),
-             line ? fmt::format("write an interrupt line from {} to {}, or X if unused", field.min, field.max)
-                  : fmt::format("write the sampling time in ms, from {} to {}", field.min, field.max));
+    complain(
+        word.place, fmt::format("{} of {} cannot be {}", field.name, type.name, in_quotes(word.text)),
+        line ? fmt::format("write an interrupt line from {} to {}, or X if unused", field.min, field.max)
+        : field.kind == Field::Kind::port
+            ? fmt::format("write the number of a communication port, from {} to {}", field.min, field.max)
+            : fmt::format("write the sampling time in ms, from {} to {}", field.min, field.max));
     return std::nullopt;
   }
   return Resource{*value, std::nullopt};

@@ -59,6 +59,8 @@ QmoveController::QmoveController(Configuration configuration, std::vector<Progra
         add_terminal({Kind::interrupt, 0, record.resources[i].number});
     }
     machine_.devices.push_back(entry.make(record.resources, cards_));
+    if (entry.type == &modbus::modbus_type && !modbus_)
+      modbus_.emplace(record.name, *machine_.devices.back(), powered_);
     machine_.oldest_post.push_back(0);
     device_due_.push_back({machine_.devices.back()->period_ms() * ns_per_ms});
   }
@@ -243,6 +245,11 @@ std::vector<CamAxis> QmoveController::cam_axes() {
     axes.push_back(std::move(*axis));
   }
   return axes;
+}
+
+std::variant<const ModbusFace*, std::string> QmoveController::modbus() const {
+  if (modbus_) return &*modbus_;
+  return "a device MODBUS in INTDEVICE of the .CNF: hmi MODBUS 0002 1 (drycut devices MODBUS)";
 }
 
 std::vector<ControllerEvent> QmoveController::take_events() { return std::exchange(events_, {}); }

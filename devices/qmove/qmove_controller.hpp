@@ -13,6 +13,7 @@
 #include "devices/catalogue.hpp"
 #include "devices/controller.hpp"
 #include "devices/due.hpp"
+#include "devices/modbus/modbus.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/machine.hpp"
 #include "devices/qmove/program.hpp"
@@ -65,6 +66,9 @@ class QmoveController : public Controller {
   [[nodiscard]] std::vector<std::string> names() const override;
 
   [[nodiscard]] std::vector<CamAxis> cam_axes() override;
+
+  /// Of the first device MODBUS of the configuration.
+  [[nodiscard]] std::variant<const ModbusFace*, std::string> modbus() const override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override;
@@ -122,6 +126,7 @@ class QmoveController : public Controller {
   Machine machine_;
   std::vector<Task> tasks_;
   bool powered_ = true;
+  std::optional<modbus::ExchangeFace> modbus_;
   OsMode mode_ = OsMode::run;
   RunTimeError error_ = RunTimeError::none;
 

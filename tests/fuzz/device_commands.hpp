@@ -25,7 +25,7 @@ namespace drycut::fuzz {
 /// on.
 inline devices::Resources wired(const devices::DeviceType& type, int period_ms, int slot = 2) {
   using Kind = devices::Field::Kind;
-  std::array<int, 6> used{};
+  std::array<int, 7> used{};
   devices::Resources resources;
   for (const devices::Field& field : type.fields) {
     const int number = ++used.at(static_cast<std::size_t>(field.kind));
@@ -33,6 +33,7 @@ inline devices::Resources wired(const devices::DeviceType& type, int period_ms, 
       case Kind::period_ms:
         resources.push_back({std::clamp(period_ms, field.min, field.max), {}});
         break;
+      case Kind::port:
       case Kind::interrupt_line:
         resources.push_back({number, {}});
         break;
