@@ -50,6 +50,7 @@ PlcopenController::PlcopenController(st::Program program, std::string file, Conf
   assert(configuration_.cycle_ns > 0 && configuration_.task_ns % configuration_.cycle_ns == 0);
   add_axes();
   add_located();
+  add_memory();
   const auto symbols = runtime_.symbols();
   for (std::size_t i = 0; i < symbols.size(); ++i) symbols_.emplace(lower(symbols[i].name), i);
   find_error_pins();
@@ -70,6 +71,27 @@ void PlcopenController::add_located() {
     located_inputs_.push_back(output ? nullptr : &cards_.inputs[located.address]);
     located_outputs_.push_back(output ? &cards_.outputs[located.address] : nullptr);
   }
+}
+
+// Functions 1 and 2 read the same bits, 3 and 4 the same words.
+void PlcopenController::add_memory() {
+  for (const auto& variable : program_.in_memory()) {
+    const int each = addresses_of(variable.place);
+    const bool bits = variable.place.size == 'X';
+    for (int i = 0; i < variable.count; ++i) {
+      const auto name =
+          variable.low ? fmt::format("{}[{}]", variable.name, *variable.low + i) : variable.name;
+      for (const auto table : bits ? std::array{ModbusTable::coils, ModbusTable::discrete_inputs}
+                                   : std::array{ModbusTable::holding_registers, ModbusTable::input_registers})
+        modbus_.add(table, (variable.place.number + i) * each, name, variable.format, true);
+    }
+  }
+}
+
+std::variant<const ModbusFace*, std::string> PlcopenController::modbus() const {
+  if (!modbus_.empty()) return &modbus_;
+  return "variables AT %MX0.0, %MW0, %MD0 or %ML0 in the program, or controller.plcopen.modbus in the "
+         "scenario";
 }
 
 void PlcopenController::find_error_pins() {

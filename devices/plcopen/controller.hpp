@@ -71,6 +71,10 @@ class PlcopenController : public Controller {
 
   [[nodiscard]] std::vector<CamAxis> cam_axes() override;
 
+  [[nodiscard]] std::variant<const ModbusFace*, std::string> modbus() const override;
+  /// To be filled from elsewhere too; it has what the program has AT %M.
+  [[nodiscard]] ModbusMap& modbus_map() { return modbus_; }
+
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }
 
@@ -104,6 +108,7 @@ class PlcopenController : public Controller {
 
   void add_axes();
   void add_located();
+  void add_memory();
   void find_error_pins();
   void plug_in(int axis, const AxisTerminal& terminal);
   Axis& axis(int number) { return *kernel_.axis({number}); }
@@ -147,6 +152,7 @@ class PlcopenController : public Controller {
   std::optional<st::TaskRun> computing_;  ///< a task whose outputs are to come
   std::set<std::string> late_;            ///< tasks that overran the last time they ran
   bool powered_ = true;
+  ModbusMap modbus_{powered_};
   bool power_up_due_ = true;
   bool fault_told_ = false;
 };

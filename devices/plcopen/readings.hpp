@@ -80,6 +80,11 @@ inline constexpr std::array readings = {
     Reading{"ST",
             "LINT, ULINT and LWORD are exact in the program; what is recorded or checked is exact to 2^53",
             "a trace holds REAL numbers"},
+    Reading{
+        "ST",
+        "%MXbyte.bit is a memory of its own; %MD5 is %MW10 and %MW11, the low word first; Modbus has them "
+        "at these numbers",
+        "IEC 61131-3 leaves the memory's layout to the implementer, 004 says nothing of Modbus"},
     Reading{"ST", "places outside of a STRING are cut off", "IEC 61131-3 calls them errors"},
     Reading{"ST", "whole numbers wrap in their width; conversions round halves to the even number",
             "IEC 61131-3 leaves overflow to the implementer"},

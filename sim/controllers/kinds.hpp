@@ -6,8 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "devices/modbus_face.hpp"
 #include "devices/plcopen/axis_parameters.hpp"
 #include "sim/scenario/archive.hpp"
+
+namespace drycut::devices::plcopen {
+class PlcopenController;
+}
 
 namespace drycut::sim::controllers {
 
@@ -82,6 +87,24 @@ struct PlcopenSection final : scenario::ControllerSection {
     std::vector<scenario::Text> programs;  ///< of the program's file
   };
   std::vector<Task> tasks;  ///< of several PROGRAMs; others run every `task_cycle`
+  struct ModbusBit {
+    scenario::Text address;
+    scenario::Text value;  ///< of the controller
+  };
+  enum class WordOrder { low_first, high_first };
+  struct ModbusWord {
+    scenario::Text address;
+    scenario::Text value;
+    devices::ModbusFormat type = devices::ModbusFormat::int16;
+    WordOrder order = WordOrder::low_first;
+  };
+  struct Modbus {
+    std::vector<ModbusBit> coils;
+    std::vector<ModbusBit> discrete_inputs;
+    std::vector<ModbusWord> holding_registers;
+    std::vector<ModbusWord> input_registers;
+  };
+  Modbus modbus;  ///< beside what the program has AT %M
 
   [[nodiscard]] std::string_view kind() const override { return "plcopen"; }
   void visit(scenario::Archive& archive) override;
@@ -90,9 +113,16 @@ struct PlcopenSection final : scenario::ControllerSection {
   [[nodiscard]] std::string_view settable() const override;
   std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
                                             std::vector<std::string>* notes) const override;
+
+ private:
+  void visit_modbus(scenario::Archive& archive);
+  void fill_modbus(devices::plcopen::PlcopenController& controller, const scenario::Scenario& scenario,
+                   Problems& problems) const;
 };
 void visit(scenario::Archive& archive, PlcopenSection::Axis& axis);
 void visit(scenario::Archive& archive, PlcopenSection::Table& table);
+void visit(scenario::Archive& archive, PlcopenSection::ModbusBit& bit);
+void visit(scenario::Archive& archive, PlcopenSection::ModbusWord& word);
 
 /// The scenario's controller if it is of this kind, else nullptr.
 template <typename Section>

@@ -241,6 +241,10 @@ void PlcopenSection::visit(scenario::Archive& archive) {
                 &Axis::name, true);
   archive.list({"tables", "cam tables: a path, or a path and an id"}, tables, true);
   if (archive.reads()) std::erase_if(tables, [](const Table& table) { return table.file.text.empty(); });
+  const bool maps = !(modbus.coils.empty() && modbus.discrete_inputs.empty() &&
+                      modbus.holding_registers.empty() && modbus.input_registers.empty());
+  archive.section({"modbus", "what an HMI finds at which address, beside variables AT %M", maps},
+                  [this](scenario::Archive& inner) { visit_modbus(inner); });
   visit_compute_time(archive, *this);
   visit_memory(archive, *this);
   archive.judge([this](scenario::MapReader& reader) {
@@ -284,7 +288,11 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
   }
   if (problems.size() != before) return nullptr;
   if (notes != nullptr) note_slow_phasing(compiled, *this, scenario, *notes);
-  return std::make_unique<plcopen::PlcopenController>(std::move(compiled), file, std::move(configuration));
+  auto controller =
+      std::make_unique<plcopen::PlcopenController>(std::move(compiled), file, std::move(configuration));
+  fill_modbus(*controller, scenario, problems);
+  if (problems.size() != before) return nullptr;
+  return controller;
 }
 
 }  // namespace drycut::sim::controllers

@@ -501,5 +501,58 @@ TEST_F(PlcopenScenario, RetainVariablesComeFromTheirFile) {
               ElementsAre("kept.txt:1:1: the program has no RETAIN variable 'stars'; remove the line"));
 }
 
+struct PlcopenModbus : PlcopenScenario {
+  PlcopenModbus() {
+    write("hmi.st",
+          "PROGRAM p\nVAR speed : LREAL; batch AT %MW4 : INT; go : BOOL; END_VAR\ngo := speed > "
+          "0;\nEND_PROGRAM\n");
+  }
+  static std::string map(const std::string& lines) {
+    return with("    program: hmi.st\n    modbus:\n" + lines);
+  }
+};
+
+TEST_F(PlcopenModbus, IsReadAndWrittenBack) {
+  const auto text =
+      map("      coils: {7: go}\n"
+          "      holding_registers: {0: batch, 6: {value: speed, type: real32, words: high_first}}\n");
+  EXPECT_THAT(build(text), IsEmpty());
+  const auto scenario = read(text);
+  const auto again = scenario::expand(scenario);
+  EXPECT_THAT(again, HasSubstr("coils"));
+  const auto& modbus = section(read(again)).modbus;
+  ASSERT_EQ(modbus.holding_registers.size(), 2U);
+  EXPECT_EQ(modbus.coils.at(0).address.text, "7");
+  EXPECT_EQ(modbus.holding_registers[0].value.text, "batch");
+  EXPECT_EQ(modbus.holding_registers[1].value.text, "speed");
+  EXPECT_EQ(modbus.holding_registers[1].type, devices::ModbusFormat::real32);
+  EXPECT_EQ(modbus.holding_registers[1].order, controllers::PlcopenSection::WordOrder::high_first);
+  EXPECT_THAT(scenario::expand(read(with("    program: hmi.st\n"))), Not(HasSubstr("modbus")));
+}
+
+TEST_F(PlcopenModbus, SaysWhatDoesNotFit) {
+  EXPECT_THAT(
+      build(map(
+          "      coils: {65536: go, x: go, 1: goo}\n"
+          "      holding_registers: {4: speed, 3: {value: speed, type: int32}, 65535: {value: speed, type: "
+          "real32}}\n"
+          "      input_registers: {8: {value: speed, type: real64}, 11: batch}\n")),
+      ElementsAre(
+          HasSubstr("line.yaml:5:15: '65536' is no address; 0 to 65535"),
+          HasSubstr("line.yaml:5:26: 'x' is no address"),
+          HasSubstr("line.yaml:5:36: the controller has nothing called 'goo'; did you mean go?"),
+          HasSubstr("line.yaml:6:27: batch stands at address 4 already"),
+          HasSubstr("line.yaml:6:37: batch stands at address 3 already; give each addresses of its own: "
+                    "this one takes 2"),
+          HasSubstr("line.yaml:6:70: '65535' is no address; 0 to 65534"),
+          HasSubstr("line.yaml:7:61: speed stands at address 11 already")));
+  problems.clear();
+  EXPECT_THAT(
+      build(map("      coils: {1: {value: go}}\n      holding_registers: {1: {value: speed, type: int8}, 2: "
+                "{type: int16}, 3: {value: speed, word: low_first}}\n      coil: {}\n")),
+      Contains(HasSubstr("line.yaml:6:")));
+  EXPECT_GE(problems.size(), 5U);
+}
+
 }  // namespace
 }  // namespace drycut::sim::loop

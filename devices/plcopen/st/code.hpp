@@ -192,6 +192,7 @@ struct Compiled {
   std::vector<int> external_cells;
   std::vector<Program::Located> located;
   std::vector<int> located_cells;
+  std::vector<Program::InMemory> in_memory;
   std::vector<Program::Name> tables;
 
   std::vector<std::unique_ptr<Type>> types;

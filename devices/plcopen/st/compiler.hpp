@@ -32,6 +32,7 @@ class Declarations : public Expressions {
                       bool (*takes)(Basic) = is_elementary);
 
   std::vector<int> located_in_;  ///< the POU of each variable at a terminal, -1: VAR_GLOBAL
+  std::vector<int> memory_in_;   ///< the same of those in memory
 
  private:
   // declarations.cpp: VAR sections.
@@ -42,6 +43,11 @@ class Declarations : public Expressions {
     bool external = false;
     bool global = false;
   };
+  /// AT: a terminal, or a place in memory.
+  struct Location {
+    std::optional<Address> terminal;
+    std::optional<MemoryPlace> memory;
+  };
   void declare_pou(Unit& unit);
   void declare_function_result(Unit& unit, Type& type);
   bool variable_section(Unit& unit, Type& owner);
@@ -49,11 +55,13 @@ class Declarations : public Expressions {
   void declare_variables(Unit& unit, Type& owner, const VarSection& section);
   void declare_named(Unit& unit, Type& owner, const VarSection& section, const std::vector<Token>& names);
   void add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name, const Type* type,
-                    const std::optional<Address>& location, std::span<const Cell> initial);
+                    const Location& location, std::span<const Cell> initial);
   bool check_section(const Unit& unit, const VarSection& section, const Token& name, const Type& type,
-                     const std::optional<Address>& location);
+                     const Location& location);
   void external(const Token& name, const Type* type);
-  std::optional<Address> location();
+  Location location();
+  bool check_memory(const Token& name, const Type& type, const MemoryPlace& place);
+  void keep_in_memory(const Token& name, const Type& type, const MemoryPlace& place, int pou);
   bool name_is_free(const Unit& unit, const Type& owner, const Token& name);
 
   // type_declarations.cpp
@@ -79,7 +87,14 @@ class Declarations : public Expressions {
 
   std::map<const BlockType*, const Type*> motions_;
   std::map<Address, std::string> terminals_;
-  std::int64_t type_cells_ = 0;  ///< of all initial values
+  struct Occupied {
+    std::int64_t first;
+    std::int64_t end;
+    bool bits;
+    std::string name;
+  };
+  std::vector<Occupied> occupied_;  ///< addresses that variables AT %M take
+  std::int64_t type_cells_ = 0;     ///< of all initial values
 };
 
 /// Puts a variable behind those that its owner has.
@@ -156,6 +171,7 @@ class Compiler : public Statements {
   // layout.cpp
   void place_memory();
   void place_located();
+  void place_in_memory();
   void finish();
   void walk(const Type& type, int cell, const std::string& prefix, bool retain, bool shown);
   void walk_value(const Type& type, int cell, const std::string& name, bool retain, bool shown,

@@ -197,6 +197,16 @@ void Compiler::check_instances() {
                fmt::format("{} is in {} programs at one terminal", in_quotes(located.name), count),
                "declare it in VAR_GLOBAL");
   }
+  for (std::size_t i = 0; i < code_->in_memory.size(); ++i) {
+    const int pou = memory_in_[i];
+    const auto count = std::count_if(code_->instances.begin(), code_->instances.end(),
+                                     [&](const Compiled::Instance& instance) { return instance.pou == pou; });
+    const Program::InMemory& variable = code_->in_memory[i];
+    if (pou >= 0 && count > 1)
+      complain({variable.line, variable.column},
+               fmt::format("{} is in {} programs at one place in memory", in_quotes(variable.name), count),
+               "declare it in VAR_GLOBAL");
+  }
 }
 
 /// What a CONFIGURATION gives the programs: P(in := g, out => h).

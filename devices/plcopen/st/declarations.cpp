@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "devices/plcopen/st/keywords.hpp"
 #include "devices/plcopen/terminals.hpp"
 
@@ -28,6 +29,42 @@ std::string_view name_of(Section section) {
   return std::find_if(section_names.begin(), section_names.end(),
                       [&](const SectionName& known) { return known.section == section; })
       ->name;
+}
+
+/// How a value of the type lies in memory of that size; nullopt if it does not fit.
+std::optional<ModbusFormat> memory_format(char size, Basic basic) {
+  switch (basic) {
+    case Basic::boolean:
+      return size == 'X' ? std::optional(ModbusFormat::bit) : std::nullopt;
+    case Basic::int_:
+      return size == 'W' ? std::optional(ModbusFormat::int16) : std::nullopt;
+    case Basic::uint:
+    case Basic::word:
+      return size == 'W' ? std::optional(ModbusFormat::uint16) : std::nullopt;
+    case Basic::dint:
+      return size == 'D' ? std::optional(ModbusFormat::int32) : std::nullopt;
+    case Basic::udint:
+    case Basic::dword:
+      return size == 'D' ? std::optional(ModbusFormat::uint32) : std::nullopt;
+    case Basic::real:
+      return size == 'D' ? std::optional(ModbusFormat::real32) : std::nullopt;
+    case Basic::lreal:
+      return size == 'L' ? std::optional(ModbusFormat::real64) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+std::string_view memory_types(char size) {
+  switch (size) {
+    case 'X':
+      return "a BOOL";
+    case 'W':
+      return "an INT, UINT or WORD";
+    case 'D':
+      return "a DINT, UDINT, DWORD or REAL";
+    default:
+      return "an LREAL";
+  }
 }
 
 /// The pins of standard blocks have the names of CODESYS, and those of IEC 61131-3 as well.
@@ -167,14 +204,14 @@ void Declarations::declare_variables(Unit& unit, Type& owner, const VarSection& 
     const Type* unknown = type_of(Basic::unknown);
     for (const Token& name : names)
       if (find_member(owner, name.text) == nullptr)
-        add_variable(unit, owner, {}, name, unknown, std::nullopt, unknown->initial);
+        add_variable(unit, owner, {}, name, unknown, {}, unknown->initial);
     throw;
   }
 }
 
 void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& section,
                                  const std::vector<Token>& names) {
-  std::optional<Address> place;
+  Location place;
   if (accept_word("AT")) place = location();
   expect(":", "stands between a variable's name and its type");
   const Type* type = parse_type();
@@ -194,13 +231,13 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
              ":= value behind its type");
   }
   expect(";", "ends a declaration");
-  if (place && names.size() > 1)
+  if ((place.terminal || place.memory) && names.size() > 1)
     give_up(names[1].place, "two variables at one place", "declare each with its own AT");
   for (const Token& name : names) add_variable(unit, owner, section, name, type, place, initial);
 }
 
 bool Declarations::check_section(const Unit& unit, const VarSection& section, const Token& name,
-                                 const Type& type, const std::optional<Address>& located) {
+                                 const Type& type, const Location& located) {
   const auto refuse = [&](std::string what, std::string remedy) {
     complain(name.place, std::move(what), std::move(remedy));
     return false;
@@ -214,15 +251,17 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
   if (type.holds_block && (!keeps || section.constant))
     return refuse(fmt::format("the function block {} cannot be in {} here", in_quotes(name.text), in),
                   "it keeps its state: declare it in VAR of a PROGRAM or FUNCTION_BLOCK, or in VAR_GLOBAL");
-  if (!located) return true;
-  if (type.basic != Basic::boolean)
+  if (!located.terminal && !located.memory) return true;
+  if (located.terminal && type.basic != Basic::boolean)
     return refuse(fmt::format("{} at a terminal is a BOOL, not {}", in_quotes(name.text), type.name),
                   "start AT %IX0.0 : BOOL;");
   if ((unit.kind != Unit::Kind::program && unit.kind != Unit::Kind::globals) ||
       section.section != Section::local)
-    return refuse(fmt::format("{} cannot have a terminal here", in_quotes(name.text)),
+    return refuse(fmt::format("{} cannot have {} here", in_quotes(name.text),
+                              located.terminal ? "a terminal" : "a place in memory"),
                   "AT stands in VAR of a PROGRAM or in VAR_GLOBAL");
-  const auto [other, fresh] = terminals_.emplace(*located, name.text);
+  if (located.memory) return check_memory(name, type, *located.memory);
+  const auto [other, fresh] = terminals_.emplace(*located.terminal, name.text);
   if (!fresh)
     return refuse(
         fmt::format("{} and {} are at one terminal", in_quotes(name.text), in_quotes(other->second)),
@@ -230,9 +269,50 @@ bool Declarations::check_section(const Unit& unit, const VarSection& section, co
   return true;
 }
 
+bool Declarations::check_memory(const Token& name, const Type& type, const MemoryPlace& place) {
+  const bool array = type.basic == Basic::array;
+  const Basic basic = array ? type.element->basic : type.basic;
+  if (!memory_format(place.size, basic)) {
+    complain(name.place,
+             fmt::format("{} at {} is {}, or an array of them, not {}", in_quotes(name.text),
+                         to_string(place), memory_types(place.size), type.name),
+             "%MX0.0 has a bit, %MW0 a word, %MD0 two words, %ML0 four");
+    return false;
+  }
+  const std::int64_t count = array ? type.high - type.low + 1 : 1;
+  constexpr std::int64_t addresses = 65536;
+  const bool bits = place.size == 'X';
+  const std::int64_t first = static_cast<std::int64_t>(place.number) * addresses_of(place);
+  const std::int64_t end = first + count * addresses_of(place);
+  if (end > addresses) {
+    complain(name.place, fmt::format("{} does not end within the memory", in_quotes(name.text)),
+             fmt::format("it has {} {}", addresses, bits ? "bits" : "words"));
+    return false;
+  }
+  for (const auto& [other_first, other_end, other_bits, other] : occupied_) {
+    if (other_bits != bits || first >= other_end || end <= other_first) continue;
+    complain(name.place, fmt::format("{} and {} share memory", in_quotes(name.text), in_quotes(other)),
+             "each place has one variable");
+    return false;
+  }
+  occupied_.push_back({first, end, bits, std::string(name.text)});
+  return true;
+}
+
+void Declarations::keep_in_memory(const Token& name, const Type& type, const MemoryPlace& place, int pou) {
+  Program::InMemory kept{std::string(name.text), place, {}, {}, 1, name.place.line, name.place.column};
+  const bool array = type.basic == Basic::array;
+  kept.format = *memory_format(place.size, array ? type.element->basic : type.basic);
+  if (array) {
+    kept.low = type.low;
+    kept.count = static_cast<int>(type.high - type.low + 1);
+  }
+  code_->in_memory.push_back(std::move(kept));
+  memory_in_.push_back(pou);
+}
+
 void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& section, const Token& name,
-                                const Type* type, const std::optional<Address>& located,
-                                std::span<const Cell> initial) {
+                                const Type* type, const Location& located, std::span<const Cell> initial) {
   if (!name_is_free(unit, owner, name) || !check_section(unit, section, name, *type, located)) {
     // Known, so that its uses are not told again.
     if (find_member(owner, name.text) == nullptr)
@@ -251,12 +331,14 @@ void Declarations::add_variable(Unit& unit, Type& owner, const VarSection& secti
   check_size(name.place, type->cells, type->depth);
   if (owner.cells + type->cells > most_cells)
     give_up(name.place, "the variables take too much memory", "8 MB at most");
-  if (located && type->basic == Basic::boolean) {
-    variable.reads_terminal = located->kind == Kind::input;
-    code_->located.push_back({std::string(name.text), *located, name.place.line, name.place.column});
+  const int pou = &owner == globals_ ? -1 : unit.pou;
+  if (located.terminal && type->basic == Basic::boolean) {
+    variable.reads_terminal = located.terminal->kind == Kind::input;
+    code_->located.push_back({std::string(name.text), *located.terminal, name.place.line, name.place.column});
     code_->located_cells.push_back(owner.cells);
-    located_in_.push_back(&owner == globals_ ? -1 : unit.pou);
+    located_in_.push_back(pou);
   }
+  if (located.memory && type->basic != Basic::unknown) keep_in_memory(name, *type, *located.memory, pou);
   const std::vector<Cell> pointer(1, 0);
   append(owner, std::move(variable),
          section.section == Section::in_out ? std::span<const Cell>(pointer) : initial);
@@ -297,14 +379,17 @@ void Declarations::external(const Token& name, const Type* type) {
            "VAR_EXTERNAL names what VAR_GLOBAL declares, or an AXIS_REF of the configuration");
 }
 
-std::optional<Address> Declarations::location() {
+Declarations::Location Declarations::location() {
   const Token token = take();
-  const auto address =
-      token.kind == Token::Kind::address ? located_address(token.text) : std::optional<Address>{};
-  if (!address)
-    give_up(token.place, in_quotes(token.text) + " is no terminal that is known",
-            "%IX0.0 is an input, %QX0.0 an output: byte 0 to 65535 and bit 0 to 7");
-  return *address;
+  if (token.kind == Token::Kind::address) {
+    if (const auto address = located_address(token.text)) return {*address, {}};
+    if (const auto place = parse_memory_place(token.text)) return {{}, *place};
+  }
+  if (upper(token.text).starts_with("%M"))
+    give_up(token.place, in_quotes(token.text) + " is no memory that is known",
+            "%MX0.0 is a BOOL, %MW0 a word, %MD0 two, %ML0 four: bits and words 0 to 65535");
+  give_up(token.place, in_quotes(token.text) + " is no terminal that is known",
+          "%IX0.0 is an input, %QX0.0 an output: byte 0 to 65535 and bit 0 to 7");
 }
 
 }  // namespace drycut::devices::plcopen::st

@@ -73,6 +73,25 @@ void Compiler::place_located() {
   }
   code.located.resize(kept);
   code.located_cells.resize(kept);
+  place_in_memory();
+}
+
+/// The same of those in memory, which then have the names that people give them.
+void Compiler::place_in_memory() {
+  Compiled& code = *code_;
+  std::vector<Program::InMemory> kept;
+  for (std::size_t i = 0; i < code.in_memory.size(); ++i) {
+    auto& variable = code.in_memory[i];
+    if (memory_in_[i] >= 0) {
+      const auto instance = std::find_if(code.instances.begin(), code.instances.end(),
+                                         [&](const auto& one) { return one.pou == memory_in_[i]; });
+      if (instance == code.instances.end()) continue;
+      const auto number = static_cast<std::size_t>(instance - code.instances.begin());
+      if (code.instances.size() > 1) variable.name = code.instance_names[number].name + "." + variable.name;
+    }
+    kept.push_back(std::move(variable));
+  }
+  code.in_memory = std::move(kept);
 }
 
 void Compiler::finish() {

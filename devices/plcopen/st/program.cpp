@@ -11,6 +11,7 @@ Program::Program() : compiled_(std::make_shared<const Compiled>()) {}
 Program::Program(std::shared_ptr<const Compiled> compiled) : compiled_(std::move(compiled)) {}
 const std::vector<Program::Name>& Program::externals() const { return compiled_->externals; }
 const std::vector<Program::Located>& Program::located() const { return compiled_->located; }
+const std::vector<Program::InMemory>& Program::in_memory() const { return compiled_->in_memory; }
 const std::vector<Program::Name>& Program::tables() const { return compiled_->tables; }
 const std::vector<Program::Task>& Program::tasks() const { return compiled_->tasks; }
 const std::vector<Program::Instance>& Program::instances() const { return compiled_->instance_names; }

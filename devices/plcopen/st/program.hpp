@@ -6,6 +6,7 @@
 
 #include "base/problem.hpp"
 #include "devices/cards.hpp"
+#include "devices/plcopen/modbus_map.hpp"
 
 // Structured Text (IEC 61131-3) as a cam application on a PLCopen controller uses it.
 namespace drycut::devices::plcopen::st {
@@ -25,6 +26,17 @@ class Program {
   struct Located {
     std::string name;
     Address address;
+    int line = 0;
+    int column = 0;
+  };
+
+  /// A variable AT %M, or an array of them from there on.
+  struct InMemory {
+    std::string name;  ///< with its program's, where there are several
+    MemoryPlace place;
+    ModbusFormat format = ModbusFormat::int16;
+    std::optional<std::int64_t> low;  ///< of an array, its first index
+    int count = 1;
     int line = 0;
     int column = 0;
   };
@@ -52,6 +64,7 @@ class Program {
   /// Axes that VAR_EXTERNAL names.
   [[nodiscard]] const std::vector<Name>& externals() const;
   [[nodiscard]] const std::vector<Located>& located() const;
+  [[nodiscard]] const std::vector<InMemory>& in_memory() const;
   /// Cam table files that initial values and assignments of MC_CAM_REF.File name.
   [[nodiscard]] const std::vector<Name>& tables() const;
   [[nodiscard]] const std::vector<Task>& tasks() const;

@@ -435,6 +435,56 @@ TEST(StTasks, FaultsOfAConfigurationAreTold) {
        "13:1: 'nonsense' stands in the CONFIGURATION"});
 }
 
+TEST(StMemory, VariablesHaveTheirPlacesByTheNamesThatPeopleGiveThem) {
+  Problems problems;
+  const auto program = compile(
+      "VAR_GLOBAL g AT %MD3 : REAL; END_VAR\n"
+      "PROGRAM P VAR a AT %MW5 : ARRAY [-1..2] OF WORD; END_VAR END_PROGRAM\n"
+      "PROGRAM Q VAR b AT %MX0.7 : BOOL; c AT %ML9 : LREAL; END_VAR END_PROGRAM\n"
+      "PROGRAM R VAR d AT %MW100 : INT; END_VAR END_PROGRAM\n"
+      "CONFIGURATION C TASK t(INTERVAL := T#1ms); PROGRAM one WITH t : P; PROGRAM two WITH t : Q; "
+      "END_CONFIGURATION\n",
+      "memory.st", problems);
+  EXPECT_EQ(problems.size(), 0U);
+  std::string all;
+  for (const auto& variable : program.in_memory())
+    all += fmt::format("{} {}{} x{} {};", variable.name, plcopen::to_string(variable.place),
+                       variable.low ? fmt::format(" from {}", *variable.low) : "", variable.count,
+                       static_cast<int>(variable.format));
+  EXPECT_EQ(all, "g %MD3 x1 5;one.a %MW5 from -1 x4 2;two.b %MX0.7 x1 0;two.c %ML9 x1 6;")
+      << "R runs nowhere";
+}
+
+TEST(StMemory, TakesWhatFitsThePlaceAndEachPlaceOnce) {
+  expect_problems(
+      "PROGRAM P VAR\n"
+      "a AT %MW3 : REAL;\n"
+      "b AT %MX0.0 : INT;\n"
+      "c AT %MD1 : INT;\n"
+      "d AT %ML1 : LINT;\n"
+      "e AT %MW0 : ARRAY [0..2, 0..2] OF INT;\n"
+      "f AT %MW10 : ARRAY [1..4] OF INT;\n"
+      "g AT %MD6 : DINT;\n"
+      "h AT %MX10.0 : BOOL;\n"
+      "i AT %MW65535 : ARRAY [0..1] OF INT;\n"
+      "j, k AT %MW20 : INT;\n"
+      "l AT %MB7 : BYTE;\n"
+      "m AT %MW21 : TIME;\n"
+      "END_VAR END_PROGRAM\n"
+      "FUNCTION_BLOCK B VAR n AT %MW30 : INT; END_VAR END_FUNCTION_BLOCK\n"
+      "PROGRAM Q VAR o AT %MW40 : INT; END_VAR END_PROGRAM\n"
+      "CONFIGURATION C PROGRAM q1 : Q; PROGRAM q2 : Q; END_CONFIGURATION",
+      {"2:1: 'a' at %MW3 is an INT, UINT or WORD, or an array of them, not REAL",
+       "3:1: 'b' at %MX0.0 is a BOOL, or an array of them, not INT",
+       "4:1: 'c' at %MD1 is a DINT, UDINT, DWORD or REAL, or an array of them, not INT",
+       "5:1: 'd' at %ML1 is an LREAL, or an array of them, not LINT",
+       "6:1: 'e' at %MW0 is an INT, UINT or WORD, or an array of them", "8:1: 'g' and 'f' share memory",
+       "10:1: 'i' does not end within the memory", "11:4: two variables at one place",
+       "12:6: '%MB7' is no memory that is known", "13:1: 'm' at %MW21 is an INT",
+       "15:22: 'n' cannot have a place in memory here",
+       "16:15: 'o' is in 2 programs at one place in memory; declare it in VAR_GLOBAL"});
+}
+
 TEST(StBudget, CountsWorkNotStatements) {
   // Fewer than 10000 statements each: what they do is too much.
   for (const auto& [line, text] : std::vector<std::pair<int, std::string>>{
