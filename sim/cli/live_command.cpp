@@ -17,6 +17,7 @@
 #include "sim/cli/run_command.hpp"
 #include "sim/file.hpp"
 #include "sim/live/line.hpp"
+#include "sim/live/modbus/server.hpp"
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
 #include "sim/scenario/yaml_reader.hpp"
@@ -76,6 +77,19 @@ std::string make_token() {
   return token;
 }
 
+std::unique_ptr<live::modbus::Server> serve_modbus(const LiveOptions& options, live::Line& line) {
+  if (!options.modbus) return nullptr;
+  auto server = std::make_unique<live::modbus::Server>(
+      live::modbus::Server::Options{options.listen, static_cast<std::uint16_t>(*options.modbus)}, line);
+  fmt::print("Modbus TCP: {} port {}\n", options.listen, server->port());
+  if (!is_own(options.listen))
+    fmt::print(
+        "WARNING: Modbus knows no token and no password. Whoever reaches {} port {} reads and writes the "
+        "controller.\n",
+        options.listen, server->port());
+  return server;
+}
+
 std::filesystem::path session_in(const std::filesystem::path& given) {
   return std::filesystem::is_directory(given) ? given / live::session_file : given;
 }
@@ -119,6 +133,10 @@ int live_scenario(const LiveOptions& options) {
   const auto wanted = line_options(options, problems);
   std::optional<live::Line> line;
   if (problems.empty()) line.emplace(wanted, problems);
+  if (problems.empty() && options.modbus) {
+    if (const auto lacking = live::modbus::lacking(*line); !lacking.empty())
+      problems.push_back({"--modbus", 1, 1, "the controller has no Modbus", "it takes " + lacking});
+  }
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
@@ -129,6 +147,7 @@ int live_scenario(const LiveOptions& options) {
                          is_own(options.listen) ? "" : make_token()},
                         *line);
     fmt::print("the line: {} (open it in a browser; Ctrl-C ends it)\n", server.url());
+    const auto modbus = serve_modbus(options, *line);
     std::fflush(stdout);
     if (options.ready) options.ready(server.url());
     line->run([&](auto news) { server.tell(std::move(news)); },
@@ -179,6 +198,10 @@ void add_live(CLI::App& app, int& status) {
   command->add_option("--port", options.port, "Of the page; 0 = any free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
+  command
+      ->add_option("--modbus", options.modbus,
+                   "Port where the controller answers Modbus TCP as the real one does; 0 = any free one")
+      ->check(CLI::Range(0, 65535));
   command->add_option("--pace", options.pace, "Machine seconds a second, or max: as fast as it goes")
       ->capture_default_str();
   command->add_flag("--paused", options.paused, "Stand still at time zero");

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,10 @@ struct LiveOptions {
   std::filesystem::path scenario;
   std::string from;  ///< a session to go on from, in place of a scenario: "out/today/1@12.5 s"
   std::vector<std::string> set;
-  int port = 8080;         ///< 0 = any free one
-  std::string pace = "1";  ///< machine seconds a second, or "max"
-  bool paused = false;     ///< stands still at time zero
+  int port = 8080;                 ///< 0 = any free one
+  std::optional<int> modbus = {};  ///< port of the controller's Modbus TCP, 0 = any free one; absent: none
+  std::string pace = "1";          ///< machine seconds a second, or "max"
+  bool paused = false;             ///< stands still at time zero
   std::string listen =
       "127.0.0.1";               ///< address; from another one than this machine's own a token is demanded
   std::filesystem::path record;  ///< folder for the session; "" = none

@@ -166,6 +166,8 @@ class Line {
   /// Runs until stop() is called, in the calling thread. What is told goes to the listeners, in this thread.
   /// Throws std::runtime_error if a record cannot be written.
   void run(const Listener& listener, const Describe& describe);
+  /// The present run: until run() is called, and in a Visit.
+  [[nodiscard]] LineRun& present() { return *run_; }
   /// The folder of the present run's record, "" = none; once run() has returned.
   [[nodiscard]] const std::filesystem::path& record() const;
   void stop();

@@ -105,6 +105,10 @@ class Simulation {
     return controller_ ? controller_->output_period(analogue) : 0;
   }
 
+  /// Nullptr if the scenario has none.
+  [[nodiscard]] const devices::Controller* controller() const { return controller_.get(); }
+  [[nodiscard]] devices::Controller* controller() { return controller_.get(); }
+
   /// What a reader should know that is no fault: terminals without a wire, how the controller is set
   /// up, remarks of it during the run.
   [[nodiscard]] std::vector<std::string> notes() const;
