@@ -18,6 +18,7 @@
 #include "sim/file.hpp"
 #include "sim/live/line.hpp"
 #include "sim/live/modbus/server.hpp"
+#include "sim/live/opcua_gateway.hpp"
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
 #include "sim/scenario/yaml_reader.hpp"
@@ -132,6 +133,8 @@ int live_scenario(const LiveOptions& options) {
   Problems problems;
   const auto wanted = line_options(options, problems);
   std::optional<live::Line> line;
+  std::filesystem::path opcua;
+  if (options.opcua) opcua = live::find_opcua_gateway(problems);
   if (problems.empty()) line.emplace(wanted, problems);
   if (problems.empty() && options.modbus) {
     if (const auto lacking = live::modbus::lacking(*line); !lacking.empty())
@@ -143,9 +146,13 @@ int live_scenario(const LiveOptions& options) {
   }
   try {
     const OnEnd end([&] { line->stop(); });
-    live::Server server({options.listen, static_cast<std::uint16_t>(options.port),
-                         is_own(options.listen) ? "" : make_token()},
-                        *line);
+    const auto token = is_own(options.listen) ? "" : make_token();
+    live::Server server({options.listen, static_cast<std::uint16_t>(options.port), token}, *line);
+    std::optional<live::OpcuaGateway> gateway;
+    if (options.opcua) {
+      const auto port = live::free_port(options.listen, static_cast<std::uint16_t>(*options.opcua));
+      gateway.emplace(live::OpcuaGateway::Options{opcua, server.url(), options.listen, port, token});
+    }
     fmt::print("the line: {} (open it in a browser; Ctrl-C ends it)\n", server.url());
     const auto modbus = serve_modbus(options, *line);
     std::fflush(stdout);
@@ -209,6 +216,10 @@ void add_live(CLI::App& app, int& status) {
       ->add_option("--listen", options.listen,
                    "Address to listen on; from another machine the page needs the token that is printed then")
       ->capture_default_str();
+  command
+      ->add_option("--opcua", options.opcua,
+                   "Port of an OPC UA server of the line, such as 4840; 0 = any free one (needs make opcua)")
+      ->check(CLI::Range(0, 65535));
   command->add_option(
       "--record", options.record,
       "Folder for what came from outside, trace.csv and events.csv: drycut replay runs it again");

@@ -20,6 +20,7 @@ struct LiveOptions {
   std::string listen =
       "127.0.0.1";               ///< address; from another one than this machine's own a token is demanded
   std::filesystem::path record;  ///< folder for the session; "" = none
+  std::optional<int> opcua;      ///< port of an OPC UA gateway, 0 = any free one
   std::function<void(const std::string& url)> ready = {};  ///< is told where the page is
 };
 /// drycut live: until SIGINT or SIGTERM; 0, 2 bad input, 3 it cannot listen or record

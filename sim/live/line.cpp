@@ -110,6 +110,11 @@ void Line::act_on(const Request& request) {
     problems = restart();
   } else if (const auto* sampled = std::get_if<Sample>(&what)) {
     problems = run_->want(request.asker, sampled->names);
+  } else if (const auto* read = std::get_if<Read>(&what)) {
+    std::vector<double> values;
+    problems = run_->values_of(read->names, values);
+    read->told(problems, values);
+    return;
   } else if (const auto* visit = std::get_if<Visit>(&what)) {
     visit->visit(*run_);
     return;

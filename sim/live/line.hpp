@@ -58,6 +58,11 @@ struct Sample {
 };
 /// The asker is gone.
 struct Leave {};
+/// Some values as they are now, told at once, in the line's thread; whoever asked is not answered otherwise.
+struct Read {
+  std::vector<std::string> names;
+  std::function<void(const Problems&, const std::vector<double>&)> told;
+};
 /// Looks at the run and does something to it, in the line's thread; whoever asked is not answered otherwise.
 struct Visit {
   std::function<void(LineRun&)> visit;
@@ -65,7 +70,7 @@ struct Visit {
 
 struct Request {
   Asker asker = 0;
-  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave, Visit> what;
+  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave, Read, Visit> what;
 };
 
 /// How well the line keeps its pace, since it last began to run.
@@ -129,8 +134,17 @@ struct LineDescription {
     std::string name;
     std::string unit;
     bool writable = false;
+    std::optional<devices::ValueRange> range = {};  ///< of one that can be written
   };
-  std::vector<Channel> channels;    ///< all that can be sampled
+  std::vector<Channel> channels;  ///< all that can be sampled
+  struct Plant {
+    std::string name;
+    std::string type;
+    std::string web;  ///< that it works on, "" = none
+  };
+  std::vector<Plant> plants;
+  std::string controller;           ///< its kind: "qmove"; "" = none
+  scenario::OpcuaSection opcua;     ///< as the scenario has it
   std::vector<std::string> parts;   ///< of the machine, in order of the poses
   std::string machine;              ///< they and their meshes as a .glb
   std::vector<std::string> checks;  ///< names

@@ -74,6 +74,13 @@ Replay read(const Line::Options& options, std::vector<std::string>& notes, Probl
   return read_session(options.from->session, options.from->at, notes, problems).value_or(Replay{});
 }
 
+/// The web that a plant works on, "" = none.
+std::string web_of(const scenario::PlantEntry& plant) {
+  for (const auto& row : plant.definition->parameters())
+    if (row.reference == "web") return *std::get<std::string*>(row.value);
+  return "";
+}
+
 }  // namespace
 
 LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
@@ -190,6 +197,26 @@ void LineRun::take_samples() {
   for (const auto& reading : readings_) samples_.rows.push_back(reading.read());
 }
 
+Problems LineRun::values_of(const std::vector<std::string>& names, std::vector<double>& values) {
+  Problems problems;
+  for (const auto& name : names) {
+    auto known = known_.find(name);
+    if (known == known_.end()) {
+      const auto reading = simulation_->names().reading(name);
+      if (!reading) {
+        problems.push_back({"read", 1, 1, fmt::format("there is no channel '{}'", name),
+                            simulation_->names().suggest_reading(name)});
+        if (problems.size() >= most_channels) break;
+        continue;
+      }
+      known = known_.emplace(name, reading->read).first;
+    }
+    values.push_back(known->second());
+  }
+  if (!problems.empty()) values.clear();
+  return problems;
+}
+
 void LineRun::tell(News& news) {
   news.run = number_;
   news.time = now();
@@ -217,9 +244,16 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
     told->faults.push_back(
         {component, fault.name, std::string(fault.unit), fault.meaning, loop::range_of(fault.range)});
   for (const auto& name : names.reading_names()) {
-    if (const auto reading = names.reading(name))
-      told->channels.push_back({name, reading->unit, names.target(name).has_value()});
+    const auto reading = names.reading(name);
+    if (!reading) continue;
+    const auto target = names.target(name);
+    told->channels.push_back(
+        {name, reading->unit, target.has_value(), target ? target->range : std::nullopt});
   }
+  for (const auto& plant : scenario_.plants)
+    told->plants.push_back({plant.name.text, plant.type.text, web_of(plant)});
+  if (scenario_.controller) told->controller = scenario_.controller->kind();
+  told->opcua = scenario_.opcua;
   told->parts = parts_;
   told->machine = machine_;
   for (const auto& check : simulation_->outcome().checks) told->checks.push_back(check.name);

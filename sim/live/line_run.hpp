@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,8 @@ class LineRun : public loop::Observer {
   void leave(Asker asker);
   [[nodiscard]] const std::map<Asker, std::vector<std::string>>& wanted() const { return wanted_; }
   void take_samples();
+  /// The values of these channels now, in their units; none after a problem.
+  Problems values_of(const std::vector<std::string>& names, std::vector<double>& values);
 
   /// What is to be seen now, and what has come since it was told last.
   void tell(News& news);
@@ -77,6 +80,7 @@ class LineRun : public loop::Observer {
   bool seen_ = false;
   std::map<Asker, std::vector<std::string>> wanted_;
   std::vector<loop::Reading> readings_;
+  std::unordered_map<std::string, std::function<double()>> known_;  ///< what values_of() has looked up
   std::shared_ptr<const std::vector<std::string>> sample_names_;
   News::Samples samples_;
 };

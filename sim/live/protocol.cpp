@@ -47,7 +47,9 @@ class Parser {
     if (message.contains("pace")) return read_pace(message["pace"]);
     if (message.contains("restart")) return Restart{};
     if (message.contains("sample") || message.contains("watch")) return read_sample(message);
-    refuse("the message asks for nothing", "one of act, run, advance, until, pace, restart, sample, watch");
+    if (message.contains("read")) return read_values(message);
+    refuse("the message asks for nothing",
+           "one of act, run, advance, until, pace, restart, sample, watch, read");
     return {};
   }
 
@@ -91,6 +93,11 @@ class Parser {
     sample.watched = sample.names.size() - sampled;
     return sample;
   }
+  std::optional<decltype(Request::what)> read_values(const ordered_json& message) {
+    Read read;
+    if (!read_names(message, "read", read.names)) return {};
+    return read;
+  }
   /// Adds the names under `key`, if there are any.
   bool read_names(const ordered_json& message, const char* key, std::vector<std::string>& names) {
     if (!message.contains(key)) return true;
@@ -108,13 +115,22 @@ class Parser {
   Problems& problems_;
 };
 
+/// [["length", 800.1, "mm"], ["number", 3, ""]]
+ordered_json numbers_json(const loop::RecordedEvent& event) {
+  auto list = ordered_json::array();
+  for (const auto& [name, number, unit] : event.values)
+    list.push_back({name, std::isfinite(number) ? ordered_json(number) : ordered_json(), unit});
+  return list;
+}
+
 ordered_json events_json(const std::vector<loop::RecordedEvent>& events) {
   auto list = ordered_json::array();
   for (const auto& event : events)
     list.push_back({{"time", event.at_seconds()},
                     {"source", event.source},
                     {"event", event.event},
-                    {"values", loop::values_text(event, 6)}});
+                    {"values", loop::values_text(event, 6)},
+                    {"numbers", numbers_json(event)}});
   return list;
 }
 
@@ -144,6 +160,27 @@ ordered_json outcome_json(const loop::Outcome& outcome) {
   auto drives = ordered_json::array();
   for (const auto& drive : outcome.drives) drives.push_back(drive_json(drive));
   return {{"checks", checks}, {"drives", drives}};
+}
+
+ordered_json channel_json(const LineDescription::Channel& channel) {
+  ordered_json one = {{"name", channel.name}, {"unit", channel.unit}, {"writable", channel.writable}};
+  if (channel.range) one["range"] = range_json(*channel.range);
+  return one;
+}
+
+ordered_json opcua_json(const scenario::OpcuaSection& opcua) {
+  const auto& [machine, packml, machinery, cutters] = opcua;
+  auto lengths = ordered_json::object();
+  for (const auto& cutter : cutters) lengths[cutter.plant.text] = cutter.length.text;
+  return {{"manufacturer", machine.manufacturer},
+          {"model", machine.model},
+          {"serial_number", machine.serial_number},
+          {"packml", {{"state", packml.state.text}, {"mode", packml.mode.text}}},
+          {"machinery",
+           {{"executing", machinery.executing.text},
+            {"out_of_service", machinery.out_of_service.text},
+            {"mode", machinery.mode.text}}},
+          {"lengths", lengths}};
 }
 
 }  // namespace
@@ -177,8 +214,10 @@ std::string description_json(const LineDescription& line) {
                       {"meaning", fault.meaning},
                       {"range", range_json(fault.range)}});
   auto channels = ordered_json::array();
-  for (const auto& channel : line.channels)
-    channels.push_back({{"name", channel.name}, {"unit", channel.unit}, {"writable", channel.writable}});
+  for (const auto& channel : line.channels) channels.push_back(channel_json(channel));
+  auto plants = ordered_json::array();
+  for (const auto& plant : line.plants)
+    plants.push_back({{"name", plant.name}, {"type", plant.type}, {"web", plant.web}});
   return text_of({{"line",
                    {{"run", line.run},
                     {"title", line.title},
@@ -189,6 +228,9 @@ std::string description_json(const LineDescription& line) {
                     {"lamps", line.lamps},
                     {"faults", faults},
                     {"channels", channels},
+                    {"plants", plants},
+                    {"controller", line.controller},
+                    {"opcua", opcua_json(line.opcua)},
                     {"parts", line.parts},
                     {"checks", line.checks},
                     {"notes", line.notes}}}});
@@ -244,6 +286,13 @@ std::string samples_json(const News::Samples& samples, const Sample& wanted) {
 
 std::string answer_json(double id, const Problems& problems) {
   return text_of({{"done", id}, {"problems", list_of(problems)}});
+}
+
+std::string values_json(double id, const Problems& problems, const std::vector<double>& values) {
+  auto list = ordered_json::array();
+  for (const double value : values)
+    list.push_back(std::isfinite(value) ? ordered_json(value) : ordered_json());
+  return text_of({{"done", id}, {"problems", list_of(problems)}, {"values", std::move(list)}});
 }
 
 }  // namespace drycut::sim::live

@@ -11,6 +11,9 @@ namespace drycut::sim::live {
 //   {"act": {"set": {"panel.start": 1}}}   also ramp with over, fault, power; as an entry of a timeline
 //   {"run": true}  {"advance": "1 ms"}  {"until": "cut"}  {"pace": 0.1}  {"pace": "max"}  {"restart": true}
 //   {"sample": ["knife.speed", "web.speed"], "watch": ["slLength"]}   every cycle; the latest value
+//
+//   {"read": ["slLength", "knife.angle"]}   as they are now, told at once: {"done": id, "problems": [],
+//   "values": [800, 1.5]}
 // each with "id", a number, if it wants to know what became of it: {"done": id, "problems": [...]}.
 
 /// nullopt if the message is none, with what is wrong in `problems`. `id`: what the client calls it, 0 =
@@ -26,5 +29,7 @@ std::string news_json(const News& news);
 std::string samples_json(const News::Samples& samples, const Sample& wanted);
 /// {"done": id, "problems": [...]}
 std::string answer_json(double id, const Problems& problems);
+/// The same with the values that were read.
+std::string values_json(double id, const Problems& problems, const std::vector<double>& values);
 
 }  // namespace drycut::sim::live

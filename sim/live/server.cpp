@@ -204,6 +204,16 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     Problems problems;
     auto request = parse_request(message, asker_, id, problems);
     if (!request) return send(std::make_shared<const std::string>(answer_json(id, problems)), true);
+    if (auto* read = std::get_if<Read>(&request->what)) {
+      read->told = [&context = core_.context, to = weak_from_this(), id](const auto& wrong,
+                                                                         const auto& values) {
+        const auto text = std::make_shared<const std::string>(values_json(id, wrong, values));
+        asio::post(context, [to, text] {
+          if (const auto client = to.lock()) client->send(text, true);
+        });
+      };
+      return core_.line.ask(std::move(*request));
+    }
     const auto* sample = std::get_if<Sample>(&request->what);
     open_.emplace_back(id, sample == nullptr ? std::nullopt : std::optional(*sample));
     core_.line.ask(std::move(*request));

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "sim/loop/controller_loader.hpp"
+#include "sim/loop/opcua_names.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/variables.hpp"
 
@@ -39,6 +40,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   if (!scenario.disturbances.empty())
     disturbances_ = std::make_unique<Disturbances>(scenario, *names_, problems);
   timeline_ = std::make_unique<Timeline>(scenario, *names_, controller_.get(), problems);
+  check_opcua_names(scenario, *names_, problems);
   for (const auto& [name, plant] : named_) {
     for (const auto& type : plant->event_types()) {
       KnownEvent event{name, std::string(type.name), {}};

@@ -131,6 +131,8 @@ void visit(Archive& archive, InputFilter& filter);
 void visit(Archive& archive, Stimulus& stimulus);
 void visit(Archive& archive, Disturbance& disturbance);
 void visit(Archive& archive, Check& check);
+void visit(Archive& archive, OpcuaSection& opcua);
+void visit(Archive& archive, OpcuaSection::Cutter& cutter);
 void visit(Archive& archive, PicturesSection& pictures);
 void visit(Archive& archive, PicturesSection::MeshRequest& mesh);
 void visit(Archive& archive, PlotRequest::Panel& panel);

@@ -291,6 +291,34 @@ struct PicturesSection {
   [[nodiscard]] bool looks_at_part() const { return camera.find('.') != std::string::npos; }
 };
 
+/// opcua: {packml: {state: D510}}: what an OPC UA client of the live line is told of the machine as a whole.
+/// Values are named as `record` names them.
+struct OpcuaSection {
+  struct Machine {
+    std::string manufacturer;
+    std::string model;
+    std::string serial_number;
+  };
+  Machine machine;
+  struct Packml {
+    Text state;  ///< value with the number of the state, 1 Clearing to 17 Complete (ISA-TR88.00.02)
+    Text mode;   ///< value with the number of the unit mode: 1 Production, 2 Maintenance, 3 Manual
+  };
+  Packml packml;
+  struct Machinery {
+    Text executing;       ///< value that is not 0 while the machine does its work
+    Text out_of_service;  ///< value that is not 0 while it cannot
+    Text mode;  ///< value with the number of OPC 40001-1: 0 None, 1 Maintenance, 2 Setup, 3 Processing
+  };
+  Machinery machinery;
+  struct Cutter {
+    Text plant;   ///< a rotary knife or a flying saw
+    Text length;  ///< value with the length that is to be cut
+  };
+  std::vector<Cutter> cutters;
+  [[nodiscard]] bool given() const;
+};
+
 /// An override from the command line: `--set plants.web.speed="80 m/min"`.
 struct Override {
   std::string path;
@@ -320,6 +348,7 @@ struct Scenario {
   DrivesSection drives;
   std::vector<Check> checks;
   PicturesSection pictures;
+  OpcuaSection opcua;
   /// True if the machine can be built: plants and controller have no problem and all periods are multiples
   /// of the step. Problems elsewhere do not stop a check of the names.
   bool buildable = false;

@@ -334,6 +334,9 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.list({"checks", "what must hold for the run to pass", !scenario.checks.empty()}, scenario.checks);
   archive.section({"pictures", "frames, film and plots of the run"},
                   [&](Archive& inner) { visit(inner, scenario.pictures); });
+  archive.section({"opcua", "what OPC UA clients of the live line are told of the machine as a whole",
+                   scenario.opcua.given()},
+                  [&](Archive& inner) { visit(inner, scenario.opcua); });
   archive.judge([&scenario](MapReader& reader) {
     if (!scenario.filters.empty() && !reader.has("controller"))
       reader.refuse("filters", "filters are of a controller's cards, and there is no controller",
@@ -350,8 +353,8 @@ void visit(Archive& archive, Scenario& scenario) {
 
 const std::vector<std::string>& section_names() {
   static const std::vector<std::string> names = {
-      "extends",  "variables",    "scene",  "plants", "controller", "wiring",  "filters",
-      "timeline", "disturbances", "record", "drives", "checks",     "pictures"};
+      "extends",  "variables",    "scene",  "plants", "controller", "wiring",   "filters",
+      "timeline", "disturbances", "record", "drives", "checks",     "pictures", "opcua"};
   return names;
 }
 

@@ -133,6 +133,27 @@ TEST_F(LiveServer, OpensNoSocketForAnotherPage) {
   EXPECT_THAT(message(own), StartsWith("{\"line\""));
 }
 
+TEST_F(LiveServer, ReadsValuesAtOnce) {
+  auto client = connect();
+  client.text(true);
+  const auto ask = [&](const std::string& words) {
+    client.write(asio::buffer(words));
+    return message_with(client, "done");
+  };
+  const auto read = ask(R"({"read": ["web.speed", "web.position"], "id": 7})");
+  EXPECT_EQ(read["done"], 7);
+  EXPECT_EQ(read["problems"].size(), 0U);
+  ASSERT_EQ(read["values"].size(), 2U);
+  EXPECT_GE(read["values"][0].get<double>(), 29);
+  EXPECT_LE(read["values"][0].get<double>(), 61);
+  const auto wrong = ask(R"({"read": ["web.spede", "web.position"], "id": 8})");
+  EXPECT_EQ(wrong["values"].size(), 0U);
+  ASSERT_EQ(wrong["problems"].size(), 1U);
+  EXPECT_THAT(wrong["problems"][0]["what"].get<std::string>(), HasSubstr("web.spede"));
+  EXPECT_THAT(wrong["problems"][0]["remedy"].get<std::string>(), HasSubstr("web.speed"));
+  EXPECT_EQ(ask(R"({"read": "web.speed", "id": 9})")["problems"].size(), 1U);
+}
+
 TEST_F(LiveServer, NonsenseEndsTheConnectionThatItCameOn) {
   EXPECT_EQ(answer(std::string(200, '\xff') + "\r\n\r\n"), "");
   EXPECT_EQ(answer("GET / HTTP/1.1\r\nHost: " + std::string(100'000, 'a')), "");

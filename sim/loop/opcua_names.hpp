@@ -1,0 +1,9 @@
+#pragma once
+#include "sim/loop/names.hpp"
+
+namespace drycut::sim::loop {
+
+/// Says which names of the scenario's section opcua stand for nothing.
+void check_opcua_names(const scenario::Scenario& scenario, Names& names, Problems& problems);
+
+}  // namespace drycut::sim::loop
