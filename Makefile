@@ -6,6 +6,7 @@
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
 #   make cluster the tests of sweeps on Dask and Slurm, with clusters on this machine
+#   make opcua   what `drycut live --opcua` needs, in build/opcua, and its tests
 #   make python  builds the Python package in build/python
 #   make notebooks  runs docs/notebooks anew and stores what they say
 #   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
@@ -22,6 +23,7 @@ TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python
                   $(PYTHON_PACKAGES) $(NOTEBOOK_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
 CLUSTER_PACKAGES := python3-distributed slurm-wlm munge
+OPCUA_PACKAGES := nodejs npm
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
 SOURCES := $(wildcard base/*.?pp devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp tests/*/*/*.?pp)
@@ -41,7 +43,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test quick cluster python notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup demo test quick cluster opcua python notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -75,6 +77,16 @@ cluster: setup
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
 	cmake --build $(BUILD) -j $(JOBS) --target drycut
 	cd $(BUILD) && ctest --verbose -R '^cluster\.'
+
+# The gateway with its packages from npm, of the versions in package-lock.json. Node.js may be of any origin.
+opcua: setup
+	$(call install,$(if $(shell command -v npm),,$(OPCUA_PACKAGES)) $(TEST_PACKAGES))
+	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
+	cmake --build $(BUILD) -j $(JOBS) --target drycut
+	mkdir -p $(BUILD)/opcua
+	cp opcua/*.mjs opcua/*.json $(BUILD)/opcua
+	cd $(BUILD)/opcua && npm ci --no-audit --no-fund
+	cd $(BUILD) && ctest --verbose -R '^opcua\.'
 
 python: setup
 	$(call install,$(PYTHON_PACKAGES))

@@ -13,6 +13,12 @@ install(FILES ${reference}/drycut.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash
         COMPONENT drycut)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/drycut COMPONENT drycut PATTERN meshes EXCLUDE)
 
+# The OPC UA gateway; its packages (component opcua) only where make opcua has fetched them.
+file(GLOB gateway CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/opcua/*.mjs ${PROJECT_SOURCE_DIR}/opcua/*.json)
+install(FILES ${gateway} DESTINATION ${CMAKE_INSTALL_DATADIR}/drycut/opcua COMPONENT drycut)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/opcua/node_modules DESTINATION ${CMAKE_INSTALL_DATADIR}/drycut/opcua
+        COMPONENT opcua EXCLUDE_FROM_ALL OPTIONAL)
+
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/drycut)
 install(TARGETS drycut_base drycut_devices drycut_plants drycut_renders drycut_sim EXPORT drycut COMPONENT libdrycut-dev)
 install(DIRECTORY include/drycut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libdrycut-dev)
