@@ -11,6 +11,7 @@
 #include "devices/cam_axis.hpp"
 #include "devices/cards.hpp"
 #include "devices/modbus_face.hpp"
+#include "devices/program_text.hpp"
 #include "devices/value_range.hpp"
 
 namespace drycut::devices {
@@ -109,6 +110,12 @@ class Controller {
   [[nodiscard]] virtual std::variant<const ModbusFace*, std::string> modbus() const {
     return "a controller that has Modbus";
   }
+  /// Its programs, then what sets them up.
+  [[nodiscard]] virtual std::vector<ProgramText> programs() { return {}; }
+  /// Whether somebody looks at what scans do, which costs time: ProgramPositions::scanned.
+  virtual void watch_programs(bool /*on*/) {}
+  /// Where the programs stand. `time_ns`: the time until which it has run.
+  [[nodiscard]] virtual ProgramPositions positions(std::int64_t /*time_ns*/) const { return {}; }
 
   [[nodiscard]] virtual bool has_events() const = 0;
   virtual std::vector<ControllerEvent> take_events() = 0;

@@ -28,6 +28,7 @@ class Compiler : private Complaints {
   Compiler(std::string_view text, const std::string& file, Problems& problems)
       : Complaints(file, problems), text_(text) {
     program_.file = file;
+    program_.text = text;
   }
 
   Program compile() {

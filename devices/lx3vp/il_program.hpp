@@ -77,6 +77,7 @@ struct Step {
 /// A compiled program: runs by `Scanner` (il_scan.hpp).
 struct Program {
   std::string file;
+  std::string text;
   std::vector<Step> steps;
   int memories = 0;          ///< edge memories
   int size = 0;              ///< steps of program memory

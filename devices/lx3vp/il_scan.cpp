@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/il_call.hpp"
 #include "devices/lx3vp/il_operands.hpp"
@@ -67,8 +68,21 @@ void Scanner::restart() {
   fractions_.assign(timers, 0);
   timed_ns_.assign(timers, -1);
   last_scan_ns_ = 0;
-  scanned_ = false;
+  has_scanned_ = false;
   rung_.reset();
+  scanned_.clear();
+}
+
+void Scanner::watch(bool on) {
+  watched_ = on;
+  if (!on) scanned_.clear();
+  // A scan that is under way is not seen from its beginning.
+  scanning_.clear();
+}
+
+int Scanner::line() const {
+  if (rung_ == nullptr || rung_->over || rung_->next >= program_.steps.size()) return 0;
+  return program_.steps[rung_->next].line;
 }
 
 void Scanner::scan(Registers& registers, Instructions& instructions) {
@@ -89,17 +103,37 @@ std::optional<std::int64_t> Scanner::go_on(std::int64_t computed_ns) {
 
 void Scanner::start(Rung& rung) {
   const Registers& registers = rung.registers;
-  rung.passed_ns = scanned_ ? registers.time_ns - last_scan_ns_ : 0;
+  rung.passed_ns = has_scanned_ ? registers.time_ns - last_scan_ns_ : 0;
   last_scan_ns_ = registers.time_ns;
-  scanned_ = true;
+  has_scanned_ = true;
+  if (watched_) scanning_.assign(split_lines(program_.text).size(), ' ');
+}
+
+// An instruction has power if what is before it lets it through; those that need none are executed.
+void Scanner::mark(const Step& step, const Rung& rung) {
+  const auto line = static_cast<std::size_t>(step.line) - 1;
+  if (line >= scanning_.size()) return;
+  const Op op = step.op();
+  const bool needs_power = op <= Op::mc || op == Op::cj || op == Op::call;
+  const bool on = op == Op::stl ? rung.state_on : !needs_power || rung.power();
+  if (scanning_[line] != '+') scanning_[line] = on ? '+' : '-';
+}
+
+bool Scanner::run(Rung& rung, std::int64_t work) {
+  if (!watched_) return run_steps<false>(rung, work);
+  const bool done = run_steps<true>(rung, work);
+  if (done || rung.work > most_) scanned_ = scanning_;
+  return done;
 }
 
 // Instructions while the work up to their end is within `work`; true when the scan has come to its end.
-bool Scanner::run(Rung& rung, std::int64_t work) {
+template <bool watched>
+bool Scanner::run_steps(Rung& rung, std::int64_t work) {
   while (!rung.over && rung.next < program_.steps.size()) {
     if (rung.work >= work) return false;
     const auto& step = program_.steps[rung.next++];
     execute(step, rung);
+    if constexpr (watched) mark(step, rung);
     if (++rung.work <= most_) continue;
     constexpr int watchdog = 6105;  // FX
     rung.instructions.watchdog(

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "devices/lx3vp/il_program.hpp"
@@ -37,10 +38,21 @@ class Scanner {
   /// After power-up: nothing is remembered, a contact that is ON counts as an edge.
   void restart();
 
+  /// Whether somebody looks at what scans do; costs time.
+  void watch(bool on);
+  /// What the last scan did, a letter a line of the text, as devices::ProgramPositions has it; "" before the
+  /// first one that was watched.
+  [[nodiscard]] const std::string& scanned() const { return scanned_; }
+  /// Line of the instruction that a scan in pieces comes to next; 0: it has come to its end.
+  [[nodiscard]] int line() const;
+
  private:
   struct Rung;
   void start(Rung& rung);
   bool run(Rung& rung, std::int64_t work);
+  template <bool watched>
+  bool run_steps(Rung& rung, std::int64_t work);
+  void mark(const Step& step, const Rung& rung);
   void execute(const Step& step, Rung& rung);
   /// The step with its index registers applied; nullptr, and told, if it then names what there is not.
   const Step* indexed(const Step& step, Rung& rung);
@@ -72,10 +84,13 @@ class Scanner {
   std::vector<std::int64_t> timed_ns_;   ///< when each timer was last passed: a loop passes it more than once
   Step scratch_;                         ///< the step that `indexed` has made
   std::int64_t last_scan_ns_ = 0;
-  bool scanned_ = false;
+  bool has_scanned_ = false;
   std::int64_t step_ns_;
   std::int64_t most_;           ///< work of a scan
   std::unique_ptr<Rung> rung_;  ///< of the scan that go_on() goes on with
+  bool watched_ = false;
+  std::string scanning_;  ///< what the present scan has done so far
+  std::string scanned_;
 };
 
 }  // namespace drycut::devices::lx3vp::il

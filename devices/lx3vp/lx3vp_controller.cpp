@@ -174,6 +174,7 @@ void Lx3vpController::watchdog(int step, const std::string& text) {
   registers_.d[stop_register] = watchdog_error;
   registers_.d[error_step_register] = static_cast<std::uint16_t>(step);
   stopped_ = true;
+  stopped_at_ = step;
   stop_outputs();
   tell(step, "error", text + "; the PLC stops until it is switched on again");
 }

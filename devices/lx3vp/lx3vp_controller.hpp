@@ -58,6 +58,11 @@ class Lx3vpController : public Controller, private Instructions {
   [[nodiscard]] std::vector<CamAxis> cam_axes() override;
 
   [[nodiscard]] std::variant<const ModbusFace*, std::string> modbus() const override { return &modbus_; }
+  /// Operands by the names of find(): D10, DD10 and FD10 as the instruction takes it, TS0 where T0 is a
+  /// contact.
+  [[nodiscard]] std::vector<ProgramText> programs() override;
+  void watch_programs(bool on) override { scanner_.watch(on); }
+  [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }
@@ -119,6 +124,7 @@ class Lx3vpController : public Controller, private Instructions {
   ModbusMap modbus_{powered_};
   bool first_scan_ = true;
   bool stopped_ = false;  ///< by the watchdog, until power-up
+  int stopped_at_ = 0;    ///< step of program memory
   std::int64_t power_up_ns_ = 0;
   bool power_up_due_ = false;  ///< the next period is the first with power
   std::vector<std::string> names_;

@@ -74,6 +74,11 @@ class PlcopenController : public Controller {
   [[nodiscard]] std::variant<const ModbusFace*, std::string> modbus() const override;
   /// To be filled from elsewhere too; it has what the program has AT %M.
   [[nodiscard]] ModbusMap& modbus_map() { return modbus_; }
+  /// Variables by the names of find(), pins of a block in its call too; those of a function block's own text
+  /// for each of its instances, four at most.
+  [[nodiscard]] std::vector<ProgramText> programs() override;
+  void watch_programs(bool on) override { runtime_.watch(on); }
+  [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override { return std::exchange(events_, {}); }

@@ -31,7 +31,9 @@ std::optional<std::int64_t> digits(std::string_view text) {
 
 Configuration parse_configuration(std::string_view text, const std::string& file_name,
                                   std::span<const CatalogueEntry> catalogue, Problems& problems) {
-  return CnfParser(file_name, catalogue, problems).parse(text);
+  auto configuration = CnfParser(file_name, catalogue, problems).parse(text);
+  configuration.text = text;
+  return configuration;
 }
 
 CnfParser::CnfParser(const std::string& file, std::span<const CatalogueEntry> catalogue, Problems& problems)

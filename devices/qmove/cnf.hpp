@@ -88,6 +88,7 @@ struct DeviceRecord {
 /// A .CNF file, each entry with its place.
 struct Configuration {
   std::string file;
+  std::string text;
   std::vector<Constant> constants;
   std::vector<Scalar> scalars;
   std::vector<Array> arrays;

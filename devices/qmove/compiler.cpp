@@ -71,6 +71,7 @@ Compiler::Compiler(const std::string& file, const Configuration& configuration,
 Program Compiler::compile(std::string_view text) {
   program_.name = task_name(file_);
   program_.file = file_;
+  program_.text = text;
   const std::vector<std::string_view> lines = split_lines(text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     tokens_ = tokens_of(lines[i], static_cast<int>(i) + 1, file_, problems_);

@@ -90,6 +90,7 @@ struct Instruction {
 struct Program {
   std::string name;  ///< the file's name without folder and extension
   std::string file;  ///< for messages
+  std::string text;
   std::vector<Instruction> code;
   std::vector<int> lines;          ///< line of each instruction
   std::vector<bool> begins;        ///< whether a statement begins there, or another look at a WAIT or FOR

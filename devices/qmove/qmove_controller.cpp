@@ -216,6 +216,7 @@ void QmoveController::start_tasks() {
 void QmoveController::stop(RunTimeError error, std::size_t task) {
   mode_ = OsMode::error;
   error_ = error;
+  failed_ = task;
   const Program& program = programs_[task];
   events_.push_back({program.name, "error",
                      fmt::format("{}:{}: error {}: {}; all tasks stop", program.file,

@@ -69,6 +69,9 @@ class QmoveController : public Controller {
 
   /// Of the first device MODBUS of the configuration.
   [[nodiscard]] std::variant<const ModbusFace*, std::string> modbus() const override;
+  /// The tasks' modules, in their order, then the configuration.
+  [[nodiscard]] std::vector<ProgramText> programs() override;
+  [[nodiscard]] ProgramPositions positions(std::int64_t time_ns) const override;
 
   [[nodiscard]] bool has_events() const override { return !events_.empty(); }
   std::vector<ControllerEvent> take_events() override;
@@ -118,6 +121,8 @@ class QmoveController : public Controller {
   void tell_of_long_turn(std::size_t number);
   void stop(RunTimeError error, std::size_t task);
   void collect_diagnostics(std::size_t device);
+  [[nodiscard]] ProgramText module_text(const Program& program) const;
+  [[nodiscard]] std::string doing(std::size_t number) const;
 
   Configuration configuration_;
   std::vector<Program> programs_;
@@ -129,6 +134,7 @@ class QmoveController : public Controller {
   std::optional<modbus::ExchangeFace> modbus_;
   OsMode mode_ = OsMode::run;
   RunTimeError error_ = RunTimeError::none;
+  std::size_t failed_ = 0;  ///< the task that had it
 
   Due round_;                     ///< of the tasks
   std::int64_t statement_ns_;     ///< what a statement takes

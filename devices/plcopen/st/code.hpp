@@ -222,6 +222,16 @@ struct Compiled {
   std::vector<Motion> motions;
   std::vector<Symbol> symbols;
   std::vector<SymbolPlace> places;
+
+  // For whoever watches it.
+  std::string text;
+  std::size_t user_nodes = 0;  ///< so many are of the text, those behind them of standard blocks
+  /// A PROGRAM or a block that runs, and what stands before the names of its variables: "", "Main.".
+  struct Scope {
+    std::string pou;
+    std::string prefix;
+  };
+  std::vector<Scope> scopes;
 };
 
 }  // namespace drycut::devices::plcopen::st

@@ -122,6 +122,7 @@ void Compiler::finish() {
   for (std::size_t i = 0; i < code.instances.size(); ++i) {
     // One program's variables need no name before them.
     const std::string prefix = code.instances.size() == 1 ? "" : code.instance_names[i].name;
+    code.scopes.push_back({connections_[i].unit->type->name, prefix.empty() ? "" : prefix + "."});
     walk(*connections_[i].unit->type, code.instances[i].cell, prefix, false, true);
   }
   walk(*globals_, 0, "", false, true);
@@ -151,6 +152,8 @@ void Compiler::walk_value(const Type& type, int cell, const std::string& name, b
       walk_value(*type.element, cell + static_cast<int>(i - type.low) * type.element->cells,
                  fmt::format("{}[{}]", name, i), retain, shown && i - type.low < most_listed, writable);
   } else if (type.basic == Basic::structure || type.basic == Basic::block) {
+    if (type.basic == Basic::block && type.motion == nullptr && shown)
+      code_->scopes.push_back({type.name, name + "."});
     walk(type, cell, name, retain, shown);
   } else if (shown && is_elementary(type.basic)) {
     code_->symbols.push_back(symbol_of(type, name, writable, retain));

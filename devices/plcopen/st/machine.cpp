@@ -242,11 +242,31 @@ Cell Machine::value(int number) {
   }
 }
 
+/// A line keeps the best that came of it in a scan.
+void Machine::note(int number, char mark) {
+  if (static_cast<std::size_t>(number) >= code_.user_nodes) return;
+  const auto line = static_cast<std::size_t>(node(number).line) - 1;
+  if (line < trace_->lines.size() && trace_->lines[line] != '+') trace_->lines[line] = mark;
+}
+
+/// One statement more; what a standard block does counts as its call.
+void Machine::note_turn(int number) {
+  constexpr std::size_t most_kept = 100'000;
+  auto* const order = trace_->order;
+  if (order == nullptr || order->size() >= most_kept) return;
+  const bool of_text = static_cast<std::size_t>(number) < code_.user_nodes;
+  order->push_back(of_text ? node(number).line : order->empty() ? 0 : order->back());
+}
+
 Machine::Flow Machine::execute(int number) {
   const Node& n = node(number);
   if (n.op == Op::sequence) return sequence(n);
   spend(n, 1);
   ++statements_;
+  if (trace_ != nullptr) {
+    if (n.op != Op::branch) note(number, '+');
+    note_turn(number);
+  }
   switch (n.op) {
     case Op::store:
       at(n.imm) = value(n.a);
@@ -282,9 +302,9 @@ Machine::Flow Machine::execute(int number) {
     case Op::choose:
       return choose(n);
     case Op::loop:
-      return loop(n);
+      return loop(n, number);
     case Op::repeat:
-      return repeat(n);
+      return repeat(n, number);
     case Op::leave_loop:
       return Flow::leave_loop;
     case Op::next_turn:
@@ -305,7 +325,9 @@ Machine::Flow Machine::sequence(const Node& n) {
 Machine::Flow Machine::branch(const Node& n) {
   for (int i = 0; i < n.b; ++i) {
     const auto pair = static_cast<std::size_t>(n.a + 2 * i);
-    if (value(code_.lists[pair]) != 0) return execute(code_.lists[pair + 1]);
+    const bool holds = value(code_.lists[pair]) != 0;
+    if (trace_ != nullptr) note(code_.lists[pair], holds ? '+' : '-');
+    if (holds) return execute(code_.lists[pair + 1]);
   }
   return n.c >= 0 ? execute(n.c) : Flow::next;
 }
@@ -320,10 +342,11 @@ Machine::Flow Machine::choose(const Node& n) {
   return n.imm >= 0 ? execute(static_cast<int>(n.imm)) : Flow::next;
 }
 
-Machine::Flow Machine::loop(const Node& n) {
+Machine::Flow Machine::loop(const Node& n, int number) {
   while (value(n.a) != 0) {
     spend(n, 1);
     ++statements_;
+    if (trace_ != nullptr) note_turn(number);
     const Flow flow = execute(n.b);
     if (flow == Flow::leave_loop) break;
     if (flow == Flow::leave_pou) return flow;
@@ -332,10 +355,11 @@ Machine::Flow Machine::loop(const Node& n) {
   return Flow::next;
 }
 
-Machine::Flow Machine::repeat(const Node& n) {
+Machine::Flow Machine::repeat(const Node& n, int number) {
   do {
     spend(n, 1);
     ++statements_;
+    if (trace_ != nullptr) note_turn(number);
     const Flow flow = execute(n.a);
     if (flow == Flow::leave_loop) break;
     if (flow == Flow::leave_pou) return flow;

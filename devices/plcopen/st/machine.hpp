@@ -16,6 +16,14 @@ struct RuntimeError : std::runtime_error {
   int column;
 };
 
+/// What has been executed, for whoever watches it.
+struct Trace {
+  /// A letter a line of the text: '+' executed, a condition with its result '+' or '-', ' ' not come by.
+  std::string lines;
+  /// The line of each statement in the order of their execution, as far as there is room; nullptr: not kept.
+  std::vector<int>* order = nullptr;
+};
+
 /// The memory of a program and what runs on it.
 class Machine {
  public:
@@ -29,6 +37,9 @@ class Machine {
   void start(bool all);
   /// Runs one program once; throws RuntimeError.
   void run(const Compiled::Instance& program, std::int64_t time_ms);
+
+  /// What is executed from now on goes there; nullptr: nowhere, and costs nothing.
+  void trace(Trace* to) { trace_ = to; }
 
   /// Statements executed so far, each round of a loop one more.
   [[nodiscard]] std::int64_t statements() const { return statements_; }
@@ -62,12 +73,14 @@ class Machine {
   void reset(const Pou& pou, std::int64_t frame);
   [[nodiscard]] std::string_view text(std::int64_t place, std::size_t most) const;
 
+  void note(int number, char mark);
+  void note_turn(int number);
   Flow execute(int number);
   Flow sequence(const Node& node);
   Flow branch(const Node& node);
   Flow choose(const Node& node);
-  Flow loop(const Node& node);
-  Flow repeat(const Node& node);
+  Flow loop(const Node& node, int number);
+  Flow repeat(const Node& node, int number);
   void call_block(const Node& node);
   void call_motion(std::int64_t instance);
   void store_bits(const Node& node);
@@ -88,6 +101,7 @@ class Machine {
   std::int64_t time_ms_ = 0;
   std::int64_t work_ = 0;  ///< that is left in this scan
   std::int64_t statements_ = 0;
+  Trace* trace_ = nullptr;
 };
 
 }  // namespace drycut::devices::plcopen::st

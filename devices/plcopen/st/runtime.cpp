@@ -70,12 +70,24 @@ struct Runtime::State {
   bool run(const Task& task, std::int64_t time_ns) {
     constexpr std::int64_t ns_per_ms = 1'000'000;
     const auto& instances = program.compiled().instances;
+    order.clear();
     try {
-      for (const std::size_t number : task.programs) machine.run(instances[number], time_ns / ns_per_ms);
+      for (const std::size_t number : task.programs) {
+        if (watched) trace(number);
+        machine.run(instances[number], time_ns / ns_per_ms);
+      }
     } catch (const RuntimeError& error) {
       fault = Fault{error.line, error.column, error.what()};
     }
     return !fault;
+  }
+
+  /// Has the machine tell what it executes of a program from now on.
+  void trace(std::size_t number) {
+    traces.resize(program.compiled().instances.size());
+    traces[number].lines.assign(split_lines(program.compiled().text).size(), ' ');
+    traces[number].order = statement_ns > 0 ? &order : nullptr;
+    machine.trace(&traces[number]);
   }
 
   Program program;
@@ -84,6 +96,9 @@ struct Runtime::State {
   std::int64_t statement_ns;
   std::int64_t free_ns = 0;  ///< the last task has ended
   std::optional<Fault> fault;
+  bool watched = false;
+  std::vector<Trace> traces = {};  ///< of each program; none before it ran
+  std::vector<int> order = {};     ///< lines of the statements of the task that ran last
 };
 
 Runtime::Runtime(Program program, MotionKernel& kernel, Schedule schedule)
@@ -96,6 +111,7 @@ void Runtime::cold_start(bool all) {
   state_->fault.reset();
   state_->machine.start(all);
   state_->free_ns = 0;
+  watch(state_->watched);
   for (Task& task : state_->tasks) task.last = false;
 }
 
@@ -159,6 +175,29 @@ void Runtime::write(std::size_t number, double value) {
   }
   const double whole = std::nearbyint(is_clock(place.basic) ? value * per_second(place.basic) : value);
   state_->machine.set_cell(place.cell, apply(Op::to_whole, place.basic, cell_of(whole), 0));
+}
+
+void Runtime::watch(bool on) {
+  state_->watched = on;
+  state_->machine.trace(nullptr);
+  state_->traces.clear();
+  state_->order.clear();
+}
+
+std::string Runtime::scanned() const {
+  std::string all;
+  for (const Trace& trace : state_->traces) {
+    if (all.empty()) all.assign(trace.lines.size(), ' ');
+    for (std::size_t i = 0; i < trace.lines.size(); ++i)
+      if (all[i] != '+' && trace.lines[i] != ' ') all[i] = trace.lines[i];
+  }
+  return all;
+}
+
+int Runtime::line_at(std::int64_t into_ns) const {
+  if (state_->order.empty() || state_->statement_ns == 0) return 0;
+  const auto statement = static_cast<std::size_t>(std::max<std::int64_t>(into_ns, 0) / state_->statement_ns);
+  return state_->order[std::min(statement, state_->order.size() - 1)];
 }
 
 bool Runtime::located(std::size_t i) const {

@@ -82,6 +82,13 @@ class Runtime {
   /// By index into Program::located().
   [[nodiscard]] bool located(std::size_t i) const;
   void set_located(std::size_t i, bool level);
+  /// Whether somebody looks at what scans execute; costs time.
+  void watch(bool on);
+  /// What each program's last run did, together: see devices::ProgramPositions; "" before there is one.
+  [[nodiscard]] std::string scanned() const;
+  /// Where statements take time: the line of the statement that has its time `into_ns` after the beginning of
+  /// the task that run_next() ran last; 0 if it was not watched.
+  [[nodiscard]] int line_at(std::int64_t into_ns) const;
   /// Set: the program stands until the next cold start.
   [[nodiscard]] const std::optional<Fault>& fault() const;
 

@@ -17,6 +17,7 @@ Compiler::Compiler(std::string_view text, const std::string& file, Problems& pro
   for (Token& token : tokens_of(text, file, problems)) tokens_.push_back(std::move(token));
   // The first POU stands for what has none.
   code_->pous.emplace_back();
+  code_->text = text;
 }
 
 std::shared_ptr<const Compiled> Compiler::run() {
@@ -35,8 +36,12 @@ std::shared_ptr<const Compiled> Compiler::run() {
   check_programs();
   read_configuration();
   place_memory();
-  for (const auto& unit : units_)
-    if (unit->pou >= 0 && unit->state == Unit::State::done) compile_body(*unit);
+  for (const auto& unit : units_) {
+    if (unit->pou < 0 || unit->state != Unit::State::done) continue;
+    compile_body(*unit);
+    // The standard blocks come last.
+    if (!unit->standard) code_->user_nodes = code_->nodes.size();
+  }
   connect_instances();
   unit_ = nullptr;
   check_calls();

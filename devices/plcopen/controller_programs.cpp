@@ -1,0 +1,151 @@
+// What one sees of the program while it runs: its text, the variables that each line names, where its tasks
+// are.
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "devices/plcopen/controller.hpp"
+#include "devices/plcopen/st/code.hpp"
+#include "devices/plcopen/st/lexer.hpp"
+
+namespace drycut::devices::plcopen {
+namespace {
+
+using st::Token;
+
+/// Finds the variables that the lines of a text name.
+class Namer {
+ public:
+  Namer(const st::Compiled& code, const std::map<std::string, std::size_t>& symbols, ProgramText& told)
+      : code_(code), symbols_(symbols), told_(told) {
+    Problems none;  // it has been compiled
+    tokens_ = st::tokens_of(told.text, told.file, none);
+  }
+
+  void run() {
+    while (tokens_[at_].kind != Token::Kind::end) {
+      const Token& token = tokens_[at_];
+      if (token.is("(")) {
+        calls_.push_back(std::exchange(chain_, ""));
+      } else if (token.is(")")) {
+        if (!calls_.empty()) calls_.pop_back();
+        chain_.clear();
+      } else if (token.kind == Token::Kind::name) {
+        word();
+        continue;
+      } else {
+        chain_.clear();
+      }
+      ++at_;
+    }
+  }
+
+ private:
+  [[nodiscard]] const Token& ahead(std::size_t count) const {
+    return tokens_[std::min(at_ + count, tokens_.size() - 1)];
+  }
+
+  void word() {
+    const Token& token = tokens_[at_];
+    if (token.word("PROGRAM") || token.word("FUNCTION_BLOCK") || token.word("FUNCTION")) {
+      enter(ahead(1).text);
+      at_ += 2;
+      return;
+    }
+    const int line = token.place.line;
+    chain_ = chain();
+    const bool pin = tokens_[at_].is(":=") || tokens_[at_].is("=>");
+    if (pin && !calls_.empty() && !calls_.back().empty() && name(line, calls_.back() + "." + chain_)) return;
+    name(line, chain_);
+  }
+
+  /// From now on names are those of this unit.
+  void enter(std::string_view unit) {
+    constexpr std::size_t most = 4;
+    prefixes_.clear();
+    for (const auto& scope : code_.scopes)
+      if (same_word(scope.pou, unit) && prefixes_.size() < most) prefixes_.push_back(scope.prefix);
+  }
+
+  /// A name with its members and fixed elements: "CamIn.InSync", "pos[3].x"; what stands behind it is next.
+  std::string chain() {
+    std::string all(tokens_[at_++].text);
+    for (;;) {
+      if (tokens_[at_].is(".") && ahead(1).kind == Token::Kind::name) {
+        all += "." + std::string(ahead(1).text);
+        at_ += 2;
+      } else if (const auto size = fixed_index(all); size > 0) {
+        at_ += size;
+      } else {
+        return all;
+      }
+    }
+  }
+
+  /// Adds `[3]` or `[2, 1]` to a name if that is next; how many tokens it has.
+  [[nodiscard]] std::size_t fixed_index(std::string& all) const {
+    if (!tokens_[at_].is("[")) return 0;
+    std::string index;
+    for (std::size_t i = 1; ahead(i).whole(); i += 2) {
+      index += fmt::format("[{}]", ahead(i).value);
+      if (ahead(i + 1).is(",")) continue;
+      if (!ahead(i + 1).is("]")) return 0;
+      all += index;
+      return i + 2;
+    }
+    return 0;
+  }
+
+  /// True if that is a variable here: of the unit, of all its instances, or of all units.
+  bool name(int line, const std::string& text) {
+    bool found = false;
+    for (const auto& prefix : prefixes_) found = add(line, prefix + text) || found;
+    return found || add(line, text);
+  }
+  bool add(int line, const std::string& text) {
+    const auto symbol = symbols_.find(lower(text));
+    if (symbol == symbols_.end()) return false;
+    told_.add_value(line, code_.symbols[symbol->second].name);
+    return true;
+  }
+
+  const st::Compiled& code_;
+  const std::map<std::string, std::size_t>& symbols_;
+  ProgramText& told_;
+  std::vector<Token> tokens_;
+  std::size_t at_ = 0;
+  std::string chain_;                  ///< the name just read: what a parenthesis behind it calls
+  std::vector<std::string> calls_;     ///< what the open parentheses call, "" = nothing
+  std::vector<std::string> prefixes_;  ///< of the unit's instances
+};
+
+}  // namespace
+
+std::vector<ProgramText> PlcopenController::programs() {
+  const st::Compiled& code = program_.compiled();
+  ProgramText told(file_, "st", code.text);
+  Namer(code, symbols_, told).run();
+  return {std::move(told)};
+}
+
+// A scan without statement_time takes no time: between two there is no place where it stands.
+ProgramPositions PlcopenController::positions(std::int64_t time_ns) const {
+  ProgramPositions told;
+  ProgramPositions::Task task{computing_ ? computing_->task : "program", 0, 0, "", {}};
+  if (!powered_) {
+    task.doing = "no power";
+  } else if (const auto& fault = runtime_.fault()) {
+    task.line = fault->line;
+    task.doing = "error: " + fault->text;
+  } else if (computing_ && time_ns < computing_->ended_ns) {
+    task.line = runtime_.line_at(time_ns - computing_->begun_ns);
+    task.doing = "runs";
+  }
+  told.tasks.push_back(std::move(task));
+  told.scanned.push_back(runtime_.scanned());
+  return told;
+}
+
+}  // namespace drycut::devices::plcopen

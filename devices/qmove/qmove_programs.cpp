@@ -1,0 +1,109 @@
+// What one sees of the programs while they run: their texts, the values that each line names, where the tasks
+// stand.
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "devices/qmove/lexer.hpp"
+#include "devices/qmove/qmove_controller.hpp"
+
+namespace drycut::devices::qmove {
+
+namespace {
+
+/// `[3]`, `[2, cLast]`: an index of numbers and constants that begins at token `at`, as find() takes it; ""
+/// if it is none, or depends on a variable.
+std::string fixed_index(const std::vector<Token>& tokens, std::size_t at, const SymbolTable& names) {
+  std::string index;
+  for (; at < tokens.size(); ++at) {
+    const Token& token = tokens[at];
+    if (token.kind == Token::Kind::sign && (token.is("[") || token.is(",") || token.is("]"))) {
+      index += token.text;
+      if (token.is("]")) return index;
+    } else if (token.kind == Token::Kind::number && !token.is_real) {
+      index += std::to_string(token.integer);
+    } else if (const auto* thing = token.kind == Token::Kind::name ? names.find(token.text) : nullptr;
+               thing != nullptr && thing->kind == NamedThing::Kind::constant && !thing->real) {
+      index += fmt::format("{:.0f}", thing->value);
+    } else {
+      return "";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+ProgramText QmoveController::module_text(const Program& program) const {
+  ProgramText told(program.file, "qcl", program.text);
+  const auto lines = split_lines(told.text);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const int line = static_cast<int>(i) + 1;
+    Problems none;  // it has been compiled
+    const auto tokens = tokens_of(lines[i], line, program.file, none);
+    for (std::size_t t = 0; t + 1 < tokens.size(); ++t) {
+      if (tokens[t].kind != Token::Kind::name) continue;
+      const std::string name(tokens[t].text);
+      if (tokens[t + 1].is(":") && tokens[t + 2].kind == Token::Kind::name) {
+        if (const auto found = locate(fmt::format("{}.{}", name, tokens[t + 2].text))) {
+          told.add_value(line, found->name);
+          t += 2;
+          continue;
+        }
+      }
+      const auto index = tokens[t + 1].is("[") ? fixed_index(tokens, t + 1, names_) : std::string();
+      if (const auto found = locate(name + index)) told.add_value(line, found->name);
+    }
+  }
+  return told;
+}
+
+std::vector<ProgramText> QmoveController::programs() {
+  std::vector<ProgramText> texts;
+  texts.reserve(programs_.size() + 1);
+  for (const Program& program : programs_) texts.push_back(module_text(program));
+  ProgramText& set_up = texts.emplace_back(configuration_.file, "cnf", configuration_.text);
+  const auto add = [&](const auto& things) {
+    for (const auto& thing : things) set_up.add_value(thing.place.line, thing.name);
+  };
+  add(configuration_.scalars);
+  add(configuration_.timers);
+  add(configuration_.inputs);
+  add(configuration_.outputs);
+  return texts;
+}
+
+ProgramPositions QmoveController::positions(std::int64_t) const {
+  ProgramPositions told;
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    const Program& program = programs_[i];
+    const auto line = [&](int at) { return program.lines[static_cast<std::size_t>(at)]; };
+    ProgramPositions::Task task{program.name, i, 0, doing(i), {}};
+    if (powered_ && !program.code.empty()) {
+      task.line = line(tasks_[i].at);
+      for (const int call : tasks_[i].calls) task.calls.push_back(line(call));
+    }
+    told.tasks.push_back(std::move(task));
+  }
+  told.scanned.resize(programs_.size() + 1);
+  return told;
+}
+
+std::string QmoveController::doing(std::size_t number) const {
+  const Task& task = tasks_[number];
+  const Program& program = programs_[number];
+  if (!powered_) return "no power";
+  if (mode_ == OsMode::error)
+    return number == failed_ ? fmt::format("error {}: {}", static_cast<int>(error_), name_of(error_))
+                             : "stopped";
+  if (task.ended) return "ended";
+  if (task.in_turn) return "runs";
+  if (task.wait == Task::Wait::none) return task.at == 0 ? "begins" : "waits";
+  const auto device = static_cast<std::size_t>(program.code[static_cast<std::size_t>(task.at)].b);
+  return fmt::format("waits for {}", configuration_.devices[device].name);
+}
+
+}  // namespace drycut::devices::qmove
