@@ -29,7 +29,7 @@ FREE_WORDS = [(2, 7999), (0xF010, 0xF0FF), (0xF400, 0xF4C7), (0xF700, 0xF76F)]
 OUTSIDE_BITS = [3072, 7999, 8256, 0xDFFF, 0xE3E8, 0xF100, 0xF500, 0xF900, 0xFBFF, 0xFD00, 0xFFFF]
 OUTSIDE_WORDS = [8256, 0xEFFF, 0xF100, 0xF4C8, 0xF6FF, 0xF770, 0xFFFF]
 
-SCENE = """scene: {title: Plc, step: 1 ms, duration: 1000 h}
+SCENE = """scene: {title: Plc, step: 100 us, duration: 1000 h}
 plants: {bench: {type: bench}}
 controller: {lx3vp: {program: hmi.il, scan: 1 ms}}
 wiring: {X0: bench.input1, Y10: bench.output1}

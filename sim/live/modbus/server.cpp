@@ -114,7 +114,7 @@ struct Server::Core {
   Line& line;
   Desk& desk;
   ClientNumber next = 1;
-  std::uint64_t heard = 0;                  ///< frames so far: who was silent for longest
+  std::uint64_t heard = 0;                  ///< connections and frames so far: who was silent for longest
   std::map<ClientNumber, Client*> clients;  ///< that are not closed; they take themselves out as they go
   asio::io_context context{1};
   tcp::acceptor acceptor;
@@ -126,7 +126,7 @@ struct Server::Core {
 class Server::Core::Client : public std::enable_shared_from_this<Client> {
  public:
   Client(Core& core, tcp::socket socket)
-      : core_(core), stream_(std::move(socket)), number_(core.next++), heard_(core.heard) {
+      : core_(core), stream_(std::move(socket)), number_(core.next++), heard_(++core.heard) {
     core_.clients[number_] = this;
   }
   ~Client() { core_.clients.erase(number_); }
