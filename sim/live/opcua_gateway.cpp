@@ -129,7 +129,7 @@ OpcuaGateway::OpcuaGateway(const Options& options) {
                                     {"token", options.token}})
                         .dump() +
                     "\n";
-  if (send(socket_, told.data(), told.size(), MSG_NOSIGNAL) < 0) kill(child_, SIGKILL);  // listen() says so
+  if (::send(socket_, told.data(), told.size(), MSG_NOSIGNAL) < 0) kill(child_, SIGKILL);  // listen() says so
   thread_ = std::thread([this] { listen(); });
 }
 
@@ -150,7 +150,7 @@ void OpcuaGateway::listen() {
     if (ending_ && !last) last = std::chrono::steady_clock::now() + until_killed;
     if (last && std::chrono::steady_clock::now() >= *last) kill(child_, SIGKILL);
     if (ready <= 0) continue;
-    const auto size = read(socket_, buffer.data(), buffer.size());
+    const auto size = ::read(socket_, buffer.data(), buffer.size());
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) break;
     if (ending_) continue;
