@@ -9,10 +9,12 @@ const registers = "Controllers/lx3vp";
 let line;
 let client;
 
-// D1100 and on: registers that the program leaves alone.
+// Registers that the program fills in its first scan and then leaves alone.
 before(async () => {
-  line = await start_line(scene("saw.yaml", saw("{packml: {state: D1100, mode: D1101}, machinery: {out_of_service: D1102, mode: D1103}}")));
+  line = await start_line(scene("saw.yaml", saw("{packml: {state: D510, mode: D511}, machinery: {out_of_service: D512, mode: D1030}}")));
   client = await Session.open(line.url);
+  await client.write(`${registers}/D512`, Double, 0);
+  await until(async () => (await client.value(`${registers}/D512`)) === 0);
 });
 after(async () => {
   await client?.close();
@@ -46,8 +48,8 @@ for (const [number, base, machine, execute, item] of [
   [17, "Cleared", "Running", "Complete", "NotExecuting"],
 ])
   test(`PackML state ${number}`, async () => {
-    assert.equal(await client.write(`${registers}/D1100`, Double, number), "Good");
-    await until(async () => (await client.value(`${registers}/D1100`)) === number);
+    assert.equal(await client.write(`${registers}/D510`, Double, number), "Good");
+    await until(async () => (await client.value(`${registers}/D510`)) === number);
     const first = await child("PackML", "BaseStateMachine");
     const second = await child(first, "MachineState");
     const third = await child(second, "ExecuteState");
@@ -66,9 +68,9 @@ for (const [number, base, machine, execute, item] of [
   });
 
 test("modes, and a machine out of service", async () => {
-  await client.write(`${registers}/D1101`, Double, 3);
-  await client.write(`${registers}/D1103`, Double, 2);
-  await client.write(`${registers}/D1102`, Double, 1);
+  await client.write(`${registers}/D511`, Double, 3);
+  await client.write(`${registers}/D1030`, Double, 2);
+  await client.write(`${registers}/D512`, Double, 1);
   const item = await child("MachineryItemState", "CurrentState");
   await until(async () => (await state(item)) === "OutOfService");
   assert.equal(await state(await child("MachineryOperationMode", "CurrentState")), "Setup");
@@ -84,7 +86,7 @@ test("a saw tells whether its clamps grip", async () => {
 
 for (const [opcua, place, what, remedy] of [
   ["{packml: {state: D11O0}}", "3:25", "there is no value 'D11O0'", "."],
-  ["{packml: {mode: D1101}}", "3:9", "state", "name the value that holds the number of the PackML state"],
+  ["{packml: {mode: D511}}", "3:9", "state", "name the value that holds the number of the PackML state"],
   ["{packml: {state: saw.spede}}", "3:25", "there is no value 'saw.spede'", "saw.speed"],
   ["{machinery: {}}", "3", "says nothing", "executing: "],
   ["{machinery: {executing: M1O, mode: saw.spede}}", "3:43", "there is no value 'saw.spede'", "saw.speed"],
@@ -105,10 +107,10 @@ for (const [opcua, place, what, remedy] of [
   });
 
 test("what it says is written back by --expand, and nothing where it says nothing", async () => {
-  const all = "{machine: {manufacturer: Weber, model: FS, serial_number: A1}, packml: {state: D1100, mode: D1101}, machinery: {executing: M11}, cutters: {saw: {length: DD100}}}";
+  const all = "{machine: {manufacturer: Weber, model: FS, serial_number: A1}, packml: {state: D510, mode: D511}, machinery: {executing: M11}, cutters: {saw: {length: DD100}}}";
   const expanded = new Program(["check", "--expand", scene("whole.yaml", saw(all))]);
   assert.equal((await expanded.ended).status, 0, expanded.said);
-  for (const words of ["manufacturer: Weber", "model: FS", "serial_number: A1", "state: D1100", "mode: D1101", "executing: M11", "length: DD100"]) assert.ok(expanded.said.includes(words), words);
+  for (const words of ["manufacturer: Weber", "model: FS", "serial_number: A1", "state: D510", "mode: D511", "executing: M11", "length: DD100"]) assert.ok(expanded.said.includes(words), words);
   const none = new Program(["check", "--expand", `${scenes}/flying_saw_lx3vp.yaml`]);
   assert.equal((await none.ended).status, 0);
   assert.ok(!none.said.includes("opcua"));
