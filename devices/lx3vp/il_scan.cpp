@@ -75,9 +75,8 @@ void Scanner::restart() {
 
 void Scanner::watch(bool on) {
   watched_ = on;
-  if (!on) scanned_.clear();
-  // A scan that is under way is not seen from its beginning.
-  scanning_.clear();
+  scanned_.clear();
+  scanning_.clear();  // a scan that is under way is not seen from its beginning
 }
 
 int Scanner::line() const {
@@ -106,7 +105,8 @@ void Scanner::start(Rung& rung) {
   rung.passed_ns = has_scanned_ ? registers.time_ns - last_scan_ns_ : 0;
   last_scan_ns_ = registers.time_ns;
   has_scanned_ = true;
-  if (watched_) scanning_.assign(split_lines(program_.text).size(), ' ');
+  if (watched_)
+    scanning_.assign(scanning_.empty() ? split_lines(program_.text).size() : scanning_.size(), ' ');
 }
 
 // An instruction has power if what is before it lets it through; those that need none are executed.

@@ -1,7 +1,11 @@
 // What one sees of the program while it runs: its text, the variables that each line names, where its tasks
 // are.
+#include <algorithm>
+#include <map>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,9 @@
 // What one sees of the programs while they run: their texts, the values that each line names, where the tasks
 // stand.
-#include <algorithm>
-#include <charconv>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -78,12 +79,14 @@ std::vector<ProgramText> QmoveController::programs() {
 
 ProgramPositions QmoveController::positions(std::int64_t) const {
   ProgramPositions told;
+  told.tasks.reserve(programs_.size());
   for (std::size_t i = 0; i < programs_.size(); ++i) {
     const Program& program = programs_[i];
     const auto line = [&](int at) { return program.lines[static_cast<std::size_t>(at)]; };
     ProgramPositions::Task task{program.name, i, 0, doing(i), {}};
     if (powered_ && !program.code.empty()) {
       task.line = line(tasks_[i].at);
+      task.calls.reserve(tasks_[i].calls.size());
       for (const int call : tasks_[i].calls) task.calls.push_back(line(call));
     }
     told.tasks.push_back(std::move(task));

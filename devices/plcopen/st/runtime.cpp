@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/text.hpp"
 #include "devices/due.hpp"
@@ -85,7 +87,9 @@ struct Runtime::State {
   /// Has the machine tell what it executes of a program from now on.
   void trace(std::size_t number) {
     traces.resize(program.compiled().instances.size());
-    traces[number].lines.assign(split_lines(program.compiled().text).size(), ' ');
+    std::string& lines = traces[number].lines;
+    if (lines.empty()) lines.assign(split_lines(program.compiled().text).size(), ' ');
+    std::fill(lines.begin(), lines.end(), ' ');
     traces[number].order = statement_ns > 0 ? &order : nullptr;
     machine.trace(&traces[number]);
   }
