@@ -109,7 +109,7 @@ void Line::act_on(const Request& request) {
   } else if (std::holds_alternative<Restart>(what)) {
     problems = restart();
   } else if (const auto* sampled = std::get_if<Sample>(&what)) {
-    problems = run_->want(request.asker, sampled->names);
+    problems = run_->want(request.asker, *sampled);
   } else if (const auto* read = std::get_if<Read>(&what)) {
     std::vector<double> values;
     problems = run_->values_of(read->names, values);
@@ -137,7 +137,7 @@ Problems Line::restart() {
   auto fresh = std::make_unique<LineRun>(options_, run_->number() + 1, problems);
   if (!problems.empty()) return problems;
   run_->end();
-  for (const auto& [asker, names] : run_->wanted()) fresh->want(asker, names);
+  for (const auto& [asker, sample] : run_->wanted()) fresh->want(asker, sample);
   run_ = std::move(fresh);
   run_->begin(options_.record);
   until_.reset();

@@ -55,6 +55,7 @@ struct Restart {};
 struct Sample {
   std::vector<std::string> names;
   std::size_t watched = 0;  ///< of so many at the end the latest value is enough
+  bool programs = false;    ///< and where the programs stand
 };
 /// The asker is gone.
 struct Leave {};
@@ -98,7 +99,8 @@ struct News {
     std::vector<Time> times;
     std::vector<double> rows;  ///< a row a time
   };
-  Samples samples;  ///< since the last news
+  Samples samples;                                    ///< since the last news
+  std::optional<devices::ProgramPositions> programs;  ///< if anybody wants to know
   struct Answer {
     Asker asker;
     Problems problems;  ///< none: done
@@ -119,6 +121,8 @@ struct LineDescription {
     std::string unit;
     std::optional<devices::ValueRange> range;
     bool of_panel = false;
+    std::optional<bool> push = {};  ///< a switch of the panel: on while it is pressed, if the scenario says
+    double used = 0;                ///< the largest amount that the scenario itself gives it, in `unit`
   };
   std::vector<Target> targets;     ///< switches of the panel, then settings of plants
   std::vector<std::string> lamps;  ///< of the panel
@@ -148,6 +152,7 @@ struct LineDescription {
   std::vector<std::string> parts;   ///< of the machine, in order of the poses
   std::string machine;              ///< they and their meshes as a .glb
   std::vector<std::string> checks;  ///< names
+  std::vector<devices::ProgramText> programs;
   std::vector<std::string> notes;
 };
 

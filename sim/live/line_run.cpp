@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_channels = 64;  ///< of an asker
+constexpr std::size_t most_channels = 256;  ///< of an asker
 
 std::string read_bytes(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -171,7 +173,8 @@ void LineRun::await(const std::string& event) {
   seen_ = false;
 }
 
-Problems LineRun::want(Asker asker, const std::vector<std::string>& names) {
+Problems LineRun::want(Asker asker, const Sample& sample) {
+  const auto& names = sample.names;
   Problems problems;
   if (names.size() > most_channels)
     problems.push_back(
@@ -182,13 +185,16 @@ Problems LineRun::want(Asker asker, const std::vector<std::string>& names) {
                           simulation_->names().suggest_reading(name)});
   }
   if (!problems.empty()) return problems;
-  wanted_[asker] = names;
+  wanted_[asker] = sample;
   choose_samples();
+  watch_programs();
   return {};
 }
 
 void LineRun::leave(Asker asker) {
-  if (wanted_.erase(asker) > 0) choose_samples();
+  if (wanted_.erase(asker) == 0) return;
+  choose_samples();
+  watch_programs();
 }
 
 void LineRun::take_samples() {
@@ -227,6 +233,7 @@ void LineRun::tell(News& news) {
   for (const auto& lamp : lamps_) news.lamps.push_back(lamp.read());
   news.events = std::exchange(events_, {});
   news.samples = std::exchange(samples_, {sample_names_, {}, {}});
+  if (programs_wanted_) news.programs = simulation_->controller()->positions(now());
 }
 
 std::shared_ptr<const LineDescription> LineRun::describe() {
@@ -238,7 +245,8 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
   told->duration = scenario_.scene.duration;
   auto& names = simulation_->names();
   for (const auto& target : targets_)
-    told->targets.push_back({target.name, target.unit, target.range, target.name.starts_with("panel.")});
+    told->targets.push_back({target.name, target.unit, target.range, target.name.starts_with("panel."),
+                             is_push_button(target), largest_used(target)});
   for (const auto& lamp : lamps_) told->lamps.push_back(lamp.name);
   for (const auto& [component, fault] : names.faults())
     told->faults.push_back(
@@ -254,6 +262,7 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
     told->plants.push_back({plant.name.text, plant.type.text, web_of(plant)});
   if (scenario_.controller) told->controller = scenario_.controller->kind();
   told->opcua = scenario_.opcua;
+  describe_programs(*told);
   told->parts = parts_;
   told->machine = machine_;
   for (const auto& check : simulation_->outcome().checks) told->checks.push_back(check.name);
@@ -262,10 +271,83 @@ std::shared_ptr<const LineDescription> LineRun::describe() {
   return told;
 }
 
+// Values that only a program's text names (an element, a register as wide as an instruction takes it) are
+// channels too.
+void LineRun::describe_programs(LineDescription& told) {
+  auto* const controller = simulation_->controller();
+  if (controller == nullptr) return;
+  told.programs = controller->programs();
+  std::set<std::string> known;
+  for (const auto& channel : told.channels) known.insert(channel.name);
+  auto& names = simulation_->names();
+  for (const auto& program : told.programs) {
+    for (const auto& [line, values] : program.values) {
+      for (const auto& name : values) {
+        if (!known.insert(name).second) continue;
+        if (const auto reading = names.reading(name))
+          told.channels.push_back({name, reading->unit, names.target(name).has_value()});
+      }
+    }
+  }
+}
+
+std::optional<bool> LineRun::is_push_button(const loop::Target& target) const {
+  const auto& push = scenario_.panel.push_buttons;
+  if (push.empty() || !target.name.starts_with("panel.")) return {};
+  return std::any_of(push.begin(), push.end(),
+                     [&](const auto& name) { return "panel." + name.text == target.name; });
+}
+
+/// What a plant's parameter of the setting's name is where a scenario does not give it; 0 if it has none.
+double LineRun::usual_of(const loop::Target& target) const {
+  const auto dot = target.name.find('.');
+  for (const auto& entry : scenario_.plants) {
+    if (entry.name.text != target.name.substr(0, dot)) continue;
+    for (const auto& type : plants::plant_types()) {
+      if (type.name != entry.type.text) continue;
+      const auto usual = type.define();
+      for (const auto& row : usual->parameters())
+        if (auto* const* value = std::get_if<double*>(&row.value);
+            value && row.name == target.name.substr(dot + 1))
+          return std::abs(scenario::from_si(**value, target.unit));
+    }
+  }
+  return 0;
+}
+
+// A setting that stands at 0 now may be meant to go far.
+double LineRun::largest_used(const loop::Target& target) const {
+  double largest = std::abs(scenario::from_si(target.read(), target.unit));
+  const auto look = [&](const std::vector<std::pair<scenario::Text, scenario::Quantity>>& entries) {
+    for (const auto& [name, quantity] : entries) {
+      if (name.text != target.name) continue;
+      const bool own_unit = !quantity.unit.empty();
+      const double given =
+          own_unit ? scenario::from_si(scenario::to_si(quantity.number, quantity.unit), target.unit)
+                   : quantity.number;
+      largest = std::max(largest, std::abs(given));
+    }
+  };
+  for (const auto& stimulus : scenario_.timeline) {
+    look(stimulus.set);
+    look(stimulus.ramp);
+  }
+  return largest > 0 ? largest : usual_of(target);
+}
+
+void LineRun::watch_programs() {
+  auto* const controller = simulation_->controller();
+  const bool wanted =
+      controller != nullptr &&
+      std::any_of(wanted_.begin(), wanted_.end(), [](const auto& one) { return one.second.programs; });
+  if (wanted != programs_wanted_) controller->watch_programs(wanted);
+  programs_wanted_ = wanted;
+}
+
 void LineRun::choose_samples() {
   auto names = std::make_shared<std::vector<std::string>>();
   for (const auto& [asker, own] : wanted_)
-    for (const auto& name : own)
+    for (const auto& name : own.names)
       if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
   readings_.clear();
   for (const auto& name : *names) readings_.push_back(simulation_->names().reading(name).value());

@@ -44,10 +44,10 @@ class LineRun : public loop::Observer {
   void await(const std::string& event);
   [[nodiscard]] bool seen() const { return seen_; }
 
-  /// Has an asker's channels sampled by take_samples().
-  Problems want(Asker asker, const std::vector<std::string>& names);
+  /// Has an asker's channels sampled by take_samples(), and the programs watched if it wants that.
+  Problems want(Asker asker, const Sample& sample);
   void leave(Asker asker);
-  [[nodiscard]] const std::map<Asker, std::vector<std::string>>& wanted() const { return wanted_; }
+  [[nodiscard]] const std::map<Asker, Sample>& wanted() const { return wanted_; }
   void take_samples();
   /// The values of these channels now, in their units; none after a problem.
   Problems values_of(const std::vector<std::string>& names, std::vector<double>& values);
@@ -60,6 +60,11 @@ class LineRun : public loop::Observer {
  private:
   void record_in(const std::filesystem::path& folder);
   void choose_samples();
+  void watch_programs();
+  [[nodiscard]] double largest_used(const loop::Target& target) const;
+  [[nodiscard]] std::optional<bool> is_push_button(const loop::Target& target) const;
+  [[nodiscard]] double usual_of(const loop::Target& target) const;
+  void describe_programs(LineDescription& told);
 
   Replay replay_;  ///< of nothing, unless it goes on from a session
   std::vector<std::string> notes_;
@@ -78,7 +83,8 @@ class LineRun : public loop::Observer {
   std::vector<loop::RecordedEvent> events_;
   std::optional<std::string> awaited_;
   bool seen_ = false;
-  std::map<Asker, std::vector<std::string>> wanted_;
+  std::map<Asker, Sample> wanted_;
+  bool programs_wanted_ = false;
   std::vector<loop::Reading> readings_;
   std::unordered_map<std::string, std::function<double()>> known_;  ///< what values_of() has looked up
   std::shared_ptr<const std::vector<std::string>> sample_names_;

@@ -46,10 +46,11 @@ class Parser {
     if (message.contains("until")) return read_until(message["until"]);
     if (message.contains("pace")) return read_pace(message["pace"]);
     if (message.contains("restart")) return Restart{};
-    if (message.contains("sample") || message.contains("watch")) return read_sample(message);
+    if (message.contains("sample") || message.contains("watch") || message.contains("programs"))
+      return read_sample(message);
     if (message.contains("read")) return read_values(message);
     refuse("the message asks for nothing",
-           "one of act, run, advance, until, pace, restart, sample, watch, read");
+           "one of act, run, advance, until, pace, restart, sample, watch, programs, read");
     return {};
   }
 
@@ -91,7 +92,13 @@ class Parser {
     const auto sampled = sample.names.size();
     if (!read_names(message, "watch", sample.names)) return {};
     sample.watched = sample.names.size() - sampled;
-    return sample;
+    if (!message.contains("programs")) return sample;
+    if (message["programs"].is_boolean()) {
+      sample.programs = message["programs"].get<bool>();
+      return sample;
+    }
+    refuse("programs is true or false", "{\"watch\": [], \"programs\": true}");
+    return {};
   }
   std::optional<decltype(Request::what)> read_values(const ordered_json& message) {
     Read read;
@@ -144,6 +151,27 @@ ordered_json poses_json(const std::vector<plants::PartPose>& poses) {
     for (const double x : scale) numbers.push_back(visible ? rounded(x, turn) : 0);
   }
   return numbers;
+}
+
+ordered_json program_json(const devices::ProgramText& program) {
+  auto values = ordered_json::object();
+  for (const auto& [line, names] : program.values) values[std::to_string(line)] = names;
+  return {{"name", program.name},
+          {"file", program.file},
+          {"language", program.language},
+          {"text", program.text},
+          {"values", std::move(values)}};
+}
+
+ordered_json positions_json(const devices::ProgramPositions& positions) {
+  auto tasks = ordered_json::array();
+  for (const auto& task : positions.tasks)
+    tasks.push_back({{"name", task.name},
+                     {"program", task.program},
+                     {"line", task.line},
+                     {"doing", task.doing},
+                     {"calls", task.calls}});
+  return {{"tasks", tasks}, {"scanned", positions.scanned}};
 }
 
 ordered_json drive_json(const loop::DriveVerdict& drive) {
@@ -202,7 +230,9 @@ std::optional<Request> parse_request(std::string_view message, Asker asker, doub
 std::string description_json(const LineDescription& line) {
   auto targets = ordered_json::array();
   for (const auto& target : line.targets) {
-    ordered_json one = {{"name", target.name}, {"unit", target.unit}, {"panel", target.of_panel}};
+    ordered_json one = {
+        {"name", target.name}, {"unit", target.unit}, {"panel", target.of_panel}, {"used", target.used}};
+    if (target.push) one["push"] = *target.push;
     if (target.range) one["range"] = range_json(*target.range);
     targets.push_back(std::move(one));
   }
@@ -218,6 +248,8 @@ std::string description_json(const LineDescription& line) {
   auto plants = ordered_json::array();
   for (const auto& plant : line.plants)
     plants.push_back({{"name", plant.name}, {"type", plant.type}, {"web", plant.web}});
+  auto programs = ordered_json::array();
+  for (const auto& program : line.programs) programs.push_back(program_json(program));
   return text_of({{"line",
                    {{"run", line.run},
                     {"title", line.title},
@@ -233,6 +265,7 @@ std::string description_json(const LineDescription& line) {
                     {"opcua", opcua_json(line.opcua)},
                     {"parts", line.parts},
                     {"checks", line.checks},
+                    {"programs", programs},
                     {"notes", line.notes}}}});
 }
 
@@ -250,6 +283,7 @@ std::string news_json(const News& news) {
       {"lamps", news.lamps}};
   if (!news.failure.empty()) json["failure"] = news.failure;
   if (!news.events.empty()) json["events"] = events_json(news.events);
+  if (news.programs) json["programs"] = positions_json(*news.programs);
   if (news.outcome) json["outcome"] = outcome_json(*news.outcome);
   return text_of({{"news", std::move(json)}});
 }

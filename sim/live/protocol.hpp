@@ -11,6 +11,7 @@ namespace drycut::sim::live {
 //   {"act": {"set": {"panel.start": 1}}}   also ramp with over, fault, power; as an entry of a timeline
 //   {"run": true}  {"advance": "1 ms"}  {"until": "cut"}  {"pace": 0.1}  {"pace": "max"}  {"restart": true}
 //   {"sample": ["knife.speed", "web.speed"], "watch": ["slLength"]}   every cycle; the latest value
+//   with "programs": true the news tell where the programs stand, too
 //
 //   {"read": ["slLength", "knife.angle"]}   as they are now, told at once: {"done": id, "problems": [],
 //   "values": [800, 1.5]}
@@ -20,9 +21,11 @@ namespace drycut::sim::live {
 /// nothing.
 std::optional<Request> parse_request(std::string_view message, Asker asker, double& id, Problems& problems);
 
-/// {"line": {...}}: what there is to see and to set.
+/// {"line": {...}}: what there is to see and to set. "programs": texts with their "file" as messages name it,
+/// their "language" and for each line the values that it names, {"12": ["slLength"]}.
 std::string description_json(const LineDescription& line);
-/// {"news": {...}}, the same for everybody.
+/// {"news": {...}}, the same for everybody. "programs", if anybody wants it: "tasks", each in a line of a
+/// program (0: nowhere), and what each program's last scan did, see devices::ProgramPositions.
 std::string news_json(const News& news);
 /// {"samples": {"names": [...], "times": [...], "rows": [...], "watched": {"slLength": 800}}} of the channels
 /// that one client wants; "" = none.

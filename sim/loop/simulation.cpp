@@ -8,6 +8,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/text.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/opcua_names.hpp"
 #include "sim/scenario/format.hpp"
@@ -36,6 +37,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   }
   names_ = std::make_unique<Names>(named_, controller_.get(), bus_.panel());
   if (!controller_ && scenario.controller) names_->assume_controller(scenario.wiring);
+  check_panel(problems);
   watch_ = std::make_unique<Watch>(*names_);
   if (!scenario.disturbances.empty())
     disturbances_ = std::make_unique<Disturbances>(scenario, *names_, problems);
@@ -86,6 +88,19 @@ void Simulation::check_periods(Problems& problems) const {
                              fmt::format("{} of {} ns is not a whole multiple of the step of {} ns",
                                          period.name, period.ns, step_),
                              "choose a step that divides it"));
+  }
+}
+
+void Simulation::check_panel(Problems& problems) const {
+  if (scenario_.panel.push_buttons.empty()) return;
+  std::vector<std::string> switches;
+  switches.reserve(bus_.panel().switches.size());
+  for (const auto& [name, port] : bus_.panel().switches) switches.push_back(name);
+  for (const auto& push : scenario_.panel.push_buttons) {
+    if (bus_.panel().switches.contains(push.text)) continue;
+    problems.push_back(scenario::problem_at(
+        scenario_, push.place, fmt::format("the panel has no switch '{}'", push.text),
+        switches.empty() ? "wire one: {2.INP03: panel.start}" : did_you_mean(push.text, switches)));
   }
 }
 

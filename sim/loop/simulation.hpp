@@ -117,6 +117,8 @@ class Simulation {
   /// The controller's values as they are now, by name, with units; rows of cam tables only where they are not
   /// 0.
   [[nodiscard]] std::vector<Reading> controller_values();
+  /// nullptr if there is none.
+  [[nodiscard]] devices::Controller* controller() { return controller_.get(); }
   /// The controller's retentive values as they are now, as text.
   [[nodiscard]] std::string retentive_state() const {
     return controller_ ? controller_->retentive_state() : "";
@@ -140,6 +142,7 @@ class Simulation {
   void build_plants();
   void check_periods(Problems& problems) const;
   void delay_outputs(Problems& problems);
+  void check_panel(Problems& problems) const;
 
   void run_to_end(const std::function<void(Time)>& progress);
   void step();

@@ -119,6 +119,12 @@ struct InputFilter {
   Time delay = 0;        ///< of an input: a level is taken when it has lasted so long
 };
 
+/// panel: {push_buttons: [acknowledge]}
+/// How an operator works the switches of the panel; nothing of it changes a run.
+struct PanelSection {
+  std::vector<Text> push_buttons;  ///< on while they are pressed; names without `panel.`
+};
+
 /// A value written by the timeline. Plain numbers keep unit "" and are taken in the target's own display
 /// unit.
 struct Quantity {
@@ -342,6 +348,7 @@ struct Scenario {
   std::unique_ptr<ControllerSection> controller;  ///< nullptr without
   std::vector<Wire> wiring;
   std::vector<InputFilter> filters;
+  PanelSection panel;
   std::vector<Stimulus> timeline;
   std::vector<Disturbance> disturbances;
   RecordSection record;

@@ -220,6 +220,11 @@ void visit_record(Archive& archive, RecordSection& record) {
   });
 }
 
+void visit_panel(Archive& archive, PanelSection& panel) {
+  archive.value({"push_buttons", "switches that are on while they are pressed: [acknowledge]"},
+                form(panel.push_buttons));
+}
+
 void visit_drives(Archive& archive, DrivesSection& drives) {
   archive.value({"cycle", "of the machine, for the ratings of its drives; 0 = from cut to cut"},
                 form(drives.cycle, Sign::not_negative));
@@ -321,6 +326,9 @@ void visit(Archive& archive, Scenario& scenario) {
   archive.names(
       {"filters", "what the cards make of what comes to their terminals", !scenario.filters.empty()},
       scenario.filters, &InputFilter::terminal);
+  archive.section({"panel", "how an operator works the switches of the panel: `drycut live`",
+                   !scenario.panel.push_buttons.empty()},
+                  [&](Archive& inner) { visit_panel(inner, scenario.panel); });
   archive.list(
       {"timeline", "what the operator and the line around do, and faults", !scenario.timeline.empty()},
       scenario.timeline);
@@ -352,9 +360,9 @@ void visit(Archive& archive, Scenario& scenario) {
 }
 
 const std::vector<std::string>& section_names() {
-  static const std::vector<std::string> names = {
-      "extends",  "variables",    "scene",  "plants", "controller", "wiring",   "filters",
-      "timeline", "disturbances", "record", "drives", "checks",     "pictures", "opcua"};
+  static const std::vector<std::string> names = {"extends", "variables", "scene",  "plants",   "controller",
+                                                 "wiring",  "filters",   "panel",  "timeline", "disturbances",
+                                                 "record",  "drives",    "checks", "pictures", "opcua"};
   return names;
 }
 

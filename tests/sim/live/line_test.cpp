@@ -102,7 +102,8 @@ TEST_F(LiveLine, SamplesEachOnesChannelsEveryCycle) {
   options.pace = 1;
   RunningLine line(options);
   EXPECT_THAT(lines_of(line.ask(Sample{{"web.sped"}})), HasSubstr("did you mean web.speed?"));
-  EXPECT_THAT(lines_of(line.ask(Sample{std::vector<std::string>(65, "web.speed")})), HasSubstr("64 at most"));
+  EXPECT_THAT(lines_of(line.ask(Sample{std::vector<std::string>(257, "web.speed")})),
+              HasSubstr("256 at most"));
   line.ask(Sample{{"web.position", "web.speed"}});
   std::vector<Time> times;
   line.ask(Advance{20 * millisecond});
@@ -128,6 +129,95 @@ TEST_F(LiveLine, WhoHasGoneIsSampledForNoLonger) {
   const auto after = line.until(
       [](const News& news) { return news.time == 10 * millisecond && !news.samples.times.empty(); });
   EXPECT_THAT(*after->samples.names, ElementsAre("web.speed"));
+}
+
+const std::string with_program = R"(scene: {title: A program, step: 1 ms, duration: 2 s}
+plants: {web: {type: web, speed: 0 m/min}}
+controller: {plcopen: {program: p.st, cycle: 1 ms}}
+wiring: {IX0.0: panel.go, IX0.1: panel.stay}
+panel: {push_buttons: [go]}
+timeline: [{at: 1 s, ramp: {web.speed: 90 m/min}, over: 1 s}, {at: 1.9 s, set: {web.speed: 2 m/s}}]
+)";
+const std::string program_of_two = R"(PROGRAM p
+VAR go AT %IX0.0 : BOOL; stay AT %IX0.1 : BOOL; n : DINT; a : ARRAY [1..3] OF DINT; END_VAR
+IF go THEN
+  n := n + a[2];
+END_IF
+END_PROGRAM
+)";
+
+TEST_F(LiveLine, TellsItsProgramsAndWhereTheyStandToWhoAsks) {
+  folder.file("p.st", program_of_two);
+  options.scenario = folder.file("program.yaml", with_program);
+  RunningLine line(options);
+  const auto told = line.description();
+  ASSERT_EQ(told->programs.size(), 1U);
+  EXPECT_EQ(told->programs[0].text, program_of_two);
+  EXPECT_THAT(told->programs[0].values.at(4), ElementsAre("n", "a[2]"));
+  EXPECT_THAT(told->channels, Contains(testing::AllOf(Field(&LineDescription::Channel::name, "a[2]"),
+                                                      Field(&LineDescription::Channel::writable, true))));
+  line.ask(Advance{10 * millisecond});
+  EXPECT_FALSE(line.until([](const News& news) { return news.time == 10 * millisecond; })->programs);
+  line.line->ask({1000, Sample{{"n", "a[2]"}, 2, true}});
+  line.ask(Advance{10 * millisecond});
+  const auto idle = line.until([](const News& news) { return news.time == 20 * millisecond; });
+  ASSERT_TRUE(idle->programs);
+  EXPECT_THAT(idle->programs->scanned, ElementsAre("  -   "));
+  line.ask(Act{R"({"set": {"panel.go": 1}})"});
+  line.ask(Advance{10 * millisecond});
+  const auto busy = line.until([](const News& news) { return news.time == 30 * millisecond; });
+  EXPECT_THAT(busy->programs->scanned, ElementsAre("  ++  "));
+  // A new run is watched as the old one was.
+  line.ask(Restart{});
+  line.ask(Advance{10 * millisecond});
+  const auto again =
+      line.until([](const News& news) { return news.run == 2 && news.time == 10 * millisecond; });
+  EXPECT_THAT(again->programs->scanned, ElementsAre("  -   "));
+  line.line->ask({1000, Sample{{"n"}, 1, false}});
+  line.ask(Advance{10 * millisecond});
+  EXPECT_FALSE(line.until([](const News& news) { return news.time == 20 * millisecond; })->programs);
+}
+
+TEST_F(LiveLine, TellsWhatIsPushedAndHowFarSettingsGo) {
+  folder.file("p.st", program_of_two);
+  options.scenario = folder.file("program.yaml", with_program);
+  RunningLine line(options);
+  const auto told = line.description();
+  const auto target = [&](const std::string& name) {
+    for (const auto& one : told->targets)
+      if (one.name == name) return one;
+    ADD_FAILURE() << name;
+    return LineDescription::Target{};
+  };
+  EXPECT_EQ(target("panel.go").push, true);
+  EXPECT_EQ(target("panel.stay").push, false);
+  EXPECT_NEAR(target("web.speed").used, 120, 1e-9);           // 2 m/s
+  EXPECT_NEAR(target("web.drive.damping").used, 2800, 1e-6);  // its own value
+}
+
+TEST_F(LiveLine, ASettingThatNobodyUsesGoesAsFarAsItsUsualValue) {
+  auto still = web_alone;
+  still.replace(still.find("60 m/min"), 8, "0 m/min");
+  still.replace(still.find("timeline"), still.find("checks") - still.find("timeline"), "timeline: []\n");
+  options.scenario = folder.file("still.yaml", still);
+  RunningLine line(options);
+  const auto told = line.description();
+  for (const auto& target : told->targets) {
+    if (target.name == "web.speed") EXPECT_NEAR(target.used, 60, 1e-9);
+    EXPECT_FALSE(target.push);
+  }
+}
+
+TEST_F(LiveLine, APushButtonIsASwitchOfThePanel) {
+  folder.file("p.st", program_of_two);
+  auto wrong = with_program;
+  wrong.replace(wrong.find("[go]"), 4, "[goo, web]");
+  options.scenario = folder.file("program.yaml", wrong);
+  Problems problems;
+  const Line line(options, problems);
+  EXPECT_THAT(lines_of(problems),
+              HasSubstr("program.yaml:5:24: the panel has no switch 'goo'; did you mean go?"));
+  EXPECT_EQ(problems.size(), 2U);
 }
 
 TEST_F(LiveLine, RestartsFromTimeZeroWithTheFilesReadAgain) {

@@ -87,6 +87,47 @@ TEST(LiveSamples, AreAskedFor) {
   EXPECT_EQ(sample_of(R"({"watch": ["a"]})").watched, 1U);
 }
 
+TEST(LiveSamples, MayAskForThePrograms) {
+  double id = 0;
+  Problems problems;
+  const auto asked = parse_request(R"({"watch": [], "programs": true})", 1, id, problems);
+  ASSERT_TRUE(asked.has_value());
+  EXPECT_TRUE(std::get<Sample>(asked->what).programs);
+  const auto silent = parse_request(R"({"watch": []})", 1, id, problems);
+  ASSERT_TRUE(silent.has_value());
+  EXPECT_FALSE(std::get<Sample>(silent->what).programs);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_FALSE(parse_request(R"({"programs": 1})", 1, id, problems));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].what, "programs is true or false");
+}
+
+TEST(LiveProtocol, ProgramsAreTextsWithTheValuesOfEachLine) {
+  LineDescription line;
+  line.programs.emplace_back("folder/a.mod", "qcl", "x = y\n\nEND\n");
+  line.programs[0].add_value(1, "x");
+  line.programs[0].add_value(1, "y");
+  line.programs[0].add_value(1, "x");
+  line.targets.push_back({"panel.push", "", {}, true, true, 0});
+  line.targets.push_back({"web.speed", "m/min", devices::ValueRange{0, 1000}, false, {}, 60});
+  const auto told = json::parse(description_json(line))["line"];
+  EXPECT_EQ(told["programs"], json::parse(R"([{"name": "a.mod", "file": "folder/a.mod", "language": "qcl",
+                                               "text": "x = y\n\nEND\n", "values": {"1": ["x", "y"]}}])"));
+  EXPECT_EQ(told["targets"][0]["push"], true);
+  EXPECT_FALSE(told["targets"][1].contains("push"));
+  EXPECT_EQ(told["targets"][1]["used"], 60);
+}
+
+TEST(LiveProtocol, PositionsAreToldIfTheyAreWanted) {
+  News news;
+  EXPECT_FALSE(json::parse(news_json(news))["news"].contains("programs"));
+  news.programs = devices::ProgramPositions{{{"a", 0, 3, "waits", {7, 9}}}, {"+- ", ""}};
+  EXPECT_EQ(
+      json::parse(news_json(news))["news"]["programs"],
+      json::parse(R"({"tasks": [{"name": "a", "program": 0, "line": 3, "doing": "waits", "calls": [7, 9]}],
+                            "scanned": ["+- ", ""]})"));
+}
+
 TEST(LiveSamples, ListsOfNames) {
   for (const auto* message :
        {R"({"sample": "a"})", R"({"watch": [1]})", R"({"sample": ["a"], "watch": {}})"}) {

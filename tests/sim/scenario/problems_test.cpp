@@ -23,7 +23,7 @@ TEST(ScenarioProblems, Text) {
   const std::string sections =
       "1:1: the scenario is empty; its sections are: extends, variables, scene, plants, controller, wiring, "
       "filters, "
-      "timeline, disturbances, record, drives, checks, pictures";
+      "panel, timeline, disturbances, record, drives, checks, pictures";
   expect_problems({
       {"", {sections}},
       {"# only a comment\n", {sections}},
@@ -64,7 +64,7 @@ TEST(ScenarioProblems, Yaml) {
       {"scene: {title: !!str 4}\n", {"1:16: tags (!name) are not used in scenarios; write the value alone"}},
       {"scene: {}\n<<: {scene: {}}\n",
        {"2:1: unknown key '<<'; known: extends, variables, scene, plants, controller, wiring, filters, "
-        "timeline, disturbances, "
+        "panel, timeline, disturbances, "
         "record, drives, checks, "
         "pictures"}},
       {"scene: {}\n---\nscene: {}\n",
