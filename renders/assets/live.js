@@ -4,10 +4,11 @@ import { Link } from "./live_link.js";
 import { Machine } from "./live_machine.js";
 import { Scope } from "./live_scope.js";
 import { Panel } from "./live_panel.js";
+import { Program } from "./live_program.js";
 import { Values } from "./live_values.js";
 import { Events, Faults, Verdicts } from "./live_lists.js";
 
-const tabs = ["panel", "scope", "values", "events", "checks", "faults"];
+const tabs = ["panel", "scope", "program", "values", "events", "checks", "faults"];
 let line = null, news = null;
 
 const link = new Link({ line: takeLine, news: takeNews, samples: takeSamples }, connected);
@@ -17,6 +18,7 @@ const panel = new Panel(link);
 const values = new Values(link, want, (name) => {
   if (!scope.add(name)) by("say").textContent = "the scope is full: take a curve away first";
 });
+const program = new Program(link, want);
 const events = new Events((names) => by("events-known").replaceChildren(...names.map((name) => make("option", { value: name }))));
 const verdicts = new Verdicts();
 const faults = new Faults(link);
@@ -26,7 +28,7 @@ function takeLine(told) {
   by("title").textContent = line.title || line.scenario;
   by("scenario").textContent = `${line.scenario} · run ${line.run}`;
   document.title = (line.title || line.scenario) + " · Drycut live";
-  for (const part of [panel, values, events, verdicts, faults, scope]) part.line(line);
+  for (const part of [panel, program, values, events, verdicts, faults, scope]) part.line(line);
   machine.line(line);
   wanted = "";
   want();
@@ -35,7 +37,7 @@ function takeLine(told) {
 function takeNews(told) {
   news = told;
   if (!line || news.run !== line.run) return;
-  for (const part of [machine, panel, values, events, verdicts, faults]) part.news(news);
+  for (const part of [machine, panel, program, values, events, verdicts, faults]) part.news(news);
   by("time").textContent = news.time.toFixed(news.running ? 2 : 4);
   const failed = news.failure !== undefined;
   const state = failed ? "failed" : news.running ? "running" : "paused";
@@ -64,6 +66,7 @@ function tellLateness(late, pace) {
 
 function takeSamples(samples) {
   scope.samples(samples);
+  program.samples(samples);
   values.samples(samples);
 }
 
@@ -74,11 +77,12 @@ function want() {
   soon = setTimeout(async () => {
     if (!line) return;
     const sample = scope.wanted;
-    const watch = values.wanted.slice(0, 64 - sample.length);
-    const text = JSON.stringify([sample, watch]);
+    const watch = [...new Set([...program.wanted, ...values.wanted])];
+    const programs = program.open;
+    const text = JSON.stringify([sample, watch, programs]);
     if (text === wanted) return;
     wanted = text;
-    say(await link.ask({ sample, watch }));
+    say(await link.ask({ sample, watch, programs }));
   }, 60);
 }
 
@@ -193,6 +197,7 @@ const keys = {
   c: () => by("scope-cursors").click(),
   t: () => by("trigger-arm").hidden || by("trigger-arm").click(),
   p: () => by("pick").focus(),
+  l: () => (document.body.dataset.tab === "program" ? by("program-follow").click() : show("program")),
   "/": () => {
     show("values");
     by("value-search").focus();
@@ -211,4 +216,4 @@ document.addEventListener("keydown", (event) => {
 });
 
 // For those who look at the page from outside.
-window.drycut = { machine, scope, panel, values, link, get news() { return news; }, get line() { return line; } };
+window.drycut = { machine, scope, panel, program, values, link, get news() { return news; }, get line() { return line; } };

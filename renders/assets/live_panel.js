@@ -67,7 +67,7 @@ export class Panel {
     const { name } = target;
     const stop = isEmergency(name);
     const key = "momentary." + name;
-    let momentary = !stop && memory.get(key, isPushed(name)), value = 0, held = false;
+    let momentary = !stop && memory.get(key, target.push ?? isPushed(name)), value = 0, held = false;
     let asked = null;  // what acts in the next step, while the line stands still
     const problem = make("p", { className: "problem", hidden: true, attributes: { role: "alert" } });
     const state = make("small", {});
@@ -130,10 +130,12 @@ export class Panel {
     return { target, element, switch: true, press: toggle, show };
   }
 
-  /// From where to where the slider goes: about twice the value, within what is allowed.
-  static reach(value, { low, high }) {
+  /// From where to where the slider goes: about twice the value, or the largest one that the scenario uses, within
+  /// what is allowed.
+  static reach(value, { low, high }, used) {
     if (high - low <= 200) return [low, high];
-    const end = nice(2 * Math.max(Math.abs(value), Number.EPSILON) > 1e-9 ? 2 * Math.abs(value) : 10);
+    const large = Math.max(Math.abs(value), used);
+    const end = large > 1e-9 ? nice(2 * large) : high <= 1000 ? high : 10;
     return [value < 0 ? Math.max(low, -end) : Math.max(low, 0), Math.min(high, end)];
   }
 
@@ -161,7 +163,7 @@ export class Panel {
     let ends = null, sent = 0, sentAt = null, last = 0, waiting = null;
     const stretch = (value) => {
       if (!range) return;
-      ends = Panel.reach(value, range);
+      ends = Panel.reach(value, range, target.used);
       [slider.min, slider.max] = ends;
       from.textContent = shown(ends[0]);
       until.textContent = shown(ends[1]) + " " + unit;

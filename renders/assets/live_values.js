@@ -1,7 +1,8 @@
 // All values by name, as they are now; what a program may write can be written here.
-import { by, icon, make, memory, shown, tell } from "./live_dom.js";
+import { by, icon, make, memory, shown } from "./live_dom.js";
+import { write } from "./live_write.js";
 
-const most = 56;  // values that are told at once: 64 channels less the scope's
+const most = 120;  // values that are told at once
 
 export class Values {
   /// `changed`: told when other values are wanted; `scoped`: puts a channel on the scope.
@@ -98,46 +99,12 @@ export class Values {
       const text = shown(now, 7);
       if (value.textContent !== text) value.textContent = text;
     } };
-    if (channel.writable) value.onclick = () => this.edit(name, value, problem);
+    if (channel.writable)
+      value.onclick = () => write({ link: this.link, name, unit: this.units.get(name) ?? "", value, problem, now: () => this.time,
+        written: (text, time) => {
+          value.textContent = text;
+          row.writtenAt = time;  // it acts in the next step: until then it is told
+        } });
     return row;
-  }
-
-  /// A field in place of the value, until Enter or Escape.
-  edit(name, value, problem) {
-    const field = make("input", { type: "text", className: "value", value: value.textContent.replace("−", "-"), autocomplete: "off" });
-    field.setAttribute("aria-label", "New value of " + name);
-    const close = () => {
-      if (!field.isConnected) return;
-      field.onblur = null;
-      field.replaceWith(value);
-      tell(problem, []);
-    };
-    const write = async () => {
-      const text = field.value.trim().replace(",", ".");
-      const number = text !== "" && Number.isFinite(Number(text));
-      const unit = this.units.get(name) ?? "";  // the program's values are bare numbers
-      const given = number ? (unit === "" ? Number(text) : text + " " + unit) : text;
-      const { time } = this;
-      const problems = await this.link.act({ set: { [name]: given } });
-      if (problems.length > 0) {
-        field.setAttribute("aria-invalid", "true");
-        return tell(problem, problems);
-      }
-      value.textContent = number ? shown(Number(text), 7) : text;
-      this.rows.get(name).writtenAt = time;  // it acts in the next step: until then it is told
-      close();
-      value.focus();
-    };
-    field.onkeydown = (event) => {
-      if (event.key === "Enter") write();
-      if (event.key === "Escape") {
-        close();
-        value.focus();
-      }
-    };
-    // Who goes elsewhere has not written.
-    field.onblur = () => { if (problem.hidden) close(); };
-    value.replaceWith(field);
-    field.select();
   }
 }

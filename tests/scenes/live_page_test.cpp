@@ -1,134 +1,13 @@
-// The page of a live line as its operators have it: served by the program, worked in a browser. Skipped where
-// there is no Chromium or no three.js.
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include "sim/live/line.hpp"
-#include "sim/live/server.hpp"
-#include "tests/scenes/browser.hpp"
+// The page of a live line: operated, read, written and lost. Skipped where there is no Chromium or no
+// three.js.
+#include "tests/scenes/live_stand.hpp"
 #include "tests/scenes/report_browser_scripts.hpp"
-#include "tests/test_folder.hpp"
 
-namespace drycut {
+namespace drycut::live_page {
 namespace {
 
-using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-namespace live = sim::live;
-
-const auto* const three = "/usr/share/javascript/three/three.min.js";
-
-/// A line with all that an operator's panel has, and nobody but the browser to work it.
-constexpr auto* scenario = R"(extends: {}/scenes/rotary_knife_mc_emergency.yaml
-timeline: []
-checks:
-  - {{name: never too fast, always: web.speed < 70}}
-  - {{name: stands for ever, always: web.speed < 1}}
-)";
-
-/// A line that stands at time zero, as fast as it goes when it is run, its server and a browser on its page.
-class Stand {
- public:
-  Stand() {
-    Problems problems;
-    line_.emplace(
-        live::Line::Options{
-            folder_.file("line.yaml", fmt::format(scenario, source_root.string())), {}, 0, false, {}},
-        problems);
-    EXPECT_EQ(lines_of(problems), "");
-    serve(0);
-    work_ = std::thread([this] {
-      line_->run([this](auto news) { tell(std::move(news)); },
-                 [this](auto description) { describe(std::move(description)); });
-    });
-    browser.emplace(folder_.path);
-    browser->window(1280, 720);
-  }
-  ~Stand() {
-    line_->stop();
-    work_.join();
-  }
-  Stand(const Stand&) = delete;
-  Stand& operator=(const Stand&) = delete;
-
-  void serve(std::uint16_t port) {
-    auto server = std::make_unique<live::Server>(live::Server::Options{"127.0.0.1", port, ""}, *line_);
-    const std::lock_guard lock(mutex_);
-    server_ = std::move(server);
-    if (described_) server_->describe(described_);
-  }
-  std::uint16_t leave() {
-    const std::lock_guard lock(mutex_);
-    const auto port = server_->port();
-    server_.reset();
-    return port;
-  }
-
-  void open() {
-    browser->visit(server_->url());
-    EXPECT_TRUE(becomes("window.drycut?.news && drycut.machine.frames > 0"));
-  }
-  json look(const std::string& script) { return browser->evaluate(script); }
-  /// Waits until that is true; false if it does not come.
-  bool becomes(const std::string& condition) {
-    return look("new Promise((done) => { let left = 4000; const look = () => (" + condition +
-                ") ? done(true) : --left ? setTimeout(look, 20) : done(false); look(); })") == true;
-  }
-  void click(const std::string& selector) { look("document.querySelector('" + selector + "').click()"); }
-  /// As typed, and Enter.
-  void type(const std::string& selector, const std::string& text) {
-    look("(() => { const field = document.querySelector('" + selector + "'); field.focus(); field.value = '" +
-         text +
-         "'; field.dispatchEvent(new Event('input', {bubbles: true})); "
-         "field.dispatchEvent(new Event('change', {bubbles: true})); "
-         "field.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter', bubbles: true})); })()");
-  }
-  void key(const std::string& key) {
-    look(
-        "(() => { document.activeElement?.blur(); document.body.dispatchEvent(new KeyboardEvent('keydown', "
-        "{key: '" +
-        key + "', bubbles: true})); })()");
-  }
-  std::string text(const std::string& selector) {
-    return look("document.querySelector('" + selector + "').innerText");
-  }
-
-  TestFolder folder_;
-  std::optional<Browser> browser;
-
- private:
-  void tell(std::shared_ptr<const live::News> news) {
-    const std::lock_guard lock(mutex_);
-    if (server_) server_->tell(std::move(news));
-  }
-  void describe(std::shared_ptr<const live::LineDescription> description) {
-    const std::lock_guard lock(mutex_);
-    described_ = description;
-    if (server_) server_->describe(std::move(description));
-  }
-
-  std::optional<live::Line> line_;
-  std::mutex mutex_;
-  std::shared_ptr<const live::LineDescription> described_;
-  std::unique_ptr<live::Server> server_;
-  std::thread work_;
-};
-
-class LivePage : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!Browser::is_installed()) GTEST_SKIP() << "chromium is not installed";
-    if (!std::filesystem::exists(three)) GTEST_SKIP() << "libjs-three is not installed";
-  }
-};
 
 TEST_F(LivePage, IsWorkedAsAnOperatorWould) {
   Stand stand;
@@ -237,6 +116,21 @@ TEST_F(LivePage, ShowsAndWritesValuesAndFaults) {
   EXPECT_THAT(stand.browser->complaints(), IsEmpty());
 }
 
+TEST_F(LivePage, PanelGoesByWhatTheScenarioSays) {
+  Stand stand;
+  stand.open();
+  // Push buttons are named, speeds reach what the scenario's own value is, though the web stands.
+  EXPECT_EQ(stand.text("[data-name=\"panel.acknowledge\"] .kind"), "push button");
+  EXPECT_EQ(stand.text("[data-name=\"panel.start\"] .kind"), "switch");
+  EXPECT_EQ(stand.look("Number(document.querySelector('[data-name=\"web.speed\"] input[type=range]').max)"),
+            200);
+  // Names of values are there in full.
+  stand.click("#tab-values");
+  EXPECT_THAT(stand.look("[...document.querySelectorAll('#values .name')].filter((one) => one.scrollWidth > "
+                         "one.clientWidth + 1).map((one) => one.textContent)"),
+              IsEmpty());
+}
+
 TEST_F(LivePage, TriggersOnAnEdge) {
   Stand stand;
   stand.open();
@@ -286,12 +180,12 @@ TEST_F(LivePage, CanBeReadOnDeskTabletAndPhoneByDayAndNight) {
     bool phone;
   };
   Stand stand;
-  for (const auto& window : {Window{1280, 720, false}, Window{768, 1024, false}, Window{390, 844, true}}) {
+  for (const auto& window : {Window{1280, 720, false}, Window{820, 1180, false}, Window{390, 844, true}}) {
     stand.browser->window(window.width, window.height, window.phone);
     stand.open();
     for (const auto* scheme : {"light", "dark"}) {
       stand.browser->media(scheme);
-      for (const auto* tab : {"panel", "values", "events", "checks", "faults"}) {
+      for (const auto* tab : {"panel", "program", "values", "events", "checks", "faults"}) {
         SCOPED_TRACE(fmt::format("{} wide, {}, {}", window.width, scheme, tab));
         stand.click(std::string("#tab-") + tab);
         EXPECT_THAT(stand.look(kFaintText), IsEmpty());
@@ -327,4 +221,4 @@ TEST_F(LivePage, ComesBackByItself) {
 }
 
 }  // namespace
-}  // namespace drycut
+}  // namespace drycut::live_page
