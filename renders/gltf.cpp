@@ -171,7 +171,7 @@ class Builder {
 
 }  // namespace
 
-void write_gltf(const Film& film, const std::filesystem::path& file, int slow) {
+std::string gltf(const Film& film, int slow) {
   require_drawable(film);
   if (film.frames.empty()) throw std::invalid_argument("glTF: the film has no frames");
   aiScene scene;
@@ -186,7 +186,22 @@ void write_gltf(const Film& film, const std::filesystem::path& file, int slow) {
   Assimp::Exporter exporter;
   const auto* blob = exporter.ExportToBlob(&scene, "glb2", aiProcess_JoinIdenticalVertices);
   if (blob == nullptr) throw std::runtime_error(fmt::format("glTF: {}", exporter.GetErrorString()));
-  write_file(file, std::string(static_cast<const char*>(blob->data), blob->size));
+  return {static_cast<const char*>(blob->data), blob->size};
+}
+
+std::string gltf_of_parts(const Film& film) {
+  if (film.frames.empty()) throw std::invalid_argument("glTF: the film has no frames");
+  Film still;
+  still.title = film.title;
+  still.parts = film.parts;
+  still.frames.resize(1);
+  still.frames.front().placements = film.frames.front().placements;
+  for (auto& placement : still.frames.front().placements) placement.visible = true;
+  return gltf(still);
+}
+
+void write_gltf(const Film& film, const std::filesystem::path& file, int slow) {
+  write_file(file, gltf(film, slow));
 }
 
 }  // namespace drycut::renders

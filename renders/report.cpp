@@ -145,10 +145,13 @@ void write_figures(std::string& page, const Report& report, const std::vector<Re
   }
 }
 
+/// The machine stays in sight while one reads the plots.
 void write_plots(std::string& page, const Report& report) {
-  if (report.plots.empty()) return;
-  page += "<h2>Measured</h2>\n";
+  if (report.plots.empty() && !report.view) return;
+  page += fmt::format("<h2>Measured</h2>\n{}", report.view ? "<div class=\"beside\">\n" : "");
+  if (report.view) page += view_figure(*report.view) + "<div>\n";
   write_figures(page, report, report.plots, 0);
+  if (report.view) page += "</div>\n</div>\n";
 }
 
 /// "PASS 0.05 mm left\n10 cuts": the badge, the rest, and the second line small.
@@ -277,6 +280,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   }
   write_scenario(page, report.scenario_expanded);
   page += "</main>\n";
+  if (report.view) page += live_view(*report.view);  // takes its room before the plots do
   page += live_plots(report.live);
   page += live_maps(report.maps);
   page += "</body>\n</html>\n";

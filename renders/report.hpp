@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "renders/machine_view.hpp"
 #include "renders/plots.hpp"
 #include "renders/report_map.hpp"
 
@@ -59,11 +61,12 @@ struct Report {
   std::string verdict;  ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
   std::vector<ReportCheck> checks;
-  std::vector<ReportTable> summary;    ///< what is read before the pictures: a comparison
-  std::vector<ReportText> texts = {};  ///< to copy
-  std::vector<ReportMap> maps = {};    ///< before the frames
-  std::vector<ReportFigure> frames;    ///< chosen frames, shown as a strip
-  std::filesystem::path video;         ///< MP4 of all frames, "" = none
+  std::vector<ReportTable> summary;      ///< what is read before the pictures: a comparison
+  std::vector<ReportText> texts = {};    ///< to copy
+  std::vector<ReportMap> maps = {};      ///< before the frames
+  std::vector<ReportFigure> frames;      ///< chosen frames, shown as a strip
+  std::filesystem::path video;           ///< MP4 of all frames, "" = none
+  std::optional<MachineView> view = {};  ///< stands beside the plots and shows the time of their cursor
   std::vector<ReportFigure> plots;
   std::vector<ReportSection> sections = {};  ///< behind the plots
   /// The plots as data, one a figure in `plots` and then in `sections`, for a browser to zoom; or none.

@@ -401,7 +401,8 @@
     const point = event => {
       const left = event.clientX - canvas.getBoundingClientRect().left;
       const area = view.graph.getArea();
-      if (left >= area.x && left <= area.x + area.w) self.point(view.graph.toDataXCoord(left));
+      if (left >= area.x && left <= area.x + area.w)
+        self.point(view.graph.toDataXCoord(left), event.type === "pointerdown" || event.buttons > 0);
     };
     canvas.addEventListener("pointermove", point);
     canvas.addEventListener("pointerdown", point);
@@ -451,9 +452,15 @@
   };
 
   // The cursor: a line in all panels of all plots over the same x, the values under it beside the names.
-  Plot.prototype.point = function (at) {
-    for (const plot of made) if (plot.plot.xLabel === this.plot.xLabel) plot.tell(at);
+  Plot.prototype.point = function (at, pressed) {
+    // Who shows that time elsewhere may know better.
+    const detail = {label: this.plot.xLabel, at: at, pressed: pressed};
+    if (document.dispatchEvent(new CustomEvent("drycut-point", {detail: detail, cancelable: true})))
+      pointAt(this.plot.xLabel, at);
   };
+  function pointAt(label, at) {
+    for (const plot of made) if (plot.plot.xLabel === label) plot.tell(at);
+  }
   Plot.prototype.tell = function (at) {
     const within = at >= this.whole[0] && at <= this.whole[1];
     const [, name, unit] = this.plot.xLabel.match(/^(.*?)(?: \[(.*)\])?$/);
@@ -498,4 +505,5 @@
   figures.forEach(figure => made.push(new Plot(figure, data.plots[Number(figure.dataset.plot)])));
   dark.addEventListener("change", () => made.forEach(plot => plot.paint()));
   window.drycutPlots = made;
+  window.drycutPoint = pointAt;
 })();

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 
 #include "renders/gltf.hpp"
 #include "sim/loop/controller_loader.hpp"
@@ -24,29 +21,6 @@ namespace {
 
 constexpr std::size_t most_channels = 256;  ///< of an asker
 
-std::string read_bytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
-}
-
-/// A folder that goes again.
-struct PassingFolder {
-  PassingFolder() {
-    auto name = (fs::temp_directory_path() / "drycut-live-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder in " + name);
-    path = name;
-  }
-  ~PassingFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  fs::path path;
-};
-
 /// The machine as a .glb: its first frame, with all that may ever be seen.
 std::string machine_of(scenario::Scenario scenario, std::vector<std::string>& parts, Problems& problems) {
   auto& pictures = scenario.pictures;
@@ -62,13 +36,10 @@ std::string machine_of(scenario::Scenario scenario, std::vector<std::string>& pa
   const auto meshes = report::load_part_meshes(scenario, simulation.plants(), problems);
   if (!problems.empty()) return "";
   simulation.advance();
-  auto film = report::film_of(scenario, simulation, meshes);
+  const auto film = report::film_of(scenario, simulation, meshes);
   for (const auto& part : film.parts) parts.push_back(part.name);
   if (film.frames.empty() || film.parts.empty()) return "";
-  for (auto& placement : film.frames.front().placements) placement.visible = true;
-  const PassingFolder folder;
-  renders::write_gltf(film, folder.path / "machine.glb");
-  return read_bytes(folder.path / "machine.glb");
+  return renders::gltf_of_parts(film);
 }
 
 Replay read(const Line::Options& options, std::vector<std::string>& notes, Problems& problems) {

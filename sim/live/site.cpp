@@ -31,7 +31,7 @@ Site::Site(const std::filesystem::path& three) {
 std::optional<Site::File> Site::find(std::string_view path) const {
   if (path == "/") path = "/live.html";
   if (const auto found = three_.find(path); found != three_.end()) return File{type_of(path), found->second};
-  if (!path.starts_with("/live")) return {};
+  if (!path.starts_with("/live") && !path.starts_with("/view")) return {};
   const auto bytes = renders::embedded_file(path.substr(1));
   if (bytes.empty()) return {};
   return File{type_of(path), bytes};

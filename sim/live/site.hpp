@@ -7,9 +7,9 @@
 
 namespace drycut::sim::live {
 
-/// What the page of a live line is made of: its own files, which are built into the program (live*.* of
-/// renders/assets), and three.js, from the folder where its package (libjs-three) puts it. Where that is not
-/// installed its files are empty, and the page says what is missing.
+/// What the page of a live line is made of: its own files, which are built into the program (live*.* and
+/// view*.* of renders/assets), and three.js, from the folder where its package (libjs-three) puts it. Where
+/// that is not installed its files are empty, and the page says what is missing.
 class Site {
  public:
   explicit Site(const std::filesystem::path& three = "/usr/share/javascript/three");

@@ -273,6 +273,7 @@ std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation&
   }
   add_plots(std::move(plots), folder, report);
   report.sections = cam_sections(cams, report.plots);
+  if (scenario.pictures.view && !film.frames.empty()) report.view = renders::machine_view(film);
   renders::write_report(report, folder.add(report_file));
   return left_out;
 }

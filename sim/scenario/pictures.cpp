@@ -175,6 +175,9 @@ void visit(Archive& archive, PicturesSection& pictures) {
   archive.section({"frames", "pictures of the machine", pictures.frames},
                   [&](Archive& inner) { visit_frames(inner, pictures); });
   archive.value({"video", "the frames as a film too", pictures.frames}, form(pictures.video));
+  archive.value({"view", "the machine in 3-D in the report, moving as in the frames; on unless switched off",
+                 pictures.frames},
+                form(pictures.view));
   archive.value({"caption", "channels under the frames"}, form(pictures.caption));
   archive.value({"lamps", "channels there as lamps, lit unless 0", pictures.frames}, form(pictures.lamps));
   archive.value({"overlays", "what is drawn over the frames", pictures.frames},
@@ -187,6 +190,10 @@ void visit(Archive& archive, PicturesSection& pictures) {
   archive.judge([&pictures](MapReader& reader) {
     if (pictures.video && !reader.has("frames")) {
       reader.refuse("video", "pictures.video is a film of the frames, and there are none",
+                    "add frames: {every: 40 ms}");
+    }
+    if (pictures.view && reader.has("view") && !reader.has("frames")) {
+      reader.refuse("view", "pictures.view moves the machine as in the frames, and there are none",
                     "add frames: {every: 40 ms}");
     }
     if (pictures.live.size() > most_live)

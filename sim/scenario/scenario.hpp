@@ -258,6 +258,7 @@ struct PicturesSection {
   std::optional<Around> around;
   int slow = 1;        ///< frames every `every` / slow: at the film's pace, that many times slower
   bool video = false;  ///< the frames as a film file too
+  bool view = true;    ///< the machine in 3-D in the report, as long as the frames
   Place slow_place;
   std::string camera = "operator";  ///< what it shows: operator = the whole line, a plant by its name, or a
                                     ///< part: "knife.blade"

@@ -100,6 +100,9 @@ TEST(PicturesProblems, FramesAroundAnEvent) {
       {frames + "slow: 0}}\n", {"1:27: pictures.frames.slow is 0, out of range; 1 to 10000"}},
       {"pictures: {video: on}\n",
        {"1:12: pictures.video is a film of the frames, and there are none; add frames: {every: 40 ms}"}},
+      {"pictures: {view: on}\n",
+       {"1:12: pictures.view moves the machine as in the frames, and there are none; add frames: {every: 40 "
+        "ms}"}},
       {"pictures: {video: 3, frames: {}}\n",
        {"1:19: pictures.video: '3' is not a switch position; write on or off (or true, false)"}},
   });

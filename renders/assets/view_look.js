@@ -1,14 +1,17 @@
 /* global THREE */
-// How the machine looks: fine, with shadows and mirrored lamps, or plain, for computers without a graphics card,
+// How the machine looks, in the live page and in the report: fine, with shadows and mirrored lamps, or plain, for computers without a graphics card,
 // where every pixel counts: light at the corners only, a shadow that stands still. Colours are the film's.
-import { colour, make } from "./live_dom.js";
+const Look = (() => {
+"use strict";
+
+const paper = (width, height) => Object.assign(document.createElement("canvas"), { width, height });
 
 const toLight = [0.37, 0.82, 0.45];
 const squares = 60;
 
 /// Whether pictures are computed by the processor itself.
-export function isSlow() {
-  const probe = make("canvas").getContext("webgl");
+function isSlow() {
+  const probe = paper(1, 1).getContext("webgl");
   if (!probe) throw new Error("no WebGL");
   const told = probe.getExtension("WEBGL_debug_renderer_info");
   const name = told ? probe.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
@@ -19,7 +22,7 @@ export function isSlow() {
 /// What a shiny surface mirrors: floor, walls, a ceiling with a row of lamps.
 function hall() {
   const face = (paint) => {
-    const canvas = make("canvas", { width: 64, height: 64 });
+    const canvas = paper(64, 64);
     paint(canvas.getContext("2d"));
     return canvas;
   };
@@ -89,9 +92,12 @@ void main() {
 const fallenVertex = "varying vec2 at;\nvoid main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }";
 const fallenFragment = "uniform sampler2D map;\nvarying mediump vec2 at;\nvoid main() { gl_FragColor = texture2D(map, at); }";
 
-export class Look {
-  constructor(renderer, scene, fine) {
-    Object.assign(this, { renderer, scene, fine });
+return class Look {
+  static isSlow = isSlow;
+
+  /// `colour`: what a variable of the style sheet stands for now.
+  constructor(renderer, scene, fine, colour) {
+    Object.assign(this, { renderer, scene, fine, colour });
     renderer.setClearColor(0x000000, 0);
     renderer.gammaFactor = 2;
     renderer.gammaOutput = fine;
@@ -129,8 +135,8 @@ export class Look {
 
   /// Colours of the hall, by day or night; behind the picture is the style sheet's.
   paint() {
-    this.scene.fog = new THREE.Fog(new THREE.Color(colour("hall")), 1, 100);
-    this.grid.material.color = new THREE.Color(colour("hall-line"));
+    this.scene.fog = new THREE.Fog(new THREE.Color(this.colour("hall")), 1, 100);
+    this.grid.material.color = new THREE.Color(this.colour("hall-line"));
     // Lines are colours of the page: as they are written, whatever the gamma.
     if (this.fine) for (const one of [this.grid.material.color, this.scene.fog.color]) one.convertGammaToLinear(2);
     this.fogAt();
@@ -202,4 +208,5 @@ export class Look {
   go() {
     this.scene.remove(this.grid, this.floor, ...(this.lights ?? []));
   }
-}
+};
+})();
