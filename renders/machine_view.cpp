@@ -138,7 +138,7 @@ std::string live_view(const MachineView& view, const std::string& folder, std::s
   if (page.size() > most_bytes)
     return remark(fmt::format("The machine cannot be turned in 3-D: that would add {} MB to this report.",
                               page.size() >> 20U));
-  for (const auto* name : {"view_look.js", "view_still.js", "view.js", "report_view.js"})
+  for (const auto* name : {"view_backdrop.js", "view_look.js", "view_still.js", "view.js", "report_view.js"})
     page += fmt::format("<script>{}</script>\n", embedded_file(name));
   return page;
 }

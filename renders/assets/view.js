@@ -1,4 +1,4 @@
-/* global THREE, Look, Still */
+/* global THREE, Look, Still, Backdrop */
 // A machine in 3-D: the parts of a .glb, put where they are told, looked at from all sides. The live page and the
 // report use it.
 const View = (() => {
@@ -40,11 +40,7 @@ return class View {
     this.due = 0;
     this.chosen = null;
     if (typeof THREE === "undefined") throw new Error("three.js (package libjs-three) is not installed");
-    try {
-      this.stage();
-    } catch {
-      throw new Error("this browser gives no WebGL");
-    }
+    this.stage();
   }
 
   stage() {
@@ -54,7 +50,7 @@ return class View {
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "The machine in 3-D. Arrows turn it, plus and minus come nearer and go away.");
     const slow = Look.isSlow();
-    const context = canvas.getContext("webgl", { alpha: true, antialias: !slow, powerPreference: "high-performance" });
+    const context = this.contextOf(canvas, { alpha: true, antialias: !slow, powerPreference: "high-performance" });
     this.renderer = new THREE.WebGLRenderer({ canvas, context, alpha: true });
     this.probe = document.createElement("span");
     this.probe.hidden = true;
@@ -66,15 +62,20 @@ return class View {
     this.orbit = new THREE.OrbitControls(this.camera, canvas);
     this.orbit.enableKeys = false;
     this.orbit.maxPolarAngle = Math.PI / 2 - 0.02;
-    this.orbit.addEventListener("change", () => { this.stale = true; });
+    this.orbit.addEventListener("change", () => this.renew());
     this.orbit.addEventListener("start", () => this.choose(null));
     canvas.addEventListener("keydown", (event) => this.key(event));
 
     this.still = new Still(this.scene);
+    this.backdrop = new Backdrop(this.renderer, this.scene, this.camera);
     this.look = this.newLook(!slow);
     new ResizeObserver(() => this.fit()).observe(this.holder);
     new IntersectionObserver((seen) => { this.inSight = seen.at(-1).isIntersecting; }).observe(this.holder);
     requestAnimationFrame((now) => this.draw(now));
+  }
+
+  contextOf(canvas, options) {
+    return canvas.getContext("webgl2", options) ?? canvas.getContext("webgl", options);
   }
 
   newLook(fine) {
@@ -84,10 +85,16 @@ return class View {
     });
   }
 
+  /// Another picture, of which nothing is as it was.
+  renew() {
+    this.backdrop.renew();
+    this.stale = true;
+  }
+
   /// In the colours of the page as they are now.
   paint() {
     this.look.paint();
-    this.stale = true;
+    this.renew();
   }
 
   /// The parts of these names from the bytes of a .glb, in place of those before. False if it was asked for others meanwhile.
@@ -111,7 +118,7 @@ return class View {
     this.patience = this.waits = firstPatience;
     this.scene.add(model.scene);
     this.offerViews();
-    this.stale = true;
+    this.renew();
     return true;
   }
 
@@ -149,10 +156,12 @@ return class View {
     if (this.still.parts.length > 0) {
       if (this.joined.every((i) => this.quiet[i] > 0)) return;
       this.still.part();
+      this.backdrop.renew();
       this.waits = this.patience *= 2;
     } else if (--this.waits <= 0) {
       this.joined = [...this.parts.keys()].filter(
         (i) => this.parts[i]?.isMesh && this.parts[i].visible && this.quiet[i] >= firstPatience / 2);
+      this.backdrop.renew();
       if (this.joined.length > 1) this.still.join(this.joined.map((i) => this.parts[i]));
       this.waits = this.patience;
     }
@@ -194,7 +203,7 @@ return class View {
     this.orbit.maxDistance = 6 * this.look.size;
     this.orbit.update();
     this.choose(from === "free" ? plant ?? "" : from);
-    this.stale = true;
+    this.renew();
   }
 
   offerViews() {
@@ -242,13 +251,14 @@ return class View {
     const { chosen } = this;
     if (chosen !== null && this.bounds)
       this.view(chosen in directions ? chosen : "free", chosen in directions || chosen === "" ? null : chosen);
-    this.stale = true;
+    this.renew();
   }
 
   /// Pixels of the picture: the screen's, and more where a plain one stands still.
   fineness(resting) {
     if (this.resting === resting) return;
     this.resting = resting;
+    this.backdrop.renew();
     const screen = Math.min(2, window.devicePixelRatio);
     this.renderer.setPixelRatio(resting ? 2 : this.look.fine ? screen : 1);
   }
@@ -283,7 +293,7 @@ return class View {
     this.due = Math.max(this.due + plainFrame, now);
     this.stale = false;
     this.fineness(rested);
-    this.renderer.render(this.scene, this.camera);
+    this.backdrop.draw(!this.look.fine && !rested && this.still.parts.length > 0);
     this.frames += 1;
     this.judge(now);
   }

@@ -1,4 +1,4 @@
-/* global THREE */
+/* global THREE, Backdrop */
 // How the machine looks, in the live page and in the report: fine, with shadows and mirrored lamps, or plain, for computers without a graphics card,
 // where every pixel counts: light at the corners only, a shadow that stands still. Colours are the film's.
 const Look = (() => {
@@ -12,7 +12,7 @@ const squares = 60;
 /// Whether pictures are computed by the processor itself.
 function isSlow() {
   const probe = paper(1, 1).getContext("webgl");
-  if (!probe) throw new Error("no WebGL");
+  if (!probe) throw new Error("this browser gives no WebGL");
   const told = probe.getExtension("WEBGL_debug_renderer_info");
   const name = told ? probe.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
   probe.getExtension("WEBGL_lose_context")?.loseContext();
@@ -106,6 +106,7 @@ return class Look {
     this.grid = new THREE.GridHelper(1, squares, 0xffffff, 0xffffff);
     this.grid.material = new THREE.LineBasicMaterial({ transparent: true, depthWrite: false });
     this.floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2).rotateX(-Math.PI / 2));
+    for (const one of [this.grid, this.floor]) one.layers.set(Backdrop.standing);
     scene.add(this.grid, this.floor);
     if (fine) {
       this.lamp = new THREE.DirectionalLight(0xfff6ea, 0.8);
@@ -195,7 +196,9 @@ return class Look {
     scene.overrideMaterial = caster;
     renderer.setRenderTarget(this.sharp);
     renderer.clear();
-    renderer.render(scene, new THREE.Camera());
+    const above = new THREE.Camera();
+    above.layers.enable(Backdrop.standing);
+    renderer.render(scene, above);
     renderer.setRenderTarget(this.soft);
     renderer.clear();
     renderer.render(this.blur, new THREE.Camera());

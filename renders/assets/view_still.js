@@ -1,4 +1,4 @@
-/* global THREE */
+/* global THREE, Backdrop */
 // Parts that stand still are drawn as one: a picture costs by the number of its parts.
 const Still = (() => {
 "use strict";
@@ -25,6 +25,7 @@ return class Still {
     for (const [material, group] of groups) {
       const mesh = new THREE.Mesh(joined(group), material);
       Object.assign(mesh, { castShadow: group[0].castShadow, receiveShadow: group[0].receiveShadow, frustumCulled: false });
+      mesh.layers.set(Backdrop.standing);
       this.meshes.push(mesh);
       this.scene.add(mesh);
     }
