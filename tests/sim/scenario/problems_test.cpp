@@ -23,7 +23,7 @@ TEST(ScenarioProblems, Text) {
   const std::string sections =
       "1:1: the scenario is empty; its sections are: extends, variables, scene, plants, controller, wiring, "
       "filters, "
-      "panel, timeline, disturbances, record, drives, checks, pictures";
+      "panel, timeline, disturbances, record, drives, checks, pictures, opcua";
   expect_problems({
       {"", {sections}},
       {"# only a comment\n", {sections}},
@@ -66,7 +66,7 @@ TEST(ScenarioProblems, Yaml) {
        {"2:1: unknown key '<<'; known: extends, variables, scene, plants, controller, wiring, filters, "
         "panel, timeline, disturbances, "
         "record, drives, checks, "
-        "pictures"}},
+        "pictures, opcua"}},
       {"scene: {}\n---\nscene: {}\n",
        {"3:1: something stands after the end of the document; one document a file, and nothing after its "
         "closing "
