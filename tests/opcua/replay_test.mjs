@@ -18,7 +18,7 @@ test("a session with writes of a client runs again to the byte", async () => {
   await client.call("Line/Start");
   assert.equal(await client.write("Plants/web/Settings/speed", DataType.Double, 48.5), "Good");
   assert.equal(await client.write("Faults/web.wheel/slip", DataType.Double, 1.5), "Good");
-  assert.equal(await client.write("Controllers/qmove/slLength", DataType.Double, 790), "Good");
+  assert.equal(await client.write("Controllers/qmove/slLength", DataType.Int32, 790), "Good");
   const reached = await client.value("Line/Time");
   await until(async () => (await client.value("Line/Time")) > reached + 0.3);
   await client.call("Line/Stop");
