@@ -117,8 +117,6 @@ class Simulation {
   /// The controller's values as they are now, by name, with units; rows of cam tables only where they are not
   /// 0.
   [[nodiscard]] std::vector<Reading> controller_values();
-  /// nullptr if there is none.
-  [[nodiscard]] devices::Controller* controller() { return controller_.get(); }
   /// The controller's retentive values as they are now, as text.
   [[nodiscard]] std::string retentive_state() const {
     return controller_ ? controller_->retentive_state() : "";
