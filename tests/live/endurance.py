@@ -19,6 +19,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 import websockets
@@ -94,6 +95,31 @@ class Watcher:
                     return
 
 
+class ModbusClient(threading.Thread):
+    """An HMI: reads a hundred words ten times a second and writes one of them back every second."""
+
+    def __init__(self, port):
+        super().__init__(daemon=True)
+        self.port = port
+        self.reads = self.writes = self.failures = 0
+        self.going = True
+
+    def run(self):
+        from pymodbus.client import ModbusTcpClient
+        client = ModbusTcpClient("127.0.0.1", port=self.port)
+        client.connect()
+        while self.going:
+            answer = client.read_holding_registers(0, 100, slave=1)
+            self.reads += 1
+            if answer.isError():
+                self.failures += 1
+            elif self.reads % 10 == 0:
+                self.writes += 1
+                self.failures += client.write_register(99, answer.registers[99], slave=1).isError()
+            time.sleep(0.1)
+        client.close()
+
+
 def flat(memory):
     """Memory of the last tenth is not above that of the second tenth by more than 2 %."""
     tenth = max(1, len(memory) // 10)
@@ -106,24 +132,44 @@ async def main():
     options = arguments()
     folder = options.out or pathlib.Path(tempfile.mkdtemp(prefix="drycut-endurance-"))
     folder.mkdir(parents=True, exist_ok=True)
-    line = subprocess.Popen([options.program, "live", options.scene, "--port", "0", "--record", folder / "record"],
+    wires = (["--modbus", "0"] if options.modbus else []) + (["--opcua", "0"] if options.opcua else [])
+    line = subprocess.Popen([options.program, "live", options.scene, "--port", "0", "--record", folder / "record", *wires],
                             stdout=subprocess.PIPE, text=True)
-    url = re.search(r"http://\S+", line.stdout.readline())[0]
+    said = line.stdout.readline()
+    url = re.search(r"http://\S+", said)[0]
     clients = []
     if options.page:
         clients.append(subprocess.Popen(
             [shutil.which("chromium"), "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1280,720",
              "--remote-debugging-port=0", f"--user-data-dir={folder / 'chromium'}", url],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True))
+    modbus = opcua = None
+    if options.modbus:
+        modbus = ModbusClient(int(re.search(r"Modbus TCP: \S+ port (\d+)", line.stdout.readline())[1]))
+        modbus.start()
+    if options.opcua:
+        address = None
+        while not address:
+            address = re.search(r"opc\.tcp://\S+", line.stdout.readline())
+        opcua = subprocess.Popen(["node", pathlib.Path(__file__).parent / "opcua_client.mjs", address[0], str(options.seconds - 5)],
+                                 env={**os.environ, "DRYCUT_OPCUA": str(options.opcua.resolve())})
     watcher = Watcher(url, line.pid)
     await watcher.run(options.seconds)
+    failures = []
+    if modbus:
+        modbus.going = False
+        modbus.join()
+        print(f"Modbus: {modbus.reads} reads, {modbus.writes} writes, {modbus.failures} failures")
+        if modbus.failures:
+            failures.append("Modbus requests failed")
+    if opcua and opcua.wait() != 0:
+        failures.append("the client of OPC UA failed")
     for client in clients:
         os.killpg(client.pid, signal.SIGKILL)
     line.send_signal(signal.SIGINT)
     line.wait()
 
     late = watcher.news["late"]
-    failures = []
     share = late["late"] / late["cycles"]
     print(f"late: {100 * share:.4f} % of {late['cycles']} cycles, worst {late['worst'] * 1e3:.2f} ms, not made good {late['dropped']} s")
     if share > 0.001:
