@@ -63,7 +63,6 @@ LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
   machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
   if (!problems.empty()) return;
   fingerprint_ = fingerprint_of(scenario_);
-  scenario_.pictures = {};
   simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
   if (!problems.empty()) return;
   simulation_->keep_nothing();

@@ -154,8 +154,11 @@ TEST(ModbusMemory, HasGapsThatReadZeroAndCannotBeWritten) {
   EXPECT_FALSE(map.written(table, 3));
   EXPECT_TRUE(map.written(table, 7));
   EXPECT_FALSE(map.read(table, 12)) << "behind the last";
-  for (const auto other : all_tables)
-    if (other != table) EXPECT_FALSE(map.read(other, 0));
+  for (const auto other : all_tables) {
+    if (other != table) {
+      EXPECT_FALSE(map.read(other, 0));
+    }
+  }
   EXPECT_TRUE(map.answers(17));
   powered = false;
   EXPECT_FALSE(map.answers(17));

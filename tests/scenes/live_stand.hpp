@@ -38,7 +38,9 @@ class Stand {
   explicit Stand(const std::string& text, const std::string& program = "") {
     if (!program.empty()) folder_.file("p.st", program);
     Problems problems;
-    line_.emplace(live::Line::Options{folder_.file("line.yaml", text), {}, 0, false, {}}, problems);
+    line_.emplace(
+        live::Line::Options{.scenario = folder_.file("line.yaml", text), .pace = 0, .running = false},
+        problems);
     EXPECT_EQ(lines_of(problems), "");
     serve(0);
     work_ = std::thread([this] {

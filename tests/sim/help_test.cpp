@@ -50,11 +50,14 @@ TEST_F(Help, TellsEveryOptionWithItsDefault) {
 TEST_F(Help, ExamplesHaveOptionsThatThereAre) {
   for (const auto* command : commands()) {
     for (const auto line : examples_of(command->get_name())) {
-      for (const auto& word : split_words(line, {}, " "))
-        if (word.text.starts_with("--"))
+      for (const auto& word : split_words(line, {}, " ")) {
+        if (word.text.starts_with("--")) {
           EXPECT_NE(command->get_option_no_throw(std::string(word.text)), nullptr) << line;
-      if (!line.starts_with(' '))
+        }
+      }
+      if (!line.starts_with(' ')) {
         EXPECT_TRUE(line.starts_with("drycut " + command->get_name() + " ")) << line;
+      }
     }
   }
 }

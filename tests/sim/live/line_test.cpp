@@ -203,7 +203,9 @@ TEST_F(LiveLine, ASettingThatNobodyUsesGoesAsFarAsItsUsualValue) {
   RunningLine line(options);
   const auto told = line.description();
   for (const auto& target : told->targets) {
-    if (target.name == "web.speed") EXPECT_NEAR(target.used, 60, 1e-9);
+    if (target.name == "web.speed") {
+      EXPECT_NEAR(target.used, 60, 1e-9);
+    }
     EXPECT_FALSE(target.push);
   }
 }

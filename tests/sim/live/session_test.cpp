@@ -73,6 +73,22 @@ TEST_F(LiveSession, RunAgainIsTheSameBytes) {
   expect_same(folder / "record/2", folder / "again/session");
 }
 
+// What pictures draw is recorded too.
+TEST_F(LiveSession, RecordsWhatPlotsShow) {
+  {
+    RunningLine line({.scenario = folder.file(
+                          "web.yaml", web_alone + "pictures: {plots: [{channels: [web.thickness]}]}\n"),
+                      .pace = 0,
+                      .running = false,
+                      .record = folder / "record"});
+    line.ask(Advance{100 * millisecond});
+    line.until([](const News& news) { return news.time == 100 * millisecond; });
+  }
+  replay(folder / "record/1");
+  EXPECT_THAT(bytes_of(folder / "record/1/trace.csv"), HasSubstr("web.thickness"));
+  expect_same(folder / "record/1", folder / "again/session");
+}
+
 TEST_F(LiveSession, EveryRunTakesTheNextFolder) {
   const auto scenario = folder.file("web.yaml", web_alone);
   const auto run = [&] {
