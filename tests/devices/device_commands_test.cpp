@@ -12,15 +12,14 @@ namespace {
 class DeviceCommands : public testing::TestWithParam<int> {
  protected:
   [[nodiscard]] const devices::CatalogueEntry& entry() const {
-    return devices::catalogue()[static_cast<std::size_t>(GetParam())];
+    return *axes()[static_cast<std::size_t>(GetParam())];
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, DeviceCommands,
-                         testing::Range(0, static_cast<int>(devices::catalogue().size())),
+INSTANTIATE_TEST_SUITE_P(Each, DeviceCommands, testing::Range(0, static_cast<int>(axes().size())),
                          [](const auto& instance) {
                            const auto place = static_cast<std::size_t>(instance.param);
-                           return std::string(devices::catalogue()[place].type->name);
+                           return std::string(axes()[place]->type->name);
                          });
 
 TEST_P(DeviceCommands, RandomSequencesBreakNoLawAndEndInAStart) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "devices/camming4/codes.hpp"
 #include "devices/catalogue.hpp"
@@ -73,7 +74,19 @@ class Bytes {
   std::size_t next_ = 0;
 };
 
-/// One device of the catalogue and the bytes that happen to it.
+/// Devices of the catalogue that move an axis: they count.
+inline std::vector<const devices::CatalogueEntry*> axes() {
+  std::vector<const devices::CatalogueEntry*> all;
+  for (const auto& entry : devices::catalogue()) {
+    const auto counts = [](const devices::Field& field) {
+      return field.kind == devices::Field::Kind::counter;
+    };
+    if (std::any_of(entry.type->fields.begin(), entry.type->fields.end(), counts)) all.push_back(&entry);
+  }
+  return all;
+}
+
+/// One axis of the catalogue and the bytes that happen to it.
 class DevicePlayer {
  public:
   DevicePlayer(const devices::CatalogueEntry& entry, int period_ms, int slot)
@@ -284,8 +297,8 @@ class DevicePlayer {
 /// is simulated. The law that was broken, with the device's name, or "".
 inline std::string play_device_commands(std::span<const std::uint8_t> data) {
   Bytes bytes(data);
-  const auto entries = devices::catalogue();
-  const auto& entry = entries[static_cast<std::size_t>(bytes.below(entries.size()))];
+  static const auto entries = axes();
+  const auto& entry = *entries[static_cast<std::size_t>(bytes.below(entries.size()))];
   const int period_ms = bytes.byte();
   const int slot = bytes.byte() % 4 == 0 ? 1 : 2;
   DevicePlayer player(entry, period_ms, slot);

@@ -538,14 +538,14 @@ TEST_F(PlcopenModbus, SaysWhatDoesNotFit) {
           "real32}}\n"
           "      input_registers: {8: {value: speed, type: real64}, 11: batch}\n")),
       ElementsAre(
-          HasSubstr("line.yaml:5:15: '65536' is no address; 0 to 65535"),
-          HasSubstr("line.yaml:5:26: 'x' is no address"),
-          HasSubstr("line.yaml:5:36: the controller has nothing called 'goo'; did you mean go?"),
-          HasSubstr("line.yaml:6:27: batch stands at address 4 already"),
-          HasSubstr("line.yaml:6:37: batch stands at address 3 already; give each addresses of its own: "
+          HasSubstr("line.yaml:6:15: '65536' is no address; 0 to 65535"),
+          HasSubstr("line.yaml:6:26: 'x' is no address"),
+          HasSubstr("line.yaml:6:36: the controller has nothing called 'goo'; did you mean go?"),
+          HasSubstr("line.yaml:7:27: batch stands at address 4 already"),
+          HasSubstr("line.yaml:7:37: batch stands at address 3 already; give each addresses of its own: "
                     "this one takes 2"),
-          HasSubstr("line.yaml:6:70: '65535' is no address; 0 to 65534"),
-          HasSubstr("line.yaml:7:61: speed stands at address 11 already")));
+          HasSubstr("line.yaml:7:69: '65535' is no address; 0 to 65534"),
+          HasSubstr("line.yaml:8:58: speed stands at address 11 already")));
   problems.clear();
   EXPECT_THAT(
       build(map("      coils: {1: {value: go}}\n      holding_registers: {1: {value: speed, type: int8}, 2: "

@@ -231,8 +231,10 @@ void Declarations::declare_named(Unit& unit, Type& owner, const VarSection& sect
              ":= value behind its type");
   }
   expect(";", "ends a declaration");
-  if ((place.terminal || place.memory) && names.size() > 1)
-    give_up(names[1].place, "two variables at one place", "declare each with its own AT");
+  if ((place.terminal || place.memory) && names.size() > 1) {
+    complain(names[1].place, "two variables at one place", "declare each with its own AT");
+    place = {};
+  }
   for (const Token& name : names) add_variable(unit, owner, section, name, type, place, initial);
 }
 

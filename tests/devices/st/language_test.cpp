@@ -438,7 +438,7 @@ TEST(StTasks, FaultsOfAConfigurationAreTold) {
 TEST(StMemory, VariablesHaveTheirPlacesByTheNamesThatPeopleGiveThem) {
   Problems problems;
   const auto program = compile(
-      "VAR_GLOBAL g AT %MD3 : REAL; END_VAR\n"
+      "VAR_GLOBAL g AT %MD6 : REAL; END_VAR\n"
       "PROGRAM P VAR a AT %MW5 : ARRAY [-1..2] OF WORD; END_VAR END_PROGRAM\n"
       "PROGRAM Q VAR b AT %MX0.7 : BOOL; c AT %ML9 : LREAL; END_VAR END_PROGRAM\n"
       "PROGRAM R VAR d AT %MW100 : INT; END_VAR END_PROGRAM\n"
@@ -451,7 +451,7 @@ TEST(StMemory, VariablesHaveTheirPlacesByTheNamesThatPeopleGiveThem) {
     all += fmt::format("{} {}{} x{} {};", variable.name, plcopen::to_string(variable.place),
                        variable.low ? fmt::format(" from {}", *variable.low) : "", variable.count,
                        static_cast<int>(variable.format));
-  EXPECT_EQ(all, "g %MD3 x1 5;one.a %MW5 from -1 x4 2;two.b %MX0.7 x1 0;two.c %ML9 x1 6;")
+  EXPECT_EQ(all, "g %MD6 x1 5;one.a %MW5 from -1 x4 2;two.b %MX0.7 x1 0;two.c %ML9 x1 6;")
       << "R runs nowhere";
 }
 

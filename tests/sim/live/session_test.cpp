@@ -76,16 +76,19 @@ TEST_F(LiveSession, RunAgainIsTheSameBytes) {
 // What pictures draw is recorded too.
 TEST_F(LiveSession, RecordsWhatPlotsShow) {
   {
-    RunningLine line({.scenario = folder.file(
-                          "web.yaml", web_alone + "pictures: {plots: [{channels: [web.thickness]}]}\n"),
-                      .pace = 0,
-                      .running = false,
-                      .record = folder / "record"});
+    RunningLine line(
+        {.scenario = folder.file(
+             "web.yaml",
+             web_alone +
+                 "pictures: {plots: [{name: lead, panels: [{title: Lead, channels: [web.lead]}]}]}\n"),
+         .pace = 0,
+         .running = false,
+         .record = folder / "record"});
     line.ask(Advance{100 * millisecond});
     line.until([](const News& news) { return news.time == 100 * millisecond; });
   }
   replay(folder / "record/1");
-  EXPECT_THAT(bytes_of(folder / "record/1/trace.csv"), HasSubstr("web.thickness"));
+  EXPECT_THAT(bytes_of(folder / "record/1/trace.csv"), HasSubstr("web.lead"));
   expect_same(folder / "record/1", folder / "again/session");
 }
 
