@@ -92,7 +92,10 @@ export class Session {
       ...options,
     });
     await client.connect(url);
-    const session = await client.createSession(identity);
+    const session = await client.createSession(identity).catch(async (refused) => {
+      await client.disconnect();
+      throw refused;
+    });
     const made = new Session();
     Object.assign(made, { client, session });
     made.namespaces = await session.readNamespaceArray();

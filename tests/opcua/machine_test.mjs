@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { DataType, Program, scene, scenes, Session, start_line, until } from "./bench.mjs";
 
-const { Double } = DataType;
+const { Int32 } = DataType;
 const saw = (opcua) => `extends: ${scenes}/flying_saw_lx3vp.yaml\ntimeline: []\nopcua: ${opcua}\n`;
 const registers = "Controllers/lx3vp";
 let line;
@@ -13,7 +13,7 @@ let client;
 before(async () => {
   line = await start_line(scene("saw.yaml", saw("{packml: {state: D510, mode: D511}, machinery: {out_of_service: D512, mode: D1030}}")));
   client = await Session.open(line.url);
-  await client.write(`${registers}/D512`, Double, 0);
+  assert.equal(await client.write(`${registers}/D512`, Int32, 0), "Good");
   await until(async () => (await client.value(`${registers}/D512`)) === 0);
 });
 after(async () => {
@@ -48,7 +48,7 @@ for (const [number, base, machine, execute, item] of [
   [17, "Cleared", "Running", "Complete", "NotExecuting"],
 ])
   test(`PackML state ${number}`, async () => {
-    assert.equal(await client.write(`${registers}/D510`, Double, number), "Good");
+    assert.equal(await client.write(`${registers}/D510`, Int32, number), "Good");
     await until(async () => (await client.value(`${registers}/D510`)) === number);
     const first = await child("PackML", "BaseStateMachine");
     const second = await child(first, "MachineState");
@@ -68,9 +68,9 @@ for (const [number, base, machine, execute, item] of [
   });
 
 test("modes, and a machine out of service", async () => {
-  await client.write(`${registers}/D511`, Double, 3);
-  await client.write(`${registers}/D1030`, Double, 2);
-  await client.write(`${registers}/D512`, Double, 1);
+  await client.write(`${registers}/D511`, Int32, 3);
+  await client.write(`${registers}/D1030`, Int32, 2);
+  await client.write(`${registers}/D512`, Int32, 1);
   const item = await child("MachineryItemState", "CurrentState");
   await until(async () => (await state(item)) === "OutOfService");
   assert.equal(await state(await child("MachineryOperationMode", "CurrentState")), "Setup");
@@ -86,15 +86,15 @@ test("a saw tells whether its clamps grip", async () => {
 
 for (const [opcua, place, what, remedy] of [
   ["{packml: {state: D11O0}}", "3:25", "there is no value 'D11O0'", "."],
-  ["{packml: {mode: D511}}", "3:9", "state", "name the value that holds the number of the PackML state"],
+  ["{packml: {mode: D511}}", "3:17", "state", "name the value that holds the number of the PackML state"],
   ["{packml: {state: saw.spede}}", "3:25", "there is no value 'saw.spede'", "saw.speed"],
   ["{machinery: {}}", "3", "says nothing", "executing: "],
   ["{machinery: {executing: M1O, mode: saw.spede}}", "3:43", "there is no value 'saw.spede'", "saw.speed"],
-  ["{cutters: {sow: {length: DD100}}}", "3:20", "no plant 'sow' cuts", "saw"],
-  ["{cutters: {tube: {length: DD100}}}", "3:20", "no plant 'tube' cuts", "saw"],
+  ["{cutters: {sow: {length: DD100}}}", "3:19", "no plant 'sow' cuts", "saw"],
+  ["{cutters: {tube: {length: DD100}}}", "3:19", "no plant 'tube' cuts", "saw"],
   ["{cutters: {saw: {lenght: DD100}}}", "3", "lenght", "length"],
   ["{cutters: {saw: {}}}", "3", "length", "name the value"],
-  ["{machine: {maker: Weber}}", "3:20", "maker", "manufacturer"],
+  ["{machine: {maker: Weber}}", "3:19", "maker", "manufacturer"],
 ])
   test(`opcua: ${opcua} is refused with its place`, async () => {
     const file = scene("wrong.yaml", saw(opcua));
