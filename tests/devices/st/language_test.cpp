@@ -1,5 +1,6 @@
 // What ordinary programs contain beside the plainest: literals in their context, operators as functions, EN
 // and ENO, texts, dates, 64 bits, single bits, ranges, blocks in structures, constants as bounds.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <functional>

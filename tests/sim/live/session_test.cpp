@@ -1,5 +1,11 @@
 // A live session run again is the same bytes; a file that is none is told where.
 #include "sim/live/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
 #include "sim/cli/live_command.hpp"
 #include "sim/cli/run_command.hpp"
 #include "tests/sim/command_bench.hpp"

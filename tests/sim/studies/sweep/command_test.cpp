@@ -1,5 +1,7 @@
 // drycut sweep and drycut envelope on a web whose speed a check limits: what holds where is known beforehand.
+#include <fmt/format.h>
 #include <sys/wait.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
