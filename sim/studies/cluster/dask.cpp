@@ -18,8 +18,8 @@
 
 #include "renders/embedded.hpp"
 #include "renders/html.hpp"
-#include "sim/studies/cluster/engine.hpp"
 #include "sim/interrupt.hpp"
+#include "sim/studies/cluster/engine.hpp"
 
 extern char** environ;  // NOLINT: POSIX gives the environment to hand on under this name
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sim/interrupt.hpp"
 #include "sim/parallel.hpp"
 #include "sim/studies/cluster/bundle.hpp"
-#include "sim/interrupt.hpp"
 
 namespace drycut::sim::cluster {
 

@@ -16,8 +16,8 @@
 
 #include "base/text.hpp"
 #include "renders/process.hpp"
-#include "sim/studies/cluster/engine.hpp"
 #include "sim/interrupt.hpp"
+#include "sim/studies/cluster/engine.hpp"
 #include "sim/studies/fingerprint.hpp"
 
 namespace drycut::sim::cluster {
