@@ -67,11 +67,17 @@ std::vector<const CLI::App*> commands_of(const CLI::App& program) {
   return {all.begin(), all.end()};
 }
 
+/// What it does, without the rest.
+std::string beginning_of(const std::string& description) {
+  auto end = description.find('\n');
+  for (const auto* mark : {": ", ". ", "; "}) end = std::min(end, description.find(mark));
+  return description.substr(0, end);
+}
+
 std::string program_page(const CLI::App& program) {
   auto text = program.get_description() + "\n\ndrycut COMMAND [options]\n\n";
   for (const auto* command : commands_of(program)) {
-    const auto description = command->get_description();
-    text += row(command->get_name(), description.substr(0, description.find_first_of(".\n")));
+    text += row(command->get_name(), beginning_of(command->get_description()));
   }
   text += "\n";
   for (const auto* option : program.get_options()) text += row(spelling(*option), option->get_description());
@@ -80,10 +86,13 @@ std::string program_page(const CLI::App& program) {
 
 std::string command_page(const CLI::App& command) {
   auto text = wrapped(synopsis(command), 4, 0) + "\n\n";
-  for (const auto& line : split_lines(command.get_description())) text += wrapped(line, 0, 0) + "\n";
+  const auto description = command.get_description();
+  for (const auto line : split_lines(description)) text += wrapped(line, 0, 0) + "\n";
   text += "\n";
-  for (const auto* option : command.get_options())
-    text += row(spelling(*option), option->get_description() + default_of(*option));
+  for (const bool positional : {true, false})
+    for (const auto* option : command.get_options())
+      if (option->get_positional() == positional)
+        text += row(spelling(*option), option->get_description() + default_of(*option));
   return text;
 }
 
@@ -214,6 +223,7 @@ std::string HelpPage::make_help(const CLI::App* app, std::string /*name*/,
 
 void add_commands(CLI::App& app, int& status) {
   app.formatter(std::make_shared<HelpPage>());
+  app.require_subcommand(1);  // and what follows is no command more: drycut help run
   for (const auto add : {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep,
                          add_envelope, add_size, add_bode, add_compare, add_convert, add_devices, add_plants,
                          add_help, add_reference, add_work})

@@ -27,7 +27,6 @@ using namespace drycut::sim::cli;
 
 int run(int argc, char** argv) {
   CLI::App app{"drycut: virtual commissioning for cut-to-length lines"};
-  app.require_subcommand(1);
   app.set_version_flag("--version", version_text());
   int status = all_passed;
 

@@ -1,6 +1,8 @@
 // --help, drycut help and --version: what they say is so, and fits a terminal.
 #include "sim/cli/help.hpp"
 
+#include <algorithm>
+
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
@@ -10,12 +12,24 @@ namespace {
 
 using testing::HasSubstr;
 
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 struct Help : CommandTest {
   Help() { add_commands(program, status); }
   int parse(const std::vector<std::string>& words) {
+    CLI::App fresh{"drycut"};
+    int result = all_passed;
+    add_commands(fresh, result);
     return captured([&] {
-      program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-      return status;
+      try {
+        fresh.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+      } catch (const CLI::Error& error) {
+        ADD_FAILURE() << error.get_name() << ": " << error.what();
+      }
+      return result;
     });
   }
   std::vector<const CLI::App*> commands() {
@@ -42,9 +56,10 @@ TEST_F(Help, TellsEveryOptionWithItsDefault) {
   for (const auto* command : commands()) {
     const auto text = command->help();
     for (const auto* option : command->get_options()) EXPECT_THAT(text, HasSubstr("  " + spelling(*option)));
+    EXPECT_THAT(in_one_line(text), HasSubstr(in_one_line(command->get_description())));
   }
   EXPECT_THAT(program.get_subcommand("run")->help(), HasSubstr("Directory for the results (default: out)"));
-  EXPECT_THAT(program.help(), HasSubstr("\n  envelope                Find the largest value"));
+  EXPECT_THAT(program.help(), HasSubstr("\n  run                     Run scenarios\n"));
 }
 
 TEST_F(Help, ExamplesHaveOptionsThatThereAre) {
