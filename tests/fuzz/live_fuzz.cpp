@@ -27,8 +27,7 @@ using tcp = asio::ip::tcp;
 
 constexpr auto* scenario = R"(scene: {title: A web, step: 1 ms, duration: 2 s}
 plants:
-  web: {type: web, speed: 60 m/min}
-  encoder: {type: measuring_wheel, on: web, circumference: 500 mm, lines: 1000}
+  web: {type: web, speed: 60 m/min, wheel: {lines: 1000}}
 checks: [{name: slow enough, always: web.speed <= 62 m/min}]
 )";
 
