@@ -40,6 +40,7 @@ class Descriptor {
     number_ = -1;
   }
   int get() const { return number_; }
+  int release() { return std::exchange(number_, -1); }
 
  private:
   int number_;
@@ -69,6 +70,15 @@ void receive(Descriptor& from, std::string& text) {
   }
 }
 
+/// 0, or errno of a start that failed; the first word is looked for in PATH.
+int spawn(pid_t& child, std::vector<std::string> words, const posix_spawn_file_actions_t& actions,
+          const posix_spawnattr_t* attributes) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  return posix_spawnp(&child, words.front().c_str(), &actions, attributes, arguments.data(), environ);
+}
+
 pid_t start(const Command& command, int out, int error) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -78,12 +88,8 @@ pid_t start(const Command& command, int out, int error) {
   if (!command.directory.empty()) posix_spawn_file_actions_addchdir_np(&actions, command.directory.c_str());
   std::vector<std::string> words = {command.program};
   words.insert(words.end(), command.arguments.begin(), command.arguments.end());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
   pid_t child = -1;
-  const int status =
-      posix_spawnp(&child, command.program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int status = spawn(child, std::move(words), actions, nullptr);
   posix_spawn_file_actions_destroy(&actions);
   if (status == ENOENT)
     throw HelperFailed(fmt::format("there is no {}; install {}", command.program, command.package));
@@ -195,6 +201,27 @@ Finished run_process(const Command& command) {
   finished.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   finished.words = in_short(words);
   return finished;
+}
+
+Companion start_companion(std::vector<std::string> words) {
+  auto [ours, theirs] = connection();
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, theirs.get(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, theirs.get(), STDOUT_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  Companion companion;
+  companion.error = spawn(companion.process, std::move(words), actions, &attributes);
+  if (companion.error != 0) companion.process = -1;
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  companion.socket = ours.release();
+  return companion;
 }
 
 std::string run_apart(const std::function<std::string()>& work, const WorkLimits& limits) {

@@ -31,6 +31,16 @@ struct Finished {
 /// cannot be started.
 Finished run_process(const Command& command);
 
+/// A program that runs beside this one, in a group of its own: the terminal's Ctrl-C comes to us alone.
+struct Companion {
+  int process = -1;  ///< -1: it could not be started
+  int socket = -1;   ///< its standard input and output
+  int error = 0;     ///< errno of a start that failed
+};
+/// Starts one; `words`: the program, looked for in PATH, and its arguments. No signal is blocked there.
+/// Throws std::runtime_error if there is no socket to be had.
+Companion start_companion(std::vector<std::string> words);
+
 /// AddressSanitizer reserves terabytes of addresses: with it no limit of memory is set.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool memory_is_limited = false;

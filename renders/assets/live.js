@@ -70,11 +70,14 @@ function takeSamples(samples) {
   values.samples(samples);
 }
 
-// What is sampled for this page: the scope's curves every cycle, of the values in sight the latest.
-let wanted = "", soon = null;
+// What is sampled for this page: the scope's curves every cycle, of the values in sight the latest. Told to the
+// line once what chose it is done, and before anything that is done next: a step shows what was chosen before it.
+let wanted = "", soon = false;
 function want() {
-  clearTimeout(soon);
-  soon = setTimeout(async () => {
+  if (soon) return;
+  soon = true;
+  queueMicrotask(async () => {
+    soon = false;
     if (!line) return;
     const sample = scope.wanted;
     const watch = [...new Set([...program.wanted, ...values.wanted])];
@@ -83,7 +86,7 @@ function want() {
     if (text === wanted) return;
     wanted = text;
     say(await link.ask({ sample, watch, programs }));
-  }, 60);
+  });
 }
 
 function connected(on) {

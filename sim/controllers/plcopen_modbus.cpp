@@ -38,6 +38,8 @@ class Filler {
       return problem(value.place, fmt::format("the controller has nothing called '{}'", value.text),
                      did_you_mean(value.text, controller_.names(),
                                   "name a variable of the program, or a value or parameter of an axis"));
+    // A word of what is never negative goes to 65535.
+    if (format == ModbusFormat::int16 && found->range && found->range->low >= 0) format = ModbusFormat::uint16;
     const auto other = controller_.modbus_map().add(table, *number, found->name, format, low_first);
     if (!other.empty())
       problem(address.place, fmt::format("{} stands at address {} already", other, *number),
@@ -67,7 +69,7 @@ void visit(scenario::Archive& archive, PlcopenSection::ModbusWord& word) {
   archive.in_line();
   archive.value({"value", "a variable of the program, or a value or parameter of an axis"},
                 scenario::form(word.value));
-  archive.value({"type", "how it lies in words"},
+  archive.value({"type", "how it lies in words; int16 of a value that is never negative is uint16"},
                 scenario::choice_form(
                     word_types, [&word] { return static_cast<std::size_t>(word.type) - first_word_type; },
                     [&word](std::size_t i) { word.type = static_cast<ModbusFormat>(i + first_word_type); }));

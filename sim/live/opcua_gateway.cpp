@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,8 +21,7 @@
 
 #include "base/plain_text.hpp"
 #include "renders/process.hpp"
-
-extern char** environ;  // NOLINT: POSIX gives the environment to hand on under this name
+#include "sim/live/port.hpp"
 
 namespace drycut::sim::live {
 
@@ -78,49 +76,18 @@ fs::path find_opcua_gateway(Problems& problems) {
 }
 
 std::uint16_t free_port(const std::string& address, std::uint16_t port) {
-  namespace asio = boost::asio;
-  try {
-    asio::io_context context;
-    const asio::ip::tcp::endpoint endpoint(asio::ip::make_address(address), port);
-    asio::ip::tcp::acceptor acceptor(context);
-    acceptor.open(endpoint.protocol());
-    acceptor.set_option(asio::socket_base::reuse_address(true));
-    acceptor.bind(endpoint);
-    acceptor.listen();
-    return acceptor.local_endpoint().port();
-  } catch (const boost::system::system_error& error) {
-    throw std::runtime_error(
-        fmt::format("cannot listen on {} port {}: {}", address, port, error.code().message()));
-  }
+  boost::asio::io_context context;
+  boost::asio::ip::tcp::acceptor acceptor(context);
+  return listen_at(acceptor, address, port, "");
 }
 
 OpcuaGateway::OpcuaGateway(const Options& options) {
-  std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw std::runtime_error(fmt::format("no connection to the OPC UA gateway: {}", std::strerror(errno)));
-  socket_ = ends[0];
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  // A group of its own: the terminal's Ctrl-C comes to us alone. None of the signals that we wait for is
-  // blocked there.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigemptyset(&none);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
-  auto program = node();
-  auto script = (options.folder / "gateway.mjs").string();
-  std::array<char*, 3> arguments = {program.data(), script.data(), nullptr};
-  const int status = posix_spawnp(&child_, program.c_str(), &actions, &attributes, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  ::close(ends[1]);
-  if (status != 0) {
+  const auto started = renders::start_companion({node(), (options.folder / "gateway.mjs").string()});
+  socket_ = started.socket;
+  child_ = started.process;
+  if (child_ < 0) {
     ::close(socket_);
-    throw std::runtime_error(fmt::format("cannot start {}: {}", program, std::strerror(status)));
+    throw std::runtime_error(fmt::format("cannot start {}: {}", node(), std::strerror(started.error)));
   }
   // Not as arguments: those are seen by everybody on this machine.
   const auto told = nlohmann::json({{"line", options.line},

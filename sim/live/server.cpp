@@ -1,6 +1,5 @@
 #include "sim/live/server.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <pthread.h>
 
@@ -19,6 +18,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "sim/live/port.hpp"
 #include "sim/live/protocol.hpp"
 #include "sim/live/site.hpp"
 
@@ -75,14 +75,7 @@ struct Server::Core {
   class Client;
 
   Core(Options given, Line& of) : options(std::move(given)), line(of), acceptor(context) {
-    const auto address = asio::ip::make_address(options.address);
-    const tcp::endpoint endpoint(address, options.port);
-    acceptor.open(endpoint.protocol());
-    fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // no program started from here keeps the port
-    acceptor.set_option(asio::socket_base::reuse_address(true));
-    acceptor.bind(endpoint);
-    acceptor.listen();
-    options.port = acceptor.local_endpoint().port();
+    options.port = listen_at(acceptor, options.address, options.port, "");
   }
 
   void accept();
@@ -312,13 +305,7 @@ Response Server::Core::answer(const Asked& request) const {
   return response;
 }
 
-Server::Server(Options options, Line& line) {
-  const auto where = fmt::format("{} port {}", options.address, options.port);
-  try {
-    core_ = std::make_unique<Core>(std::move(options), line);
-  } catch (const boost::system::system_error& error) {
-    throw std::runtime_error(fmt::format("cannot listen on {}: {}", where, error.code().message()));
-  }
+Server::Server(Options options, Line& line) : core_(std::make_unique<Core>(std::move(options), line)) {
   core_->accept();
   core_->thread = std::thread([this] { core_->context.run(); });
   pthread_setname_np(core_->thread.native_handle(), "server");

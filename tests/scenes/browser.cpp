@@ -132,6 +132,11 @@ void Browser::visit(const std::string& url) {
   while (!loaded_) happened(message());
 }
 
+bool Browser::becomes(const std::string& condition) {
+  return evaluate("new Promise((done) => { let left = 3000; const look = () => (" + condition +
+                  ") ? done(true) : --left ? setTimeout(look, 20) : done(false); look(); })") == true;
+}
+
 json Browser::evaluate(const std::string& script) {
   auto answer =
       call("Runtime.evaluate", {{"expression", script}, {"returnByValue", true}, {"awaitPromise", true}});

@@ -26,6 +26,7 @@ class Browser {
   void open(const std::filesystem::path& page);        ///< and waits until it is loaded
   void visit(const std::string& url);                  ///< the same, of a server: "http://127.0.0.1:8080/"
   nlohmann::json evaluate(const std::string& script);  ///< a promise: what comes of it
+  bool becomes(const std::string& condition);          ///< waits until it is true; false if it does not come
 
   void mouse(const std::string& what, double x, double y, int clicks = 0);  ///< mouseMoved, mousePressed, ...
   void screenshot(const std::filesystem::path& file);                       ///< PNG of what the window shows

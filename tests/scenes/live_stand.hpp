@@ -75,11 +75,7 @@ class Stand {
     EXPECT_TRUE(becomes("window.drycut?.news && drycut.machine.frames > 0"));
   }
   json look(const std::string& script) { return browser->evaluate(script); }
-  /// Waits until that is true; false if it does not come.
-  bool becomes(const std::string& condition) {
-    return look("new Promise((done) => { let left = 4000; const look = () => (" + condition +
-                ") ? done(true) : --left ? setTimeout(look, 20) : done(false); look(); })") == true;
-  }
+  bool becomes(const std::string& condition) { return browser->becomes(condition); }
   void click(const std::string& selector) { look("document.querySelector('" + selector + "').click()"); }
   /// As typed, and Enter.
   void type(const std::string& selector, const std::string& text) {

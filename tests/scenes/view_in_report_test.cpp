@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -74,24 +75,28 @@ constexpr auto* drum_off = R"js((angle) => {
   return Math.min(Math.abs(off), 360 - Math.abs(off));
 })js";
 
-bool becomes(Browser& browser, const std::string& condition) {
-  return browser.evaluate("new Promise((done) => { let left = 3000; const look = () => (" + condition +
-                          ") ? done(true) : --left ? setTimeout(look, 20) : done(false); look(); })") == true;
-}
-
-TEST(ViewInReport, MovesWithTheCursorAndTheCursorWithIt) {
-  if (!Browser::is_installed()) GTEST_SKIP() << "chromium is not installed";
-  if (!std::filesystem::exists(library)) GTEST_SKIP() << "libjs-three is not installed";
+/// A report and a browser to read it.
+struct ViewInABrowser : testing::Test {
+  void SetUp() override {
+    if (!Browser::is_installed()) GTEST_SKIP() << "chromium is not installed";
+    if (!std::filesystem::exists(library)) GTEST_SKIP() << "libjs-three is not installed";
+    report = report_in(folder.path / "a");
+    opened.emplace(folder.path);
+    opened->window(1280, 900);
+    opened->open(report);
+  }
   const TestFolder folder;
-  const auto report = report_in(folder.path / "a");
-  Browser browser(folder.path);
-  browser.window(1280, 900);
-  browser.open(report);
+  std::filesystem::path report;
+  std::optional<Browser> opened;
+};
+
+TEST_F(ViewInABrowser, MovesWithTheCursorAndTheCursorWithIt) {
+  auto& browser = *opened;
   // Until it is seen nothing is unpacked.
   EXPECT_EQ(browser.evaluate("typeof THREE"), "undefined");
   EXPECT_EQ(browser.evaluate("document.querySelector('.view-poster').naturalWidth"), 320);
   browser.evaluate("document.querySelector('#machine').scrollIntoView()");
-  ASSERT_TRUE(becomes(browser, "window.drycutView?.view.frames > 0"));
+  ASSERT_TRUE(browser.becomes("window.drycutView?.view.frames > 0"));
   EXPECT_THAT(browser.complaints(), IsEmpty());
 
   // The mouse over a plot: the drum stands as it was recorded then.
@@ -109,21 +114,21 @@ TEST(ViewInReport, MovesWithTheCursorAndTheCursorWithIt) {
     const double angle = before + turned * (at - before_s) / (row->first - before_s);
     // Keys are up to 30 degrees or 250 ms apart in the film: what speeds up in between is a little off.
     EXPECT_LT(browser.evaluate(fmt::format("({})({})", drum_off, angle)).get<double>(), 1.5) << at;
-    EXPECT_TRUE(becomes(browser, "!drycutView.view.stale")) << "it is drawn";
+    EXPECT_TRUE(browser.becomes("!drycutView.view.stale")) << "it is drawn";
   }
 
   // Played, it takes the cursors along; a press on a plot stops it there; at the end it stops by itself.
   browser.evaluate("document.querySelector('.view-play').click()");
   const double begun = browser.evaluate("drycutView.now");
   EXPECT_TRUE(
-      becomes(browser, fmt::format("drycutView.now > {} && drycutPlots[0].at === drycutView.now", begun)));
+      browser.becomes(fmt::format("drycutView.now > {} && drycutPlots[0].at === drycutView.now", begun)));
   const auto place = browser.evaluate(fmt::format("({})(0, 0.5)", kPlaceInPlot));
   browser.mouse("mousePressed", place["x"], place["y"], 1);
   browser.mouse("mouseReleased", place["x"], place["y"], 1);
   EXPECT_EQ(browser.evaluate("drycutView.playing"), false);
   EXPECT_NEAR(browser.evaluate("drycutView.now").get<double>(), place["at"].get<double>(), 1e-9);
   browser.evaluate("document.querySelector('.view-controls select').value = 16; drycutView.play(true)");
-  EXPECT_TRUE(becomes(browser, "!drycutView.playing && drycutView.now === drycutView.motion.until"));
+  EXPECT_TRUE(browser.becomes("!drycutView.playing && drycutView.now === drycutView.motion.until"));
   EXPECT_NEAR(browser.evaluate("drycutPlots[0].at").get<double>(), 5, 1e-9);
 
   // Time by its slider, views by their buttons, turns by the keys.
@@ -168,17 +173,11 @@ TEST(ViewInReport, MovesWithTheCursorAndTheCursorWithIt) {
   EXPECT_THAT(browser.complaints(), IsEmpty());
 }
 
-TEST(ViewInReport, LeavesAPictureWhereThereIsNoWebGL) {
-  if (!Browser::is_installed()) GTEST_SKIP() << "chromium is not installed";
-  if (!std::filesystem::exists(library)) GTEST_SKIP() << "libjs-three is not installed";
-  const TestFolder folder;
-  const auto report = report_in(folder.path / "a");
-  Browser browser(folder.path);
-  browser.window(1280, 900);
-  browser.open(report);
+TEST_F(ViewInABrowser, LeavesAPictureWhereThereIsNoWebGL) {
+  auto& browser = *opened;
   browser.evaluate("HTMLCanvasElement.prototype.getContext = () => null");
   browser.evaluate("document.querySelector('#machine').scrollIntoView()");
-  EXPECT_TRUE(becomes(browser, "document.querySelector('.view-notice').innerText.includes('no WebGL')"));
+  EXPECT_TRUE(browser.becomes("document.querySelector('.view-notice').innerText.includes('no WebGL')"));
   EXPECT_GT(browser.evaluate("document.querySelector('.view-poster').getClientRects().length"), 0);
   EXPECT_EQ(browser.evaluate("document.querySelector('.view-controls').getClientRects().length"), 0);
   EXPECT_THAT(browser.complaints(), IsEmpty());

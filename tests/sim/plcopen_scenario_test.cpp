@@ -30,6 +30,7 @@ struct PlcopenScenario : scenario::ScenarioFolder {
   static std::string with(const std::string& lines) {
     return "scene: {step: 500 us, duration: 1 s}\ncontroller:\n  plcopen:\n" + lines;
   }
+  static const controllers::PlcopenSection& section(scenario::Scenario&&) = delete;  // it would not last
   static const controllers::PlcopenSection& section(const scenario::Scenario& scenario) {
     return *controllers::controller_of<controllers::PlcopenSection>(scenario);
   }
@@ -520,7 +521,8 @@ TEST_F(PlcopenModbus, IsReadAndWrittenBack) {
   const auto scenario = read(text);
   const auto again = scenario::expand(scenario);
   EXPECT_THAT(again, HasSubstr("coils"));
-  const auto& modbus = section(read(again)).modbus;
+  const auto back = read(again);
+  const auto& modbus = section(back).modbus;
   ASSERT_EQ(modbus.holding_registers.size(), 2U);
   EXPECT_EQ(modbus.coils.at(0).address.text, "7");
   EXPECT_EQ(modbus.holding_registers[0].value.text, "batch");

@@ -1,6 +1,5 @@
 #include "sim/live/modbus/server.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -18,6 +17,7 @@
 
 #include "sim/live/line_run.hpp"
 #include "sim/live/modbus/face_data.hpp"
+#include "sim/live/port.hpp"
 
 namespace drycut::sim::live::modbus {
 
@@ -98,13 +98,7 @@ struct Server::Core {
   class Client;
 
   Core(Options given, Line& of, Desk& at) : options(std::move(given)), line(of), desk(at), acceptor(context) {
-    const tcp::endpoint endpoint(asio::ip::make_address(options.address), options.port);
-    acceptor.open(endpoint.protocol());
-    fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // no program started from here keeps the port
-    acceptor.set_option(asio::socket_base::reuse_address(true));
-    acceptor.bind(endpoint);
-    acceptor.listen();
-    options.port = acceptor.local_endpoint().port();
+    options.port = listen_at(acceptor, options.address, options.port, " for Modbus");
   }
 
   void accept();
@@ -248,14 +242,8 @@ void Server::Desk::answer(LineRun& run, Frame& frame) {
     frame.pdu = modbus::answer(frame.pdu, *data);
 }
 
-Server::Server(Options options, Line& line) : desk_(std::make_shared<Desk>()) {
-  const auto where = fmt::format("{} port {}", options.address, options.port);
-  try {
-    core_ = std::make_unique<Core>(std::move(options), line, *desk_);
-  } catch (const boost::system::system_error& error) {
-    throw std::runtime_error(
-        fmt::format("cannot listen for Modbus on {}: {}", where, error.code().message()));
-  }
+Server::Server(Options options, Line& line)
+    : desk_(std::make_shared<Desk>()), core_(std::make_unique<Core>(std::move(options), line, *desk_)) {
   desk_->core = core_.get();
   core_->accept();
   core_->thread = std::thread([this] { core_->context.run(); });

@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,10 +17,9 @@
 
 #include "renders/embedded.hpp"
 #include "renders/html.hpp"
+#include "renders/process.hpp"
 #include "sim/interrupt.hpp"
 #include "sim/studies/cluster/engine.hpp"
-
-extern char** environ;  // NOLINT: POSIX gives the environment to hand on under this name
 
 namespace drycut::sim::cluster {
 
@@ -38,29 +36,10 @@ constexpr auto farewell = std::chrono::seconds(20);
 class Client {
  public:
   Client(const std::string& python, const std::string& address) {
-    std::array<int, 2> ends{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-      throw std::runtime_error(fmt::format("no connection to Python: {}", std::strerror(errno)));
-    socket_ = ends[0];
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    // A group of its own: the terminal's Ctrl-C comes to us alone, and we tell it.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    std::array<std::string, 5> words = {python, "-c", std::string(renders::embedded_file("dask.py")), address,
-                                        own_program().string()};
-    std::array<char*, 6> arguments{};
-    std::transform(words.begin(), words.end(), arguments.begin(),
-                   [](std::string& word) { return word.data(); });
-    const int status =
-        posix_spawnp(&child_, python.c_str(), &actions, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-    ::close(ends[1]);
-    if (status != 0) child_ = -1;
+    const auto started = renders::start_companion(
+        {python, "-c", std::string(renders::embedded_file("dask.py")), address, own_program().string()});
+    socket_ = started.socket;
+    child_ = started.process;
   }
   ~Client() {
     ::shutdown(socket_, SHUT_WR);  // it cancels what runs, clears up and ends

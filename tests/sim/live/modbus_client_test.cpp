@@ -532,7 +532,7 @@ TEST_F(ModbusPlcopenLine, VariablesInMemoryAndOfTheMapAreThere) {
   EXPECT_EQ(now("way"), -126608);
   EXPECT_EQ(now("speed"), 2.25);
   EXPECT_EQ(hmi.holding(16, 4), (Words{0, 0, 0xE900, 0xC10E})) << "-253216 as an LREAL";
-  ASSERT_TRUE(hmi.write(100, 65535));
+  ASSERT_TRUE(hmi.write(100, 65535)) << modbus_strerror(hmi.error);
   EXPECT_THAT(hmi.holding(5, 1), ElementsAre(65535)) << "one variable, two addresses";
   expect_same_again();
 }
