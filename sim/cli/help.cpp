@@ -57,11 +57,12 @@ std::vector<std::string> topics() {
   std::vector<std::string> names;
   constexpr std::string_view ending = ".md";
   for (const auto name : renders::embedded_names())
-    if (name.ends_with(ending)) names.emplace_back(name.substr(0, name.size() - ending.size()));
+    if (name.ends_with(ending) && name.find('/') == std::string_view::npos)
+      names.emplace_back(name.substr(0, name.size() - ending.size()));
   return names;
 }
 
-std::vector<const CLI::App*> commands_of(const CLI::App& program) {
+std::vector<const CLI::App*> listed_commands(const CLI::App& program) {
   const auto all =
       program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
   return {all.begin(), all.end()};
@@ -76,7 +77,7 @@ std::string beginning_of(const std::string& description) {
 
 std::string program_page(const CLI::App& program) {
   auto text = program.get_description() + "\n\ndrycut COMMAND [options]\n\n";
-  for (const auto* command : commands_of(program)) {
+  for (const auto* command : listed_commands(program)) {
     text += row(command->get_name(), beginning_of(command->get_description()));
   }
   text += "\n";
@@ -128,7 +129,7 @@ int tell_topic(const CLI::App& program, const std::string& topic) {
   const auto names = topics();
   bool told = false;
   std::vector<std::string> known = names;
-  for (const auto* command : commands_of(program)) {
+  for (const auto* command : listed_commands(program)) {
     known.push_back(command->get_name());
     if (command->get_name() != topic) continue;
     fmt::print("{}", page_of(*command));
@@ -178,6 +179,8 @@ std::vector<std::string_view> examples_of(std::string_view command) {
       {"run", "drycut run scenes/rotary_knife.yaml"},
       {"run", "drycut run scenes/*.yaml --jobs 2 --out results"},
       {"run", "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures"},
+      {"run", "drycut run scenes/*.yaml --cache .drycut-cache --annotate github"},
+      {"run", "  --summary out/summary.md"},
       {"live", "drycut live scenes/rotary_knife_mc_emergency.yaml"},
       {"live", "drycut live my_line.yaml --record out/today --pace 0.1"},
       {"live", "drycut live --from out/today/1@12.5s"},
