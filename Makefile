@@ -19,7 +19,7 @@ PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
 NOTEBOOK_PACKAGES := jupyter-nbconvert python3-ipykernel python3-matplotlib
 TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml python3-h5py python3-pandas mypy \
-                  libmodbus-dev mbpoll python3-pymodbus python3-serial-asyncio tshark \
+                  libmodbus-dev mbpoll python3-pymodbus python3-serial-asyncio tshark yamllint \
                   $(PYTHON_PACKAGES) $(NOTEBOOK_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
 CLUSTER_PACKAGES := python3-distributed slurm-wlm munge

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "renders/embedded.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/file_kinds.hpp"
 
 namespace drycut::sim::cli {
 
@@ -174,6 +175,7 @@ std::vector<std::string_view> examples_of(std::string_view command) {
     std::string_view line;
   };
   static const std::vector<Example> all = {
+      {"", "drycut new my_line --from rotary_knife --controller plcopen"},
       {"", "drycut check scenes/rotary_knife.yaml"},
       {"", "drycut run scenes/rotary_knife.yaml"},
       {"run", "drycut run scenes/rotary_knife.yaml"},
@@ -201,6 +203,8 @@ std::vector<std::string_view> examples_of(std::string_view command) {
       {"compare", "drycut compare goldens/rotary_knife out/rotary_knife --tolerance length=0.01mm"},
       {"index", "drycut index out"},
       {"convert", "drycut convert out/rotary_knife --to hdf5"},
+      {"new", "drycut new --list"},
+      {"new", "drycut new my_line --from rotary_knife --controller plcopen"},
       {"devices", "drycut devices EPICPOS"},
       {"plants", "drycut plants rotary_knife"},
   };
@@ -231,8 +235,9 @@ void add_commands(CLI::App& app, int& status) {
   app.require_subcommand(1);  // and what follows is no command more: drycut help run
   for (const auto add : {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep,
                          add_envelope, add_size, add_bode, add_compare, add_index, add_convert, add_devices,
-                         add_plants, add_help, add_reference, add_work})
+                         add_plants, add_new, add_help, add_reference, add_work})
     add(app, status);
+  refuse_wrong_kinds(app);
 }
 
 void add_help(CLI::App& program, int& status) {
