@@ -14,6 +14,7 @@
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "sim/cams/study.hpp"
+#include "sim/cli/annotations.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/file_kinds.hpp"
 #include "sim/file.hpp"
@@ -152,6 +153,7 @@ int check_files(const CheckOptions& options) {
   Checker checker(options);
   for (const auto& file : options.files) checker.check(file);
   print_problems(checker.problems());
+  annotate(options.annotate, annotations_of(checker.problems()));
   if (!checker.problems().empty()) {
     fmt::print(stderr, "{} problem{} in {} file{}\n", checker.problems().size(),
                checker.problems().size() == 1 ? "" : "s", options.files.size(),
@@ -174,6 +176,7 @@ void add_check(CLI::App& app, int& status) {
       "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
   check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(*check, options.set, "scenarios");
+  add_annotate(*check, options.annotate);
   check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
   check->callback([chosen, files, &status] {

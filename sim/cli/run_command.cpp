@@ -291,10 +291,7 @@ void add_run(CLI::App& app, int& status) {
                   "Write a summary in Markdown, for pull requests: verdicts, failed checks, pictures");
   run->add_option("--links", options.links,
                   "With --summary: where the results will be found, https://host/page");
-  run->add_option("--annotate", options.annotate,
-                  "Tell what failed at its line: github prints workflow commands, gitlab writes "
-                  "gl-code-quality-report.json here")
-      ->check(CLI::IsMember({"github", "gitlab"}));
+  add_annotate(*run, options.annotate);
   add_set(*run, options.set, "scenarios");
   auto* quiet = run->add_flag_callback(
       "-q,--quiet", [&options] { options.say = Say::failures; }, "Tell only what failed");

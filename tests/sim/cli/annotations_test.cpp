@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/text.hpp"
+#include "sim/cli/check_command.hpp"
 #include "sim/cli/run_command.hpp"
 #include "sim/cli/summary.hpp"
 #include "tests/sim/command_bench.hpp"
@@ -106,6 +107,19 @@ TEST_F(ToldServices, GitHubHearsOfBadInput) {
   EXPECT_THAT(out, HasSubstr("::error file=bad.yaml,line=1,col=19,title=drycut%3A bad input::"));
   EXPECT_THAT(err, HasSubstr("bad.yaml:1:19: "));
   EXPECT_FALSE(fs::exists("out"));
+}
+
+TEST_F(ToldServices, ProblemsThatCheckFindsAreToldToo) {
+  std::ofstream("bad.st") << "PROGRAM p\nx := 1;\nEND_PROGRAM\n";
+  CheckOptions check;
+  check.files = {"bad.st"};
+  check.annotate = "github";
+  EXPECT_EQ(captured([&] { return check_files(check); }), bad_input);
+  EXPECT_THAT(out, HasSubstr("::error file=bad.st,line=2,col=1,title=drycut%3A bad input::"));
+  check.annotate = "gitlab";
+  EXPECT_EQ(captured([&] { return check_files(check); }), bad_input);
+  EXPECT_EQ(out, "");
+  EXPECT_EQ(nlohmann::json::parse(content(gitlab_file))[0]["location"]["path"], "bad.st");
 }
 
 TEST_F(ToldServices, GitLabHasAFileOfBoth) {

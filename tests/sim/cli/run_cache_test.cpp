@@ -132,9 +132,10 @@ TEST_F(KeptRuns, WhateverIsChangedIsRun) {
 
 TEST_F(KeptRuns, AnotherMeshIsRun) {
   folder.file("part.stl", triangle);
-  folder.file("line.yaml",
-              content(folder / "line.yaml") +
-                  "plants: {web: {type: web}}\npictures: {meshes: {web.measuring wheel: {file: part.stl}}}\n");
+  folder.file(
+      "line.yaml",
+      content(folder / "line.yaml") +
+          "plants: {web: {type: web}}\npictures: {meshes: {web.measuring wheel: {file: part.stl}}}\n");
   const int first = run();
   ASSERT_EQ(first, all_passed) << err;
   run();
