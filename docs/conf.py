@@ -1,0 +1,34 @@
+# How Sphinx makes the site of these pages: make docs.
+import re
+from pathlib import Path
+
+root = Path(__file__).resolve().parent.parent
+project = "Drycut"
+release = version = re.search(r"project\(drycut VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text()).group(1)
+language = "en"
+
+extensions = ["myst_parser"]
+exclude_patterns = ["notebooks"]  # their own page format; python.md links to them
+myst_heading_anchors = 4  # links such as live.md#modbus
+suppress_warnings = ["misc.highlighting_failure"]  # shortened examples: `...` is no word of any language
+highlight_language = "text"
+
+html_theme = "furo"
+html_title = f"Drycut {version}"
+html_static_path = ["site"]
+html_css_files = ["site.css"]
+html_show_sourcelink = html_copy_source = False
+html_show_copyright = html_show_sphinx = False
+
+# Pages that are a list of pages carry it into the site's contents.
+LISTS = {"reference/devices", "reference/plants", "decisions/README"}
+
+
+def add_contents(app, name, source):
+    if name in LISTS:
+        pages = re.findall(r"^- \[[^\]]+\]\(([\w-]+)\.md\)", source[0], re.MULTILINE)
+        source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
+
+
+def setup(app):
+    app.connect("source-read", add_contents)
