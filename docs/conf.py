@@ -17,6 +17,9 @@ html_theme = "furo"
 html_title = f"Drycut {version}"
 html_static_path = ["site"]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
+pygments_style = "xcode"  # contrast of 4.5 and more; so is github-dark
+pygments_dark_style = "github-dark"
 html_show_sourcelink = html_copy_source = False
 html_show_copyright = html_show_sphinx = False
 
@@ -30,5 +33,10 @@ def add_contents(app, name, source):
         source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
 
 
+def leave_out_module(app, page, template, context, doctree):
+    context["script_files"] = [file for file in context["script_files"] if "furo.js" not in str(getattr(file, "filename", file))]
+
+
 def setup(app):
     app.connect("source-read", add_contents)
+    app.connect("html-page-context", leave_out_module, priority=900)
