@@ -28,9 +28,15 @@ LISTS = {"reference/devices", "reference/plants", "decisions/README"}
 
 
 def add_contents(app, name, source):
+    pages = []
     if name in LISTS:
         pages = re.findall(r"^- \[[^\]]+\]\(([\w-]+)\.md\)", source[0], re.MULTILINE)
-        source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
+    if name == "index":  # what it does not name comes last
+        named = set(source[0].split()) | {"index"}
+        pages = sorted({page.stem for page in Path(app.srcdir).glob("*.md")} - named)
+    if pages:
+        caption = ":caption: More\n" if name == "index" else ":hidden:\n"
+        source[0] += "\n```{toctree}\n" + caption + "\n" + "\n".join(pages) + "\n```\n"
 
 
 def leave_out_module(app, page, template, context, doctree):
