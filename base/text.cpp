@@ -16,6 +16,14 @@ char upper_char(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a
 
 std::string question(const std::string& name) { return "did you mean " + name + "?"; }
 
+/// The first candidate of which `word` is the end: knife.length for length.
+std::string longer(std::string_view word, const std::vector<std::string>& candidates) {
+  const auto dotted = "." + std::string(word);
+  for (const auto& candidate : candidates)
+    if (!word.empty() && candidate.ends_with(dotted)) return candidate;
+  return {};
+}
+
 }  // namespace
 
 std::string lower(std::string_view text) {
@@ -80,7 +88,8 @@ std::string in_quotes(std::string_view text) {
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
                          const std::string& otherwise) {
-  const std::string near = nearest(std::string(word), candidates);
+  std::string near = nearest(std::string(word), candidates);
+  if (near.empty()) near = longer(word, candidates);
   return near.empty() ? otherwise : question(near);
 }
 

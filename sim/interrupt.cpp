@@ -1,6 +1,7 @@
 #include "sim/interrupt.hpp"
 
 #include <array>
+#include <csignal>
 
 namespace drycut::sim {
 
@@ -8,18 +9,22 @@ namespace {
 
 volatile std::sig_atomic_t came = 0;
 constexpr std::array<int, 3> watched = {SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, watched.size()> before{};  // any watch
+int watches = 0;
 
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
+  if (watches++ > 0) return;
   struct sigaction action {};
   action.sa_handler = [](int signal) { came = signal; };
   action.sa_flags = SA_RESETHAND;
-  for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &action, &before_[i]);
+  for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &action, &before[i]);
 }
 
 InterruptWatch::~InterruptWatch() {
-  for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &before_[i], nullptr);
+  if (--watches > 0) return;
+  for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &before[i], nullptr);
 }
 
 void InterruptWatch::check() {

@@ -1,6 +1,4 @@
 #pragma once
-#include <csignal>
-
 namespace drycut::sim {
 
 /// The user, or the system, has had enough. No std::exception: nobody takes it for a fault, all clean up, and
@@ -9,7 +7,8 @@ struct Interrupted {
   int signal = 0;
 };
 
-/// While it lives the first SIGINT, SIGTERM and SIGHUP are kept for who asks; a second one ends the program.
+/// While one lives, of one thread, the first SIGINT, SIGTERM and SIGHUP are kept for who asks; a second one
+/// ends the program.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -20,9 +19,6 @@ class InterruptWatch {
   static void check();
   /// The one that has come, 0 = none.
   [[nodiscard]] static int come();
-
- private:
-  struct sigaction before_[3] = {};  // NOLINT(modernize-avoid-c-arrays): as POSIX has them
 };
 
 }  // namespace drycut::sim

@@ -29,29 +29,42 @@ void check_options(const BodeOptions& options, Problems& problems) {
   check_outputs(options.csv, options.png, {options.scenario, "scenario"}, problems);
 }
 
-/// What falls below the limits of the options, a line each.
-std::vector<std::string> shortfalls(const BodeOptions& options, const studies::Margins& margins) {
-  std::vector<std::string> lines;
+/// The limits of the options and what there is.
+std::vector<loop::CheckResult> judged(const BodeOptions& options, const studies::Margins& margins) {
+  std::vector<loop::CheckResult> checks;
   const auto judge = [&](const char* name, const std::optional<double>& limit,
                          const std::optional<studies::AtFrequency>& margin, const char* unit) {
     if (!limit) return;
-    if (!margin) {
-      lines.push_back(fmt::format("FAIL: the {} is not known: it lies outside these frequencies", name));
-    } else if (margin->value < *limit) {
-      lines.push_back(
-          fmt::format("FAIL: the {} of {:.2f} {} is below {} {}", name, margin->value, unit, *limit, unit));
+    loop::CheckResult check{name, fmt::format("{} >= {:g} {}", name, *limit, unit), false, {}, unit, {}, ""};
+    if (margin) {
+      check.passed = margin->value >= *limit;
+      check.margin = margin->value - *limit;
+      check.detail = fmt::format("{:.2f} {} at {:.4g} Hz", margin->value, unit, margin->frequency);
+    } else {
+      check.detail = "not known: it lies outside these frequencies";
     }
+    checks.push_back(std::move(check));
   };
   judge("phase margin", options.min_phase_margin, margins.phase, "deg");
   judge("gain margin", options.min_gain_margin, margins.gain, "dB");
-  return lines;
+  return checks;
+}
+
+/// "FAIL: the gain margin of 7.10 dB is below 12 dB".
+std::string judged_text(const loop::CheckResult& check) {
+  const auto limit = check.expectation.substr(check.expectation.rfind(">= ") + 3);
+  if (!check.margin) return fmt::format("FAIL: the {} is {}", check.name, check.detail);
+  return fmt::format("{}: the {} of {} is {} {}", check.passed ? "PASS" : "FAIL", check.name,
+                     check.detail.substr(0, check.detail.find(" at ")), check.passed ? "not below" : "below",
+                     limit);
 }
 
 /// All that was asked for; `folder` may be null; `faults` are the lines that fail the measurement.
 void write(const BodeOptions& options, const scenario::Scenario& scenario, const studies::LoopResult& result,
-           const studies::LimitCycle* cycle, const std::vector<std::string>& faults, OutputFolder* folder) {
+           const studies::LimitCycle* cycle, const std::vector<std::string>& faults,
+           const std::vector<loop::CheckResult>& checks, OutputFolder* folder) {
   if (folder != nullptr)
-    studies::write_bode_report(result, cycle, faults, scenario::expand(scenario), *folder);
+    studies::write_bode_report(result, cycle, faults, checks, scenario::expand(scenario), *folder);
   if (result.sweep.points.empty()) return;
   if (folder != nullptr) write_file(folder->add("bode.csv"), bode_csv(result));
   if (options.csv == "-") {
@@ -94,16 +107,20 @@ int measure_bode(const BodeOptions& options) {
     return bad_input;
   }
   const auto doubts = studies::loop_doubts(*result);
-  auto faults = shortfalls(options, result->margins);
+  const auto checks = judged(options, result->margins);
+  std::vector<std::string> faults;
   auto text = studies::bode_report(*result);
   if (cycle) text += '\n' + studies::limit_cycle_text(*cycle);
-  for (const auto& line : faults) text += line + '\n';
+  for (const auto& check : checks) {
+    text += judged_text(check) + '\n';
+    if (!check.passed) faults.push_back(judged_text(check).substr(std::string_view("FAIL: ").size()));
+  }
   // A response on standard output is for a program: it must find nothing else there.
   fmt::print(options.csv == "-" ? stderr : stdout, "{}", text);
   // Where play makes a limit cycle, small motions do not answer: that is what was looked for.
   if (!cycle || !cycle->least) faults.insert(faults.begin(), doubts.begin(), doubts.end());
   if (cycle && !cycle->least) faults.emplace_back("no gain margin was found at any amplitude");
-  write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, folder ? &*folder : nullptr);
+  write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, checks, folder ? &*folder : nullptr);
   if (!options.out.empty())
     fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());
   if (!result->sweep.failure.empty()) return simulation_failed;

@@ -31,6 +31,7 @@ void add_envelope(CLI::App& app, int& status);
 void add_size(CLI::App& app, int& status);
 void add_bode(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
+void add_index(CLI::App& app, int& status);
 void add_convert(CLI::App& app, int& status);
 void add_devices(CLI::App& app, int& status);
 void add_plants(CLI::App& app, int& status);

@@ -43,25 +43,51 @@ std::vector<studies::RunFolder> read_runs(const CompareOptions& options, Problem
   return runs;
 }
 
+/// Its names are known when the runs have been read.
+studies::Allowances allowances_of(const CompareOptions& options, const std::vector<studies::RunFolder>& runs,
+                                  std::optional<double> from, Problems& problems) {
+  auto allowances = studies::read_allowances(options.tolerances, problems);
+  if (!problems.empty() || allowances.named.empty()) return allowances;
+  std::vector<std::pair<std::string, std::string>> figures;
+  for (const auto& figure : studies::compare_events(runs, from))
+    figures.emplace_back(figure.name, figure.unit);
+  studies::check_allowances(allowances, runs, figures, problems);
+  return allowances;
+}
+
+/// What the page is headed with where the exit status says it, too.
+void judge(const CompareOptions& options, const studies::Comparison& comparison,
+           studies::ComparisonPage& page) {
+  page.verdict = studies::difference_text(comparison);
+  if (options.tolerances.empty() && !options.fail_on_difference) return;
+  page.checks = studies::judgement(comparison, options.fail_on_difference);
+  page.passed = options.fail_on_difference ? studies::same(comparison) : studies::kept(comparison);
+  if (*page.passed && !options.tolerances.empty())
+    page.verdict = comparison.parameters.empty()
+                       ? "no difference beyond the tolerance"
+                       : "no difference beyond the tolerance but parameters in force";
+}
+
 }  // namespace
 
 int compare_runs(const CompareOptions& options) {
   Problems problems;
   auto runs = read_runs(options, problems);
   const auto from = from_of(options, problems);
+  const auto allowances = allowances_of(options, runs, from, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty()) folder.emplace(options.out, "compare", studies::comparison_files, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
-  const auto comparison = studies::compare(std::move(runs), from);
+  const auto comparison = studies::compare(std::move(runs), from, allowances);
   studies::ComparisonPage page;
   for (const auto& run : comparison.runs) {
     page.title += (page.title.empty() ? "" : " against ") + run.label;
     page.source += (page.source.empty() ? "" : ", ") + run.folder.string();
   }
-  page.verdict = studies::difference_text(comparison);
+  judge(options, comparison, page);
   try {
     folder->begin();
     studies::write_comparison(comparison, page, *folder, options.pictures);
@@ -69,10 +95,15 @@ int compare_runs(const CompareOptions& options) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;
   }
-  fmt::print("{}: {}", page.title, studies::comparison_text(comparison));
+  fmt::print("{}: {}", page.title, studies::comparison_text(comparison, page.passed.has_value()));
+  if (page.passed)
+    fmt::print("  {}: {}\n", *page.passed ? "PASS" : "FAIL",
+               *page.passed                 ? "kept"
+               : options.fail_on_difference ? "not the same"
+                                            : "beyond the tolerance");
   fmt::print("  {}\n", options.pictures ? "report: " + (options.out / "report.html").string()
                                         : "results: " + options.out.string());
-  return options.fail_on_difference && !studies::same(comparison) ? check_failed : all_passed;
+  return page.passed.value_or(true) ? all_passed : check_failed;
 }
 
 void add_compare(CLI::App& app, int& status) {
@@ -82,8 +113,9 @@ void add_compare(CLI::App& app, int& status) {
       "compare",
       "Compare runs: checks, cuts and other events, channels, parameters in force; report.html, plots and\n"
       "comparison.csv.\n"
-      "Exit status: 0 compared, 1 different and --fail-on-difference, 2 bad input, 3 a result could not be\n"
-      "written");
+      "Exit status: 0 compared, 1 different and --fail-on-difference or --tolerance, 2 bad input, 3 a "
+      "result\n"
+      "could not be written");
   compare->add_option("runs", options.runs, "Folders that drycut run made, such as out/rotary_knife")
       ->required();
   add_out(*compare, options.out, "Directory for the results");
@@ -92,6 +124,14 @@ void add_compare(CLI::App& app, int& status) {
       "Figures look from this time on, as \"4 s\"; else where the plot with the limits begins");
   compare->add_flag("--fail-on-difference", options.fail_on_difference,
                     "Exit status 1 where the runs are not the same");
+  compare
+      ->add_option(
+          "--tolerance", options.tolerances,
+          "NAME=0.01mm, or a part of the largest value: NAME=0.1%, NAME=1e-6; without NAME for all "
+          "else, 1e-7 unless given. NAME: a channel, a value of events (length, knife.cut.length), a "
+          "figure, a check's margin, time. Exit status 1 beyond it; parameters do not count; may be "
+          "repeated")
+      ->allow_extra_args(false);
   add_no_pictures(*compare, options.pictures, "No plots and no report");
   compare->callback([chosen, &status] { status = compare_runs(*chosen); });
 }

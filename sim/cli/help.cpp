@@ -195,6 +195,8 @@ std::vector<std::string_view> examples_of(std::string_view command) {
       {"envelope", "  --find-max \"variables.speed=20..200 m/min:1\""},
       {"bode", "drycut bode scenes/rotary_knife.yaml"},
       {"compare", "drycut compare out/before out/after"},
+      {"compare", "drycut compare goldens/rotary_knife out/rotary_knife --tolerance length=0.01mm"},
+      {"index", "drycut index out"},
       {"convert", "drycut convert out/rotary_knife --to hdf5"},
       {"devices", "drycut devices EPICPOS"},
       {"plants", "drycut plants rotary_knife"},
@@ -225,8 +227,8 @@ void add_commands(CLI::App& app, int& status) {
   app.formatter(std::make_shared<HelpPage>());
   app.require_subcommand(1);  // and what follows is no command more: drycut help run
   for (const auto add : {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep,
-                         add_envelope, add_size, add_bode, add_compare, add_convert, add_devices, add_plants,
-                         add_help, add_reference, add_work})
+                         add_envelope, add_size, add_bode, add_compare, add_index, add_convert, add_devices,
+                         add_plants, add_help, add_reference, add_work})
     add(app, status);
 }
 

@@ -25,6 +25,7 @@
 #include "sim/records/run_files.hpp"
 #include "sim/report/film.hpp"
 #include "sim/report/gallery.hpp"
+#include "sim/report/index.hpp"
 #include "sim/report/results.hpp"
 #include "sim/studies/compare/scene_run.hpp"
 #include "sim/studies/half_step.hpp"
@@ -160,7 +161,8 @@ std::string scene_file_of(const Job& job) { return job.result.directory.filename
 
 /// Takes the folders of all results; what lies in them and is not ours is told before anything runs.
 void open_folders(Work& work, const RunOptions& options, Problems& problems) {
-  work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file}, problems);
+  work.folder.emplace(options.out, "runs", std::vector<std::string>{junit_file, report::index_file},
+                      problems);
   for (auto& group : work.groups)
     group.folder.emplace(group.result.directory, "compare", studies::comparison_files, problems);
   for (auto& job : work.jobs) {
@@ -327,6 +329,7 @@ int run_scenarios(const RunOptions& options) {
   }
   try {
     report::write_junit(results, work.folder->add(junit_file));
+    report::write_index(options.out, *work.folder);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;

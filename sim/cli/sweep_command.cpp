@@ -328,9 +328,12 @@ int envelope_scenario(const EnvelopeOptions& options) {
     studies::write_envelope_report(envelopes, *folder);
     for (const auto& envelope : envelopes) print_envelope(envelope, envelopes.size() > 1);
     const auto& request = envelopes.front().request;
-    const auto sought = envelopes.size() > 1 ? std::string()
-                                             : fmt::format(", {} to {:.6g} {}", request.parameter.path,
-                                                           request.tolerance, request.parameter.unit);
+    const auto sought =
+        envelopes.size() > 1
+            ? std::string()
+            : fmt::format(", {} to {:.6g} {}",
+                          studies::with_check_names(envelopes.front().question, request.parameter.path),
+                          request.tolerance, request.parameter.unit);
     fmt::print("{} points{}: {}\nreport: {}\n", points, sought, (options.out / envelope_file).string(),
                (options.out / "report.html").string());
   });

@@ -66,6 +66,7 @@ class ClusterTest(unittest.TestCase):
 
     def start(self, words, out, program=PROGRAM, on=True, cpu_seconds=None):
         def limit():
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # whoever runs the tests in the background has it ignored
             if cpu_seconds:
                 resource.setrlimit(resource.RLIMIT_CPU, (cpu_seconds, resource.RLIM_INFINITY))
 

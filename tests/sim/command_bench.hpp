@@ -3,6 +3,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -39,6 +40,7 @@ inline pid_t started(const std::string& program, const std::vector<std::string>&
   arguments.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
+    std::signal(SIGINT, SIG_DFL);  // whoever runs the tests in the background has it ignored
     execv(program.c_str(), arguments.data());
     _exit(127);
   }

@@ -2,8 +2,10 @@
 #include <sys/wait.h>
 
 #include <csignal>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "sim/interrupt.hpp"
 #include "tests/sim/command_bench.hpp"
 
 namespace drycut::sim::cli {
@@ -54,6 +56,23 @@ TEST(Interrupt, ARunEndsInOrder) {
   const auto junit = content(out / "junit.xml");
   EXPECT_THAT(junit, HasSubstr("interrupted at "));
   EXPECT_THAT(junit, HasSubstr("not run: interrupted"));
+}
+
+TEST(Interrupt, IsWatchedUntilTheLastWatchHasEnded) {
+  const auto watched = [] {
+    auto first = std::make_unique<InterruptWatch>();
+    const InterruptWatch last;
+    first.reset();
+    std::raise(SIGTERM);
+    _exit(InterruptWatch::come() == SIGTERM ? 0 : 1);
+  };
+  EXPECT_EXIT(watched(), testing::ExitedWithCode(0), "");
+  const auto over = [] {
+    { const InterruptWatch watch; }
+    std::raise(SIGTERM);
+    _exit(0);
+  };
+  EXPECT_EXIT(over(), testing::KilledBySignal(SIGTERM), "");
 }
 
 }  // namespace

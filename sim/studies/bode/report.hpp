@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renders/plots.hpp"
+#include "sim/loop/checks.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/studies/bode/limit_cycle.hpp"
 #include "sim/studies/bode/loop.hpp"
@@ -16,11 +17,12 @@ std::string bode_report(const LoopResult& result);
 std::string limit_cycle_text(const LimitCycle& cycle);
 /// What may be written into the folder of a measurement.
 inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "plots/"};
-/// Writes report.html and plots/ into `folder`; `faults` are what fails it, `expanded` is the scenario with
-/// every default; `cycle` may be null. Throws std::runtime_error if something cannot be written.
+/// Writes report.html and plots/ into `folder`; `faults` are what fails it, `checks` the limits that it was
+/// judged by, `expanded` is the scenario with every default; `cycle` may be null. Throws std::runtime_error
+/// if something cannot be written.
 void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
-                       const std::vector<std::string>& faults, const std::string& expanded,
-                       OutputFolder& folder);
+                       const std::vector<std::string>& faults, const std::vector<loop::CheckResult>& checks,
+                       const std::string& expanded, OutputFolder& folder);
 /// One row a frequency: gains and phases of open loop, closed loop, sensitivity and speed.
 std::string bode_csv(const LoopResult& result);
 /// Gain and phase over the logarithm of the frequency.

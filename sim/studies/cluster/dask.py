@@ -139,51 +139,52 @@ def main(address, program):
         print(f"drycut: {address} has no workers yet; waiting for one", file=sys.stderr, flush=True)
     threading.Thread(target=read_orders, args=(orders,), daemon=True).start()
 
-    while True:
-        try:
-            order = orders.get(timeout=1)
-        except queue.Empty:
-            order = {}
-            if client.status != "running":
-                say(fatal=f"the scheduler at {address} has gone")
+    with contextlib.suppress(BrokenPipeError):  # whoever asked has been killed
+        while True:
+            try:
+                order = orders.get(timeout=1)
+            except queue.Empty:
+                order = {}
+                if client.status != "running":
+                    say(fatal=f"the scheduler at {address} has gone")
+                    break
+            if order is None:
                 break
-        if order is None:
-            break
-        if workers() != count:
-            count = workers()
-            say(workers=count)
-        if "bytes" in order:
-            # A task rather than scattered data: when the worker that has it is lost, Dask makes it again.
-            key = "drycut-bundle-" + order["bundle"]
-            bundles[order["bundle"]] = client.submit(keep, base64.b64decode(order["bytes"]), key=key)
-        elif "items" in order:
-            chunk, name = order["chunk"], order["bundle"]
-            future = client.submit(work, chunk, name, bundles[name], order["items"], program, topic,
-                                   key=f"{topic}-{chunk}", pure=False)
-            running[chunk] = future
-            future.add_done_callback(lambda future, chunk=chunk: orders.put({"done": chunk}))
-        elif "told" in order:
-            chunk, at, lines = (order["told"][key] for key in ("chunk", "at", "lines"))
-            if chunk in running:
-                told[chunk] = at + len(lines)  # from 0 again where Dask has started it elsewhere
-                say(chunk=chunk, lines=lines)
-        elif "done" in order:
-            chunk = order["done"]
-            future = running.pop(chunk, None)
-            if future is None:
-                continue
-            if future.status == "finished":
-                lines, why = future.result()
-                say(chunk=chunk, lines=lines[told.pop(chunk, 0):], end=why)
-            elif client.status != "running":
-                say(fatal=f"the scheduler at {address} has gone")
-                break
-            elif future.status == "cancelled":
-                say(chunk=chunk, lines=[], end="Dask cancelled it")
-            else:
-                error = future.exception()
-                say(chunk=chunk, lines=[], end=f"{type(error).__name__}: {str(error).splitlines()[0]}")
-            future.release()
+            if workers() != count:
+                count = workers()
+                say(workers=count)
+            if "bytes" in order:
+                # A task rather than scattered data: when the worker that has it is lost, Dask makes it again.
+                key = "drycut-bundle-" + order["bundle"]
+                bundles[order["bundle"]] = client.submit(keep, base64.b64decode(order["bytes"]), key=key)
+            elif "items" in order:
+                chunk, name = order["chunk"], order["bundle"]
+                future = client.submit(work, chunk, name, bundles[name], order["items"], program, topic,
+                                       key=f"{topic}-{chunk}", pure=False)
+                running[chunk] = future
+                future.add_done_callback(lambda future, chunk=chunk: orders.put({"done": chunk}))
+            elif "told" in order:
+                chunk, at, lines = (order["told"][key] for key in ("chunk", "at", "lines"))
+                if chunk in running:
+                    told[chunk] = at + len(lines)  # from 0 again where Dask has started it elsewhere
+                    say(chunk=chunk, lines=lines)
+            elif "done" in order:
+                chunk = order["done"]
+                future = running.pop(chunk, None)
+                if future is None:
+                    continue
+                if future.status == "finished":
+                    lines, why = future.result()
+                    say(chunk=chunk, lines=lines[told.pop(chunk, 0):], end=why)
+                elif client.status != "running":
+                    say(fatal=f"the scheduler at {address} has gone")
+                    break
+                elif future.status == "cancelled":
+                    say(chunk=chunk, lines=[], end="Dask cancelled it")
+                else:
+                    error = future.exception()
+                    say(chunk=chunk, lines=[], end=f"{type(error).__name__}: {str(error).splitlines()[0]}")
+                future.release()
 
     futures = list(running.values()) + list(bundles.values())
     for farewell in (lambda: client.cancel(futures), lambda: client.run(forget, topic),

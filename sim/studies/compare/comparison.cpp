@@ -19,7 +19,7 @@ std::ptrdiff_t changed_checks(const Comparison& comparison) {
 
 std::ptrdiff_t changed_channels(const Comparison& comparison) {
   return std::count_if(comparison.channels.begin(), comparison.channels.end(),
-                       [](const ChannelRow& row) { return row.difference > 0; });
+                       [](const ChannelRow& row) { return !row.is_kept(); });
 }
 
 bool end_alike(const Comparison& comparison) {
@@ -64,23 +64,68 @@ std::vector<std::string> of_runs(const Comparison& comparison, Text text) {
 
 }  // namespace
 
-Comparison compare(std::vector<RunFolder> runs, std::optional<double> from) {
+Comparison compare(std::vector<RunFolder> runs, std::optional<double> from, const Allowances& allowances) {
   Comparison comparison;
   comparison.runs = std::move(runs);
   comparison.from = from;
-  comparison.checks = compare_checks(comparison.runs);
+  comparison.checks = compare_checks(comparison.runs, allowances);
   comparison.events = compare_events(comparison.runs, from);
-  comparison.channels = compare_channels(comparison.runs, from);
+  comparison.figures_beyond = figures_beyond(comparison.events, allowances);
+  comparison.pieces = compare_pieces(comparison.runs, from);
+  comparison.channels = compare_channels(comparison.runs, from, allowances);
   comparison.unmatched = unmatched_channels(comparison.runs);
-  comparison.event_differences = differing_events(comparison.runs, comparison.events_looked_at);
+  comparison.event_differences = differing_events(comparison.runs, allowances, comparison.events_looked_at);
   comparison.parameters = differing_parameters(comparison.runs);
   return comparison;
 }
 
-bool same(const Comparison& comparison) {
+bool kept(const Comparison& comparison) {
   return changed_checks(comparison) == 0 && changed_channels(comparison) == 0 &&
          comparison.unmatched.empty() && comparison.event_differences.empty() &&
-         comparison.parameters.empty() && end_alike(comparison);
+         comparison.figures_beyond.empty() && end_alike(comparison);
+}
+
+bool same(const Comparison& comparison) { return kept(comparison) && comparison.parameters.empty(); }
+
+std::vector<loop::CheckResult> judgement(const Comparison& comparison, bool parameters) {
+  std::vector<loop::CheckResult> rows;
+  const auto judge = [&](const char* name, const char* expectation, std::size_t beyond, std::size_t all,
+                         std::string detail) {
+    loop::CheckResult row{name, expectation, beyond == 0, {}, "", {}, {}};
+    row.detail = all == 0 ? "none differs"
+                 : beyond == 0
+                     ? fmt::format("{} of {} kept", all, all)
+                     : fmt::format("{} of {} differ{}{}", beyond, all, detail.empty() ? "" : ": ", detail);
+    rows.push_back(std::move(row));
+  };
+  std::vector<std::string> names;
+  for (const auto& check : comparison.checks)
+    if (!check.change.empty()) names.push_back(fmt::format("{} ({})", check.name, check.change));
+  judge("verdicts", "every check ends as in the first run, with its margin", names.size(),
+        comparison.checks.size(), listed(names));
+  const auto& events = comparison.event_differences;
+  judge("events", "every event comes as in the first run, with its values", events.size(),
+        comparison.events_looked_at, events.empty() ? "" : events.front().name + " is the first");
+  names.clear();
+  for (const auto& channel : comparison.channels)
+    if (!channel.is_kept()) names.push_back(apart_text(channel, comparison));
+  names.insert(names.end(), comparison.unmatched.begin(), comparison.unmatched.end());
+  judge("channels", "every channel goes as in the first run", names.size(),
+        comparison.channels.size() + comparison.unmatched.size(), listed(names));
+  names.clear();
+  for (const auto& figure : comparison.figures_beyond)
+    names.push_back(fmt::format("{} by {:.4g} {}, {:.4g} allowed", figure.name, figure.difference,
+                                figure.unit, figure.allowed));
+  if (!names.empty())
+    judge("figures", "those with a tolerance of their own keep it", names.size(), names.size(),
+          listed(names));
+  judge("end", "the runs are equally long, recorded at the same instants", end_alike(comparison) ? 0 : 1, 1,
+        "");
+  if (!parameters) return rows;
+  names.clear();
+  for (const auto& parameter : comparison.parameters) names.push_back(parameter.path);
+  judge("parameters", "the same are in force", names.size(), names.size(), listed(names));
+  return rows;
 }
 
 std::string difference_text(const Comparison& comparison) {
@@ -93,10 +138,18 @@ std::string difference_text(const Comparison& comparison) {
                                 counted(comparison.events_looked_at, "event")));
   if (const auto changed = changed_channels(comparison); changed > 0)
     parts.push_back(fmt::format("{} of {}", changed, counted(comparison.channels.size(), "shared channel")));
+  if (!comparison.figures_beyond.empty())
+    parts.push_back(counted(comparison.figures_beyond.size(), "figure"));
   if (!comparison.unmatched.empty())
     parts.push_back(counted(comparison.unmatched.size(), "channel") + " of one run only");
   if (!end_alike(comparison)) parts.emplace_back("instants or end of the run");
   return parts.empty() ? "no difference" : fmt::format("different: {}", fmt::join(parts, ", "));
+}
+
+std::string apart_text(const ChannelRow& channel, const Comparison& comparison) {
+  const auto unit = channel.unit.empty() ? "" : " " + channel.unit;
+  return fmt::format("{} by {:.4g}{} at {:.4f} s in {}, {:.2g}{} allowed", channel.name, channel.difference,
+                     unit, channel.at, comparison.runs[channel.in].label, channel.allowed, unit);
 }
 
 std::string result_text(const std::optional<loop::CheckResult>& result) {
@@ -127,6 +180,15 @@ std::string comparison_csv(const Comparison& comparison, const std::vector<Figur
             }));
   }
   for (const auto& figure : comparison.events) csv.numbers("event", figure.name, figure.unit, figure.numbers);
+  for (const auto& rows : comparison.pieces) {
+    std::size_t most = 0;
+    for (const auto& run : rows.runs) most = std::max(most, run.size());
+    for (std::size_t k = 0; k < most; ++k) {
+      std::vector<double> numbers;
+      for (const auto& run : rows.runs) numbers.push_back(k < run.size() ? run[k] : NAN);
+      csv.numbers("piece", fmt::format("{} length {}", rows.event, k + 1), rows.unit, numbers);
+    }
+  }
   for (const auto& row : comparison.channels) {
     csv.numbers("channel", row.name + ": rms", row.unit, row.rms);
     csv.numbers("channel", row.name + ": peak", row.unit, row.peak);

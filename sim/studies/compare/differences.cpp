@@ -33,15 +33,7 @@ bool all_same(const std::vector<std::optional<T>>& items, Same same) {
   });
 }
 
-/// What rounding leaves of a margin that did not change [its unit].
-constexpr double margin_noise = 1e-8;
-
-bool same_margin(const loop::CheckResult& a, const loop::CheckResult& b) {
-  if (!a.margin || !b.margin) return a.margin.has_value() == b.margin.has_value();
-  return *a.margin == *b.margin || std::abs(*a.margin - *b.margin) <= margin_noise;
-}
-
-std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs) {
+std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs, const Allowances& allowances) {
   std::vector<std::string> having;
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (row.results[i]) having.push_back(runs[i].label);
@@ -53,8 +45,13 @@ std::string change_of(const CheckRow& row, const std::vector<RunFolder>& runs) {
   };
   if (!same([](const loop::CheckResult& c) { return c.passed; })) return "verdict";
   if (!same([](const loop::CheckResult& c) { return c.expectation; })) return "expectation";
-  if (all_same(row.results, same_margin)) return "";
   const auto& first = *row.results[0];
+  const double allowed = allowances.of_margin(first, runs[0]);
+  const auto same_margin = [&](const loop::CheckResult& a, const loop::CheckResult& b) {
+    if (!a.margin || !b.margin) return a.margin.has_value() == b.margin.has_value();
+    return *a.margin == *b.margin || std::abs(*a.margin - *b.margin) <= allowed;
+  };
+  if (all_same(row.results, same_margin)) return "";
   const auto& last = *row.results[1];
   if (runs.size() != 2 || !first.margin || !last.margin) return "margin";
   return fmt::format("margin {:+.4g}{}{}", *last.margin - *first.margin, first.unit.empty() ? "" : " ",
@@ -66,9 +63,48 @@ std::string event_text(const loop::RecordedEvent& event) {
   return fmt::format("{:.6f} s{}{}", event.at_seconds(), values.empty() ? "" : ": ", values);
 }
 
+/// The largest number of each value of a run's events, by "knife.cut.length".
+std::map<std::string, double> largest_values(const RunFolder& run) {
+  std::map<std::string, double> largest;
+  for (const auto& event : run.recording.events())
+    for (const auto& value : event.values) {
+      auto& most = largest[event.source + "." + event.event + "." + value.name];
+      most = std::max(most, std::abs(value.number));
+    }
+  return largest;
+}
+
+/// The same event of two runs, as far as tolerances go.
+class EventJudge {
+ public:
+  EventJudge(const RunFolder& first, const Allowances& allowances)
+      : allowances_(allowances), largest_(largest_values(first)), time_(allowances.of_time(first.end)) {}
+
+  [[nodiscard]] bool keeps(const loop::RecordedEvent& first, const loop::RecordedEvent& other) const {
+    if (std::abs(first.at_seconds() - other.at_seconds()) > time_) return false;
+    if (first.values.size() != other.values.size()) return false;
+    if (first.values.empty()) return first.text == other.text;
+    for (std::size_t i = 0; i < first.values.size(); ++i) {
+      const auto& a = first.values[i];
+      const auto& b = other.values[i];
+      if (a.name != b.name || a.unit != b.unit) return false;
+      const auto most = largest_.find(first.source + "." + first.event + "." + a.name);
+      const double allowed = allowances_.of_value(first.source, first.event, a.name, a.unit,
+                                                  most == largest_.end() ? 0 : most->second);
+      if (a.number != b.number && !(std::abs(a.number - b.number) <= allowed)) return false;
+    }
+    return true;
+  }
+
+ private:
+  const Allowances& allowances_;
+  std::map<std::string, double> largest_;
+  double time_;
+};
+
 }  // namespace
 
-std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs) {
+std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs, const Allowances& allowances) {
   Order order;
   for (const auto& run : runs)
     for (const auto& check : run.checks) order.add(check.name);
@@ -80,27 +116,40 @@ std::vector<CheckRow> compare_checks(const std::vector<RunFolder>& runs) {
                                       [&](const loop::CheckResult& check) { return check.name == name; });
       row.results.push_back(found == run.checks.end() ? std::nullopt : std::optional(*found));
     }
-    row.change = change_of(row, runs);
+    row.change = change_of(row, runs, allowances);
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
-std::vector<EventRow> differing_events(const std::vector<RunFolder>& runs, std::size_t& all) {
+std::vector<EventRow> differing_events(const std::vector<RunFolder>& runs, const Allowances& allowances,
+                                       std::size_t& all) {
+  struct Seen {
+    EventRow row;
+    loop::RecordedEvent first;  ///< of the runs, as the first that has it
+    std::size_t runs = 0;       ///< that have it
+    bool kept = true;
+  };
+  const EventJudge judge(runs.front(), allowances);
   std::map<std::string, std::size_t> place;
-  std::vector<EventRow> rows;
+  std::vector<Seen> seen;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::map<std::string, int> count;
     for (const auto& event : runs[i].recording.events()) {
       const auto kind = event.source + "." + event.event;
       const auto name = fmt::format("{} {}", kind, ++count[kind]);
-      const auto [found, fresh] = place.emplace(name, rows.size());
-      if (fresh) rows.push_back({name, std::vector<std::optional<std::string>>(runs.size())});
-      rows[found->second].told[i] = event_text(event);
+      const auto [found, fresh] = place.emplace(name, seen.size());
+      if (fresh) seen.push_back({{name, std::vector<std::optional<std::string>>(runs.size())}, event});
+      auto& one = seen[found->second];
+      one.row.told[i] = event_text(event);
+      ++one.runs;
+      one.kept = one.kept && judge.keeps(one.first, event);
     }
   }
-  all = rows.size();
-  std::erase_if(rows, [](const EventRow& row) { return all_same(row.told, std::equal_to<>()); });
+  all = seen.size();
+  std::vector<EventRow> rows;
+  for (auto& one : seen)
+    if (!one.kept || one.runs < runs.size()) rows.push_back(std::move(one.row));
   return rows;
 }
 

@@ -8,12 +8,16 @@
 
 #include "sim/report/statistics.hpp"
 #include "sim/studies/compare/differences.hpp"
+#include "sim/studies/compare/pieces.hpp"
 
 namespace drycut::sim::studies {
 
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+constexpr auto* length_value = "length";
+constexpr auto* number_value = "number";  ///< a counter: its mean tells nothing
 
 /// A value of an event: source, event, value, unit.
 struct ValueName {
@@ -34,24 +38,25 @@ std::vector<ValueName> event_values(const std::vector<RunFolder>& runs) {
   return names;
 }
 
-std::vector<double> numbers_of(const RunFolder& run, const ValueName& name, const Tolerance* tolerance,
-                               std::optional<double> from) {
-  constexpr double end = std::numeric_limits<double>::infinity();
-  const bool window = !from && tolerance != nullptr;
-  return report::event_numbers(run.recording.events(), name.source + "." + name.event, name.value,
-                               window ? tolerance->from : from.value_or(0),
-                               window ? tolerance->until.value_or(end) : end)
-      .numbers;
+std::vector<double> numbers_of(const RunFolder& run, const ValueName& name, std::optional<double> from) {
+  const auto event = name.source + "." + name.event;
+  const auto window = window_of(run, event, name.value, from);
+  return report::event_numbers(run.recording.events(), event, name.value, window.from, window.until).numbers;
 }
 
 double room(const Tolerance& tolerance, double number) {
   return std::min(tolerance.high - number, number - tolerance.low);
 }
 
-/// Rows of one value; each is filled run by run.
+/// "knife.cut length"
+std::string words_of(const ValueName& name) {
+  return fmt::format("{}.{} {}", name.source, name.event, name.value);
+}
+
+/// Rows of one value, of all pieces or of a lot; each is filled run by run.
 struct ValueFigures {
-  explicit ValueFigures(const ValueName& name) {
-    const auto of = fmt::format("{}.{} {}: ", name.source, name.event, name.value);
+  explicit ValueFigures(const ValueName& name, const std::string& lot = "") {
+    const auto of = words_of(name) + lot + ": ";
     const auto make = [&](const char* what, const std::string& unit) { return Figure{of + what, unit, {}}; };
     number = make("number", "");
     mean = make("mean", name.unit);
@@ -86,9 +91,12 @@ struct ValueFigures {
     capability.numbers.push_back(found ? found->cpk : nothing);
   }
 
-  void append_to(std::vector<Figure>& figures) {
-    for (auto* figure :
-         {&number, &mean, &spread, &least, &greatest, &slope, &low, &high, &worst, &capability})
+  /// `in_lots`: what each lot tells for itself says nothing about all of them.
+  void append_to(std::vector<Figure>& figures, bool in_lots = false) {
+    std::vector<Figure*> all = {&number, &mean, &spread, &least, &greatest,
+                                &slope,  &low,  &high,   &worst, &capability};
+    if (in_lots) all = {&number, &low, &high, &worst};
+    for (auto* figure : all)
       if (std::any_of(figure->numbers.begin(), figure->numbers.end(),
                       [](double n) { return !std::isnan(n); }))
         figures.push_back(std::move(*figure));
@@ -96,6 +104,39 @@ struct ValueFigures {
 
   Figure number, mean, spread, least, greatest, slope, low, high, worst, capability;
 };
+
+/// The numbers of a value, run by run.
+using Series = std::vector<std::vector<double>>;
+
+/// The rows of each lot; false where no run has more than one.
+bool add_lots(const ValueName& name, const Series& series, const std::vector<std::vector<Lot>>& lots,
+              std::vector<Figure>& figures) {
+  std::size_t most = 0;
+  for (const auto& own : lots) most = std::max(most, own.size());
+  if (most < 2) return false;
+  for (std::size_t k = 0; k < most; ++k) {
+    ValueFigures rows(name, fmt::format(", lot {}", k + 1));
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const auto lot = k < lots[i].size() ? lots[i][k] : Lot{};
+      const auto first =
+          series[i].begin() + static_cast<std::ptrdiff_t>(std::min(lot.first, series[i].size()));
+      const auto left = static_cast<std::size_t>(series[i].end() - first);
+      rows.add({first, first + static_cast<std::ptrdiff_t>(std::min(lot.count, left))}, nullptr);
+    }
+    rows.append_to(figures);
+  }
+  return true;
+}
+
+/// The lots of every run that the lengths of this event make.
+std::vector<std::vector<Lot>> lots_of_runs(const std::vector<RunFolder>& runs, ValueName name,
+                                           std::optional<double> from) {
+  name.value = length_value;
+  std::vector<std::vector<Lot>> lots;
+  lots.reserve(runs.size());
+  for (const auto& run : runs) lots.push_back(lots_of(numbers_of(run, name, from)));
+  return lots;
+}
 
 bool has(const RunFolder& run, const ChannelRow& row) {
   const auto* column = run.recording.column(row.name);
@@ -134,7 +175,10 @@ void subtract(const RunFolder& first, const RunFolder& other, std::size_t in, do
     while (k < other_times.size() && other_times[k] < times[i]) ++k;
     if (k == other_times.size()) return;
     if (other_times[k] != times[i] || seconds(times[i]) < from) continue;
-    const double difference = std::abs(other_values[k] - values[i]);
+    const double a = values[i];
+    const double b = other_values[k];
+    const double difference =
+        std::isnan(a) == std::isnan(b) ? std::abs(b - a) : std::numeric_limits<double>::infinity();
     if (!(difference > row.difference)) continue;
     row.difference = difference;
     row.at = seconds(times[i]);
@@ -167,27 +211,79 @@ bool differs(const Figure& figure) {
 
 std::vector<Figure> compare_events(const std::vector<RunFolder>& runs, std::optional<double> from) {
   std::vector<Figure> figures;
+  std::vector<Figure> alone;  // of what happens once
   for (const auto& name : event_values(runs)) {
+    if (name.value == number_value) continue;
+    Series series;
+    std::size_t most = 0;  // in a whole run
     ValueFigures rows(name);
     for (const auto& run : runs) {
-      const auto* tolerance = run.tolerance(name.source, name.event, name.value);
-      rows.add(numbers_of(run, name, tolerance, from), tolerance);
+      series.push_back(numbers_of(run, name, from));
+      most = std::max(most, numbers_of(run, name, 0).size());
+      rows.add(series.back(), run.tolerance(name.source, name.event, name.value));
     }
-    rows.append_to(figures);
+    if (most < 2) {
+      const auto& once = rows.mean.numbers;
+      if (!std::all_of(once.begin(), once.end(), [](double number) { return std::isnan(number); }))
+        alone.push_back({words_of(name), name.unit, once});
+      continue;
+    }
+    std::vector<Figure> of_lots;
+    const bool in_lots = add_lots(name, series, lots_of_runs(runs, name, from), of_lots);
+    rows.append_to(figures, in_lots);
+    for (auto& figure : of_lots) figures.push_back(std::move(figure));
   }
+  for (auto& figure : alone) figures.push_back(std::move(figure));
   return figures;
 }
 
-std::vector<ChannelRow> compare_channels(const std::vector<RunFolder>& runs, std::optional<double> from) {
+std::vector<FigureFault> figures_beyond(const std::vector<Figure>& figures, const Allowances& allowances) {
+  std::vector<FigureFault> faults;
+  for (const auto& figure : figures) {
+    if (allowances.find(figure.name) == nullptr) continue;
+    const double first = figure.numbers.front();
+    const double allowed = allowances.of_channel(figure.name, figure.unit, std::abs(first));
+    double most = 0;
+    for (const double number : figure.numbers) {
+      if (std::isnan(number) && std::isnan(first)) continue;
+      const double apart = std::abs(number - first);
+      most = std::isnan(apart) ? std::numeric_limits<double>::infinity() : std::max(most, apart);
+    }
+    if (most > allowed) faults.push_back({figure.name, figure.unit, most, allowed});
+  }
+  return faults;
+}
+
+std::vector<PieceRows> compare_pieces(const std::vector<RunFolder>& runs, std::optional<double> from) {
+  std::vector<PieceRows> pieces;
+  for (const auto& name : event_values(runs)) {
+    if (name.value != length_value) continue;
+    PieceRows rows{name.source + "." + name.event, name.unit, {}};
+    std::size_t most = 0;
+    for (const auto& run : runs) {
+      rows.runs.push_back(numbers_of(run, name, from));
+      most = std::max(most, rows.runs.back().size());
+    }
+    if (most > 1) pieces.push_back(std::move(rows));
+  }
+  return pieces;
+}
+
+std::vector<ChannelRow> compare_channels(const std::vector<RunFolder>& runs, std::optional<double> from,
+                                         const Allowances& allowances) {
   auto rows = all_channels(runs);
   std::erase_if(rows, [&](const ChannelRow& row) { return runs_with(runs, row) < 2; });
   for (auto& row : rows) {
     const RunFolder* first = nullptr;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      measure(runs[i], row, from.value_or(0));
+      measure(runs[i], row, from.value_or(settled(runs[i])));
       if (!has(runs[i], row)) continue;
       if (first == nullptr) {
         first = &runs[i];
+        double largest = 0;
+        for (const double number : first->recording.column(row.name)->values)
+          largest = std::max(largest, std::abs(number));
+        row.allowed = allowances.of_channel(row.name, row.unit, largest);
       } else {
         subtract(*first, runs[i], i, from.value_or(0), row);
       }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 
 #include "sim/loop/known_events.hpp"
 #include "sim/report/gallery.hpp"
+#include "sim/studies/compare/pieces.hpp"
 
 namespace drycut::sim::studies {
 
@@ -39,7 +41,23 @@ scenario::PlotRequest request_for(const RunFolder& run, const OverlayRequest& re
     plot.from = to_time(*origin - seconds(request.around->before));
     plot.until = to_time(*origin + seconds(request.around->after));
   }
+  if (!request.behind_start.empty()) {
+    const auto window = window_of(run, request.behind_start, "", request.from);
+    plot.from = to_time(window.from);
+    if (std::isfinite(window.until)) plot.until = to_time(window.until);
+  }
   return plot;
+}
+
+/// The first event is number 1, whatever came before it.
+void count_from_first(renders::Plot& plot) {
+  double first = HUGE_VAL;
+  for (const auto& panel : plot.panels)
+    for (const auto& curve : panel.curves)
+      if (!curve.x.empty()) first = std::min(first, curve.x.front());
+  for (auto& panel : plot.panels)
+    for (auto& curve : panel.curves)
+      for (auto& x : curve.x) x -= first - 1;
 }
 
 renders::Plot plot_of(const RunFolder& run, const OverlayRequest& request) {
@@ -49,6 +67,7 @@ renders::Plot plot_of(const RunFolder& run, const OverlayRequest& request) {
   auto plot = report::plots_of(view, run.recording).front();
   if (request.around && !origin)
     for (auto& panel : plot.panels) panel.curves.clear();
+  if (!request.behind_start.empty()) count_from_first(plot);
   if (!origin) return plot;
   for (auto& panel : plot.panels)
     for (auto& curve : panel.curves)
@@ -89,6 +108,7 @@ renders::Plot overlay(const std::vector<RunFolder>& runs, const OverlayRequest& 
         panel.curves.clear();
         panel.lanes.clear();
       }
+      if (!request.behind_start.empty()) whole.x_label += ", counted from the first behind the start-up";
       if (request.around)
         whole.x_label =
             fmt::format("time from {} {} [s]", request.around->event.text, request.around->number);
@@ -137,28 +157,19 @@ const Tolerance* common_tolerance(const std::vector<RunFolder>& runs, const loop
   return common;
 }
 
-/// From where on every run judges the values of this event [s].
-double window_begin(const std::vector<RunFolder>& runs, const loop::RecordedEvent& event) {
-  double begin = 0;
-  for (const auto& run : runs)
-    for (const auto& tolerance : run.tolerances)
-      if (loop::names_event(tolerance.event, event.source, event.event))
-        begin = std::max(begin, tolerance.from);
-  return begin;
-}
-
 void add_event(std::vector<OverlayRequest>& requests, const Comparison& comparison,
                const loop::RecordedEvent& event) {
   const auto name = event.source + "." + event.event;
-  auto& plot = request_of(requests, "events_" + file_name(name),
-                          fmt::format("Every {} of {}", event.event, event.source))
-                   .plot;
+  auto& request = request_of(requests, "events_" + file_name(name),
+                             fmt::format("Every {} of {}, side by side", event.event, event.source));
+  request.behind_start = name;
+  request.from = comparison.from;
+  auto& plot = request.plot;
   plot.against_number = true;
-  plot.from = to_time(comparison.from ? *comparison.from : window_begin(comparison.runs, event));
   for (const auto& value : event.values) {
     const bool there = std::any_of(plot.panels.begin(), plot.panels.end(),
                                    [&](const auto& panel) { return panel.title == value.name; });
-    if (there) continue;
+    if (there || value.name == "number") continue;
     auto& panel = plot.panels.emplace_back();
     panel.title = value.name;
     panel.event.text = name;

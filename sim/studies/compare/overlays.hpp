@@ -12,6 +12,9 @@ struct OverlayRequest {
   scenario::PlotRequest plot;
   /// Instead of the plot's window: about an event of each run, from where its time then counts.
   std::optional<scenario::PicturesSection::Around> around;
+  /// Instead of the plot's window: events of each run behind its start-up, which are counted from there.
+  std::string behind_start = {};    ///< "knife.cut", "" = not asked
+  std::optional<double> from = {};  ///< [s] in place of the runs' own start-up
 };
 
 /// The plots with the curves of every run that has what they show, named by the run.

@@ -9,6 +9,7 @@
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
+#include "sim/studies/compare/pieces.hpp"
 
 namespace drycut::sim::studies {
 
@@ -31,6 +32,13 @@ std::vector<std::string> headings(const Comparison& comparison, std::vector<std:
   return first;
 }
 
+std::string difference_cell(double first, double second) {
+  const double difference = second - first;
+  return std::isnan(difference)                 ? ""
+         : loop::without_noise(difference) == 0 ? "0"
+                                                : fmt::format("{:+.4g}", difference);
+}
+
 /// Of two runs also by how much the second has more.
 ReportTable figure_table(const Comparison& comparison, const std::string& title,
                          const std::vector<Figure>& figures) {
@@ -40,12 +48,7 @@ ReportTable figure_table(const Comparison& comparison, const std::string& title,
   for (const auto& figure : figures) {
     renders::ReportRow row{{figure.name, figure.unit}};
     for (const double number : figure.numbers) row.cells.push_back(number_text(number));
-    if (two) {
-      const double difference = figure.numbers[1] - figure.numbers[0];
-      row.cells.push_back(std::isnan(difference)                 ? ""
-                          : loop::without_noise(difference) == 0 ? "0"
-                                                                 : fmt::format("{:+.4g}", difference));
-    }
+    if (two) row.cells.push_back(difference_cell(figure.numbers[0], figure.numbers[1]));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -96,13 +99,38 @@ ReportTable parameter_table(const Comparison& comparison) {
   return table;
 }
 
+ReportTable piece_table(const Comparison& comparison, const PieceRows& pieces) {
+  const bool two = comparison.runs.size() == 2;
+  std::size_t most = 0;
+  for (const auto& run : pieces.runs) most = std::max(most, run.size());
+  ReportTable table{
+      fmt::format("Lengths of {} by their order behind the start-up [{}]{}", pieces.event, pieces.unit,
+                  most > most_rows ? fmt::format(", the first {}", most_rows) : ""),
+      headings(comparison, {"piece"}),
+      {},
+      true};
+  if (two) table.headings.emplace_back("difference");
+  for (std::size_t k = 0; k < std::min(most, most_rows); ++k) {
+    renders::ReportRow row{{fmt::format("{}", k + 1)}};
+    for (const auto& run : pieces.runs) row.cells.push_back(k < run.size() ? number_text(run[k]) : "");
+    if (two)
+      row.cells.push_back(k < std::min(pieces.runs[0].size(), pieces.runs[1].size())
+                              ? difference_cell(pieces.runs[0][k], pieces.runs[1][k])
+                              : "");
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 ReportTable channel_table(const Comparison& comparison) {
-  ReportTable table{"Channels that runs share", {"channel", "unit"}, {}, true};
+  ReportTable table{
+      "Channels that runs share; rms and peak behind the start-up", {"channel", "unit"}, {}, true};
   for (const auto& run : comparison.runs) {
     table.headings.push_back(run.label + ": rms");
     table.headings.push_back(run.label + ": peak");
   }
   table.headings.emplace_back("largest difference");
+  table.headings.emplace_back("allowed");
   table.headings.emplace_back("at");
   for (const auto& channel : comparison.channels) {
     renders::ReportRow row{{channel.name, channel.unit}};
@@ -111,6 +139,7 @@ ReportTable channel_table(const Comparison& comparison) {
       row.cells.push_back(number_text(channel.peak[i]));
     }
     row.cells.push_back(number_text(channel.difference));
+    row.cells.push_back(number_text(channel.allowed));
     row.cells.push_back(channel.difference == 0
                             ? ""
                             : fmt::format("{:.4f} s, {}", channel.at, comparison.runs[channel.in].label));
@@ -152,6 +181,7 @@ void add_tables(const Comparison& comparison, const ComparisonPage& page, render
   auto events = figure_table(comparison, "Cuts and other events", comparison.events);
   events.folded = !page.figures.empty();
   add(std::move(events));
+  for (const auto& pieces : comparison.pieces) add(piece_table(comparison, pieces));
   add(channel_table(comparison));
   add(event_table(comparison));
   add(unmatched_table(comparison));
@@ -170,8 +200,12 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
   report.passed = page.passed.value_or(true);
   if (!page.passed) report.word = same(comparison) ? "SAME" : "DIFFERENT";
   report.verdict = page.verdict;
-  for (const auto& run : comparison.runs)
-    report.facts.push_back({{run.label, fmt::format("{:g} s simulated, drycut {}", run.end, run.version)}});
+  for (const auto& run : comparison.runs) {
+    const double start = comparison.from.value_or(settled(run));
+    report.facts.push_back(
+        {{run.label, fmt::format("{:g} s simulated, drycut {}{}", run.end, run.version,
+                                 start > 0 ? fmt::format("; start-up until {:g} s", start) : "")}});
+  }
   if (comparison.from) report.facts.push_back({{"figures from", fmt::format("{:g} s", *comparison.from)}});
   report.facts.push_back({{"compared by drycut", DRYCUT_VERSION}});
   report::add_checks(page.checks, report);
@@ -187,7 +221,7 @@ void write_comparison(const Comparison& comparison, const ComparisonPage& page, 
   if (pictures) report::write_report(report_of(comparison, page), drawn_plots(comparison, page), folder);
 }
 
-std::string comparison_text(const Comparison& comparison) {
+std::string comparison_text(const Comparison& comparison, bool judged) {
   constexpr std::size_t most = 20;
   auto text = difference_text(comparison) + "\n";
   for (const auto& check : comparison.checks) {
@@ -197,6 +231,21 @@ std::string comparison_text(const Comparison& comparison) {
       text += fmt::format("; {} {}", comparison.runs[i].label, result_text(check.results[i]));
     text += "\n";
   }
+  std::size_t told = 0;
+  for (const auto& channel : comparison.channels)
+    if (judged && !channel.is_kept() && ++told <= most)
+      text += fmt::format("  {}\n", apart_text(channel, comparison));
+  for (std::size_t k = 0; judged && k < std::min<std::size_t>(3, comparison.event_differences.size()); ++k) {
+    const auto& event = comparison.event_differences[k];
+    text += fmt::format("  {}:", event.name);
+    for (std::size_t i = 0; i < event.told.size(); ++i)
+      text += fmt::format("{} {} {}", i == 0 ? "" : ";", comparison.runs[i].label,
+                          event.told[i].value_or("has none"));
+    text += "\n";
+  }
+  for (const auto& figure : comparison.figures_beyond)
+    text += fmt::format("  {} by {:.4g} {}, {:.4g} allowed\n", figure.name, figure.difference, figure.unit,
+                        figure.allowed);
   for (std::size_t k = 0; k < std::min(most, comparison.parameters.size()); ++k) {
     const auto& parameter = comparison.parameters[k];
     text += fmt::format("  {}:", parameter.path);

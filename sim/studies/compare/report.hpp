@@ -28,7 +28,8 @@ inline const std::vector<std::string> comparison_files = {"comparison.csv", "rep
 void write_comparison(const Comparison& comparison, const ComparisonPage& page, OutputFolder& folder,
                       bool pictures);
 
-/// What differs, for a terminal: a line a check, a parameter.
-std::string comparison_text(const Comparison& comparison);
+/// What differs, for a terminal: a line a check, a parameter; of what is `judged` also channels, and the
+/// first events.
+std::string comparison_text(const Comparison& comparison, bool judged);
 
 }  // namespace drycut::sim::studies

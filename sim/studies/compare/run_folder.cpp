@@ -14,6 +14,7 @@
 #include "sim/records/csv_files.hpp"
 #include "sim/records/hdf5_reader.hpp"
 #include "sim/report/results.hpp"
+#include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_node.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
@@ -178,6 +179,22 @@ std::vector<Tolerance> tolerances_of(const scenario::PicturesSection& pictures) 
   return found;
 }
 
+/// Where checks of events begin.
+std::vector<std::pair<std::string, double>> starts_of(const scenario::YamlNode& root) {
+  std::vector<std::pair<std::string, double>> starts;
+  const auto* checks = scenario::child(root, "checks");
+  if (checks == nullptr) return starts;
+  for (const auto& check : checks->items) {
+    const auto* from = scenario::child(check, "from");
+    const auto time = from == nullptr ? std::nullopt : scenario::parse_quantity(from->text.text);
+    if (!time || !scenario::is_unit(time->unit) || !scenario::same_dimension(time->unit, "s")) continue;
+    for (const auto* kind : {"each", "all"})
+      if (const auto* event = scenario::child(check, kind))
+        starts.emplace_back(event->text.text, scenario::to_si(time->number, time->unit));
+  }
+  return starts;
+}
+
 void read_scenario_yaml(const std::string& text, const std::string& file, RunFolder& run,
                         Problems& problems) {
   scenario::Findings findings({file});
@@ -193,6 +210,7 @@ void read_scenario_yaml(const std::string& text, const std::string& file, RunFol
                 [](const scenario::YamlNode::Entry& entry) { return entry.key.text == "pictures"; });
   if (findings.empty() && root.kind != scenario::YamlNode::Kind::map)
     scenario::refuse_kind(root, "a scenario", scenario::YamlNode::Kind::map, findings);
+  run.starts = starts_of(root);
   flatten(root, "", run.parameters);
   for (auto& problem : findings.sorted()) problems.push_back(std::move(problem));
 }

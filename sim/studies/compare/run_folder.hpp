@@ -36,6 +36,8 @@ struct RunFolder {
   /// list go by their name, "checks[cut length].expect", else by index. Pictures are left out.
   std::vector<std::pair<std::string, std::string>> parameters;
   std::vector<Tolerance> tolerances;
+  /// Events that checks look at one by one or all of, and from when on [s]: "knife.cut", 4.
+  std::vector<std::pair<std::string, double>> starts;
 
   [[nodiscard]] const std::string* parameter(const std::string& path) const;
   /// Of a value of "knife", "cut"; nullptr if the scenario states none.

@@ -91,7 +91,10 @@ class AxisReader {
     }
     const auto is_number = [](const Item& item) { return quantity_in(item.text).has_value(); };
     const auto word = std::find_if_not(items.begin(), items.end(), is_number);
-    if (std::none_of(items.begin(), items.end(), is_number)) return axis;  // words
+    if (std::none_of(items.begin(), items.end(), is_number)) {
+      for (const auto& item : items) axis.word_columns.push_back(static_cast<int>(item.at) + 1);
+      return axis;
+    }
     if (word != items.end())
       return refuse(word->at, fmt::format("'{}' is no number as the others are", word->text),
                     "numbers with one unit, or words");

@@ -12,10 +12,11 @@ namespace drycut::sim::studies {
 
 /// A value of the scenario that a sweep goes over, by its override path.
 struct SweepAxis {
-  TunedParameter parameter;         ///< path, unit, ends and their columns
-  std::vector<std::string> values;  ///< without unit, as a row has them; none of a range that is sampled
-  std::optional<int> steps = {};    ///< of a range
-  bool logarithmic = false;         ///< of a range
+  TunedParameter parameter;            ///< path, unit, ends and their columns
+  std::vector<std::string> values;     ///< without unit, as a row has them; none of a range that is sampled
+  std::vector<int> word_columns = {};  ///< of `values` that are words
+  std::optional<int> steps = {};       ///< of a range
+  bool logarithmic = false;            ///< of a range
   [[nodiscard]] bool is_range() const { return parameter.low < parameter.high; }
 };
 using SweepAxes = std::vector<SweepAxis>;

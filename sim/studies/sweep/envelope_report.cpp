@@ -13,7 +13,7 @@ namespace drycut::sim::studies {
 
 namespace {
 
-constexpr std::size_t bound_cell = 0;  // of those behind the axes'
+constexpr std::string_view end_of_range = "nothing, to the end of the range";
 
 std::string without_unit(const std::string& heading) { return heading.substr(0, heading.rfind(" [")); }
 
@@ -29,7 +29,7 @@ Studied studied(const Envelope& envelope) {
   const auto& question = envelope.question;
   Studied study{envelope.scene, question, envelope.axes, envelope.points,
                 axis_headings(question, envelope.axes)};
-  study.columns = {heading(envelope.request.parameter)};
+  study.columns = {with_check_names(question, heading(envelope.request.parameter))};
   study.columns.insert(study.columns.end(), question.columns.begin(), question.columns.end());
   study.headings.insert(study.headings.end(), {study.columns[0], "bound", "what gives way behind it"});
   study.headings.insert(study.headings.end(), question.columns.begin(), question.columns.end());
@@ -37,8 +37,8 @@ Studied studied(const Envelope& envelope) {
   for (std::size_t i = 0; i < envelope.points.size(); ++i) {
     const auto& bound = envelope.bounds[i];
     const bool good = bound.kind != Bound::Kind::nowhere;
-    auto& cells = study.cells.emplace_back(envelope.points[i]);
-    cells.push_back(good ? number_text(bound.value) : "");
+    auto& cells = study.cells.emplace_back(short_point(envelope.points[i]));
+    cells.push_back(good ? bound_text(envelope, bound) : "");
     cells.emplace_back(name_of(bound.kind));
     cells.push_back(bound.limit);
     auto& numbers = study.numbers.emplace_back();
@@ -47,7 +47,10 @@ Studied studied(const Envelope& envelope) {
     numbers.resize(study.columns.size(), unknown);
     for (std::size_t k = 1; k < numbers.size(); ++k) cells.push_back(short_text(numbers[k]));
     study.good.push_back(good);
-    study.region.push_back(bound.limit.empty() ? std::string(name_of(bound.kind)) : bound.limit);
+    study.kept.push_back(bound.kind == Bound::Kind::throughout);
+    study.region.push_back(!good                 ? std::string(holds_nowhere)
+                           : bound.limit.empty() ? std::string(end_of_range)
+                                                 : bound.limit);
     lines.values.push_back(numbers[0]);
   }
   study.lines = {std::move(lines)};
@@ -94,7 +97,7 @@ renders::ReportTable key_figures(const Family& family) {
         [](const auto& x, const auto& y) { return number_in(x) < number_in(y); });
   });
   for (const auto& point : points) {
-    auto cells = point;
+    auto cells = short_point(point);
     for (const auto* envelope : family.envelopes) {
       const auto at = std::find(envelope->points.begin(), envelope->points.end(), point);
       if (at == envelope->points.end()) {
@@ -105,6 +108,8 @@ renders::ReportTable key_figures(const Family& family) {
       auto text = bound_text(*envelope, bound);
       if (!bound.limit.empty()) text += "\n" + bound.limit;
       if (bound.kind == Bound::Kind::throughout) text += "\nthe end of the range";
+      if (bound.from > envelope->request.parameter.low)
+        text += fmt::format("\nholds from {} on, not below", short_text(bound.from));
       if (bound.again) text += fmt::format("; holds again at {:.4g}", *bound.again);
       cells.push_back(std::move(text));
     }
@@ -136,7 +141,9 @@ renders::Panel scene_panel(const Envelope& envelope, const Studied& study, const
   panel.curves.push_back(std::move(fails));
   panel.curves.push_back(std::move(holds));
   for (const auto& region : regions_of(study)) {
-    renders::Curve limited{region.label, {}, {}, Style::points};
+    const bool none = region.label == end_of_range;
+    renders::Curve limited{
+        none ? "the end of the range" : "gives way: " + region.label, {}, {}, Style::points};
     for (std::size_t i = 0; i < study.points.size(); ++i) {
       if (study.region[i] != region.label || !study.good[i]) continue;
       limited.x.push_back(number_in(study.points[i][0]));
@@ -196,7 +203,7 @@ std::string first_command(const Envelope& envelope, const Studied& study) {
   if (good == study.good.end()) return "";
   const auto i = static_cast<std::size_t>(good - study.good.begin());
   return point_command(study, study.points[i],
-                       {setting(envelope.request.parameter, study.cells[i][study.axes.size() + bound_cell])});
+                       {setting(envelope.request.parameter, number_text(study.numbers[i][0]))});
 }
 
 renders::Report page_of(const std::vector<Envelope>& envelopes, const std::vector<Studied>& studies) {
@@ -252,9 +259,10 @@ void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder&
     report.tables.push_back(rows_of(study, of.empty() ? "Every point" : of + "every point"));
     if (over_axes(study, 2)) {
       const auto name = studies.size() > 1 ? fmt::format("map_{}", i + 1) : "map";
-      const auto sought = setting(envelopes[i].request.parameter, "{2}");
       report.maps.push_back(map_of(study, name, fmt::format("{}largest {}", of, study.columns[0]),
-                                   point_command(study, {"{0}", "{1}"}, {sought}), folder));
+                                   "The colours say what gives way behind the largest value, green that "
+                                   "nothing does; the lines are of equal largest value.",
+                                   &envelopes[i].request.parameter, folder));
     } else if (const auto command = first_command(envelopes[i], study); !command.empty()) {
       commands += command + "\n";
     }

@@ -48,6 +48,16 @@ std::vector<std::string> axis_headings(const PointQuestion& question, const Swee
 
 std::string short_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
+std::vector<std::string> short_point(const SweepPoint& point) {
+  std::vector<std::string> cells;
+  cells.reserve(point.size());
+  for (const auto& text : point) {
+    const double number = number_in(text);
+    cells.push_back(std::isfinite(number) ? short_text(number) : text);
+  }
+  return cells;
+}
+
 double number_in(const std::string& text) { return number_of(text).value_or(unknown); }
 
 bool over_axes(const Studied& study, std::size_t count) {
@@ -83,21 +93,23 @@ std::vector<renders::ReportRow> facts_of(const std::vector<const Studied*>& stud
       {{files.size() == 1 ? "scenario" : "scenarios", fmt::format("{}", fmt::join(files, ", "))}});
   if (!over.empty()) facts.push_back({{"over", fmt::format("{}", fmt::join(over, ", "))}});
   for (const auto& [path, value] : studies.front()->question.set)
-    facts.push_back({{"set", fmt::format("{} = {}", path, value)}});
+    facts.push_back(
+        {{"set", fmt::format("{} = {}", with_check_names(studies.front()->question, path), value)}});
   facts.push_back({{"drycut", DRYCUT_VERSION}});
   return facts;
 }
 
 std::vector<renders::MapRegion> regions_of(const Studied& study) {
   std::vector<renders::MapRegion> regions;
-  for (const bool good : {true, false})
+  for (const bool kept : {true, false})
     for (std::size_t i = 0; i < study.region.size(); ++i) {
       const bool known = std::any_of(regions.begin(), regions.end(),
                                      [&](const auto& region) { return region.label == study.region[i]; });
-      if (study.good[i] != good || known) continue;
+      if (study.kept[i] != kept || known) continue;
       using Kind = renders::MapRegion::Kind;
-      const bool none = study.region[i] == name_of(PointRow::Verdict::refused);
-      regions.push_back({study.region[i], good ? Kind::good : none ? Kind::none : Kind::bad});
+      const bool none =
+          study.region[i] == name_of(PointRow::Verdict::refused) || study.region[i] == holds_nowhere;
+      regions.push_back({study.region[i], kept ? Kind::good : none ? Kind::none : Kind::bad});
     }
   return regions;
 }
@@ -119,7 +131,7 @@ renders::ReportTable rows_of(const Studied& study, const std::string& title) {
 }
 
 renders::ReportMap map_of(const Studied& study, const std::string& name, const std::string& title,
-                          const std::string& command, OutputFolder& folder) {
+                          const std::string& caption, const TunedParameter* sought, OutputFolder& folder) {
   renders::ReportMap shown;
   auto& map = shown.map;
   map.name = name;
@@ -143,11 +155,17 @@ renders::ReportMap map_of(const Studied& study, const std::string& name, const s
                      [&](const auto& region) { return region.label == study.region[i]; }) -
         map.regions.begin());
     shown.cells[at] = study.cells[i];
+    // Behind what is told, what the command sets: to the last digit.
+    shown.cells[at].insert(shown.cells[at].end(), study.points[i].begin(), study.points[i].end());
+    if (sought != nullptr) shown.cells[at].push_back(study.good[i] ? number_text(study.numbers[i][0]) : "");
     for (std::size_t k = 0; k < map.lines.size(); ++k) map.lines[k].values[at] = study.lines[k].values[i];
   }
   shown.headings = study.headings;
-  shown.command = command;
-  shown.caption = "Green: every check and every rating holds. The other colours say what gives way first.";
+  const auto slot = [&](std::size_t behind) { return fmt::format("{{{}}}", study.headings.size() + behind); };
+  std::vector<std::string> more;
+  if (sought != nullptr) more.push_back(setting(*sought, slot(2)));
+  shown.command = point_command(study, {slot(0), slot(1)}, more);
+  shown.caption = caption;
   shown.png = folder.add(fmt::format("plots/{}.png", name));
   draw_map(map, shown.png.parent_path());
   return shown;

@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "renders/report.hpp"
@@ -11,6 +12,7 @@ namespace drycut::sim::studies {
 
 // What the pages of drycut sweep and drycut envelope have in common.
 
+inline constexpr std::string_view holds_nowhere = "holds nowhere";
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A study of one scene as its page sees it: a row a point with what it belongs to.
@@ -22,8 +24,9 @@ struct Studied {
   std::vector<std::string> headings = {};            ///< of `cells`
   std::vector<std::vector<std::string>> cells = {};  ///< a row a point, the axes' first
   std::vector<std::string> region = {};              ///< of each point
-  std::vector<bool> good = {};
-  std::vector<std::string> columns = {};          ///< of `numbers`
+  std::vector<bool> good = {};                       ///< has numbers to show
+  std::vector<bool> kept = {};                       ///< nothing gives way: green
+  std::vector<std::string> columns = {};             ///< of `numbers`
   std::vector<std::vector<double>> numbers = {};  ///< a row a point; only of good points, else not a number
   std::vector<renders::MapLines> lines = {};      ///< that a map shows, with a value a point
 };
@@ -31,6 +34,8 @@ struct Studied {
 /// The headings of the axes, checks by their names, and numbers as cells show them.
 std::vector<std::string> axis_headings(const PointQuestion& question, const SweepAxes& axes);
 std::string short_text(double value);
+/// The point as cells show it: numbers in six digits.
+std::vector<std::string> short_point(const SweepPoint& point);
 double number_in(const std::string& text);
 
 /// True of a grid over so many axes of numbers.
@@ -44,16 +49,17 @@ std::string setting(const TunedParameter& parameter, const std::string& value);
 /// What the page says of where it comes from: scenarios, axes, what was set.
 std::vector<renders::ReportRow> facts_of(const std::vector<const Studied*>& studies);
 
-/// The kinds of regions in the order of their first point, good ones first, and how many points are in each.
+/// The kinds of regions in the order of their first point, those where nothing gives way first, and how many
+/// points are in each.
 std::vector<renders::MapRegion> regions_of(const Studied& study);
 renders::ReportTable counts_of(const Studied& study, const std::string& title);
 /// Every point, folded.
 renders::ReportTable rows_of(const Studied& study, const std::string& title);
 
-/// The study over its two axes; `name` is the picture's in plots/, `command` that of a point, with {0} for
-/// its first cell and so on.
+/// The study over its two axes; `name` is the picture's in plots/. The command of a point repeats it; to what
+/// it sets it also sets what is `sought`, if anything, to the point's number of it.
 renders::ReportMap map_of(const Studied& study, const std::string& name, const std::string& title,
-                          const std::string& command, OutputFolder& folder);
+                          const std::string& caption, const TunedParameter* sought, OutputFolder& folder);
 
 /// A number of the points over their one axis, in the axis' order.
 renders::Curve curve_of(const Studied& study, std::size_t column, const std::string& label);

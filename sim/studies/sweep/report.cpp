@@ -12,6 +12,8 @@ namespace drycut::sim::studies {
 
 namespace {
 
+constexpr double least_share = 0.2;  ///< of a tolerance: a line of equal accuracy below it is noise
+
 /// The rows as a page shows them.
 Studied studied(const PointQuestion& question, const SweepAxes& axes, const std::vector<SweepPoint>& points,
                 const std::vector<PointRow>& rows) {
@@ -22,17 +24,42 @@ Studied studied(const PointQuestion& question, const SweepAxes& axes, const std:
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& row = rows[i];
     const bool good = row.verdict == PointRow::Verdict::passed;
-    auto& cells = study.cells.emplace_back(points[i]);
+    auto& cells = study.cells.emplace_back(short_point(points[i]));
     cells.emplace_back(name_of(row.verdict));
     cells.push_back(row.limit);
     for (const double number : row.numbers) cells.push_back(short_text(number));
     study.good.push_back(good);
+    study.kept.push_back(good);
     study.region.emplace_back(row.verdict == PointRow::Verdict::failed && !row.limit.empty()
                                   ? row.limit
                                   : std::string(name_of(row.verdict)));
     study.numbers.push_back(good ? row.numbers : std::vector<double>(question.columns.size(), unknown));
   }
   return study;
+}
+
+/// Lines that no point reaches need no place in a legend.
+bool is_above_least(const renders::MapLines& lines) {
+  return lines.levels.empty() || std::any_of(lines.values.begin(), lines.values.end(),
+                                             [&](double value) { return value > lines.levels.front(); });
+}
+
+/// Which accuracies a map has no lines of, since all are so good.
+std::string dust_of(const Studied& study) {
+  std::string text;
+  for (std::size_t column = 0; column < study.columns.size(); ++column) {
+    for (const auto& piece : study.question.pieces) {
+      if (piece.tolerance <= 0 || !study.columns[column].starts_with(piece.source + ".cut accuracy ["))
+        continue;
+      const bool reached = std::any_of(study.numbers.begin(), study.numbers.end(), [&](const auto& numbers) {
+        return numbers[column] > least_share * piece.tolerance;
+      });
+      if (!reached)
+        text += fmt::format(" Where all holds, the accuracy of {} is better than {:.4g} {} everywhere.",
+                            piece.source, least_share * piece.tolerance, piece.length_unit);
+    }
+  }
+  return text;
 }
 
 /// Lines of equal accuracy and rms torque. Of the accuracy those that are near what is allowed: far below it
@@ -47,11 +74,11 @@ std::vector<renders::MapLines> lines_of(const Studied& study) {
       if (!name.starts_with(piece.source + ".cut accuracy [")) continue;
       drawn = true;
       if (piece.tolerance > 0)
-        for (const double share : {0.2, 0.5, 1.0}) shown.levels.push_back(share * piece.tolerance);
+        for (const double share : {least_share, 0.5, 1.0}) shown.levels.push_back(share * piece.tolerance);
     }
     if (!drawn) continue;
     for (const auto& numbers : study.numbers) shown.values.push_back(numbers[column]);
-    lines.push_back(std::move(shown));
+    if (is_above_least(shown)) lines.push_back(std::move(shown));
   }
   return lines;
 }
@@ -111,7 +138,10 @@ void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
   report.tables = {rows_of(study, "Every point")};
   std::vector<renders::Plot> plots;
   if (over_axes(study, 2)) {
-    report.maps.push_back(map_of(study, "map", title, point_command(study, {"{0}", "{1}"}), folder));
+    const auto caption =
+        "Green: every check and every rating holds. The other colours say what gives way first." +
+        dust_of(study);
+    report.maps.push_back(map_of(study, "map", title, caption, nullptr, folder));
   } else if (!points.empty()) {
     report.texts.push_back(
         {"The command that repeats the first point with pictures", point_command(study, points.front())});

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/text.hpp"
@@ -39,8 +40,49 @@ Problems objections(const SweepAxis& axis, const std::string& value, const Point
   return point.problems;
 }
 
-/// A value that cannot be set is a row that says so; an axis of which no end can be set is a mistake.
+/// Every value that the scenario has, by its path, as far as it can be gone over.
+std::vector<std::string> known_paths(const scenario::Scenario& scenario) {
+  std::vector<std::string> paths;
+  for (const auto& variable : scenario.variables) paths.push_back("variables." + variable.name.text);
+  for (const auto& plant : scenario.plants)
+    for (const auto& row : plant.definition->parameters())
+      paths.push_back(fmt::format("plants.{}.{}", plant.name.text, row.name));
+  if (scenario.controller)
+    for (const auto& [name, number] : scenario.controller->set)
+      paths.push_back(fmt::format("controller.{}.set.{}", scenario.controller->kind(), name.text));
+  return paths;
+}
+
+/// A path begins with a section of the scenario: length is none, where there is a variables.length.
+bool begins_with_section(const TunedParameter& parameter, const scenario::Scenario& scenario,
+                         Problems& problems) {
+  constexpr std::array sections = {"variables", "scene",        "plants", "controller", "wiring", "filters",
+                                   "timeline",  "disturbances", "record", "drives",     "checks"};
+  const auto first = parameter.path.substr(0, parameter.path.find('.'));
+  if (std::find(sections.begin(), sections.end(), first) != sections.end()) return true;
+  problems.push_back({parameter.option, 1, 1,
+                      fmt::format("the scenario has no {}", in_quotes(parameter.path)),
+                      did_you_mean(parameter.path, known_paths(scenario),
+                                   fmt::format("a path begins with {}", fmt::join(sections, ", ")))});
+  return false;
+}
+
+/// A word that the scenario does not take is a slip; every one is tried.
+void try_words(const SweepAxis& axis, const PointQuestion& question, Problems& problems) {
+  for (std::size_t i = 0; i < axis.word_columns.size(); ++i) {
+    const auto told = objections(axis, axis.values[i], question);
+    if (told.empty()) continue;
+    const auto path = with_check_names(question, axis.parameter.path);
+    problems.push_back(
+        {axis.parameter.option, 1, axis.word_columns[i],
+         fmt::format("{} cannot be {}: {}", path, in_quotes(axis.values[i]), told.front().what),
+         told.front().remedy});
+  }
+}
+
+/// A number that cannot be set is a row that says so; an axis of which no end can be set is a mistake.
 void try_ends(const SweepAxis& axis, const PointQuestion& question, Problems& problems) {
+  if (!axis.word_columns.empty()) return try_words(axis, question, problems);
   const auto& parameter = axis.parameter;
   const auto first = axis.is_range() ? number_text(parameter.low) : axis.values.front();
   const auto last = axis.is_range() ? number_text(parameter.high) : axis.values.back();
@@ -49,6 +91,7 @@ void try_ends(const SweepAxis& axis, const PointQuestion& question, Problems& pr
   for (auto& problem : told) {
     if (problem.what.find(parameter.path) == std::string::npos)
       problem.what = fmt::format("{}: {}", parameter.path, problem.what);
+    problem.what = with_check_names(question, problem.what);
     problem.file = parameter.option;
     problem.line = 1;
     problem.column = parameter.low_column;
@@ -70,7 +113,8 @@ bool says_its_unit(const SweepAxis& axis, const scenario::Scenario& scenario, Pr
   else
     problems.push_back(
         {known.option, 1, known.low_column, fmt::format("{} is {}, and no unit is given", known.path, kind),
-         axis.is_range() ? fmt::format("such as {}..{} {}", first, number_text(known.high), known.unit)
+         axis.is_range() ? fmt::format("such as {}..{} {}{}", first, number_text(known.high), known.unit,
+                                       axis.steps ? fmt::format(":{}", *axis.steps) : "")
                          : fmt::format("such as {} {}", first, known.unit)});
   return false;
 }
@@ -85,6 +129,7 @@ void check_axes(SweepAxes& axes, const PointQuestion& question, Problems& proble
       problems.push_back({parameter.option, 1, 1, parameter.path + " is given twice", "keep one"});
       continue;
     }
+    if (!begins_with_section(parameter, scenario, problems)) continue;
     if (!says_its_unit(*axis, scenario, problems)) continue;
     const auto before = problems.size();
     present_value(parameter, scenario);

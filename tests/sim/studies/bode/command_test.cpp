@@ -80,6 +80,23 @@ TEST_F(BodeCommand, FailsBelowALimit) {
   EXPECT_THAT(out, HasSubstr("FAIL: the gain margin of 26.04 dB is below 30 dB"));
 }
 
+// Who reads PASS should read what it was held against.
+TEST_F(BodeCommand, APageSaysTheLimitsThatItWasJudgedBy) {
+  options.out = folder.path / "results";
+  EXPECT_EQ(run(), cli::all_passed);
+  auto html = content(options.out / "report.html");
+  EXPECT_THAT(html, HasSubstr("<strong>MEASURED</strong>"));
+  EXPECT_THAT(html, testing::Not(HasSubstr("<h2>Checks</h2>")));
+  options.min_phase_margin = 80;
+  options.min_gain_margin = 20;
+  EXPECT_EQ(run(), cli::all_passed);
+  EXPECT_THAT(out, HasSubstr("PASS: the phase margin of 87.09 deg is not below 80 deg"));
+  html = content(options.out / "report.html");
+  EXPECT_THAT(html, HasSubstr("<strong>PASS</strong> <span>phase margin &gt;= 80 deg: 87.09 deg at "));
+  EXPECT_THAT(
+      html, testing::ContainsRegex("<code>gain margin &gt;= 20 dB</code></td><td>6[.]0[0-9]* dB left</td>"));
+}
+
 TEST_F(BodeCommand, FailsOnAMarginThatItCannotKnow) {
   options.loop.to = 20;
   options.min_gain_margin = 6;

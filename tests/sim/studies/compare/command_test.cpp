@@ -1,4 +1,6 @@
 // drycut compare: exit status, what it prints and writes, what it refuses.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include "sim/cli/compare_command.hpp"
@@ -26,7 +28,6 @@ struct CompareCommand : Bench {
 };
 
 TEST_F(CompareCommand, IdenticalRunsAreTheSame) {
-  options.fail_on_difference = true;
   EXPECT_EQ(run({write("a", {}), write("b", {})}), cli::all_passed) << err;
   EXPECT_THAT(out, HasSubstr("a against b: no difference\n"));
   const auto page = content(folder / "out/report.html");
@@ -34,6 +35,157 @@ TEST_F(CompareCommand, IdenticalRunsAreTheSame) {
   EXPECT_THAT(page, Not(HasSubstr("<h2>Parameters in force that differ")));
   EXPECT_TRUE(fs::exists(folder / "out/comparison.csv"));
   EXPECT_TRUE(fs::exists(folder / "out/plots/overlay_AxisX.png"));
+}
+
+TEST_F(CompareCommand, WhatIsJudgedIsGreenWhereItIsKept) {
+  options.fail_on_difference = true;
+  EXPECT_EQ(run({write("a", {}), write("b", {})}), cli::all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("\n  PASS: kept\n"));
+  const auto page = content(folder / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("<p class=\"verdict pass\"><strong>PASS</strong>"));
+  for (const auto* what : {"verdicts", "events", "channels", "end", "parameters"})
+    EXPECT_THAT(page, HasSubstr(std::string("<span class=\"badge pass\">PASS</span></td><td>") + what));
+}
+
+/// Noise in the last digits of what two machines compute.
+RunTexts noisy() {
+  RunTexts texts;
+  texts.trace = with(texts.trace, "0.2,60,-4", "0.2,60.0000001,-4");
+  texts.events = with(texts.events, "length=800.1 mm", "length=800.100008 mm");
+  return texts;
+}
+
+TEST_F(CompareCommand, AGoldenSurvivesRoundingAndNoMore) {
+  const std::vector<fs::path> runs = {write("a", {}), write("b", noisy())};
+  EXPECT_EQ(run(runs), cli::all_passed);
+  EXPECT_THAT(out, HasSubstr("no difference\n")) << "1e-7 of the largest value is none";
+  options.tolerances = {"0"};
+  EXPECT_EQ(run(runs), cli::check_failed);
+  EXPECT_THAT(out, HasSubstr("different: 1 of 4 events, 1 of 2 shared channels\n"));
+  EXPECT_THAT(out, HasSubstr("  knife.speed by 1e-07 m/min at 0.2000 s in b, 0 m/min allowed\n"));
+  EXPECT_THAT(out, HasSubstr("  knife.cut 2: a 0.100000 s: length=800.1 mm; mismatch=1 mm/s; b 0.100000 s: "
+                             "length=800.100008 mm;"));
+  EXPECT_THAT(out, HasSubstr("\n  FAIL: beyond the tolerance\n"));
+  const auto page = content(folder / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("<p class=\"verdict fail\"><strong>FAIL</strong>"));
+  EXPECT_THAT(page, HasSubstr("<span class=\"badge fail\">FAIL</span></td><td>channels"));
+  EXPECT_THAT(page, HasSubstr("<span class=\"badge pass\">PASS</span></td><td>verdicts"));
+}
+
+TEST_F(CompareCommand, TolerancesAreByNameAndUnit) {
+  RunTexts other;
+  other.trace = with(other.trace, "0.1,60,3", "0.1,60.3,5");
+  other.events =
+      with(other.events, "0.150000000,knife,cut,length=799.9 mm", "0.151,knife,cut,length=799.95 mm");
+  const std::vector<fs::path> runs = {write("a", {}), write("b", other)};
+  struct Case {
+    std::vector<std::string> tolerances;
+    int status;
+    const char* told;
+  };
+  const std::vector<std::string> all = {"length=0.06mm", "time=1 ms", "knife.speed=0.5%",
+                                        "AxisX.follerr=2 bits x4"};
+  const auto but = [&](std::size_t i, const std::string& text) {
+    auto changed = all;
+    changed[i] = text;
+    return changed;
+  };
+  for (const auto& [tolerances, status, told] :
+       std::vector<Case>{{all, cli::all_passed, "no difference\n"},
+                         {but(0, "length=0.04mm"), cli::check_failed, "1 of 4 events\n"},
+                         {but(0, "length=60 um"), cli::all_passed, ""},
+                         {but(0, "cut.length=0.06mm"), cli::all_passed, ""},
+                         {but(0, "knife.cut.length=0.06mm"), cli::all_passed, ""},
+                         {but(0, "mismatch=1 m/s"), cli::check_failed, "1 of 4 events\n"},
+                         {but(1, "time=0.9 ms"), cli::check_failed, "1 of 4 events\n"},
+                         {but(2, "knife.speed=0.4%"), cli::check_failed, "1 of 2 shared channels\n"},
+                         {but(2, "knife.speed=0.005"), cli::all_passed, ""},
+                         {but(2, "knife.speed=0.3001 m/min"), cli::all_passed, ""},
+                         {but(3, "AxisX.follerr=1.9 bits x4"), cli::check_failed, "1 of 2 shared channels\n"},
+                         {{"50%"}, cli::all_passed, ""},
+                         {{"50%", "length=0"}, cli::check_failed, "1 of 4 events\n"}}) {
+    options.tolerances = tolerances;
+    EXPECT_EQ(run(runs), status) << fmt::format("{}\n{}{}", fmt::join(tolerances, " "), out, err);
+    EXPECT_THAT(out, HasSubstr(told)) << tolerances[0];
+  }
+}
+
+TEST_F(CompareCommand, AToleranceOfAFigureJudgesIt) {
+  RunTexts other;
+  other.events = with(other.events, "length=799.9 mm", "length=799.94 mm");
+  const std::vector<fs::path> runs = {write("a", {}), write("b", other)};
+  options.tolerances = {"length=1mm", "knife.cut length: mean=0.03mm"};
+  EXPECT_EQ(run(runs), cli::all_passed) << out << err;
+  options.tolerances = {"length=1mm", "knife.cut length: mean=0.01mm"};
+  EXPECT_EQ(run(runs), cli::check_failed);
+  EXPECT_THAT(out, HasSubstr("different: 1 figure\n  knife.cut length: mean by 0.02 mm, 0.01 allowed\n"));
+}
+
+// A margin hangs on what its check speaks of: who allows that allows its margin to move along.
+TEST_F(CompareCommand, AMarginHasTheToleranceOfItsCheckOrOfWhatItSpeaksOf) {
+  RunTexts other;
+  other.checks =
+      with(RunTexts::checks_json(0.05, true), "each cut\"", "each cut: abs(length - 800) <= 0.2\"");
+  RunTexts first;
+  first.checks = with(first.checks, "each cut\"", "each cut: abs(length - 800) <= 0.2\"");
+  const std::vector<fs::path> runs = {write("a", first), write("b", other)};
+  for (const auto& [tolerance, status] :
+       std::vector<std::pair<const char*, int>>{{"1e-6", cli::check_failed},
+                                                {"length=0.01mm", cli::all_passed},
+                                                {"length=0.001mm", cli::check_failed},
+                                                {"length=0.001%", cli::all_passed},  // of 900 mm
+                                                {"cut length=0.003 mm", cli::all_passed},
+                                                {"cut length=10%", cli::all_passed},
+                                                {"cut length=1%", cli::check_failed},
+                                                {"knife.speed=1 m/s", cli::check_failed}}) {
+    options.tolerances = {tolerance};
+    EXPECT_EQ(run(runs), status) << tolerance << err << out;
+  }
+  // A verdict is kept or not, whatever is allowed.
+  other.checks = with(first.checks, "\"passed\": true, \"margin\"", "\"passed\": false, \"margin\"");
+  options.tolerances = {"cut length=1 m"};
+  EXPECT_EQ(run({runs[0], write("b", other)}), cli::check_failed);
+  EXPECT_THAT(out, HasSubstr("cut length: verdict; "));
+}
+
+TEST_F(CompareCommand, ParametersCountOnlyForTheSame) {
+  RunTexts other;
+  other.scenario = with(other.scenario, "speed: 60 m/min", "speed: 80 m/min");
+  const std::vector<fs::path> runs = {write("a", {}), write("b", other)};
+  options.tolerances = {"1e-7"};
+  EXPECT_EQ(run(runs), cli::all_passed);
+  EXPECT_THAT(out, HasSubstr("  plants.web.speed: a 60 m/min; b 80 m/min\n")) << "told all the same";
+  options.fail_on_difference = true;
+  EXPECT_EQ(run(runs), cli::check_failed);
+}
+
+TEST_F(CompareCommand, WrongTolerancesAreRefused) {
+  struct Case {
+    const char* text;
+    const char* told;
+  };
+  for (const auto& [text, told] : std::vector<Case>{
+           {"length=", "--tolerance:1:8: '' is no tolerance; 0 or more: "},
+           {"length=-1 mm", "--tolerance:1:8: '-1 mm' is no tolerance"},
+           {"length=1 mm%", "--tolerance:1:8: '1 mm%' is no tolerance"},
+           {"=1", "--tolerance:1:1: '=1' names nothing"},
+           {"0.01mm", "--tolerance:1:1: '0.01mm' is for nothing that has a name"},
+           {"lenght=1 mm", "--tolerance:1:1: there is no 'lenght' in these runs; did you mean length?"},
+           {"follerr=1%", "there is no 'follerr' in these runs; did you mean AxisX.follerr?"},
+           {"length=1 s", "--tolerance:1:8: length is in mm, not in s; "},
+           {"AxisX.follerr=1", ""},
+           {"AxisX.follerr=1 -", "AxisX.follerr is in bits x4, not in -"}}) {
+    options.tolerances = {text};
+    const int status = run({write("a", {}), write("b", {})});
+    EXPECT_EQ(status, *told == 0 ? cli::all_passed : cli::bad_input) << text;
+    EXPECT_THAT(err, HasSubstr(told));
+    if (*told != 0) EXPECT_FALSE(fs::exists(folder / "out")) << text;
+    fs::remove_all(folder / "out");
+  }
+  options.tolerances = {"length=1mm", "length=2mm", "1%", "2%"};
+  EXPECT_EQ(run({write("a", {}), write("b", {})}), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("there are two tolerances of length; keep one"));
+  EXPECT_THAT(err, HasSubstr("there are two tolerances without a name; keep one"));
 }
 
 TEST_F(CompareCommand, DifferencesAreToldAndFailOnlyIfAsked) {

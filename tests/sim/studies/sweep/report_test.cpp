@@ -65,10 +65,40 @@ TEST_F(SweepReport, OverTwoAxesItIsAMap) {
       EXPECT_EQ(cells[3], speed < 10 ? "fast enough" : speed > limit ? "slow enough" : "");
     }
   // A shell takes it as it stands.
-  EXPECT_EQ(shown["command"], "drycut run '" + (folder / "it'\\''s web.yaml").string() +
-                                  "' --set 'scene.seed=3' --set 'variables.limit={0} m/min' --set "
-                                  "'variables.speed={1} m/min'");
+  const auto told = shown["headings"].size();
+  EXPECT_EQ(shown["command"],
+            "drycut run '" + (folder / "it'\\''s web.yaml").string() +
+                fmt::format("' --set 'scene.seed=3' --set 'variables.limit={{{}}} m/min' --set "
+                            "'variables.speed={{{}}} m/min'",
+                            told, told + 1));
   EXPECT_THAT(page(), HasSubstr("points, 5 of them passed"));
+}
+
+// A third of a range has no end: the page says six digits, the command all of them.
+TEST_F(SweepReport, NumbersAreReadableInThePageAndExactInTheCommand) {
+  sweep.over = {"variables.limit=80..120 m/min:4", "variables.speed=30..50 m/min:2"};
+  ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+  const auto shown = map();
+  const auto told = shown["headings"].size();
+  EXPECT_EQ(shown["cells"][1][0], "93.3333");
+  EXPECT_EQ(shown["cells"][1][told], "93.3333333333333");
+  EXPECT_THAT(page(), HasSubstr("<td class=\"number\">93.3333</td>"));
+  EXPECT_THAT(page(), Not(HasSubstr("<td class=\"number\">93.3333333333333</td>")));
+}
+
+// checks.1 is called by its name wherever a page speaks of it.
+TEST_F(SweepReport, ChecksGoByTheirNames) {
+  sweep.over = {"checks.1.from=10..50 ms:2"};
+  sweep.set = {"checks.0.until=150 ms"};
+  ASSERT_EQ(captured([&] { return sweep_scenario(sweep); }), all_passed) << err;
+  EXPECT_THAT(page(), HasSubstr("<dd>checks[slow enough].until = 150 ms</dd>"));
+  EXPECT_THAT(page(), HasSubstr("<dd>checks[fast enough].from [ms]</dd>"));
+  envelope.over = {"variables.speed=30..50 m/min:2"};
+  envelope.find_max = {"checks.1.from=10..50 ms:10"};
+  fs::remove_all(folder / "out");
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  EXPECT_THAT(page(), HasSubstr("Largest checks[fast enough].from [ms]"));
+  EXPECT_THAT(out, HasSubstr("2 points, checks[fast enough].from to 10 ms"));
 }
 
 TEST_F(SweepReport, OverOneAxisItIsCurves) {
@@ -118,8 +148,31 @@ TEST_F(SweepReport, AnEnvelopeShowsItsBoundAndWhatGivesWay) {
     EXPECT_NEAR(std::stod(cells[2].get<std::string>()), std::stod(cells[0].get<std::string>()), 0.5);
     EXPECT_EQ(cells[4], "slow enough");
   }
-  // The command repeats the bound, not only its point.
-  EXPECT_THAT(shown["command"].get<std::string>(), HasSubstr("--set 'variables.speed={2} m/min'"));
+  // The command repeats the bound, not only its point, to the last digit: behind what is told.
+  const auto told = shown["headings"].size();
+  EXPECT_THAT(shown["command"].get<std::string>(),
+              HasSubstr(fmt::format("--set 'variables.speed={{{}}} m/min'", told + 2)));
+  for (const auto& cells : shown["cells"]) {
+    ASSERT_EQ(cells.size(), told + 3);
+    const auto bound = cells[told + 2].get<std::string>();
+    EXPECT_LE(std::stod(bound), std::stod(cells[0].get<std::string>()));
+    EXPECT_LE(cells[2].get<std::string>().size(), 5U) << "in digits that the tolerance warrants";
+    EXPECT_LE(std::stod(cells[2].get<std::string>()), std::stod(bound))
+        << "never above what was found to hold";
+  }
+}
+
+// Green is where nothing gives way, in a map of an envelope as in one of a sweep.
+TEST_F(SweepReport, AnEnvelopeSaysWhereItHoldsNowhereAndToTheEnd) {
+  envelope.over = {"variables.limit=5,40,400 m/min"};
+  envelope.find_max = {"variables.speed=4..300 m/min:0.5"};
+  ASSERT_EQ(captured([&] { return envelope_scenario(envelope); }), all_passed) << err;
+  const auto text = page();
+  for (const auto* region : {"holds nowhere", "slow enough", "nothing, to the end of the range"})
+    EXPECT_THAT(text, HasSubstr(fmt::format("<td class=\"number\">1</td><td>{}</td>", region)));
+  EXPECT_THAT(text, HasSubstr("gives way: slow enough"));
+  // It begins at 10 m/min: what lies below fails, and the table says so.
+  EXPECT_THAT(text, HasSubstr("holds from "));
 }
 
 TEST_F(SweepReport, EnvelopesOfSeveralScenesLieOverEachOther) {

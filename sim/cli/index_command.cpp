@@ -1,0 +1,60 @@
+#include "sim/cli/index_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "sim/output_folder.hpp"
+#include "sim/report/index.hpp"
+
+namespace drycut::sim::cli {
+
+namespace fs = std::filesystem;
+
+int index_folder(const fs::path& folder) {
+  Problems problems;
+  std::error_code ignored;
+  const auto refuse = [&](const char* what, const char* remedy) {
+    problems.push_back({folder.string(), 1, 1, what, remedy});
+  };
+  if (!fs::is_directory(folder, ignored))
+    refuse(fs::exists(folder, ignored) ? "it is not a folder" : "there is no such folder",
+           "name one that drycut wrote results into, such as out");
+  else if (report::index_entries(folder).empty())
+    refuse("there are no results in it", "name a folder of runs, such as out, after drycut run --out out");
+  std::optional<OutputFolder> out;
+  if (problems.empty())
+    out.emplace(folder, report::index_kind, std::vector<std::string>{report::index_file}, problems);
+  if (!problems.empty()) {
+    print_problems(problems);
+    return bad_input;
+  }
+  try {
+    out->begin({report::index_neighbour});
+    const auto entries = report::write_index(folder, *out);
+    const auto failed = std::count_if(entries.begin(), entries.end(),
+                                      [](const report::IndexEntry& entry) { return entry.word == "FAIL"; });
+    fmt::print("{} {} of results, {} failed: {}\n", entries.size(),
+               entries.size() == 1 ? "folder" : "folders", failed, (folder / report::index_file).string());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return simulation_failed;
+  }
+  return all_passed;
+}
+
+void add_index(CLI::App& app, int& status) {
+  const auto folder = std::make_shared<fs::path>();
+  auto* index = app.add_subcommand("index",
+                                   "A page over all results in a folder: index.html, with pictures, verdicts "
+                                   "and links, sortable. drycut run\n"
+                                   "writes it too, into its --out.\n"
+                                   "Exit status: 0 written, 2 bad input, 3 it could not be written");
+  index->add_option("folder", *folder, "Folder of results, such as out")->required();
+  index->callback([folder, &status] { status = index_folder(*folder); });
+}
+
+}  // namespace drycut::sim::cli

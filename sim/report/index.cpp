@@ -1,0 +1,262 @@
+#include "sim/report/index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/text.hpp"
+#include "renders/embedded.hpp"
+#include "renders/html.hpp"
+#include "sim/file.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/results.hpp"
+#include "sim/scenario/yaml_node.hpp"
+
+namespace drycut::sim::report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view manifest_prefix = ".drycut-";
+constexpr std::size_t title_within = 8192;  ///< of a page [bytes]
+constexpr std::size_t most_named = 3;       ///< checks that failed
+
+std::string text_of(const fs::path& file) {
+  Problems ignored;
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
+  return read_file(file, ignored).value_or("");
+}
+
+/// Who wrote into a folder, by the manifests in it: "run", "compare"; "runs" into one of several.
+std::vector<std::string> kinds_of(const fs::path& folder) {
+  std::vector<std::string> kinds;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const auto name = entry.path().filename().string();
+    if (name.starts_with(manifest_prefix)) kinds.push_back(name.substr(manifest_prefix.size()));
+  }
+  std::sort(kinds.begin(), kinds.end());
+  return kinds;
+}
+
+/// PNG files of a folder, by name.
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> pictures;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".png" && entry.is_regular_file(ignored))
+      pictures.push_back(entry.path());
+  std::sort(pictures.begin(), pictures.end());
+  return pictures;
+}
+
+/// A frame from the middle of the film; of a study its map or first plot.
+void add_picture(const fs::path& folder, const fs::path& root, IndexEntry& entry) {
+  const auto take = [&](const fs::path& picture, std::string words) {
+    entry.picture = picture.lexically_relative(root).generic_string();
+    entry.picture_words = std::move(words);
+  };
+  const auto frames = pictures_in(folder / "frames");
+  if (!frames.empty()) return take(frames[frames.size() / 2], "The machine of " + entry.name);
+  const auto plots = pictures_in(folder / plots_folder);
+  if (!plots.empty()) take(plots.front(), fmt::format("{} of {}", plots.front().stem().string(), entry.name));
+}
+
+/// What checks.json says.
+void read_checks(const fs::path& file, IndexEntry& entry) {
+  const auto json = nlohmann::json::parse(text_of(file), nullptr, false);
+  if (!json.is_object()) return;
+  try {
+    const bool passed = json.at("passed").get<bool>();
+    const auto failure = json.at("failure").get<std::string>();
+    std::vector<std::string> failed;
+    const auto& checks = json.at("checks");
+    for (const auto& check : checks)
+      if (!check.at("passed").get<bool>()) failed.push_back(check.at("name").get<std::string>());
+    entry.simulated = json.at("end").get<double>();
+    entry.version = json.at("drycut").get<std::string>();
+    entry.word = passed ? "PASS" : "FAIL";
+    const auto count = failed.size();
+    const auto more = count > most_named ? fmt::format(" and {} more", count - most_named) : "";
+    if (count > most_named) failed.resize(most_named);
+    entry.verdict =
+        !failure.empty() ? failure
+        : count > 0 ? fmt::format("{} of {} checks failed: {}{}", count, checks.size(), listed(failed), more)
+        : checks.size() == 1 ? "1 check passed"
+                             : fmt::format("{} checks passed", checks.size());
+  } catch (const nlohmann::json::exception&) {
+    entry.verdict = "checks.json cannot be read";
+  }
+}
+
+std::string plain(std::string text) {
+  for (const auto& [from, to] : std::array<std::pair<std::string_view, std::string_view>, 5>{
+           {{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&amp;", "&"}}})
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  return text;
+}
+
+/// What a page's title says: "PASS: The knife", "36: Sweep of rotary_knife".
+void read_title(const fs::path& file, IndexEntry& entry) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string page(title_within, '\0');
+  stream.read(page.data(), static_cast<std::streamsize>(page.size()));
+  page.resize(static_cast<std::size_t>(stream.gcount()));
+  const auto begin = page.find("<title>");
+  const auto end = page.find("</title>", begin);
+  if (begin == std::string::npos || end == std::string::npos) return;
+  const auto title = page.substr(begin + 7, end - begin - 7);
+  const auto colon = title.find(": ");
+  if (entry.word.empty() && colon != std::string::npos) entry.word = plain(title.substr(0, colon));
+  entry.title = plain(colon == std::string::npos ? title : title.substr(colon + 2));
+}
+
+/// What the scenario calls itself.
+void read_scene_title(const fs::path& file, IndexEntry& entry) {
+  const auto text = text_of(file);
+  if (text.empty()) return;
+  scenario::Findings findings({file.string()});
+  const auto root = scenario::parse_yaml(text, 0, findings);
+  const auto* scene = scenario::child(root, "scene");
+  const auto* title = scene == nullptr ? nullptr : scenario::child(*scene, "title");
+  if (title != nullptr) entry.title = title->text.text;
+}
+
+IndexEntry entry_of(const fs::path& folder, const fs::path& root, const std::string& kind) {
+  IndexEntry entry;
+  entry.name = folder.lexically_relative(root).generic_string();
+  entry.kind = kind;
+  const auto relative = [&](const char* file) {
+    return (folder / file).lexically_relative(root).generic_string();
+  };
+  std::error_code ignored;
+  if (kind == "run") {
+    read_checks(folder / checks_file, entry);
+    read_scene_title(folder / scenario_file, entry);
+  }
+  if (fs::is_regular_file(folder / report_file, ignored)) {
+    entry.page = relative(report_file);
+    if (kind != "run") read_title(folder / report_file, entry);
+  } else {
+    for (const auto* file : {trace_file, hdf5_file, checks_file})
+      if (entry.page.empty() && fs::is_regular_file(folder / file, ignored)) entry.page = relative(file);
+  }
+  if (entry.title.empty()) entry.title = folder.filename().string();
+  add_picture(folder, root, entry);
+  return entry;
+}
+
+/// Folders that nobody here wrote into are not looked through: a folder of results may be a home.
+void collect(const fs::path& folder, const fs::path& root, std::vector<IndexEntry>& entries) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.is_directory(ignored) && !entry.is_symlink(ignored)) folders.push_back(entry.path());
+  std::sort(folders.begin(), folders.end());
+  for (const auto& one : folders) {
+    const auto kinds = kinds_of(one);
+    for (const auto& kind : kinds)
+      if (kind != index_kind) entries.push_back(entry_of(one, root, kind));
+    if (!kinds.empty()) collect(one, root, entries);
+  }
+}
+
+// ---- the page ----
+
+/// A path as the address of a link.
+std::string address(const std::string& path) {
+  std::string text;
+  for (const char c : path) {
+    const bool plain_one =
+        is_letter(c) || is_digit(c) || std::string_view("-._~/").find(c) != std::string_view::npos;
+    text += plain_one ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return text;
+}
+
+bool has_failed(const IndexEntry& entry) { return entry.word == "FAIL"; }
+
+/// FAIL first, then what is not known, what judges nothing, PASS.
+int rank_of(const IndexEntry& entry) {
+  return has_failed(entry) ? 0 : entry.word.empty() ? 1 : entry.word == "PASS" ? 3 : 2;
+}
+
+std::string row_of(const IndexEntry& entry) {
+  using renders::html_text;
+  const auto link = [&](const std::string& inner, const char* more) {
+    return entry.page.empty() ? inner
+                              : fmt::format("<a href=\"{}\"{}>{}</a>", address(entry.page), more, inner);
+  };
+  // The name beside it opens the same page.
+  const auto picture =
+      entry.picture.empty()
+          ? std::string()
+          : link(fmt::format("<img loading=\"lazy\" width=\"160\" height=\"90\" alt=\"{}\" src=\"{}\">",
+                             html_text(entry.picture_words), address(entry.picture)),
+                 " tabindex=\"-1\"");
+  const auto* state = has_failed(entry) ? "fail" : entry.word == "PASS" ? "pass" : "told";
+  const auto badge = entry.word.empty()
+                         ? std::string("<span class=\"badge told\">?</span>")
+                         : fmt::format("<span class=\"badge {}\">{}</span>", state, html_text(entry.word));
+  return fmt::format(
+      "<tr{}><td class=\"picture\">{}</td><th scope=\"row\" data-sort=\"{}\">{}<small>{}</small></th>"
+      "<td data-sort=\"{}\" data-of=\"verdict\">{} {}</td><td data-sort=\"{}\" data-of=\"what\">{}</td>"
+      "<td class=\"number\" data-sort=\"{:.9g}\" data-of=\"simulated [s]\">{}</td><td "
+      "data-of=\"drycut\">{}</td></tr>\n",
+      has_failed(entry) ? " class=\"fail\"" : "", picture, html_text(entry.name),
+      link(html_text(entry.name), ""), html_text(entry.title), rank_of(entry), badge,
+      html_text(entry.verdict), html_text(entry.kind), html_text(entry.kind), entry.simulated,
+      entry.simulated < 0 ? "" : fmt::format("{:.6g}", entry.simulated), html_text(entry.version));
+}
+
+}  // namespace
+
+std::vector<IndexEntry> index_entries(const fs::path& folder) {
+  std::vector<IndexEntry> entries;
+  collect(folder, folder, entries);
+  return entries;
+}
+
+std::string index_page(const std::vector<IndexEntry>& entries) {
+  const auto failed = std::count_if(entries.begin(), entries.end(), has_failed);
+  const auto judged = std::count_if(entries.begin(), entries.end(),
+                                    [](const IndexEntry& entry) { return rank_of(entry) % 3 == 0; });
+  const auto* state = failed > 0 ? "fail" : judged > 0 ? "pass" : "told";
+  const auto word = failed > 0 ? "FAIL" : judged > 0 ? "PASS" : "RUNS";
+  const auto said =
+      failed > 0 ? fmt::format("{} of {} failed", failed, judged)
+                 : fmt::format("{} passed", judged == 1 ? "the one that is judged"
+                                                        : fmt::format("all {} that are judged", judged));
+  std::string rows;
+  for (const auto& entry : entries) rows += row_of(entry);
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}: runs</title>\n"
+      "<style>{1}\n{2}</style>\n</head>\n<body>\n<main>\n<header>\n<h1>Runs</h1>\n<p>{3} {4} of "
+      "results</p>\n</header>\n"
+      "<p class=\"verdict {5}\"><strong>{0}</strong> <span>{6}</span></p>\n"
+      "<div class=\"scroll index\">\n<table class=\"index\">\n<thead><tr><td></td><th scope=\"col\">run</th>"
+      "<th scope=\"col\">verdict</th><th scope=\"col\">what</th><th scope=\"col\" class=\"number\">simulated "
+      "[s]</th>"
+      "<th scope=\"col\">drycut</th></tr></thead>\n<tbody>\n{7}</tbody>\n</table>\n</div>\n</main>\n"
+      "<script>{8}</script>\n</body>\n</html>\n",
+      word, renders::embedded_file("report.css"), renders::embedded_file("index.css"), entries.size(),
+      entries.size() == 1 ? "folder" : "folders", state, judged == 0 ? "nothing is judged" : said, rows,
+      renders::embedded_file("index.js"));
+}
+
+std::vector<IndexEntry> write_index(const fs::path& folder, OutputFolder& out) {
+  auto entries = index_entries(folder);
+  write_file(out.add(index_file), index_page(entries));
+  return entries;
+}
+
+}  // namespace drycut::sim::report

@@ -1,0 +1,147 @@
+// The page over many runs: what it finds, what it says of each, that it can be sorted and moved.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "sim/cli/index_command.hpp"
+#include "sim/report/index.hpp"
+#include "tests/sim/command_bench.hpp"
+
+namespace drycut::sim::report {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Index : CommandTest {
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder / name).parent_path());
+    folder.file(name, text);
+  }
+  /// The folder of a run as drycut run leaves it, whose checks ended so.
+  void run(const std::string& name, const std::vector<bool>& checks, bool pictures = true) const {
+    std::string list;
+    bool all = true;
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      all = all && checks[i];
+      list += fmt::format(R"({}{{"name": "check {}", "passed": {}}})", i > 0 ? "," : "", i + 1, checks[i]);
+    }
+    write(name + "/.drycut-run", "checks.json\n");
+    write(name + "/checks.json",
+          fmt::format(R"({{"drycut": "0.1.0", "passed": {}, "end": 12.5, "failure": "", "checks": [{}]}})",
+                      all, list));
+    write(name + "/scenario.yaml", "scene: {title: \"The <line> & more\"}\n");
+    write(name + "/trace.csv", "time [s]\n");
+    if (!pictures) return;
+    write(name + "/report.html", "<title>PASS: it</title>");
+    for (const auto* frame : {"0001", "0002", "0003"}) write(name + "/frames/" + frame + ".png", "x");
+    write(name + "/plots/motion.png", "x");
+  }
+  void study(const std::string& name, const std::string& kind, const std::string& title) const {
+    write(name + "/.drycut-" + kind, "report.html\n");
+    write(name + "/report.html", "<!DOCTYPE html>\n<title>" + title + "</title>");
+    write(name + "/plots/map.png", "x");
+  }
+  int index() {
+    return captured([&] { return cli::index_folder(folder.path); });
+  }
+  std::string page() const { return content(folder / "index.html"); }
+  TestFolder folder;
+};
+
+TEST_F(Index, FindsWhatDrycutWroteAndNothingElse) {
+  run("b", {true});
+  run("a", {true, false});
+  run("three/LX3VP", {true});  // a member
+  study("three", "compare", "FAIL: a against b");
+  study("sweep", "sweep", "36: Sweep of &lt;it&gt;");
+  run("night/one", {true});
+  write("night/.drycut-runs", "junit.xml\n");
+  run("mine/one", {true});  // nobody wrote into mine
+  write("frames/.keep", "");
+  fs::create_directory_symlink(folder / "a", folder / "z");
+  const auto entries = index_entries(folder.path);
+  std::vector<std::string> found;
+  for (const auto& entry : entries) found.push_back(entry.kind + " " + entry.name);
+  EXPECT_THAT(found, ElementsAre("run a", "run b", "run night/one", "sweep sweep", "compare three",
+                                 "run three/LX3VP"));
+  EXPECT_EQ(entries[0].word, "FAIL");
+  EXPECT_EQ(entries[0].verdict, "1 of 2 checks failed: check 2");
+  EXPECT_EQ(entries[0].title, "The <line> & more");
+  EXPECT_EQ(entries[0].simulated, 12.5);
+  EXPECT_EQ(entries[0].page, "a/report.html");
+  EXPECT_EQ(entries[0].picture, "a/frames/0002.png") << "from the middle of the film";
+  EXPECT_EQ(entries[1].verdict, "1 check passed");
+  EXPECT_EQ(entries[3].word, "36");
+  EXPECT_EQ(entries[3].title, "Sweep of <it>");
+  EXPECT_EQ(entries[3].picture, "sweep/plots/map.png");
+  EXPECT_EQ(entries[4].word, "FAIL");
+}
+
+TEST_F(Index, ARunWithoutPicturesLeadsToItsTrace) {
+  run("a", {true}, false);
+  const auto entries = index_entries(folder.path);
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_EQ(entries[0].page, "a/trace.csv");
+  EXPECT_EQ(entries[0].picture, "");
+  EXPECT_THAT(index_page(entries), Not(HasSubstr("<img")));
+}
+
+TEST_F(Index, ThePageLinksRelativelyAndEscapes) {
+  run("a b#1", {false});
+  ASSERT_EQ(index(), cli::all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("1 folder of results, 1 failed: "));
+  EXPECT_THAT(page(),
+              HasSubstr("<p class=\"verdict fail\"><strong>FAIL</strong> <span>1 of 1 failed</span>"));
+  EXPECT_THAT(page(), HasSubstr("<a href=\"a%20b%231/report.html\">a b#1</a>"));
+  EXPECT_THAT(page(), HasSubstr("The &lt;line&gt; &amp; more"));
+  EXPECT_THAT(page(), HasSubstr("alt=\"The machine of a b#1\" src=\"a%20b%231/frames/0002.png\""));
+  EXPECT_THAT(page(), HasSubstr("<span class=\"badge fail\">FAIL</span> 1 of 1 checks failed: check 1"));
+  EXPECT_THAT(page(), Not(HasSubstr("http"))) << "no network";
+  EXPECT_THAT(page(), Not(HasSubstr(folder.path.string()))) << "it can be moved with its folders";
+}
+
+TEST_F(Index, ThreeOfManyFailedChecksAreNamed) {
+  run("a", {false, false, true, false, false});
+  EXPECT_EQ(index_entries(folder.path)[0].verdict,
+            "4 of 5 checks failed: check 1, check 2, check 4 and 1 more");
+}
+
+TEST_F(Index, WhatCannotBeReadIsNotJudged) {
+  for (const auto* broken : {"{", "[]", R"({"passed": "yes"})"}) {
+    run("a", {true});
+    write("a/checks.json", broken);
+    const auto entries = index_entries(folder.path);
+    EXPECT_EQ(entries[0].word, "") << broken;
+    EXPECT_THAT(index_page(entries), HasSubstr("<strong>RUNS</strong> <span>nothing is judged</span>"));
+  }
+}
+
+TEST_F(Index, IsWrittenAgainTheSameAndOverTheOldOne) {
+  run("a", {true});
+  ASSERT_EQ(index(), cli::all_passed) << err;
+  const auto first = page();
+  ASSERT_EQ(index(), cli::all_passed) << err;
+  EXPECT_TRUE(page() == first);
+  run("b", {true});
+  ASSERT_EQ(index(), cli::all_passed) << err;
+  EXPECT_THAT(page(), HasSubstr("all 2 that are judged passed"));
+}
+
+TEST_F(Index, RefusesWhatIsNoFolderOfResults) {
+  EXPECT_EQ(index(), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr(":1:1: there are no results in it; "));
+  EXPECT_FALSE(fs::exists(folder / "index.html"));
+  EXPECT_EQ(captured([&] { return cli::index_folder(folder / "none"); }), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("none:1:1: there is no such folder; "));
+  EXPECT_FALSE(fs::exists(folder / "none"));
+  run("a", {true});
+  write("index.html", "mine");
+  EXPECT_EQ(index(), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("index.html"));
+  EXPECT_EQ(page(), "mine");
+}
+
+}  // namespace
+}  // namespace drycut::sim::report
