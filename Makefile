@@ -8,6 +8,7 @@
 #   make cluster the tests of sweeps on Dask and Slurm, with clusters on this machine
 #   make opcua   what `drycut live --opcua` needs, in build/opcua, and its tests
 #   make python  builds the Python package in build/python
+#   make docs    the site of docs/ in build/docs: pages, reference, search; and its tests
 #   make notebooks  runs docs/notebooks anew and stores what they say
 #   make sanitize, make fuzz, make same-bytes, make reference, make deb, make lint, make tidy, make format, make meshes: for those who change the code
 
@@ -24,6 +25,7 @@ TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python
 BENCH_PACKAGES := libmujoco-dev
 CLUSTER_PACKAGES := python3-distributed slurm-wlm munge
 OPCUA_PACKAGES := nodejs npm
+DOCS_PACKAGES := python3-sphinx python3-myst-parser furo
 CLANG_PACKAGES := clang libclang-rt-14-dev llvm-14
 LINT_PACKAGES  := clang-format clang-tidy
 SOURCES := $(wildcard base/*.?pp devices/*.?pp devices/*/*.?pp devices/*/*/*.?pp plants/*.?pp renders/*.?pp sim/*.?pp sim/*/*.?pp sim/*/*/*.?pp tests/*.?pp tests/*/*.?pp tests/*/*/*.?pp)
@@ -43,7 +45,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test quick cluster opcua python notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup demo test quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -94,6 +96,14 @@ python: setup
 	@rm -f $(BUILD).log
 	cmake --build $(BUILD) -j $(JOBS) --target drycut_python
 	@echo "PYTHONPATH=$(CURDIR)/$(BUILD)/python /usr/bin/python3 -c 'import drycut; help(drycut)'"
+
+# The site, which needs no server and no network: open build/docs/index.html. Tests look at it in Chromium where that is installed.
+docs: setup
+	$(call install,$(TEST_PACKAGES) $(DOCS_PACKAGES))
+	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON > /dev/null
+	cmake --build $(BUILD) -j $(JOBS) --target drycut
+	cd $(BUILD) && ctest --output-on-failure -R '^docs\.'
+	@echo "The documentation: $(CURDIR)/$(BUILD)/docs/index.html (open it in a browser)"
 
 # What the notebooks of docs/notebooks say now, stored in them.
 notebooks: python

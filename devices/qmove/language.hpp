@@ -69,6 +69,41 @@ inline constexpr std::array language{
     LanguageRow{"names",
                 "any case; Device.parameter as Device:parameter; 2.IN1 and 2.OUT3 as 2.INP01 and 2.OUT03",
                 "the manuals' programs mix the spellings"},
+};
+
+/// Sections of a .CNF file.
+inline constexpr std::array configuration_sections{
+    LanguageRow{"CONST", "name value: a number; with a decimal point a single, else a long"},
+    LanguageRow{"SYSTEM", "name size: a variable that keeps its value without power"},
+    LanguageRow{"GLOBAL", "name size: a variable that is 0 at each start"},
+    LanguageRow{"ARRSYS", "name size length: an array that keeps its values; the first element is 1",
+                public_word},
+    LanguageRow{"ARRGBL", "name size length: an array that is 0 at each start", public_word},
+    LanguageRow{"TIMER", "name: a timer; a task starts it with a number of ms", public_word},
+    LanguageRow{"DATAGROUP",
+                "a name; DATAPROGRAM and a number of recipes, below it name size: one value a recipe, "
+                "name[recipe]; STEP and a number of steps, below it name size: name[recipe, step]; all keep "
+                "their values",
+                "000 1.1.14 shows a group, no rules"},
+    LanguageRow{"BUS", "slot card version: what stands in the rack; 3 . and 3 : are an empty slot"},
+    LanguageRow{"INPUT", "name size terminal: a flag with a name at a terminal"},
+    LanguageRow{"OUTPUT", "name size terminal: a flag with a name at a terminal"},
+    LanguageRow{"INTDEVICE",
+                "name type fields: a device; its type's page has the fields in their order, all on one line"},
+    LanguageRow{"END", "the end of the file"},
+};
+
+/// What stands in an entry of a .CNF file.
+inline constexpr std::array configuration_words{
+    LanguageRow{"F B W L S",
+                "size: a flag; a byte, -128..127; a word, -32768..32767; a long, 32 bit; a single, 32 bit"},
+    LanguageRow{"2.CNT01", "counter 1 of slot 2; slot 1 is the CPU, its counters are simulated"},
+    LanguageRow{"2.INP01  2.OUT01  2.AN01", "a digital input, a digital output, an analogue output"},
+    LanguageRow{"1",
+                "in a device's field for a zero pulse: interrupt line 1, INT1 in the wiring; lines 1 to 8"},
+    LanguageRow{"X.X  X", "no terminal, no interrupt line"},
+    LanguageRow{"0004", "4: all numbers are decimal"},
+    LanguageRow{"names", "letters, digits and _, in any case"},
     LanguageRow{"CAMMING4 record", "eleven fields: CountMB is missing, and unused",
                 "000 1.1.1 has twelve fields, its example 1.1.1.1 eleven"},
 };

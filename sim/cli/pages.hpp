@@ -27,9 +27,12 @@ struct PageKind {
 int show(const PageKind& kind, const std::vector<Page>& pages, const std::string& name, bool json,
          const std::vector<Sheet>& overview = {});
 
-/// A page for each device of QMOVE, and QMOVE, the language of its tasks.
+/// A page for each device of QMOVE, QMOVE, the language of its tasks, and CNF, its configuration.
 std::vector<Page> qmove_pages();
-/// PLCOPEN, blocks and errors, AXIS, values, parameters and terminals, and each function block with its pins.
+/// Of CAMMING4: the codes of a cam's rows, errors, warnings, functions of inputs and output.
+std::vector<Sheet> camming4_sheets();
+/// PLCOPEN, blocks and errors, AXIS, values, parameters and terminals, ST, the language of its programs, and
+/// each function block with its pins.
 std::vector<Page> plcopen_pages();
 /// DECAM, the parameter block of an electronic cam, ECAMTBX, its parameter lists, and LX3VP, special
 /// registers and instructions.

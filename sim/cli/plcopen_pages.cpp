@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "base/text.hpp"
@@ -11,6 +12,7 @@
 #include "devices/plcopen/numbered_parameters.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/readings.hpp"
+#include "devices/plcopen/st/language.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/cli/pages.hpp"
 #include "sim/scenario/axis_units.hpp"
@@ -112,6 +114,27 @@ Page plcopen_page() {
           {blocks, modes, parameters, errors, readings_about({})}};
 }
 
+template <std::size_t count>
+Sheet rows_of(const std::string& key, const std::string& title,
+              const std::array<plcopen::st::LanguageRow, count>& rows) {
+  Sheet sheet(key, title, {"form", "meaning"});
+  for (const auto& [form, meaning] : rows) sheet.add({form, meaning});
+  return sheet;
+}
+
+Page structured_text_page() {
+  return {"ST",
+          "Structured Text of IEC 61131-3, as the PLCopen controller takes it",
+          "Names and words in any case. (* a remark *), // to the end of the line.",
+          {rows_of("types", "Types", plcopen::st::types),
+           rows_of("declarations", "Units and variables", plcopen::st::declarations),
+           rows_of("statements", "Statements and operators", plcopen::st::statements),
+           rows_of("functions", "Standard functions", plcopen::st::standard_functions),
+           rows_of("blocks", "Standard blocks; those of motion are PLCOPEN's",
+                   plcopen::st::standard_function_blocks),
+           readings_about({"ST"})}};
+}
+
 Page block_page(const plcopen::BlockType& type) {
   Sheet pins("pins", "Pins", {"name=pin", "type", "direction", "meaning"});
   for (const auto& pin : type.pins)
@@ -124,7 +147,7 @@ Page block_page(const plcopen::BlockType& type) {
 }  // namespace
 
 std::vector<Page> plcopen_pages() {
-  std::vector<Page> pages = {plcopen_page(), axis_page()};
+  std::vector<Page> pages = {plcopen_page(), axis_page(), structured_text_page()};
   for (const auto& type : plcopen::block_types()) pages.push_back(block_page(type));
   return pages;
 }

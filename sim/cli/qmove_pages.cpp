@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 #include "base/text.hpp"
 #include "devices/catalogue.hpp"
 #include "devices/device.hpp"
 #include "devices/qmove/language.hpp"
+#include "devices/qmove/machine.hpp"
 #include "sim/cli/pages.hpp"
 
 namespace drycut::sim::cli {
@@ -113,18 +116,43 @@ Page device_page(const devices::DeviceType& type) {
             fmt::format("INTDEVICE record: <name> {}", type.name),
             // JSON has the states before the commands, text behind them.
             {fields_of(type), variables_of(type), states_of(type, "states", ""), commands_of(type),
-             states_of(type, "", "States"), readings_of(type)}};
+             states_of(type, "", "States")}};
+  if (type.name == "CAMMING4") std::ranges::move(camming4_sheets(), std::back_inserter(page.sheets));
+  page.sheets.push_back(readings_of(type));
   for (const auto& field : type.fields) page.preamble += fmt::format(" {}", field.name);
   for (const auto& alias : type.aliases) page.aliases[std::string(alias.spelling)] = alias.name;
   return page;
 }
 
-Page language_page() {
-  Sheet sheet("language", "QCL",
-              {"form", "meaning", "reading=reading of ours, where the manuals leave it open"});
-  for (const auto& [form, meaning, reading] : devices::qmove::language)
+template <std::size_t count>
+Sheet rows_of(const std::string& key, const std::string& title,
+              const std::array<devices::qmove::LanguageRow, count>& rows) {
+  Sheet sheet(key, title, {"form", "meaning", "reading=reading of ours, where the manuals leave it open"});
+  for (const auto& [form, meaning, reading] : rows)
     sheet.add({form, meaning, reading.empty() ? Sheet::Cell(nullptr) : Sheet::Cell(reading)});
-  return {"QMOVE", "QEM QMOVE: the language QCL of its tasks and their schedule", "", {sheet}};
+  return sheet;
+}
+
+Page language_page() {
+  using devices::qmove::RunTimeError;
+  Sheet errors("errors", "Run-time errors: all tasks stop, the run tells the line",
+               {"number=error", "meaning"});
+  for (const auto error :
+       {RunTimeError::index_out_of_bound, RunTimeError::recipe_out_of_range, RunTimeError::step_out_of_range,
+        RunTimeError::division_by_zero, RunTimeError::watchdog, RunTimeError::stack})
+    errors.add({static_cast<int>(error), name_of(error)});
+  return {"QMOVE",
+          "QEM QMOVE: the language QCL of its tasks and their schedule",
+          "",
+          {rows_of("language", "QCL", devices::qmove::language), errors}};
+}
+
+Page configuration_page() {
+  return {"CNF",
+          "QEM QMOVE: the configuration file that goes into the controller with the tasks",
+          "A section's name stands alone on its line, its entries below; ';' begins a remark.",
+          {rows_of("sections", "Sections", devices::qmove::configuration_sections),
+           rows_of("words", "Words of an entry", devices::qmove::configuration_words)}};
 }
 
 }  // namespace
@@ -133,6 +161,7 @@ std::vector<Page> qmove_pages() {
   std::vector<Page> pages;
   for (const auto& entry : devices::catalogue()) pages.push_back(device_page(*entry.type));
   pages.push_back(language_page());
+  pages.push_back(configuration_page());
   return pages;
 }
 

@@ -8,6 +8,9 @@
 #include "devices/plcopen/errors.hpp"
 #include "devices/plcopen/pins.hpp"
 #include "devices/plcopen/readings.hpp"
+#include "devices/plcopen/st/functions.hpp"
+#include "devices/plcopen/st/keywords.hpp"
+#include "devices/plcopen/st/language.hpp"
 #include "devices/plcopen/terminals.hpp"
 #include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
@@ -55,6 +58,31 @@ TEST(PlcopenTables, EveryBlockListsItsPins) {
   const auto text = printed("PLCOPEN", false);
   EXPECT_THAT(text, HasSubstr("60251   the slave of a cam must be homed"));
   EXPECT_THAT(text, HasSubstr("HLI_CI_F_PERIODIC"));
+}
+
+bool named(const auto& rows, const std::string& word) {
+  return std::ranges::any_of(rows, [&](const auto& row) {
+    const auto words = " " + std::string(row.form) + " ";
+    return words.find(" " + word + " ") != std::string::npos || row.form.starts_with(word + "(");
+  });
+}
+
+TEST(PlcopenTables, TheLanguageHasEveryStandardFunctionAndBlock) {
+  for (const auto& name : plcopen::st::standard_function_names())
+    EXPECT_TRUE(named(plcopen::st::standard_functions, name)) << name;
+  const std::string blocks(plcopen::st::standard_blocks());
+  const std::string opens = "FUNCTION_BLOCK ";
+  int found = 0;
+  for (auto at = blocks.find("\n" + opens); at != std::string::npos; at = blocks.find("\n" + opens, at + 1)) {
+    const auto from = at + 1 + opens.size();
+    const auto name = blocks.substr(from, blocks.find('\n', from) - from);
+    EXPECT_TRUE(named(plcopen::st::standard_function_blocks, name)) << name;
+    ++found;
+  }
+  EXPECT_EQ(found, 10);
+  const auto text = printed("st", false);
+  EXPECT_THAT(text, HasSubstr("PERSISTENT"));
+  EXPECT_THAT(text, HasSubstr("AND and OR take both sides"));  // a reading
 }
 
 TEST(PlcopenTables, ReadingsStandWithWhatTheyAreAbout) {

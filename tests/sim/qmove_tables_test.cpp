@@ -2,7 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/text.hpp"
+#include "devices/camming4/codes.hpp"
+#include "devices/camming4/messages.hpp"
 #include "devices/catalogue.hpp"
+#include "devices/qmove/cnf.hpp"
 #include "devices/qmove/language.hpp"
 #include "sim/cli/commands.hpp"
 #include "tests/sim/command_bench.hpp"
@@ -55,6 +59,35 @@ TEST(QmoveTables, TheLanguageIsATableToo) {
   EXPECT_THAT(printed("", false), HasSubstr("\nQMOVE          QEM QMOVE: the language QCL"));
   const auto table = json::parse(printed("QMOVE", true));
   EXPECT_EQ(table.at("language").size(), devices::qmove::language.size());
+}
+
+TEST(QmoveTables, CammingTellsItsCodesAndMessages) {
+  const auto page = json::parse(printed("CAMMING4", true));
+  ASSERT_EQ(page.at("codes").size(), devices::camming4::codes.size());
+  for (std::size_t i = 0; i < devices::camming4::codes.size(); ++i)
+    EXPECT_EQ(page.at("codes")[i].at("code"), devices::camming4::codes.at(i).code);
+  const auto& dzmc = page.at("codes")[18];
+  EXPECT_EQ(dzmc.at("name"), "DZMC");
+  EXPECT_EQ(dzmc.at("codeQm"), "master space [Um]");
+  EXPECT_EQ(dzmc.at("codeQsa"), "slave space [bits x4]");
+  EXPECT_EQ(page.at("errors").size(), 9U);
+  EXPECT_EQ(page.at("warnings").size(), 12U);
+  for (const auto& row : page.at("warnings"))
+    EXPECT_EQ(row.at("priority"), devices::camming4::warning_priority(row.at("code").get<int>()));
+  EXPECT_EQ(page.at("input_functions").back().at("number"), 12);
+  EXPECT_EQ(page.at("output_functions").back().at("number"), 9);
+  EXPECT_THAT(printed("camming4", false),
+              ContainsRegex("\n  137 +ABJ +goes on at another row +row to go to"));
+}
+
+// The sections that the page lists are those that a configuration may have.
+TEST(QmoveTables, TheConfigurationIsATableToo) {
+  Problems problems;
+  devices::qmove::parse_configuration("SECTIONS\nEND\n", "x.cnf", devices::catalogue(), problems);
+  ASSERT_FALSE(problems.empty());
+  std::vector<std::string> names;
+  for (const auto& row : json::parse(printed("CNF", true)).at("sections")) names.push_back(row.at("form"));
+  EXPECT_THAT(problems.front().what + problems.front().remedy, HasSubstr(listed(names)));
 }
 
 }  // namespace
