@@ -27,7 +27,7 @@ import websockets
 
 def arguments():
     parser = argparse.ArgumentParser()
-    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("program", type=lambda text: pathlib.Path(text).resolve())
     parser.add_argument("scene", type=pathlib.Path)
     parser.add_argument("--seconds", type=float, default=3600)
     parser.add_argument("--page", action="store_true", help="open the page in a headless Chromium")
