@@ -21,7 +21,8 @@ struct IdealCam {
   std::string master_unit;  ///< to be shown: "Um", "pulses", "mm"
   std::string slave_unit;
   double shown = 1;             ///< of a shown unit in one of the table's
-  std::string error_unit;       ///< in which errors are told: "bits x4", "pulses", "0.0001 deg"
+  std::string error_unit;       ///< in which errors are told: "bits x4", "pulses", "deg"
+  double error_step = 1;        ///< the least that the device can count, in that unit
   double error_scale = 1;       ///< of them in one of the table's unit of the slave
   double speed_scale = 1;       ///< CamDuty::master_speed of one of the table's master units a second
   std::vector<double> cycles;   ///< where each cycle begins and the last one ends, ascending [master]

@@ -123,18 +123,35 @@ renders::Curve other_cycles(const PlayedCam& played, const IdealCam& ideal,
   return CycleCurves::in_order(std::move(pale));
 }
 
-renders::Panel error_panel(const std::string& what, const std::string& unit, renders::Curve pale,
-                           renders::Curve shown) {
-  renders::Panel panel;
+/// "0.00005", however small.
+std::string in_decimals(double number) {
+  auto text = fmt::format("{:.9f}", number);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+/// Less than half of what the device can count is nothing.
+bool is_nothing(const ErrorFigures& figures, const IdealCam& ideal) {
+  return figures.largest < ideal.error_step / 2;
+}
+
+/// Adds the panel of an error; of one that is nothing in all cycles its name to `silent`: a flat line tells
+/// no more.
+void add_error_panel(renders::Plot& plot, const std::string& what, const IdealCam& ideal, renders::Curve pale,
+                     renders::Curve shown, std::string& silent) {
   const auto figures = figures_of(shown.y);
-  panel.title = fmt::format("{}: {} at most in this cycle", what, error_text(figures.largest));
-  panel.y_label = fmt::format("[{}]", unit);
-  // Less than half of what the device can count is nothing: it must not fill the panel.
-  constexpr double least = 0.5;
-  if (std::max(figures.largest, figures_of(pale.y).largest) < least) panel.y_range = {-1, 1};
+  if (is_nothing(figures, ideal) && is_nothing(figures_of(pale.y), ideal)) {
+    silent += fmt::format("; {} below {} {}", what, in_decimals(ideal.error_step / 2), ideal.error_unit);
+    return;
+  }
+  renders::Panel panel;
+  panel.title = fmt::format("{}: {} {} at most in this cycle", what,
+                            error_text(figures.largest, ideal.error_step), ideal.error_unit);
+  panel.y_label = fmt::format("[{}]", ideal.error_unit);
   if (!pale.x.empty()) panel.curves.push_back(std::move(pale));
   panel.curves.push_back(std::move(shown));
-  return panel;
+  plot.panels.push_back(std::move(panel));
 }
 
 }  // namespace
@@ -195,9 +212,9 @@ ErrorFigures figures_of(const std::vector<double>& errors) {
   return figures;
 }
 
-std::string error_text(double error) {
-  constexpr double least = 1e-3;
-  return error > 0 && error < least ? fmt::format("below {}", least) : number_text(error, 4);
+std::string error_text(double error, double step) {
+  const double least = 1e-3 * step;
+  return error > 0 && error < least ? "below " + in_decimals(least) : number_text(error, 4);
 }
 
 renders::Plot overlay_plot(const PlayedCam& played, const IdealCam& ideal, const CamErrors& errors,
@@ -225,11 +242,13 @@ renders::Plot overlay_plot(const PlayedCam& played, const IdealCam& ideal, const
   const auto pale = [&](const std::vector<double>& of) {
     return other_cycles(played, ideal, cycles, shown, of);
   };
-  plot.panels.push_back(error_panel("set less ideal position", ideal.error_unit, pale(errors.set),
-                                    curves.of(errors.set, "this cycle")));
+  std::string silent;
+  add_error_panel(plot, "set less ideal position", ideal, pale(errors.set),
+                  curves.of(errors.set, "this cycle"), silent);
   if (measured)
-    plot.panels.push_back(error_panel("following error, set less measured position", ideal.error_unit,
-                                      pale(errors.behind), curves.of(errors.behind, "this cycle")));
+    add_error_panel(plot, "following error, set less measured position", ideal, pale(errors.behind),
+                    curves.of(errors.behind, "this cycle"), silent);
+  plot.panels.front().title += silent;
 
   const double begin = ideal.cycles[shown.cycle];
   const double end = ideal.cycles[shown.cycle + 1];

@@ -37,8 +37,9 @@ struct ErrorFigures {
 };
 ErrorFigures figures_of(const std::vector<double>& errors);
 
-/// An error of 0 or more for a reader: what is far below a count is not told in digits.
-std::string error_text(double error);
+/// An error of 0 or more for a reader: what is far below `step`, the least that the device counts, is not
+/// told in digits.
+std::string error_text(double error, double step);
 
 /// One cycle: ideal, set and measured position over the master, and their differences magnified below, those
 /// of all other cycles of this length pale behind. `shown` is one of `cycles`.

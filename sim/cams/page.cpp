@@ -10,6 +10,7 @@
 
 #include "sim/cams/overlay.hpp"
 #include "sim/cams/study.hpp"
+#include "sim/report/shown_units.hpp"
 
 namespace drycut::sim::cams {
 
@@ -78,12 +79,21 @@ renders::ReportTable feasibility(const CamStudy& study, const std::string& maste
   return table;
 }
 
-/// Columns of text as a table: names with their units, then the lines.
+/// Columns of text as a table, in units that people read: names with their units, then the lines.
 renders::ReportTable table_of(const std::string& title, const Columns& columns) {
   renders::ReportTable table{title, {}, {}, true};
-  for (const auto& [name, unit, words] : columns.headings())
-    table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
-  for (const auto& cells : columns.lines()) table.rows.push_back({cells});
+  std::vector<double> factors;
+  for (const auto& [name, unit, words] : columns.headings()) {
+    const auto shown = report::shown_unit(unit);
+    factors.push_back(shown.factor);
+    table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, shown.unit));
+  }
+  for (const auto& cells : columns.lines()) {
+    auto& row = table.rows.emplace_back(renders::ReportRow{cells});
+    for (std::size_t i = 0; i < row.cells.size() && i < factors.size(); ++i)
+      if (factors[i] != 1 && !row.cells[i].empty())
+        row.cells[i] = number_text(factors[i] * std::strtod(row.cells[i].c_str(), nullptr));
+  }
   return table;
 }
 
@@ -97,8 +107,8 @@ renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors
     const auto figures = figures_of(of);
     if (figures.count == 0) return;
     table.rows.push_back(
-        {{name, fmt::format("{} {}", error_text(figures.largest), ideal.error_unit),
-          fmt::format("{} {}", error_text(figures.rms), ideal.error_unit),
+        {{name, fmt::format("{} {}", error_text(figures.largest, ideal.error_step), ideal.error_unit),
+          fmt::format("{} {}", error_text(figures.rms, ideal.error_step), ideal.error_unit),
           fmt::format("{} samples, {} whole cycle{}", figures.count, whole, whole == 1 ? "" : "s")}});
   };
   add("set less ideal position", errors.set);

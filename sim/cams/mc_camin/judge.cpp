@@ -113,7 +113,7 @@ class CamInJudge {
     }
     const bool steps = cam_.interpolation == devices::plcopen::Interpolation::step_direct;
     add(Grade::caution, position,
-        fmt::format("the position jumps by {} {}", number_text(position.value), increments_of(unit_)),
+        fmt::format("the position jumps by {} {}", number_text(position.value / increments_per_unit), unit_),
         turns_on(position.value) ? "it is a turn of the slave: write # endless: positive or negative"
         : steps                  ? "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"
                                  : "let each row end where the next one begins");
@@ -170,7 +170,7 @@ class CamInJudge {
     }
     add(Grade::caution, worst,
         fmt::format("goes {} by {} {}, more than half a turn", worst.value < 0 ? "back" : "on",
-                    number_text(std::abs(worst.value)), increments_of(unit_)),
+                    number_text(std::abs(worst.value) / increments_per_unit), unit_),
         "if the slave is to turn on instead, write # endless: positive or negative");
   }
 
@@ -232,8 +232,8 @@ class CamInJudge {
     }
     if (worst.count > 0)
       add(Grade::caution, worst,
-          fmt::format("overshoots its two rows by {} {}", number(std::abs(worst.value)),
-                      increments_of(unit_)),
+          fmt::format("overshoots its two rows by {} {}", number(std::abs(worst.value) / increments_per_unit),
+                      unit_),
           overshoot_remedy(worst.row));
   }
 

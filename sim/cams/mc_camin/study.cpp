@@ -258,7 +258,8 @@ IdealCam ideal_of(const CamFile& cam, MasterRange range) {
   ideal.master_unit = cam.master_unit;
   ideal.slave_unit = cam.slave_unit;
   ideal.shown = 1 / increments_per_unit;
-  ideal.error_unit = increments_of(cam.slave_unit);
+  ideal.error_unit = cam.slave_unit;
+  ideal.error_scale = ideal.error_step = 1 / increments_per_unit;
   ideal.speed_scale = 1 / increments_per_unit;
   repeat(ideal, run, range, zones_of(run));
   return ideal;

@@ -129,7 +129,7 @@ TEST(CamInFindings, WithoutTheMastersSpeedLimitsAreOnlyRemembered) {
 
 TEST(CamInFindings, StepsAreTold) {
   EXPECT_THAT(camin::findings("# interpolation: STEP_DIRECT\nslave\n0\n500\n200\n"),
-              ElementsAre("row 2 (line 4): caution: the position jumps by 500 0.0001 deg; so at 3 rows; "
+              ElementsAre("row 2 (line 4): caution: the position jumps by 0.05 deg; so at 3 rows; "
                           "STEP_DIRECT is for switching; LINEAR and POLYNOM_3 have no such jumps"));
   EXPECT_THAT(camin::findings("a0,a1,a2,a3\n0,0,0,0\n7,0,0,0\n"),
               ElementsAre(HasSubstr("let each row end where the next one begins")));
@@ -158,11 +158,10 @@ TEST(CamInFindings, ASinglePassThatDoesNotRestIsTold) {
 
 TEST(CamInFindings, ACamThatWantsToTurnOnIsAsked) {
   const std::string turning = "slave\n0\n900000\n1800000\n2700000\n";
-  EXPECT_THAT(
-      camin::findings(turning),
-      ElementsAre(HasSubstr("the velocity jumps"),
-                  "row 4 (line 5): caution: goes back by 2700000 0.0001 deg, more than half a turn; if the "
-                  "slave is to turn on instead, write # endless: positive or negative"));
+  EXPECT_THAT(camin::findings(turning),
+              ElementsAre(HasSubstr("the velocity jumps"),
+                          "row 4 (line 5): caution: goes back by 270 deg, more than half a turn; if the "
+                          "slave is to turn on instead, write # endless: positive or negative"));
   EXPECT_THAT(camin::findings("# endless: positive\n" + turning), IsEmpty());
   EXPECT_THAT(camin::findings("# slave_modulo: 0\n" + turning), ElementsAre(HasSubstr("the velocity jumps")));
 }
@@ -176,9 +175,8 @@ TEST(CamInFindings, OvershootIsTold) {
   const auto told = camin::findings(
       "# interpolation: LINE_POLY5\nmaster,slave\n0,1000000\n900000,1000000\n"
       "1800000,500000\n2700000,500000\n");
-  EXPECT_THAT(told,
-              ElementsAre("row 1 (line 3): caution: overshoots its two rows by 156250 0.0001 deg; so at 2 "
-                          "rows; make the lines before and after it less steep"));
+  EXPECT_THAT(told, ElementsAre("row 1 (line 3): caution: overshoots its two rows by 15.625 deg; so at 2 "
+                                "rows; make the lines before and after it less steep"));
   EXPECT_FALSE(camin::findings(text).empty());
   EXPECT_THAT(
       camin::findings("# interpolation: POLYNOM_3\nslave\n0\n0\n160000\n"),

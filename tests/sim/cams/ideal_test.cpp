@@ -143,7 +143,9 @@ TEST(IdealCam, OfMcCaminMeetsItsPointsAndGoesOnATurnEachCycle) {
   EXPECT_NEAR(cam.slave(4'600'000), (720'000 + 3'600'000) / 2.0, 1e-6);
   EXPECT_NEAR(cam.slave(8'600'000), 3'960'000, 1e-6);
   EXPECT_NEAR(cam.slave(-400'000), -240'000 + 0, 5000);
-  EXPECT_EQ(cam.error_unit, "0.0001 deg");
+  EXPECT_EQ(cam.error_unit, "deg");
+  EXPECT_DOUBLE_EQ(cam.error_step, 1e-4);
+  EXPECT_DOUBLE_EQ(cam.error_scale, 1e-4);
   EXPECT_EQ(cam.slave_unit, "deg");
   EXPECT_EQ(cam.master_unit, "mm");
 }
