@@ -225,7 +225,10 @@ void Checks::evaluate(State& state, double at, const std::string& values) {
   if (evaluation.margin) {
     decisive =
         !state.worst || (eventually ? *evaluation.margin > *state.worst : *evaluation.margin < *state.worst);
-    if (decisive) state.worst = evaluation.margin;
+    if (decisive) {
+      state.worst = evaluation.margin;
+      state.used = state.expression->used(evaluation.term);
+    }
   } else {
     decisive = state.failed == 1 && !evaluation.holds && !eventually;
   }
@@ -333,8 +336,24 @@ std::string Checks::looked_at(const State& state) {
 
 std::vector<CheckResult> Checks::results(Time end) {
   std::vector<CheckResult> all;
-  for (auto& state : states_) all.push_back(result(state, end));
+  for (auto& state : states_) {
+    all.push_back(result(state, end));
+    all.back().tolerances = tolerances_of(state);
+  }
   return all;
+}
+
+std::vector<Tolerance> Checks::tolerances_of(const State& state) {
+  std::vector<Tolerance> tolerances;
+  const auto& check = state.check;
+  if (check.kind != scenario::Check::Kind::each || !state.expression || state.count == 0) return tolerances;
+  for (const auto& slot : state.slots) {
+    const auto [low, high] = state.expression->range_of(&slot.number);
+    if (std::isinf(low) && std::isinf(high)) continue;
+    tolerances.push_back({check.event.text, slot.name, low, high, seconds(check.from),
+                          check.until ? seconds(*check.until) : std::numeric_limits<double>::infinity()});
+  }
+  return tolerances;
 }
 
 CheckResult Checks::result(State& state, Time end) {
@@ -375,6 +394,7 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   result.margin = state.worst;
+  result.used = state.used;
   if (check.kind == scenario::Check::Kind::eventually) {
     result.passed = state.held_at.has_value();
     result.at = state.held_at ? *state.held_at : state.worst ? state.worst_at : state.last_at;
@@ -384,8 +404,10 @@ CheckResult Checks::result(State& state, Time end) {
                                       looked_at(state), state.last_at, operands_text(state));
     // Once it held, what is left is time.
     result.margin.reset();
+    result.used.reset();
     if (state.held_at && check.within) {
       result.margin = seconds(check.from + *check.within) - *state.held_at;
+      if (*check.within > 0) result.used = (*state.held_at - seconds(check.from)) / seconds(*check.within);
       result.unit = "s";
     }
     return result;

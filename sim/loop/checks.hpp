@@ -14,6 +14,16 @@
 
 namespace drycut::sim::loop {
 
+/// What a check lets a value of each event be.
+struct Tolerance {
+  std::string event;  ///< as the check names it: "cut", "knife.cut"
+  std::string value;
+  double low = 0;    ///< -infinity: no limit there
+  double high = 0;   ///< infinity: the same
+  double from = 0;   ///< [s] events from here on count ...
+  double until = 0;  ///< ... up to there
+};
+
 /// What a check came to.
 struct CheckResult {
   std::string name;
@@ -24,6 +34,8 @@ struct CheckResult {
   std::optional<double> at;              ///< [s] the worst moment
   std::string detail;                    ///< "15 cuts, worst length = 800.047 mm at 7.204 s"
   std::optional<double> failed_at = {};  ///< [s] first, where that can be said before the end
+  std::optional<double> used = {};       ///< share of the limit at the worst moment, above 1: beyond it
+  std::vector<Tolerance> tolerances = {};
 };
 
 /// Evaluates the checks of a scenario while it runs. always / eventually look at every record instant, the
@@ -72,6 +84,7 @@ class Checks : public Observer {
     int count = 0;                  ///< events or instants looked at
     int failed = 0;
     std::optional<double> worst;
+    std::optional<double> used;  ///< of its limit, then
     double worst_at = 0;
     std::string worst_values;
     double first_failed_at = 0;
@@ -107,6 +120,7 @@ class Checks : public Observer {
   static void finish_statistics(State& state);
   static std::string looked_at(const State& state);
   static CheckResult result(State& state, Time end);
+  static std::vector<Tolerance> tolerances_of(const State& state);
 
   std::deque<State> states_;
 };

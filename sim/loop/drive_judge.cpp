@@ -266,6 +266,7 @@ std::vector<CheckResult> DriveJudge::results(const std::vector<DriveVerdict>& ve
     details.push_back(text_of(verdict));
   }
   result.margin = (1 - largest) * percent;
+  result.used = largest;
   result.unit = "%";
   result.detail = fmt::format("{}", fmt::join(details, " | "));
   return {result};

@@ -22,8 +22,11 @@
 #include "sim/file.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
+#include "sim/report/key_figures.hpp"
+#include "sim/report/origin.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
+#include "sim/report/shown_units.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/studies/half_step.hpp"
@@ -65,7 +68,7 @@ class TableRows {
 renders::ReportTable event_table(const loop::Recording& recording, const loop::KnownEvent& known) {
   renders::ReportTable table{fmt::format("{} of {}", known.name, known.source), {"time [s]"}, {}, true};
   for (const auto& [name, unit] : known.values) {
-    table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
+    table.headings.push_back(unit.empty() ? name : fmt::format("{} [{}]", name, shown_unit(unit).unit));
   }
   TableRows rows(table);
   for (const auto& event : recording.events()) {
@@ -73,7 +76,10 @@ renders::ReportTable event_table(const loop::Recording& recording, const loop::K
     renders::ReportRow row{{fmt::format("{:.6f}", event.at_seconds())}};
     for (const auto& [name, unit] : known.values) {
       const auto* value = event.find(name);
-      row.cells.push_back(value == nullptr ? "" : fmt::format("{:.6g}", loop::without_noise(value->number)));
+      row.cells.push_back(
+          value == nullptr
+              ? ""
+              : fmt::format("{:.6g}", loop::without_noise(shown_unit(unit).factor * value->number)));
     }
     rows.add(std::move(row));
   }
@@ -122,7 +128,8 @@ renders::ReportTable axis_table(const controllers::PlcopenSection::Axis& axis) {
 renders::ReportTable controller_table(loop::Simulation& simulation) {
   renders::ReportTable table{"Controller at the end of the run", {"value", "", "unit"}, {}, true};
   for (const auto& reading : simulation.controller_values()) {
-    table.rows.push_back({{reading.name, fmt::format("{:.10g}", reading.read()), reading.unit}});
+    const auto [unit, factor] = shown_unit(reading.unit);
+    table.rows.push_back({{reading.name, fmt::format("{:.10g}", factor * reading.read()), unit}});
   }
   return table;
 }
@@ -135,6 +142,17 @@ MachineFacts facts_of(const loop::Simulation& simulation, const loop::Outcome& o
     for (const auto& [own, travel, cuts] : plant->recurrences())
       facts.recurrences.push_back({name + "." + own, travel, cuts});
   return facts;
+}
+
+/// Plants whose speed the timeline can set.
+std::vector<std::string> lines_in(const loop::Simulation& simulation) {
+  std::vector<std::string> lines;
+  for (const auto& [name, plant] : simulation.plants()) {
+    const auto settings = plant->settings();
+    if (std::any_of(settings.begin(), settings.end(), [](const auto& s) { return s.name == "speed"; }))
+      lines.push_back(name);
+  }
+  return lines;
 }
 
 constexpr std::size_t report_frames = 6;
@@ -189,17 +207,19 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   report.scenario = scenario.file.filename().string();
   report.passed = outcome.passed();
   report.verdict = verdict_text(outcome);
+  report.keys = key_figures(simulation.recording(), simulation.known_events(), lines_in(simulation), outcome);
   report.facts = {{{"simulated", units_note(seconds(outcome.end))}},
                   {{"physics step", fmt::format("{:g} us", static_cast<double>(scenario.scene.step) / 1e3)}},
                   {{"seed", fmt::format("{}", scenario.scene.seed)}},
                   {{"drycut", DRYCUT_VERSION}}};
+  for (auto& fact : origin_of(scenario.file)) report.facts.push_back(std::move(fact));
   add_overrides(scenario.overrides, report);
   if (const auto samples = simulation.recording().times().size(); samples > renders::kMostSamples)
-    report.facts.push_back(
-        {{"note", fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
-                              "highest of {} stretches of equal length; all are in the record of the run",
-                              samples, renders::kStretches)}});
-  for (const auto& note : simulation.notes()) report.facts.push_back({{"note", note}});
+    report.notes.push_back(
+        fmt::format("{} samples of each channel: what the plots show is thinned, to the lowest and "
+                    "highest of {} stretches of equal length; all are in the record of the run",
+                    samples, renders::kStretches));
+  for (const auto& note : simulation.notes()) report.notes.push_back(note);
   add_checks(outcome.checks, report);
   if (auto drives = drive_table(outcome.drives); !drives.rows.empty())
     report.summary.push_back(std::move(drives));
@@ -262,8 +282,8 @@ std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation&
   auto report = report_of(scenario, simulation, outcome, drawn);
   const auto machine = facts_of(simulation, outcome);
   for (const auto& finding : findings_of(scenario, simulation.recording(), machine))
-    report.facts.push_back({{"finding", finding}});
-  if (!left_out.empty()) report.facts.push_back({{"left out", left_out}});
+    report.notes.push_back(finding);
+  if (!left_out.empty()) report.notes.push_back("left out: " + left_out);
   auto plots = plots_of(scenario, simulation.recording(), machine);
   for (auto& plot : drive_plots(outcome.drives, scenario.pictures.plots)) plots.push_back(std::move(plot));
   const auto cams = cams_of(scenario, simulation);

@@ -116,6 +116,31 @@ renders::Panel path_panel(const loop::Recording& recording, const scenario::Plot
   return panel;
 }
 
+/// Nothing but zeros, in which there is nothing to see; limits beside them would be.
+bool is_flat_zero(const renders::Panel& panel) {
+  const auto silent = [](const renders::Curve& curve) {
+    return std::all_of(curve.y.begin(), curve.y.end(),
+                       [](double y) { return !(std::abs(loop::without_noise(y)) > 0); });
+  };
+  return panel.bands.empty() && panel.lanes.empty() && !panel.curves.empty() &&
+         std::all_of(panel.curves.begin(), panel.curves.end(), silent);
+}
+
+/// Takes panels out that are 0 all the time, but for the last one, and names them in the plot's title.
+void leave_out_flat(renders::Plot& plot) {
+  std::string names;
+  for (std::size_t i = 0; i < plot.panels.size() && plot.panels.size() > 1;) {
+    const auto& panel = plot.panels[i];
+    if (!is_flat_zero(panel)) {
+      ++i;
+      continue;
+    }
+    for (const auto& curve : panel.curves) names += (names.empty() ? "" : ", ") + curve.label;
+    plot.panels.erase(plot.panels.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  if (!names.empty()) plot.title += fmt::format(" (0 all the time: {})", names);
+}
+
 renders::Panel panel_of(const loop::Recording& recording, const scenario::PlotRequest& plot,
                         const scenario::PlotRequest::Panel& request) {
   renders::Panel panel;
@@ -222,6 +247,7 @@ renders::Plot overview(const loop::Recording& recording) {
     found->curves.push_back(channel_curve(recording, column, all));
   }
   plot.marks = marks_of(recording, {});
+  leave_out_flat(plot);
   return plot;
 }
 
@@ -254,6 +280,7 @@ std::vector<renders::Plot> plots_of(const scenario::Scenario& scenario, const lo
     } else {
       if (!request.against_number) plot.marks = marks_of(recording, request);
       for (const auto& panel : request.panels) plot.panels.push_back(panel_of(recording, request, panel));
+      leave_out_flat(plot);
     }
     plots.push_back(std::move(plot));
   }

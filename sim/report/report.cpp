@@ -10,7 +10,8 @@ namespace drycut::sim::report {
 
 void add_checks(const std::vector<loop::CheckResult>& checks, renders::Report& report) {
   for (const auto& check : checks)
-    report.checks.push_back({check.name, check.expectation, check.passed, margin_text(check), check.detail});
+    report.checks.push_back(
+        {check.name, check.expectation, check.passed, margin_text(check), check.detail, check.used});
 }
 
 void add_overrides(const std::vector<scenario::Override>& overrides, renders::Report& report) {

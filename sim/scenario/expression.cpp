@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "sim/scenario/expression_functions.hpp"
 #include "sim/scenario/expression_tree.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -28,6 +29,27 @@ struct Expression::Compiled {
 
   void add_terms(std::string_view text, const ExpressionTokens& tokens, std::size_t node);
   [[nodiscard]] Verdict judge(const Term& term) const;
+  // A term read as `value` below, or above, a limit.
+  struct Side {
+    std::size_t value = 0;
+    std::size_t limit = 0;
+    bool below = true;
+    bool fixed = false;  // the limit is a number
+  };
+  [[nodiscard]] bool is_fixed(std::size_t node) const {
+    const auto& nodes = tree.nodes;
+    return std::none_of(nodes.begin() + static_cast<std::ptrdiff_t>(nodes[node].begin),
+                        nodes.begin() + static_cast<std::ptrdiff_t>(node) + 1,
+                        [](const auto& one) { return one.slot != nullptr; });
+  }
+  [[nodiscard]] std::optional<Side> side_of(const Term& term) const;
+  [[nodiscard]] std::string text_of_value(const Term& term, const Side& side) const {
+    const auto at = term.text.find(term.relation);
+    auto text =
+        side.value == term.left ? term.text.substr(0, at) : term.text.substr(at + term.relation.size());
+    std::erase(text, ' ');
+    return text;
+  }
   // Computes the nodes from..to, both included.
   void compute_nodes(std::size_t from, std::size_t to) {
     for (auto i = from; i <= to; ++i) values[i] = compute(tree.nodes[i], values);
@@ -165,6 +187,63 @@ Evaluation Expression::evaluate() const {
   }
   if (compiled_->has_margin && known) result.margin = least;
   return result;
+}
+
+std::optional<Expression::Compiled::Side> Expression::Compiled::side_of(const Term& term) const {
+  if (term.relation.empty()) return {};
+  const bool below = term.relation.front() == '<';
+  if (is_fixed(term.left) && !is_fixed(term.right)) return Side{term.right, term.left, !below, true};
+  return Side{term.left, term.right, below, is_fixed(term.right)};
+}
+
+std::optional<double> Expression::used(int term) const {
+  const auto& all = compiled_->terms;
+  const auto& values = compiled_->values;
+  const auto& own = all[static_cast<std::size_t>(term)];
+  const auto side = compiled_->side_of(own);
+  if (!side) return {};
+  const double value = values[side->value];
+  const double limit = values[side->limit];
+  if (!std::isfinite(value) || !std::isfinite(limit)) return {};
+  for (const auto& other : all) {
+    const auto across = compiled_->side_of(other);
+    if (!side->fixed || !across || !across->fixed || across->below == side->below ||
+        compiled_->text_of_value(other, *across) != compiled_->text_of_value(own, *side))
+      continue;
+    const double low = side->below ? values[across->limit] : limit;
+    const double high = side->below ? limit : values[across->limit];
+    if (low < high) return std::abs(value - (low + high) / 2) / ((high - low) / 2);
+  }
+  // Below a limit under 0 is as above one over 0.
+  const double size = side->below ? limit : -limit;
+  const double found = side->below ? value : -value;
+  if (size == 0) return {};
+  if (size > 0) return std::max(0.0, found) / size;
+  return found < 0 ? size / found : std::numeric_limits<double>::infinity();
+}
+
+std::pair<double, double> Expression::range_of(const double* name) const {
+  using Node = ExpressionTree::Node;
+  static const auto* const absolute = find_function("abs");
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  for (const auto& term : compiled_->terms) {
+    const auto side = compiled_->side_of(term);
+    if (!side || !side->fixed) continue;
+    const auto& nodes = compiled_->tree.nodes;
+    const Node* node = &nodes[side->value];
+    const bool both = node->kind == Node::Kind::one && node->one == absolute->one;
+    if (both) node = &nodes[node->of[0]];
+    if (node->slot != name || (both && !side->below)) continue;
+    const double factor = node->kind == Node::Kind::linear ? node->factor : 1;
+    const double offset = node->kind == Node::Kind::linear ? node->number : 0;
+    if (factor == 0) continue;
+    const double edge = (compiled_->values[side->limit] - offset) / factor;
+    const double other = (-compiled_->values[side->limit] - offset) / factor;
+    if (both || side->below == (factor > 0)) high = std::min(high, both ? std::max(edge, other) : edge);
+    if (both || side->below != (factor > 0)) low = std::max(low, both ? std::min(edge, other) : edge);
+  }
+  return {low, high};
 }
 
 double Expression::value() const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -97,6 +98,14 @@ class Expression {
   ~Expression();
 
   [[nodiscard]] Evaluation evaluate() const;
+  /// How much of the limit of a term (as Evaluation::term counts) the last evaluate() found used: 1 = all of
+  /// it, above: beyond it. Of `a < 100` that is a / 100, of `a > 100` 100 / a; where another term limits the
+  /// same from the other side, its distance from the middle. Absent where a limit of 0 leaves nothing to
+  /// share.
+  [[nodiscard]] std::optional<double> used(int term) const;
+  /// The range in which the terms leave a name's number: those that compare it, or the size of its distance
+  /// to a number, with a number: `length < 800.1`, `abs(length - 800) <= 0.1`. Open where nothing limits it.
+  [[nodiscard]] std::pair<double, double> range_of(const double* name) const;
   /// Of Kind::number; NaN if it is none.
   [[nodiscard]] double value() const;
   /// The terms as they stand in the text; one if it is no conjunction.

@@ -95,7 +95,7 @@ TEST_F(ProgramTest, WithoutHelpersTheVerdictStandsAndTheReportIsWritten) {
               testing::AllOf(testing::HasSubstr("rotary_knife_short: passed, all 10 checks passed"),
                              testing::HasSubstr("left out: video: there is no ffmpeg; install ffmpeg\n")));
   EXPECT_THAT(contents(out / "rotary_knife_short/report.html"),
-              testing::HasSubstr("<dt>left out</dt><dd>video: there is no ffmpeg; install ffmpeg</dd>"));
+              testing::HasSubstr("<li>left out: video: there is no ffmpeg; install ffmpeg</li>"));
   EXPECT_FALSE(fs::exists(out / "rotary_knife_short/film.mp4"));
 }
 

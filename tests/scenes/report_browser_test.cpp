@@ -12,6 +12,7 @@
 
 #include "renders/png_image.hpp"
 #include "renders/process.hpp"
+#include "renders/report.hpp"
 #include "tests/scenes/browser.hpp"
 #include "tests/scenes/page_checks.hpp"
 #include "tests/scenes/report_browser_scripts.hpp"
@@ -202,7 +203,12 @@ class ReportInABrowser : public ::testing::TestWithParam<Page> {
       browser->evaluate(kUnfold);
       EXPECT_EQ(browser->evaluate(kOverflow), json::array());
       EXPECT_EQ(browser->evaluate(kFaintText), json::array());
+      EXPECT_EQ(browser->evaluate(kNameless), json::array());
+      EXPECT_EQ(browser->evaluate(kDeadAnchors), json::array());
       EXPECT_EQ(browser->evaluate(kAxesWithoutScale), json::array());
+      if (scheme == "light") {
+        EXPECT_THAT(out_of_keyboards_reach(*browser), IsEmpty());
+      }
       browser->evaluate("scrollTo(0, 0)");
       browser->screenshot(folder / (scheme + ".png"));
       expect_not_blank(folder / (scheme + ".png"), width);
@@ -260,6 +266,87 @@ TEST_P(ReportInABrowser, ReadsWellOnDeskPhoneAndPaperByDayAndByNightAndItsPlotsA
   }
   EXPECT_THAT(browser->pdf(), ::testing::StartsWith("JVBERi0")) << "%PDF-";
   EXPECT_THAT(browser->complaints(), IsEmpty());
+}
+
+/// A report of one plot: a state that changes at 1 s and 9 s, a lamp, and a ramp beside them.
+renders::Report report_with_lanes(const TestFolder& folder) {
+  renders::Plot plot;
+  plot.name = "states";
+  plot.title = "States";
+  plot.x_label = "time [s]";
+  plot.panels.resize(2);
+  plot.panels[0].lanes = {{"phase", {0, 1, 9, 10}, {0, 7, 3, 3}}, {"lamp", {0, 5, 10}, {0, 1, 1}}};
+  plot.panels[1].y_label = "way [mm]";
+  plot.panels[1].curves = {{"slide", {0, 10}, {0, 100}}};
+  renders::Report report;
+  report.title = "lanes";
+  for (const auto& png : renders::draw_plots({plot}, folder.path))
+    report.plots.push_back({png, "states.png"});
+  report.live = {plot};
+  return report;
+}
+
+TEST(ReportOfLanes, KeepsTheTextsOfStatesWhenZoomedAndTellsTheStateAtTheCursor) {
+  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+  const TestFolder folder;
+  renders::write_report(report_with_lanes(folder), folder / "report.html");
+  Browser browser(folder.path);
+  browser.window(1280, 900);
+  browser.open(folder / "report.html");
+  if (browser.evaluate("typeof drycutPlots === 'undefined'") == true) GTEST_SKIP() << "needs libjs-dygraphs";
+  // Nothing but the state 7 is in sight, whose ends are far outside; its text stands within the plot.
+  const auto texts = browser.evaluate(R"js((() => {
+    const told = [], fill = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, ...more) { told.push([text, x]); return fill.call(this, text, x, ...more); };
+    drycutPlots[0].show([6, 6.5]);
+    const area = drycutPlots[0].graphs[0].graph.getArea();
+    return told.filter(one => one[1] > area.x && one[1] < area.x + area.w).map(one => one[0]);
+  })())js");
+  EXPECT_EQ(texts, json::array({"7"}));
+  const auto at = [&](double time) {
+    return browser.evaluate(fmt::format(
+        "(() => {{ const plot = drycutPlots[0]; plot.show(plot.whole); plot.tell({}); return "
+        "plot.graphs[0].states.map(one => [one.textContent, getComputedStyle(one).display]); }})()",
+        time));
+  };
+  EXPECT_EQ(at(0.5), json::parse(R"([["0", "block"], ["0", "block"]])"));
+  EXPECT_EQ(at(6), json::parse(R"([["7", "block"], ["1", "block"]])"));
+  EXPECT_EQ(at(9.5), json::parse(R"([["3", "block"], ["1", "block"]])"));
+  EXPECT_EQ(at(11)[0][1], "none") << "the cursor is elsewhere";
+  EXPECT_EQ(browser.evaluate(kOverflow), json::array());
+}
+
+TEST(ReportOfLanes, IsWorkedByKeys) {
+  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+  const TestFolder folder;
+  renders::write_report(report_with_lanes(folder), folder / "report.html");
+  Browser browser(folder.path);
+  browser.window(1280, 900);
+  browser.open(folder / "report.html");
+  if (browser.evaluate("typeof drycutPlots === 'undefined'") == true) GTEST_SKIP() << "needs libjs-dygraphs";
+  const auto now = [&] { return browser.evaluate("[drycutPlots[0].at, ...drycutPlots[0].range]"); };
+  const auto expect_now = [&](double cursor, double from, double until) {
+    const auto found = now();
+    EXPECT_NEAR(found[0].get<double>(), cursor, 1e-6);
+    EXPECT_NEAR(found[1].get<double>(), from, 1e-6);
+    EXPECT_NEAR(found[2].get<double>(), until, 1e-6);
+  };
+  browser.evaluate("drycutPlots[0].box.focus()");
+  browser.key("ArrowRight");  // from the middle, a hundredth of what is in sight
+  expect_now(5.1, 0, 10);
+  browser.key("ArrowLeft", true);
+  expect_now(4.1, 0, 10);
+  browser.key("+");
+  expect_now(4.1, 2.05, 7.05);
+  for (int i = 0; i < 6; ++i) browser.key("ArrowRight", true);  // the last step takes the sight along
+  expect_now(7.1, 2.1, 7.1);
+  browser.key("-");
+  expect_now(7.1, 0, 7.1);
+  browser.key("Home");
+  expect_now(7.1, 0, 10);
+  browser.evaluate("document.querySelector('.live-head button').focus()");
+  browser.key("+");
+  expect_now(7.1, 0, 10);
 }
 
 // What the test above must notice.

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "sim/report/results.hpp"
 #include "sim/report/statistics.hpp"
 #include "tests/sim/fakes.hpp"
@@ -66,6 +68,14 @@ TEST_F(ChecksTest, EachTellsTheWorstEventAndItsMargin) {
   EXPECT_EQ(r.expectation, "each cut: abs(length - 800) <= 0.2, from 1.0 s");
   EXPECT_EQ(r.detail, "3 cut events, worst: length=799.85 mm; force=130 N");
   EXPECT_EQ(report::margin_text(r), "0.05 mm left, at 3.0000 s");
+  EXPECT_NEAR(*r.used, 0.75, 1e-9) << "of the limit, then";
+  ASSERT_EQ(r.tolerances.size(), 1U);
+  EXPECT_EQ(r.tolerances[0].event, "cut");
+  EXPECT_EQ(r.tolerances[0].value, "length");
+  EXPECT_DOUBLE_EQ(r.tolerances[0].low, 799.8);
+  EXPECT_DOUBLE_EQ(r.tolerances[0].high, 800.2);
+  EXPECT_EQ(r.tolerances[0].from, 1);
+  EXPECT_TRUE(std::isinf(r.tolerances[0].until));
 }
 
 TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
@@ -77,6 +87,7 @@ TEST_F(ChecksTest, EachFailsBeyondTheLimit) {
   EXPECT_FALSE(r.passed);
   EXPECT_NEAR(*r.margin, -0.3, 1e-9);
   EXPECT_EQ(report::margin_text(r), "0.3 mm too far, at 2.0000 s");
+  EXPECT_NEAR(*r.used, 2.5, 1e-9);
   EXPECT_EQ(r.detail, "2 knife.cut events, 1 failed, worst: length=800.5 mm; force=130 N");
 }
 
@@ -84,6 +95,8 @@ TEST_F(ChecksTest, EachWithoutAnEventFails) {
   add(scenario::Check::Kind::each, "cut", "length > 0");
   start();
   EXPECT_FALSE(result().passed);
+  EXPECT_TRUE(result().tolerances.empty());
+  EXPECT_FALSE(result().used);
   EXPECT_EQ(result().detail, "only 0 cut events in the time looked at, at least 1 expected");
 }
 
@@ -154,6 +167,7 @@ TEST_F(ChecksTest, EventuallyTellsWhenAndTheTimeLeft) {
   EXPECT_DOUBLE_EQ(*r.at, 2.0);
   EXPECT_DOUBLE_EQ(*r.margin, 1.0);
   EXPECT_EQ(r.unit, "s");
+  EXPECT_NEAR(*r.used, 2.0 / 3, 1e-12) << "of the time it had";
 }
 
 TEST_F(ChecksTest, EventuallyTooLateFails) {
@@ -162,6 +176,7 @@ TEST_F(ChecksTest, EventuallyTooLateFails) {
   sample(second, 1);
   sample(2 * second, 6);
   EXPECT_FALSE(result().passed);
+  EXPECT_FALSE(result().used);
 }
 
 TEST_F(ChecksTest, EventuallyNeverTrueTellsTheValueAtTheEnd) {

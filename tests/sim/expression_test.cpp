@@ -49,6 +49,75 @@ std::string faults_of(std::string_view text, const Numbers& numbers = {{"x", 1},
   return all;
 }
 
+// Below 100 there is a hundred to use up; between two limits what counts is the way from their middle.
+TEST(Expression, HowMuchOfTheLimitIsUsed) {
+  const struct {
+    const char* text;
+    double x;
+    std::optional<double> used;
+  } cases[] = {{"x < 100", 24, 0.24},
+               {"100 > x", 24, 0.24},
+               {"x <= 100", 150, 1.5},
+               {"x < 100", -5, 0},
+               {"x > 100", 400, 0.25},
+               {"x >= 100", 50, 2},
+               {"x < -30", -60, 0.5},
+               {"x < -30", -15, 2},
+               {"x > -30", -15, 0.5},
+               {"abs(x - 800) <= 0.5", 800.25, 0.5},
+               {"x >= 799.5 && x <= 800.5", 800.25, 0.5},
+               {"799.5 < x && 800.5 > x", 799.75, 0.5},
+               {"x < 100 && y < 10", 90, 0.9},
+               {"x < 5 * y", 10, 0.4},
+               {"x <= 0", -3, {}},
+               {"x == 3", 3, {}},
+               {"x", 1, {}}};
+  for (const auto& [text, x, used] : cases) {
+    const Numbers numbers = {{"x", x}, {"y", 5}};
+    std::vector<ExpressionFault> faults;
+    const auto expression = compile(text, numbers, faults);
+    ASSERT_TRUE(expression) << text;
+    const auto found = expression->used(expression->evaluate().term);
+    ASSERT_EQ(found.has_value(), used.has_value()) << text;
+    EXPECT_NEAR(found.value_or(0), used.value_or(0), 1e-9) << text;
+  }
+  const Numbers beyond = {{"x", 3}};
+  std::vector<ExpressionFault> faults;
+  const auto expression = compile("x < -30", beyond, faults);
+  EXPECT_TRUE(std::isinf(*expression->used(expression->evaluate().term))) << "on the wrong side of 0";
+}
+
+TEST(Expression, WhichRangeTheTermsLeaveAName) {
+  constexpr double open = std::numeric_limits<double>::infinity();
+  const struct {
+    const char* text;
+    double low;
+    double high;
+  } cases[] = {{"abs(x - 800) <= 0.1", 799.9, 800.1},
+               {"0.1 >= abs(800 - x)", 799.9, 800.1},
+               {"abs(2 * x) < 10", -5, 5},
+               {"x < 800.1 && x > 799.9", 799.9, 800.1},
+               {"800.1 > x", -open, 800.1},
+               {"-x < 3", -3, open},
+               {"x > 1 && x > 2 && x < 9 && x < 7", 2, 7},
+               {"abs(x) <= 2 && y < 1", -2, 2},
+               {"abs(x) > 2", -open, open},
+               {"x < y", -open, open},
+               {"x * x < 4", -open, open},
+               {"y < 4", -open, open},
+               {"x == 3", -open, open}};
+  for (const auto& [text, low, high] : cases) {
+    const Numbers numbers = {{"x", 1}, {"y", 5}};
+    std::vector<ExpressionFault> faults;
+    const auto expression = compile(text, numbers, faults);
+    ASSERT_TRUE(expression) << text;
+    EXPECT_FALSE(std::isnan(expression->evaluate().margin.value_or(0)));
+    const auto [from, until] = expression->range_of(&numbers.at("x"));
+    EXPECT_DOUBLE_EQ(from, low) << text;
+    EXPECT_DOUBLE_EQ(until, high) << text;
+  }
+}
+
 TEST(Expression, HoldsOrNot) {
   const Numbers numbers = {{"x", 3}, {"y", -2}, {"zero", 0}};
   const struct {

@@ -58,6 +58,28 @@ struct GalleryPlots : ::testing::Test {
   loop::Recording recording;
 };
 
+TEST_F(GalleryPlots, APanelThatIsZeroAllTheTimeIsLeftOutAndNamed) {
+  loop::Recording still;
+  still.add(watch, "panel.busy");
+  still.add(watch, "web.speed");
+  still.append(0, {0, 0});
+  still.append(second, {1, 0});
+  const auto made = [&](const std::string& panels) {
+    std::vector<std::string> problems;
+    const auto scenario = fakes::read("pictures: {plots: [{name: a, panels: [" + panels + "]}]}\n", problems);
+    EXPECT_THAT(problems, IsEmpty());
+    return plots_of(scenario, still).at(0);
+  };
+  const auto plot = made("{channels: [web.speed]}, {channels: [panel.busy, web.speed]}");
+  ASSERT_EQ(plot.panels.size(), 1U);
+  EXPECT_EQ(plot.panels[0].curves.size(), 2U) << "beside one that moves it stays";
+  EXPECT_EQ(plot.title, "a (0 all the time: web.speed)");
+  EXPECT_EQ(made("{channels: [web.speed]}").panels.size(), 1U) << "all there is";
+  EXPECT_EQ(made("{lanes: [web.speed]}, {channels: [panel.busy]}").panels.size(), 2U);
+  EXPECT_EQ(made("{channels: [web.speed], limits: [-1, 1]}, {channels: [panel.busy]}").panels.size(), 2U)
+      << "0 within its limits says something";
+}
+
 TEST_F(GalleryPlots, OfALongRunThePeaksAndTheChangesAreShownAndTheAxisSaysSo) {
   for (int i = 10; i < 200'000; ++i) {
     panel.lamps["busy"].level = i >= 150'001;
