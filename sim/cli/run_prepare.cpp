@@ -11,6 +11,7 @@
 #include "sim/file.hpp"
 #include "sim/live/session.hpp"
 #include "sim/loop/controller_loader.hpp"
+#include "sim/report/index.hpp"
 #include "sim/studies/half_step.hpp"
 
 namespace drycut::sim::cli {
@@ -21,7 +22,7 @@ namespace {
 class Claims {
  public:
   void results(const std::string& name, const std::filesystem::path& file, Problems& problems) {
-    if (name.empty() || name == "." || name == ".." || name == junit_file) {
+    if (name.empty() || name == "." || name == ".." || name == junit_file || name == report::index_file) {
       problems.push_back({file.string(), 1, 1, fmt::format("its results cannot be called '{}'", name),
                           "give the scenario another file name"});
     }

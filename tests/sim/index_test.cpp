@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/cli/index_command.hpp"
+#include "sim/cli/run_command.hpp"
 #include "sim/report/index.hpp"
 #include "tests/sim/command_bench.hpp"
 
@@ -142,6 +143,34 @@ TEST_F(Index, IsWrittenAgainTheSameAndOverTheOldOne) {
   run("b", {true});
   ASSERT_EQ(index(), cli::all_passed) << err;
   EXPECT_THAT(page(), HasSubstr("<span>all 2 passed</span>"));
+}
+
+// Whoever runs one scenario after the other into a folder finds them all.
+TEST_F(Index, DrycutRunWritesItOverAllThatIsThere) {
+  cli::RunOptions options;
+  options.out = folder / "out";
+  options.pictures = false;
+  const auto ran = [&](const std::string& name) {
+    options.scenarios = {folder.file(name + ".yaml", R"(scene: {step: 1 ms, duration: 0.1 s}
+plants: {web: {type: web, speed: 60 m/min}}
+record: {every: 10 ms, channels: [web.speed]}
+checks: [{name: runs, always: "web.speed > 50"}]
+)")};
+    return captured([&] { return cli::run_scenarios(options); });
+  };
+  ASSERT_EQ(ran("first"), cli::all_passed) << err;
+  ASSERT_EQ(ran("second"), cli::all_passed) << err;
+  const auto written = content(folder / "out/index.html");
+  EXPECT_THAT(written, HasSubstr("<a href=\"first/trace.csv\">first</a>"));
+  EXPECT_THAT(written, HasSubstr("<a href=\"second/trace.csv\">second</a>"));
+  EXPECT_THAT(written, HasSubstr("1 check passed"));
+  // drycut index writes the same over it, and leaves what the run wrote beside it.
+  ASSERT_EQ(captured([&] { return cli::index_folder(folder / "out"); }), cli::all_passed) << err;
+  EXPECT_TRUE(content(folder / "out/index.html") == written);
+  EXPECT_TRUE(fs::exists(folder / "out/junit.xml"));
+  ASSERT_EQ(ran("first"), cli::all_passed) << err;
+  EXPECT_EQ(ran("index.html"), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("its results cannot be called 'index.html'"));
 }
 
 TEST_F(Index, RefusesWhatIsNoFolderOfResults) {
