@@ -205,7 +205,7 @@ class MapPainter : Paper {
     y += kRow / 2;
     for (std::size_t i = 0; i < map_.lines.size(); ++i) {
       if (!drawn_[i]) {
-        words(map_.lines[i].label + ": no lines");
+        words("no lines: " + map_.lines[i].label);
         continue;
       }
       line(left, y, left + sample, y, kLineInks[i % kLineInks.size()], kLineWidth,

@@ -60,6 +60,7 @@ void judge(const CompareOptions& options, const studies::Comparison& comparison,
            studies::ComparisonPage& page) {
   page.verdict = studies::difference_text(comparison);
   if (options.tolerances.empty() && !options.fail_on_difference) return;
+  page.tolerances = options.tolerances;
   page.checks = studies::judgement(comparison, options.fail_on_difference);
   page.passed = options.fail_on_difference ? studies::same(comparison) : studies::kept(comparison);
   if (*page.passed && !options.tolerances.empty())

@@ -1,6 +1,7 @@
 #include "sim/studies/compare/comparison.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,14 @@ bool end_alike(const Comparison& comparison) {
 
 std::string counted(std::size_t count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// A page must stay readable: the rest is in its tables.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  const auto shown = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+  const auto text = fmt::format("{}", fmt::join(names.begin(), shown, "; "));
+  return names.size() > most ? fmt::format("{}; and {} more", text, names.size() - most) : text;
 }
 
 class CsvText {
@@ -101,30 +110,27 @@ std::vector<loop::CheckResult> judgement(const Comparison& comparison, bool para
   std::vector<std::string> names;
   for (const auto& check : comparison.checks)
     if (!check.change.empty()) names.push_back(fmt::format("{} ({})", check.name, check.change));
-  judge("verdicts", "every check ends as in the first run, with its margin", names.size(),
-        comparison.checks.size(), listed(names));
+  judge("verdicts", "as in the first run, with margins", names.size(), comparison.checks.size(),
+        some_of(names));
   const auto& events = comparison.event_differences;
-  judge("events", "every event comes as in the first run, with its values", events.size(),
-        comparison.events_looked_at, events.empty() ? "" : events.front().name + " is the first");
+  judge("events", "as in the first run", events.size(), comparison.events_looked_at,
+        events.empty() ? "" : events.front().name + " is the first");
   names.clear();
   for (const auto& channel : comparison.channels)
     if (!channel.is_kept()) names.push_back(apart_text(channel, comparison));
   names.insert(names.end(), comparison.unmatched.begin(), comparison.unmatched.end());
-  judge("channels", "every channel goes as in the first run", names.size(),
-        comparison.channels.size() + comparison.unmatched.size(), listed(names));
+  judge("channels", "as in the first run", names.size(),
+        comparison.channels.size() + comparison.unmatched.size(), some_of(names));
   names.clear();
   for (const auto& figure : comparison.figures_beyond)
     names.push_back(fmt::format("{} by {:.4g} {}, {:.4g} allowed", figure.name, figure.difference,
                                 figure.unit, figure.allowed));
-  if (!names.empty())
-    judge("figures", "those with a tolerance of their own keep it", names.size(), names.size(),
-          listed(names));
-  judge("end", "the runs are equally long, recorded at the same instants", end_alike(comparison) ? 0 : 1, 1,
-        "");
+  if (!names.empty()) judge("figures", "as in the first run", names.size(), names.size(), some_of(names));
+  judge("end", "equally long, the same instants", end_alike(comparison) ? 0 : 1, 1, "");
   if (!parameters) return rows;
   names.clear();
   for (const auto& parameter : comparison.parameters) names.push_back(parameter.path);
-  judge("parameters", "the same are in force", names.size(), names.size(), listed(names));
+  judge("parameters", "as in the first run", names.size(), names.size(), some_of(names));
   return rows;
 }
 

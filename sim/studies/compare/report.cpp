@@ -207,6 +207,7 @@ renders::Report report_of(const Comparison& comparison, const ComparisonPage& pa
                                  start > 0 ? fmt::format("; start-up until {:g} s", start) : "")}});
   }
   if (comparison.from) report.facts.push_back({{"figures from", fmt::format("{:g} s", *comparison.from)}});
+  for (const auto& tolerance : page.tolerances) report.facts.push_back({{"--tolerance", tolerance}});
   report.facts.push_back({{"compared by drycut", DRYCUT_VERSION}});
   report::add_checks(page.checks, report);
   add_tables(comparison, page, report);

@@ -17,7 +17,8 @@ struct ComparisonPage {
   std::vector<loop::CheckResult> checks;  ///< over the figures of the runs
   std::optional<bool> passed;             ///< absent: nothing is judged, only compared
   std::string verdict;
-  std::vector<OverlayRequest> overlays;  ///< before the usual ones
+  std::vector<OverlayRequest> overlays;      ///< before the usual ones
+  std::vector<std::string> tolerances = {};  ///< that were given: "length=0.01mm"
 };
 
 /// What a comparison may write into its folder.

@@ -259,7 +259,8 @@ void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder&
     report.tables.push_back(rows_of(study, of.empty() ? "Every point" : of + "every point"));
     if (over_axes(study, 2)) {
       const auto name = studies.size() > 1 ? fmt::format("map_{}", i + 1) : "map";
-      report.maps.push_back(map_of(study, name, fmt::format("{}largest {}", of, study.columns[0]),
+      report.maps.push_back(map_of(study, name,
+                                   fmt::format("{}{}argest {}", of, of.empty() ? "L" : "l", study.columns[0]),
                                    "The colours say what gives way behind the largest value, green that "
                                    "nothing does; the lines are of equal largest value.",
                                    &envelopes[i].request.parameter, folder));

@@ -70,6 +70,7 @@ TEST_F(CompareCommand, AGoldenSurvivesRoundingAndNoMore) {
   EXPECT_THAT(page, HasSubstr("<p class=\"verdict fail\"><strong>FAIL</strong>"));
   EXPECT_THAT(page, HasSubstr("<span class=\"badge fail\">FAIL</span></td><td>channels"));
   EXPECT_THAT(page, HasSubstr("<span class=\"badge pass\">PASS</span></td><td>verdicts"));
+  EXPECT_THAT(page, HasSubstr("<dt>--tolerance</dt><dd>0</dd>"));
 }
 
 TEST_F(CompareCommand, TolerancesAreByNameAndUnit) {
