@@ -1,10 +1,13 @@
 #include "sim/studies/compare/allowance.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "base/text.hpp"
 #include "sim/scenario/units.hpp"

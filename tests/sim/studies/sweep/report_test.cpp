@@ -1,4 +1,6 @@
 // The pages of drycut sweep and drycut envelope: a map over two axes, curves over one, a table of anything.
+#include <fmt/format.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 
