@@ -124,8 +124,10 @@ std::optional<ordered_json> sound_entry(const fs::path& entry, const std::string
   if (end == std::string::npos || text->substr(0, end) != fingerprint_of(text->substr(end + 1))) return {};
   auto json = ordered_json::parse(text->substr(end + 1));
   if (json.at("inputs") != inputs) return {};
-  for (const auto& [name, fingerprint] : json.at("files").items())
-    if (fingerprint_of_file(entry / "files" / name) != fingerprint) return {};
+  for (const auto& [name, fingerprint] : json.at("files").items()) {
+    const bool is_inside = !name.starts_with('/') && name.find("..") == std::string::npos;
+    if (!is_inside || fingerprint_of_file(entry / "files" / name) != fingerprint) return {};
+  }
   return json;
 }
 

@@ -77,11 +77,16 @@ bool is_unchanged(Job& job, const RunCache& cache, const RunOptions& options) {
 }
 
 /// Keeps what the next run of the same would leave again. What it has left out it might not leave out then.
-void keep(const Job& job, const RunCache& cache) {
+/// The verdict stands where it cannot be kept.
+void keep(Job& job, const RunCache& cache) {
   if (!job.result.outcome.failure.empty() || !job.left_out.empty() || InterruptWatch::come() != 0) return;
-  cache.keep(
-      job.inputs, *job.folder,
-      {job.result.outcome, job.result.has_report, job.simulation->notes(), job.scene.filename().string()});
+  try {
+    cache.keep(
+        job.inputs, *job.folder,
+        {job.result.outcome, job.result.has_report, job.simulation->notes(), job.scene.filename().string()});
+  } catch (const std::exception& error) {
+    job.notes.push_back(fmt::format("not kept in the cache: {}", error.what()));
+  }
 }
 
 void run_job(Job& job, const RunOptions& options, int threads,

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
 #include "sim/cli/run_command.hpp"
+#include "sim/studies/fingerprint.hpp"
 #include "tests/sim/command_bench.hpp"
 #include "tests/sim/studies/tune/bench.hpp"
 
@@ -193,6 +195,28 @@ TEST_F(KeptRuns, AFolderThatCannotBeMadeIsToldBeforeTheRun) {
   EXPECT_EQ(run(), bad_input);
   EXPECT_THAT(err, HasSubstr("--cache:1:1: the directory "));
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(KeptRuns, WhereNothingCanBeKeptTheVerdictStands) {
+  options.cache = "/proc/self/fdinfo";
+  EXPECT_EQ(run(), all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("\n  note not kept in the cache: "));
+  EXPECT_TRUE(fs::exists(folder / "out/junit.xml"));
+}
+
+TEST_F(KeptRuns, AnEntryThatLeadsOutOfTheFolderIsNotUsed) {
+  ASSERT_EQ(run(), all_passed) << err;
+  const auto file = kept("entry.json").at(0);
+  auto json = nlohmann::ordered_json::parse(content(file).substr(17));
+  fs::copy_file(file.parent_path() / "files/trace.csv", file.parent_path() / "other");
+  json["files"]["../other"] = json["files"]["trace.csv"];
+  const auto text = json.dump(2) + "\n";
+  studies::Fingerprint hash;
+  hash.add(text);
+  std::ofstream(file, std::ios::binary) << fmt::format("{:016x}\n", hash.value()) << text;
+  ASSERT_EQ(run(), all_passed) << err;
+  EXPECT_FALSE(unchanged());
+  EXPECT_FALSE(fs::exists(folder / "out/other"));
 }
 
 TEST_F(KeptRuns, WithoutTheOptionNothingIsKept) {
