@@ -191,11 +191,18 @@ void write_video(Page& page, const Report& report) {
                         html_text(report.video.filename().string()));
     return;
   }
+  std::string poster;
+  if (!report.poster.empty()) {
+    // The controls stand below a picture of this shape, not on its caption.
+    const Image image = read_png(report.poster);
+    poster = fmt::format(" style=\"--shape:{:.6f}\" poster=\"data:image/png;base64,{}\"",
+                         static_cast<double>(image.height) / image.width, base64(read_file(report.poster)));
+  }
   page += fmt::format(
       "<figure class=\"film\"><video aria-label=\"Film of the run\" controls loop muted playsinline "
-      "preload=\"auto\" "
+      "preload=\"auto\"{} "
       "src=\"data:video/mp4;base64,{}\"></video><figcaption>{}</figcaption></figure>\n",
-      base64(bytes), html_text(report.video.filename().string()));
+      poster, base64(bytes), html_text(report.video.filename().string()));
 }
 
 void write_frames(Page& page, const Report& report) {

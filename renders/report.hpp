@@ -77,6 +77,7 @@ struct Report {
   std::vector<ReportMap> maps = {};      ///< before the frames
   std::vector<ReportFigure> frames;      ///< chosen frames, shown as a strip
   std::filesystem::path video;           ///< MP4 of all frames, "" = none
+  std::filesystem::path poster = {};     ///< PNG that stands for it until it plays, as large
   std::optional<MachineView> view = {};  ///< stands beside the plots and shows the time of their cursor
   std::vector<ReportFigure> plots;
   std::vector<ReportSection> sections = {};  ///< behind the plots

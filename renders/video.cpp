@@ -15,7 +15,7 @@ constexpr auto* threads = "2";
 
 }  // namespace
 
-void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
+void encode_video(const std::filesystem::path& frames, std::int64_t period_ns, std::size_t poster,
                   const std::filesystem::path& file) {
   std::filesystem::path unfinished = std::filesystem::absolute(file);
   unfinished += ".part";
@@ -31,16 +31,26 @@ void encode_video(const std::filesystem::path& frames, std::int64_t period_ns,
                             fmt::format("1000000000/{}", period_ns),
                             "-i",
                             "frame_%05d.png",
-                            "-vf",
+                            "-i",
+                            fmt::format("frame_{:05}.png", poster),
+                            "-map",
+                            "0:v",
+                            "-map",
+                            "1:v",
+                            "-filter:v:0",
                             "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                            "-c:v",
+                            "-c:v:0",
                             "libx264",
                             "-preset",
                             "veryfast",
                             "-crf",
                             "20",
-                            "-pix_fmt",
+                            "-pix_fmt:v:0",
                             "yuv420p",
+                            "-c:v:1",
+                            "copy",
+                            "-disposition:v:1",
+                            "attached_pic",
                             "-threads",
                             threads,
                             "-map_metadata",

@@ -20,6 +20,7 @@
 #include "renders/video.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/file.hpp"
+#include "sim/report/chosen_frames.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/gallery_plots.hpp"
 #include "sim/report/key_figures.hpp"
@@ -158,44 +159,31 @@ std::vector<std::string> lines_in(const loop::Simulation& simulation) {
 constexpr std::size_t report_frames = 6;
 constexpr std::size_t strip_frames = 8;
 
-/// So many frames from the last full cycle between two cuts, or from the whole film: what the machine does,
-/// at a glance.
-std::vector<std::size_t> chosen_frames(const loop::Simulation& simulation, std::size_t wanted) {
-  const auto& snapshots = simulation.snapshots();
-  if (snapshots.size() <= wanted) {
-    std::vector<std::size_t> all(snapshots.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    return all;
-  }
-  double from = seconds(snapshots.front().time);
-  double until = seconds(snapshots.back().time);
-  std::vector<double> cuts;
-  for (const auto& event : simulation.recording().events()) {
-    if (event.event == "cut" && event.at_seconds() >= from && event.at_seconds() <= until)
-      cuts.push_back(event.at_seconds());
-  }
-  if (cuts.size() >= 2 && !simulation.frames_event()) {
-    until = cuts.back();
-    from = cuts[cuts.size() - 2];
-  }
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < wanted; ++i) {
-    const double at = from + (until - from) * static_cast<double>(i) / static_cast<double>(wanted - 1);
-    std::size_t nearest = 0;
-    for (std::size_t k = 0; k < snapshots.size(); ++k) {
-      if (std::abs(seconds(snapshots[k].time) - at) < std::abs(seconds(snapshots[nearest].time) - at))
-        nearest = k;
-    }
-    if (chosen.empty() || chosen.back() != nearest) chosen.push_back(nearest);
-  }
-  return chosen;
+std::vector<double> times_of(const std::vector<loop::Snapshot>& shots) {
+  std::vector<double> times;
+  for (const auto& shot : shots) times.push_back(seconds(shot.time));
+  return times;
 }
 
-std::string frame_label(const loop::Simulation& simulation, std::size_t index) {
-  const double time = seconds(simulation.snapshots()[index].time);
+std::vector<Moment> moments_in_film(const loop::Simulation& simulation, const loop::Outcome& outcome) {
+  const double begin = seconds(simulation.snapshots().front().time);
+  const double end = seconds(simulation.snapshots().back().time);
   const auto event = simulation.frames_event();
-  if (!event) return fmt::format("{:.3f} s", time);
-  return fmt::format("{:.3f} s ({:+.1f} ms)", time, (time - *event) * 1e3);
+  return event ? moments_around(*event, begin, end)
+               : moments_of(simulation.recording().events(), outcome.checks, begin, end);
+}
+
+/// What the machine does, at a glance.
+std::vector<ChosenFrame> frames_to_show(const loop::Simulation& simulation, const loop::Outcome& outcome,
+                                        std::size_t wanted) {
+  return chosen_frames(times_of(simulation.snapshots()), moments_in_film(simulation, outcome), wanted);
+}
+
+std::string frame_label(const loop::Simulation& simulation, const ChosenFrame& chosen) {
+  const double time = seconds(simulation.snapshots()[chosen.frame].time);
+  const auto event = simulation.frames_event();
+  if (event) return fmt::format("{:.3f} s ({:+.1f} ms)", time, (time - *event) * 1e3);
+  return fmt::format("{:.3f} s{}{}", time, chosen.what.empty() ? "" : ": ", chosen.what);
 }
 
 }  // namespace
@@ -225,10 +213,11 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
     report.summary.push_back(std::move(drives));
   if (outcome.half_step) report.summary.push_back(studies::margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
-    for (const auto index : chosen_frames(simulation, report_frames))
-      report.frames.push_back({drawn.frames.at(index), frame_label(simulation, index)});
+    for (const auto& chosen : frames_to_show(simulation, outcome, report_frames))
+      report.frames.push_back({drawn.frames.at(chosen.frame), frame_label(simulation, chosen)});
   }
   report.video = drawn.video;
+  report.poster = drawn.poster;
   for (const auto& known : simulation.known_events()) {
     auto table = event_table(simulation.recording(), known);
     if (!table.rows.empty()) report.tables.push_back(std::move(table));
@@ -265,15 +254,18 @@ std::string write_pictures(const scenario::Scenario& scenario, loop::Simulation&
     drawn.frames = renders::draw_film(
         film, frames, [&](int done) { progress("drawing", done / count); }, threads);
     std::vector<renders::StripFrame> strip;
-    for (const auto index : chosen_frames(simulation, strip_frames))
-      strip.push_back({drawn.frames.at(index), frame_label(simulation, index)});
+    for (const auto& chosen : frames_to_show(simulation, outcome, strip_frames))
+      strip.push_back({drawn.frames.at(chosen.frame), frame_label(simulation, chosen)});
     renders::draw_filmstrip(strip, renders::CaptionLayout(film).height(), folder.add(strip_file));
     if (scenario.pictures.video) {
       progress("filming", 1);
       try {
         const auto video = folder.add(video_file);
-        renders::encode_video(frames, scenario.pictures.every, video);
+        const auto poster =
+            poster_frame(times_of(simulation.snapshots()), moments_in_film(simulation, outcome));
+        renders::encode_video(frames, scenario.pictures.every, poster, video);
         drawn.video = video;
+        drawn.poster = drawn.frames.at(poster);
       } catch (const renders::HelperFailed& failed) {
         left_out = failed.what();
       }

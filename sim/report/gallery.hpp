@@ -27,6 +27,7 @@ std::vector<std::string> findings_of(const scenario::Scenario& scenario, const l
 struct Drawn {
   std::vector<std::filesystem::path> frames;  ///< one a snapshot
   std::filesystem::path video;                ///< "" = none
+  std::filesystem::path poster;               ///< the frame that stands for it
 };
 
 /// The cams that the run played, or held ready; of a PLCopen controller that played none its tables.

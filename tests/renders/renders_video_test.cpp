@@ -8,12 +8,14 @@
 #include "renders/filmstrip.hpp"
 #include "renders/png_image.hpp"
 #include "renders/process.hpp"
+#include "renders/report.hpp"
 #include "tests/renders/renders_scratch.hpp"
 
 namespace drycut::renders {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Frames of one colour each, from dark to bright, with a black caption of 20 pixels.
 std::vector<std::filesystem::path> frames_in(const std::filesystem::path& folder, int count, int width = 161,
@@ -42,21 +44,49 @@ TEST(Video, HasEveryFrameAtItsPeriod) {
   if (!has("ffmpeg") || !has("ffprobe")) GTEST_SKIP() << "ffmpeg is not installed";
   const Scratch scratch;
   frames_in(scratch / "frames", 7);
-  encode_video(scratch / "frames", 40'000'000, scratch / "film.mp4");
+  encode_video(scratch / "frames", 40'000'000, 4, scratch / "film.mp4");
   const auto told = run_process({"ffprobe",
                                  "ffmpeg",
-                                 {"-v", "error", "-count_frames", "-show_entries",
+                                 {"-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries",
                                   "stream=codec_name,width,height,r_frame_rate,nb_read_frames", "-of",
                                   "csv=p=0", (scratch / "film.mp4").string()}});
   EXPECT_THAT(told.output, HasSubstr("h264,162,122,25/1,7")) << "odd sizes grow by a pixel";
+}
+
+TEST(Video, ItsCoverIsThePosterWithItsOwnBytes) {
+  if (!has("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
+  const Scratch scratch;
+  const auto frames = frames_in(scratch / "frames", 7);
+  encode_video(scratch / "frames", 40'000'000, 4, scratch / "film.mp4");
+  ASSERT_TRUE(run_process({"ffmpeg",
+                           "ffmpeg",
+                           {"-v", "error", "-i", (scratch / "film.mp4").string(), "-map", "0:v:1", "-c",
+                            "copy", "-f", "image2", "-update", "1", (scratch / "cover.png").string()}})
+                  .good);
+  EXPECT_EQ(read_file(scratch / "cover.png"), read_file(frames[4]));
+}
+
+TEST(Video, InAReportThePosterStandsForItAndItsShapeLeavesTheControlsRoom) {
+  const Scratch scratch;
+  write_file(scratch / "film.mp4", "what a player would play");
+  Report report;
+  report.frames = {{frames_in(scratch / "frames", 1).front(), "0.040 s"}};
+  report.video = scratch / "film.mp4";
+  write_report(report, scratch / "bare.html");
+  EXPECT_THAT(read_file(scratch / "bare.html"), Not(HasSubstr("poster=")));
+  report.poster = report.frames.front().png;
+  write_report(report, scratch / "with.html");
+  const auto page = read_file(scratch / "with.html");
+  EXPECT_THAT(page, HasSubstr(" style=\"--shape:0.751553\" poster=\"data:image/png;base64,iVBOR"));
+  EXPECT_THAT(page, HasSubstr("figure video[style] { height: calc(100cqw * var(--shape)"));
 }
 
 TEST(Video, SameFramesSameBytes) {
   if (!has("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
   const Scratch scratch;
   frames_in(scratch / "frames", 5);
-  encode_video(scratch / "frames", 2'000'000, scratch / "a.mp4");
-  encode_video(scratch / "frames", 2'000'000, scratch / "b.mp4");
+  encode_video(scratch / "frames", 2'000'000, 1, scratch / "a.mp4");
+  encode_video(scratch / "frames", 2'000'000, 1, scratch / "b.mp4");
   EXPECT_EQ(read_file(scratch / "a.mp4"), read_file(scratch / "b.mp4"));
 }
 
@@ -65,7 +95,7 @@ TEST(Video, SaysWhatIsWrongAndLeavesNothingHalf) {
   const Scratch scratch;
   std::filesystem::create_directories(scratch / "frames");
   EXPECT_THAT(message_of<std::runtime_error>(
-                  [&] { encode_video(scratch / "frames", 40'000'000, scratch / "film.mp4"); }),
+                  [&] { encode_video(scratch / "frames", 40'000'000, 0, scratch / "film.mp4"); }),
               HasSubstr("video: ffmpeg failed: "));
   EXPECT_FALSE(std::filesystem::exists(scratch / "film.mp4"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "film.mp4.part"));
