@@ -23,7 +23,7 @@ from pages import DOCS, ROOT, anchors, blocks, commands, links, pages, prose
 
 PROGRAM = Path(sys.argv[1]).resolve()
 # Blocks that need what a test has not.
-NOT_RUN = {"clusters": "Dask and Slurm: make cluster", "sizing": "hundreds of runs"}
+NOT_RUN = {"clusters": "Dask and Slurm: make cluster", "sizing": "hundreds of runs", "tuning": "hundreds of runs"}
 
 
 def run(*words, **more):
