@@ -14,13 +14,13 @@
 
 BUILD    ?= build
 JOBS     ?= $(shell nproc)
-PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libcairo2-dev libassimp-dev libeigen3-dev libyaml-cpp-dev \
+PACKAGES := cmake ninja-build pkg-config libbullet-dev libosmesa6-dev libpng-dev libdeflate-dev libcairo2-dev libassimp-dev libeigen3-dev libyaml-cpp-dev \
             libudunits2-dev libnlopt-cxx-dev libhdf5-dev zlib1g-dev libzstd-dev libcli11-dev libboost-dev libfmt-dev nlohmann-json3-dev \
             fonts-dejavu-core libjs-dygraphs libjs-three ffmpeg
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
 NOTEBOOK_PACKAGES := jupyter-nbconvert python3-ipykernel python3-matplotlib
 TEST_PACKAGES  := libgtest-dev libgmock-dev libsundials-dev libmujoco-dev python3-jsonschema python3-yaml python3-h5py python3-pandas mypy \
-                  libmodbus-dev mbpoll python3-pymodbus python3-serial-asyncio tshark \
+                  libmodbus-dev mbpoll python3-pymodbus python3-serial-asyncio tshark yamllint \
                   $(PYTHON_PACKAGES) $(NOTEBOOK_PACKAGES)
 BENCH_PACKAGES := libmujoco-dev
 CLUSTER_PACKAGES := python3-distributed slurm-wlm munge

@@ -49,4 +49,4 @@ set(CPACK_DEBIAN_PYTHON3-DRYCUT_PACKAGE_RECOMMENDS "drycut, python3-pandas")
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_NAME libdrycut-dev)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBDRYCUT-DEV_PACKAGE_DEPENDS
-    "pkg-config, libbullet-dev, libosmesa6-dev, libpng-dev, libcairo2-dev, libassimp-dev, libyaml-cpp-dev, libudunits2-dev, libnlopt-cxx-dev, libhdf5-dev, zlib1g-dev, libzstd-dev, libcli11-dev, libboost-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")
+    "pkg-config, libbullet-dev, libosmesa6-dev, libpng-dev, libdeflate-dev, libcairo2-dev, libassimp-dev, libyaml-cpp-dev, libudunits2-dev, libnlopt-cxx-dev, libhdf5-dev, zlib1g-dev, libzstd-dev, libcli11-dev, libboost-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev")

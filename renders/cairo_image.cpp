@@ -1,6 +1,8 @@
 #include "renders/cairo_image.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 #include "renders/text.hpp"
@@ -27,10 +29,9 @@ CairoSurface cairo_surface_of(const Image& image, int height) {
     const std::uint8_t* from = image.row(y);
     unsigned char* to = pixels + static_cast<std::ptrdiff_t>(y) * stride;
     for (int x = 0; x < image.width; ++x, from += 3, to += 4) {
-      to[0] = from[2];
-      to[1] = from[1];
-      to[2] = from[0];
-      to[3] = 255;
+      const std::uint32_t pixel = 0xff000000U | static_cast<std::uint32_t>(from[0]) << 16U |
+                                  static_cast<std::uint32_t>(from[1]) << 8U | from[2];
+      std::memcpy(to, &pixel, sizeof pixel);
     }
   }
   cairo_surface_mark_dirty(made.get());

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "renders/caption_bar.hpp"
 #include "renders/pictures.hpp"
+#include "renders/tiles.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -123,7 +123,8 @@ double floor_level(const Film& film) {
   return std::isfinite(level) ? level : -0.5;
 }
 
-Camera camera_of(const Film& film, std::size_t frame) {
+Camera camera_of(const Film& film, std::size_t frame, std::size_t view) {
+  if (view > 0) return film.beside[view - 1].camera;
   Camera camera = film.camera;
   if (!film.follow) return camera;
   const Vec3 way = film.frames[frame].placements[*film.follow].position -
@@ -149,16 +150,16 @@ std::array<double, 2> projected(const Camera& camera, int width, int height, con
   return {(seen.x() / seen.w() + 1) / 2 * width, (1 - seen.y() / seen.w()) / 2 * height};
 }
 
-Camera operator_camera(const Film& film) {
+Camera operator_camera(const Film& film, std::size_t view) {
   Camera camera;
   const Extent extent = mechanism_extent(film);
   const Vec3 forward = -kFromOperator.normalized();
   const Vec3 right = forward.cross(Vec3::UnitY()).normalized();
   const Vec3 up = right.cross(forward);
 
-  const int view_height = film.height - CaptionLayout(film).height();
+  const Tile tile = tiles_of(film).at(view);
   const double tan_up = std::tan(camera.field_of_view_deg * std::numbers::pi / 360) * kPictureUsed;
-  const double tan_right = tan_up * film.width / std::max(1, view_height);
+  const double tan_right = tan_up * tile.width / tile.height;
 
   // A point is in the picture if |its offset sideways| <= tangent * its depth: each picture edge is a plane
   // through the eye, so the nearest eye that sees all points comes from four extremes.

@@ -23,8 +23,9 @@ Extent mechanism_extent(const Film& film);
 /// The height of the floor [m]: the lowest point of any visible part of the film.
 double floor_level(const Film& film);
 
-/// The camera in that frame: with a part to follow it is shifted as the part has been since the first frame.
-Camera camera_of(const Film& film, std::size_t frame);
+/// A camera of the film in that frame: the first one (0), which, with a part to follow, is shifted as the
+/// part has been since the first frame, or one of those beside it.
+Camera camera_of(const Film& film, std::size_t frame, std::size_t view = 0);
 
 /// World to clip coordinates for a picture of that shape; `extent` sets the depth range.
 Matrix4 view_projection(const Camera& camera, double aspect, const Extent& extent);

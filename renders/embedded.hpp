@@ -5,9 +5,11 @@
 namespace drycut::renders {
 
 // Files that are built into the program, so that it works wherever it is moved: the meshes of scenes/meshes/,
-// the motors of scenes/catalogue/ and what a report is made of, in renders/assets/ (CMakeLists.txt).
+// the motors of scenes/catalogue/, what a report is made of, in renders/assets/, and the lines of scenes/new/
+// with their programs (CMakeLists.txt).
 
-/// Names of the files, without folders: "drum.stl", "report.css".
+/// Names of the files, without folders: "drum.stl", "report.css"; those of lines from scenes/ on:
+/// "new/cams/saw.csv", "programs/flying_saw.st".
 std::vector<std::string_view> embedded_names();
 
 /// The bytes of the file of that name; empty if there is none.

@@ -3,7 +3,10 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace drycut::renders {
 namespace {
@@ -21,6 +24,28 @@ GLuint make_texture(GLenum format, int width, int height) {
 }
 
 }  // namespace
+
+PixelArea area_of(const std::vector<std::array<Vec3, 8>>& things, const Matrix4& to_clip, int width,
+                  int height) {
+  const PixelArea whole = {0, 0, width, height};
+  Eigen::AlignedBox2d seen;
+  for (const auto& corners : things) {
+    for (const Vec3& corner : corners) {
+      const Vec4 at = to_clip * corner.homogeneous();
+      if (at.w() <= 0) return whole;
+      seen.extend(Eigen::Vector2d(at.x() / at.w(), at.y() / at.w()));
+    }
+  }
+  if (seen.isEmpty()) return {};
+  // A pixel more around, for what rounding does.
+  const auto pixel = [](double clip, int size, int more) {
+    return std::clamp(static_cast<int>(std::floor((std::clamp(clip, -2.0, 2.0) + 1) / 2 * size)) + more, 0,
+                      size);
+  };
+  const int left = pixel(seen.min().x(), width, -1);
+  const int bottom = pixel(seen.min().y(), height, -1);
+  return {left, bottom, pixel(seen.max().x(), width, 2) - left, pixel(seen.max().y(), height, 2) - bottom};
+}
 
 GlCanvas::GlCanvas(int width, int height, const std::vector<Name>& colours, Name depth)
     : width_(width), height_(height) {
@@ -67,14 +92,18 @@ void GlCanvas::draw_into(const Copy& copy) const {
   glViewport(0, 0, width_, height_);
 }
 
-void GlCanvas::draw_still() const {
+void GlCanvas::draw_still() {
   draw_into(still_);
+  touched_ = whole();
   if (own_depth_) glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-void GlCanvas::start_frame() const {
-  const auto copy = [&](Name from, Name to) {
-    glCopyImageSubData(from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, 0, 0, 0, width_, height_, 1);
+void GlCanvas::start_frame(const PixelArea& touched) {
+  const PixelArea area = std::exchange(touched_, touched);
+  if (area.width == 0 || area.height == 0) return;
+  const auto copy = [&area](Name from, Name to) {
+    glCopyImageSubData(from, GL_TEXTURE_2D, 0, area.left, area.bottom, 0, to, GL_TEXTURE_2D, 0, area.left,
+                       area.bottom, 0, area.width, area.height, 1);
   };
   for (std::size_t i = 0; i < still_.colours.size(); ++i) copy(still_.colours[i], frame_.colours[i]);
   if (own_depth_) copy(still_.depth, frame_.depth);

@@ -1,7 +1,20 @@
 #pragma once
+#include <array>
 #include <vector>
 
+#include "renders/geometry.hpp"
+
 namespace drycut::renders {
+
+/// A rectangle of pixels, from the lower left corner.
+struct PixelArea {
+  int left = 0, bottom = 0;
+  int width = 0, height = 0;
+};
+/// Where things with these corners [m, world] may be in a picture of that size; all of it if one of them
+/// reaches behind the eye.
+PixelArea area_of(const std::vector<std::array<Vec3, 8>>& things, const Matrix4& to_clip, int width,
+                  int height);
 
 /// Textures of one size that are drawn into together, in two copies: one with what stands still over the
 /// whole film, and one of the frame, which starts from it and gets what moves on top. The current OpenGL
@@ -17,15 +30,18 @@ class GlCanvas {
   GlCanvas(const GlCanvas& tested, const std::vector<Name>& colours);
 
   /// What is drawn from now on stands still in all frames; starts empty.
-  void draw_still() const;
-  /// The frame starts as what stands still.
-  void start_frame() const;
+  void draw_still();
+  /// The frame starts as what stands still. Nothing outside `touched` is drawn before the next one starts.
+  void start_frame(const PixelArea& touched);
+  void start_frame() { start_frame(whole()); }
   /// What is drawn from now on is in this frame only.
   void draw_frame() const;
 
   /// A texture of the frame.
   Name colour(std::size_t number) const { return frame_.colours[number]; }
   Name depth() const { return frame_.depth; }
+  int width() const { return width_; }
+  int height() const { return height_; }
 
  private:
   struct Copy {
@@ -35,11 +51,13 @@ class GlCanvas {
   };
   Copy make(const std::vector<Name>& colours, Name depth) const;
   void draw_into(const Copy& copy) const;
+  PixelArea whole() const { return {0, 0, width_, height_}; }
 
   int width_;
   int height_;
   bool own_depth_ = true;
   Copy still_, frame_;
+  PixelArea touched_;  ///< where the frame may differ from what stands still
 };
 
 }  // namespace drycut::renders

@@ -32,6 +32,10 @@ GlContext::GlContext() : buffer_(16 * 16 * 4) {
     throw std::runtime_error(
         "pictures: OSMesa gives no OpenGL 4.3 core context; install libosmesa6 with llvmpipe");
   }
+  make_current();
+}
+
+void GlContext::make_current() {
   if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), buffer_.data(), GL_UNSIGNED_BYTE, 16,
                         16) == GL_FALSE) {
     throw std::runtime_error("pictures: OSMesa could not make its context current");

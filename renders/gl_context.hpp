@@ -5,13 +5,15 @@
 
 namespace drycut::renders {
 
-/// An OpenGL 4.3 core context without a window, current in the thread that made it. The only place that knows
-/// OSMesa, so that EGL can take its place. Draw into framebuffer objects: it has no picture of its own.
+/// An OpenGL 4.3 core context without a window, current in the thread that made it last. The only place that
+/// knows OSMesa, so that EGL can take its place. Draw into framebuffer objects: it has no picture of its own.
 class GlContext {
  public:
   /// Throws std::runtime_error if the library gives no such context.
   GlContext();
   ~GlContext();
+  /// From now on what this thread draws goes here. Throws std::runtime_error.
+  void make_current();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 

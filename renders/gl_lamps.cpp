@@ -47,7 +47,7 @@ GlLamps::GlLamps(const Stage& stage)
   }
 }
 
-void GlLamps::draw_still(const GlParts& parts, const std::vector<Placement>& placements) const {
+void GlLamps::draw_still(const GlParts& parts, const std::vector<Placement>& placements) {
   key_map_.draw_still();
   draw_into_key(parts, stage_.still, placements);
   sky_map_.draw_still();
@@ -57,11 +57,12 @@ void GlLamps::draw_still(const GlParts& parts, const std::vector<Placement>& pla
   blur_sky();
 }
 
-void GlLamps::draw_frame(const GlParts& parts, const std::vector<Placement>& placements) const {
-  key_map_.start_frame();
+void GlLamps::draw_frame(const GlParts& parts, const std::vector<Placement>& placements,
+                         const std::vector<std::array<Vec3, 8>>& moving) {
+  key_map_.start_frame(area_of(moving, map_matrix(key_, centre_, reach_), kKeySize, kKeySize));
   key_map_.draw_frame();
   draw_into_key(parts, stage_.moving, placements);
-  sky_map_.start_frame();
+  sky_map_.start_frame(area_of(moving, map_matrix(sky_, centre_, reach_), kSkySize, kSkySize));
   sky_map_.draw_frame();
   draw_into_sky(parts, stage_.moving, placements);
   blur_sky();

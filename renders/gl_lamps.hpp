@@ -14,9 +14,10 @@ class GlLamps {
   explicit GlLamps(const Stage& stage);
 
   /// The maps as they are without the moving parts.
-  void draw_still(const GlParts& parts, const std::vector<Placement>& placements) const;
-  /// The maps of a frame.
-  void draw_frame(const GlParts& parts, const std::vector<Placement>& placements) const;
+  void draw_still(const GlParts& parts, const std::vector<Placement>& placements);
+  /// The maps of a frame, with the corners of its moving parts.
+  void draw_frame(const GlParts& parts, const std::vector<Placement>& placements,
+                  const std::vector<std::array<Vec3, 8>>& moving);
 
   /// What a program that uses shaders::kLamps wants to know, but for the maps.
   void tell(const GlProgram& program) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,12 @@ double floor_spacing(double radius) {
     if (step * decade >= wanted) return step * decade;
   }
   return 10 * decade;
+}
+
+std::array<Vec3, 8> corners_as_placed(const Extent& box, const Placement& placement) {
+  std::array<Vec3, 8> corners = corners_of(box);
+  for (Vec3& corner : corners) corner = placed(placement, corner);
+  return corners;
 }
 
 }  // namespace
@@ -80,18 +87,22 @@ GlRenderer::GlRenderer(const Stage& stage)
 }
 
 void GlRenderer::draw(const std::vector<Placement>& placements, const Camera& camera, Image& image) {
+  context_.make_current();
   if (camera_ != camera) {
     look_through(camera);
     draw_still(placements);
   }
-  lamps_.draw_frame(parts_, placements);
-  surfaces_.start_frame();
+  std::vector<std::array<Vec3, 8>> moving;
+  for (const std::size_t part : stage_.moving)
+    if (placements[part].visible) moving.push_back(corners_as_placed(stage_.boxes[part], placements[part]));
+  lamps_.draw_frame(parts_, placements, moving);
+  surfaces_.start_frame(area_of(moving, view_matrix_, stage_.width, stage_.height));
   surfaces_.draw_frame();
-  parts_.draw(surface_program_, stage_.moving, placements, camera.eye);
+  parts_.draw(surface_program_, in_view(placements), placements, camera.eye);
   picture_.start_frame();
   picture_.draw_frame();
   if (stage_.camera_stands) {
-    mark_floor(placements);
+    mark_floor(moving);
   } else {
     mark_floor();
   }
@@ -135,19 +146,31 @@ void GlRenderer::draw_still(const std::vector<Placement>& placements) {
   light();
 }
 
+/// The moving parts but for those that are wholly beyond one edge of the picture.
+std::vector<std::size_t> GlRenderer::in_view(const std::vector<Placement>& placements) const {
+  std::vector<std::size_t> parts;
+  for (const std::size_t part : stage_.moving) {
+    if (!placements[part].visible) continue;
+    std::array<int, 4> beyond = {};  // of the corners: left, right, below, above
+    for (const Vec3& corner : corners_as_placed(stage_.boxes[part], placements[part])) {
+      const Vec4 at = view_matrix_ * corner.homogeneous();
+      beyond[0] += at.x() < -at.w() ? 1 : 0;
+      beyond[1] += at.x() > at.w() ? 1 : 0;
+      beyond[2] += at.y() < -at.w() ? 1 : 0;
+      beyond[3] += at.y() > at.w() ? 1 : 0;
+    }
+    if (*std::max_element(beyond.begin(), beyond.end()) < 8) parts.push_back(part);
+  }
+  return parts;
+}
+
 /// Marks, in the stencil, where the floor is to be lit anew: everywhere, or where moving parts change its
 /// light.
 void GlRenderer::mark_floor() const {
   glClearStencil(1);
   glClear(GL_STENCIL_BUFFER_BIT);
 }
-void GlRenderer::mark_floor(const std::vector<Placement>& placements) const {
-  std::vector<std::array<Vec3, 8>> corners;
-  for (const std::size_t part : stage_.moving) {
-    if (!placements[part].visible) continue;
-    corners.push_back(corners_of(stage_.boxes[part]));
-    for (Vec3& corner : corners.back()) corner = placed(placements[part], corner);
-  }
+void GlRenderer::mark_floor(const std::vector<std::array<Vec3, 8>>& moving) const {
   glClearStencil(0);
   glClear(GL_STENCIL_BUFFER_BIT);
   glEnable(GL_STENCIL_TEST);
@@ -158,7 +181,7 @@ void GlRenderer::mark_floor(const std::vector<Placement>& placements) const {
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_CLAMP);  // also what is near the eye
   glBindVertexArray(empty_array_);
-  for (const Patch& patch : lamps_.shade_on_floor(corners)) {
+  for (const Patch& patch : lamps_.shade_on_floor(moving)) {
     mark_program_.set("patch_matrix", Matrix4(view_matrix_ * patch_matrix(patch)));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
@@ -195,7 +218,9 @@ void GlRenderer::read_into(Image& image) {
     const std::uint8_t* from =
         pixels_.data() + static_cast<std::ptrdiff_t>(stage_.height - 1 - y) * stage_.width * 4;
     std::uint8_t* to = image.row(y);
-    for (int x = 0; x < stage_.width; ++x, from += 4, to += 3) std::copy_n(from, 3, to);
+    // Four bytes at a time, the fourth of which the next pixel takes; the last pixel has no next one.
+    for (int x = 0; x + 1 < stage_.width; ++x, from += 4, to += 3) std::memcpy(to, from, 4);
+    std::copy_n(from, 3, to);
   }
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -20,7 +21,7 @@ class GlRenderer {
   explicit GlRenderer(const Stage& stage);
 
   /// Draws the parts, placed one by one, as `camera` sees them, into the upper stage.height rows of `image`,
-  /// which is stage.width wide. The still parts' placements are those of any frame.
+  /// which is stage.width wide. Another renderer may have drawn in this thread before. The still parts' placements are those of any frame.
   void draw(const std::vector<Placement>& placements, const Camera& camera, Image& image);
 
  private:
@@ -29,7 +30,8 @@ class GlRenderer {
   void look_through(const Camera& camera);
   void draw_still(const std::vector<Placement>& placements);
   void mark_floor() const;
-  void mark_floor(const std::vector<Placement>& placements) const;
+  void mark_floor(const std::vector<std::array<Vec3, 8>>& moving) const;
+  std::vector<std::size_t> in_view(const std::vector<Placement>& placements) const;
   void light() const;
   void read_into(Image& image);
 

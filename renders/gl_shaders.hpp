@@ -86,22 +86,17 @@ void main() {
 }
 )";
 
-/// How much of the key light and of the sky's light reach a point, 0..1. The look at the map is a loop of a
-/// length that depends on the pixel because the rasteriser skips a loop, but not an `if`, where no pixel
-/// needs it.
+/// How much of the key light and of the sky's light reach a point, 0..1. The key's map is looked at whether or
+/// not the point faces the lamp: the rasteriser pays more for the choice than for the look.
 inline constexpr const char* kLamps = R"(
 uniform sampler2DShadow key_map;
 uniform mat4 key_matrix;
-float lit(vec3 world, float bias, bool wanted) {
+float lit(vec3 world, float bias) {
   vec4 p = key_matrix * vec4(world, 1.0);
   vec3 at = p.xyz * 0.5 + 0.5;
   float edge = max(abs(p.x), abs(p.y));
-  int looks = wanted && edge < 1.0 ? 2 : 0;
-  vec2 aside = vec2(0.75, -0.25) / vec2(textureSize(key_map, 0));
-  float sum = 0.0;
-  for (int i = 0; i < looks; ++i)
-    sum += 0.5 * texture(key_map, vec3(at.xy + (i == 0 ? -aside : aside), at.z - bias));
-  return looks == 0 ? 1.0 : mix(sum, 1.0, smoothstep(0.85, 1.0, edge));
+  float sum = textureLod(key_map, vec3(at.xy, at.z - bias), 0.0);
+  return mix(sum, 1.0, smoothstep(0.85, 1.0, edge));
 }
 
 uniform sampler2D sky_map;
@@ -165,7 +160,7 @@ void main() {
   float reflection = paint.a;
   float sky = open_sky(world, n);
   float key = max(dot(n, to_light), 0.0);
-  key *= lit(world, 0.0006 + 0.0022 * (1.0 - key), key > 0.0) * (0.6 + 0.4 * sky);
+  key *= lit(world, 0.0006 + 0.0022 * (1.0 - key)) * (0.6 + 0.4 * sky);
   float fill = max(dot(n, normalize(vec3(0.75, 0.25, 0.6))), 0.0);
   vec3 ambient = mix(vec3(0.17, 0.165, 0.16), vec3(0.42, 0.45, 0.49), n.y * 0.5 + 0.5);
   vec3 diffuse = base * (sky * (ambient + vec3(0.15, 0.17, 0.20) * fill) + vec3(0.92, 0.89, 0.84) * key);
@@ -216,9 +211,8 @@ void main() {
   vec3 through = ray();
   vec3 at = floor_point(through);
   float far = away(at, through);
-  bool near = far < 1.0;
   float sky = open_sky(at, vec3(0.0, 1.0, 0.0));
-  float light = 0.52 * sky + 0.48 * (0.6 + 0.4 * sky) * lit(at, 0.0008, near);
+  float light = 0.52 * sky + 0.48 * (0.6 + 0.4 * sky) * lit(at, 0.0008);
   pixel = texelFetch(hall, ivec2(gl_FragCoord.xy), 0) * mix(sqrt(light), 1.0, smoothstep(0.25, 1.0, far));
 }
 )";

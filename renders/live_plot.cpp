@@ -43,25 +43,27 @@ LivePlot::LivePlot(const Film& film) : film_(film) {
   for (const LiveCurve& curve : film.live) ranges_.push_back(range_of(curve));
 }
 
+Box LivePlot::box(int height) const {
+  if (film_.live.empty()) return {};
+  const double margin = 10 * picture_scale(film_.height);
+  const double left = 0.70 * film_.width - margin;
+  const double top = 0.72 * height - margin;
+  return {left, top, left + 0.30 * film_.width, top + 0.28 * height};
+}
+
 void LivePlot::draw(cairo_t* pen, double now, int height) const {
   if (film_.live.empty()) return;
-  const int width = film_.width;
   const double scale = picture_scale(film_.height);
   const double margin = 10 * scale;
   const double size = 11 * scale;
-  const double left = 0.70 * width - margin;
-  const double top = 0.72 * height - margin;
+  const auto [left, top, right, bottom] = box(height);
   set_ink(pen, kGround, 0.82);
-  fill_box(pen, left, top, 0.30 * width, 0.28 * height);
+  fill_box(pen, left, top, right - left, bottom - top);
 
   const std::size_t count = std::min(film_.live.size(), kInks.size());
   const double words = 1.5 * size * static_cast<double>(count) + 0.4 * size;
-  PlotArea area = {left + margin,
-                   top + words + 0.5 * margin,
-                   left + 0.30 * width - margin,
-                   top + 0.28 * height - margin,
-                   {now - film_.live_window_s, now},
-                   {0, 1}};
+  PlotArea area = {left + margin,   top + words + 0.5 * margin,       right - margin,
+                   bottom - margin, {now - film_.live_window_s, now}, {0, 1}};
   cairo_set_source_rgba(pen, 1, 1, 1, 0.22);
   cairo_set_line_width(pen, scale);
   for (const double share : {0.0, 0.5, 1.0}) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "renders/label_room.hpp"
 #include "renders/plot_area.hpp"
 #include "renders/scene3d.hpp"
 
@@ -15,6 +16,8 @@ class LivePlot {
   /// `film` must outlive it.
   explicit LivePlot(const Film& film);
 
+  /// What they cover in a picture `height` pixels high; empty if there are none.
+  Box box(int height) const;
   /// Draws the curves up to `now` [s] into a picture as wide as the film and `height` pixels high.
   void draw(cairo_t* pen, double now, int height) const;
 

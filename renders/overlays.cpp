@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "renders/cairo_image.hpp"
 #include "renders/camera.hpp"
 #include "renders/geometry.hpp"
+#include "renders/label_room.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -20,13 +23,14 @@ constexpr double kShortestArrow = 0.04;
 
 using Point = std::array<double, 2>;  // pixels
 
-/// What every mark on the picture needs to know.
+/// What every mark on what a camera sees needs to know.
 struct Sheet {
   cairo_t* pen;
   const Camera& camera;
   int width;
   int height;
   double scale;  ///< 1 for a film 540 pixels high
+  LabelRoom& room;
 
   Point at(const Vec3& point) const { return projected(camera, width, height, point); }
   bool before_eye(const Vec3& point) const {
@@ -34,15 +38,23 @@ struct Sheet {
   }
 };
 
-/// Words on a dark plate, their middle at `at`, moved into the picture if they stick out.
-void plate(const Sheet& sheet, Point at, const std::string& words) {
+/// Words on a dark plate with their middle at `wanted`, or, where others stand there or the plate would hide
+/// a line of that `length`, beside it with a thin line back. Left out where there is no room.
+void plate(const Sheet& sheet, const Point& wanted, const std::string& words, double length) {
   const double size = 12 * sheet.scale;
   cairo_set_font_size(sheet.pen, size);
   const double half = text_width(sheet.pen, words) / 2 + 0.4 * size;
   const double high = 0.75 * size;
-  if (at[0] < -half || at[0] > sheet.width + half || at[1] < -high || at[1] > sheet.height + high) return;
-  at[0] = std::clamp(at[0], half, std::max(half, sheet.width - half));
-  at[1] = std::clamp(at[1], high, std::max(high, sheet.height - high));
+  const auto place = sheet.room.place(wanted, 2 * half, 2 * high, length < 2.5 * half);
+  if (!place) return;
+  const Point at = *place;
+  if (std::abs(at[1] - wanted[1]) > high) {
+    cairo_move_to(sheet.pen, wanted[0], wanted[1]);
+    cairo_line_to(sheet.pen, at[0], at[1]);
+    set_ink(sheet.pen, kGround, 0.85);
+    cairo_set_line_width(sheet.pen, sheet.scale);
+    cairo_stroke(sheet.pen);
+  }
   set_ink(sheet.pen, kGround, 0.85);
   fill_box(sheet.pen, at[0] - half, at[1] - high, 2 * half, 2 * high);
   cairo_set_source_rgb(sheet.pen, 1, 1, 1);
@@ -65,26 +77,35 @@ void line(const Sheet& sheet, const Point& from, const Point& to) {
   cairo_line_to(sheet.pen, to[0], to[1]);
 }
 
+/// A mark that is drawn, and the words that come to it once all are.
+struct Marked {
+  Point at;
+  std::string words;
+  double length = 1e9;  ///< of the line on which they stand; long, if they hide none [pixels]
+};
+
 /// A line between the two ends with a stroke up and down at each, which is where it was cut.
-void draw_length(const Sheet& sheet, const Callout& callout) {
-  if (!sheet.before_eye(callout.at) || !sheet.before_eye(callout.to)) return;
+std::optional<Marked> draw_length(const Sheet& sheet, const Callout& callout) {
+  if (!sheet.before_eye(callout.at) || !sheet.before_eye(callout.to)) return std::nullopt;
   const Point from = sheet.at(callout.at);
   const Point to = sheet.at(callout.to);
   const double tick = 8 * sheet.scale;
   line(sheet, from, to);
   for (const Point& end : {from, to}) line(sheet, {end[0], end[1] - tick}, {end[0], end[1] + tick});
   stroke(sheet, 1, 1, 1);
-  plate(sheet, {(from[0] + to[0]) / 2, (from[1] + to[1]) / 2}, callout.text);
+  return Marked{{(from[0] + to[0]) / 2, (from[1] + to[1]) / 2},
+                callout.text,
+                std::hypot(to[0] - from[0], to[1] - from[1])};
 }
 
-void draw_force(const Sheet& sheet, const Callout& callout, double largest) {
+std::optional<Marked> draw_force(const Sheet& sheet, const Callout& callout, double largest) {
   const double force = callout.to.norm();
-  if (force < 1e-3 * largest || !sheet.before_eye(callout.at)) return;
+  if (force < 1e-3 * largest || !sheet.before_eye(callout.at)) return std::nullopt;
   const double reach = (callout.at - sheet.camera.eye).norm();
   const Point from = sheet.at(callout.at);
   const Point ahead = sheet.at(callout.at + (0.02 * reach / force) * callout.to);
   const double way = std::hypot(ahead[0] - from[0], ahead[1] - from[1]);
-  if (way < 1e-6) return;
+  if (way < 1e-6) return std::nullopt;
   const Point unit = {(ahead[0] - from[0]) / way, (ahead[1] - from[1]) / way};
   const double long_ =
       sheet.height * (kShortestArrow + (kLongestArrow - kShortestArrow) * std::sqrt(force / largest));
@@ -94,8 +115,8 @@ void draw_force(const Sheet& sheet, const Callout& callout, double largest) {
   for (const double side : {-0.6, 0.6})
     line(sheet, {to[0] - head * (unit[0] + side * unit[1]), to[1] - head * (unit[1] - side * unit[0])}, to);
   stroke(sheet, 1.0, 0.25, 0.18);
-  plate(sheet, {to[0] + 22 * sheet.scale * unit[0], to[1] + 14 * sheet.scale * unit[1]},
-        fmt::format("{} {:.0f} N", callout.text, force));
+  return Marked{{to[0] + 22 * sheet.scale * unit[0], to[1] + 14 * sheet.scale * unit[1]},
+                fmt::format("{} {:.0f} N", callout.text, force)};
 }
 
 /// Where a tip was at a time [s].
@@ -182,7 +203,8 @@ Overlays::Overlays(const Film& film, int caption_height)
     : film_(film),
       live_(film),
       height_(film.height - caption_height),
-      empty_(!film.trails && film.live.empty()) {
+      tiles_(tiles_of(1 + film.beside.size(), film.width, height_)),
+      empty_(!film.trails && film.live.empty() && film.beside.empty()) {
   for (const Frame& frame : film.frames) {
     empty_ = empty_ && frame.callouts.empty();
     for (const Callout& callout : frame.callouts)
@@ -194,16 +216,49 @@ void Overlays::draw(std::size_t frame, Image& image) const {
   if (empty_) return;
   const CairoSurface surface = cairo_surface_of(image, height_);
   const Cairo pen = cairo_pen(surface.get());
-  const Camera camera = camera_of(film_, frame);
-  const Sheet sheet = {pen.get(), camera, film_.width, height_, picture_scale(film_.height)};
-  for (std::size_t part = 0; film_.trails && part < film_.parts.size(); ++part)
-    if (film_.parts[part].tip) draw_trail(sheet, film_, part, frame);
-  for (const Callout& callout : film_.frames[frame].callouts)
-    if (callout.kind == Callout::Kind::length) draw_length(sheet, callout);
-  for (const Callout& callout : film_.frames[frame].callouts)
-    if (callout.kind == Callout::Kind::force) draw_force(sheet, callout, largest_);
+  for (std::size_t view = 0; view < tiles_.size(); ++view) {
+    const Tile& tile = tiles_[view];
+    cairo_save(pen.get());
+    cairo_rectangle(pen.get(), tile.left, tile.top, tile.width, tile.height);
+    cairo_clip(pen.get());
+    cairo_translate(pen.get(), tile.left, tile.top);
+    draw_view(frame, view, pen.get());
+    cairo_restore(pen.get());
+  }
   live_.draw(pen.get(), film_.frames[frame].time_s, height_);
   copy_rows(surface.get(), height_, image, 0);
+}
+
+void Overlays::draw_view(std::size_t frame, std::size_t view, cairo_t* pen) const {
+  const Tile& tile = tiles_[view];
+  const Camera camera = camera_of(film_, frame, view);
+  LabelRoom room(tile.width, tile.height);
+  Box live = live_.box(height_);
+  live.left -= tile.left, live.right -= tile.left;
+  live.top -= tile.top, live.bottom -= tile.top;
+  room.take(live);
+  const Sheet sheet = {pen, camera, tile.width, tile.height, picture_scale(film_.height), room};
+  if (tiles_.size() > 1) {
+    const std::string& name = view == 0 ? film_.camera_name : film_.beside[view - 1].name;
+    if (!name.empty()) plate(sheet, {0, 0}, name, 1e9);
+  }
+  for (std::size_t part = 0; film_.trails && part < film_.parts.size(); ++part)
+    if (film_.parts[part].tip) draw_trail(sheet, film_, part, frame);
+  const auto draw_all = [&](Callout::Kind kind, auto&& draw_one) {
+    std::vector<Marked> marked;
+    for (const Callout& callout : film_.frames[frame].callouts) {
+      if (callout.kind != kind) continue;
+      if (auto one = draw_one(callout)) marked.push_back(std::move(*one));
+    }
+    return marked;
+  };
+  const auto lengths =
+      draw_all(Callout::Kind::length, [&](const Callout& one) { return draw_length(sheet, one); });
+  const auto forces =
+      draw_all(Callout::Kind::force, [&](const Callout& one) { return draw_force(sheet, one, largest_); });
+  // A force lasts a moment: its words have the first choice.
+  for (const auto* marked : {&forces, &lengths})
+    for (const Marked& one : *marked) plate(sheet, one.at, one.words, one.length);
 }
 
 }  // namespace drycut::renders

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 #include "renders/gl_renderer.hpp"
 #include "renders/overlays.hpp"
 #include "renders/solid_mesh.hpp"
+#include "renders/tiles.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -29,17 +31,34 @@ void require(bool good, const std::string& otherwise) {
   if (!good) throw std::invalid_argument("pictures: " + otherwise);
 }
 
+void require_sees(const Camera& camera) {
+  require(camera.eye.allFinite() && camera.target.allFinite() && camera.target != camera.eye,
+          "the camera's eye and target must be two different points");
+  require(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150,
+          fmt::format("field of view {} degrees; 1 to 150 can be drawn", camera.field_of_view_deg));
+}
+
 std::string frame_name(std::size_t number) { return fmt::format("frame_{:05}.png", number); }
 
-/// Draws the frames whose number is taken from `next`, until none is left, in a context of its own.
-void draw_frames(const Film& film, const Stage& stage, const Overlays& overlays, const CaptionLayout& caption,
-                 const std::filesystem::path& directory, std::atomic<std::size_t>& next,
-                 const std::function<void()>& drawn) {
-  GlRenderer renderer(stage);
+/// Draws the frames whose number is taken from `next`, until none is left, in contexts of its own.
+void draw_frames(const Film& film, const std::vector<Stage>& stages, const Overlays& overlays,
+                 const CaptionLayout& caption, const std::filesystem::path& directory,
+                 std::atomic<std::size_t>& next, const std::function<void()>& drawn) {
+  std::deque<GlRenderer> renderers;
+  for (const Stage& stage : stages) renderers.emplace_back(stage);
+  const std::vector<Tile> tiles = tiles_of(film);
   Image image(film.width, film.height);
   for (auto number = next++; number < film.frames.size(); number = next++) {
     const Frame& frame = film.frames[number];
-    renderer.draw(frame.placements, camera_of(film, number), image);
+    if (tiles.size() == 1) {
+      renderers.front().draw(frame.placements, camera_of(film, number), image);
+    } else {
+      for (std::size_t view = 0; view < tiles.size(); ++view) {
+        Image part(tiles[view].width, tiles[view].height);
+        renderers[view].draw(frame.placements, camera_of(film, number, view), part);
+        paste(part, tiles[view], image);
+      }
+    }
     overlays.draw(number, image);
     caption.draw(frame, image);
     write_file(directory / frame_name(number), png_bytes(image));
@@ -54,12 +73,10 @@ void require_drawable(const Film& film) {
               film.height <= kLargest,
           fmt::format("size {}x{} cannot be drawn; width and height are {} to {} pixels", film.width,
                       film.height, kSmallest, kLargest));
-  const Camera& camera = film.camera;
   require(!film.follow || *film.follow < film.parts.size(), "the camera follows a part that is not there");
-  require(camera.eye.allFinite() && camera.target.allFinite() && camera.target != camera.eye,
-          "the camera's eye and target must be two different points");
-  require(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150,
-          fmt::format("field of view {} degrees; 1 to 150 can be drawn", camera.field_of_view_deg));
+  require_sees(film.camera);
+  for (const View& view : film.beside) require_sees(view.camera);
+  require(film.beside.size() < 4, "one to four cameras share a picture");
   for (const SolidPart& part : film.parts) {
     require(all_positive(part.size), fmt::format("part '{}': sizes must be more than 0 m", part.name));
     require(find_material(part.material) != nullptr,
@@ -99,7 +116,7 @@ std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesy
       film.height - caption.height() >= kSmallest / 4,
       fmt::format("size {}x{} leaves no room above the caption; make it higher", film.width, film.height));
   std::filesystem::create_directories(directory);
-  const Stage stage = stage_of(film, film.height - caption.height());
+  const std::vector<Stage> stages = stages_of(film);
   const Overlays overlays(film, caption.height());
 
   std::atomic<std::size_t> next = 0;
@@ -113,7 +130,7 @@ std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesy
   };
   const auto work = [&] {
     try {
-      draw_frames(film, stage, overlays, caption, directory, next, drawn);
+      draw_frames(film, stages, overlays, caption, directory, next, drawn);
     } catch (...) {
       const std::lock_guard lock(mutex);
       trouble = std::current_exception();

@@ -22,8 +22,8 @@ std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesy
 /// The names of the files that draw_film makes.
 std::vector<std::string> frame_names(const Film& film);
 
-/// A camera that sees all `placements` of `parts` of the film's frames: from the operator's side, slightly
-/// above and upstream.
-Camera operator_camera(const Film& film);
+/// A camera that sees all `placements` of `parts` of the film's frames in the part of the picture that its
+/// camera of this number has: from the operator's side, slightly above and upstream.
+Camera operator_camera(const Film& film, std::size_t view = 0);
 
 }  // namespace drycut::renders

@@ -1,48 +1,71 @@
 #include "renders/png_image.hpp"
 
+#include <libdeflate.h>
 #include <png.h>
-#include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <csetjmp>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 
 namespace drycut::renders {
 namespace {
 
-void append(png_structp png, png_bytep data, png_size_t size) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+void put_number(std::string& bytes, std::uint32_t number) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 255U);
 }
-void flush(png_structp) {}
 
-/// False if libpng gave up. A function of its own without destructors, because libpng leaves it by longjmp.
-bool encode(png_structp png, png_infop info, const Image& image, int effort, std::string& bytes) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_write_fn(png, &bytes, append, flush);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_filter(png, 0, PNG_FILTER_NONE);
-  png_set_compression_level(png, effort);
-  png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);
-  png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) png_write_row(png, image.row(y));
-  png_write_end(png, info);
-  return true;
+/// Length, kind and data are there from `start` on: writes the length and what proves the rest.
+void finish_chunk(std::string& bytes, std::size_t start) {
+  constexpr std::size_t kLength = 4;
+  constexpr std::size_t kKind = 4;
+  std::string length;
+  put_number(length, static_cast<std::uint32_t>(bytes.size() - start - kLength - kKind));
+  bytes.replace(start, kLength, length);
+  put_number(bytes, libdeflate_crc32(0, bytes.data() + start + kLength, bytes.size() - start - kLength));
 }
+
+std::size_t begin_chunk(std::string& bytes, const char* kind) {
+  const std::size_t start = bytes.size();
+  bytes += "    ";  // the length comes with the end
+  bytes += kind;
+  return start;
+}
+
+/// What PNG compresses: every row behind the number of its filter, here none.
+std::string unfiltered_rows(const Image& image) {
+  const std::size_t row = static_cast<std::size_t>(image.width) * 3;
+  std::string rows((row + 1) * static_cast<std::size_t>(image.height), '\0');
+  for (int y = 0; y < image.height; ++y)
+    std::copy_n(image.row(y), row, rows.data() + static_cast<std::size_t>(y) * (row + 1) + 1);
+  return rows;
+}
+
+using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
 
 }  // namespace
 
 std::string png_bytes(const Image& image, int effort) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-  std::string bytes;
-  bytes.reserve(image.rgb.size() / 4);
-  const bool done = info != nullptr && encode(png, info, image, effort, bytes);
-  png_destroy_write_struct(&png, &info);
-  if (!done) throw std::runtime_error("pictures: libpng could not compress a picture");
+  const Compressor compressor(libdeflate_alloc_compressor(effort), libdeflate_free_compressor);
+  if (!compressor || image.rgb.empty()) throw std::runtime_error("pictures: a picture cannot be compressed");
+  std::string bytes = "\x89PNG\r\n\x1a\n";
+  const std::size_t header = begin_chunk(bytes, "IHDR");
+  put_number(bytes, static_cast<std::uint32_t>(image.width));
+  put_number(bytes, static_cast<std::uint32_t>(image.height));
+  bytes += {8, PNG_COLOR_TYPE_RGB, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE, PNG_INTERLACE_NONE};
+  finish_chunk(bytes, header);
+
+  const std::size_t data = begin_chunk(bytes, "IDAT");
+  const std::string rows = unfiltered_rows(image);
+  const std::size_t before = bytes.size();
+  bytes.resize(before + libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
+  bytes.resize(before + libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(),
+                                                 bytes.data() + before, bytes.size() - before));
+  finish_chunk(bytes, data);
+  finish_chunk(bytes, begin_chunk(bytes, "IEND"));
   return bytes;
 }
 

@@ -23,7 +23,7 @@ struct Image {
   }
 };
 
-/// The image as a PNG file's bytes. `effort` is zlib's, from 1 to 9: tuned for speed unless it is said
+/// The image as a PNG file's bytes. `effort` is libdeflate's, from 1 to 12: tuned for speed unless it is said
 /// otherwise, not for the last byte. Throws std::runtime_error.
 std::string png_bytes(const Image& image, int effort = 1);
 

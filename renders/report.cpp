@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -17,6 +19,56 @@ namespace {
 
 const char* state(bool passed) { return passed ? "pass" : "fail"; }
 
+/// The page as it grows, with the list of what is on it.
+struct Page {
+  std::string text;
+  std::string contents;
+  std::set<std::string> places = {"machine", "plot-data"};  ///< names of anchors that are taken
+
+  void operator+=(const std::string& more) { text += more; }
+
+  /// A place to go to, named after its title.
+  std::string place(const std::string& title) {
+    std::string name;
+    for (const char c : title) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (std::isalnum(byte) != 0 && byte < 0x80)
+        name += static_cast<char>(std::tolower(byte));
+      else if (!name.empty() && name.back() != '-')
+        name += '-';
+    }
+    if (name.ends_with('-')) name.pop_back();
+    if (name.empty()) name = "part";
+    std::string free = name;
+    for (int k = 2; !places.insert(free).second; ++k) free = fmt::format("{}-{}", name, k);
+    return free;
+  }
+  void heading(const std::string& title, const std::string& more = "") {
+    const std::string name = place(title);
+    contents += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", name, html_text(title));
+    text += fmt::format("<div class=\"anchor\" id=\"{}\"></div>\n<h2>{}{}</h2>\n", name, html_text(title),
+                        more.empty() ? "" : fmt::format(" <small>{}</small>", html_text(more)));
+  }
+};
+
+/// A box that scrolls where its content is too large, by keyboard too.
+std::string scroll_box(const std::string& name) {
+  return fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">\n",
+                     html_text(name));
+}
+
+/// How much of a limit is used: a bar with the number beside it, red beyond the limit or where it failed.
+std::string share_bar(double used, bool failed = false) {
+  const auto text = used < 10 ? fmt::format("{:.0f} %", 100 * used) : std::string("over 1000 %");
+  return fmt::format(
+      "<span class=\"share{0}\" role=\"img\" aria-label=\"{1} of the limit used\"><span class=\"bar\"><i "
+      "style=\"width:{2:.4g}%\"></i></span><b>{1}</b></span>",
+      used > 1 || failed ? " fail"
+      : used > 0.9       ? " close"
+                         : "",
+      text, std::clamp(100 * used, 0.0, 100.0));
+}
+
 /// What the page is headed with, and its colour.
 std::string verdict_word(const Report& report) {
   if (!report.word.empty()) return report.word;
@@ -26,12 +78,12 @@ const char* verdict_state(const Report& report) {
   return report.word.empty() ? state(report.passed) : "told";
 }
 
-std::string picture(const ReportFigure& figure) {
+/// `words` stand in its place for who cannot see it.
+std::string picture(const ReportFigure& figure, const std::string& words) {
   const std::string bytes = read_file(figure.png);
   if (bytes.rfind("\x89PNG\r\n", 0) != 0)
     throw std::runtime_error(figure.png.string() + ": not a PNG picture");
-  return fmt::format(R"(<img alt="{}" src="data:image/png;base64,{}">)", html_text(figure.caption),
-                     base64(bytes));
+  return fmt::format(R"(<img alt="{}" src="data:image/png;base64,{}">)", html_text(words), base64(bytes));
 }
 
 std::string caption(const ReportFigure& figure) {
@@ -61,7 +113,7 @@ std::vector<bool> number_columns(const ReportTable& table) {
   return numbers;
 }
 
-void write_head(std::string& page, const Report& report) {
+void write_head(Page& page, const Report& report) {
   page += "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
   page += fmt::format("<title>{}: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
@@ -72,7 +124,20 @@ void write_head(std::string& page, const Report& report) {
                       verdict_state(report), html_text(verdict_word(report)), html_text(report.verdict));
 }
 
-void write_facts(std::string& page, const std::vector<ReportRow>& facts) {
+void write_keys(Page& page, const std::vector<ReportKey>& keys) {
+  if (keys.empty()) return;
+  page += "<dl class=\"keys\">\n";
+  for (const ReportKey& key : keys) {
+    page +=
+        fmt::format("<div><dt>{}</dt><dd><strong>{}</strong>", html_text(key.label), html_text(key.value));
+    if (key.used) page += share_bar(*key.used);
+    for (const std::string& note : key.notes) page += fmt::format("<small>{}</small>", html_text(note));
+    page += "</dd></div>\n";
+  }
+  page += "</dl>\n";
+}
+
+void write_facts(Page& page, const std::vector<ReportRow>& facts) {
   if (facts.empty()) return;
   page += "<dl class=\"facts\">\n";
   for (const ReportRow& fact : facts) {
@@ -87,23 +152,37 @@ void write_facts(std::string& page, const std::vector<ReportRow>& facts) {
   page += "</dl>\n";
 }
 
-void write_checks(std::string& page, const std::vector<ReportCheck>& checks) {
+/// Those that failed come first.
+void write_checks(Page& page, const std::vector<ReportCheck>& checks) {
   if (checks.empty()) return;
+  page.heading("Checks");
   page +=
-      "<h2>Checks</h2>\n<div class=\"scroll checks\">\n<table class=\"checks\">\n<thead><tr><th>result</th>"
-      "<th>check</th><th>expected</th><th>margin</th></tr></thead>\n<tbody>\n";
-  for (const ReportCheck& check : checks) {
-    page += fmt::format(R"(<tr class="{0}"><td><span class="badge {0}">{1}</span></td><td>{2})",
-                        state(check.passed), check.passed ? "PASS" : "FAIL", html_text(check.name));
-    if (!check.detail.empty()) page += fmt::format("<small>{}</small>", html_text(check.detail));
-    page += fmt::format("</td><td><code>{}</code></td><td>{}</td></tr>\n", html_text(check.expectation),
-                        html_text(check.margin));
+      "<div class=\"scroll checks\">\n<table "
+      "class=\"checks\">\n<thead><tr><th>result</th><th>check</th><th>expected</th><th>limit used, "
+      "margin</th></tr></thead>\n<tbody>\n";
+  for (const bool passed : {false, true}) {
+    for (const ReportCheck& check : checks) {
+      if (check.passed != passed) continue;
+      page += fmt::format(R"(<tr class="{0}"><td><span class="badge {0}">{1}</span></td><td>{2})",
+                          state(check.passed), check.passed ? "PASS" : "FAIL", html_text(check.name));
+      if (!check.detail.empty()) page += fmt::format("<small>{}</small>", html_text(check.detail));
+      page += fmt::format("</td><td><code>{}</code></td><td>{}{}</td></tr>\n", html_text(check.expectation),
+                          check.used ? share_bar(*check.used, !check.passed) : "", html_text(check.margin));
+    }
   }
   page += "</tbody>\n</table>\n</div>\n";
 }
 
+void write_notes(Page& page, const std::vector<std::string>& notes) {
+  if (notes.empty()) return;
+  page.heading("Notes");
+  page += "<ul class=\"notes\">\n";
+  for (const std::string& note : notes) page += fmt::format("<li>{}</li>\n", html_text(note));
+  page += "</ul>\n";
+}
+
 /// The film itself, or where it is if it would make the report too heavy to mail.
-void write_video(std::string& page, const Report& report) {
+void write_video(Page& page, const Report& report) {
   constexpr std::size_t kHeaviest = 24 << 20;
   if (report.video.empty()) return;
   const std::string bytes = read_file(report.video);
@@ -113,19 +192,21 @@ void write_video(std::string& page, const Report& report) {
     return;
   }
   page += fmt::format(
-      "<figure class=\"film\"><video controls loop muted playsinline preload=\"auto\" "
+      "<figure class=\"film\"><video aria-label=\"Film of the run\" controls loop muted playsinline "
+      "preload=\"auto\" "
       "src=\"data:video/mp4;base64,{}\"></video><figcaption>{}</figcaption></figure>\n",
       base64(bytes), html_text(report.video.filename().string()));
 }
 
-void write_frames(std::string& page, const Report& report) {
+void write_frames(Page& page, const Report& report) {
   const std::vector<ReportFigure>& frames = report.frames;
   if (frames.empty()) return;
-  page += "<h2>The run in pictures</h2>\n";
+  page.heading("The run in pictures");
   write_video(page, report);
-  page += "<div class=\"strip\">\n";
+  page += "<div class=\"strip\" tabindex=\"0\" role=\"region\" aria-label=\"Frames\">\n";
   for (const ReportFigure& frame : frames) {
-    page += fmt::format("<figure>{}{}</figure>\n", picture(frame), caption(frame));
+    page += fmt::format("<figure>{}{}</figure>\n", picture(frame, "The machine, " + frame.caption),
+                        caption(frame));
   }
   page += "</div>\n";
 }
@@ -133,22 +214,25 @@ void write_frames(std::string& page, const Report& report) {
 constexpr int narrowest_alone = 800;  // [pixels] a plot up to here stands beside another
 
 /// Figures whose data, if they have any, begin at `first` in the report's.
-void write_figures(std::string& page, const Report& report, const std::vector<ReportFigure>& plots,
+void write_figures(Page& page, const Report& report, const std::vector<ReportFigure>& plots,
                    std::size_t first) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const std::size_t data = first + i;
     const bool live = data < report.live.size() && can_be_live(report.live[data]);
     const bool narrow = data < report.live.size() && report.live[data].width <= narrowest_alone;
-    page += fmt::format("<figure class=\"plot{}\"{}><div class=\"ground\">{}</div>{}</figure>\n",
-                        narrow ? " narrow" : "", live ? fmt::format(" data-plot=\"{}\"", data) : "",
-                        picture(plots[i]), caption(plots[i]));
+    page += fmt::format(
+        "<figure class=\"plot{}\"{}><div class=\"ground\">{}</div>{}</figure>\n", narrow ? " narrow" : "",
+        live ? fmt::format(" data-plot=\"{}\"", data) : "",
+        picture(plots[i], data < report.live.size() ? plot_words(report.live[data]) : plots[i].caption),
+        caption(plots[i]));
   }
 }
 
 /// The machine stays in sight while one reads the plots.
-void write_plots(std::string& page, const Report& report) {
+void write_plots(Page& page, const Report& report) {
   if (report.plots.empty() && !report.view) return;
-  page += fmt::format("<h2>Measured</h2>\n{}", report.view ? "<div class=\"beside\">\n" : "");
+  page.heading("Measured");
+  if (report.view) page += "<div class=\"beside\">\n";
   if (report.view) page += view_figure(*report.view) + "<div>\n";
   write_figures(page, report, report.plots, 0);
   if (report.view) page += "</div>\n</div>\n";
@@ -173,14 +257,14 @@ std::string column_name(const ReportTable& table, std::size_t column) {
   return fmt::format(" data-of=\"{}\"", html_text(table.headings[column]));
 }
 
-void write_rows(std::string& page, const ReportTable& table) {
+void write_rows(Page& page, const ReportTable& table) {
   const std::vector<bool> numbers = number_columns(table);
   const auto kind = [&](std::size_t column) -> std::string {
     return column < numbers.size() && numbers[column] ? " class=\"number\"" : "";
   };
   // Verdicts are read whole, as checks are.
-  page += table.verdicts ? "<div class=\"scroll checks\">\n<table class=\"checks\">\n"
-                         : "<div class=\"scroll\">\n<table>\n";
+  page += table.verdicts ? std::string("<div class=\"scroll checks\">\n<table class=\"checks\">\n")
+                         : scroll_box(table.title) + "<table>\n";
   std::string head;
   for (std::size_t i = 0; i < table.headings.size(); ++i) {
     head += fmt::format("<th{}>{}</th>", table.verdicts ? "" : kind(i), html_text(table.headings[i]));
@@ -200,21 +284,21 @@ void write_rows(std::string& page, const ReportTable& table) {
   page += "</tbody>\n</table>\n</div>\n";
 }
 
-void write_table(std::string& page, const ReportTable& table) {
+void write_table(Page& page, const ReportTable& table) {
   const std::string count = fmt::format("{} {}", table.rows.size(), table.rows.size() == 1 ? "row" : "rows");
   if (table.folded) {
     page += fmt::format("<details><summary>{}<small>{}</small></summary>\n", html_text(table.title), count);
   } else {
-    page += fmt::format("<h2>{} <small>{}</small></h2>\n", html_text(table.title), count);
+    page.heading(table.title, count);
   }
   write_rows(page, table);
   if (table.folded) page += "</details>\n";
 }
 
-void write_sections(std::string& page, const Report& report) {
+void write_sections(Page& page, const Report& report) {
   std::size_t data = report.plots.size();
   for (const ReportSection& section : report.sections) {
-    page += fmt::format("<h2>{}</h2>\n", html_text(section.title));
+    page.heading(section.title);
     for (const std::string& note : section.notes)
       page += fmt::format("<p class=\"remark\">{}</p>\n", html_text(note));
     write_figures(page, report, section.plots, data);
@@ -223,17 +307,22 @@ void write_sections(std::string& page, const Report& report) {
   }
 }
 
-void write_text(std::string& page, const ReportText& text) {
-  page += fmt::format("<h2>{}</h2>\n<div class=\"scroll\"><pre>{}</pre></div>\n", html_text(text.title),
-                      html_text(text.text));
+void write_text(Page& page, const ReportText& text) {
+  page.heading(text.title);
+  page += fmt::format("{}<pre>{}</pre></div>\n", scroll_box(text.title), html_text(text.text));
 }
 
-void write_scenario(std::string& page, const std::string& expanded) {
+/// Links to all that has a heading; none where all is seen at a glance.
+std::string contents_of(const Page& page) {
+  if (std::count(page.contents.begin(), page.contents.end(), '\n') < 3) return "";
+  return fmt::format("<nav class=\"contents\" aria-label=\"Contents\"><ul>\n{}</ul></nav>\n", page.contents);
+}
+
+void write_scenario(Page& page, const std::string& expanded) {
   if (expanded.empty()) return;
   page += fmt::format(
-      "<details><summary>Scenario with every default in force</summary>\n<div class=\"scroll\">"
-      "<pre>{}</pre></div>\n</details>\n",
-      html_text(expanded));
+      "<details><summary>Scenario with every default in force</summary>\n{}<pre>{}</pre></div>\n</details>\n",
+      scroll_box("Scenario with every default in force"), html_text(expanded));
 }
 
 /// Written beside its place and moved there at once: who looks sees the old report or the whole new one.
@@ -259,10 +348,13 @@ std::string rows_text(const ReportTable& table, std::size_t width) {
 }
 
 void write_report(const Report& report, const std::filesystem::path& file) {
-  std::string page;
+  Page page;
   write_head(page, report);
+  write_keys(page, report.keys);
   write_facts(page, report.facts);
+  const std::size_t top = page.text.size();
   write_checks(page, report.checks);
+  write_notes(page, report.notes);
   for (const ReportTable& table : report.summary) write_table(page, table);
   for (const ReportText& text : report.texts) write_text(page, text);
   for (std::size_t i = 0; i < report.maps.size(); ++i) page += map_figure(report.maps[i], i);
@@ -273,7 +365,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   for (const bool folded : {false, true}) {
     const bool any = std::any_of(report.tables.begin(), report.tables.end(),
                                  [&](const ReportTable& table) { return table.folded == folded; });
-    if (folded && (any || !report.scenario_expanded.empty())) page += "<h2>Details</h2>\n";
+    if (folded && (any || !report.scenario_expanded.empty())) page.heading("Details");
     for (const ReportTable& table : report.tables) {
       if (table.folded == folded) write_table(page, table);
     }
@@ -284,7 +376,8 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   page += live_plots(report.live);
   page += live_maps(report.maps);
   page += "</body>\n</html>\n";
-  replace_file(file, page);
+  page.text.insert(top, contents_of(page));
+  replace_file(file, page.text);
 }
 
 }  // namespace drycut::renders

@@ -14,8 +14,17 @@ struct ReportCheck {
   std::string name;
   std::string expectation;  ///< as the scenario states it
   bool passed = false;
-  std::string margin;  ///< "0.053 mm left at 7.204 s", "" if none can be said
-  std::string detail;  ///< "15 cuts, worst length = 800.047 mm"
+  std::string margin;               ///< "0.053 mm left at 7.204 s", "" if none can be said
+  std::string detail;               ///< "15 cuts, worst length = 800.047 mm"
+  std::optional<double> used = {};  ///< share of its limit, drawn as a bar: 1 = all of it, above: beyond it
+};
+
+/// A figure that says much of a run in little room; they stand on top.
+struct ReportKey {
+  std::string label;                ///< "length of cut"
+  std::string value;                ///< "800.003 ± 0.012 mm"
+  std::vector<std::string> notes;   ///< "worst 800.031 mm: no. 7 at 7.204 s"
+  std::optional<double> used = {};  ///< share of what it may be, drawn as a bar
 };
 
 struct ReportRow {
@@ -59,8 +68,10 @@ struct Report {
   bool passed = false;
   std::string word;     ///< in place of PASS or FAIL where nothing was judged: "SAME", "DIFFERENT"
   std::string verdict;  ///< "all 5 checks passed", "2 of 5 checks failed", "the simulation stopped: ..."
+  std::vector<ReportKey> keys = {};
   std::vector<ReportRow> facts;  ///< label, value: duration, step, seed, versions
   std::vector<ReportCheck> checks;
+  std::vector<std::string> notes = {};   ///< what a reader should know besides, behind the checks
   std::vector<ReportTable> summary;      ///< what is read before the pictures: a comparison
   std::vector<ReportText> texts = {};    ///< to copy
   std::vector<ReportMap> maps = {};      ///< before the frames

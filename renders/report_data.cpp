@@ -144,6 +144,25 @@ std::string plot_data(const std::vector<Plot>& plots) {
   return safe_in_script({{"plots", std::move(list)}, {"columns", columns.json()}});
 }
 
+std::string plot_words(const Plot& plot) {
+  std::string text = plot.title;
+  const char* sign = ": ";
+  for (const Panel& panel : plot.panels) {
+    std::string names;
+    const auto name = [&](const std::string& label) {
+      if (!label.empty()) names += (names.empty() ? "" : ", ") + label;
+    };
+    for (const Curve& curve : panel.curves) name(curve.label);
+    for (const Lane& lane : panel.lanes) name(lane.label);
+    std::string what = panel.title;
+    if (!panel.y_label.empty()) what += (what.empty() ? "" : " ") + panel.y_label;
+    if (!names.empty()) what += (what.empty() ? "" : " of ") + names;
+    if (!what.empty()) text += sign + what;
+    sign = "; ";
+  }
+  return plot.x_label.empty() ? text : text + " over " + plot.x_label;
+}
+
 std::string live_plots(const std::vector<Plot>& plots, const std::string& folder) {
   const std::filesystem::path library = std::filesystem::path(folder) / "dygraph.min.js";
   const std::filesystem::path style = std::filesystem::path(folder) / "dygraph.min.css";

@@ -14,6 +14,9 @@ bool can_be_live(const Plot& plot);
 /// script element.
 std::string plot_data(const std::vector<Plot>& plots);
 
+/// A plot in words, for who cannot see it: "Motion: speed [m/min] of web, knife; over time [s]".
+std::string plot_words(const Plot& plot);
+
 /// What the end of a page needs to make its plots live: dygraphs, from the folder where its package
 /// (libjs-dygraphs) puts it, the data and the script; without dygraphs a line that says so, "" if no plot
 /// can be live.

@@ -91,6 +91,12 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// One of several cameras.
+struct View {
+  std::string name;  ///< written into its part of the picture
+  Camera camera;
+};
+
 /// A run as the renderer sees it.
 struct Film {
   std::string title;
@@ -98,6 +104,8 @@ struct Film {
   std::vector<Frame> frames;
   Camera camera;                      ///< in the first frame, if it follows a part
   std::optional<std::size_t> follow;  ///< number of the part with which the camera goes
+  std::string camera_name;            ///< written into its part of the picture, if there are others
+  std::vector<View> beside;           ///< up to three cameras more, which stand: the picture is split
   bool trails = false;                ///< parts with a tip draw where it has just been
   std::vector<LiveCurve> live;        ///< drawn in the corner
   double live_window_s = 2;           ///< how much of them

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "renders/mesh.hpp"
+#include "renders/tiles.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -54,6 +55,17 @@ Stage stage_of(const Film& film, int height) {
     (stands(film, i) ? stage.still : stage.moving).push_back(i);
   }
   return stage;
+}
+
+std::vector<Stage> stages_of(const Film& film) {
+  const std::vector<Tile> tiles = tiles_of(film);
+  std::vector<Stage> stages(tiles.size(), stage_of(film, tiles.front().height));
+  for (std::size_t view = 0; view < tiles.size(); ++view) {
+    stages[view].width = tiles[view].width;
+    stages[view].height = tiles[view].height;
+    if (view > 0) stages[view].camera_stands = true;
+  }
+  return stages;
 }
 
 }  // namespace drycut::renders

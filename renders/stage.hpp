@@ -38,7 +38,9 @@ struct Stage {
   double radius() const { return std::max(1e-3, extent.diagonal().norm() / 2); }
 };
 
-/// The stage of a film that can be drawn, in a picture `height` pixels high.
+/// The stage of a film that can be drawn, in a picture `height` pixels high and as wide as the film.
 Stage stage_of(const Film& film, int height);
+/// The stages of its cameras, each as large as the camera's part of the picture.
+std::vector<Stage> stages_of(const Film& film);
 
 }  // namespace drycut::renders

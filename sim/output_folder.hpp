@@ -32,6 +32,10 @@ class OutputFolder {
   /// The same for many at once; returns the folder that they lie in.
   std::filesystem::path add(const std::string& subfolder, const std::vector<std::string>& names);
 
+  /// What it has, by the manifest, in the manner of "plots/motion.png".
+  [[nodiscard]] const std::set<std::string>& listed() const { return listed_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
  private:
   [[nodiscard]] bool is_ours(const std::filesystem::path& file) const;
   [[nodiscard]] std::vector<std::string> strangers(const std::vector<std::string>& names) const;

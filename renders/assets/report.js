@@ -191,11 +191,17 @@
       if (Math.floor(right) === column) continue;  // that pixel is filled already
       column = Math.floor(right);
       context.strokeStyle = context.fillStyle = colour(order % 4);
-      if (!isNaN(starts.y[k])) drawState(context, lane, starts.y[k], left, right, low, high, k > 0);
+      if (!isNaN(starts.y[k])) drawState(context, lane, starts.y[k], left, right, low, high, k > 0, graph.getArea());
     }
   }
 
-  function drawState(context, lane, value, left, right, low, high, edge) {
+  // Where the text of a state stands: in the middle of what is seen of it, if it has room there.
+  function textPlace(width, left, right, area) {
+    const from = Math.max(left, area.x), until = Math.min(right, area.x + area.w);
+    return width + 6 < until - from ? (from + until) / 2 : null;
+  }
+
+  function drawState(context, lane, value, left, right, low, high, edge, area) {
     context.globalAlpha = 0.28;
     if (!lane.digital) {
       context.fillStyle = colour(Math.abs(Math.round(value)));
@@ -204,9 +210,9 @@
       context.fillRect(left, high, right - left, low - high);
       context.globalAlpha = 1;
       context.strokeRect(left, high, right - left, low - high);
-      const text = numberText(value), middle = (Math.max(left, 0) + right) / 2;
+      const text = numberText(value), middle = textPlace(context.measureText(text).width, left, right, area);
       context.fillStyle = theme("--ink");
-      if (context.measureText(text).width + 6 < right - left) context.fillText(text, middle, (low + high) / 2 + 1);
+      if (middle !== null) context.fillText(text, middle, (low + high) / 2 + 1);
       return;
     }
     if (value !== 0) context.fillRect(left, high, right - left, low - high);
@@ -307,6 +313,10 @@
     this.counted = isCounted(plot);
     this.graphs = [];
     this.box = element(figure, "div", "live");
+    this.box.tabIndex = 0;
+    this.box.setAttribute("role", "group");
+    this.box.setAttribute("aria-label", plot.title + ", plot to zoom: arrow keys move the cursor, plus and minus zoom, Home shows the whole range");
+    this.box.addEventListener("keydown", event => { if (event.target === self.box && self.key(event)) event.preventDefault(); });
     figure.insertBefore(this.box, figure.querySelector("figcaption"));
     const head = element(this.box, "div", "live-head");
     element(head, "strong", "", plot.title);
@@ -314,6 +324,7 @@
     this.all.type = "button";
     this.all.onclick = () => self.show(self.whole);
     this.readout = element(head, "span", "live-x", "");
+    this.readout.setAttribute("aria-live", "polite");
     const names = plot.panels.flatMap(panel => panel.lanes.map(lane => lane.label));
     const narrow = figure.clientWidth < 560;
     const longest = Math.max(0, ...names.map(name => name.length));
@@ -324,7 +335,7 @@
     this.busy = false;
     this.paint();
     element(this.box, "p", "live-hint", plot.xLabel + " \u00b7 drag: zoom \u00b7 shift and drag: move \u00b7 " +
-            "two fingers: zoom and move \u00b7 double click: whole range");
+            "two fingers: zoom and move \u00b7 double click: whole range \u00b7 keys: \u2190 \u2192 + \u2212 Home");
     figure.classList.add("is-live");
   }
 
@@ -355,11 +366,15 @@
     });
     for (const band of panel.bands) if (band.label) element(legend, "span", "live-band", band.label);
     const canvas = element(holder, "div", "live-canvas");
+    canvas.setAttribute("role", "img");
+    const names = panel.curves.concat(panel.lanes).map(one => one.label).filter(Boolean).join(", ");
+    canvas.setAttribute("aria-label", [panel.title, panel.yLabel, names].filter(Boolean).join(" ") || this.plot.title);
     const lanes = panel.lanes.length;
     const strip = index === 0 ? stripHeight(this.plot.marks) : 0;
     canvas.style.height = (lanes ? laneHeight * lanes + (last ? 26 : 8) : narrow ? 180 : 220) + strip + "px";
     const cursor = element(canvas, "div", "live-cursor");
-    const view = {panel: panel, holder: holder, values: values, cursor: cursor, canvas: canvas, top: strip};
+    const states = panel.lanes.map(() => element(canvas, "output", "live-state"));
+    const view = {panel: panel, holder: holder, values: values, states: states, cursor: cursor, canvas: canvas, top: strip};
     const series = {};
     panel.curves.forEach((curve, i) => {
       series["c" + i] = curve.style === "points" ? {drawPoints: true, strokeWidth: 0, pointSize: curve.faint ? 1 : 3}
@@ -398,6 +413,7 @@
     }
     view.graph = new Dygraph(canvas, rows, options);
     canvas.appendChild(cursor);
+    for (const state of states) canvas.appendChild(state);
     const point = event => {
       const left = event.clientX - canvas.getBoundingClientRect().left;
       const area = view.graph.getArea();
@@ -422,6 +438,8 @@
     for (const band of panel.bands) { take(band.low); take(band.high); }
     panel.least.forEach(take);
     if (!(low <= high)) { low = 0; high = 1; }
+    // What differs by rounding only is one number: its noise must not fill the panel.
+    if (high - low <= 1e-9 * Math.max(Math.abs(low), Math.abs(high))) low = high = (low + high) / 2;
     if (low === high) { const add = low === 0 ? 1 : Math.abs(low) * 0.1; low -= add; high += add; }
     const border = 0.06 * (high - low);
     low -= border;
@@ -484,7 +502,39 @@
     const [from, until] = graph.xAxisRange();
     const shown = this.at >= from && this.at <= until;
     view.cursor.style.display = shown ? "block" : "none";
-    if (shown) view.cursor.style.left = graph.toDomXCoord(this.at) + "px";
+    view.states.forEach(state => { state.style.display = shown ? "block" : "none"; });
+    if (!shown) return;
+    const area = graph.getArea(), x = graph.toDomXCoord(this.at), lanes = view.panel.lanes;
+    view.cursor.style.left = x + "px";
+    // The state of each lane beside the line, on the side that has room.
+    view.states.forEach((state, i) => {
+      state.textContent = numberText(valueAt(lanes[i], this.at));
+      state.style.left = x + "px";
+      state.style.top = graph.toDomYCoord(lanes.length - i - 0.5) + "px";
+      state.classList.toggle("before", x > area.x + 0.8 * area.w);
+    });
+  };
+
+  // The keys of a plot that has the focus; false of any other.
+  Plot.prototype.key = function (event) {
+    const [from, until] = this.range, wide = until - from, whole = this.whole;
+    if (event.ctrlKey || event.altKey || event.metaKey) return false;
+    const inside = this.at >= from && this.at <= until ? this.at : (from + until) / 2;
+    if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
+      const step = (event.key === "ArrowLeft" ? -1 : 1) * wide * (event.shiftKey ? 0.1 : 0.01);
+      const at = Math.min(whole[1], Math.max(whole[0], inside + step));
+      const move = at < from ? at - from : at > until ? at - until : 0;
+      if (move !== 0) this.show([from + move, until + move]);
+      this.point(at, true);
+    } else if ("+=-".includes(event.key)) {
+      const scale = event.key === "-" ? 2 : 0.5;
+      this.show([Math.max(whole[0], inside - (inside - from) * scale), Math.min(whole[1], inside + (until - inside) * scale)]);
+    } else if (event.key === "Home") {
+      this.show(whole);
+    } else {
+      return false;
+    }
+    return true;
   };
 
   // One finger scrolls the page; two zoom and move the plot.

@@ -48,6 +48,14 @@ cluster::Workers workers_of(const ClusterOptions& options, int jobs, const fs::p
   return {jobs, cluster::open_engine(options.on, out, options.stage, problems)};
 }
 
+void add_annotate(CLI::App& command, std::string& whom) {
+  command
+      .add_option("--annotate", whom,
+                  "Tell what is wrong at its line: github prints workflow commands, gitlab writes "
+                  "gl-code-quality-report.json here")
+      ->check(CLI::IsMember({"github", "gitlab"}));
+}
+
 void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help) {
   command.add_flag_callback(
       "--no-pictures", [&pictures] { pictures = false; }, help);

@@ -29,6 +29,8 @@ void add_on(CLI::App& command, ClusterOptions& cluster);
 /// `problems`.
 cluster::Workers workers_of(const ClusterOptions& cluster, int jobs, const std::filesystem::path& out,
                             Problems& problems);
+/// `--annotate`: whom annotate() is for, "github" or "gitlab".
+void add_annotate(CLI::App& command, std::string& whom);
 /// `--no-pictures`
 void add_no_pictures(CLI::App& command, bool& pictures, const std::string& help);
 

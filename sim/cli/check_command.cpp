@@ -6,15 +6,17 @@
 #include <memory>
 #include <optional>
 
+#include "base/text.hpp"
 #include "devices/catalogue.hpp"
-#include "devices/lx3vp/il_lines.hpp"
 #include "devices/lx3vp/il_program.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/plcopen/st/program.hpp"
 #include "devices/qmove/cnf.hpp"
 #include "devices/qmove/program.hpp"
 #include "sim/cams/study.hpp"
+#include "sim/cli/annotations.hpp"
 #include "sim/cli/arguments.hpp"
+#include "sim/cli/file_kinds.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/report/part_meshes.hpp"
@@ -34,30 +36,38 @@ class Checker {
       : expand_(options.expand), overrides_(overrides_of(options.set, problems_)) {}
 
   void check(const std::filesystem::path& file) {
-    auto kind = file.extension().string();
-    for (auto& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (kind == ".yaml" || kind == ".yml") {
-      check_scenario(file);
-    } else if (kind == ".cnf") {
-      check_configuration(file);
-    } else if (kind == ".mod" || kind == ".qcl") {
-      check_module(file);
-    } else if (kind == ".il") {
-      if (const auto text = read_file(file, problems_))
-        devices::lx3vp::il::compile(*text, file.string(), problems_);
-    } else if (kind == ".st") {
-      if (const auto text = read_file(file, problems_))
-        devices::plcopen::st::compile(*text, file.string(), problems_);
-    } else if (kind == ".csv") {
-      if (const auto text = read_file(file, problems_)) check_table(*text, file.string());
-    } else if (kind == ".tab") {
-      if (const auto text = read_file(file, problems_))
-        cams::read_cam("mc_camin", *text, file.string(), problems_);
-    } else {
-      problems_.push_back(
-          {file.string(), 1, 1, fmt::format("'{}' is not a kind of file that is known", kind),
-           "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an instruction "
-           "list (.il), Structured Text (.st), a cam table (.csv, .tab) or registers (.csv)"});
+    switch (kind_of(file)) {
+      case Kind::scenario:
+      case Kind::comparison:
+        return check_scenario(file);
+      case Kind::configuration:
+        return check_configuration(file);
+      case Kind::module:
+        return check_module(file);
+      case Kind::instruction_list:
+      case Kind::program_table:
+        if (const auto text = read_file(file, problems_))
+          devices::lx3vp::il::compile(*text, file.string(), problems_);
+        return;
+      case Kind::structured_text:
+        if (const auto text = read_file(file, problems_))
+          devices::plcopen::st::compile(*text, file.string(), problems_);
+        return;
+      case Kind::registers:
+        if (const auto text = read_file(file, problems_))
+          devices::lx3vp::read_register_values(*text, file.string(), ',', problems_);
+        return;
+      case Kind::cam_table:
+        if (const auto text = read_file(file, problems_))
+          cams::read_cam(lower(file.extension().string()) == ".tab" ? "mc_camin" : "", *text, file.string(),
+                         problems_);
+        return;
+      default:
+        problems_.push_back(
+            {file.string(), 1, 1,
+             fmt::format("'{}' is not a kind of file that is known", file.extension().string()),
+             "give a scenario (.yaml), a configuration (.cnf), a QCL module (.mod, .qcl), an instruction "
+             "list (.il), Structured Text (.st), a cam table (.csv, .tab) or registers (.csv)"});
     }
   }
 
@@ -104,16 +114,6 @@ class Checker {
     if (expand_ && problems_.size() == before) fmt::print("{}", sim::scenario::expand(scenario));
   }
 
-  /// Registers or a program of the LX3VP, or a cam table, as its lines say.
-  void check_table(const std::string& text, const std::string& file) {
-    if (devices::lx3vp::il::is_table(text))
-      devices::lx3vp::il::compile(text, file, problems_);
-    else if (devices::lx3vp::is_register_file(text, ','))
-      devices::lx3vp::read_register_values(text, file, ',', problems_);
-    else
-      cams::read_cam("", text, file, problems_);
-  }
-
   void check_configuration(const std::filesystem::path& file) {
     configuration_.reset();
     configuration_given_ = true;
@@ -153,6 +153,7 @@ int check_files(const CheckOptions& options) {
   Checker checker(options);
   for (const auto& file : options.files) checker.check(file);
   print_problems(checker.problems());
+  annotate(options.annotate, annotations_of(checker.problems()));
   if (!checker.problems().empty()) {
     fmt::print(stderr, "{} problem{} in {} file{}\n", checker.problems().size(),
                checker.problems().size() == 1 ? "" : "s", options.files.size(),
@@ -175,6 +176,7 @@ void add_check(CLI::App& app, int& status) {
       "lists (.il), Structured Text (.st), cam tables (.csv, .tab) and registers (.csv)");
   check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(*check, options.set, "scenarios");
+  add_annotate(*check, options.annotate);
   check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
   check->callback([chosen, files, &status] {

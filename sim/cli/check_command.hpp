@@ -12,6 +12,7 @@ struct CheckOptions {
   bool expand = false;
   bool schema = false;                ///< print the JSON Schema of scenarios and check nothing
   std::vector<std::string> set = {};  ///< overrides of the scenarios: path=value
+  std::string annotate = {};          ///< whom problems are told too: "github", "gitlab", "" = nobody
 };
 /// drycut check: scenarios (.yaml), configurations (.cnf), QCL modules (.mod, .qcl; against the .cnf before
 /// them), instruction lists (.il), cam tables and registers (.csv)

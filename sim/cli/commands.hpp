@@ -33,6 +33,7 @@ void add_bode(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_index(CLI::App& app, int& status);
 void add_convert(CLI::App& app, int& status);
+void add_new(CLI::App& app, int& status);
 void add_devices(CLI::App& app, int& status);
 void add_plants(CLI::App& app, int& status);
 /// drycut reference DIR, which --help does not list: `drycut.1`, the manual page, `drycut.bash`, completion

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "renders/embedded.hpp"
 #include "sim/cli/commands.hpp"
+#include "sim/cli/file_kinds.hpp"
 
 namespace drycut::sim::cli {
 
@@ -57,11 +58,12 @@ std::vector<std::string> topics() {
   std::vector<std::string> names;
   constexpr std::string_view ending = ".md";
   for (const auto name : renders::embedded_names())
-    if (name.ends_with(ending)) names.emplace_back(name.substr(0, name.size() - ending.size()));
+    if (name.ends_with(ending) && name.find('/') == std::string_view::npos)
+      names.emplace_back(name.substr(0, name.size() - ending.size()));
   return names;
 }
 
-std::vector<const CLI::App*> commands_of(const CLI::App& program) {
+std::vector<const CLI::App*> listed_commands(const CLI::App& program) {
   const auto all =
       program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
   return {all.begin(), all.end()};
@@ -76,7 +78,7 @@ std::string beginning_of(const std::string& description) {
 
 std::string program_page(const CLI::App& program) {
   auto text = program.get_description() + "\n\ndrycut COMMAND [options]\n\n";
-  for (const auto* command : commands_of(program)) {
+  for (const auto* command : listed_commands(program)) {
     text += row(command->get_name(), beginning_of(command->get_description()));
   }
   text += "\n";
@@ -128,7 +130,7 @@ int tell_topic(const CLI::App& program, const std::string& topic) {
   const auto names = topics();
   bool told = false;
   std::vector<std::string> known = names;
-  for (const auto* command : commands_of(program)) {
+  for (const auto* command : listed_commands(program)) {
     known.push_back(command->get_name());
     if (command->get_name() != topic) continue;
     fmt::print("{}", page_of(*command));
@@ -173,11 +175,14 @@ std::vector<std::string_view> examples_of(std::string_view command) {
     std::string_view line;
   };
   static const std::vector<Example> all = {
+      {"", "drycut new my_line --from rotary_knife --controller plcopen"},
       {"", "drycut check scenes/rotary_knife.yaml"},
       {"", "drycut run scenes/rotary_knife.yaml"},
       {"run", "drycut run scenes/rotary_knife.yaml"},
       {"run", "drycut run scenes/*.yaml --jobs 2 --out results"},
       {"run", "drycut run my_line.yaml --set variables.length=\"1 m\" --no-pictures"},
+      {"run", "drycut run scenes/*.yaml --cache .drycut-cache --annotate github"},
+      {"run", "  --summary out/summary.md"},
       {"live", "drycut live scenes/rotary_knife_mc_emergency.yaml"},
       {"live", "drycut live my_line.yaml --record out/today --pace 0.1"},
       {"live", "drycut live --from out/today/1@12.5s"},
@@ -198,6 +203,8 @@ std::vector<std::string_view> examples_of(std::string_view command) {
       {"compare", "drycut compare goldens/rotary_knife out/rotary_knife --tolerance length=0.01mm"},
       {"index", "drycut index out"},
       {"convert", "drycut convert out/rotary_knife --to hdf5"},
+      {"new", "drycut new --list"},
+      {"new", "drycut new my_line --from rotary_knife --controller plcopen"},
       {"devices", "drycut devices EPICPOS"},
       {"plants", "drycut plants rotary_knife"},
   };
@@ -228,8 +235,9 @@ void add_commands(CLI::App& app, int& status) {
   app.require_subcommand(1);  // and what follows is no command more: drycut help run
   for (const auto add : {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep,
                          add_envelope, add_size, add_bode, add_compare, add_index, add_convert, add_devices,
-                         add_plants, add_help, add_reference, add_work})
+                         add_plants, add_new, add_help, add_reference, add_work})
     add(app, status);
+  refuse_wrong_kinds(app);
 }
 
 void add_help(CLI::App& program, int& status) {

@@ -51,6 +51,8 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked);
+  } catch (const CLI::RuntimeError& told) {
+    return told.get_exit_code();
   } catch (const CLI::ParseError& error) {
     tell_usage(app, error);
     return bad_input;

@@ -6,19 +6,20 @@
 
 #include <chrono>
 #include <functional>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include "base/plain_text.hpp"
 #include "renders/gltf.hpp"
+#include "sim/cli/annotations.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
+#include "sim/cli/run_cache.hpp"
 #include "sim/cli/run_work.hpp"
+#include "sim/cli/summary.hpp"
 #include "sim/file.hpp"
 #include "sim/interrupt.hpp"
-#include "sim/live/session.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/parallel.hpp"
@@ -33,129 +34,6 @@
 namespace drycut::sim::cli {
 
 namespace {
-
-constexpr auto* junit_file = "junit.xml";
-
-/// Claims what the results of `file` are called; a problem if another file has claimed it.
-class Claims {
- public:
-  void results(const std::string& name, const std::filesystem::path& file, Problems& problems) {
-    if (name.empty() || name == "." || name == ".." || name == junit_file) {
-      problems.push_back({file.string(), 1, 1, fmt::format("its results cannot be called '{}'", name),
-                          "give the scenario another file name"});
-    }
-    claim(name, file, "its results would overwrite those of {}",
-          "give the scenarios different file names or run them apart", problems);
-  }
-  void retentive(const std::filesystem::path& kept, const std::filesystem::path& file, Problems& problems) {
-    claim("retentive " + kept.lexically_normal().string(), file,
-          "it keeps its retentive values in the file of {}",
-          "give each scenario a retentive file of its own or run them apart", problems);
-  }
-
- private:
-  void claim(const std::string& name, const std::filesystem::path& file, const char* what, const char* remedy,
-             Problems& problems) {
-    const auto [other, fresh] = names_.emplace(name, file);
-    if (fresh) return;
-    problems.push_back(
-        {file.string(), 1, 1, fmt::format(fmt::runtime(what), other->second.string()), remedy});
-  }
-  std::map<std::string, std::filesystem::path> names_;
-};
-
-/// Takes a scenario that was read; false if it has problems.
-bool put_together(Job& job, const std::string& name, const RunOptions& options, Claims& claims,
-                  Problems& problems) {
-  if (options.seed) job.scenario.scene.seed = *options.seed;
-  if (const auto kept = loop::retentive_file(job.scenario); kept && job.scenario.controller->retains)
-    claims.retentive(*kept, job.scenario.file, problems);
-  if (options.gltf) job.scenario.pictures.frames = true;
-  if (job.scenario.buildable) {
-    job.simulation = std::make_unique<loop::Simulation>(job.scenario, problems);
-    job.meshes = report::load_part_meshes(job.scenario, job.simulation->plants(), problems);
-  } else if (problems.empty()) {
-    throw std::logic_error("a scenario that cannot be built has no problem");
-  }
-  job.result.name = name;
-  job.result.scenario = job.scenario.file;
-  job.result.directory = options.out / name;
-  return problems.empty();
-}
-
-/// Reads a sound scenario once more, at half its step.
-void read_half(Job& job, std::vector<scenario::Override> overrides, const RunOptions& options,
-               const std::function<scenario::Scenario(const std::vector<scenario::Override>&)>& read,
-               Problems& problems) {
-  if (!options.verify_step || !problems.empty()) return;
-  const auto half = studies::halved_step(job.scenario, problems);
-  if (!half) return;
-  overrides.push_back(*half);
-  job.half = read(overrides);
-  job.half->scene.seed = job.scenario.scene.seed;
-}
-
-/// The members of a comparing scene as jobs, in a folder of its own each inside the scene's.
-void prepare_members(studies::ComparisonScene scene, const std::vector<scenario::Override>& overrides,
-                     const RunOptions& options, Claims& claims, Work& work, Problems& problems) {
-  auto& group = work.groups.emplace_back();
-  const auto stem = scene.file.stem().string();
-  bool sound = true;
-  for (const auto& member : scene.members) {
-    auto job = std::make_unique<Job>();
-    Problems own;
-    job->scenario = studies::read_member(scene, member, overrides, own);
-    sound = put_together(*job, stem + "/" + member.name.text, options, claims, own) && sound;
-    read_half(
-        *job, overrides, options,
-        [&](const auto& set) { return studies::read_member(scene, member, set, own); }, own);
-    studies::place_in_scene(scene, member, own);
-    problems.insert(problems.end(), own.begin(), own.end());
-    group.members.push_back(job.get());
-    if (sound) group.names.push_back(studies::names_of(*job->simulation));
-    work.jobs.push_back(std::move(job));
-  }
-  if (sound) studies::check_comparison(scene, group.names, problems);
-  group.result.name = stem;
-  group.result.scenario = scene.file;
-  group.result.directory = options.out / stem;
-  group.scene = std::move(scene);
-}
-
-/// Reads and puts together all scenarios; problems of all of them are told before anything runs.
-Work prepare(const RunOptions& options, Problems& problems) {
-  const auto overrides = overrides_of(options.set, problems);
-  Work work;
-  Claims claims;
-  for (const auto& file : options.scenarios) {
-    claims.results(file.stem().string(), file, problems);
-    Problems own;
-    if (live::is_session(file)) {
-      auto job = std::make_unique<Job>();
-      if (!options.set.empty())
-        own.push_back({"--set", 1, 1, fmt::format("{} is a session, which has its own", file.string()),
-                       "drycut replay --to-scenario makes a scenario of it"});
-      if (auto session = live::read_session(file, {}, job->notes, own)) {
-        job->scenario = std::move(session->scenario);
-        job->scenario.scene.duration = std::max(session->reached, job->scenario.scene.step);
-      }
-      put_together(*job, file.stem().string(), options, claims, own);
-      work.jobs.push_back(std::move(job));
-    } else if (auto scene = studies::read_comparison(file, own)) {
-      if (own.empty()) prepare_members(std::move(*scene), overrides, options, claims, work, own);
-    } else {
-      auto job = std::make_unique<Job>();
-      job->scenario = scenario::read_scenario(file, overrides, own);
-      put_together(*job, file.stem().string(), options, claims, own);
-      read_half(
-          *job, overrides, options, [&](const auto& set) { return scenario::read_scenario(file, set, own); },
-          own);
-      work.jobs.push_back(std::move(job));
-    }
-    problems.insert(problems.end(), own.begin(), own.end());
-  }
-  return work;
-}
 
 std::string scene_file_of(const Job& job) { return job.result.directory.filename().string() + ".glb"; }
 
@@ -183,6 +61,27 @@ void begin(Work& work) {
     job->folder->begin();
     report::write_checks(report::outcome_to_come(), job->folder->add(report::checks_file));
   }
+}
+
+/// Takes the results from the cache if it has them.
+bool is_unchanged(Job& job, const RunCache& cache, const RunOptions& options) {
+  job.inputs = inputs_of_run(job.scenario, job.files,
+                             {job.result.name, options.pictures, options.gltf, options.verify_step});
+  auto kept = cache.take(job.inputs, *job.folder);
+  if (!kept) return false;
+  job.result.outcome = std::move(kept->outcome);
+  job.result.has_report = kept->has_report;
+  if (!kept->scene.empty()) job.scene = job.result.directory / kept->scene;
+  job.kept_notes = std::move(kept->notes);
+  return true;
+}
+
+/// Keeps what the next run of the same would leave again. What it has left out it might not leave out then.
+void keep(const Job& job, const RunCache& cache) {
+  if (!job.result.outcome.failure.empty() || !job.left_out.empty() || InterruptWatch::come() != 0) return;
+  cache.keep(
+      job.inputs, *job.folder,
+      {job.result.outcome, job.result.has_report, job.simulation->notes(), job.scene.filename().string()});
 }
 
 void run_job(Job& job, const RunOptions& options, int threads,
@@ -234,6 +133,9 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
   const auto running = std::min<std::size_t>(static_cast<std::size_t>(options.jobs), jobs.size());
   const auto drawing_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency() / running));
   Progress bar(options.say != Say::failures);
+  Problems ignored;  // it is there
+  const auto cache =
+      options.cache.empty() ? std::nullopt : std::optional<RunCache>(std::in_place, options.cache, ignored);
   for_each_index(jobs.size(), static_cast<int>(running), [&](std::size_t i) {
     auto& job = *jobs[i];
     const auto show = [&](const char* doing, double done) {
@@ -243,8 +145,12 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
       job.trouble = "not run: interrupted before";
       return;
     }
+    // What a run leaves in a retentive file is a result too, and the next one's input.
+    const bool may_be_kept = cache && !loop::retentive_file(job.scenario);
     try {
+      if (may_be_kept && is_unchanged(job, *cache, options)) return;
       run_job(job, options, drawing_threads, show);
+      if (may_be_kept) keep(job, *cache);
     } catch (const std::exception& error) {
       job.trouble = error.what();
     }
@@ -292,6 +198,41 @@ int status_of(const Work& work) {
   return status;
 }
 
+/// What came of all of them, told on the terminal.
+std::vector<report::RunResult> tell_results(const Work& work, Say say) {
+  std::vector<report::RunResult> results;
+  const auto keep = [&](const report::RunResult& result, const std::string& trouble) {
+    results.push_back(result);
+    if (!trouble.empty()) results.back().outcome.failure = trouble;
+  };
+  for (const auto& job : work.jobs) {
+    print_result(*job, say);
+    keep(job->result, job->trouble);
+  }
+  for (const auto& group : work.groups) {
+    print_group(group, say);
+    keep(group.result, group.trouble);
+  }
+  return results;
+}
+
+/// The summary can be written. Its folder may be that of the results, which is made yet.
+void check_summary(const RunOptions& options, Problems& problems) {
+  const auto whole = [](const std::filesystem::path& folder) {
+    return (std::filesystem::absolute(folder) / "").lexically_normal();
+  };
+  const auto into_results =
+      whole(std::filesystem::absolute(options.summary).parent_path()) == whole(options.out);
+  if (into_results && !std::filesystem::exists(options.out)) return;
+  for (const auto& file : options.scenarios) {
+    Problems own;
+    check_output("--summary", options.summary.string(), {file, "scenario"}, own);
+    if (own.empty()) continue;
+    problems.insert(problems.end(), own.begin(), own.end());
+    return;
+  }
+}
+
 }  // namespace
 
 void print_problems(const Problems& problems) {
@@ -301,35 +242,27 @@ void print_problems(const Problems& problems) {
 int run_scenarios(const RunOptions& options) {
   Problems problems;
   auto work = prepare(options, problems);
+  if (!options.summary.empty()) check_summary(options, problems);
+  if (problems.empty() && !options.cache.empty()) const RunCache made(options.cache, problems);
+  if (problems.empty()) open_folders(work, options, problems);
   if (!problems.empty()) {
     print_problems(problems);
-    return bad_input;
-  }
-  open_folders(work, options, problems);
-  if (!problems.empty()) {
-    print_problems(problems);
+    annotate(options.annotate, annotations_of(problems));
     return bad_input;
   }
   begin(work);
   const InterruptWatch watch;
   run_all(work.jobs, options);
   run_groups(work.groups, options.pictures);
-  std::vector<report::RunResult> results;
-  const auto keep = [&](const report::RunResult& result, const std::string& trouble) {
-    results.push_back(result);
-    if (!trouble.empty()) results.back().outcome.failure = trouble;
-  };
-  for (const auto& job : work.jobs) {
-    print_result(*job, options.say);
-    keep(job->result, job->trouble);
-  }
-  for (const auto& group : work.groups) {
-    print_group(group, options.say);
-    keep(group.result, group.trouble);
-  }
+  const auto results = tell_results(work, options.say);
   try {
     report::write_junit(results, work.folder->add(junit_file));
     report::write_index(options.out, *work.folder);
+    annotate(options.annotate, annotations_of(results));
+    if (!options.summary.empty())
+      write_file(
+          options.summary,
+          summary_text(results, {options.out, links_from(options.summary, options.out, options.links)}));
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return simulation_failed;
@@ -352,6 +285,13 @@ void add_run(CLI::App& app, int& status) {
   run->add_flag("--gltf", options.gltf, "The run as an animated glTF file (.glb) for any 3D viewer");
   run->add_flag("--verify-step", options.verify_step,
                 "Run again at half scene.step and tell how far every check's margin moved");
+  run->add_option("--cache", options.cache,
+                  "Folder that keeps results: what would come out the same is taken from there, and not run");
+  run->add_option("--summary", options.summary,
+                  "Write a summary in Markdown, for pull requests: verdicts, failed checks, pictures");
+  run->add_option("--links", options.links,
+                  "With --summary: where the results will be found, https://host/page");
+  add_annotate(*run, options.annotate);
   add_set(*run, options.set, "scenarios");
   auto* quiet = run->add_flag_callback(
       "-q,--quiet", [&options] { options.say = Say::failures; }, "Tell only what failed");

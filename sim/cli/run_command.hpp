@@ -22,6 +22,10 @@ struct RunOptions {
   bool gltf = false;             ///< the run as an animated .glb file, with or without pictures
   std::vector<std::string> set;  ///< "plants.web.speed=80 m/min"
   Say say = Say::results;
+  std::filesystem::path cache = {};    ///< keeps results by what determines them, "" = nothing is kept
+  std::filesystem::path summary = {};  ///< in Markdown, "" = none
+  std::string links = {};              ///< where a summary's readers find the results, "" = beside it
+  std::string annotate = {};           ///< what failed at its line, for "github" or "gitlab"; "" = for nobody
 };
 /// drycut run
 int run_scenarios(const RunOptions& options);

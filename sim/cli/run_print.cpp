@@ -52,12 +52,12 @@ void print_result(const Job& job, Say say) {
   const auto word = !job.trouble.empty() || !result.outcome.failure.empty() ? "STOPPED"
                     : result.outcome.passed()                               ? "passed"
                                                                             : "FAILED";
-  fmt::print("{}: {}, {} ({} s simulated)\n", printable(result.name), verdict(passed, word),
+  fmt::print("{}: {}, {} ({} s simulated{})\n", printable(result.name), verdict(passed, word),
              job.trouble.empty() ? report::verdict_text(result.outcome) : job.trouble,
-             loop::seconds_text(result.outcome.end));
+             loop::seconds_text(result.outcome.end), job.kept_notes ? " earlier; unchanged" : "");
   print_checks(result.outcome.checks, say);
   if (say == Say::failures) return print_place(result);
-  if (say == Say::more)
+  if (say == Say::more && !job.kept_notes)
     fmt::print("  simulated in {:.2f} s, {:.0f} times as fast as the machine; all of it took {:.2f} s\n",
                job.simulating, seconds(result.outcome.end) / std::max(job.simulating, 1e-6), job.took);
   if (result.outcome.half_step) {
@@ -66,7 +66,8 @@ void print_result(const Job& job, Say say) {
       fmt::print("\n  margins at half the step\n{}", renders::rows_text(margins, output_width()));
   }
   for (const auto& note : job.notes) fmt::print("  note {}\n", printable(note));
-  for (const auto& note : job.simulation->notes()) fmt::print("  note {}\n", printable(note));
+  for (const auto& note : job.kept_notes ? *job.kept_notes : job.simulation->notes())
+    fmt::print("  note {}\n", printable(note));
   if (!job.left_out.empty()) fmt::print(stderr, "left out: {}\n", job.left_out);
   if (!job.scene.empty()) fmt::print("  3D scene: {}\n", job.scene.string());
   print_place(result);

@@ -78,7 +78,7 @@ fs::path find_opcua_gateway(Problems& problems) {
 std::uint16_t free_port(const std::string& address, std::uint16_t port) {
   boost::asio::io_context context;
   boost::asio::ip::tcp::acceptor acceptor(context);
-  return listen_at(acceptor, address, port, "");
+  return listen_at(acceptor, address, port, " for OPC UA", "--opcua");
 }
 
 OpcuaGateway::OpcuaGateway(const Options& options) {

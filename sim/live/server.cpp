@@ -75,7 +75,7 @@ struct Server::Core {
   class Client;
 
   Core(Options given, Line& of) : options(std::move(given)), line(of), acceptor(context) {
-    options.port = listen_at(acceptor, options.address, options.port, "");
+    options.port = listen_at(acceptor, options.address, options.port, "", "--port");
   }
 
   void accept();

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view manifest_prefix = ".drycut-";
-constexpr std::size_t title_within = 8192;  ///< of a page [bytes]
+constexpr std::size_t head_within = 65536;  ///< title and verdict of a page [bytes]
 constexpr std::size_t most_named = 3;       ///< checks that failed
 
 std::string text_of(const fs::path& file) {
@@ -46,15 +46,15 @@ std::vector<std::string> kinds_of(const fs::path& folder) {
   return kinds;
 }
 
-/// PNG files of a folder, by name.
-std::vector<fs::path> pictures_in(const fs::path& folder) {
-  std::vector<fs::path> pictures;
+/// Files of a folder that end so, by name.
+std::vector<fs::path> ending(const char* extension, const fs::path& folder) {
+  std::vector<fs::path> files;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".png" && entry.is_regular_file(ignored))
-      pictures.push_back(entry.path());
-  std::sort(pictures.begin(), pictures.end());
-  return pictures;
+    if (entry.path().extension() == extension && entry.is_regular_file(ignored))
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 /// A frame from the middle of the film; of a study its map or first plot.
@@ -63,9 +63,10 @@ void add_picture(const fs::path& folder, const fs::path& root, IndexEntry& entry
     entry.picture = picture.lexically_relative(root).generic_string();
     entry.picture_words = std::move(words);
   };
-  const auto frames = pictures_in(folder / "frames");
+  const auto frames = ending(".png", folder / "frames");
   if (!frames.empty()) return take(frames[frames.size() / 2], "The machine of " + entry.name);
-  const auto plots = pictures_in(folder / plots_folder);
+  auto plots = ending(".png", folder / plots_folder);
+  if (plots.empty()) plots = ending(".png", folder);  // of a cam that was designed
   if (!plots.empty()) take(plots.front(), fmt::format("{} of {}", plots.front().stem().string(), entry.name));
 }
 
@@ -104,10 +105,10 @@ std::string plain(std::string text) {
   return text;
 }
 
-/// What a page's title says: "PASS: The knife", "36: Sweep of rotary_knife".
-void read_title(const fs::path& file, IndexEntry& entry) {
+/// What a page's title says and what stands beside it: "PASS: The knife", "36: Sweep of rotary_knife".
+void read_head(const fs::path& file, IndexEntry& entry) {
   std::ifstream stream(file, std::ios::binary);
-  std::string page(title_within, '\0');
+  std::string page(head_within, '\0');
   stream.read(page.data(), static_cast<std::streamsize>(page.size()));
   page.resize(static_cast<std::size_t>(stream.gcount()));
   const auto begin = page.find("<title>");
@@ -117,6 +118,11 @@ void read_title(const fs::path& file, IndexEntry& entry) {
   const auto colon = title.find(": ");
   if (entry.word.empty() && colon != std::string::npos) entry.word = plain(title.substr(0, colon));
   entry.title = plain(colon == std::string::npos ? title : title.substr(colon + 2));
+  constexpr std::string_view open = "<span>";
+  const auto span = page.find(open, page.find("<p class=\"verdict"));
+  const auto close = page.find("</span>", span);
+  if (span != std::string::npos && close != std::string::npos)
+    entry.verdict = plain(page.substr(span + open.size(), close - span - open.size()));
 }
 
 /// What the scenario calls itself.
@@ -144,10 +150,12 @@ IndexEntry entry_of(const fs::path& folder, const fs::path& root, const std::str
   }
   if (fs::is_regular_file(folder / report_file, ignored)) {
     entry.page = relative(report_file);
-    if (kind != "run") read_title(folder / report_file, entry);
+    if (kind != "run") read_head(folder / report_file, entry);
   } else {
     for (const auto* file : {trace_file, hdf5_file, checks_file})
       if (entry.page.empty() && fs::is_regular_file(folder / file, ignored)) entry.page = relative(file);
+    const auto tables = ending(".csv", folder);
+    if (entry.page.empty() && !tables.empty()) entry.page = relative(tables.front().filename().c_str());
   }
   if (entry.title.empty()) entry.title = folder.filename().string();
   add_picture(folder, root, entry);
@@ -231,10 +239,11 @@ std::string index_page(const std::vector<IndexEntry>& entries) {
                                     [](const IndexEntry& entry) { return rank_of(entry) % 3 == 0; });
   const auto* state = failed > 0 ? "fail" : judged > 0 ? "pass" : "told";
   const auto word = failed > 0 ? "FAIL" : judged > 0 ? "PASS" : "RUNS";
-  const auto said =
-      failed > 0 ? fmt::format("{} of {} failed", failed, judged)
-                 : fmt::format("{} passed", judged == 1 ? "the one that is judged"
-                                                        : fmt::format("all {} that are judged", judged));
+  auto said = failed > 0   ? fmt::format("{} of {} failed", failed, judged)
+              : judged > 0 ? fmt::format("{} passed", judged == 1 ? "it" : fmt::format("all {}", judged))
+                           : std::string("nothing is judged");
+  if (const auto told = static_cast<std::ptrdiff_t>(entries.size()) - judged; told > 0 && judged > 0)
+    said += fmt::format("; {} {} nothing", told, told == 1 ? "judges" : "judge");
   std::string rows;
   for (const auto& entry : entries) rows += row_of(entry);
   return fmt::format(
@@ -249,8 +258,7 @@ std::string index_page(const std::vector<IndexEntry>& entries) {
       "<th scope=\"col\">drycut</th></tr></thead>\n<tbody>\n{7}</tbody>\n</table>\n</div>\n</main>\n"
       "<script>{8}</script>\n</body>\n</html>\n",
       word, renders::embedded_file("report.css"), renders::embedded_file("index.css"), entries.size(),
-      entries.size() == 1 ? "folder" : "folders", state, judged == 0 ? "nothing is judged" : said, rows,
-      renders::embedded_file("index.js"));
+      entries.size() == 1 ? "folder" : "folders", state, said, rows, renders::embedded_file("index.js"));
 }
 
 std::vector<IndexEntry> write_index(const fs::path& folder, OutputFolder& out) {

@@ -18,12 +18,87 @@ namespace {
 /// XML has no way to say a control character.
 std::string escaped(const std::string& text) { return xml_text(printable(text)); }
 
+/// As GitLab and Jenkins read it from a case's output: from the repository on, or with its whole path, as
+/// --out was given.
+std::string attachment_of(const RunResult& result) {
+  if (!result.has_report) return "";
+  return fmt::format("[[ATTACHMENT|{}]]",
+                     escaped((result.directory / "report.html").lexically_normal().string()));
+}
+
+std::string properties_of(const RunResult& result) {
+  std::string text = "    <properties>\n";
+  const auto add = [&](const char* name, const std::string& value) {
+    text += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
+  };
+  add("drycut", DRYCUT_VERSION);
+  if (!result.title.empty()) add("scene", result.title);
+  add("scenario", result.scenario.string());
+  if (result.seed) add("seed", std::to_string(*result.seed));
+  add("duration", fmt::format("{} s", loop::seconds_text(result.outcome.end)));
+  return text + "    </properties>\n";
+}
+
+/// Of a check, or of the run's end behind the last one; `inside`: what went wrong, "" = nothing did.
+std::string case_of(const RunResult& result, std::size_t number, const std::string& name, double time,
+                    const std::string& inside) {
+  const auto place = result.place_of(number);
+  auto text =
+      fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.6f}\" file=\"{}\" line=\"{}\"",
+                  escaped(result.name), escaped(name), time, escaped(path_from_here(place.file)), place.line);
+  if (inside.empty()) return text + "/>\n";
+  text += ">\n      " + inside + "\n";
+  if (const auto attached = attachment_of(result); !attached.empty())
+    text += "      <system-out>" + attached + "</system-out>\n";
+  return text + "    </testcase>\n";
+}
+
+std::string suite_of(const RunResult& result) {
+  const auto& outcome = result.outcome;
+  const auto failed =
+      std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
+  const bool stopped = !outcome.failure.empty();
+  const auto cases = outcome.checks.size() + (stopped ? 1 : 0);
+  const double each = seconds(outcome.end) / static_cast<double>(std::max<std::size_t>(cases, 1));
+  auto text = fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.6f}\" file=\"{}\">\n",
+      escaped(result.name), cases, failed, stopped ? 1 : 0, seconds(outcome.end),
+      escaped(path_from_here(result.scenario)));
+  text += properties_of(result);
+  for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
+    const auto& check = outcome.checks[i];
+    text += case_of(result, i, check.name, each,
+                    check.passed
+                        ? ""
+                        : fmt::format("<failure message=\"{}\">{}; {}</failure>", escaped(check.expectation),
+                                      escaped(check.detail), escaped(margin_text(check))));
+  }
+  if (stopped)
+    text += case_of(result, outcome.checks.size(), "runs to its end", each,
+                    fmt::format("<error message=\"{}\"/>", escaped(outcome.failure)));
+  if (const auto attached = attachment_of(result); !attached.empty())
+    text += "    <system-out>" + attached + "</system-out>\n";
+  return text + "  </testsuite>\n";
+}
+
 nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
   if (!number || !std::isfinite(*number)) return nullptr;
   return *number;
 }
 
 }  // namespace
+
+FilePlace RunResult::place_of(std::size_t check) const {
+  return check < places.size() ? places[check] : FilePlace{scenario.string()};
+}
+
+std::string path_from_here(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto normal = file.lexically_normal();
+  if (!normal.is_absolute()) return normal.string();
+  const auto inside = normal.lexically_relative(std::filesystem::current_path(ignored));
+  return inside.empty() || *inside.begin() == ".." ? normal.string() : inside.string();
+}
 
 std::string margin_text(const loop::CheckResult& check) {
   if (!check.margin) return "";
@@ -88,32 +163,7 @@ void write_scenario(const scenario::Scenario& scenario, const std::filesystem::p
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file) {
   OutputFile out(file);
   out.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"drycut\">\n");
-  for (const auto& result : results) {
-    const auto& outcome = result.outcome;
-    const auto failed =
-        std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
-    const bool stopped = !outcome.failure.empty();
-    out.write(fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n",
-                          escaped(result.name), outcome.checks.size() + (stopped ? 1 : 0), failed,
-                          stopped ? 1 : 0));
-    for (const auto& check : outcome.checks) {
-      out.write(fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escaped(result.name),
-                            escaped(check.name)));
-      if (check.passed) {
-        out.write("/>\n");
-        continue;
-      }
-      out.write(fmt::format(">\n      <failure message=\"{}\">{}; {}</failure>\n    </testcase>\n",
-                            escaped(check.expectation), escaped(check.detail), escaped(margin_text(check))));
-    }
-    if (stopped) {
-      out.write(
-          fmt::format("    <testcase classname=\"{}\" name=\"runs to its end\">\n      <error "
-                      "message=\"{}\"/>\n    </testcase>\n",
-                      escaped(result.name), escaped(outcome.failure)));
-    }
-    out.write("  </testsuite>\n");
-  }
+  for (const auto& result : results) out.write(suite_of(result));
   out.write("</testsuites>\n");
   out.finish();
 }

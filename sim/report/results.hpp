@@ -1,11 +1,23 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/loop/simulation.hpp"
 
 namespace drycut::sim::report {
+
+/// How services of repositories name a file: from the current folder on where it is in there, without "..".
+std::string path_from_here(const std::filesystem::path& file);
+
+/// Where a check stands.
+struct FilePlace {
+  std::string file;
+  int line = 1;
+  int column = 1;
+};
 
 /// One scenario's outcome among others, for junit.xml and the closing lines.
 struct RunResult {
@@ -14,7 +26,27 @@ struct RunResult {
   std::filesystem::path directory;  ///< where its files are
   loop::Outcome outcome;
   bool has_report = false;
+  std::string title = {};                  ///< of the scene
+  std::optional<std::uint64_t> seed = {};  ///< absent: it compares runs
+  /// Of the checks, in their order; a check of the program's own has none.
+  std::vector<FilePlace> places = {};
+
+  /// Of a check, else the beginning of the scenario.
+  [[nodiscard]] FilePlace place_of(std::size_t check) const;
 };
+/// The places of a scenario's checks, or of a comparing scene's, by its sources; what an override states has
+/// the scenario's beginning.
+template <typename Scene>
+std::vector<FilePlace> places_of_checks(const Scene& scene) {
+  std::vector<FilePlace> places;
+  for (const auto& check : scene.checks) {
+    const auto& [line, column, source] = check.name.place;
+    const auto& file = scene.sources.at(static_cast<std::size_t>(source));
+    places.push_back(file.starts_with("--set") ? FilePlace{scene.file.string()}
+                                               : FilePlace{file, line, column});
+  }
+  return places;
+}
 
 /// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check; with
 /// --verify-step also what it came to at half the step.
@@ -35,7 +67,10 @@ loop::Outcome outcome_to_come();
 std::string scenario_text(const scenario::Scenario& scenario);
 void write_scenario(const scenario::Scenario& scenario, const std::filesystem::path& file);
 
-/// junit.xml over all scenarios: a suite a scenario, a case a check; a run that stopped is an error.
+/// junit.xml over all scenarios: a suite a scenario, a case a check with its place; a run that stopped is an
+/// error. Times are the machine's: the same run has the same bytes. All checks are judged in one run, whose
+/// time is shared out among them, so that sums are right. A report is attached to its suite and to what
+/// failed.
 void write_junit(const std::vector<RunResult>& results, const std::filesystem::path& file);
 
 /// "0.0530 mm left, at 7.2040 s"; "" where there is no margin to tell.

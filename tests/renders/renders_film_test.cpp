@@ -9,6 +9,7 @@
 #include "renders/caption_bar.hpp"
 #include "renders/pictures.hpp"
 #include "renders/png_image.hpp"
+#include "renders/tiles.hpp"
 #include "tests/renders/renders_scratch.hpp"
 
 namespace drycut::renders {
@@ -140,6 +141,49 @@ TEST(RendersFilm, LampsOfTheCaptionAreLitOrDark) {
   };
   EXPECT_GT(green(0), 30);
   EXPECT_EQ(green(1), 0);
+}
+
+TEST(RendersFilm, APictureComesBackFromItsPng) {
+  const Scratch scratch;
+  Image image(37, 11);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint8_t>(i * i / 7);
+  for (const int effort : {1, 6, 9, 12}) {
+    write_file(scratch / "a.png", png_bytes(image, effort));
+    const Image again = read_png(scratch / "a.png");
+    EXPECT_EQ(again.width, 37);
+    EXPECT_EQ(again.rgb, image.rgb) << effort;
+  }
+  EXPECT_EQ(message_of<std::runtime_error>([] { png_bytes(Image()); }),
+            "pictures: a picture cannot be compressed");
+}
+
+TEST(RendersFilm, SeveralCamerasShareThePicture) {
+  const Scratch scratch;
+  Film film = two_parts();
+  film.frames.resize(2);
+  const Camera front = film.camera;
+  const Camera above = {{0, 3, 0.01}, {0, 0, 0}, 35};
+  film.beside = {{"above", above}};
+  film.camera_name = "front";
+  film.follow = 0;  // the first camera goes along, the other one stands
+  const auto split = draw_film(film, scratch / "split");
+  for (std::size_t frame = 0; frame < 2; ++frame) {
+    const Image both = read_png(split[frame]);
+    const auto tiles = tiles_of(film);
+    ASSERT_EQ(tiles.size(), 2U);
+    for (std::size_t view = 0; view < 2; ++view) {
+      Vec3 cube = film.frames[frame].placements[0].position + Vec3{0.1, 0.1, 0.1};
+      const auto at = projected(camera_of(film, frame, view), tiles[view].width, tiles[view].height, cube);
+      const auto red =
+          colour_at(both, {tiles[view].left + std::clamp(at[0], 0.0, tiles[view].width - 1.0), at[1]});
+      EXPECT_GT(red[0], red[1] + 40) << "frame " << frame << " view " << view;
+    }
+  }
+  EXPECT_EQ(camera_of(film, 1, 1), above);
+  EXPECT_NE(camera_of(film, 1, 0), front) << "goes along";
+  film.beside.resize(4, film.beside.front());
+  EXPECT_EQ(message_of<std::invalid_argument>([&] { require_drawable(film); }),
+            "pictures: one to four cameras share a picture");
 }
 
 TEST(RendersFilm, SameFilmSameBytes) {

@@ -1,11 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <vector>
 
 #include "renders/antialias.hpp"
 #include "renders/camera.hpp"
+#include "renders/label_room.hpp"
 #include "renders/overlays.hpp"
+#include "renders/tiles.hpp"
 
 namespace drycut::renders {
 namespace {
@@ -177,6 +183,70 @@ TEST(RendersOverlays, CurvesStartAtTheirOwnFirstPoint) {
     for (int x = 0; x < film.width; ++x)
       if (image.row(y)[3 * x + 2] > 180) ++blue;
   EXPECT_EQ(blue, 0);
+}
+
+using Middle = std::optional<std::array<double, 2>>;
+Middle middle(double x, double y) { return std::array{x, y}; }
+
+TEST(RendersLabels, PartWithAsLittleWayAsCanBe) {
+  LabelRoom room(400, 200);
+  EXPECT_EQ(room.place({100, 100}, 60, 20, false), middle(100, 100)) << "free: where it belongs";
+  EXPECT_EQ(room.place({110, 100}, 60, 20, false), middle(110, 77)) << "a height and a little above it";
+  EXPECT_EQ(room.place({90, 100}, 60, 20, false), middle(90, 123)) << "then below";
+  EXPECT_EQ(room.place({100, 100}, 60, 20, false), middle(100, 54)) << "then two above";
+  EXPECT_EQ(room.place({161, 100}, 60, 20, false), middle(161, 100)) << "beside all of them";
+  EXPECT_EQ(room.place({300, 100}, 60, 20, true), middle(300, 77)) << "not on what it tells of";
+}
+
+TEST(RendersLabels, StayInThePictureAndOffWhatIsTaken) {
+  LabelRoom room(400, 200);
+  EXPECT_EQ(room.place({395, 198}, 60, 20, false), middle(370, 190)) << "moved in";
+  EXPECT_EQ(room.place({2, 3}, 60, 20, true), middle(30, 33)) << "no room above";
+  EXPECT_EQ(room.place({440, 100}, 60, 20, false), std::nullopt) << "what it tells of is not in the picture";
+  room.take({150, 0, 250, 200});
+  EXPECT_EQ(room.place({200, 100}, 60, 20, false), std::nullopt) << "nothing is free there";
+}
+
+TEST(RendersOverlays, LabelsOfShortPiecesBesideEachOtherDoNotMeet) {
+  Film film = turning_tool();
+  const auto plates = [&](std::vector<Callout> callouts) {  // pixels as dark as a plate
+    film.frames[2].callouts = std::move(callouts);
+    const Image image = drawn(film, 2);
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+      if (image.rgb[i] < 60 && image.rgb[i + 2] < 70) ++count;
+    return count;
+  };
+  const Callout left = {Callout::Kind::length, "800.0 mm", {-0.1, 0.2, 0}, {0.02, 0.2, 0}};
+  const Callout right = {Callout::Kind::length, "740.0 mm", {0.02, 0.2, 0}, {0.1, 0.2, 0}};
+  EXPECT_GT(plates({left, right}), 1.8 * plates({left}));
+}
+
+TEST(RendersTiles, ShareThePictureWithAGapBetweenThem) {
+  EXPECT_EQ(tiles_of(1, 960, 458), (std::vector<Tile>{{0, 0, 960, 458}}));
+  EXPECT_EQ(tiles_of(2, 960, 458), (std::vector<Tile>{{0, 0, 479, 458}, {481, 0, 479, 458}}));
+  EXPECT_EQ(tiles_of(3, 960, 458),
+            (std::vector<Tile>{{0, 0, 479, 458}, {481, 0, 479, 228}, {481, 230, 479, 228}}));
+  EXPECT_EQ(
+      tiles_of(4, 961, 459),
+      (std::vector<Tile>{{0, 0, 479, 228}, {481, 0, 480, 228}, {0, 230, 479, 229}, {481, 230, 480, 229}}));
+  EXPECT_THROW(tiles_of(5, 960, 458), std::invalid_argument);
+}
+
+TEST(RendersOverlays, EachCameraHasItsNameAndItsMarks) {
+  Film film = turning_tool();
+  film.camera_name = "operator";
+  film.beside = {{"knife", film.camera}};
+  film.frames[2].callouts = {{Callout::Kind::length, "800.0 mm", {-0.3, 0.2, 0}, {0.3, 0.2, 0}}};
+  const Image image = drawn(film, 2);
+  const auto tiles = tiles_of(2, film.width, film.height - kCaption);
+  for (const Tile& tile : tiles) {
+    const auto at = projected(film.camera, tile.width, tile.height, {0.28, 0.2, 0});
+    const std::uint8_t* on_line =
+        image.row(static_cast<int>(at[1])) + 3 * (tile.left + static_cast<int>(at[0]));
+    EXPECT_GT(on_line[1], 220) << "its line";
+    EXPECT_LT(image.row(2)[3 * (tile.left + 2)], 60) << "the plate of its name";
+  }
 }
 
 TEST(RendersOverlays, CameraGoesWithThePartItFollows) {

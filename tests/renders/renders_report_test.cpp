@@ -97,6 +97,92 @@ TEST(RendersReport, VerdictComesFirstAndSaysPassOrFail) {
   EXPECT_THAT(written(report, scratch), HasSubstr("<p class=\"verdict pass\"><strong>PASS</strong>"));
 }
 
+TEST(RendersReport, FailedChecksComeFirstAndTheOthersStayInTheirOrder) {
+  const Scratch scratch;
+  Report report;
+  for (const auto& [name, passed] :
+       {std::pair{"one", true}, {"two", false}, {"three", true}, {"four", false}})
+    report.checks.push_back({name, "", passed, "", ""});
+  const std::string page = written(report, scratch);
+  std::size_t before = 0;
+  for (const char* name : {"<td>two", "<td>four", "<td>one", "<td>three"}) {
+    EXPECT_GT(page.find(name), before) << name;
+    before = page.find(name);
+  }
+}
+
+TEST(RendersReport, ABarShowsHowMuchOfALimitIsUsed) {
+  const Scratch scratch;
+  const struct {
+    std::optional<double> used;
+    const char* kind;
+    const char* text;
+    const char* width;
+  } cases[] = {{0.24, "share", "24 %", "24%"},       {0.0, "share", "0 %", "0%"},
+               {0.95, "share close", "95 %", "95%"}, {1.0, "share close", "100 %", "100%"},
+               {1.5, "share fail", "150 %", "100%"}, {26.5, "share fail", "over 1000 %", "100%"}};
+  for (const auto& [used, kind, text, width] : cases) {
+    Report report;
+    report.checks = {{"follows", "x < 100", true, "76 left", "", used}};
+    EXPECT_THAT(written(report, scratch),
+                HasSubstr("<td><span class=\"" + std::string(kind) + "\" role=\"img\" aria-label=\"" + text +
+                          " of the limit used\"><span class=\"bar\"><i style=\"width:" + width +
+                          "\"></i></span><b>" + text + "</b></span>76 left</td>"));
+  }
+  Report report;
+  report.checks = {{"drive", "", false, "", "", 0.5}};
+  EXPECT_THAT(written(report, scratch), HasSubstr("class=\"share fail\"")) << "it tripped";
+  report.checks = {{"no error", "x == 0", true, "", "", {}}};
+  EXPECT_THAT(written(report, scratch), Not(HasSubstr("class=\"share"))) << "no number, no bar";
+}
+
+TEST(RendersReport, KeyFiguresComeBeforeAllElse) {
+  const Scratch scratch;
+  Report report = full_report(scratch);
+  report.keys = {{"pieces", "12", {"75 a minute"}}, {"length of cut", "800 ± 0.1 mm", {}, 0.5}};
+  report.notes = {"a remark"};
+  const std::string page = written(report, scratch);
+  EXPECT_THAT(page, HasSubstr("<dl class=\"keys\">\n<div><dt>pieces</dt><dd><strong>12</strong><small>75 a "
+                              "minute</small></dd></div>"));
+  EXPECT_THAT(page, HasSubstr("<strong>800 ± 0.1 mm</strong><span class=\"share\""));
+  EXPECT_LT(page.find("class=\"verdict"), page.find("class=\"keys\""));
+  EXPECT_LT(page.find("class=\"keys\""), page.find("class=\"facts\""));
+  EXPECT_LT(page.find("<h2>Checks"), page.find("<li>a remark</li>"));
+  EXPECT_LT(page.find("<li>a remark</li>"), page.find("<h2>The run in pictures"));
+}
+
+TEST(RendersReport, ContentsLeadToEveryHeading) {
+  const Scratch scratch;
+  Report report = full_report(scratch);
+  report.tables.push_back(report.tables[1]);
+  const std::string page = written(report, scratch);
+  const std::size_t begin = page.find("<nav class=\"contents\"");
+  EXPECT_LT(begin, page.find("<h2>"));
+  const std::string contents = page.substr(begin, page.find("</nav>") - begin);
+  for (const char* link :
+       {"<a href=\"#checks\">Checks</a>", "<a href=\"#the-run-in-pictures\">The run in pictures</a>",
+        "<a href=\"#pieces\">Pieces</a>", "<a href=\"#pieces-2\">Pieces</a>",
+        "<a href=\"#details\">Details</a>"})
+    EXPECT_THAT(contents, HasSubstr(link));
+  for (const char* id : {"checks", "the-run-in-pictures", "pieces", "pieces-2", "details"})
+    EXPECT_THAT(page, HasSubstr("id=\"" + std::string(id) + "\""));
+  EXPECT_THAT(written(Report{}, scratch), Not(HasSubstr("<nav"))) << "nothing to look for";
+}
+
+TEST(RendersReport, APictureSaysInWordsWhatItShows) {
+  const Scratch scratch;
+  Report report = full_report(scratch);
+  Plot plot;
+  plot.title = "Motion";
+  plot.x_label = "time [s]";
+  plot.panels = {{"", "speed [m/min]", {{"web", {0, 1}, {1, 2}}, {"knife", {0, 1}, {1, 2}}}, {}, {}}, {}};
+  plot.panels[1].lanes = {{"busy", {0, 1}, {0, 1}}};
+  report.live = {plot};
+  const std::string page = written(report, scratch);
+  EXPECT_THAT(page, HasSubstr("alt=\"Motion: speed [m/min] of web, knife; busy over time [s]\""));
+  EXPECT_THAT(page, HasSubstr("alt=\"The machine, f0.png caption\""));
+}
+
 TEST(RendersReport, HoldsEverythingOfTheStruct) {
   const Scratch scratch;
   const std::string page = written(full_report(scratch), scratch);
@@ -175,6 +261,8 @@ TEST(RendersReport, EscapesEveryText) {
   Report report = full_report(scratch);
   report.title = report.scenario = report.verdict = report.scenario_expanded = kNasty;
   report.facts = {{{kNasty, kNasty}}};
+  report.keys = {{kNasty, kNasty, {kNasty}}};
+  report.notes = {kNasty};
   report.checks = {{kNasty, kNasty, true, kNasty, kNasty}};
   report.frames[0].caption = report.plots[0].caption = kNasty;
   for (ReportTable& table : report.tables) {
@@ -189,7 +277,7 @@ TEST(RendersReport, EscapesEveryText) {
   const std::string escaped = html_text(kNasty);
   std::size_t times = 0;
   for (std::size_t at = page.find(escaped); at != std::string::npos; at = page.find(escaped, at + 1)) ++times;
-  EXPECT_EQ(times, 21U);
+  EXPECT_EQ(times, 28U);
 }
 
 TEST(RendersReport, ReplacesTheOldReportAndLeavesNothingBeside) {

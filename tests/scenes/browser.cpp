@@ -10,6 +10,7 @@
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include "renders/process.hpp"
@@ -153,6 +154,23 @@ void Browser::mouse(const std::string& what, double x, double y, int clicks) {
                                     {"button", button ? "left" : "none"},
                                     {"buttons", button && what != "mouseReleased" ? 1 : 0},
                                     {"clickCount", clicks}});
+}
+
+void Browser::key(const std::string& name, bool shift) {
+  // A page acts by the name; the browser itself, as for Tab, by the old number.
+  static const std::map<std::string, int> numbers = {
+      {"Tab", 9},   {"Enter", 13},     {"Escape", 27},  {" ", 32},          {"End", 35},
+      {"Home", 36}, {"ArrowLeft", 37}, {"ArrowUp", 38}, {"ArrowRight", 39}, {"ArrowDown", 40}};
+  const auto known = numbers.find(name);
+  json event = {{"key", name}, {"modifiers", shift ? 8 : 0}};
+  if (known != numbers.end()) event["windowsVirtualKeyCode"] = known->second;
+  if (name == "Tab" || name.starts_with("Arrow") || name == "Home" || name == "End") event["code"] = name;
+  if (name == "Enter") event["text"] = "\r";
+  if (name.size() == 1) event["text"] = name;
+  event["type"] = event.contains("text") ? "keyDown" : "rawKeyDown";
+  call("Input.dispatchKeyEvent", event);
+  event["type"] = "keyUp";
+  call("Input.dispatchKeyEvent", event);
 }
 
 void Browser::screenshot(const std::filesystem::path& file) {

@@ -29,8 +29,10 @@ class Browser {
   bool becomes(const std::string& condition);          ///< waits until it is true; false if it does not come
 
   void mouse(const std::string& what, double x, double y, int clicks = 0);  ///< mouseMoved, mousePressed, ...
-  void screenshot(const std::filesystem::path& file);                       ///< PNG of what the window shows
-  std::string pdf();  ///< the page as printed, in base64
+  /// One press of a key as `KeyboardEvent.key` names it: "Tab", "ArrowRight", "Enter", "+".
+  void key(const std::string& name, bool shift = false);
+  void screenshot(const std::filesystem::path& file);  ///< PNG of what the window shows
+  std::string pdf();                                   ///< the page as printed, in base64
 
   /// What the page of open() wrote to the console as warning or error, threw, or asked for outside itself.
   const std::vector<std::string>& complaints() const { return complaints_; }

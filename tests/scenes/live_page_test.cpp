@@ -1,6 +1,7 @@
 // The page of a live line: operated, read, written and lost. Skipped where there is no Chromium or no
 // three.js.
 #include "tests/scenes/live_stand.hpp"
+#include "tests/scenes/page_checks.hpp"
 #include "tests/scenes/report_browser_scripts.hpp"
 
 namespace drycut::live_page {

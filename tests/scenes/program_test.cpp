@@ -77,7 +77,7 @@ TEST_F(ProgramTest, RunWritesWhatTheContractSays) {
   }
   EXPECT_THAT(
       contents(out / "junit.xml"),
-      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"10\" failures=\"0\" errors=\"0\">"));
+      testing::HasSubstr("<testsuite name=\"rotary_knife_short\" tests=\"10\" failures=\"0\" errors=\"0\" "));
   EXPECT_THAT(contents(folder / "trace.csv"), testing::StartsWith("time [s],AxisX.posit [Um],"));
   EXPECT_THAT(contents(folder / "events.csv"), testing::HasSubstr(",knife,cut,length=500"));
 }

@@ -34,32 +34,6 @@ inline const char* const kOverflow = R"js((() => {
   return found;
 })())js";
 
-/// Contrast by WCAG 2 of every text with what lies behind it: those below 4.5.
-inline const char* const kFaintText = R"js((() => {
-  const channels = text => {
-    const numbers = text.match(/[\d.]+(e-?\d+)?/g).map(Number);
-    const scale = text.startsWith("color(") ? 1 : 255;
-    return {rgb: numbers.slice(0, 3).map(v => v / scale), alpha: numbers.length > 3 ? numbers[3] : 1};
-  };
-  const over = (top, below) => top.rgb.map((v, i) => top.alpha * v + (1 - top.alpha) * below[i]);
-  const behind = one => {
-    if (!one) return [1, 1, 1];
-    const ground = channels(getComputedStyle(one).backgroundColor);
-    return ground.alpha === 1 ? ground.rgb : over(ground, behind(one.parentElement));
-  };
-  const light = rgb => rgb.map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
-                          .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-  const found = [], texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  while (texts.nextNode()) {
-    const one = texts.currentNode.parentElement;
-    if (!texts.currentNode.data.trim() || one.closest("script, style") || one.getClientRects().length === 0) continue;
-    const ground = behind(one), ink = over(channels(getComputedStyle(one).color), ground);
-    const [low, high] = [light(ground), light(ink)].sort((a, b) => a - b);
-    if ((high + 0.05) / (low + 0.05) < 4.5) found.push(texts.currentNode.data.trim().slice(0, 40));
-  }
-  return found;
-})())js";
-
 /// Texts that could not be read on white paper.
 inline const char* const kFaintOnPaper = R"js((() => {
   const found = [], texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);

@@ -13,6 +13,7 @@
 #include "renders/png_image.hpp"
 #include "renders/process.hpp"
 #include "tests/scenes/browser.hpp"
+#include "tests/scenes/page_checks.hpp"
 #include "tests/scenes/report_browser_scripts.hpp"
 #include "tests/test_folder.hpp"
 
@@ -20,6 +21,7 @@ namespace drycut {
 namespace {
 
 using nlohmann::json;
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 /// Words of a call; "OUT" stands for the test's folder, "SCENES" for scenes/.
@@ -299,6 +301,44 @@ TEST(BrowserOfTheTests, NoticesWhatIsWrongWithAPage) {
   body("<details><summary>more</summary><p>folded</p></details>");
   EXPECT_NE(browser.evaluate(kClippedOnPaper), json::array()) << "nobody unfolds paper";
   EXPECT_THROW(browser.evaluate("nothing.at.all"), std::runtime_error);
+}
+
+// Each of what page_checks.hpp looks for, once wrong and once right.
+TEST(BrowserOfTheTests, NoticesWhatAReaderWithoutMouseOrEyesMisses) {
+  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+  const TestFolder folder;
+  Browser browser(folder.path);
+  browser.window(800, 600);
+  const auto faults = [&](const std::string& body, const std::string& head = "<title>t</title>") {
+    browser.open(folder.file("page.html", "<!DOCTYPE html><html lang=en><meta charset=utf-8>" + head +
+                                              "<style>body{background:#fff;color:#000}</style><body><main>" +
+                                              body));
+    return hard_to_reach(browser);
+  };
+  const std::string pixel = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAICTAEAOw==";
+  const std::string tall = "<div style='height:40px;overflow:auto' id=tall ";
+  const std::vector<std::pair<std::string, std::string>> wrong_and_right = {
+      {"<p style='color:#999'>faint</p>", "<p style='color:#555'>clear</p>"},
+      {"<img width=9 height=9 src='" + pixel + "'>",
+       "<img width=9 height=9 alt='a knife' src='" + pixel + "'>"},
+      {"<canvas></canvas>", "<div role=img aria-label='speed over time'><canvas></canvas></div>"},
+      {"<svg width=9 height=9></svg>", "<svg width=9 height=9 aria-hidden=true></svg>"},
+      {"<video controls></video>", "<video controls aria-label='film'></video>"},
+      {"<button></button>", "<button aria-label='whole range'></button>"},
+      {"<input>", "<label>speed <input></label>"},
+      {"<h1>one</h1><h3>three</h3>", "<h1>one</h1><h2>two</h2><h3>three</h3>"},
+      {"<a href='#gone'>to</a><p id=there>x</p>", "<a href='#there'>to</a><p id=there>x</p>"},
+      {"<p id=same>x</p><p id=same>y</p>", "<p id=same>x</p><p id=other>y</p>"},
+      {"<button onclick='0' style='outline:none'>go</button>", "<button onclick='0'>go</button>"},
+      {"<div onclick='0'>go</div>", "<div onclick='0' tabindex=0 role=button>go</div>"},
+      {"<div role=region tabindex=0>x</div>",
+       tall + "role=region aria-label=rows tabindex=0><p>a<p>b<p>c</div>"},
+  };
+  for (const auto& [wrong, right] : wrong_and_right) {
+    EXPECT_THAT(faults(wrong), ::testing::SizeIs(1)) << wrong;
+    EXPECT_THAT(faults(right), IsEmpty()) << right;
+  }
+  EXPECT_THAT(faults("x", ""), ElementsAre("no title"));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "renders/process.hpp"
 #include "tests/scenes/browser.hpp"
+#include "tests/scenes/page_checks.hpp"
 #include "tests/scenes/report_browser_scripts.hpp"
 #include "tests/test_folder.hpp"
 

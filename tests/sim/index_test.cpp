@@ -40,7 +40,9 @@ struct Index : CommandTest {
   }
   void study(const std::string& name, const std::string& kind, const std::string& title) const {
     write(name + "/.drycut-" + kind, "report.html\n");
-    write(name + "/report.html", "<!DOCTYPE html>\n<title>" + title + "</title>");
+    write(name + "/report.html",
+          "<!DOCTYPE html>\n<title>" + title +
+              "</title><p class=\"verdict told\"><strong>x</strong> <span>all &lt; 1</span>");
     write(name + "/plots/map.png", "x");
   }
   int index() {
@@ -75,6 +77,8 @@ TEST_F(Index, FindsWhatDrycutWroteAndNothingElse) {
   EXPECT_EQ(entries[1].verdict, "1 check passed");
   EXPECT_EQ(entries[3].word, "36");
   EXPECT_EQ(entries[3].title, "Sweep of <it>");
+  EXPECT_EQ(entries[3].verdict, "all < 1");
+  EXPECT_THAT(index_page(entries), HasSubstr("<span>2 of 5 failed; 1 judges nothing</span>"));
   EXPECT_EQ(entries[3].picture, "sweep/plots/map.png");
   EXPECT_EQ(entries[4].word, "FAIL");
 }
@@ -86,6 +90,17 @@ TEST_F(Index, ARunWithoutPicturesLeadsToItsTrace) {
   EXPECT_EQ(entries[0].page, "a/trace.csv");
   EXPECT_EQ(entries[0].picture, "");
   EXPECT_THAT(index_page(entries), Not(HasSubstr("<img")));
+}
+
+TEST_F(Index, AStudyWithoutAPageLeadsToItsTable) {
+  write("compare/.drycut-compare", "comparison.csv\n");
+  write("compare/comparison.csv", "what\n");
+  write("cam/.drycut-design", "design.png\n");
+  write("cam/design.png", "x");
+  const auto entries = index_entries(folder.path);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].picture, "cam/design.png");
+  EXPECT_EQ(entries[1].page, "compare/comparison.csv");
 }
 
 TEST_F(Index, ThePageLinksRelativelyAndEscapes) {
@@ -126,7 +141,7 @@ TEST_F(Index, IsWrittenAgainTheSameAndOverTheOldOne) {
   EXPECT_TRUE(page() == first);
   run("b", {true});
   ASSERT_EQ(index(), cli::all_passed) << err;
-  EXPECT_THAT(page(), HasSubstr("all 2 that are judged passed"));
+  EXPECT_THAT(page(), HasSubstr("<span>all 2 passed</span>"));
 }
 
 TEST_F(Index, RefusesWhatIsNoFolderOfResults) {

@@ -186,8 +186,10 @@ TEST_F(RecorderTest, JunitAndChecksJsonTellTheSame) {
       {{"line", "line.yaml", folder, outcome, false}, {"other", "other.yaml", folder, stopped, false}},
       folder / "junit.xml");
   const auto xml = contents(folder / "junit.xml");
-  EXPECT_THAT(xml, testing::HasSubstr("<testsuite name=\"line\" tests=\"2\" failures=\"1\" errors=\"0\">"));
-  EXPECT_THAT(xml, testing::HasSubstr("<testsuite name=\"other\" tests=\"3\" failures=\"1\" errors=\"1\">"));
+  EXPECT_THAT(xml,
+              testing::HasSubstr(
+                  "<testsuite name=\"line\" tests=\"2\" failures=\"1\" errors=\"0\" time=\"10.000000\" "));
+  EXPECT_THAT(xml, testing::HasSubstr("<testsuite name=\"other\" tests=\"3\" failures=\"1\" errors=\"1\" "));
   EXPECT_THAT(xml, testing::HasSubstr("name=\"bad &amp; worse\""));
   EXPECT_THAT(xml, testing::HasSubstr("message=\"it &lt;diverged&gt;\""));
 }

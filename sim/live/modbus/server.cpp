@@ -98,7 +98,7 @@ struct Server::Core {
   class Client;
 
   Core(Options given, Line& of, Desk& at) : options(std::move(given)), line(of), desk(at), acceptor(context) {
-    options.port = listen_at(acceptor, options.address, options.port, " for Modbus");
+    options.port = listen_at(acceptor, options.address, options.port, " for Modbus", "--modbus");
   }
 
   void accept();

@@ -556,7 +556,19 @@ TEST_F(ModbusLx3vpLine, APortThatIsTakenEndsTheProgram) {
   options.port = 0;
   options.modbus = server->port();
   EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::simulation_failed);
-  EXPECT_THAT(err, HasSubstr(fmt::format("cannot listen for Modbus on 127.0.0.1 port {}", server->port())));
+  EXPECT_THAT(err,
+              HasSubstr(fmt::format("cannot listen for Modbus on 127.0.0.1 port {}: Address already in use; "
+                                    "give another with --modbus, or --modbus 0 for any free one\n",
+                                    server->port())));
+  options.modbus = {};
+  options.port = server->port();
+  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::simulation_failed);
+  EXPECT_THAT(err,
+              HasSubstr("Address already in use; give another with --port, or --port 0 for any free one\n"));
+  options.port = 0;
+  options.listen = "192.0.2.1";  // of documents, nobody's
+  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::simulation_failed);
+  EXPECT_THAT(err, HasSubstr("--listen takes an address of this machine"));
 }
 
 }  // namespace

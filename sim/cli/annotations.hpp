@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "sim/report/results.hpp"
+
+namespace drycut::sim::cli {
+
+/// What failed, as services of repositories show it beside the lines of a file.
+struct Annotation {
+  enum class Kind { problem, check, run };
+  Kind kind = Kind::problem;
+  report::FilePlace place;
+  std::string title;    ///< one line: "rotary_knife: cut length"
+  std::string message;  ///< what is wrong
+  std::string lasting;  ///< what of it is the same in the next run: no figures
+};
+
+std::vector<Annotation> annotations_of(const Problems& problems);
+/// Failed checks, and runs that did not come to their end.
+std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& results);
+
+/// Workflow commands of GitHub, a line each: "::error file=...,line=...,col=...,title=...::...".
+std::string github_text(const std::vector<Annotation>& annotations);
+
+/// GitLab's report of code quality. A finding's fingerprint stays the same while its place and figures
+/// change; no two have the same.
+std::string gitlab_text(const std::vector<Annotation>& annotations);
+inline constexpr auto* gitlab_file = "gl-code-quality-report.json";
+
+/// Prints them for "github" on standard output, writes them for "gitlab" into `gitlab_file` in the current
+/// folder; nothing for "". Throws std::runtime_error if that cannot be done.
+void annotate(const std::string& whom, const std::vector<Annotation>& annotations);
+
+}  // namespace drycut::sim::cli

@@ -1,0 +1,180 @@
+#include "sim/cli/file_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/problem.hpp"
+#include "base/text.hpp"
+#include "devices/lx3vp/il_lines.hpp"
+#include "devices/lx3vp/register_file.hpp"
+#include "sim/cli/commands.hpp"
+#include "sim/file.hpp"
+#include "sim/live/session.hpp"
+#include "sim/report/results.hpp"
+
+namespace drycut::sim::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct KindRow {
+  Kind kind;
+  std::string_view what;
+  std::string_view use;      ///< who takes it
+  std::string_view endings;  ///< that files of this kind have, of several kinds the first is meant
+};
+
+constexpr std::array file_kinds = {
+    KindRow{Kind::scenario, "a scenario", "drycut run takes it", ".yaml .yml"},
+    KindRow{Kind::comparison, "a scene that compares runs", "drycut run takes it", ""},
+    KindRow{Kind::session, "a recorded session",
+            "drycut replay runs it again, drycut live --from goes on from it", ""},
+    KindRow{Kind::configuration, "a QMOVE configuration",
+            "drycut check takes it; a scenario names it as controller.qmove.configuration", ".cnf"},
+    KindRow{Kind::module, "a QCL module",
+            "drycut check takes it behind its .cnf; a scenario names it in controller.qmove.tasks",
+            ".mod .qcl"},
+    KindRow{Kind::instruction_list, "an instruction list",
+            "drycut check takes it; a scenario names it as controller.lx3vp.program", ".il"},
+    KindRow{Kind::structured_text, "Structured Text",
+            "drycut check takes it; a scenario names it as controller.plcopen.program", ".st"},
+    KindRow{Kind::cam_table, "a cam table",
+            "drycut cam takes it; a scenario names it where its controller is set up", ".csv .tab"},
+    KindRow{Kind::registers, "a file of registers",
+            "drycut check takes it; a scenario names it as controller.lx3vp.registers", ""},
+    KindRow{Kind::program_table, "an instruction list as a table",
+            "drycut check takes it; a scenario names it as controller.lx3vp.program", ""},
+    KindRow{Kind::trace, "the trace of a run", "drycut convert takes it, drycut compare its folder", ""},
+    KindRow{Kind::events, "the events of a run", "drycut convert and drycut compare take its folder", ""},
+    KindRow{Kind::checks, "a file of JSON", "if a run wrote it, drycut compare takes its folder", ".json"},
+    KindRow{Kind::hdf5, "a record in HDF5", "drycut convert takes it", ".h5 .hdf5"},
+    KindRow{Kind::mcap, "a record in MCAP", "Foxglove and PlotJuggler show it", ".mcap"},
+    KindRow{Kind::report, "a report", "a browser shows it", ".html .htm"},
+    KindRow{Kind::junit, "a file of XML", "if a run wrote it, it is for CI", ".xml"},
+    KindRow{Kind::model, "a model in 3-D", "a scenario names it in pictures.meshes; viewers show it",
+            ".stl .obj .ply .off .dae .gltf .glb"},
+    KindRow{Kind::picture, "a picture", "any viewer shows it", ".png .jpg .jpeg .svg"},
+    KindRow{Kind::film, "a film", "a browser plays it", ".mp4 .webm"},
+    KindRow{Kind::run_folder, "the folder of a run", "drycut compare and drycut convert take it", ""},
+    KindRow{Kind::session_folder, "the folder of a recorded session",
+            "drycut replay runs it again, drycut live --from goes on from it", ""},
+    KindRow{Kind::folder, "a folder", "name a file", ""},
+};
+
+const KindRow* row_of(Kind kind) {
+  const auto* const found =
+      std::ranges::find_if(file_kinds, [&](const auto& row) { return row.kind == kind; });
+  return found == file_kinds.end() ? nullptr : found;
+}
+
+Kind kind_of_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / live::session_file, ignored)) return Kind::session_folder;
+  return fs::exists(folder / report::checks_file, ignored) ? Kind::run_folder : Kind::folder;
+}
+
+Kind kind_of_yaml(const fs::path& file, std::string_view text) {
+  if (live::is_session(file)) return Kind::session;
+  const bool compares = text.starts_with("compare:") || text.find("\ncompare:") != std::string_view::npos;
+  return compares ? Kind::comparison : Kind::scenario;
+}
+
+Kind kind_of_csv(const std::string& text) {
+  if (text.starts_with("time [s],source,event")) return Kind::events;
+  if (text.starts_with("time [s],")) return Kind::trace;
+  if (devices::lx3vp::il::is_table(text)) return Kind::program_table;
+  return devices::lx3vp::is_register_file(text, ',') ? Kind::registers : Kind::cam_table;
+}
+
+struct Taken {
+  std::string_view command;
+  std::string_view option;
+  std::vector<Kind> kinds;  ///< the first is what it is for
+};
+
+const std::vector<Taken>& taken() {
+  using enum Kind;
+  static const std::vector<Taken> all = {
+      {"run", "scenarios", {scenario, comparison, session}},
+      {"live", "scenario", {scenario}},
+      {"replay", "session", {session, session_folder}},
+      {"check",
+       "files",
+       {scenario, comparison, configuration, module, instruction_list, structured_text, registers,
+        program_table, cam_table}},
+      {"cam", "table", {cam_table}},
+      {"tune", "scenarios", {scenario}},
+      {"sweep", "scenario", {scenario}},
+      {"envelope", "scenarios", {scenario}},
+      {"size", "scenario", {scenario}},
+      {"bode", "scenario", {scenario}},
+      {"compare", "runs", {run_folder, folder}},  // of a folder that is no run it says more
+      {"convert", "run", {run_folder, trace, hdf5, folder}},
+  };
+  return all;
+}
+
+/// "name a file in it: a.yaml, b.yaml"
+std::string remedy_for(const KindRow& found, const fs::path& file) {
+  std::string names;
+  if (found.kind == Kind::folder)
+    for (const auto& one : files_in(file, ".yaml")) names += (names.empty() ? "" : ", ") + one.string();
+  return names.empty() ? std::string(found.use) : "name a file in it: " + names;
+}
+
+void refuse(const Taken& command, const std::vector<std::string>& files) {
+  Problems problems;
+  for (const auto& file : files) {
+    const auto* found = row_of(kind_of(file));
+    if (found == nullptr || std::ranges::find(command.kinds, found->kind) != command.kinds.end()) continue;
+    problems.push_back({file, 1, 1,
+                        fmt::format("this is {}, not {}", found->what, name_of(command.kinds.front())),
+                        remedy_for(*found, file)});
+  }
+  if (problems.empty()) return;
+  print_problems(problems);
+  throw CLI::RuntimeError(bad_input);
+}
+
+}  // namespace
+
+Kind kind_of(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) return kind_of_folder(file);
+  const auto ending = lower(file.extension().string());
+  const auto* const row = std::ranges::find_if(file_kinds, [&](const KindRow& kind) {
+    const auto endings = split_words(kind.endings, {}, " ");
+    return std::ranges::any_of(endings, [&](const auto& one) { return one.text == ending; });
+  });
+  if (ending.empty() || row == file_kinds.end()) return Kind::unknown;
+  const bool is_yaml = row->kind == Kind::scenario;
+  if (!is_yaml && ending != ".csv") return row->kind;
+  Problems told_by_the_reader;
+  const auto text = read_file(file, told_by_the_reader);
+  // A trace may be longer than what is read.
+  if (!text && !is_yaml && fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > largest_input)
+    return Kind::trace;
+  if (!text) return row->kind;
+  return is_yaml ? kind_of_yaml(file, *text) : kind_of_csv(*text);
+}
+
+std::string_view name_of(Kind kind) {
+  const auto* row = row_of(kind);
+  return row == nullptr ? "" : row->what;
+}
+
+void refuse_wrong_kinds(CLI::App& program) {
+  for (const auto& row : taken()) {
+    auto* command = program.get_subcommand(std::string(row.command));
+    const auto* files = command->get_option(std::string(row.option));
+    command->parse_complete_callback([&row, files] { refuse(row, files->results()); });
+  }
+}
+
+}  // namespace drycut::sim::cli

@@ -1,0 +1,203 @@
+#include "sim/cli/run_cache.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "base/text.hpp"
+#include "sim/studies/fingerprint.hpp"
+
+namespace drycut::sim::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr auto* entry_file = "entry.json";
+
+std::string digits(std::uint64_t fingerprint) { return fmt::format("{:016x}", fingerprint); }
+
+std::string fingerprint_of(std::string_view text) {
+  studies::Fingerprint hash;
+  hash.add(text);
+  return digits(hash.value());
+}
+
+/// Of a file's bytes; "" if it cannot be read to its end.
+std::string fingerprint_of_file(const fs::path& file) {
+  studies::Fingerprint hash;
+  std::ifstream stream(file, std::ios::binary);
+  std::string block(std::size_t{1} << 16U, '\0');
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0)
+    hash.add(std::string_view(block).substr(0, static_cast<std::size_t>(stream.gcount())));
+  return stream.eof() ? digits(hash.value()) : "";
+}
+
+fs::path program_in_path(const char* name) {
+  const auto* all = std::getenv("PATH");
+  std::error_code ignored;
+  for (const auto& folder : split_words(all == nullptr ? "" : all, {}, ":"))
+    if (const auto file = fs::path(folder.text) / name; fs::is_regular_file(file, ignored)) return file;
+  return {};
+}
+
+/// What the report takes from the machine that it is made on.
+json helpers() {
+  json files;
+  const fs::path scripts = "/usr/share/javascript";
+  for (const auto& file :
+       {scripts / "dygraphs/dygraph.min.js", scripts / "dygraphs/dygraph.min.css",
+        scripts / "three/three.min.js", scripts / "three/examples/js/loaders/GLTFLoader.js",
+        scripts / "three/examples/js/controls/OrbitControls.js", program_in_path("ffmpeg")})
+    if (!file.empty()) files[file.string()] = fingerprint_of_file(file);
+  return files;
+}
+
+ordered_json json_of(const std::vector<loop::CheckResult>& checks) {
+  auto all = ordered_json::array();
+  for (const auto& check : checks) {
+    all.push_back({{"name", check.name},
+                   {"expectation", check.expectation},
+                   {"passed", check.passed},
+                   {"unit", check.unit},
+                   {"detail", check.detail}});
+    if (check.margin) all.back()["margin"] = *check.margin;
+    if (check.at) all.back()["at"] = *check.at;
+    if (check.failed_at) all.back()["failed_at"] = *check.failed_at;
+  }
+  return all;
+}
+
+std::optional<double> number_of(const ordered_json& json, const char* key) {
+  return json.contains(key) ? std::optional(json.at(key).get<double>()) : std::nullopt;
+}
+
+std::vector<loop::CheckResult> checks_of(const ordered_json& json) {
+  std::vector<loop::CheckResult> checks;
+  for (const auto& check : json)
+    checks.push_back({check.at("name"), check.at("expectation"), check.at("passed"),
+                      number_of(check, "margin"), check.at("unit"), number_of(check, "at"),
+                      check.at("detail"), number_of(check, "failed_at")});
+  return checks;
+}
+
+ordered_json json_of(const KeptRun& run) {
+  ordered_json json = {{"end", run.outcome.end},
+                       {"checks", json_of(run.outcome.checks)},
+                       {"has_report", run.has_report},
+                       {"notes", run.notes},
+                       {"scene", run.scene}};
+  if (const auto& half = run.outcome.half_step)
+    json["half_step"] = {{"step", half->step}, {"failure", half->failure}, {"checks", json_of(half->checks)}};
+  return json;
+}
+
+KeptRun run_of(const ordered_json& json) {
+  KeptRun run;
+  run.outcome.end = json.at("end");
+  run.outcome.checks = checks_of(json.at("checks"));
+  run.has_report = json.at("has_report");
+  run.notes = json.at("notes").get<std::vector<std::string>>();
+  run.scene = json.at("scene");
+  if (json.contains("half_step")) {
+    const auto& half = json.at("half_step");
+    run.outcome.half_step = {half.at("step"), half.at("failure"), checks_of(half.at("checks"))};
+  }
+  return run;
+}
+
+/// The entry as it was kept, with all its files; nullopt if anything of it is another.
+std::optional<ordered_json> sound_entry(const fs::path& entry, const std::string& inputs) {
+  Problems ignored;
+  constexpr std::uintmax_t largest = 64U << 20U;
+  const auto text = read_file(entry / entry_file, ignored, largest);
+  if (!text) return {};
+  const auto end = text->find('\n');  // of the first line: the fingerprint of the others
+  if (end == std::string::npos || text->substr(0, end) != fingerprint_of(text->substr(end + 1))) return {};
+  auto json = ordered_json::parse(text->substr(end + 1));
+  if (json.at("inputs") != inputs) return {};
+  for (const auto& [name, fingerprint] : json.at("files").items())
+    if (fingerprint_of_file(entry / "files" / name) != fingerprint) return {};
+  return json;
+}
+
+}  // namespace
+
+std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& files, const RunKind& kind) {
+  studies::Fingerprint program;
+  program.add_program();
+  json inputs = {{"program", digits(program.value())},
+                 {"name", kind.name},
+                 {"pictures", kind.pictures},
+                 {"gltf", kind.gltf},
+                 {"verify_step", kind.verify_step},
+                 {"scenario", fingerprint_of(scenario::expand(scenario))},
+                 {"folders", files.folders}};
+  for (const auto& [name, file] : files.files)
+    inputs["files"][name] = fmt::format("{} {}", static_cast<int>(file.state), fingerprint_of(file.bytes));
+  for (const auto& mesh : scenario.pictures.meshes) {
+    // A mesh may have its points or colours in files beside it.
+    const auto file = scenario.file.parent_path() / mesh.file.text;
+    std::error_code ignored;
+    for (const auto& beside :
+         fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored))
+      if (beside.path() == file || file.extension() != ".stl")
+        inputs["meshes"][beside.path().string()] = fingerprint_of_file(beside.path());
+  }
+  if (kind.pictures) inputs["helpers"] = helpers();
+  return inputs.dump();
+}
+
+RunCache::RunCache(fs::path folder, Problems& problems) : folder_(std::move(folder)) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (!fs::is_directory(folder_))
+    problems.push_back({"--cache", 1, 1,
+                        fmt::format("the directory {} cannot be made{}{}", folder_.string(),
+                                    error ? ": " : "", error ? error.message() : ""),
+                        "name one that can be written"});
+}
+
+fs::path RunCache::entry_of(const std::string& inputs) const { return folder_ / fingerprint_of(inputs); }
+
+std::optional<KeptRun> RunCache::take(const std::string& inputs, OutputFolder& to) const {
+  const auto entry = entry_of(inputs);
+  try {
+    const auto json = sound_entry(entry, inputs);
+    if (!json) return {};
+    auto run = run_of(json->at("run"));
+    for (const auto& [name, fingerprint] : json->at("files").items())
+      fs::copy_file(entry / "files" / name, to.add(name), fs::copy_options::overwrite_existing);
+    return run;
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+}
+
+void RunCache::keep(const std::string& inputs, const OutputFolder& from, const KeptRun& run) const {
+  const auto entry = entry_of(inputs);
+  const auto begun = fs::path(fmt::format("{}.{}", entry.string(), getpid()));
+  ordered_json json = {{"inputs", inputs}, {"run", json_of(run)}};
+  for (const auto& name : from.listed()) {
+    const auto copy = begun / "files" / name;
+    fs::create_directories(copy.parent_path());
+    fs::copy_file(from.path() / name, copy, fs::copy_options::overwrite_existing);
+    json["files"][name] = fingerprint_of_file(copy);
+  }
+  const auto text = json.dump(2) + "\n";
+  write_file(begun / entry_file, fingerprint_of(text) + "\n" + text);
+  std::error_code error;
+  fs::remove_all(entry);  // a damaged one
+  fs::rename(begun, entry, error);
+  if (error) fs::remove_all(begun);  // another process has kept the same
+}
+
+}  // namespace drycut::sim::cli

@@ -1,0 +1,135 @@
+#include "sim/cli/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/plain_text.hpp"
+#include "base/text.hpp"
+
+namespace drycut::sim::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_pictures = 6;  ///< of a scene
+
+/// Nothing of it is Markdown, HTML, or the end of a cell.
+std::string plain(const std::string& text) {
+  std::string plain;
+  for (const char c : printable(text)) {
+    if (std::string_view("\\`*_{}[]<>#|~&").find(c) != std::string_view::npos) plain += '\\';
+    plain += c == '\n' ? ' ' : c;
+  }
+  return plain;
+}
+
+/// A path in a link.
+std::string encoded(const std::string& path) {
+  std::string text;
+  for (const char c : path) {
+    const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    text += keeps ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return text;
+}
+
+std::string verdict(const report::RunResult& result) {
+  if (!result.outcome.failure.empty()) return "stopped";
+  return result.outcome.passed() ? "passed" : "**FAILED**";
+}
+
+class Text {
+ public:
+  explicit Text(const Summary& summary) : summary_(summary) {}
+
+  std::string of(const std::vector<report::RunResult>& results) {
+    const auto good = static_cast<std::size_t>(
+        std::count_if(results.begin(), results.end(), [](const auto& r) { return r.outcome.passed(); }));
+    text_ = good == results.size()
+                ? fmt::format("## Drycut: {} passed\n\n",
+                              good == 1 ? "the one scene" : fmt::format("all {} scenes", good))
+                : fmt::format("## Drycut: {} of {} scenes failed\n\n", results.size() - good, results.size());
+    text_ += "| scene | verdict | checks | simulated |\n|---|---|---|---|\n";
+    for (const auto& result : results) row(result);
+    for (const auto& result : results) failures(result);
+    if (summary_.links)
+      for (const auto& result : results) pictures(result);
+    return text_;
+  }
+
+ private:
+  [[nodiscard]] std::string link(const fs::path& file) const {
+    return *summary_.links + encoded(file.lexically_relative(summary_.out).generic_string());
+  }
+
+  void row(const report::RunResult& result) {
+    const auto& checks = result.outcome.checks;
+    const auto passed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return c.passed; });
+    auto name = plain(result.name);
+    if (summary_.links && result.has_report)
+      name = fmt::format("[{}]({})", name, link(result.directory / "report.html"));
+    text_ += fmt::format("| {} | {} | {} of {} | {} s |\n", name, verdict(result), passed, checks.size(),
+                         loop::seconds_text(result.outcome.end));
+  }
+
+  void failures(const report::RunResult& result) {
+    if (result.outcome.passed()) return;
+    text_ += fmt::format("\n### {}\n\n", plain(result.name));
+    if (!result.outcome.failure.empty())
+      text_ += fmt::format("The simulation stopped: {}\n\n", plain(result.outcome.failure));
+    const auto& checks = result.outcome.checks;
+    if (std::all_of(checks.begin(), checks.end(), [](const auto& c) { return c.passed; })) return;
+    text_ +=
+        "| failed check | expected | what it came to | beyond the limit | line |\n|---|---|---|---|---|\n";
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      if (checks[i].passed) continue;
+      const auto place = result.place_of(i);
+      text_ +=
+          fmt::format("| {} | {} | {} | {} | {}:{} |\n", plain(checks[i].name), plain(checks[i].expectation),
+                      plain(checks[i].detail), plain(report::margin_text(checks[i])),
+                      plain(report::path_from_here(place.file)), place.line);
+    }
+  }
+
+  void pictures(const report::RunResult& result) {
+    std::vector<fs::path> found;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(result.directory / "plots", ignored))
+      if (entry.path().extension() == ".png") found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    const auto all = found.size();
+    if (found.empty()) return;
+    found.resize(std::min(all, most_pictures));
+    text_ += fmt::format("\n<details><summary>{}: pictures</summary>\n\n", xml_text(printable(result.name)));
+    for (const auto& file : found)
+      text_ += fmt::format("![{}]({})\n", plain(file.stem().string()), link(file));
+    if (all > found.size()) text_ += fmt::format("\n{} more in plots/\n", all - found.size());
+    text_ += "\n</details>\n";
+  }
+
+  const Summary& summary_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string summary_text(const std::vector<report::RunResult>& results, const Summary& summary) {
+  return Text(summary).of(results);
+}
+
+std::optional<std::string> links_from(const fs::path& file, const fs::path& out, const std::string& given) {
+  if (!given.empty()) return given.ends_with('/') ? given : given + '/';
+  std::error_code ignored;
+  const auto folder = fs::absolute(file, ignored).lexically_normal().parent_path();
+  const auto results = (fs::absolute(out, ignored) / "").lexically_normal().parent_path();
+  const auto way = results.lexically_relative(folder);
+  if (way == ".") return "";
+  if (way.empty() || *way.begin() == "..") return {};
+  return encoded(way.generic_string()) + '/';
+}
+
+}  // namespace drycut::sim::cli

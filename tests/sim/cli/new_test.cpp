@@ -1,0 +1,185 @@
+// drycut new: every line that it makes runs at once, and is its owner's.
+#include "sim/cli/new_command.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "sim/cli/check_command.hpp"
+#include "sim/cli/run_command.hpp"
+#include "tests/sim/command_bench.hpp"
+
+namespace drycut::sim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+struct NewLine : CommandTest {
+  int make(const std::string& name, const std::string& machine, const std::string& controller) {
+    return captured([&] { return make_line({folder / name, machine, controller}); });
+  }
+  /// The line runs with these values; its events.
+  std::string run(const std::vector<std::string>& set = {}) {
+    RunOptions options;
+    options.scenarios = {folder / "line/line.yaml"};
+    options.out = folder / "out";
+    options.pictures = false;
+    options.set = set;
+    EXPECT_EQ(captured([&] { return run_scenarios(options); }), all_passed) << out << err;
+    return content(folder / "out/line/events.csv");
+  }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "line"))
+      if (entry.is_regular_file())
+        names.push_back(entry.path().lexically_relative(folder / "line").generic_string());
+    std::ranges::sort(names);
+    return names;
+  }
+  TestFolder folder;
+};
+
+void PrintTo(const Start& start, std::ostream* out) {
+  *out << start.machine << " under " << start.controller;
+}
+
+/// Length of the last piece [mm].
+double last_length(const std::string& events) {
+  const auto at = events.rfind(",cut,length=");
+  return at == std::string::npos ? 0 : std::stod(events.substr(at + 12));
+}
+
+std::ptrdiff_t cuts(const std::string& events) {
+  const auto lines = split_lines(events);
+  return std::ranges::count_if(lines,
+                               [](auto line) { return line.find(",cut,length=") != std::string_view::npos; });
+}
+
+struct EveryStart : NewLine, testing::WithParamInterface<Start> {
+  void SetUp() override {
+    ASSERT_EQ(make("line", GetParam().machine, GetParam().controller), all_passed) << err;
+  }
+};
+
+TEST_P(EveryStart, RunsAndPassesWhereItIs) {
+  EXPECT_THAT(out, AllOf(HasSubstr(GetParam().about), HasSubstr("drycut run line.yaml")));
+  CheckOptions check;
+  check.files = {folder / "line/line.yaml"};
+  EXPECT_EQ(captured([&] { return check_files(check); }), all_passed) << err;
+  EXPECT_NE(run(), "");
+  EXPECT_THAT(content(folder / "line/README.md"), Not(HasSubstr("@")));
+}
+
+TEST_P(EveryStart, NeedsNothingOutside) {
+  const auto scenario = content(folder / "line/line.yaml");
+  EXPECT_THAT(scenario, AllOf(Not(HasSubstr("../")), Not(HasSubstr("extends"))));
+  const auto all = files();
+  EXPECT_THAT(all, testing::IsSupersetOf({".github/workflows/drycut.yml", ".gitignore", ".gitlab-ci.yml",
+                                          "README.md", "line.yaml"}));
+  // No file lies there that the scenario does not name.
+  for (const auto& name : all)
+    if (name.starts_with("programs/") || name.starts_with("cams/")) {
+      EXPECT_THAT(scenario, HasSubstr(name));
+      EXPECT_THAT(content(folder / "line/README.md"), HasSubstr("| `" + name + "` |"));
+    }
+}
+
+TEST_P(EveryStart, ReadmesExampleIsOfAVariable) {
+  const auto readme = content(folder / "line/README.md");
+  const auto example = std::string(GetParam().machine == "vertical_press" ? "variables.tours=2"
+                                   : GetParam().machine == "flying_saw"   ? "variables.length=1.2 m"
+                                                                          : "variables.length=1 m");
+  EXPECT_THAT(readme, HasSubstr("--set \"" + example + "\" "));
+  EXPECT_THAT(readme, testing::StartsWith("# line\n\n" + GetParam().about));
+}
+
+TEST_P(EveryStart, LengthAndSpeedMakeOtherPieces) {
+  if (GetParam().machine == "vertical_press") {
+    EXPECT_NE(run(), run({"variables.load=100 kg"}));
+    return;
+  }
+  const bool saw = GetParam().machine == "flying_saw";
+  const auto plain = run();
+  EXPECT_NEAR(last_length(plain), saw ? 1000 : 800, 0.2);
+  const auto longer = run({"variables.length=1.2 m"});
+  EXPECT_NEAR(last_length(longer), 1200, 0.2);
+  EXPECT_LE(cuts(longer), cuts(plain));
+  EXPECT_LT(cuts(run({"variables.speed=25 m/min"})), cuts(plain));
+}
+
+INSTANTIATE_TEST_SUITE_P(New, EveryStart, testing::ValuesIn(starts()), [](const auto& instance) {
+  return instance.param.machine + "_" + instance.param.controller;
+});
+
+TEST_F(NewLine, ListsWhatThereIs) {
+  EXPECT_EQ(captured([&] { return make_line({"", "", "", true}); }), all_passed);
+  EXPECT_THAT(out,
+              HasSubstr("rotary_knife     plcopen    A rotary knife cuts a running web into pieces, under a "
+                        "PLCopen controller: MC_CamIn plays cams/knife.tab.\n"));
+  EXPECT_EQ(split_lines(out).size(), starts().size());
+  EXPECT_GE(starts().size(), 7U);
+}
+
+TEST_F(NewLine, SaysWhichPairsThereAre) {
+  struct Case {
+    std::string machine;
+    std::string controller;
+    std::string told;
+  };
+  const std::string all =
+      "there are: flying_saw under lx3vp, plcopen, qmove; rotary_knife under lx3vp, plcopen, qmove; "
+      "vertical_press under qmove\n";
+  for (const auto& [machine, controller, told] : std::vector<Case>{
+           {"", "", "--from:1:1: no machine is named; " + all},
+           {"rotary_knive", "qmove",
+            "--from:1:1: there is no line of 'rotary_knive' to start from; did you mean rotary_knife?\n"},
+           {"lathe", "qmove", "--from:1:1: there is no line of 'lathe' to start from; " + all},
+           {"rotary_knife", "",
+            "--controller:1:1: no controller is named; rotary_knife is there under lx3vp, plcopen, qmove\n"},
+           {"rotary_knife", "plcopn",
+            "--controller:1:1: there is no rotary_knife under 'plcopn'; did you mean plcopen?\n"},
+           {"vertical_press", "lx3vp",
+            "--controller:1:1: there is no vertical_press under 'lx3vp'; " + all}}) {
+    EXPECT_EQ(make("line", machine, controller), bad_input) << machine;
+    EXPECT_EQ(err, told);
+    EXPECT_FALSE(fs::exists(folder / "line"));
+  }
+}
+
+TEST_F(NewLine, TheOnlyControllerNeedNotBeNamed) {
+  EXPECT_EQ(make("line", "vertical_press", ""), all_passed) << err;
+  EXPECT_TRUE(fs::exists(folder / "line/programs/press_watch.mod"));
+}
+
+TEST_F(NewLine, WhatIsThereStays) {
+  fs::create_directories(folder / "line");
+  EXPECT_EQ(make("line/", "rotary_knife", "qmove"), all_passed) << "an empty folder is taken; " << err;
+  folder.file("line/line.yaml", "mine");
+  EXPECT_EQ(make("line", "rotary_knife", "qmove"), bad_input);
+  EXPECT_EQ(err, (folder / "line").string() +
+                     ":1:1: the folder is not empty; name one that is empty or not there yet\n");
+  EXPECT_EQ(content(folder / "line/line.yaml"), "mine");
+  folder.file("file", "mine");
+  EXPECT_EQ(make("file", "rotary_knife", "qmove"), bad_input);
+  EXPECT_THAT(err, HasSubstr("there is a file of that name; name a folder that is not there yet"));
+  EXPECT_EQ(captured([&] { return make_line({"", "rotary_knife", "qmove"}); }), bad_input);
+  EXPECT_THAT(err, HasSubstr("no folder is named; "));
+}
+
+TEST_F(NewLine, NothingIsHalfWritten) {
+  folder.file("file", "mine");
+  EXPECT_EQ(make("file/line", "rotary_knife", "qmove"), simulation_failed);
+  EXPECT_THAT(err, testing::StartsWith("drycut new: "));
+  fs::create_directories(folder / "other.part");
+  EXPECT_EQ(make("other", "rotary_knife", "qmove"), simulation_failed);
+  EXPECT_THAT(err, HasSubstr("other.part is in the way"));
+  EXPECT_FALSE(fs::exists(folder / "other"));
+  EXPECT_EQ(make("a/b/line", "rotary_knife", "qmove"), all_passed) << err;
+  EXPECT_TRUE(fs::exists(folder / "a/b/line/line.yaml"));
+  EXPECT_FALSE(fs::exists(folder / "a/b/line.part"));
+}
+
+}  // namespace
+}  // namespace drycut::sim::cli
