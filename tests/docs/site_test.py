@@ -95,7 +95,7 @@ def in_browser(script):
         harness.write_text(HARNESS % script)
         done = subprocess.run(["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
                                "--allow-file-access-from-files", "--window-size=1400,1000", f"--user-data-dir={home}/profile",
-                               "--virtual-time-budget=120000", "--dump-dom", harness.as_uri()], capture_output=True, text=True, timeout=300)
+                               "--virtual-time-budget=120000", "--dump-dom", harness.as_uri()], capture_output=True, text=True, timeout=1200)
     answer = re.search(r'<pre id="done">(.*?)</pre>', done.stdout, re.DOTALL)
     return json.loads(html.unescape(answer[1])) if answer else ["no answer: " + done.stderr[-500:]]
 
