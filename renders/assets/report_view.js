@@ -21,7 +21,7 @@
   // ---- what stands there until then: a frame of the film and a button ----
   const stage = make(figure, "div", "view-stage", {});
   const poster = document.querySelector(".strip img");
-  if (poster) called(make(stage, "img", "view-poster", { src: poster.src, alt: "" }), "");
+  if (poster) make(stage, "img", "view-poster", { src: poster.src, alt: poster.alt });
   const notice = make(stage, "p", "view-notice", {});
   notice.setAttribute("role", "status");
   const starter = make(stage, "button", "view-start", { type: "button", textContent: "Show in 3-D" });

@@ -180,7 +180,7 @@ TEST(CamInFindings, OvershootIsTold) {
   EXPECT_FALSE(camin::findings(text).empty());
   EXPECT_THAT(
       camin::findings("# interpolation: POLYNOM_3\nslave\n0\n0\n160000\n"),
-      ElementsAre(HasSubstr("overshoots its two rows by 20000"), HasSubstr("leaves its turn: -20000 to")));
+      ElementsAre(HasSubstr("overshoots its two rows by 2 deg"), HasSubstr("leaves its turn: -20000 to")));
 }
 
 TEST(CamInFindings, AnEndlessCamThatTurnsBackIsTold) {
