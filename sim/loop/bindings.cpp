@@ -115,10 +115,11 @@ class Binder {
   void check_camera() {
     std::vector<std::string> cameras = {"operator"};
     for (const auto& plant : lookup_.plants) cameras.push_back(plant.name);
-    if (!pictures_.looks_at_part() &&
-        std::find(cameras.begin(), cameras.end(), pictures_.camera) == cameras.end())
-      fault(pictures_.camera_place, fmt::format("there is no camera '{}'", pictures_.camera),
-            fmt::format("cameras: {}", fmt::join(cameras, ", ")));
+    for (const auto& camera : pictures_.views())
+      if (!camera.own && !camera.looks_at_part() &&
+          std::find(cameras.begin(), cameras.end(), camera.shows.text) == cameras.end())
+        fault(camera.shows.place, fmt::format("there is no camera '{}'", camera.shows.text),
+              fmt::format("cameras: {}", fmt::join(cameras, ", ")));
   }
 
   const Lookup& lookup_;

@@ -73,9 +73,9 @@ std::string caption_number(double number, const std::string& unit) {
 
 /// The film as the camera sees it: of one plant only its own parts, or one part, unless it shows the whole
 /// line. A camera that goes along needs no room for what the machine does later.
-renders::Film shown(const renders::Film& film, const std::string& camera) {
+renders::Film shown(const renders::Film& film, const std::string& camera, bool goes_along) {
   auto view = film;
-  if (film.follow && !film.frames.empty()) view.frames.resize(1);
+  if (goes_along && !film.frames.empty()) view.frames.resize(1);
   if (camera == "operator") return view;
   for (std::size_t i = 0; i < view.parts.size(); ++i) {
     if (view.parts[i].name == camera || view.parts[i].name.starts_with(camera + ".")) continue;
@@ -124,9 +124,9 @@ std::optional<std::size_t> part_number(const renders::Film& film, const std::str
 }
 
 /// A camera that looks at one part stands back, to show what the part works on.
-renders::Camera named_camera(const renders::Film& film, const std::string& name) {
+renders::Camera named_camera(const renders::Film& film, const std::string& name, std::size_t view) {
   constexpr double room = 1.8;
-  auto camera = renders::operator_camera(shown(film, name));
+  auto camera = renders::operator_camera(shown(film, name, film.follow && view == 0), view);
   if (!part_number(film, name)) return camera;
   camera.eye = camera.target + room * (camera.eye - camera.target);
   return camera;
@@ -193,8 +193,14 @@ renders::Film film_of(const scenario::Scenario& scenario, const loop::Simulation
   film.trails = scenario.pictures.overlays.trail;
   film.live_window_s /= scenario.pictures.slow;
   film.live = live_curves(scenario.pictures, simulation.recording(), film);
-  film.camera = scenario.pictures.own_camera ? own_camera(*scenario.pictures.own_camera)
-                                             : named_camera(film, scenario.pictures.camera);
+  const auto views = scenario.pictures.views();
+  film.beside.resize(views.size() - 1);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto& [shows, own] = views[i];
+    const auto camera = own ? own_camera(*own) : named_camera(film, shows.text, i);
+    (i == 0 ? film.camera : film.beside[i - 1].camera) = camera;
+    (i == 0 ? film.camera_name : film.beside[i - 1].name) = own ? "" : shows.text;
+  }
   return film;
 }
 

@@ -51,8 +51,8 @@ PartMeshes load_part_meshes(const scenario::Scenario& scenario, const std::vecto
     return false;
   };
   if (const auto& follow = scenario.pictures.follow; !follow.text.empty()) must_exist(follow);
-  if (scenario.pictures.looks_at_part())
-    must_exist({scenario.pictures.camera, scenario.pictures.camera_place});
+  for (const auto& camera : scenario.pictures.views())
+    if (camera.looks_at_part()) must_exist(camera.shows);
   for (const auto& request : scenario.pictures.meshes) {
     if (!must_exist(request.part)) continue;
     const auto file = scenario.file.parent_path() / request.file.text;

@@ -134,6 +134,7 @@ void visit(Archive& archive, Check& check);
 void visit(Archive& archive, OpcuaSection& opcua);
 void visit(Archive& archive, OpcuaSection::Cutter& cutter);
 void visit(Archive& archive, PicturesSection& pictures);
+void visit(Archive& archive, PicturesSection::Camera& camera);
 void visit(Archive& archive, PicturesSection::MeshRequest& mesh);
 void visit(Archive& archive, PlotRequest::Panel& panel);
 void visit(Archive& archive, PlotRequest& plot);

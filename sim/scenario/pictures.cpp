@@ -14,6 +14,7 @@ namespace {
 
 constexpr int smallest = 64;
 constexpr int largest = 4096;
+constexpr std::size_t most_cameras = 4;
 constexpr std::size_t most_live = 2;
 constexpr double degree = std::numbers::pi / 180;
 
@@ -65,37 +66,26 @@ Form around_form(std::optional<PicturesSection::Around>& around) {
       std::string(any_text_schema));
 }
 
-// camera: operator, or {eye: [0 m, 1 m, 2 m], target: [0 m, 0 m, 0 m]}
-void visit_camera(Archive& archive, PicturesSection& pictures) {
-  auto& own = pictures.own_camera;
-  if (archive.instead(!own, form(pictures.camera))) return;
-  if (!own) own = PicturesSection::Eye{};
-  archive.value({"eye", "where it stands, along x, y and z"}, form(own->eye, "m"));
-  archive.value({"target", "what it looks at"}, form(own->target, "m"));
-  archive.value({"field_of_view", "vertical"}, form(own->field_of_view, "deg", 1 * degree, 150 * degree,
-                                                    "1 deg to 150 deg; 35 deg is the default"));
-  archive.require("eye", "write eye: [0 m, 1 m, 2 m], along x, y and z");
-  archive.require("target", "write target: [0 m, 1 m, 2 m], along x, y and z");
-  archive.judge([&own](MapReader& reader) {
-    if (reader.is_sound() && own->eye == own->target)
-      reader.refuse("target", "pictures.frames.camera looks at the place where it stands",
-                    "let target be another point than eye");
-  });
-}
-
 void visit_frames(Archive& archive, PicturesSection& pictures) {
   pictures.frames = true;
   archive.value({"every", "a frame this often"}, form(pictures.every, Sign::positive));
   visit_window(archive, pictures.from, pictures.until, &pictures.around);
   archive.value({"slow", "so many times slower than the machine"}, form(pictures.slow, 1, 10000));
-  archive.section({"camera", "operator, a plant, a part (knife.blade), or a place of your own"},
-                  [&](Archive& inner) { visit_camera(inner, pictures); });
-  archive.value({"follow", "a part that the camera goes with", !pictures.follow.text.empty()},
-                form(pictures.follow));
+  archive.section(
+      {"camera", "operator, a plant, a part (knife.blade), or a place of your own", pictures.cameras.empty()},
+      [&](Archive& inner) { visit(inner, pictures.camera); });
+  archive.list({"cameras", "two to four in its place, which share the picture", !pictures.cameras.empty()},
+               pictures.cameras, true);
+  archive.value(
+      {"follow", "a part that the camera, of several the first, goes with", !pictures.follow.text.empty()},
+      form(pictures.follow));
   archive.value({"size", "of a frame in pixels"}, size_form(pictures));
   archive.judge([&pictures](MapReader& reader) {
     pictures.slow_place = reader.has("slow") ? reader.value_place("slow") : reader.place("every");
-    if (reader.has("camera")) pictures.camera_place = reader.value_place("camera");
+    const auto cameras = pictures.cameras.size();
+    if (cameras == 1 || cameras > most_cameras)
+      reader.refuse("cameras", fmt::format("{} has {}", reader.full("cameras"), cameras),
+                    "two to four share the picture; one stands under camera");
     for (const auto* key : {"from", "until"}) {
       if (!reader.has("around") || !reader.has(key)) continue;
       reader.refuse(key, fmt::format("{} does not go with around", reader.full(key)),
@@ -135,6 +125,25 @@ Form overlays_form(PicturesSection::Overlays& overlays) {
 }
 
 }  // namespace
+
+// camera: operator, or {eye: [0 m, 1 m, 2 m], target: [0 m, 0 m, 0 m]}
+void visit(Archive& archive, PicturesSection::Camera& camera) {
+  auto& own = camera.own;
+  if (archive.instead(!own, form(camera.shows))) return;
+  if (!own) own = PicturesSection::Eye{};
+  archive.in_line();
+  archive.value({"eye", "where it stands, along x, y and z"}, form(own->eye, "m"));
+  archive.value({"target", "what it looks at"}, form(own->target, "m"));
+  archive.value({"field_of_view", "vertical"}, form(own->field_of_view, "deg", 1 * degree, 150 * degree,
+                                                    "1 deg to 150 deg; 35 deg is the default"));
+  archive.require("eye", "write eye: [0 m, 1 m, 2 m], along x, y and z");
+  archive.require("target", "write target: [0 m, 1 m, 2 m], along x, y and z");
+  archive.judge([&own](MapReader& reader) {
+    if (reader.is_sound() && own->eye == own->target)
+      reader.refuse("target", fmt::format("{} looks at the place where it stands", reader.name()),
+                    "let target be another point than eye");
+  });
+}
 
 void visit_window(Archive& archive, Time& from, std::optional<Time>& until,
                   std::optional<PicturesSection::Around>* around) {

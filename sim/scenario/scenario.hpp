@@ -260,16 +260,26 @@ struct PicturesSection {
   bool video = false;  ///< the frames as a film file too
   bool view = true;    ///< the machine in 3-D in the report, as long as the frames
   Place slow_place;
-  std::string camera = "operator";  ///< what it shows: operator = the whole line, a plant by its name, or a
-                                    ///< part: "knife.blade"
   /// A camera of the user's own in place of a named one.
   struct Eye {
     std::array<double, 3> eye = {0, 0, 0};     ///< [m]
     std::array<double, 3> target = {0, 0, 0};  ///< [m]
     double field_of_view = 0.61086523819801;   ///< vertical, 35 degrees [rad]
   };
-  std::optional<Eye> own_camera;
-  Text follow;  ///< part that the camera goes with ("saw.carriage"), "" = it stands
+  struct Camera {
+    Text shows = {"operator",
+                  {}};       ///< operator = the whole line, a plant by its name, or a part: "knife.blade"
+    std::optional<Eye> own;  ///< in place of that
+    /// True if it is to show one part: "knife.drum".
+    [[nodiscard]] bool looks_at_part() const { return !own && shows.text.find('.') != std::string::npos; }
+  };
+  Camera camera;
+  std::vector<Camera> cameras;  ///< two to four in its place that share the picture
+  /// Those that there are.
+  [[nodiscard]] std::vector<Camera> views() const {
+    return cameras.empty() ? std::vector<Camera>{camera} : cameras;
+  }
+  Text follow;  ///< part that the first camera goes with ("saw.carriage"), "" = it stands
   int width = 960;
   int height = 540;
   std::vector<Text> caption;  ///< channels in the caption bar
@@ -292,10 +302,6 @@ struct PicturesSection {
   };
   std::vector<MeshRequest> meshes;
   std::vector<PlotRequest> plots;
-  Place camera_place;
-
-  /// True if the camera is to show one part: "knife.drum".
-  [[nodiscard]] bool looks_at_part() const { return camera.find('.') != std::string::npos; }
 };
 
 /// opcua: {packml: {state: D510}}: what an OPC UA client of the live line is told of the machine as a whole.

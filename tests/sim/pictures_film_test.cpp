@@ -209,6 +209,27 @@ TEST(PicturesFilm, ACameraOfTheUsersOwnStandsWhereItIsPut) {
   EXPECT_NEAR(KnifeLine(eye + ", field_of_view: 60 deg}}").film().camera.field_of_view_deg, 60, 1e-9);
 }
 
+TEST(PicturesFilm, SeveralCamerasShareThePictureInTheirOrder) {
+  const auto film =
+      KnifeLine(
+          "frames: {every: 500 ms, follow: web.piece 1, cameras: [knife, {eye: [-1 m, 60 cm, 1400 mm], "
+          "target: [1 mm, 2 mm, 0 m]}, operator]}")
+          .film();
+  ASSERT_EQ(film.beside.size(), 2U);
+  EXPECT_EQ(film.camera_name, "knife");
+  EXPECT_EQ(film.beside[0].name, "") << "a place of one's own has none";
+  EXPECT_EQ(film.beside[0].camera.eye, renders::Vec3(-1, 0.6, 1.4));
+  EXPECT_EQ(film.beside[1].name, "operator");
+  EXPECT_LT(distance(film.camera), 0.8 * distance(film.beside[1].camera));
+  EXPECT_TRUE(film.follow) << "the first one goes along";
+  const auto alone = KnifeLine("frames: {every: 500 ms}").film();
+  EXPECT_TRUE(alone.beside.empty());
+  EXPECT_NEAR(distance(film.beside[1].camera), distance(alone.camera), 0.02 * distance(alone.camera))
+      << "a quarter has the shape of the whole";
+  const auto two = KnifeLine("frames: {every: 500 ms, cameras: [operator, knife]}").film();
+  EXPECT_GT(distance(two.camera), 1.2 * distance(alone.camera)) << "half as wide: further away";
+}
+
 TEST(PicturesFilm, NamesThatTheMachineDoesNotHaveAreRefusedWithTheirPlace) {
   EXPECT_THAT(KnifeLine("lamps: [panel.start, AxisX.st_snyc]").told(),
               ElementsAre("33: there is no channel 'AxisX.st_snyc'; did you mean AxisX.st_sync?"));
@@ -218,6 +239,10 @@ TEST(PicturesFilm, NamesThatTheMachineDoesNotHaveAreRefusedWithTheirPlace) {
               ElementsAre("44: there is no camera 'nife'; cameras: operator, web, knife"));
   EXPECT_THAT(KnifeLine("frames: {every: 500 ms, camera: knife.blade}").told(),
               ElementsAre("44: there is no part 'knife.blade'; did you mean knife.blade 1?"));
+  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, cameras: [operator, nife]}").told(),
+              ElementsAre("56: there is no camera 'nife'; cameras: operator, web, knife"));
+  EXPECT_THAT(KnifeLine("frames: {every: 500 ms, cameras: [knife.blade, knife]}").told(),
+              ElementsAre("46: there is no part 'knife.blade'; did you mean knife.blade 1?"));
   EXPECT_THAT(KnifeLine("frames: {every: 500 ms, follow: knife.drumm}").told(),
               ElementsAre("44: there is no part 'knife.drumm'; did you mean knife.drum?"));
 }
@@ -275,6 +300,45 @@ TEST(PicturesProblems, Cameras) {
       ElementsAre("1:29: pictures.frames.camera must be a single value, not a list; write one value"));
 }
 
+TEST(PicturesProblems, SeveralCameras) {
+  const std::string cameras = "pictures: {frames: {cameras: ";
+  EXPECT_THAT(problems_of(cameras + "[operator]}}\n"),
+              ElementsAre("1:21: pictures.frames.cameras has 1; two to four share the picture; one stands "
+                          "under camera"));
+  EXPECT_THAT(problems_of(cameras + "[a, b, c, d, e]}}\n"),
+              ElementsAre("1:21: pictures.frames.cameras has 5; two to four share the picture; one stands "
+                          "under camera"));
+  EXPECT_THAT(problems_of(cameras + "[b, c], camera: a}}\n"), IsEmpty()) << "in place of a base's";
+  EXPECT_THAT(problems_of(cameras + "a}}\n"),
+              ElementsAre("1:30: pictures.frames.cameras must be a list, not a single value; write [first, "
+                          "second], or a line '- ...' for each"));
+  EXPECT_THAT(problems_of(cameras + "[a, {eye: [1 m, 1 m, 1 m]}]}}\n"),
+              ElementsAre("1:34: pictures.frames.cameras.1.target is missing; write target: [0 m, 1 m, 2 m], "
+                          "along x, y and z"));
+}
+
+TEST(Pictures, SeveralCamerasAreReadAndWritten) {
+  std::vector<std::string> problems;
+  const auto scenario = fakes::read(
+      "pictures: {frames: {cameras: [operator, {eye: [-1 m, 0.6 m, 1.4 m], target: [0 m, 1 cm, 0 m]}, "
+      "saw.head]}}\n",
+      problems);
+  const auto check = [](const PicturesSection& pictures) {
+    ASSERT_EQ(pictures.cameras.size(), 3U);
+    ASSERT_EQ(pictures.views().size(), 3U);
+    EXPECT_EQ(pictures.cameras[0].shows.text, "operator");
+    EXPECT_FALSE(pictures.cameras[0].looks_at_part());
+    ASSERT_TRUE(pictures.cameras[1].own);
+    EXPECT_EQ(pictures.cameras[1].own->target, (std::array<double, 3>{0, 0.01, 0}));
+    EXPECT_TRUE(pictures.cameras[2].looks_at_part());
+  };
+  EXPECT_THAT(problems, IsEmpty());
+  check(scenario.pictures);
+  const auto again = fakes::read(expand(scenario), problems);
+  EXPECT_THAT(problems, IsEmpty());
+  check(again.pictures);
+}
+
 TEST(Pictures, CameraFollowLampsOverlaysAndLiveAreReadAndWritten) {
   std::vector<std::string> problems;
   const auto scenario = fakes::read(
@@ -287,10 +351,10 @@ TEST(Pictures, CameraFollowLampsOverlaysAndLiveAreReadAndWritten) {
       "  live: [c, d]\n",
       problems);
   const auto check = [](const PicturesSection& pictures) {
-    ASSERT_TRUE(pictures.own_camera);
-    EXPECT_EQ(pictures.own_camera->eye, (std::array<double, 3>{-1, 0.6, 1.4}));
-    EXPECT_EQ(pictures.own_camera->target, (std::array<double, 3>{0, 0.01, 0}));
-    EXPECT_NEAR(pictures.own_camera->field_of_view, 40 * std::numbers::pi / 180, 1e-12);
+    ASSERT_TRUE(pictures.camera.own);
+    EXPECT_EQ(pictures.camera.own->eye, (std::array<double, 3>{-1, 0.6, 1.4}));
+    EXPECT_EQ(pictures.camera.own->target, (std::array<double, 3>{0, 0.01, 0}));
+    EXPECT_NEAR(pictures.camera.own->field_of_view, 40 * std::numbers::pi / 180, 1e-12);
     EXPECT_EQ(pictures.follow.text, "saw.carriage");
     ASSERT_EQ(pictures.lamps.size(), 2U);
     EXPECT_EQ(pictures.lamps[1].text, "panel.b");

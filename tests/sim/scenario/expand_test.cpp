@@ -89,7 +89,7 @@ TEST(ScenarioOverride, AddsWhatTheFileLeavesAtItsDefault) {
   EXPECT_EQ(scenario.scene.seed, 9U);
   EXPECT_EQ(scenario.wiring.at(0).terminal.text, "2.INP01");
   EXPECT_EQ(scenario.pictures.every, 20 * millisecond);
-  EXPECT_EQ(scenario.pictures.camera, "overview");
+  EXPECT_EQ(scenario.pictures.camera.shows.text, "overview");
   EXPECT_EQ(scenario.checks.size(), 1U);
 }
 

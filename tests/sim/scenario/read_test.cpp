@@ -225,7 +225,7 @@ pictures:
   EXPECT_EQ(pictures.every, 20 * millisecond);
   EXPECT_EQ(pictures.from, second);
   EXPECT_EQ(pictures.until, 4 * second);
-  EXPECT_EQ(pictures.camera, "close_up");
+  EXPECT_EQ(pictures.camera.shows.text, "close_up");
   EXPECT_EQ(pictures.width, 1920);
   EXPECT_EQ(pictures.height, 1080);
   EXPECT_THAT(words(pictures.caption), ElementsAre("web.speed"));
