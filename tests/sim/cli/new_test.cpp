@@ -41,10 +41,6 @@ struct NewLine : CommandTest {
   TestFolder folder;
 };
 
-void PrintTo(const Start& start, std::ostream* out) {
-  *out << start.machine << " under " << start.controller;
-}
-
 /// Length of the last piece [mm].
 double last_length(const std::string& events) {
   const auto at = events.rfind(",cut,length=");
