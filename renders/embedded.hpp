@@ -8,8 +8,8 @@ namespace drycut::renders {
 // the motors of scenes/catalogue/, what a report is made of, in renders/assets/, and the lines of scenes/new/
 // with their programs (CMakeLists.txt).
 
-/// Names of the files, without folders: "drum.stl", "report.css"; those of lines from scenes/ on:
-/// "new/cams/saw.csv", "programs/flying_saw.st".
+/// Names of the files, without folders: "drum.stl", "report.css"; those of lines and motors from scenes/ on:
+/// "new/cams/saw.csv", "catalogue/cantoni_sg.yaml".
 std::vector<std::string_view> embedded_names();
 
 /// The bytes of the file of that name; empty if there is none.

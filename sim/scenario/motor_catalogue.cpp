@@ -265,10 +265,10 @@ void read_own(const std::filesystem::path& folder, std::vector<MotorModel>& moto
 
 void read_shipped(std::vector<MotorModel>& motors, Findings& findings) {
   auto names = renders::embedded_names();
-  std::erase_if(names, [](std::string_view name) { return !name.ends_with(".yaml"); });
+  std::erase_if(names, [](std::string_view name) { return !name.starts_with("catalogue/"); });
   std::sort(names.begin(), names.end());
   for (const auto& name : names) {
-    const int source = findings.add_source(fmt::format("scenes/catalogue/{}", name));
+    const int source = findings.add_source(fmt::format("scenes/{}", name));
     read_series(renders::embedded_file(name), source, true, motors, findings);
   }
 }

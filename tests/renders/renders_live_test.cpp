@@ -173,7 +173,7 @@ TEST(LiveBrowser, TheCursorTellsTheRecordedValues) {
                     "drycutPlots[0].point(2); tell([...document.querySelectorAll('output')].map(e => "
                     "e.textContent).join()); tell(document.querySelector('.live-x').textContent);"
                     "tell(drycutPlots[0].graphs.map(v => v.cursor.style.display).join());"),
-            "0.9093,0|time 2.0000 s|block,block");
+            "0,2,0.9093,0|time 2.0000 s|block,block");
 }
 
 TEST(LiveBrowser, AMillionSamplesAreThinnedAndNoSpikeIsLost) {
@@ -204,7 +204,7 @@ TEST(LiveBrowser, GapsAndEmptyCurvesAreNoError) {
   EXPECT_EQ(browsed({plot},
                     "drycutPlots[0].point(2.4); tell([...document.querySelectorAll('output')].map(e => "
                     "e.textContent).join());"),
-            "-,-,4");
+            "0,-,-,-,4");
 }
 
 }  // namespace
