@@ -61,20 +61,25 @@ void TableReader::row(CamTable& table, const Words& words, bool decimal_comma) {
   }
 }
 
+void TableReader::out_of_range(const Word& word, std::string remedy) {
+  if (word.text.find("${") == std::string::npos)
+    return fault(word.place, fmt::format("'{}' is out of range", word.text), std::move(remedy));
+  fault(word.place, fmt::format("'{}' has its value from a scenario", word.text),
+        "drycut run that scenario: its results have the cam as it was played, in cams/");
+}
+
 std::optional<int> TableReader::whole(const Word& word, int min, int max) {
   const std::optional<double> value = number_of(word.text, false);
   if (value && *value == std::round(*value) && *value >= min && *value <= max)
     return static_cast<int>(*value);
-  fault(word.place, fmt::format("'{}' is out of range", word.text),
-        fmt::format("write a whole number, {} to {}", min, max));
+  out_of_range(word, fmt::format("write a whole number, {} to {}", min, max));
   return std::nullopt;
 }
 
 std::optional<double> TableReader::real(const Word& word, double min, double max) {
   const std::optional<double> value = number_of(word.text, false);
   if (value && *value >= min && *value <= max) return value;
-  fault(word.place, fmt::format("'{}' is out of range", word.text),
-        fmt::format("write a number, {} to {}", min, max));
+  out_of_range(word, fmt::format("write a number, {} to {}", min, max));
   return std::nullopt;
 }
 

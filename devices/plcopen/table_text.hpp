@@ -33,6 +33,8 @@ class TableReader : private Complaints {
   std::optional<double> real(const Word& word, double min, double max);
 
  private:
+  void out_of_range(const Word& word, std::string remedy);
+
   int faults_ = 0;
   std::vector<int> rows_;
 };

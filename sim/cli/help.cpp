@@ -10,6 +10,7 @@
 #include "renders/embedded.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/file_kinds.hpp"
+#include "sim/cli/pages.hpp"
 
 namespace drycut::sim::cli {
 
@@ -130,17 +131,24 @@ int tell_topic(const CLI::App& program, const std::string& topic) {
   const auto names = topics();
   bool told = false;
   std::vector<std::string> known = names;
+  const auto is_there = [&topic](const std::vector<Page>& pages) {
+    return std::ranges::any_of(pages, [&](const Page& page) { return same_word(page.name, topic); });
+  };
   for (const auto* command : listed_commands(program)) {
     known.push_back(command->get_name());
     if (command->get_name() != topic) continue;
     fmt::print("{}", page_of(*command));
     told = true;
   }
-  if (std::find(names.begin(), names.end(), topic) != names.end()) {
-    fmt::print("{}{}", told ? "\n" : "", renders::embedded_file(topic + ".md"));
+  const auto page =
+      std::ranges::find_if(names, [&](const std::string& name) { return same_word(name, topic); });
+  if (page != names.end()) {
+    fmt::print("{}{}", told ? "\n" : "", renders::embedded_file(*page + ".md"));
     told = true;
   }
   if (told) return all_passed;
+  if (is_there(device_pages())) return list_devices(topic, false);
+  if (is_there(plant_pages())) return list_plants(topic, false);
   fmt::print(stderr, "drycut help: there is no page '{}'; {}\n", topic, did_you_mean(topic, known));
   return bad_input;
 }
@@ -233,9 +241,10 @@ std::string HelpPage::make_help(const CLI::App* app, std::string /*name*/,
 void add_commands(CLI::App& app, int& status) {
   app.formatter(std::make_shared<HelpPage>());
   app.require_subcommand(1);  // and what follows is no command more: drycut help run
-  for (const auto add : {add_run, add_live, add_replay, add_check, add_cam, add_design, add_tune, add_sweep,
-                         add_envelope, add_size, add_bode, add_compare, add_index, add_convert, add_devices,
-                         add_plants, add_new, add_help, add_reference, add_work})
+  for (const auto add :
+       {add_run,     add_live,     add_replay, add_check, add_cam,       add_design, add_tune,
+        add_sweep,   add_envelope, add_size,   add_bode,  add_compare,   add_index,  add_convert,
+        add_devices, add_plants,   add_new,    add_help,  add_reference, add_work})
     add(app, status);
   refuse_wrong_kinds(app);
 }

@@ -247,12 +247,17 @@ void print_problems(const Problems& problems) {
 int run_scenarios(const RunOptions& options) {
   Problems problems;
   auto work = prepare(options, problems);
+  const auto before = problems.size();
   if (!options.summary.empty()) check_summary(options, problems);
+  const bool has_summary = !options.summary.empty() && problems.size() == before;
   if (problems.empty() && !options.cache.empty()) const RunCache made(options.cache, problems);
   if (problems.empty()) open_folders(work, options, problems);
   if (!problems.empty()) {
     print_problems(problems);
     annotate(options.annotate, annotations_of(problems));
+    if (has_summary &&
+        std::filesystem::is_directory(std::filesystem::absolute(options.summary).parent_path()))
+      write_file(options.summary, summary_text(problems));
     return bad_input;
   }
   begin(work);

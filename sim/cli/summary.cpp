@@ -121,6 +121,14 @@ std::string summary_text(const std::vector<report::RunResult>& results, const Su
   return Text(summary).of(results);
 }
 
+std::string summary_text(const Problems& problems) {
+  auto text = fmt::format("## Drycut: nothing was run, {} {} wrong\n\n",
+                          problems.size() == 1 ? "a thing" : fmt::format("{} things", problems.size()),
+                          problems.size() == 1 ? "is" : "are");
+  for (const auto& problem : problems) text += fmt::format("- {}\n", plain(to_string(problem)));
+  return text;
+}
+
 std::optional<std::string> links_from(const fs::path& file, const fs::path& out, const std::string& given) {
   if (!given.empty()) return given.ends_with('/') ? given : given + '/';
   std::error_code ignored;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/problem.hpp"
 #include "sim/report/results.hpp"
 
 namespace drycut::sim::cli {
@@ -16,6 +17,8 @@ struct Summary {
   std::optional<std::string> links;
 };
 std::string summary_text(const std::vector<report::RunResult>& results, const Summary& summary);
+/// What it is told where nothing could be run.
+std::string summary_text(const Problems& problems);
 
 /// How a summary in `file` links to `out`: relative where it lies in `out` or above it, so that both travel
 /// together; else not at all, unless `given` says where the results will be found.

@@ -158,23 +158,27 @@ void add_drives(const loop::Outcome& outcome, std::vector<renders::ReportKey>& k
       keys.push_back({fmt::format("{} of {}", figure.name, drive->drive),
                       fmt::format("{:.3g} {}", figure.value, figure.unit),
                       {fmt::format("may be {:.4g} {}{}", figure.rating, figure.unit,
-                                   figure.judged ? "" : "; not judged")},
+                                   figure.judged ? "" : "; not judged"),
+                       drive->cycles},
                       figure.share});
     }
   }
 }
 
-/// The check that would fail first if all went on a little worse.
+/// The check that failed by most, or would fail first if all went on a little worse.
 void add_nearest(const loop::Outcome& outcome, std::vector<renders::ReportKey>& keys) {
   const loop::CheckResult* nearest = nullptr;
   std::size_t count = 0;
   for (const auto& check : outcome.checks) {
-    if (!check.used || !check.passed) continue;
+    if (!check.used) continue;
     ++count;
     if (nearest == nullptr || *check.used > *nearest->used) nearest = &check;
   }
   if (count < 2) return;
-  keys.push_back({"nearest to its limit", nearest->name, {}, nearest->used});
+  keys.push_back({nearest->passed ? "nearest to its limit" : "farthest beyond its limit",
+                  nearest->name,
+                  {},
+                  nearest->used});
 }
 
 }  // namespace

@@ -87,6 +87,12 @@ TEST_F(Help, KnowsCommandsAndPages) {
   EXPECT_EQ(parse({"help", "live"}), all_passed);  // both
   EXPECT_THAT(out, HasSubstr("drycut live"));
   EXPECT_THAT(out, HasSubstr("# The live line"));
+  EXPECT_EQ(parse({"help", "CAMMING4"}), all_passed);
+  EXPECT_THAT(out, testing::StartsWith("# CAMMING4"));
+  EXPECT_EQ(parse({"help", "rotary_knife"}), all_passed);
+  EXPECT_THAT(out, HasSubstr("circumference"));
+  EXPECT_EQ(parse({"help", "decam"}), all_passed);
+  EXPECT_THAT(out, HasSubstr("DECAM"));
   EXPECT_EQ(parse({"help", "envelops"}), bad_input);
   EXPECT_THAT(err, HasSubstr("there is no page 'envelops'; did you mean envelopes?"));
 }

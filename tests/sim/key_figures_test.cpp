@@ -102,6 +102,7 @@ TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
   loop::Outcome outcome;
   loop::DriveVerdict drive;
   drive.drive = "knife.servo";
+  drive.cycles = "10 cycles from cut to cut";
   drive.figures = {{"rms torque", 2.041, 9.5, "N m", 0.2148},
                    {"peak torque", 30, 28.6, "N m", 1.049},
                    {"largest speed", 500, 3000, "rpm", 0.17}};
@@ -112,11 +113,16 @@ TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
     outcome.checks.push_back({name, "", passed, {}, "", {}, ""});
     outcome.checks.back().used = used;
   }
-  EXPECT_THAT(told(key_figures(recording, {}, {"web", "other"}, outcome)),
-              ElementsAre("highest web speed: 60 m/min; lowest 0",
-                          "rms torque of knife.servo: 2.04 N m [21]; may be 9.5 N m",
-                          "peak torque of knife.servo: 30 N m [105]; may be 28.6 N m; not judged",
-                          "nearest to its limit: b [90]"));
+  EXPECT_THAT(
+      told(key_figures(recording, {}, {"web", "other"}, outcome)),
+      ElementsAre("highest web speed: 60 m/min; lowest 0",
+                  "rms torque of knife.servo: 2.04 N m [21]; may be 9.5 N m; 10 cycles from cut to cut",
+                  "peak torque of knife.servo: 30 N m [105]; may be 28.6 N m; not judged; "
+                  "10 cycles from cut to cut",
+                  "farthest beyond its limit: failed [200]"));
+  outcome.checks.pop_back();
+  EXPECT_EQ(told(key_figures(recording, {}, {"web", "other"}, outcome)).back(),
+            "nearest to its limit: b [90]");
   EXPECT_THAT(key_figures(loop::Recording(), {}, {}, {}), IsEmpty());
 }
 

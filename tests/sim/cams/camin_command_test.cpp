@@ -175,6 +175,8 @@ TEST_F(CamInCommand, CheckReadsTabFilesAndCsv) {
   EXPECT_EQ(check(file("Tabletype = 9\n", "a.tab")), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("a.tab:1:13: '9' is out of range; write a whole number, 1 to 7"));
   EXPECT_EQ(check(file(content(shipped_cams / "mc_rotary_knife.tab"), "b.tab")), cli::all_passed);
+  EXPECT_EQ(check(file("# master_modulo: ${length}\n", "d.tab")), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("'${length}' has its value from a scenario; drycut run that scenario: "));
   EXPECT_EQ(check(file("slave\n1,2\n", "c.csv")), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("c.csv:2:1: 2 numbers"));
 }

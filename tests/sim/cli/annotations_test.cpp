@@ -201,6 +201,15 @@ TEST(SummaryLinks, GoFromTheFileToTheResults) {
   EXPECT_EQ(links_from("/tmp/summary.md", "out", "https://x/"), "https://x/");
 }
 
+TEST_F(ToldServices, TheSummarySaysWhyNothingWasRun) {
+  options.summary = "step.md";
+  std::ofstream("line.yaml") << "scene: {title: a|b, step: 1 ms}\nplants: {web: {type: weh}}\n";
+  EXPECT_EQ(run({"line.yaml"}), bad_input);
+  EXPECT_THAT(content("step.md"),
+              AllOf(testing::StartsWith("## Drycut: nothing was run, a thing is wrong\n\n- line"),
+                    HasSubstr("unknown plant type 'weh'")));
+}
+
 TEST_F(ToldServices, ASummaryThatCannotBeWrittenIsToldBeforeTheRun) {
   options.summary = "nowhere/summary.md";
   EXPECT_EQ(run({failing()}), bad_input);
