@@ -198,7 +198,7 @@ std::vector<std::string_view> examples_of(std::string_view command) {
       {"replay", "drycut replay out/today/1 --to-scenario today.yaml"},
       {"check", "drycut check my_line.yaml"},
       {"cam", "drycut cam scenes/cams/rotary_knife.csv"},
-      {"design", "drycut design rotary_knife --length \"800 mm\" --circumference \"600 mm\""},
+      {"design", R"(drycut design rotary_knife --length "800 mm" --circumference "600 mm")"},
       {"tune", "drycut tune scenes/rotary_knife.yaml --minimise \"rms(AxisX.follerr)\""},
       {"tune", "  --vary controller.qmove.set.AxisX.pgain=1..400 --jobs 2"},
       {"sweep", "drycut sweep scenes/rotary_knife_mc_camin.yaml"},
