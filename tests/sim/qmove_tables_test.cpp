@@ -86,7 +86,8 @@ TEST(QmoveTables, TheConfigurationIsATableToo) {
   devices::qmove::parse_configuration("SECTIONS\nEND\n", "x.cnf", devices::catalogue(), problems);
   ASSERT_FALSE(problems.empty());
   std::vector<std::string> names;
-  for (const auto& row : json::parse(printed("CNF", true)).at("sections")) names.push_back(row.at("form"));
+  const auto page = json::parse(printed("CNF", true));
+  for (const auto& row : page.at("sections")) names.push_back(row.at("form"));
   EXPECT_THAT(problems.front().what + problems.front().remedy, HasSubstr(listed(names)));
 }
 
