@@ -37,6 +37,16 @@ std::string safe_in_script(const nlohmann::ordered_json& json) {
   return text;
 }
 
+std::string link_address(std::string_view path) {
+  std::string text;
+  for (const char c : path) {
+    const bool keeps =
+        is_letter(c) || is_digit(c) || std::string_view("-._~/").find(c) != std::string_view::npos;
+    text += keeps ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return text;
+}
+
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;

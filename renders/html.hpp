@@ -12,6 +12,9 @@ std::string html_text(std::string_view text);
 /// `json` for a script element, which nothing in it can end; what is no UTF-8 is replaced.
 std::string safe_in_script(const nlohmann::ordered_json& json);
 
+/// A path as the address of a link: what is no letter, digit or one of -._~/ is percent-encoded (RFC 3986).
+std::string link_address(std::string_view path);
+
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
+#include "renders/html.hpp"
 
 namespace drycut::sim::cli {
 
@@ -24,17 +24,6 @@ std::string plain(const std::string& text) {
     plain += c == '\n' ? ' ' : c;
   }
   return plain;
-}
-
-/// A path in a link.
-std::string encoded(const std::string& path) {
-  std::string text;
-  for (const char c : path) {
-    const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-                       std::string_view("-._~/").find(c) != std::string_view::npos;
-    text += keeps ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return text;
 }
 
 std::string verdict(const report::RunResult& result) {
@@ -63,7 +52,7 @@ class Text {
 
  private:
   [[nodiscard]] std::string link(const fs::path& file) const {
-    return *summary_.links + encoded(file.lexically_relative(summary_.out).generic_string());
+    return *summary_.links + renders::link_address(file.lexically_relative(summary_.out).generic_string());
   }
 
   void row(const report::RunResult& result) {
@@ -137,7 +126,7 @@ std::optional<std::string> links_from(const fs::path& file, const fs::path& out,
   const auto way = results.lexically_relative(folder);
   if (way == ".") return "";
   if (way.empty() || *way.begin() == "..") return {};
-  return encoded(way.generic_string()) + '/';
+  return renders::link_address(way.generic_string()) + '/';
 }
 
 }  // namespace drycut::sim::cli

@@ -179,17 +179,6 @@ void collect(const fs::path& folder, const fs::path& root, std::vector<IndexEntr
 
 // ---- the page ----
 
-/// A path as the address of a link.
-std::string address(const std::string& path) {
-  std::string text;
-  for (const char c : path) {
-    const bool plain_one =
-        is_letter(c) || is_digit(c) || std::string_view("-._~/").find(c) != std::string_view::npos;
-    text += plain_one ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return text;
-}
-
 bool has_failed(const IndexEntry& entry) { return entry.word == "FAIL"; }
 
 /// FAIL first, then what is not known, what judges nothing, PASS.
@@ -199,16 +188,17 @@ int rank_of(const IndexEntry& entry) {
 
 std::string row_of(const IndexEntry& entry) {
   using renders::html_text;
+  using renders::link_address;
   const auto link = [&](const std::string& inner, const char* more) {
     return entry.page.empty() ? inner
-                              : fmt::format("<a href=\"{}\"{}>{}</a>", address(entry.page), more, inner);
+                              : fmt::format("<a href=\"{}\"{}>{}</a>", link_address(entry.page), more, inner);
   };
   // The name beside it opens the same page.
   const auto picture =
       entry.picture.empty()
           ? std::string()
           : link(fmt::format("<img loading=\"lazy\" width=\"160\" height=\"90\" alt=\"{}\" src=\"{}\">",
-                             html_text(entry.picture_words), address(entry.picture)),
+                             html_text(entry.picture_words), link_address(entry.picture)),
                  " tabindex=\"-1\"");
   const auto* state = has_failed(entry) ? "fail" : entry.word == "PASS" ? "pass" : "told";
   const auto badge = entry.word.empty()

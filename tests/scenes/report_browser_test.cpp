@@ -286,14 +286,22 @@ renders::Report report_with_lanes(const TestFolder& folder) {
   return report;
 }
 
-TEST(ReportOfLanes, KeepsTheTextsOfStatesWhenZoomedAndTellsTheStateAtTheCursor) {
-  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
-  const TestFolder folder;
-  renders::write_report(report_with_lanes(folder), folder / "report.html");
-  Browser browser(folder.path);
-  browser.window(1280, 900);
-  browser.open(folder / "report.html");
-  if (browser.evaluate("typeof drycutPlots === 'undefined'") == true) GTEST_SKIP() << "needs libjs-dygraphs";
+struct ReportOfLanes : testing::Test {
+  void SetUp() override {
+    if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+    renders::write_report(report_with_lanes(folder), folder / "report.html");
+    opened.emplace(folder.path);
+    opened->window(1280, 900);
+    opened->open(folder / "report.html");
+    if (opened->evaluate("typeof drycutPlots === 'undefined'") == true)
+      GTEST_SKIP() << "needs libjs-dygraphs";
+  }
+  TestFolder folder;
+  std::optional<Browser> opened;
+};
+
+TEST_F(ReportOfLanes, KeepsTheTextsOfStatesWhenZoomedAndTellsTheStateAtTheCursor) {
+  auto& browser = *opened;
   // Nothing but the state 7 is in sight, whose ends are far outside; its text stands within the plot.
   const auto texts = browser.evaluate(R"js((() => {
     const told = [], fill = CanvasRenderingContext2D.prototype.fillText;
@@ -316,14 +324,8 @@ TEST(ReportOfLanes, KeepsTheTextsOfStatesWhenZoomedAndTellsTheStateAtTheCursor) 
   EXPECT_EQ(browser.evaluate(kOverflow), json::array());
 }
 
-TEST(ReportOfLanes, IsWorkedByKeys) {
-  if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
-  const TestFolder folder;
-  renders::write_report(report_with_lanes(folder), folder / "report.html");
-  Browser browser(folder.path);
-  browser.window(1280, 900);
-  browser.open(folder / "report.html");
-  if (browser.evaluate("typeof drycutPlots === 'undefined'") == true) GTEST_SKIP() << "needs libjs-dygraphs";
+TEST_F(ReportOfLanes, IsWorkedByKeys) {
+  auto& browser = *opened;
   const auto now = [&] { return browser.evaluate("[drycutPlots[0].at, ...drycutPlots[0].range]"); };
   const auto expect_now = [&](double cursor, double from, double until) {
     const auto found = now();

@@ -14,11 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST(Interrupt, ARunEndsInOrder) {
   const std::string program = DRYCUT_PROGRAM;
   if (!fs::exists(program)) GTEST_SKIP() << "needs the program, which is not built here";

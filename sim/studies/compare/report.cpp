@@ -225,6 +225,13 @@ void write_comparison(const Comparison& comparison, const ComparisonPage& page, 
 std::string comparison_text(const Comparison& comparison, bool judged) {
   constexpr std::size_t most = 20;
   auto text = difference_text(comparison) + "\n";
+  const auto tell_of_each = [&](const std::string& name, const auto& values) {
+    text += fmt::format("  {}:", name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      text += fmt::format("{} {} {}", i == 0 ? "" : ";", comparison.runs[i].label,
+                          values[i].value_or("has none"));
+    text += "\n";
+  };
   for (const auto& check : comparison.checks) {
     if (check.change.empty()) continue;
     text += fmt::format("  {}: {}", check.name, check.change);
@@ -238,22 +245,14 @@ std::string comparison_text(const Comparison& comparison, bool judged) {
       text += fmt::format("  {}\n", apart_text(channel, comparison));
   for (std::size_t k = 0; judged && k < std::min<std::size_t>(3, comparison.event_differences.size()); ++k) {
     const auto& event = comparison.event_differences[k];
-    text += fmt::format("  {}:", event.name);
-    for (std::size_t i = 0; i < event.told.size(); ++i)
-      text += fmt::format("{} {} {}", i == 0 ? "" : ";", comparison.runs[i].label,
-                          event.told[i].value_or("has none"));
-    text += "\n";
+    tell_of_each(event.name, event.told);
   }
   for (const auto& figure : comparison.figures_beyond)
     text += fmt::format("  {} by {:.4g} {}, {:.4g} allowed\n", figure.name, figure.difference, figure.unit,
                         figure.allowed);
   for (std::size_t k = 0; k < std::min(most, comparison.parameters.size()); ++k) {
     const auto& parameter = comparison.parameters[k];
-    text += fmt::format("  {}:", parameter.path);
-    for (std::size_t i = 0; i < parameter.values.size(); ++i)
-      text += fmt::format("{} {} {}", i == 0 ? "" : ";", comparison.runs[i].label,
-                          parameter.values[i].value_or("has none"));
-    text += "\n";
+    tell_of_each(parameter.path, parameter.values);
   }
   if (comparison.parameters.size() > most)
     text += fmt::format("  and {} parameters more, in {}\n", comparison.parameters.size() - most, csv_file);
