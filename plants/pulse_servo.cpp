@@ -47,8 +47,11 @@ void PulseServo::drive(Shaft& rotor, double h) {
   const double radians = 2 * std::numbers::pi / data_.resolution;
   const double speed = static_cast<double>(counts - counts_before_) * radians / h;
   counts_before_ = counts;
-  const double share = data_.feed_forward_filter > 0 ? -std::expm1(-h / data_.feed_forward_filter) : 1;
-  forward_speed_ += (speed - forward_speed_) * share;
+  if (h != h_) {
+    h_ = h;
+    forward_share_ = data_.feed_forward_filter > 0 ? -std::expm1(-h / data_.feed_forward_filter) : 1;
+  }
+  forward_speed_ += (speed - forward_speed_) * forward_share_;
   if (tripped_ || !amplifier_.enabled()) {
     cleared_ = counts - actual(rotor);
     amplifier_.coast(rotor, h);

@@ -94,6 +94,8 @@ class PulseServo {
   std::int64_t counts_before_ = 0;
   double reference_ = 0;
   double deviation_ = 0;
+  double h_ = 0;              // the step for which the share below holds
+  double forward_share_ = 1;  // of a change of the reference's speed, followed in a step
   double forward_speed_ = 0;  // filtered speed of the reference [rad/s]
   double trip_turns_ = 0;
   bool tripped_ = false;

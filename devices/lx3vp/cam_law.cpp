@@ -55,8 +55,8 @@ RowLaw::RowLaw(std::vector<Row> rows, Zoom master, Zoom slave)
   assert(rows_.size() >= 2);
 }
 
-Wide RowLaw::length() const {
-  return (Wide{rows_.back().master} - rows_.front().master) * master_.denominator;
+std::int64_t RowLaw::length() const {
+  return (std::int64_t{rows_.back().master} - rows_.front().master) * master_.denominator;
 }
 
 RowLaw::Place RowLaw::place(std::int64_t counts, std::int64_t first) const {
@@ -66,39 +66,37 @@ RowLaw::Place RowLaw::place(std::int64_t counts, std::int64_t first) const {
                                     -most * master_.denominator, most * master_.denominator);
   // Floor, not truncation: a master that runs backwards leaves cycle 0 for cycle -1 at its end.
   const Wide cycle = floor_of(travelled, length());
-  return {limited(cycle), travelled - cycle * length()};
+  return {limited(cycle), static_cast<std::int64_t>(travelled - cycle * length())};
 }
 
-RowLaw::Fraction RowLaw::slave(Wide part) const {
-  const Wide unit = master_.denominator;
+RowLaw::Fraction RowLaw::in_cycle(std::int64_t part) const {
+  const std::int64_t unit = master_.denominator;
   const std::int64_t first = rows_.front().master;
-  auto next = std::upper_bound(rows_.begin(), rows_.end(), part, [&](Wide at, const Row& row) {
-    return at < (Wide{row.master} - first) * unit;
-  });
+  const auto after = [](std::int64_t at, const Row& row) { return at < row.master; };
+  auto next = std::upper_bound(rows_.begin(), rows_.end(), first + part / unit, after);
   if (next == rows_.end()) --next;  // the end of the last piece
   const Row& to = *next;
   const Row& from = *(next - 1);
-  const Wide length = Wide{to.master} - from.master;
-  const Wide rise = Wide{to.slave} - from.slave;
-  const Wide base = Wide{from.slave} - rows_.front().slave;
-  return {base * length * unit + rise * (part - (Wide{from.master} - first) * unit), length * unit};
+  const std::int64_t length = (std::int64_t{to.master} - from.master) * unit;
+  const std::int64_t rise = std::int64_t{to.slave} - from.slave;
+  const std::int64_t base = std::int64_t{from.slave} - rows_.front().slave;
+  return {Wide{base} * length + Wide{rise} * (part - (from.master - first) * unit), length};
 }
 
-std::int64_t RowLaw::pulses(const Place& place) const {
-  const Fraction in_cycle = slave(place.part);
-  const Wide a_cycle = Wide{rows_.back().slave} - rows_.front().slave;
-  const Wide total = place.cycle * a_cycle * in_cycle.denominator + in_cycle.numerator;
-  return limited(nearest_to(total * slave_.numerator, in_cycle.denominator * slave_.denominator));
+std::int64_t RowLaw::pulses(std::int64_t cycle, const Fraction& in_cycle) const {
+  const std::int64_t a_cycle = std::int64_t{rows_.back().slave} - rows_.front().slave;
+  const Wide total = Wide{cycle} * a_cycle * in_cycle.denominator + in_cycle.numerator;
+  return limited(nearest_to(total * slave_.numerator, Wide{in_cycle.denominator} * slave_.denominator));
+}
+
+RowLaw::Slave RowLaw::slave(const Place& place) const {
+  const Fraction at = in_cycle(place.part);
+  return {pulses(place.cycle, at), pulses(place.cycle, {0, 1}),
+          rows_.front().slave + static_cast<std::int64_t>(nearest_to(at.numerator, at.denominator))};
 }
 
 std::int64_t RowLaw::master_position(const Place& place) const {
-  return rows_.front().master + static_cast<std::int64_t>(floor_of(place.part, master_.denominator));
-}
-
-std::int64_t RowLaw::slave_position(const Place& place) const {
-  const Fraction in_cycle = slave(place.part);
-  return rows_.front().slave +
-         static_cast<std::int64_t>(nearest_to(in_cycle.numerator, in_cycle.denominator));
+  return rows_.front().master + place.part / master_.denominator;
 }
 
 }  // namespace drycut::devices::lx3vp

@@ -36,21 +36,24 @@ class RowLaw {
   /// first row. `part` is 0..length(); length() itself is the end of a cycle that goes no further.
   struct Place {
     std::int64_t cycle = 0;
-    Wide part = 0;
+    std::int64_t part = 0;
   };
   /// Of a master that has come `counts` from table position `first` (0 = the first row).
   [[nodiscard]] Place place(std::int64_t counts, std::int64_t first = 0) const;
   /// Length of a cycle, in units of Place::part.
-  [[nodiscard]] Wide length() const;
+  [[nodiscard]] std::int64_t length() const;
 
-  /// Pulses from the start of cycle 0, to the nearest, halves upwards.
-  [[nodiscard]] std::int64_t pulses(const Place& place) const;
-  /// Pulses up to the start of the place's cycle.
-  [[nodiscard]] std::int64_t pulses_before(std::int64_t cycle) const { return pulses({cycle, 0}); }
+  /// Where the slave is then.
+  struct Slave {
+    std::int64_t pulses = 0;    ///< from the start of cycle 0, to the nearest, halves upwards
+    std::int64_t before = 0;    ///< of them, up to the start of its cycle
+    std::int64_t position = 0;  ///< in table units, to the nearest
+  };
+  [[nodiscard]] Slave slave(const Place& place) const;
+  [[nodiscard]] std::int64_t pulses(const Place& place) const { return slave(place).pulses; }
   /// Master position in table units, downwards to a whole one.
   [[nodiscard]] std::int64_t master_position(const Place& place) const;
-  /// Slave position in table units, to the nearest.
-  [[nodiscard]] std::int64_t slave_position(const Place& place) const;
+  [[nodiscard]] std::int64_t slave_position(const Place& place) const { return slave(place).position; }
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   [[nodiscard]] const Zoom& master_zoom() const { return master_; }
@@ -59,9 +62,10 @@ class RowLaw {
  private:
   struct Fraction {
     Wide numerator;
-    Wide denominator;  ///< above 0
+    std::int64_t denominator;  ///< 1..2^47
   };
-  [[nodiscard]] Fraction slave(Wide part) const;
+  [[nodiscard]] Fraction in_cycle(std::int64_t part) const;
+  [[nodiscard]] std::int64_t pulses(std::int64_t cycle, const Fraction& in_cycle) const;
 
   std::vector<Row> rows_;
   Zoom master_;

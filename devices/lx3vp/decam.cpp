@@ -128,7 +128,7 @@ PulseTick Decam::tick(CamPort& port, PulseOutput& output, bool stop, bool taken)
       tell_late(port);
     }
     if (state_ != State::init && state_ != State::armed)
-      show_positions(port, place_, output.position() - base_ - law_.pulses_before(place_.cycle));
+      show_positions(port, output.position() - base_ - slave_.before);
   }
   drive_sync_output(port);
   show_status(port);
@@ -209,12 +209,11 @@ void Decam::start(CamPort& port) {
   counts_ =
       resumed ? counts_ + static_cast<std::int32_t>(registered - static_cast<std::uint32_t>(counts_)) : 0;
   ended_ = false;
-  place_ = law_.place(counts_, first_);
-  limit(port, place_);
+  go(port);
   cycle_ = place_.cycle;
-  const std::int64_t in_cycle = resumed ? port.registers.i32(operands_.block + word::slave_pulses)
-                                        : law_.pulses(place_) - law_.pulses_before(cycle_);
-  base_ = target_ - in_cycle - law_.pulses_before(cycle_);
+  const std::int64_t in_cycle =
+      resumed ? port.registers.i32(operands_.block + word::slave_pulses) : slave_.pulses - slave_.before;
+  base_ = target_ - in_cycle - slave_.before;
   delayed_ = 0;
   state_ = !cyclic_ && (function_ & function::delayed_start) != 0 && delay_ > 0 ? State::delay : State::run;
 }
@@ -228,9 +227,8 @@ void Decam::count_delay(CamPort& port) {
 
 void Decam::run(CamPort& port, std::int64_t counts) {
   counts_ += counts;
-  place_ = law_.place(counts_, first_);
-  const bool at_end = limit(port, place_);
-  target_ = base_ + law_.pulses(place_);
+  const bool at_end = go(port);
+  target_ = base_ + slave_.pulses;
   if (place_.cycle > cycle_)
     raise(port, repeats_for_ever() ? status::completed | status::cycle_completed : status::cycle_completed);
   cycle_ = place_.cycle;
@@ -251,11 +249,18 @@ CamMoment Decam::moment(const PulseOutput& output) const {
   return moment;
 }
 
+bool Decam::go(CamPort& port) {
+  place_ = law_.place(counts_, first_);
+  const bool at_end = limit(port, place_);
+  slave_ = law_.slave(place_);
+  return at_end;
+}
+
 bool Decam::limit(CamPort& port, RowLaw::Place& place) const {
   // A non-cyclic cam has nothing before its first row.
   if (!repeats_for_ever() && place.cycle < 0) place = {0, 0};
   if (stops_after_cycle(port) && state_ == State::run && place.cycle != cycle_) {
-    place = {cycle_, place.cycle > cycle_ ? law_.length() : Wide{0}};
+    place = {cycle_, place.cycle > cycle_ ? law_.length() : 0};
     return true;
   }
   if (repeats_for_ever() || place.cycle < cycles_) return false;
@@ -272,13 +277,15 @@ void Decam::finish(CamPort& port) {
   pause_ticks_ = ticks_between_runs;
 }
 
-void Decam::show_positions(CamPort& port, const RowLaw::Place& place, std::int64_t pulses) const {
-  Registers& registers = port.registers;
-  const int at = operands_.block;
-  registers.set_u32(at + word::slave_pulses, static_cast<std::uint32_t>(pulses));
-  registers.set_u32(at + word::slave_position, static_cast<std::uint32_t>(law_.slave_position(place)));
-  registers.set_u32(at + word::master_position, static_cast<std::uint32_t>(law_.master_position(place)));
-  registers.set_u32(at + word::master_counts, static_cast<std::uint32_t>(counts_));
+void Decam::show_positions(CamPort& port, std::int64_t pulses) const {
+  const auto show = [&](int first, std::int64_t value) {
+    block(port, first) = static_cast<std::uint16_t>(value);
+    block(port, first + 1) = static_cast<std::uint16_t>(value >> 16);
+  };
+  show(word::slave_pulses, pulses);
+  show(word::slave_position, slave_.position);
+  show(word::master_position, law_.master_position(place_));
+  show(word::master_counts, counts_);
 }
 
 void Decam::show_status(CamPort& port) {

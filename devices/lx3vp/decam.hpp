@@ -128,10 +128,11 @@ class Decam {
   [[nodiscard]] bool repeats_for_ever() const { return cyclic_ || cycles_ == 0; }
   /// The present cycle is the last.
   [[nodiscard]] bool stops_after_cycle(CamPort& port) const;
-  /// Keeps the place within what the cam may do; true if it is at its end.
+  /// To the place of the present counts, within what the cam may do; true if it is at its end.
+  bool go(CamPort& port);
   bool limit(CamPort& port, RowLaw::Place& place) const;
   void finish(CamPort& port);
-  void show_positions(CamPort& port, const RowLaw::Place& place, std::int64_t pulses) const;
+  void show_positions(CamPort& port, std::int64_t pulses) const;
   void show_status(CamPort& port);
   void drive_sync_output(CamPort& port);
   void tell_late(CamPort& port);
@@ -168,6 +169,7 @@ class Decam {
   std::int64_t base_ = 0;    ///< output position at the start of cycle 0
   std::int64_t target_ = 0;  ///< output position that is due
   RowLaw::Place place_;
+  RowLaw::Slave slave_;  ///< there
   int pause_ticks_ = 0;
   std::optional<int> sync_output_;
   bool told_late_ = false;

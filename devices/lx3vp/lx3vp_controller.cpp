@@ -127,12 +127,9 @@ void Lx3vpController::begin_scan(std::int64_t time_ns) {
 void Lx3vpController::end_scan() {
   first_scan_ = false;
   // What works tick by tick has its own level; the image shows it.
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (pulses_.holds(static_cast<int>(i)))
-      registers_.y[i] = outputs_[i];
-    else
-      outputs_[i] = registers_.y[i];
-  }
+  for (const int y : pulses_.held())
+    registers_.y[static_cast<std::size_t>(y)] = outputs_[static_cast<std::size_t>(y)];
+  outputs_ = registers_.y;
   if (pulses_.has_notes()) tell_notes();
   give_outputs();
 }

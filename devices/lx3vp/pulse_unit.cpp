@@ -44,17 +44,18 @@ void PulseUnit::decam(int step, const DecamOperands& operands, bool powered, Cam
   if (auto told = cam.take_fault()) notes_.push_back({step, told->code, std::move(told->text)});
 }
 
-bool PulseUnit::cam_uses(int output) const {
-  return std::any_of(cams_.begin(), cams_.end(), [&](const auto& entry) {
-    const Decam& cam = entry.second;
-    return cam.enabled() && !cam.refused() && cam.operands().output == output &&
-           cam.uses(lines_[static_cast<std::size_t>(output)].output);
-  });
+std::bitset<pulse_outputs> PulseUnit::used_by_cams() const {
+  std::bitset<pulse_outputs> used;
+  for (const auto& [step, cam] : cams_) {
+    const auto output = static_cast<std::size_t>(cam.operands().output);
+    if (cam.enabled() && !cam.refused() && cam.uses(lines_[output].output)) used.set(output);
+  }
+  return used;
 }
 
 bool PulseUnit::take(Line& line, int step, int output) {
   if (line.motion.step == step) return true;
-  const bool by_cam = cam_uses(output);
+  const bool by_cam = used_by_cams()[static_cast<std::size_t>(output)];
   if (line.motion.step < 0 && !by_cam) {
     line.motion = {step};
     line.output.halt();
@@ -235,23 +236,30 @@ void PulseUnit::tick_motion(int output, CamPort& port) {
 void PulseUnit::tick(CamPort& port) {
   for (auto& [step, cam] : cams_)
     if (cam.enabled() && !cam.refused()) tick_cam(step, cam, port);
+  const auto by_cams = used_by_cams();
   for (int output = 0; output < pulse_outputs; ++output) {
     tick_motion(output, port);
-    const Motion& motion = lines_[static_cast<std::size_t>(output)].motion;
+    const auto at = static_cast<std::size_t>(output);
+    const Motion& motion = lines_[at].motion;
     const bool moves =
         motion.step >= 0 && (motion.order.kind != PulseOrder::Kind::speed || motion.order.frequency != 0);
-    port.registers.m[static_cast<std::size_t>(first_busy_relay + output)] = moves || cam_uses(output);
+    port.registers.m[first_busy_relay + at] = moves || by_cams[at];
   }
 }
 
-bool PulseUnit::holds(int y) const {
+std::vector<int> PulseUnit::held() const {
+  std::vector<int> held;
+  const auto hold = [&](int y) {
+    if (y >= 0) held.push_back(y);
+  };
   for (const auto& [step, cam] : cams_) {
-    if (cam.enabled() && !cam.refused() && (cam.operands().direction == y || cam.sync_output() == y))
-      return true;
+    if (!cam.enabled() || cam.refused()) continue;
+    hold(cam.operands().direction);
+    if (cam.sync_output()) hold(*cam.sync_output());
   }
-  return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
-    return line.motion.step >= 0 && line.motion.order.direction == y;
-  });
+  for (const Line& line : lines_)
+    if (line.motion.step >= 0) hold(line.motion.order.direction);
+  return held;
 }
 
 std::vector<PulseNote> PulseUnit::take_notes() { return std::exchange(notes_, {}); }

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -39,8 +40,8 @@ class PulseUnit {
   [[nodiscard]] const PulseOutput& output(int output) const {
     return lines_[static_cast<std::size_t>(output)].output;
   }
-  /// True if the level of this Y is given tick by tick, not at the end of the scan.
-  [[nodiscard]] bool holds(int y) const;
+  /// The outputs whose level is given tick by tick, not at the end of the scan.
+  [[nodiscard]] std::vector<int> held() const;
 
   [[nodiscard]] bool has_notes() const { return !notes_.empty(); }
   std::vector<PulseNote> take_notes();
@@ -64,7 +65,8 @@ class PulseUnit {
   };
   enum class Progress : std::uint8_t { off, on, arrived };  ///< of an instruction that comes to an end
 
-  [[nodiscard]] bool cam_uses(int output) const;
+  /// The outputs on which cams give pulses, or owe some.
+  [[nodiscard]] std::bitset<pulse_outputs> used_by_cams() const;
   /// True if the instruction has the output, taking it if it is free.
   bool take(Line& line, int step, int output);
   /// Without power the instruction gives its output back; true then.

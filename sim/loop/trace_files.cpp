@@ -1,9 +1,11 @@
 #include "sim/loop/trace_files.hpp"
 
 #include <fcntl.h>
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -65,7 +67,7 @@ void GrowingFile::flush() {
 
 TraceFiles::TraceFiles(const Recording& recording, const std::filesystem::path& trace,
                        const std::filesystem::path& events)
-    : recording_(recording), trace_(trace), events_(events) {
+    : recording_(recording), trace_(trace), events_(events), cells_(recording.columns().size()) {
   row_ = "time [s]";
   for (const auto& column : recording.columns())
     row_ += ',' + csv_cell(fmt::format("{} [{}]", column.name, column.unit.empty() ? "-" : column.unit));
@@ -75,8 +77,17 @@ TraceFiles::TraceFiles(const Recording& recording, const std::filesystem::path& 
 
 void TraceFiles::sample(Time time) {
   row_ = seconds_text(time);
-  for (const auto& column : recording_.columns())
-    fmt::format_to(std::back_inserter(row_), ",{}", *column.slot);
+  auto cell = cells_.begin();
+  for (const auto& column : recording_.columns()) {
+    auto& [bits, text] = *cell++;
+    // Most values of a row are those of the row before.
+    if (const auto now = std::bit_cast<std::uint64_t>(*column.slot); now != bits || text.empty()) {
+      bits = now;
+      text.clear();
+      fmt::format_to(std::back_inserter(text), FMT_COMPILE(",{}"), *column.slot);
+    }
+    row_ += text;
+  }
   trace_.write(row_ += '\n');
   flush_at(time);
 }

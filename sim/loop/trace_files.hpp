@@ -1,7 +1,10 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sim/loop/observer.hpp"
 #include "sim/loop/recorder.hpp"
@@ -48,6 +51,8 @@ class TraceFiles : public Observer {
   GrowingFile trace_;
   GrowingFile events_;
   std::string row_;
+  std::vector<std::pair<std::uint64_t, std::string>>
+      cells_;  ///< of the last row: the bits of a value, its text
   Time next_flush_ = 0;
 };
 

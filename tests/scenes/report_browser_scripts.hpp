@@ -3,6 +3,14 @@
 
 namespace drycut {
 
+/// True once the machine in 3-D shows, or says why it cannot; also on a page without one. Brings it into sight.
+inline const char* const kMachineStands = R"js((() => {
+  const figure = document.getElementById("machine");
+  if (!figure || figure.hidden) return true;
+  figure.scrollIntoView();
+  return Boolean(window.drycutView) || /cannot be shown/.test(figure.innerText);
+})())js";
+
 /// "all", or the first picture or film that cannot be shown. Waits for the film.
 inline const char* const kPicturesLoaded = R"js((async () => {
   for (const image of document.images)

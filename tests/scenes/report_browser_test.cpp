@@ -192,6 +192,8 @@ class ReportInABrowser : public ::testing::TestWithParam<Page> {
     browser->media("light");
     browser->open(folder / GetParam().report);
     EXPECT_EQ(browser->evaluate(kPicturesLoaded), "all");
+    // The machine in 3-D begins once it is seen; the page is looked at when it stands, with its buttons.
+    EXPECT_TRUE(browser->becomes(kMachineStands));
     EXPECT_THAT(browser->complaints(), IsEmpty());
   }
 
