@@ -21,6 +21,7 @@ inline constexpr Look dark = {{0.12F, 0.12F, 0.13F}};
 inline constexpr Look white = {{0.95F, 0.95F, 0.95F}};
 inline constexpr Look red = {{0.86F, 0.12F, 0.10F}};
 inline constexpr Look green = {{0.20F, 0.75F, 0.25F}};
+inline constexpr Look bearing = {{0.28F, 0.43F, 0.52F}};
 inline constexpr Look bed = {{0.16F, 0.30F, 0.42F}};     ///< what stands: frames, beds, beams
 inline constexpr Look moving = {{0.93F, 0.55F, 0.13F}};  ///< what moves: carriages, rams
 

@@ -22,10 +22,10 @@ constexpr double piece_of_blade = 0.05;  // at most so much of the drum's turn [
 constexpr double bearing_width = 0.11;
 constexpr double bearing_height = 0.09;
 constexpr double frame_depth = 0.05;
+constexpr double beam_height = 0.06;
 constexpr double gap = 0.025;  // between the drum's end and a frame
 
 constexpr looks::Look drum_look = {{0.55F, 0.58F, 0.62F}, "steel"};
-constexpr looks::Look bearing_look = {{0.28F, 0.43F, 0.52F}};
 constexpr looks::Look shaft_look = {{0.70F, 0.72F, 0.74F}, "steel"};
 
 }  // namespace
@@ -37,11 +37,7 @@ struct RotaryKnife::Picture : Assembly {
     add_frame(-1);
     add_drive();
     on_floor();
-    const double switch_x = -0.06 - axis * 0.8;
-    const double switch_y = axis + axis * 0.7;
-    box("home switch", {0.05, 0.018, 0.018}, looks::white, at(switch_x, switch_y, width / 2 - 0.02));
-    box("home switch arm", {0.016, 0.016, 0.1}, shaft_look,
-        at(switch_x - 0.02, switch_y + 0.016, width / 2 + 0.02));
+    add_home_switch();
     on(drum_);
     add_blades("blade", 1);
     if (knife_.data_.counter.cuts()) {
@@ -52,6 +48,7 @@ struct RotaryKnife::Picture : Assembly {
 
   void add_drum();
   void add_frame(int side);
+  void add_home_switch();
   void add_counter_drum();
   void add_drive();
   void add_motor(const std::string& ending, double height, int side, const Frame& rotor);
@@ -121,7 +118,7 @@ void RotaryKnife::Picture::add_counter_drum() {
 void RotaryKnife::Picture::add_frame(int side) {
   const Pose plane = at(0, 0, side * (width / 2 + gap + frame_depth / 2));
   const double low = axis + bearing_height / 2;  // lower side of the beam
-  const double top = low + 0.06;
+  const double top = low + beam_height;
   const double apart = axis + 0.09;
   const double left = side > 0 ? -bearing_width / 2 : -apart;
   const int number = side > 0 ? 1 : 2;
@@ -133,11 +130,23 @@ void RotaryKnife::Picture::add_frame(int side) {
   if (side < 0) post(3, -apart);
   box(fmt::format("frame beam {}", number), {apart - left, top - low, frame_depth}, looks::bed,
       plane * at((apart + left) / 2, (top + low) / 2, 0), "frame_beam");
-  box(fmt::format("bearing {}", number), {bearing_width, bearing_height, frame_depth}, bearing_look,
+  box(fmt::format("bearing {}", number), {bearing_width, bearing_height, frame_depth}, looks::bearing,
       plane * at(0, axis, 0) * about_z(std::numbers::pi), "bearing_block");
   const double anvil_bearing = 2 * (-base_top - counter_axis);
-  box(fmt::format("anvil bearing {}", number), {0.15, anvil_bearing, 0.04}, bearing_look,
+  box(fmt::format("anvil bearing {}", number), {0.15, anvil_bearing, 0.04}, looks::bearing,
       at(0, -counter_axis, side * (width / 2 + 0.022)), "bearing_block");
+}
+
+/// Before the drum at the beam's height, on an arm that the beam carries.
+void RotaryKnife::Picture::add_home_switch() {
+  const double y = axis + (bearing_height + beam_height) / 2;
+  const double x = -std::sqrt(std::pow(axis + 0.056, 2) - std::pow(y - axis, 2));
+  const double beam_z = width / 2 + gap + frame_depth / 2;
+  box("home switch", {0.05, 0.018, 0.018}, looks::white, at(x, y - 0.017, width / 2 - 0.02));
+  box("home switch arm", {0.016, 0.016, beam_z + 0.008 - (width / 2 - 0.03)}, shaft_look,
+      at(x, y, (beam_z + 0.008 + width / 2 - 0.03) / 2));
+  box("home switch bracket", {-bearing_width / 2 - x, 0.016, 0.016}, shaft_look,
+      at((x - bearing_width / 2) / 2, y, beam_z));
 }
 
 void RotaryKnife::Picture::add_drive() {

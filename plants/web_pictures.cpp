@@ -16,7 +16,8 @@ namespace {
 constexpr double before_puller = 0.45;  // visible web before the line drive [m]
 constexpr double least_look = 3e-3;     // thinner web would vanish in the picture [m]
 constexpr double roll_diameter = 0.14;
-constexpr double stand_low = -0.24;  // foot of the pull rolls' stands
+constexpr double stand_low = -0.24;      // lower side of the infeed frame
+constexpr double support_height = 0.05;  // of what carries the pull rolls and the measuring wheel on it
 constexpr double belt_height = 0.11;
 constexpr double infeed_leg = 0.75;
 constexpr double most_between_legs = 1.6;
@@ -61,8 +62,8 @@ struct Web::Picture : Assembly {
     if (tube)
       add_tube_rollers();
     else
-      box("table", {upstream - 0.25, 0.02, wide * 1.1}, roll_look, at(-(upstream + 0.25) / 2, -0.011, 0),
-          "table");
+      box("table", {upstream - 0.25, 0.02, wide + std::min(0.1 * wide, 0.08)}, roll_look,
+          at(-(upstream + 0.25) / 2, -0.011, 0), "table");
     add_cleats();
     add_pieces();
     add_prints();
@@ -110,6 +111,7 @@ struct Web::Picture : Assembly {
   double wide = tube ? std::max(4 * data_.width, 0.16) : data_.width;
   double across = wide + std::min(0.15 * wide, 0.12);  ///< of rolls and belt, which stick out
   double stands_z = across / 2 + 0.02;
+  double frame_half = (wide - std::min(0.2 * wide, 0.12)) / 2;  ///< of the infeed frame's width
 };
 
 void Web::Picture::add_pull_rolls() {
@@ -139,17 +141,34 @@ void Web::Picture::add_wheel() {
   on_floor();
   box("wheel arm", {0.26, 0.025, 0.02}, roll_look, at(wheel_x - 0.118, axle_y, arm_z), "wheel_arm");
   rod("wheel axle", 0.018, arm_z - z, roll_look, at(wheel_x, axle_y, (z + arm_z) / 2));
+  const double post_x = wheel_x - 0.236;
+  const double post_z = arm_z - 0.02;
   box("wheel post", {0.05, axle_y + 0.035 - stand_low, 0.024}, looks::bed,
-      at(wheel_x - 0.236, (axle_y + 0.035 + stand_low) / 2, arm_z - 0.02), "frame_post");
+      at(post_x, (axle_y + 0.035 + stand_low) / 2, post_z), "frame_post");
+  box("wheel bracket", {0.05, support_height, post_z - frame_half}, looks::bed,
+      at(post_x, stand_low + support_height / 2, (post_z + frame_half) / 2));
 }
 
 void Web::Picture::add_stands() {
-  const double stand = look + roll_diameter - stand_low;
-  for (const double side : {-1.0, 1.0})
+  const double foot = stand_low - support_height;
+  const double stand = look + roll_diameter - foot;
+  for (const double side : {-1.0, 1.0}) {
     box(numbered("roll stand", side), {0.06, stand, 0.024}, looks::bed,
-        at(pull_x, stand_low + stand / 2, -side * stands_z), "frame_post");
-  box("infeed frame", {upstream - 0.3, 0.22, wide - std::min(0.2 * wide, 0.12)}, looks::bed,
-      at(-(upstream + 0.3) / 2, -0.13, 0), "hollow_frame")
+        at(pull_x, foot + stand / 2, -side * stands_z), "frame_post");
+    const auto bearing = [&](const char* name, double y) {
+      box(numbered(name, side), {0.11, 0.09, 0.03}, looks::bearing, at(pull_x, y, -side * (stands_z + 0.027)),
+          "bearing_block");
+    };
+    bearing("upper roll bearing", look + roll_diameter / 2);
+    bearing("lower roll bearing", -roll_diameter / 2);
+  }
+  const double shaft = 2 * (stands_z + 0.06);
+  rod("upper roll shaft", 0.045, shaft, roll_look, at(pull_x, look + roll_diameter / 2, 0));
+  rod("lower roll shaft", 0.045, shaft, roll_look, at(pull_x, -roll_diameter / 2, 0));
+  box("roll beam", {0.06, support_height, 2 * stands_z}, looks::bed,
+      at(pull_x, foot + support_height / 2, 0));
+  box("infeed frame", {upstream - 0.3, 0.22, 2 * frame_half}, looks::bed, at(-(upstream + 0.3) / 2, -0.13, 0),
+      "hollow_frame")
       .ends_kept = true;
   const double first = -upstream + 0.25;
   const double last = -0.45;
