@@ -121,8 +121,9 @@ int measure_bode(const BodeOptions& options) {
   if (!cycle || !cycle->least) faults.insert(faults.begin(), doubts.begin(), doubts.end());
   if (cycle && !cycle->least) faults.emplace_back("no gain margin was found at any amplitude");
   write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, checks, folder ? &*folder : nullptr);
-  if (!options.out.empty())
-    fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());
+  fmt::print(options.csv == "-" ? stderr : stdout, "{}\n",
+             options.out.empty() ? "no plots; --out DIR writes them as a report"
+                                 : fmt::format("report: {}", (options.out / "report.html").string()));
   if (!result->sweep.failure.empty()) return simulation_failed;
   return faults.empty() ? all_passed : check_failed;
 }

@@ -331,7 +331,7 @@ std::string Checks::looked_at(const State& state) {
     return state.windowed ? "periods" : "instants";
   return state.windowed && check.kind == scenario::Check::Kind::each
              ? fmt::format("cycles from {0} to {0}", check.event.text)
-             : check.event.text + " events";
+             : check.event.text + (state.count == 1 ? " event" : " events");
 }
 
 std::vector<CheckResult> Checks::results(Time end) {

@@ -71,8 +71,9 @@ ValueSpectrum analysed(const MachineFacts& machine, const loop::Recording& recor
 }
 
 std::string period_text(const ValueSpectrum& of, double frequency) {
-  return of.over_web ? fmt::format("{:.4g} mm", metre / frequency)
-                     : fmt::format("{:.4g} {} events", 1 / frequency, of.event);
+  if (of.over_web) return fmt::format("{:.4g} mm", metre / frequency);
+  const auto events = fmt::format("{:.4g}", 1 / frequency);
+  return fmt::format("{} {}{}", events, of.event, events == "1" ? "" : "s");
 }
 
 std::string amplitude_text(const ValueSpectrum& of, double amplitude) {

@@ -72,6 +72,9 @@ class OverrideSetter {
     const std::string first(rest.substr(0, dot));
     const auto& sections = section_names();
     const bool section = std::find(sections.begin(), sections.end(), first) != sections.end();
+    if (dot == std::string_view::npos && name.empty() && !section && is_variable(map, rest))
+      return refuse(fmt::format("there is no '{}' in the scenario", rest),
+                    fmt::format("it is a variable: --set variables.{}={}", rest, override_.value));
     if ((dot == std::string_view::npos && name != "variables") || takes_dotted_keys(name)) {
       map.entries.push_back({Text{std::string(rest), place_}, value_});
     } else if (name.empty() ? section : name != "plants" && name != "variables") {
@@ -90,6 +93,16 @@ class OverrideSetter {
     return name.starts_with("plants.") || name.starts_with("controller.plcopen.axes.") || name == "wiring" ||
            (name.starts_with("controller.") && name.ends_with(".set")) ||
            (name.starts_with("timeline.") && (name.ends_with(".set") || name.ends_with(".ramp")));
+  }
+
+  static bool is_variable(const YamlNode& root, std::string_view name) {
+    const auto below = [](const YamlNode& map, std::string_view key) -> const YamlNode* {
+      for (const auto& entry : map.entries)
+        if (entry.key.text == key) return &entry.value;
+      return nullptr;
+    };
+    const auto* variables = below(root, "variables");
+    return variables != nullptr && below(*variables, name) != nullptr;
   }
 
   // By the name of an entry, which may contain dots itself, or by its number.

@@ -195,7 +195,7 @@ TEST_F(ChecksTest, RoundingNoiseIsPrintedAsZero) {
   add(scenario::Check::Kind::each, "cut", "length >= -1");
   start();
   cut(2 * second, -1.8e-12);
-  EXPECT_EQ(result().detail, "1 cut events, worst: length=0 mm; force=130 N");
+  EXPECT_EQ(result().detail, "1 cut event, worst: length=0 mm; force=130 N");
   EXPECT_EQ(values_text({0, 0, "a", "b", {{"slant", -1.8e-12, "mm"}, {"gap", 2e-9, "mm"}}, ""}),
             "slant=0 mm; gap=2e-09 mm");
   CheckResult noise;

@@ -249,7 +249,7 @@ TEST(SpectrumPlot, AValueWithoutALengthGoesByTheEvents) {
       "pictures: {plots: [{name: s, panels: [{event: cut, values: [force], spectrum: on}]}]}\n", problems);
   const MachineFacts machine{{}, {{"web.wheel", 0.5, 0}, {"k.drum", 0, 4}}};
   const auto plot = plots_of(scenario, recording, machine).at(0);
-  EXPECT_EQ(plot.panels.at(0).title, "3 N at 4 cut events: once a turn of k.drum");
+  EXPECT_EQ(plot.panels.at(0).title, "3 N at 4 cuts: once a turn of k.drum");
 }
 
 TEST(MotorPlot, ShowsTheOperatingPointsInTheMotorsLimits) {

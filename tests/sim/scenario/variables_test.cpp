@@ -117,9 +117,13 @@ TEST(Variables, AreOverridden) {
   EXPECT_NEAR(dynamic_cast<fakes::FakeKnife&>(*scenario.plants[1].definition).circumference, 1.003, 1e-15);
   EXPECT_EQ(scenario.scene.title, "of 1 m");
   EXPECT_THAT(
-      problems_of("variables: {circle: 400 mm}\n" + plants,
-                  {{"variables.circel", "1 m"}, {"plants.web.speed", "${circle} / 2"}, {"extends", "x"}}),
+      problems_of("variables: {circle: 400 mm}\n" + plants, {{"variables.circel", "1 m"},
+                                                             {"circle", "1 m"},
+                                                             {"plants.web.speed", "${circle} / 2"},
+                                                             {"extends", "x"}}),
       ElementsAre("--set variables.circel:1:1: there is no 'circel' in variables; did you mean circle?",
+                  "--set circle:1:1: there is no 'circle' in the scenario; it is a variable: --set "
+                  "variables.circle=1 m",
                   "--set plants.web.speed:1:1: plants.web.speed is a speed, not a length (mm); for "
                   "example 1 m/min",
                   HasSubstr("--set extends:1:1: what a scenario extends cannot be set")));
