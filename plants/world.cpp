@@ -72,20 +72,35 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
   }
 
   void internalSingleStepSimulation(btScalar h) override {
+    // All forces first: Bullet reads in other pieces what was written, which takes long when it is written
+    // just before.
+    for (ShaftBody& s : shafts) load(s);
+    for (SlideBody& s : slides)
+      if (s.state.awake) load(s);
     for (ShaftBody& s : shafts) turn(s, h);
     for (SlideBody& s : slides)
       if (s.state.awake) move(s, h);
     if (slow_too)
-      for (SlideBody& s : slow_slides)
-        if (s.state.awake) move(s, h * World::slow_steps);
+      for (SlideBody& s : slow_slides) {
+        if (!s.state.awake) continue;
+        load(s);
+        move(s, h * World::slow_steps);
+      }
   }
 
  private:
+  static void load(ShaftBody& s) {
+    s.body->setAngularVelocity(btVector3(0, 0, s.state.speed));
+    s.body->applyTorque(btVector3(0, 0, s.state.torque));
+  }
+  static void load(SlideBody& s) {
+    s.body->setLinearVelocity(s.axis * s.state.speed);
+    s.body->applyCentralForce(s.axis * (s.state.force + s.weight));
+  }
+
   void turn(ShaftBody& s, btScalar h) {
     Shaft& state = s.state;
     btRigidBody& body = *s.body;
-    body.setAngularVelocity(btVector3(0, 0, state.speed));
-    body.applyTorque(btVector3(0, 0, state.torque));
     body.integrateVelocities(h);
     body.clearForces();
     const double speed = body.getAngularVelocity().z();
@@ -117,8 +132,6 @@ class GuidedWorld : public btDiscreteDynamicsWorld {
   void move(SlideBody& s, btScalar h) {
     Slide& state = s.state;
     btRigidBody& body = *s.body;
-    body.setLinearVelocity(s.axis * state.speed);
-    body.applyCentralForce(s.axis * (state.force + s.weight));
     body.integrateVelocities(h);
     body.clearForces();
     const double speed = body.getLinearVelocity().dot(s.axis);
