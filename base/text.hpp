@@ -1,5 +1,6 @@
 #pragma once
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,6 +53,8 @@ std::optional<Number> parsed(std::string_view text, auto... base) {
   return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
 }
 
+/// "1 piece", "2 pieces".
+std::string counted(std::int64_t count, std::string_view noun);
 /// `text` between quotes for a message: cut if long, unprintable bytes as \xNN.
 std::string in_quotes(std::string_view text);
 /// "did you mean posit?" for the nearest candidate, or `otherwise` if none is near.

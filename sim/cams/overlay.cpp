@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text.hpp"
 #include "sim/cams/findings.hpp"
 #include "sim/cams/motion_plot.hpp"
 
@@ -119,7 +120,7 @@ renders::Curve other_cycles(const PlayedCam& played, const IdealCam& ideal,
     pale.x.insert(pale.x.end(), one.x.begin(), one.x.end());
     pale.y.insert(pale.y.end(), one.y.begin(), one.y.end());
   }
-  pale.label = fmt::format("{} other cycle{}", count, count == 1 ? "" : "s");
+  pale.label = counted(count, "other cycle");
   return CycleCurves::in_order(std::move(pale));
 }
 

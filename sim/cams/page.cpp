@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "base/text.hpp"
 #include "sim/cams/overlay.hpp"
 #include "sim/cams/study.hpp"
 #include "sim/report/shown_units.hpp"
@@ -109,7 +110,7 @@ renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors
     table.rows.push_back(
         {{name, fmt::format("{} {}", error_text(figures.largest, ideal.error_step), ideal.error_unit),
           fmt::format("{} {}", error_text(figures.rms, ideal.error_step), ideal.error_unit),
-          fmt::format("{} samples, {} whole cycle{}", figures.count, whole, whole == 1 ? "" : "s")}});
+          fmt::format("{}, {}", counted(figures.count, "sample"), counted(whole, "whole cycle"))}});
   };
   add("set less ideal position", errors.set);
   add("set less measured position (following error)", errors.behind);

@@ -155,14 +155,13 @@ int check_files(const CheckOptions& options) {
   print_problems(checker.problems());
   annotate(options.annotate, annotations_of(checker.problems()));
   if (!checker.problems().empty()) {
-    fmt::print(stderr, "{} problem{} in {} file{}\n", checker.problems().size(),
-               checker.problems().size() == 1 ? "" : "s", options.files.size(),
-               options.files.size() == 1 ? "" : "s");
+    fmt::print(stderr, "{} in {}\n", counted(checker.problems().size(), "problem"),
+               counted(options.files.size(), "file"));
     return bad_input;
   }
   if (options.expand) return all_passed;
   for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
-  fmt::print("{} file{} checked, no problem\n", options.files.size(), options.files.size() == 1 ? "" : "s");
+  fmt::print("{} checked, no problem\n", counted(options.files.size(), "file"));
   return all_passed;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "base/text.hpp"
 #include "sim/report/gallery_plots.hpp"
 #include "sim/report/statistics.hpp"
 
@@ -72,7 +73,7 @@ renders::ReportKey value_key(const loop::Tolerance& tolerance, const EventNumber
   const auto count = series.numbers.size();
   const auto found = capability(figures, tolerance.low, tolerance.high);
   if (count < enough)
-    key.notes.push_back(fmt::format("of {} value{}, too few for a Cpk", count, count == 1 ? "" : "s"));
+    key.notes.push_back(fmt::format("of {}, too few for a Cpk", counted(count, "value")));
   else
     key.notes.push_back(
         !found ? fmt::format("no spread in {} values, so no Cpk", count)

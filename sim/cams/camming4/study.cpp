@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "base/text.hpp"
+
 #include "sim/cams/camming4/judge.hpp"
 
 namespace drycut::sim::cams {
@@ -51,9 +53,9 @@ class Report {
     const auto bit = [](const camming4::Resolution& axis) {
       return rounded(static_cast<double>(axis.measure) / static_cast<double>(axis.pulse));
     };
-    auto text = fmt::format("{}: CAMMING4, {} sector{}; 1 bit x4 = {} Um of the master, {} Um of the slave\n",
-                            table_.file, table_.count(), table_.count() == 1 ? "" : "s", bit(axes.master),
-                            bit(axes.slave));
+    auto text =
+        fmt::format("{}: CAMMING4, {}; 1 bit x4 = {} Um of the master, {} Um of the slave\n", table_.file,
+                    counted(table_.count(), "sector"), bit(axes.master), bit(axes.slave));
     if (master_ > 0)
       text += fmt::format("master at {} {} = {} Um/s, sampled every {} ms\n", rounded(*duty_.master_speed),
                           speed_unit(table_), rounded(master_), table_.TCamp);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/text.hpp"
 #include "devices/lx3vp/cam_law.hpp"
 #include "sim/cams/lx3vp/judge.hpp"
 
@@ -64,8 +65,7 @@ std::string master_unit(const EcamTable& table) {
 }
 
 std::string heading(const EcamTable& table, const CamCourse& run) {
-  auto text =
-      fmt::format("{}: LX3VP, {} row{}", table.file, table.rows.size(), table.rows.size() == 1 ? "" : "s");
+  auto text = fmt::format("{}: LX3VP, {}", table.file, counted(table.rows.size(), "row"));
   if (table.is_made()) text += fmt::format(" made by ECAMTBX {}", type_text(table));
   text += fmt::format(", {}\n", table.cyclic ? "cyclic" : "not cyclic");
   if (table.time_axis > 0)

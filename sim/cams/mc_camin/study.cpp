@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iterator>
 
+#include "base/text.hpp"
+
 #include "sim/cams/mc_camin/judge.hpp"
 
 namespace drycut::sim::cams {
@@ -97,8 +99,7 @@ std::string heading(const CamInRun& run) {
   const char* endless = cam.endless == Endless::positive   ? ", endless positive"
                         : cam.endless == Endless::negative ? ", endless negative"
                                                            : "";
-  const std::size_t rows = cam.table.lines();
-  std::string text = fmt::format("{}: MC_CamIn, {} row{}", cam.table.file, rows, rows == 1 ? "" : "s");
+  std::string text = fmt::format("{}: MC_CamIn, {}", cam.table.file, counted(cam.table.lines(), "row"));
   if (cam.interpolation != Interpolation::table_defined)
     text += fmt::format(", {}", name_of(cam.interpolation));
   text += fmt::format("{}, {}\nmaster {}, slave {}", endless, cam.periodic ? "periodic" : "one pass",

@@ -31,10 +31,6 @@ bool end_alike(const Comparison& comparison) {
   });
 }
 
-std::string counted(std::size_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 /// A page must stay readable: the rest is in its tables.
 std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t most = 3;

@@ -90,10 +90,8 @@ std::optional<Time> time_of(const CsvRow::Cell& cell, int line, cams::TableProbl
 
 bool has_width(const CsvRow& row, std::size_t width, cams::TableProblems& problems) {
   if (row.cells.size() == width) return true;
-  problems.add(
-      row.line, 1,
-      fmt::format("{} cell{}, the header has {}", row.cells.size(), row.cells.size() == 1 ? "" : "s", width),
-      run_again);
+  problems.add(row.line, 1, fmt::format("{}, the header has {}", counted(row.cells.size(), "cell"), width),
+               run_again);
   return false;
 }
 

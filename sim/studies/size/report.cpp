@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/text.hpp"
 #include "base/units.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/report.hpp"
@@ -252,15 +253,18 @@ renders::Report size_page(const SizePage& page) {
   report.scenario = page.question.file.filename().string();
   report.passed = fitting > 0;
   report.word = fmt::format("{} FIT", fitting);
-  report.verdict = fmt::format("of {} candidates at {} corners", page.candidates.size(), page.corners.size());
+  report.verdict = fmt::format("of {} at {}", counted(page.candidates.size(), "candidate"),
+                               counted(page.corners.size(), "corner"));
   std::vector<std::string> names;
   for (const auto& corner : page.corners) names.push_back(corner.name);
   report.facts = {
       {{"scenario", page.question.file.string()}},
       {{"drive", page.choices.drive.full_name()}},
-      {{"candidates", fmt::format("{} motors, {} gears, {} brake resistors", page.choices.motors.size(),
-                                  page.choices.gears.empty() ? 1 : page.choices.gears.front().values.size(),
-                                  std::max<std::size_t>(1, page.choices.resistors.size()))}},
+      {{"candidates",
+        fmt::format(
+            "{}, {}, {}", counted(page.choices.motors.size(), "motor"),
+            counted(page.choices.gears.empty() ? 1 : std::ssize(page.choices.gears.front().values), "gear"),
+            counted(std::max<std::ptrdiff_t>(1, std::ssize(page.choices.resistors)), "brake resistor"))}},
       {{"corners", fmt::format("{}", fmt::join(names, " | "))}},
       {{"fits",
         "every check and every rating holds at every corner, in closed loop with the controller's program"}},

@@ -104,16 +104,43 @@ std::vector<renders::Zone> good_zones(const Studied& study) {
   return zones;
 }
 
-renders::Plot curves_of(const Studied& study, const std::string& title) {
+/// Where a check fails a figure may be out of all proportion: what is many times what holds is left to the
+/// table.
+void leave_out_of_proportion(const renders::Curve& holds, renders::Curve& all) {
+  constexpr double most = 4;
+  double low = 0, high = 0;
+  for (const double y : holds.y) {
+    low = std::fmin(low, y);
+    high = std::fmax(high, y);
+  }
+  if (high <= low) return;
+  for (double& y : all.y)
+    if (y < most * low || y > most * high) y = unknown;
+}
+
+/// Every figure over the one axis; `rows` has those of points that fail too.
+renders::Plot curves_of(const Studied& study, const std::vector<PointRow>& rows, const std::string& title) {
   renders::Plot plot{"curves", title, study.headings[0], {}};
   plot.panel_height = 240;
   plot.zones = good_zones(study);
+  auto every = study;
+  for (std::size_t i = 0; i < rows.size(); ++i) every.numbers[i] = rows[i].numbers;
+  const auto has_points = [](const renders::Curve& curve) {
+    return std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); });
+  };
   for (const auto& name : curve_columns(study)) {
     const auto column = static_cast<std::size_t>(std::find(study.columns.begin(), study.columns.end(), name) -
                                                  study.columns.begin());
-    auto curve = curve_of(study, column, "");
-    if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); }))
-      plot.panels.push_back(panel_of(name, {std::move(curve)}));
+    auto holds = curve_of(study, column, "all holds");
+    auto all = curve_of(every, column, "beyond: a check fails");
+    if (!has_points(all)) continue;
+    leave_out_of_proportion(holds, all);
+    std::vector<renders::Curve> curves;
+    const bool fails = std::count(study.good.begin(), study.good.end(), false) > 0;
+    if (fails) curves.push_back(std::move(all));
+    if (has_points(holds)) curves.push_back(std::move(holds));
+    if (fails && curves.size() == 2) curves.front().faint = true;
+    plot.panels.push_back(panel_of(name, std::move(curves)));
   }
   return plot;
 }
@@ -146,7 +173,7 @@ void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
     report.texts.push_back(
         {"The command that repeats the first point with pictures", point_command(study, points.front())});
   }
-  if (over_axes(study, 1)) plots.push_back(curves_of(study, title + "; green: all holds"));
+  if (over_axes(study, 1)) plots.push_back(curves_of(study, rows, title + "; green: all holds"));
   std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
   report::write_report(std::move(report), std::move(plots), folder);
 }

@@ -88,9 +88,12 @@ ReportTable values(const Tuning& tuning) {
   const auto& parameters = tuning.trials.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& p = parameters[i];
+    const auto shown = [&](double value) {
+      return fmt::format("{:.6g}{}{}", value, p.unit.empty() ? "" : " ", p.unit);
+    };
     table.rows.push_back({{p.path, fmt::format("{}..{}", p.low, value_text(p, p.high)),
-                           tuning.present[i] ? value_text(p, *tuning.present[i]) : "as the program sets it",
-                           value_text(p, tuning.trials.at(tuning.best).point[i])}});
+                           tuning.present[i] ? shown(*tuning.present[i]) : "as the program sets it",
+                           shown(tuning.trials.at(tuning.best).point[i])}});
   }
   return table;
 }

@@ -113,6 +113,8 @@ TEST_F(SweepReport, OverOneAxisItIsCurves) {
   EXPECT_THAT(text, Not(HasSubstr("id=\"map-data\"")));
   EXPECT_THAT(text, HasSubstr("peak"));
   EXPECT_THAT(text, HasSubstr("variables.speed=5 m/min"));
+  // Where a check fails the figures go on, up to the end of the axis.
+  EXPECT_THAT(text, HasSubstr("beyond: a check fails"));
 }
 
 TEST_F(SweepReport, OfWordsSamplesAndThreeAxesItIsATable) {
