@@ -11,7 +11,9 @@ struct Due {
   /// Whether it happens at `time_ns`; if so, it is next due at the first multiple behind that.
   bool take(std::int64_t time_ns) {
     if (time_ns < next_ns) return false;
-    if (period_ns > 0) next_ns = (time_ns / period_ns + 1) * period_ns;
+    if (period_ns <= 0) return true;
+    next_ns += period_ns;
+    if (next_ns <= time_ns) next_ns = (time_ns / period_ns + 1) * period_ns;
     return true;
   }
 };
