@@ -108,7 +108,9 @@ class CamReader {
     const std::string name = lower(key.text);
     const auto known = keys();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      if (!tab_ && key.text.find(' ') == std::string_view::npos) refuse(key, known);
+      // What a .tab says beside its table is its maker's affair, but for a slip of a key.
+      const bool is_word = key.text.find(' ') == std::string_view::npos;
+      if (is_word && (!tab_ || !nearest(name, known).empty())) refuse(key, known);
       return;
     }
     if (const auto [first, is_new] = seen_.try_emplace(name, line); !is_new)

@@ -121,9 +121,10 @@ int measure_bode(const BodeOptions& options) {
   if (!cycle || !cycle->least) faults.insert(faults.begin(), doubts.begin(), doubts.end());
   if (cycle && !cycle->least) faults.emplace_back("no gain margin was found at any amplitude");
   write(options, scenario, *result, cycle ? &*cycle : nullptr, faults, checks, folder ? &*folder : nullptr);
-  fmt::print(options.csv == "-" ? stderr : stdout, "{}\n",
-             options.out.empty() ? "no plots; --out DIR writes them as a report"
-                                 : fmt::format("report: {}", (options.out / "report.html").string()));
+  if (!options.out.empty())
+    fmt::print(options.csv == "-" ? stderr : stdout, "report: {}\n", (options.out / "report.html").string());
+  else if (options.png.empty() && options.csv.empty())
+    fmt::print("no plots; --out DIR writes them as a report\n");
   if (!result->sweep.failure.empty()) return simulation_failed;
   return faults.empty() ? all_passed : check_failed;
 }

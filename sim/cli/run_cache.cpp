@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "base/text.hpp"
 #include "sim/studies/fingerprint.hpp"
@@ -158,7 +160,8 @@ std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& fil
   return inputs.dump();
 }
 
-RunCache::RunCache(fs::path folder, Problems& problems) : folder_(std::move(folder)) {
+RunCache::RunCache(fs::path folder, Problems& problems, std::uintmax_t most)
+    : folder_(std::move(folder)), most_(most) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_))
@@ -178,8 +181,12 @@ std::optional<KeptRun> RunCache::take(const std::string& inputs, OutputFolder& t
     auto run = run_of(json->at("run"));
     for (const auto& [name, fingerprint] : json->at("files").items())
       fs::copy_file(entry / "files" / name, to.add(name), fs::copy_options::overwrite_existing);
+    std::error_code ignored;
+    fs::last_write_time(entry / entry_file, fs::file_time_type::clock::now(), ignored);
     return run;
   } catch (const nlohmann::json::exception&) {
+    return {};
+  } catch (const fs::filesystem_error&) {  // another process made room just now
     return {};
   }
 }
@@ -200,6 +207,32 @@ void RunCache::keep(const std::string& inputs, const OutputFolder& from, const K
   fs::remove_all(entry);  // a damaged one
   fs::rename(begun, entry, error);
   if (error) fs::remove_all(begun);  // another process has kept the same
+  make_room();
+}
+
+void RunCache::make_room() const {
+  struct Entry {
+    fs::file_time_type used;
+    fs::path folder;
+    std::uintmax_t bytes = 0;
+  };
+  std::vector<Entry> entries;
+  std::uintmax_t bytes = 0;
+  std::error_code ignored;
+  for (const auto& folder : fs::directory_iterator(folder_, ignored)) {
+    const auto used = fs::last_write_time(folder.path() / entry_file, ignored);
+    if (ignored) continue;  // none of ours, or begun only
+    entries.push_back({used, folder.path()});
+    for (const auto& file : fs::recursive_directory_iterator(folder.path(), ignored))
+      if (file.is_regular_file(ignored)) entries.back().bytes += file.file_size(ignored);
+    bytes += entries.back().bytes;
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
+  for (const auto& entry : entries) {
+    if (bytes <= most_) return;
+    fs::remove_all(entry.folder, ignored);
+    bytes -= entry.bytes;
+  }
 }
 
 }  // namespace drycut::sim::cli

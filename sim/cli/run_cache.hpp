@@ -32,12 +32,13 @@ struct KeptRun {
 };
 
 /// Results of runs, kept by what determines them: a folder an entry, DIR/FINGERPRINT. An entry takes its name
-/// when it is complete. One that is damaged is no entry. Nothing is ever removed but an entry that is
-/// damaged.
+/// when it is complete. One that is damaged is no entry. Beyond `most_bytes` in all those go that were not
+/// used for the longest time.
 class RunCache {
  public:
+  static constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U;
   /// Makes the folder where there is none; a problem of `--cache` if that cannot be done.
-  RunCache(std::filesystem::path folder, Problems& problems);
+  RunCache(std::filesystem::path folder, Problems& problems, std::uintmax_t most = most_bytes);
 
   /// Puts the files of the run of these inputs into `to`; nullopt if there is no such run, or it is damaged:
   /// then nothing was written.
@@ -47,7 +48,9 @@ class RunCache {
 
  private:
   [[nodiscard]] std::filesystem::path entry_of(const std::string& inputs) const;
+  void make_room() const;
   std::filesystem::path folder_;
+  std::uintmax_t most_;
 };
 
 }  // namespace drycut::sim::cli

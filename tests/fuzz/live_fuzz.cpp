@@ -31,6 +31,17 @@ plants:
 checks: [{name: slow enough, always: web.speed <= 62 m/min}]
 )";
 
+/// The alarm with which libFuzzer watches for what takes too long interrupts calls: those are made again.
+auto undisturbed(auto call) {
+  for (;;) {
+    try {
+      return call();
+    } catch (const boost::system::system_error& error) {
+      if (error.code() != asio::error::interrupted) throw;
+    }
+  }
+}
+
 /// A line that stands at time zero, and its server; for the whole process.
 class Stand {
  public:
@@ -57,22 +68,26 @@ class Stand {
   Stand& operator=(const Stand&) = delete;
 
   tcp::socket connect() {
-    tcp::socket socket(context_);
-    socket.connect({asio::ip::make_address("127.0.0.1"), server_->port()});
-    return socket;
+    return undisturbed([this] {
+      tcp::socket socket(context_);
+      socket.connect({asio::ip::make_address("127.0.0.1"), server_->port()});
+      return socket;
+    });
   }
   /// Stands still, whatever it was asked.
   void rest() { line_->ask({0, live::Go{false}}); }
   /// A client that behaves gets its answer.
   void expect_alive() {
-    beast::websocket::stream<tcp::socket> socket(connect());
-    socket.handshake(host, "/ws");
-    socket.write(asio::buffer(std::string_view(R"({"run": false, "id": 7})")));
-    for (;;) {
-      beast::flat_buffer buffer;
-      socket.read(buffer);
-      if (beast::buffers_to_string(buffer.data()).starts_with(R"({"done":7)")) return;
-    }
+    undisturbed([this] {
+      beast::websocket::stream<tcp::socket> socket(connect());
+      socket.handshake(host, "/ws");
+      socket.write(asio::buffer(std::string_view(R"({"run": false, "id": 7})")));
+      for (;;) {
+        beast::flat_buffer buffer;
+        socket.read(buffer);
+        if (beast::buffers_to_string(buffer.data()).starts_with(R"({"done":7)")) return;
+      }
+    });
   }
 
   std::string host;
@@ -136,7 +151,7 @@ DRYCUT_FUZZ(text) {
   char answer[4096];
   ssize_t got = 0;
   do got = ::recv(socket.native_handle(), answer, sizeof answer, 0);
-  while (got > 0);
+  while (got > 0 || (got < 0 && errno == EINTR));
   if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) fuzz::broken("a connection ends with its client");
   stand.rest();
   constexpr int now_and_then = 16;

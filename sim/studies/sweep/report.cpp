@@ -83,13 +83,19 @@ std::vector<renders::MapLines> lines_of(const Studied& study) {
   return lines;
 }
 
-/// The stretches of the one axis where all holds.
-std::vector<renders::Zone> good_zones(const Studied& study) {
+/// The values of the one axis in order, and whether all holds there.
+std::vector<std::pair<double, bool>> sorted_axis(const Studied& study) {
   std::vector<std::pair<double, bool>> order;
   order.reserve(study.points.size());
   for (std::size_t i = 0; i < study.points.size(); ++i)
     order.emplace_back(number_in(study.points[i][0]), study.good[i]);
   std::sort(order.begin(), order.end());
+  return order;
+}
+
+/// The stretches of the one axis where all holds.
+std::vector<renders::Zone> good_zones(const Studied& study) {
+  const auto order = sorted_axis(study);
   std::vector<renders::Zone> zones;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const auto& [here, good] = order[k];
@@ -102,6 +108,24 @@ std::vector<renders::Zone> good_zones(const Studied& study) {
       zones.push_back({from, until, true});
   }
   return zones;
+}
+
+/// ": 60 to 120, 140 m/min", the values of the one axis that hold; "" if none does.
+std::string stretches_text(const Studied& study) {
+  const auto order = sorted_axis(study);
+  std::string text;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (!order[k].second) continue;
+    const auto first = k;
+    while (k + 1 < order.size() && order[k + 1].second) ++k;
+    text += text.empty() ? ": " : ", ";
+    text += first == k ? fmt::format("{:g}", order[k].first)
+                       : fmt::format("{:g} to {:g}", order[first].first, order[k].first);
+  }
+  const auto& heading = study.headings[0];
+  const auto bracket = heading.rfind(" [");
+  if (text.empty() || bracket == std::string::npos) return text;
+  return text + " " + heading.substr(bracket + 2, heading.size() - bracket - 3);
 }
 
 /// Where a check fails a figure may be out of all proportion: what is many times what holds is left to the
@@ -159,7 +183,8 @@ void write_sweep_report(const PointQuestion& question, const SweepAxes& axes,
   report.passed = true;
   report.word = fmt::format("{}", points.size());
   report.verdict =
-      fmt::format("points, {} of them passed", std::count(study.good.begin(), study.good.end(), true));
+      fmt::format("points, {} of them passed{}", std::count(study.good.begin(), study.good.end(), true),
+                  over_axes(study, 1) ? stretches_text(study) : "");
   report.facts = facts_of({&study});
   report.summary = {counts_of(study, "What gives way first")};
   report.tables = {rows_of(study, "Every point")};

@@ -136,6 +136,18 @@ TEST(PlcopenTable, ATableWithoutMasterModuloIsJudgedByTheMastersThatThereAre) {
               ElementsAre("c.csv:3:1: error 60260 behind Short, whose turn is 1000000" + what));
 }
 
+TEST(PlcopenTable, ASlipInATabsRemarksIsToldOtherRemarksAreItsMakers) {
+  const std::string table = "Tabletype = 1\nTable-ID = 5\nLines = 1\nBegintable\n1\nEndTable\n";
+  Problems problems;
+  EXPECT_FALSE(read_cam("# maxvl: 1200\n# master_modlo: 8000000\n" + table, "c.tab", problems));
+  EXPECT_THAT(faults(problems),
+              ElementsAre("c.tab:1:3: unknown key 'maxvl'; did you mean maxvel?; a remark begins with ##",
+                          "c.tab:2:3: unknown key 'master_modlo'; did you mean master_modulo?; a "
+                          "remark begins with ##"));
+  problems.clear();
+  EXPECT_TRUE(read_cam("# Author: J. Doe\n## maxvl: 1200\n" + table, "c.tab", problems));
+}
+
 TEST(PlcopenTable, ACsvsFaultsAreAllToldAtTheirPlace) {
   EXPECT_THAT(csv_faults("# interpolaton: LINEAR\n# endless: up\n# interpolation: SPLINE\nslave\n1,2\nx\n"),
               ElementsAre("c.csv:1:3: unknown key 'interpolaton'; did you mean interpolation?; a "

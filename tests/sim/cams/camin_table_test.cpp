@@ -97,7 +97,7 @@ TEST(CamInTable, AllThatIsWrongWithATabFileIsToldAtOnce) {
 }
 
 TEST(CamInTable, ATabFilesOtherCommentsAreRemarks) {
-  EXPECT_THAT(camin::faults("# Name: whatever\n# id: none\n# endles: up\n" + tab), IsEmpty());
+  EXPECT_THAT(camin::faults("# Name: whatever\n# id: none\n# Author: none\n" + tab), IsEmpty());
 }
 
 TEST(CamInTable, TheKindIsKnownByTheText) {

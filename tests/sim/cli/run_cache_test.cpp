@@ -2,10 +2,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
+#include "sim/cli/run_cache.hpp"
 #include "sim/cli/run_command.hpp"
 #include "sim/studies/fingerprint.hpp"
 #include "tests/sim/command_bench.hpp"
@@ -217,6 +219,32 @@ TEST_F(KeptRuns, AnEntryThatLeadsOutOfTheFolderIsNotUsed) {
   ASSERT_EQ(run(), all_passed) << err;
   EXPECT_FALSE(unchanged());
   EXPECT_FALSE(fs::exists(folder / "out/other"));
+}
+
+TEST(RunCacheRoom, IsForThoseThatWereUsedLast) {
+  const TestFolder folder;
+  Problems problems;
+  OutputFolder results(folder / "out", "run", {}, problems);
+  std::ofstream(results.add("trace.csv")) << std::string(10'000, '1');
+  const RunCache cache(folder / "cache", problems, 25'000);
+  ASSERT_TRUE(problems.empty());
+  OutputFolder again(folder / "again", "run", {}, problems);
+  const auto is_kept = [&](const std::string& inputs) { return cache.take(inputs, again).has_value(); };
+  const auto an_hour_passes = [&] {
+    for (const auto& entry : fs::directory_iterator(folder / "cache")) {
+      const auto file = entry.path() / "entry.json";
+      fs::last_write_time(file, fs::last_write_time(file) - std::chrono::hours(1));
+    }
+  };
+  for (const auto* inputs : {"first", "second"}) {
+    cache.keep(inputs, results, {});
+    an_hour_passes();
+  }
+  EXPECT_TRUE(is_kept("first")) << "used again, so that the second is the oldest";
+  cache.keep("third", results, {});
+  EXPECT_TRUE(is_kept("first"));
+  EXPECT_FALSE(is_kept("second"));
+  EXPECT_TRUE(is_kept("third"));
 }
 
 TEST_F(KeptRuns, WithoutTheOptionNothingIsKept) {

@@ -115,6 +115,7 @@ TEST_F(SweepReport, OverOneAxisItIsCurves) {
   EXPECT_THAT(text, HasSubstr("variables.speed=5 m/min"));
   // Where a check fails the figures go on, up to the end of the axis.
   EXPECT_THAT(text, HasSubstr("beyond: a check fails"));
+  EXPECT_THAT(text, HasSubstr("points, 4 of them passed: 25 to 85 m/min"));
 }
 
 TEST_F(SweepReport, OfWordsSamplesAndThreeAxesItIsATable) {
