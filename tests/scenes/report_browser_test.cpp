@@ -84,6 +84,21 @@ std::vector<Page> pages() {
        "tune/report.html",
        "",
        false},
+      {"sweep",
+       {{"sweep", "SCENES/rotary_knife_short.yaml", "--set", "scene.duration=4 s", "--over",
+         "plants.web.speed=40..240 m/min:5", "--out", "OUT/sweep"}},
+       "sweep/report.html",
+       ""},
+      {"envelope",
+       {{"envelope", "SCENES/envelope/rotary_knife_camming4.yaml", "--over", "variables.length=600,900 mm",
+         "--find-max", "variables.speed=20..200 m/min:40", "--out", "OUT/envelope"}},
+       "envelope/report.html",
+       ""},
+      {"size",
+       {{"size", "SCENES/rotary_knife_lx3vp.yaml", "--motors", "HG-SR52,HG-SR102", "--gears", "4..8:3",
+         "--inertia-ratio", "15", "--out", "OUT/size"}},
+       "size/report.html",
+       ""},
   };
 }
 
