@@ -47,7 +47,7 @@ fs::path program_in_path(const char* name) {
   const auto* all = std::getenv("PATH");
   std::error_code ignored;
   for (const auto& folder : split_words(all == nullptr ? "" : all, {}, ":"))
-    if (const auto file = fs::path(folder.text) / name; fs::is_regular_file(file, ignored)) return file;
+    if (auto file = fs::path(folder.text) / name; fs::is_regular_file(file, ignored)) return file;
   return {};
 }
 
