@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "plants/lag.hpp"
 
 namespace drycut::plants {
 
@@ -46,7 +47,7 @@ void SawHead::valve(double h) {
     }
   }
   const double target = (valve_down_ ? data_.down_force : -data_.up_force) * (1 - pressure_loss_);
-  force_ += (target - force_) * (data_.fill_time > 0 ? -std::expm1(-h / data_.fill_time) : 1);
+  force_ += (target - force_) * share_of(data_.fill_time, h);
 }
 
 void SawHead::drive(double h, double resistance) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plants/lag.hpp"
+
 namespace drycut::plants {
 
 namespace {
@@ -49,7 +51,7 @@ void PulseServo::drive(Shaft& rotor, double h) {
   counts_before_ = counts;
   if (h != h_) {
     h_ = h;
-    forward_share_ = data_.feed_forward_filter > 0 ? -std::expm1(-h / data_.feed_forward_filter) : 1;
+    forward_share_ = share_of(data_.feed_forward_filter, h);
   }
   forward_speed_ += (speed - forward_speed_) * forward_share_;
   if (tripped_ || !amplifier_.enabled()) {

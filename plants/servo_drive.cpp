@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plants/lag.hpp"
+
 namespace drycut::plants {
 
 ServoData electrical(ServoData data) {
@@ -48,9 +50,6 @@ ServoDrive::ServoDrive(const ServoData& data, Random noise)
 }
 
 namespace {
-
-// How much of a change a lag of first order follows in a step.
-double share_of(double lag, double h) { return lag > 0 ? -std::expm1(-h / lag) : 1; }
 
 double loop_gain(const ServoData& data) {
   return (1 + data.inertia_ratio) * data.rotor_inertia * data.speed_gain;

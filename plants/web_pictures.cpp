@@ -152,19 +152,17 @@ void Web::Picture::add_wheel() {
 void Web::Picture::add_stands() {
   const double foot = stand_low - support_height;
   const double stand = look + roll_diameter - foot;
-  for (const double side : {-1.0, 1.0}) {
+  for (const double side : {-1.0, 1.0})
     box(numbered("roll stand", side), {0.06, stand, 0.024}, looks::bed,
         at(pull_x, foot + stand / 2, -side * stands_z), "frame_post");
-    const auto bearing = [&](const char* name, double y) {
-      box(numbered(name, side), {0.11, 0.09, 0.03}, looks::bearing, at(pull_x, y, -side * (stands_z + 0.027)),
-          "bearing_block");
-    };
-    bearing("upper roll bearing", look + roll_diameter / 2);
-    bearing("lower roll bearing", -roll_diameter / 2);
-  }
-  const double shaft = 2 * (stands_z + 0.06);
-  rod("upper roll shaft", 0.045, shaft, roll_look, at(pull_x, look + roll_diameter / 2, 0));
-  rod("lower roll shaft", 0.045, shaft, roll_look, at(pull_x, -roll_diameter / 2, 0));
+  const auto carry = [&](const std::string& roll, double y) {
+    for (const double side : {-1.0, 1.0})
+      box(numbered(roll + " bearing", side), {0.11, 0.09, 0.03}, looks::bearing,
+          at(pull_x, y, -side * (stands_z + 0.027)), "bearing_block");
+    rod(roll + " shaft", 0.045, 2 * (stands_z + 0.06), roll_look, at(pull_x, y, 0));
+  };
+  carry("upper roll", look + roll_diameter / 2);
+  carry("lower roll", -roll_diameter / 2);
   box("roll beam", {0.06, support_height, 2 * stands_z}, looks::bed,
       at(pull_x, foot + support_height / 2, 0));
   box("infeed frame", {upstream - 0.3, 0.22, 2 * frame_half}, looks::bed, at(-(upstream + 0.3) / 2, -0.13, 0),

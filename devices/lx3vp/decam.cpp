@@ -251,20 +251,20 @@ CamMoment Decam::moment(const PulseOutput& output) const {
 
 bool Decam::go(CamPort& port) {
   place_ = law_.place(counts_, first_);
-  const bool at_end = limit(port, place_);
+  const bool at_end = limit(port);
   slave_ = law_.slave(place_);
   return at_end;
 }
 
-bool Decam::limit(CamPort& port, RowLaw::Place& place) const {
+bool Decam::limit(CamPort& port) {
   // A non-cyclic cam has nothing before its first row.
-  if (!repeats_for_ever() && place.cycle < 0) place = {0, 0};
-  if (stops_after_cycle(port) && state_ == State::run && place.cycle != cycle_) {
-    place = {cycle_, place.cycle > cycle_ ? law_.length() : 0};
+  if (!repeats_for_ever() && place_.cycle < 0) place_ = {0, 0};
+  if (stops_after_cycle(port) && state_ == State::run && place_.cycle != cycle_) {
+    place_ = {cycle_, place_.cycle > cycle_ ? law_.length() : 0};
     return true;
   }
-  if (repeats_for_ever() || place.cycle < cycles_) return false;
-  place = {cycles_ - 1, law_.length()};
+  if (repeats_for_ever() || place_.cycle < cycles_) return false;
+  place_ = {cycles_ - 1, law_.length()};
   return true;
 }
 

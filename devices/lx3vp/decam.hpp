@@ -130,7 +130,7 @@ class Decam {
   [[nodiscard]] bool stops_after_cycle(CamPort& port) const;
   /// To the place of the present counts, within what the cam may do; true if it is at its end.
   bool go(CamPort& port);
-  bool limit(CamPort& port, RowLaw::Place& place) const;
+  bool limit(CamPort& port);
   void finish(CamPort& port);
   void show_positions(CamPort& port, std::int64_t pulses) const;
   void show_status(CamPort& port);

@@ -40,8 +40,8 @@ class RunCache {
   /// Makes the folder where there is none; a problem of `--cache` if that cannot be done.
   RunCache(std::filesystem::path folder, Problems& problems, std::uintmax_t most = most_bytes);
 
-  /// Puts the files of the run of these inputs into `to`; nullopt if there is no such run, or it is damaged:
-  /// then nothing was written.
+  /// Puts the files of the run of these inputs into `to`; nullopt if there is no such run, it is damaged,
+  /// or it cannot be copied: what was written of it until then the run writes anew.
   [[nodiscard]] std::optional<KeptRun> take(const std::string& inputs, OutputFolder& to) const;
   /// Throws std::runtime_error if it cannot be kept.
   void keep(const std::string& inputs, const OutputFolder& from, const KeptRun& run) const;

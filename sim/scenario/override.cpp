@@ -96,13 +96,8 @@ class OverrideSetter {
   }
 
   static bool is_variable(const YamlNode& root, std::string_view name) {
-    const auto below = [](const YamlNode& map, std::string_view key) -> const YamlNode* {
-      for (const auto& entry : map.entries)
-        if (entry.key.text == key) return &entry.value;
-      return nullptr;
-    };
-    const auto* variables = below(root, "variables");
-    return variables != nullptr && below(*variables, name) != nullptr;
+    const auto* variables = child(root, "variables");
+    return variables != nullptr && child(*variables, name) != nullptr;
   }
 
   // By the name of an entry, which may contain dots itself, or by its number.

@@ -16,6 +16,7 @@
 #include "tests/scenes/browser.hpp"
 #include "tests/scenes/page_checks.hpp"
 #include "tests/scenes/report_browser_scripts.hpp"
+#include "tests/scenes/report_pages.hpp"
 #include "tests/test_folder.hpp"
 
 namespace drycut {
@@ -25,82 +26,8 @@ using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// Words of a call; "OUT" stands for the test's folder, "SCENES" for scenes/.
-using Call = std::vector<std::string>;
-
-Call run(const std::string& scene, const std::string& duration, const Call& more = {}) {
-  Call words = {"run", "SCENES/" + scene + ".yaml", "--out", "OUT"};
-  const Call short_and_small = {"scene.duration=" + duration, "pictures.frames.every=1 s",
-                                "pictures.frames.size=320x180"};
-  for (const auto& assignment : short_and_small) words.insert(words.end(), {"--set", assignment});
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-struct Page {
-  std::string name;
-  std::vector<Call> calls;
-  std::string report;  ///< below OUT
-  std::string trace;   ///< whose values its cursor must tell, "" = not of one run
-  bool live = true;    ///< has plots to zoom
-};
-void PrintTo(const Page& page, std::ostream* out) { *out << page.name; }
-
-Page scene(const std::string& name, const std::string& duration, const Call& more = {}) {
-  return {name, {run(name, duration, more)}, name + "/report.html", name + "/trace.csv"};
-}
-
-/// One for each plant, one with everything a report can hold, and the pages that are not of one run.
-std::vector<Page> pages() {
-  const Call plain = {"--no-pictures"};
-  auto faster = run("rotary_knife_short", "3 s", {"--no-pictures", "--set", "plants.web.speed=50 m/min"});
-  faster[3] = "OUT/faster";
-  return {
-      scene("rotary_knife", "5 s"),
-      scene("rotary_knife_fault", "6500 ms", {"--set", "pictures.frames.every=800 ms"}),
-      scene("flying_saw", "12 s", {"--set", "pictures.frames.every=3 s"}),
-      scene("fly_cut", "5 s"),
-      scene("backlash_motor_encoder", "3 s"),
-      scene("press_learning", "5 s"),
-      scene("circular", "4 s"),
-      scene("wire_guide", "4 s"),
-      {"compare",
-       {run("rotary_knife_short", "3 s", plain),
-        faster,
-        run("rotary_knife_lx3vp", "3 s", plain),
-        {"compare", "OUT/rotary_knife_short", "OUT/faster/rotary_knife_short", "OUT/rotary_knife_lx3vp",
-         "--out", "OUT/compared"}},
-       "compared/report.html",
-       ""},
-      {"bode",
-       {{"bode", "SCENES/rotary_knife_short.yaml", "--at", "2", "--out", "OUT/bode"}},
-       "bode/report.html",
-       "",
-       false},
-      {"tune",
-       {{"tune", "SCENES/rotary_knife_short.yaml", "--from", "2 s", "--set", "scene.duration=3 s", "--vary",
-         "controller.qmove.set.AxisX.pgain=1..100", "--minimise", "rms(AxisX.follerr)", "--budget", "4",
-         "--ignore-checks", "--out", "OUT/tune"}},
-       "tune/report.html",
-       "",
-       false},
-      {"sweep",
-       {{"sweep", "SCENES/rotary_knife_short.yaml", "--set", "scene.duration=4 s", "--over",
-         "plants.web.speed=40..240 m/min:5", "--out", "OUT/sweep"}},
-       "sweep/report.html",
-       ""},
-      {"envelope",
-       {{"envelope", "SCENES/envelope/rotary_knife_camming4.yaml", "--over", "variables.length=600,900 mm",
-         "--find-max", "variables.speed=20..200 m/min:40", "--out", "OUT/envelope"}},
-       "envelope/report.html",
-       ""},
-      {"size",
-       {{"size", "SCENES/rotary_knife_lx3vp.yaml", "--motors", "HG-SR52,HG-SR102", "--gears", "4..8:3",
-         "--inertia-ratio", "15", "--out", "OUT/size"}},
-       "size/report.html",
-       ""},
-  };
-}
+using report_pages::Call;
+using report_pages::Page;
 
 /// Columns of a trace.csv by their channels' names.
 std::map<std::string, std::vector<double>> trace_of(const std::filesystem::path& file) {
@@ -258,7 +185,7 @@ class ReportInABrowser : public ::testing::TestWithParam<Page> {
   TestFolder folder;
   std::optional<Browser> browser;
 };
-INSTANTIATE_TEST_SUITE_P(Of, ReportInABrowser, ::testing::ValuesIn(pages()),
+INSTANTIATE_TEST_SUITE_P(Of, ReportInABrowser, ::testing::ValuesIn(report_pages::pages()),
                          [](const auto& page) { return page.param.name; });
 
 TEST_P(ReportInABrowser, ReadsWellOnDeskPhoneAndPaperByDayAndByNightAndItsPlotsAnswer) {
