@@ -96,7 +96,7 @@ class Watcher:
 
 
 class ModbusClient(threading.Thread):
-    """An HMI: reads a hundred words ten times a second and writes one of them back every second."""
+    """An HMI: reads 32 words ten times a second and writes the last of them back every second."""
 
     def __init__(self, port):
         super().__init__(daemon=True)
@@ -109,13 +109,13 @@ class ModbusClient(threading.Thread):
         client = ModbusTcpClient("127.0.0.1", port=self.port)
         client.connect()
         while self.going:
-            answer = client.read_holding_registers(0, 100, slave=1)
+            answer = client.read_holding_registers(0, 32, slave=1)
             self.reads += 1
             if answer.isError():
                 self.failures += 1
             elif self.reads % 10 == 0:
                 self.writes += 1
-                self.failures += client.write_register(99, answer.registers[99], slave=1).isError()
+                self.failures += client.write_register(31, answer.registers[31], slave=1).isError()
             time.sleep(0.1)
         client.close()
 
