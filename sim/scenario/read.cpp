@@ -167,6 +167,18 @@ void refuse_axes_without_wires(const YamlNode& root, Findings& findings) {
   }
 }
 
+// A section whose name is nearly that of one which is not there is told and then read as that one, so that the
+// rest is judged by what was meant.
+void take_misspelt_sections(YamlNode& root, Findings& findings) {
+  for (auto& [key, value, first_line] : root.entries) {
+    const auto meant = nearest(key.text, section_names());
+    if (meant.empty() || child(root, meant) != nullptr) continue;
+    findings.add(key.place, fmt::format("unknown key '{}'", key.text),
+                 did_you_mean(key.text, section_names()));
+    key.text = meant;
+  }
+}
+
 // A scene that compares scenarios (sim/studies/compare/scene.hpp) is none itself.
 bool refuse_comparison(const YamlNode& root, Findings& findings) {
   const auto found = std::find_if(root.entries.begin(), root.entries.end(),
@@ -211,6 +223,7 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
     findings.add({1, 1}, "the scenario is empty",
                  fmt::format("its sections are: {}", fmt::join(section_names(), ", ")));
   } else if (root.kind != YamlNode::Kind::null) {
+    take_misspelt_sections(root, findings);
     for (std::size_t i = 0; i < overrides.size(); ++i) {
       apply_override(root, overrides[i], static_cast<int>(i) + 1, findings);
     }

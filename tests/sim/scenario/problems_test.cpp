@@ -88,6 +88,9 @@ TEST(ScenarioProblems, Yaml) {
 TEST(ScenarioProblems, Keys) {
   expect_problems({
       {"sceen: {}\n", {"1:1: unknown key 'sceen'; did you mean scene?"}},
+      {"plant: {w: {type: web, sped: 1 m/s}}\n",
+       {"1:1: unknown key 'plant'; did you mean plants?",
+        "1:24: unknown key 'sped' in plants.w; did you mean speed?"}},
       {"scene: {step: 1 ms, step: 2 ms}\n",
        {"1:21: 'step' is given twice in scene; keep one; the first is at line 1"}},
       {"scene: {}\nrecord: {}\nscene: {}\n",
