@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
@@ -219,7 +220,7 @@ int make_line(const NewOptions& options) {
   }
   fmt::print("{}: {}\n", folder.string(), start->about);
   for (const auto& file : files) fmt::print("  {}\n", file.name);
-  fmt::print("Run it: cd '{}' && drycut run line.yaml\n", folder.string());
+  fmt::print("Run it: {} run '{}'\n", program_invocation_name, (folder / "line.yaml").string());  // as called
   return all_passed;
 }
 
