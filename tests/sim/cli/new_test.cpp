@@ -60,7 +60,7 @@ struct EveryStart : NewLine, testing::WithParamInterface<Start> {
 };
 
 TEST_P(EveryStart, RunsAndPassesWhereItIs) {
-  EXPECT_THAT(out, AllOf(HasSubstr(GetParam().about), HasSubstr("drycut run line.yaml")));
+  EXPECT_THAT(out, AllOf(HasSubstr(GetParam().about), HasSubstr(" run '" + (folder / "line/line.yaml").string())));
   CheckOptions check;
   check.files = {folder / "line/line.yaml"};
   EXPECT_EQ(captured([&] { return check_files(check); }), all_passed) << err;
