@@ -51,8 +51,8 @@ constexpr BlockWord words[] = {
      "of the master's zoom"},
     {word::master_numerator, 1, "master numerator", "u16", "1..65535", 1, Access::write, "start",
      "of the master's zoom"},
-    {word::own_stop, 1, "stops by itself", "u16", "", 0, Access::read, "",
-     "ECAMTBX writes 3 as it switches on word 4 bit 1 for midCAMend, and 0 as it takes that back"},
+    {word::own_stop, 1, "stops by itself", "u16", "", 0, Access::read, "start",
+     "ECAMTBX writes 3 with a table of midCAMend, at whose end the cam stops, 0 with another"},
     {32, 6, "reserved", "u16", "", 0, Access::reserved, "", ""},
     {word::rows, 1, "rows", "u16", "2..512", 0, Access::write, "start",
      "number of rows of the table; ECAMTBX writes it too"},
@@ -105,9 +105,18 @@ constexpr Reading readings_of_blocks[] = {
     {"word 17", "the cam begins at this position; it does not wait for the master to come there"},
     {"words 19 and 21", "printed as unsigned; a slave that runs backwards needs them signed"},
     {"word 31",
-     "reserved in print; midCAMend stops by itself, which is word 4 bit 1: the word remembers that ECAMTBX "
-     "has "
-     "switched it on, so that the table of another curve does not inherit it"},
+     "reserved in print; midCAMend stops by itself, and the print does not say how DECAM knows: by this word, "
+     "as if word 4 bit 1 were on, whatever the program writes there. A program that makes rows of its own where "
+     "ECAMTBX had made such a table writes 0"},
+    {"words 19 and 27",
+     "pulses and counts since the start, words 21 and 25 positions of the table: with a table that begins at "
+     "(0, 0) and without zoom they are the same; function bit 6 goes on from the former"},
+    {"a running cam",
+     "ECAMTBX into its block acts at the next start; the thresholds (words 9 to 12), which it writes too, at "
+     "once"},
+    {"S1 a high-speed counter",
+     "the pulses of its terminals move the cam; the print has one sentence for all counters, that a changed "
+     "value acts on it, which fits those that are no hardware: DMOV K0 C235 moves no cam"},
     {"word 3 bit 5", "off: a non-cyclic cam runs once each time that word 5 starts it"},
     {"word 6", "0 is in the printed range: nothing comes out, which is told"},
 };

@@ -20,12 +20,16 @@ void CamMaster::begin(const CamPort& port) {
   ticks_ = 0;
 }
 
+bool CamMaster::counts_pulses(const CamPort& port) const {
+  return source_.kind == MasterSource::Kind::counter &&
+         port.registers.counts_pulses[static_cast<std::size_t>(source_.number)];
+}
+
 std::int64_t CamMaster::value(const CamPort& port) const {
   if (source_.kind == MasterSource::Kind::time) return 0;
   if (source_.kind == MasterSource::Kind::word) return port.registers.i32(source_.number);
-  return source_.number >= first_high_speed_counter
-             ? port.high_speed[static_cast<std::size_t>(source_.number)]
-             : port.registers.c[static_cast<std::size_t>(source_.number)].value;
+  const auto number = static_cast<std::size_t>(source_.number);
+  return counts_pulses(port) ? port.high_speed[number] : port.registers.c[number].value;
 }
 
 std::int64_t CamMaster::advance(const CamPort& port) {
@@ -37,9 +41,7 @@ std::int64_t CamMaster::advance(const CamPort& port) {
   const std::int64_t now = value(port);
   const std::int64_t counts = now - std::exchange(last_, now);
   // A register passes from 2147483647 to -2147483648 as a counter does.
-  const bool hardware =
-      source_.kind == MasterSource::Kind::counter && source_.number >= first_high_speed_counter;
-  return hardware ? counts : static_cast<std::int32_t>(static_cast<std::uint32_t>(counts));
+  return counts_pulses(port) ? counts : static_cast<std::int32_t>(static_cast<std::uint32_t>(counts));
 }
 
 std::uint16_t& Decam::block(CamPort& port, int word) const {
@@ -98,7 +100,7 @@ void Decam::fail(CamPort& port, CamFault fault) {
 std::optional<CamFault> Decam::take_fault() { return std::exchange(fault_, std::nullopt); }
 
 bool Decam::stops_after_cycle(CamPort& port) const {
-  return (block(port, word::live) & live::stop_after_cycle) != 0;
+  return stops_by_itself_ || (block(port, word::live) & live::stop_after_cycle) != 0;
 }
 
 PulseTick Decam::tick(CamPort& port, PulseOutput& output, bool stop, bool taken) {

@@ -19,7 +19,7 @@ namespace drycut::devices::lx3vp {
 struct CamPort {
   Registers& registers;
   const std::array<bool, terminals>& inputs;             ///< levels of X, this tick's
-  const std::array<std::int64_t, counters>& high_speed;  ///< pulses of C235..C255 since power-up
+  const std::array<std::int64_t, counters>& high_speed;  ///< pulses of high-speed counters since power-up
   std::array<bool, terminals>& outputs;                  ///< levels of Y, given at once
 
   void give(int y, bool level) {
@@ -52,6 +52,7 @@ class CamMaster {
   std::int64_t advance(const CamPort& port);
 
  private:
+  [[nodiscard]] bool counts_pulses(const CamPort& port) const;
   [[nodiscard]] std::int64_t value(const CamPort& port) const;
 
   MasterSource source_;
@@ -152,6 +153,7 @@ class Decam {
 
   // Taken from the block at the start.
   bool cyclic_ = false;
+  bool stops_by_itself_ = false;  ///< the table is one of midCAMend
   unsigned function_ = 0;
   std::int64_t cycles_ = 1;  ///< of a run; 0 = endless
   std::int64_t delay_ = 0;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "devices/lx3vp/decam.hpp"
+#include "devices/lx3vp/ecamtbx.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -86,6 +87,7 @@ std::optional<CamFault> Decam::take_block(CamPort& port, bool taken) {
   const Registers& registers = port.registers;
   const int at = operands_.block;
   cyclic_ = block(port, word::start) == 1;
+  stops_by_itself_ = block(port, word::own_stop) == mid_cam_end;
   function_ = block(port, word::function);
   const std::uint16_t repeats = block(port, word::repeats);
   cycles_ = repeats == endless && !cyclic_ ? 0 : repeats + 1;

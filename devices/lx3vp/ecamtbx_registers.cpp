@@ -11,21 +11,9 @@ namespace drycut::devices::lx3vp {
 
 namespace {
 
-/// A table by midCAMend stops by itself; what it has switched on for that, the next table takes back. What
-/// the program has switched on stays.
-void write_stop(Registers& registers, int block, bool stops) {
-  unsigned flags = registers.d[static_cast<std::size_t>(block + word::live)];
-  const bool own = registers.d[static_cast<std::size_t>(block + word::own_stop)] == mid_cam_end;
-  if ((flags & live::stop_after_cycle) != 0 && !own) return;
-  if (stops) flags |= live::stop_after_cycle;
-  if (!stops && own) flags &= ~live::stop_after_cycle;
-  registers.put(block + word::live, static_cast<std::uint16_t>(flags));
-  registers.put(block + word::own_stop, stops ? mid_cam_end : left_cam);
-}
-
 void write_block(Registers& registers, int block, bool has_sync_zone, const EcamResult& result) {
   take_initial_values(registers, block);  // told when a cam starts with them: the program may still write
-  write_stop(registers, block, result.profile.stops);
+  registers.put(block + word::own_stop, result.profile.stops ? mid_cam_end : left_cam);
   registers.set_i16(block + word::rows, static_cast<std::int16_t>(result.rows.size()));
   registers.set_i16(block + word::table_offset, cam_block_words);
   int at = block + cam_block_words;

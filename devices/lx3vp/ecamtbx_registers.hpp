@@ -28,9 +28,8 @@ struct EcamtbxReport {
 /// words 10..17 and 19 of their list.
 ///
 /// A cam by midCAMend stops by itself at its end (003 appendix, rotary saw, P6), which the manual gives no
-/// word for: word 4 bit 1 (stop after the cycle) is switched on, and off again with the table of another
-/// curve, as word 31 remembers. What the program has switched on stays. Words of the block that nothing has
-/// written get their initial values.
+/// word for: word 31 tells DECAM, and is 0 with the table of another curve. Words of the block that nothing
+/// has written get their initial values.
 EcamtbxReport run_ecamtbx(Registers& registers, int list, std::int32_t type, int block, int result);
 
 /// Why the list at D`list` makes no table of type `type`, with its numbers: "P3 (D504) is 9400: ...".

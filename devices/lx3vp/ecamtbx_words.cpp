@@ -38,9 +38,10 @@ constexpr Reading word_readings[] = {
     {"results", "the manual says only that they are below 0 on an error: the numbers are ours"},
     {"laws", "the manual names them and shows results: the profiles are derived from its demos"},
     {"P6 high 3",
-     "midCAMend: the cam stops at the end of its cycle by word 4 bit 1 of the block, which the table of "
-     "another "
-     "curve takes back"},
+     "midCAMend: word 31 of the block tells the cam to stop at the end of its cycle, whatever word 4 says"},
+    {"column Default",
+     "3000, 1000, 300, 5/3 are what the editor's dialog begins with: a list that nothing has written is "
+     "refused"},
     {"P6 high H1000", "the demo of the negative square: the slave runs backwards"},
     {"P2, P3 with the sync function",
      "the manual gives them a second meaning and does not explain it: they stay lengths, the zone's "

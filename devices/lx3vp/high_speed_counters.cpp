@@ -18,17 +18,17 @@ std::int64_t whole_pulses(std::int64_t edges) {
 }  // namespace
 
 void HighSpeedCounters::enable(int number, std::int32_t preset, bool powered) {
-  Channel& channel = channels_[static_cast<std::size_t>(number - first_high_speed_counter)];
+  Channel& channel = channels_[static_cast<std::size_t>(number - first_wide_counter)];
   channel.enabled = powered;
   channel.preset = preset;
 }
 
 void HighSpeedCounters::restart(int number, std::int64_t edges) {
-  channels_[static_cast<std::size_t>(number - first_high_speed_counter)] = {false, 0, whole_pulses(edges)};
+  channels_[static_cast<std::size_t>(number - first_wide_counter)] = {false, 0, whole_pulses(edges)};
 }
 
 void HighSpeedCounters::count(int number, std::int64_t edges, Registers& registers) {
-  Channel& channel = channels_[static_cast<std::size_t>(number - first_high_speed_counter)];
+  Channel& channel = channels_[static_cast<std::size_t>(number - first_wide_counter)];
   const std::int64_t now = whole_pulses(edges);
   std::int64_t pulses = now - std::exchange(channel.last, now);
   if (!channel.enabled || pulses == 0) return;

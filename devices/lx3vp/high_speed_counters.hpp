@@ -6,8 +6,8 @@
 
 namespace drycut::devices::lx3vp {
 
-/// The counters C235..C255, which count the pulses of their terminals by themselves. C235..C245 count every
-/// pulse in the direction of M8235..M8245 (on = down); C246..C255 count both ways and show the direction in
+/// The counters C235..C255, and C200..C234 where they are wired, which count the pulses of their terminals by
+/// themselves. Those up to C245 count every pulse in the direction of M8200..M8245 (on = down); C246..C255 count both ways and show the direction in
 /// M8246..M8255. A pulse is one period of an encoder, four edges, as with an FX.
 class HighSpeedCounters {
  public:
@@ -26,7 +26,7 @@ class HighSpeedCounters {
     std::int32_t preset = 0;
     std::int64_t last = 0;
   };
-  std::array<Channel, counters - first_high_speed_counter> channels_{};
+  std::array<Channel, counters - first_wide_counter> channels_{};
   std::array<std::int64_t, counters> pulses_{};
 };
 

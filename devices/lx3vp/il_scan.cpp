@@ -312,7 +312,7 @@ void Scanner::counter(const Step& step, bool on, Rung& rung) {
   const int number = step.operands[0].number;
   const bool wide = number >= first_wide_counter;
   const int preset = read_value(rung.registers, step.operands[1], wide);
-  if (number >= first_high_speed_counter) {
+  if (rung.registers.counts_pulses[static_cast<std::size_t>(number)]) {
     rung.instructions.high_speed_counter(number, preset, on);
     return;
   }

@@ -76,7 +76,7 @@ class Instructions {
   /// DPLSV, DDRVI, DDRVA, PLSY or ZRN: `powered` is the power flow into it.
   virtual void pulses(int step, const PulseOrder& order, bool powered) = 0;
 
-  /// OUT C235..C255 K: counts the pulses of its terminals while powered; the contact is on from `preset` on.
+  /// OUT of a high-speed counter: counts the pulses of its terminals while powered; the contact is on from `preset` on.
   /// Register and contact are the controller's work then; RST C sets both back in the registers.
   virtual void high_speed_counter(int number, std::int32_t preset, bool powered) = 0;
 

@@ -52,8 +52,9 @@ bool Lx3vpController::offer(const Address& address) {
       if (is_pulse_output(address)) cards_.pulse_outputs.try_emplace(address);
       return true;
     case Kind::counter:
-      if (address.number < first_high_speed_counter) return false;
+      if (address.number < first_wide_counter) return false;
       cards_.counters.try_emplace(address);
+      registers_.counts_pulses.set(static_cast<std::size_t>(address.number));
       return true;
     case Kind::analogue:
     case Kind::interrupt:
@@ -66,7 +67,7 @@ std::variant<Address, TerminalFault> Lx3vpController::terminal(const std::string
   const auto address = parse_base_terminal(text);
   if (address && offer(*address)) return *address;
   return TerminalFault{fmt::format("'{}' is not a terminal of the controller", text),
-                       "write X0 to X377, Y0 to Y377 (octal), or C235 to C255 for a high-speed counter"};
+                       "write X0 to X377, Y0 to Y377 (octal), or C200 to C255 for a high-speed counter"};
 }
 
 std::vector<Controller::Period> Lx3vpController::periods() const {

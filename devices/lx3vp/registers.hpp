@@ -24,7 +24,8 @@ inline constexpr int timers = 256;                    ///< T0..T255
 inline constexpr int counters = 256;                  ///< C0..C255
 inline constexpr int index_registers = 8;             ///< V0..V7 and Z0..Z7
 inline constexpr int first_wide_counter = 200;        ///< C200..C255 count 32 bit
-inline constexpr int first_high_speed_counter = 235;  ///< C235..C255 count pulses of terminals by themselves
+inline constexpr int first_high_speed_counter = 235;  ///< C235..C255 count pulses of terminals by themselves;
+                                                      ///< C200..C234 where they are wired
 inline constexpr int first_two_way_counter = 246;  ///< C246..C255 count both ways; those below as M82nn says
 
 // What keeps its value without power; the rest is 0 after power-up. The seed manual gives no ranges: these
@@ -80,6 +81,9 @@ struct Registers {
   std::array<std::uint16_t, index_registers> v{};  ///< V0..V7; of a 32-bit index the upper word
   std::array<std::uint16_t, index_registers> z{};  ///< Z0..Z7
   std::int64_t time_ns = 0;  ///< since power-up, at the start of the scan: what timers run by
+  /// Counters that count pulses of terminals by themselves: C235..C255, and of C200..C234 those that are wired
+  /// (003 4.1.3 takes C231).
+  std::bitset<counters> counts_pulses = ~std::bitset<counters>() << first_high_speed_counter;
   /// Words of D that a program, a file or a scenario has written, be it 0 (003 5: the others have their
   /// initial values).
   std::bitset<data_words> written;

@@ -68,6 +68,7 @@ class Plc {
   }
   void press(int input, bool on) { controller_.cards().inputs[{Kind::input, 0, input}].level = on; }
   /// Pulses of Y0.
+  Lx3vpController& controller() { return controller_; }
   std::int64_t given() { return controller_.cards().pulse_outputs[{Kind::output, 0, 0}].count; }
   bool lamp(int output) { return controller_.cards().outputs[{Kind::output, 0, output}].level; }
   std::vector<std::string> events() {
@@ -139,6 +140,36 @@ END
   EXPECT_EQ(plc.get("C235"), plc.get("DD8142")) << "all of Y1's pulses came in at X0";
   EXPECT_FALSE(plc.lamp(7));
   EXPECT_THAT(plc.events(), IsEmpty());
+}
+
+// 003 4.1.3 takes C231, which with an FX is no high-speed counter: where it is wired it is one here.
+TEST(Lx3vpController, ACounterBelowC235CountsPulsesWhereItIsWired) {
+  const std::string program = "LD M8000\nOUT C231 K0\nOUT C232 K0\nEND\n";
+  Plc plc(program);
+  ASSERT_TRUE(std::holds_alternative<Address>(plc.controller().terminal("C231")));
+  EXPECT_TRUE(std::holds_alternative<TerminalFault>(plc.controller().terminal("C199")));
+  plc.run_ms(2);
+  plc.controller().cards().counters[{Kind::counter, 0, 231}].count += 4 * 30;
+  plc.run_ms(2);
+  EXPECT_EQ(plc.get("C231"), 30);
+  EXPECT_EQ(plc.get("C232"), 1) << "not wired: it counts the rung's edge";
+  plc.set("M8231", 1);
+  plc.controller().cards().counters[{Kind::counter, 0, 231}].count += 4 * 10;
+  EXPECT_EQ(plc.run_ms(2).get("C231"), 20) << "M8231: downwards";
+}
+
+// The pulses move a cam, whatever is written to their counter.
+TEST(Lx3vpController, WhatIsWrittenToAHighSpeedCounterMovesNoCam) {
+  Plc plc("LD M8000\nOUT C235 K0\nLD M0\nDPLSV K10000 Y1 Y5\nDECAM C235 D2000 X2 Y0 Y4\nEND\n");
+  plc.block(2000, {{0, 0}, {50'000, 40'000}});
+  plc.set({{"D2005", 1}, {"M0", 1}});
+  plc.run_ms(100);
+  const double counts = plc.get("DD2027");
+  EXPECT_NEAR(counts, 1000, 60);
+  plc.set("C235", 7000);
+  plc.run_ms(100);
+  EXPECT_NEAR(plc.get("C235"), 8000, 20);
+  EXPECT_NEAR(plc.get("DD2027") - counts, 1000, 20);
 }
 
 // 003 4.2.3: X2 starts three cycles of 100000 master pulses; the manual's "two times" are two repeats.
@@ -373,7 +404,7 @@ TEST(Lx3vpController, TerminalsAreThoseOfTheProgramAndOfTheWires) {
   EXPECT_FALSE(controller.cards().pulse_outputs.contains(*parse_base_terminal("Y377")));
   EXPECT_TRUE(controller.offer(*parse_base_terminal("Y3")));
   EXPECT_TRUE(controller.cards().pulse_outputs.contains(*parse_base_terminal("Y3")));
-  EXPECT_FALSE(controller.offer(*parse_base_terminal("C234")));
+  EXPECT_FALSE(controller.offer(*parse_base_terminal("C199")));
   EXPECT_FALSE(controller.offer(*parse_address("2.CNT01")));
 }
 
