@@ -3,7 +3,7 @@
 // model has them, with its namespace and NodeIds, as far as a line knows them. See docs/live.md for what is not there.
 import { DataType, StatusCodes, Variant, VariantArrayType } from "./ua.mjs";
 import { add_identification, put_among_machines } from "./machinery.mjs";
-import { bad, add_unit, binding } from "./variables.mjs";
+import { add_variable, bad } from "./variables.mjs";
 
 const cutter_uri = "http://opcfoundation.org/UA/PlasticsRubber/Extrusion_v2/Cutter/";
 const rubber_uri = "http://opcfoundation.org/UA/PlasticsRubber/GeneralTypes/";
@@ -93,20 +93,9 @@ export class Cutter {
     add_identification(space, namespace, cutter, `${path}/Identification`, "Cutter", { ...opcua, model: opcua.model || plant.type }, `urn:drycut:${described.scenario}:${plant.name}`);
     const object = (owner, own, name, type, namespaceIndex) =>
       namespace.addObject({ componentOf: owner, browseName: { name, namespaceIndex }, nodeId: `s=${own}`, typeDefinition: type });
-    const variable = (owner, own, name, dataType, get, { unit = "", set, type, namespaceIndex = ns.index, property } = {}) => {
-      const access = set ? "CurrentRead | CurrentWrite" : "CurrentRead";
-      const added = namespace.addVariable({
-        [property ? "propertyOf" : "componentOf"]: owner,
-        browseName: { name, namespaceIndex },
-        nodeId: `s=${own}/${name}`,
-        typeDefinition: property ? "PropertyType" : (type ?? "BaseDataVariableType"),
-        dataType: DataType[dataType],
-        accessLevel: access,
-        userAccessLevel: access,
-        minimumSamplingInterval: 33,
-      });
-      added.bindVariable(binding({ dataType, get, set, line, told: (message) => told(`${own}/${name}`, message) }), true);
-      add_unit(namespace, added, unit);
+    const variable = (owner, own, name, dataType, get, options) => {
+      const full = `${own}/${name}`;
+      add_variable(namespace, owner, { path: full, name, namespaceIndex: ns.index, dataType, get, line, told: (message) => told(full, message), ...options });
     };
     if (plant.web !== "") {
       const speed = `${plant.web}.speed`;
@@ -114,11 +103,7 @@ export class Cutter {
       if (unit !== undefined) {
         const own = `${path}/ProductSpeed`;
         const product_speed = object(cutter, own, "ProductSpeed", types.monitored, ns.index);
-        variable(product_speed, own, "ActualValue", DataType.Double, () => line.read(speed), {
-          unit,
-          type: "AnalogUnitType",
-          namespaceIndex: types.rubber.index,
-        });
+        variable(product_speed, own, "ActualValue", DataType.Double, () => line.read(speed), { unit, namespaceIndex: types.rubber.index });
       }
     }
     const clamp = `${plant.name}.clamp.closed`;
@@ -134,7 +119,6 @@ export class Cutter {
     const channel = described.channels.find(({ name }) => name === length);
     variable(product, one, "Length", DataType.Double, () => (length ? line.read(length) : bad(StatusCodes.BadConfigurationError)), {
       unit: channel?.unit || "mm",
-      type: "AnalogUnitType",
       set: channel?.writable ? (value) => line.ask({ act: { set: { [length]: value } } }) : undefined,
     });
     const cuts = `${plant.name}.cut.number`;

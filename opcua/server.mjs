@@ -1,28 +1,28 @@
 // Where the gateway listens, who may come in, and where its certificate is.
 import { MessageSecurityMode, MonitoredItem, nodesets, OPCUACertificateManager, OPCUAServer, RegisterServerMethod, SecurityPolicy } from "./ua.mjs";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { homedir, hostname, tmpdir } from "node:os";
 import { join } from "node:path";
 import { needs_packml } from "./machinery.mjs";
+import { a_sample } from "./variables.mjs";
 
-/// In the user's cache, else in the temporary folder.
+/// In the user's cache, else in a temporary folder of its own.
 function certificates() {
-  for (const base of [process.env.XDG_CACHE_HOME || join(homedir(), ".cache"), tmpdir()]) {
-    const folder = join(base, "drycut", "opcua");
-    try {
-      mkdirSync(folder, { recursive: true, mode: 0o700 });
-      return folder;
-    } catch {
-      // the next one
-    }
+  const folder = join(process.env.XDG_CACHE_HOME || join(homedir(), ".cache"), "drycut", "opcua");
+  try {
+    mkdirSync(folder, { recursive: true, mode: 0o700 });
+    return folder;
+  } catch {
+    const own = mkdtempSync(join(tmpdir(), "drycut-opcua-"));
+    process.once("exit", () => rmSync(own, { recursive: true, force: true }));
+    return own;
   }
-  throw new Error("there is no folder for a certificate");
 }
 
 /// Without a token anybody on this machine; with one user drycut with it as the password, which is always
 /// encrypted, over a channel that is encrypted or not.
 export async function make_server({ address, port, token, described }) {
-  MonitoredItem.minimumSamplingInterval = 33; // [ms] the line tells so often
+  MonitoredItem.minimumSamplingInterval = a_sample;
   const serverCertificateManager = new OPCUACertificateManager({ rootFolder: certificates(), automaticallyAcceptUnknownCertificate: true });
   await serverCertificateManager.initialize();
   const open = token === "";

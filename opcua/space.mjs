@@ -1,7 +1,6 @@
 // The line in the address space: what it is and how it runs, its controller, plants, panel, faults, checks.
 import { StatusCodes, DataType } from "./ua.mjs";
-import { Lost, Refused } from "./line.mjs";
-import { add_variable, bad, good, type_of } from "./variables.mjs";
+import { add_variable, bad, good, status_of, type_of } from "./variables.mjs";
 
 export const our_namespace = "urn:drycut:line";
 
@@ -70,17 +69,13 @@ class Space {
     const { line, namespace } = this;
     const add = (name, inputArguments, message) => {
       const method = namespace.addMethod(root, { nodeId: `s=Line/${name}`, browseName: name, inputArguments, outputArguments: [] });
+      const told = (text) => this.events.refused(`Line/${name}`, text);
       method.bindMethod((given, context, callback) => {
         line
           .ask(message(...given.map(({ value }) => value)))
-          .then(() => ({ statusCode: StatusCodes.Good, outputArguments: [] }))
-          .catch((error) => {
-            if (error instanceof Lost) return { statusCode: StatusCodes.BadNoCommunication };
-            if (!(error instanceof Refused)) throw error;
-            this.events.refused(`Line/${name}`, error.message);
-            return { statusCode: StatusCodes.BadInvalidArgument };
-          })
-          .then((result) => callback(null, result), callback);
+          .then(() => StatusCodes.Good)
+          .catch((error) => status_of(error, StatusCodes.BadInvalidArgument, told))
+          .then((statusCode) => callback(null, { statusCode, outputArguments: [] }), callback);
       });
     };
     const argument = (name, dataType, text) => ({ name, dataType, description: { text } });

@@ -3,7 +3,7 @@ import { DataType, DataValue, Range, StatusCodes, Variant, VariantArrayType } fr
 import { Lost, Refused } from "./line.mjs";
 import { engineering_unit } from "./units.mjs";
 
-const a_sample = 33; // [ms] the line tells so often
+export const a_sample = 33; // [ms] the line tells so often
 
 /// The OPC UA type of numbers in a range of the line.
 export function type_of(range) {
@@ -38,9 +38,17 @@ export function bad(statusCode) {
   return new DataValue({ statusCode, sourceTimestamp: now, serverTimestamp: now });
 }
 
+/// What becomes of an error: the line is lost, or it refuses, with words that are told. Others are thrown again.
+export function status_of(error, refused, told) {
+  if (error instanceof Lost) return StatusCodes.BadNoCommunication;
+  if (!(error instanceof Refused)) throw error;
+  told(error.message);
+  return refused;
+}
+
 /// The binding of a variable whose value `get` gives, now or later, and that `set` writes if there is one;
 /// `told` is called with what the line says to a value that it refuses.
-export function binding({ dataType, get, set, line, told }) {
+function binding({ dataType, get, set, line, told }) {
   const options = {
     timestamped_get(callback) {
       Promise.resolve()
@@ -57,12 +65,7 @@ export function binding({ dataType, get, set, line, told }) {
         .then(set)
         // What a line that stands still takes acts in its next step.
         .then(() => (line.running ? StatusCodes.Good : StatusCodes.GoodCompletesAsynchronously))
-        .catch((error) => {
-          if (error instanceof Lost) return StatusCodes.BadNoCommunication;
-          if (!(error instanceof Refused)) throw error;
-          told?.(error.message);
-          return StatusCodes.BadOutOfRange;
-        })
+        .catch((error) => status_of(error, StatusCodes.BadOutOfRange, told))
         .then((statusCode) => callback(null, statusCode), callback);
     };
   return options;
@@ -80,22 +83,24 @@ function add_property(namespace, owner, name, dataType, value) {
 }
 
 /// EngineeringUnits and EURange where there are some.
-export function add_unit(namespace, variable, unit, range) {
+function add_unit(namespace, variable, unit, range) {
   const info = engineering_unit(unit);
   if (info) add_property(namespace, variable, "EngineeringUnits", "EUInformation", info);
   if (range) add_property(namespace, variable, "EURange", "Range", new Range({ low: range.low, high: range.high }));
 }
 
-/// Adds a variable to `owner`. `path`: its NodeId, and those of what belongs to it begin with it.
-export function add_variable(namespace, owner, { path, name, description, unit = "", range, dataType = type_of(range), ...bound }) {
+/// Adds a variable to `owner`, or a property. `path`: its NodeId, and those of what belongs to it begin with it.
+/// `namespaceIndex`: of its name.
+export function add_variable(namespace, owner, { path, name, namespaceIndex = namespace.index, property, description, unit = "", range, dataType = type_of(range), ...bound }) {
   const analog = dataType !== DataType.Boolean && dataType !== DataType.String;
   const has_unit = analog && unit !== "";
   const has_range = analog && range !== undefined;
-  const type = has_unit && has_range ? "AnalogUnitRangeType" : has_unit ? "AnalogUnitType" : has_range ? "AnalogItemType" : "BaseDataVariableType";
+  const plain = property ? "PropertyType" : "BaseDataVariableType";
+  const type = has_unit && has_range ? "AnalogUnitRangeType" : has_unit ? "AnalogUnitType" : has_range ? "AnalogItemType" : plain;
   const access = bound.set ? "CurrentRead | CurrentWrite" : "CurrentRead";
   const variable = namespace.addVariable({
-    componentOf: owner,
-    browseName: name,
+    [property ? "propertyOf" : "componentOf"]: owner,
+    browseName: { name, namespaceIndex },
     nodeId: `s=${path}`,
     description: description ?? "",
     typeDefinition: type,

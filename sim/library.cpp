@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
+#include "sim/loop/live_parameters.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/units.hpp"
 
@@ -120,8 +121,11 @@ std::string Simulation::unit(const std::string& name) {
 
 void Simulation::write(const std::string& name, double value) {
   const auto& target = run_->target(name);
-  if (const auto fault = target.misfit(value)) throw BadInput(fault->what + "; " + fault->remedy);
-  target.write(target.unit.empty() ? value : sim::scenario::to_si(value, target.unit));
+  const double si = target.unit.empty() ? value : sim::scenario::to_si(value, target.unit);
+  auto fault = target.misfit(value);
+  if (!fault) fault = sim::loop::objection_to(run_->scenario, name, si);
+  if (fault) throw BadInput(fault->what + "; " + fault->remedy);
+  target.write(si);
 }
 
 std::vector<Event> Simulation::take_events() {

@@ -234,7 +234,7 @@ void Coupling::begin_phasing(const AxisMotion& wanted, const AxisMotion& master,
 void Coupling::follow(const AxisMotion& wanted, AxisMotion& slave, double dt, const CouplingLimits& limits) {
   const double way = difference(wanted.position, slave.position, slave_modulo_);
   const double most = limits.velocity * dt * (1 + 1e-9);
-  clamped_ = false;
+  clamped_ = by_acceleration_ = false;
   if (cam() != nullptr) {
     if (std::abs(way) <= most) {
       slave = wanted;
@@ -254,6 +254,7 @@ void Coupling::follow(const AxisMotion& wanted, AxisMotion& slave, double dt, co
     return;
   }
   clamped_ = true;
+  by_acceleration_ = std::abs(way) <= most;
   // Beyond its acceleration the slave lags and catches up no faster than it can brake again.
   const double lag = way - wanted.velocity * dt;
   const double catching_up =

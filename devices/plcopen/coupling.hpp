@@ -96,6 +96,8 @@ class Coupling {
   [[nodiscard]] bool engaged() const { return phase_ == CouplingPhase::coupled; }
   /// In the last cycle the law asked for more than the slave's limits allow: it lags behind.
   [[nodiscard]] bool clamped() const { return clamped_; }
+  /// By its acceleration, not its speed: only a gear looks at it.
+  [[nodiscard]] bool clamped_by_acceleration() const { return by_acceleration_; }
   /// The slave is where the law wants it.
   [[nodiscard]] bool in_place() const { return engaged() && !clamped_; }
   /// Cam ends passed while engaged, since the start.
@@ -129,6 +131,7 @@ class Coupling {
   double slave_modulo_ = 0;
   CouplingPhase phase_ = CouplingPhase::slip;
   bool clamped_ = false;
+  bool by_acceleration_ = false;
   double time_ = 0;  ///< for the timeout
   double time_in_window_ = 0;
 

@@ -1,5 +1,5 @@
 // The page of a live line: what comes over the wire goes to its parts, what one does here goes to the line.
-import { by, icon, make, memory } from "./live_dom.js";
+import { by, icon, make, memory, words } from "./live_dom.js";
 import { Link } from "./live_link.js";
 import { Machine } from "./live_machine.js";
 import { Scope } from "./live_scope.js";
@@ -24,11 +24,12 @@ const verdicts = new Verdicts();
 const faults = new Faults(link);
 
 function takeLine(told) {
+  const anew = told.run !== line?.run || told.process !== line?.process;
   line = told;
   by("title").textContent = line.title || line.scenario;
   by("scenario").textContent = `${line.scenario} · run ${line.run}`;
   document.title = (line.title || line.scenario) + " · Drycut live";
-  for (const part of [panel, program, values, events, verdicts, faults, scope]) part.line(line);
+  for (const part of [panel, program, values, events, verdicts, faults, scope]) part.line(line, anew);
   machine.line(line);
   wanted = "";
   want();
@@ -98,7 +99,7 @@ function connected(on) {
 
 /// What is wrong with a request that no field asked for.
 function say(problems) {
-  by("say").textContent = problems.map((one) => one.what + (one.remedy ? ": " + one.remedy : "")).join("; ");
+  by("say").textContent = words(problems);
 }
 
 async function ask(what) {

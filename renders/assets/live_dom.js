@@ -45,9 +45,11 @@ export function nice(value) {
   return 10 * decade;
 }
 
+export const words = (problems) => problems.map((one) => one.what + (one.remedy ? ": " + one.remedy : "")).join("; ");
+
 /// What the server says about a request, below the field where it was typed; nothing: all is well.
 export function tell(place, problems) {
-  place.textContent = problems.map((one) => one.what + (one.remedy ? ": " + one.remedy : "")).join("; ");
+  place.textContent = words(problems);
   place.hidden = problems.length === 0;
 }
 

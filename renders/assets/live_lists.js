@@ -11,11 +11,10 @@ export class Events {
     this.search.oninput = () => this.filter();
   }
 
-  line(line) {
+  line(line, anew) {
     by("notes").replaceChildren(...line.notes.map((note) => make("li", { textContent: note })));
     by("notes").hidden = line.notes.length === 0;
-    if (line.run === this.run) return;
-    this.run = line.run;
+    if (!anew) return;
     by("events").replaceChildren();
     this.count = 0;
     this.tell();
@@ -50,9 +49,8 @@ export class Events {
 }
 
 export class Verdicts {
-  line(line) {
-    if (line.run === this.run) return;
-    this.run = line.run;
+  line(line, anew) {
+    if (!anew) return;
     by("checks").replaceChildren(...line.checks.map((name) => make("li", {}, make("span", { className: "badge told", textContent: "…" }), make("span", { textContent: name }))));
     by("drives").replaceChildren();
     by("no-checks").hidden = line.checks.length > 0;
@@ -87,16 +85,14 @@ export class Faults {
     by("fault-component").onchange = () => this.choose();
   }
 
-  line(line) {
-    const again = line.run === this.run;
-    this.run = line.run;
+  line(line, anew) {
     this.faults = line.faults;
     const components = [...new Set(line.faults.map((fault) => fault.component))];
     const before = by("fault-component").value || memory.get("fault." + line.scenario, "");
     by("fault-component").replaceChildren(...components.map((name) => make("option", { value: name, textContent: name })));
     by("fault-component").value = components.includes(before) ? before : components[0] ?? "";
-    by("faults-injected").hidden ||= !again;
-    if (!again) by("fault-log").replaceChildren();
+    by("faults-injected").hidden ||= anew;
+    if (anew) by("fault-log").replaceChildren();
     by("no-faults").hidden = components.length > 0;
     by("fault-choice").hidden = components.length === 0;
     this.choose();

@@ -22,10 +22,10 @@ export class Machine {
   /// The machine of another run.
   async line(line) {
     if (!this.shown) return;
-    this.wanted = line.run;
+    this.wanted = line;
     this.run = null;
     const bytes = await fetch(address("machine.glb")).then((answer) => (answer.ok ? answer.arrayBuffer() : null), () => null);
-    if (bytes === null || bytes.byteLength === 0 || this.wanted !== line.run) return;
+    if (bytes === null || bytes.byteLength === 0 || this.wanted !== line) return;
     if (!(await this.shown.load(bytes, line.parts))) return;
     this.run = line.run;
     this.before = this.after = null;

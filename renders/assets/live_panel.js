@@ -130,6 +130,13 @@ export class Panel {
     return { target, element, switch: true, press: toggle, show };
   }
 
+  /// How long a change takes: "0.5 s"; "" = at once. What is no time the line refuses.
+  static over() {
+    const text = by("ramp").value.trim().replace(",", ".");
+    if (Number(text) === 0) return "";
+    return Number.isFinite(Number(text)) ? text + " s" : text;
+  }
+
   /// From where to where the slider goes: about twice the value, or the largest one that the scenario uses, within
   /// what is allowed.
   static reach(value, { low, high }, used) {
@@ -170,11 +177,10 @@ export class Panel {
     };
     const send = async (value) => {
       sent = performance.now();
-      const given = unit === "" ? value : value + " " + unit;
-      const over = Number(by("ramp").value);
-      const slowly = over > 0 && value !== last;
+      const given = unit === "" || typeof value === "string" ? value : value + " " + unit;
+      const over = Panel.over();
       sentAt = this.time;
-      tell(problem, await this.link.act(slowly ? { ramp: { [name]: given }, over: over + " s" } : { set: { [name]: given } }));
+      tell(problem, await this.link.act(over !== "" && value !== last ? { ramp: { [name]: given }, over } : { set: { [name]: given } }));
     };
     const sendSoon = () => {
       clearTimeout(waiting);
@@ -183,7 +189,7 @@ export class Panel {
     slider.oninput = () => {
       number.value = shown(Number(slider.value));
       // A ramp begins when the slider is let go.
-      if (!(Number(by("ramp").value) > 0)) sendSoon();
+      if (Panel.over() === "") sendSoon();
     };
     slider.onchange = () => {
       clearTimeout(waiting);
@@ -192,14 +198,13 @@ export class Panel {
     };
     slider.onpointerdown = () => { this.touched = slider; };
     slider.onpointerup = slider.onpointercancel = () => { this.touched = null; };
-    const enter = async () => {
+    const enter = () => {
       const text = number.value.trim().replace("−", "-").replace(",", ".");
       number.dataset.typed = "";
       // With a unit of one's own, or none: then it is the field's.
       const own = text !== "" && Number.isFinite(Number(text));
       if (own && range && (Number(text) < ends[0] || Number(text) > ends[1])) stretch(Number(text));
-      if (own) return send(Number(text));
-      tell(problem, await this.link.act({ set: { [name]: text } }));
+      send(own ? Number(text) : text);
     };
     number.oninput = () => { number.dataset.typed = "yes"; };
     number.onkeydown = (event) => {

@@ -36,9 +36,8 @@ export class Program {
     this.mark();
   }
 
-  line(line) {
-    if (line.run !== this.run) this.said.clear();
-    this.run = line.run;
+  line(line, anew) {
+    if (anew) this.said.clear();
     this.scenario = line.scenario;
     this.texts = line.programs;
     this.channels = new Map(line.channels.map((channel) => [channel.name, channel]));

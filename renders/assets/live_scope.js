@@ -23,12 +23,10 @@ export class Scope {
   }
 
   /// What a line of that scenario is first looked at with.
-  line(line) {
-    const again = line.run === this.run && line.scenario === this.scenario;
+  line(line, anew) {
     this.channels = line.channels;
-    this.run = line.run;
     this.scenario = line.scenario;
-    if (!again) this.clear();
+    if (anew) this.clear();
     const known = new Map(line.channels.map((channel) => [channel.name, channel]));
     const wished = memory.get("scope." + line.scenario, null) ?? this.firstChoice(line);
     this.curves = [];
@@ -98,8 +96,7 @@ export class Scope {
 
   samples(samples) {
     if (samples.names.length === 0) return;
-    const { times } = samples;
-    if (times.length > 0 && times[times.length - 1] < this.traces.latest - 1e-9 && times[0] < this.traces.time(this.traces.first)) this.clear();
+    if (samples.times.at(-1) < this.traces.latest - 1e-9) this.clear();
     const begin = this.traces.push(samples);
     if (begin === this.traces.count) return;
     if (this.trigger.look(this.traces, begin, this.width)) this.tellTrigger();

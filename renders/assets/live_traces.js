@@ -109,8 +109,7 @@ export class Trigger {
   /// From when to when.
   stretch(traces, width) {
     const rolling = [traces.latest - width, traces.latest];
-    if (this.mode === "off") return rolling;
-    if (this.found === null) return this.mode === "single" && this.held ? null : rolling;
+    if (this.mode === "off" || this.found === null) return rolling;
     // Nothing for a while: better the present than an old picture.
     if (this.mode === "auto" && traces.latest > this.found + 2 * width + 0.5) return rolling;
     return [this.found - this.share * width, this.found + (1 - this.share) * width];

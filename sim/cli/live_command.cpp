@@ -179,14 +179,16 @@ int replay_session(const ReplayOptions& options) {
   Problems problems;
   check_output("--to-scenario", options.to_scenario.string(), {session, "session"}, problems);
   std::string text;
+  std::vector<std::string> notes;
   if (problems.empty())
     text = live::scenario_of_session(session, std::filesystem::absolute(options.to_scenario).parent_path(),
-                                     problems);
+                                     notes, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
   }
   write_file(options.to_scenario, text);
+  for (const auto& note : notes) fmt::print("  note {}\n", printable(note));
   fmt::print("scenario: {}\n", options.to_scenario.string());
   return all_passed;
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -133,6 +134,15 @@ std::optional<ordered_json> sound_entry(const fs::path& entry, const std::string
   return json;
 }
 
+// Of a process that was killed as it kept something, or of one that is at it: FINGERPRINT.PID.
+bool is_begun(const fs::path& folder) {
+  const auto fingerprint = folder.stem().string();
+  const auto pid = folder.extension().string();
+  return fingerprint.size() == fingerprint_of("").size() && pid.size() > 1 &&
+         fingerprint.find_first_not_of("0123456789abcdef") == std::string::npos &&
+         pid.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
 }  // namespace
 
 std::string inputs_of_run(const scenario::Scenario& scenario, const FileSet& files, const RunKind& kind) {
@@ -194,6 +204,8 @@ std::optional<KeptRun> RunCache::take(const std::string& inputs, OutputFolder& t
 void RunCache::keep(const std::string& inputs, const OutputFolder& from, const KeptRun& run) const {
   const auto entry = entry_of(inputs);
   const auto begun = fs::path(fmt::format("{}.{}", entry.string(), getpid()));
+  std::error_code error;
+  const std::shared_ptr<void> remains(nullptr, [&](void*) { fs::remove_all(begun, error); });
   ordered_json json = {{"inputs", inputs}, {"run", json_of(run)}};
   for (const auto& name : from.listed()) {
     const auto copy = begun / "files" / name;
@@ -203,10 +215,8 @@ void RunCache::keep(const std::string& inputs, const OutputFolder& from, const K
   }
   const auto text = json.dump(2) + "\n";
   write_file(begun / entry_file, fingerprint_of(text) + "\n" + text);
-  std::error_code error;
-  fs::remove_all(entry);  // a damaged one
-  fs::rename(begun, entry, error);
-  if (error) fs::remove_all(begun);  // another process has kept the same
+  fs::remove_all(entry);              // a damaged one
+  fs::rename(begun, entry, error);  // unless another process has kept the same
   make_room();
 }
 
@@ -220,8 +230,9 @@ void RunCache::make_room() const {
   std::uintmax_t bytes = 0;
   std::error_code ignored;
   for (const auto& folder : fs::directory_iterator(folder_, ignored)) {
-    const auto used = fs::last_write_time(folder.path() / entry_file, ignored);
-    if (ignored) continue;  // none of ours, or begun only
+    auto used = fs::last_write_time(folder.path() / entry_file, ignored);
+    if (ignored && is_begun(folder.path())) used = fs::last_write_time(folder.path(), ignored);
+    if (ignored) continue;  // none of ours
     entries.push_back({used, folder.path()});
     for (const auto& file : fs::recursive_directory_iterator(folder.path(), ignored))
       if (file.is_regular_file(ignored)) entries.back().bytes += file.file_size(ignored);

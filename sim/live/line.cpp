@@ -33,7 +33,7 @@ Line::~Line() = default;
 
 void Line::stop() {
   const std::lock_guard lock(inbox_.mutex);
-  inbox_.stopped = true;
+  stopped_ = true;
   has_mail_ = true;
   inbox_.changed.notify_all();
 }
@@ -48,7 +48,7 @@ void Line::ask(Request request) {
 void Line::run(const Listener& listener, const Describe& describe) {
   listener_ = listener;
   describe_ = describe;
-  run_->begin(options_.record);
+  run_->begin(options_.record, stopped_);
   describe_(run_->describe());
   begin_pace();
   next_news_ = Clock::now();
@@ -70,10 +70,10 @@ const std::filesystem::path& Line::record() const { return run_->record(); }
 
 bool Line::take_mail() {
   if (!has_mail_.exchange(false)) return true;
+  if (stopped_) return false;
   std::deque<Request> mail;
   {
     const std::lock_guard lock(inbox_.mutex);
-    if (inbox_.stopped) return false;
     mail.swap(inbox_.requests);
   }
   for (const auto& request : mail) act_on(request);
@@ -99,16 +99,19 @@ void Line::act_on(const Request& request) {
     until_ = run_->now() + std::max(run_->step(), advance->by);
     go(true);
   } else if (const auto* event = std::get_if<UntilEvent>(&what)) {
-    until_.reset();
-    until_event_ = event->name;
-    run_->await(event->name);
-    go(true);
+    problems = run_->await(event->name);
+    if (problems.empty()) {
+      until_.reset();
+      until_event_ = event->name;
+      go(true);
+    }
   } else if (const auto* pace = std::get_if<Pace>(&what)) {
     pace_ = pace->value;
     begin_pace();
   } else if (std::holds_alternative<Restart>(what)) {
     problems = restart();
   } else if (const auto* sampled = std::get_if<Sample>(&what)) {
+    tell();  // what has been sampled until now
     problems = run_->want(request.asker, *sampled);
   } else if (const auto* read = std::get_if<Read>(&what)) {
     std::vector<double> values;
@@ -119,6 +122,7 @@ void Line::act_on(const Request& request) {
     visit->visit(*run_);
     return;
   } else {
+    tell();
     run_->leave(request.asker);
     return;
   }
@@ -127,7 +131,7 @@ void Line::act_on(const Request& request) {
 }
 
 void Line::go(bool on) {
-  running_ = on;
+  running_ = on && run_->failure().empty();
   begin_pace();
 }
 
@@ -139,7 +143,8 @@ Problems Line::restart() {
   run_->end();
   for (const auto& [asker, sample] : run_->wanted()) fresh->want(asker, sample);
   run_ = std::move(fresh);
-  run_->begin(options_.record);
+  be_first(false);  // to where a session is gone on from is no matter of the clock
+  run_->begin(options_.record, stopped_);
   until_.reset();
   until_event_.reset();
   describe_(run_->describe());
@@ -150,8 +155,8 @@ Problems Line::restart() {
 Time Line::cycle_time() const {
   constexpr Time at_full_speed = 10 * millisecond;
   const auto fitting =
-      pace_ == 0 ? at_full_speed
-                 : static_cast<Time>(std::llround(static_cast<double>(millisecond) * std::max(1.0, pace_)));
+      keeps_pace() ? static_cast<Time>(std::llround(static_cast<double>(millisecond) * std::max(1.0, pace_)))
+                   : at_full_speed;
   const Time step = run_->step();
   return std::max(step, fitting / step * step);
 }

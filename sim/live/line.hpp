@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -9,7 +8,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <variant>
 #include <vector>
 
@@ -111,6 +109,7 @@ struct News {
 
 /// What there is to see and to set; of one run.
 struct LineDescription {
+  std::string process;  ///< another one each time that the program is started
   int run = 0;
   std::string title;
   std::string scenario;
@@ -218,10 +217,10 @@ class Line {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Request> requests;
-    bool stopped = false;
   };
   Inbox inbox_;
   std::atomic<bool> has_mail_ = false;  ///< something is in it
+  std::atomic<bool> stopped_ = false;
   bool running_ = false;
   double pace_ = 1;
   std::optional<Time> until_;               ///< stands still then

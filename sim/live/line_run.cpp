@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "renders/gltf.hpp"
@@ -76,10 +77,10 @@ LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
     if (auto lamp = names.reading(name)) lamps_.push_back(std::move(*lamp));
 }
 
-void LineRun::begin(const fs::path& folder) {
+void LineRun::begin(const fs::path& folder, const std::atomic<bool>& stopped) {
   if (!folder.empty()) record_in(folder);
   next_reached_ = replay_.reached;
-  while (now() < replay_.reached && advance()) {
+  while (!stopped && now() < replay_.reached && advance()) {
   }
   constexpr std::size_t most_shown = 200;
   if (events_.size() > most_shown) events_.erase(events_.begin(), events_.end() - most_shown);
@@ -138,9 +139,14 @@ void LineRun::happened(const loop::RecordedEvent& event) {
   if (awaited_ && awaited_->empty()) seen_ = true;
 }
 
-void LineRun::await(const std::string& event) {
+Problems LineRun::await(const std::string& event) {
+  Problems problems;
+  if (!event.empty()) loop::find_event(simulation_->all_events(), {event, {1, 1}, {}}, scenario_, problems);
+  for (auto& problem : problems) problem.file = "event";
+  if (!problems.empty()) return problems;
   awaited_ = event;
   seen_ = false;
+  return {};
 }
 
 Problems LineRun::want(Asker asker, const Sample& sample) {
@@ -208,6 +214,8 @@ void LineRun::tell(News& news) {
 
 std::shared_ptr<const LineDescription> LineRun::describe() {
   auto told = std::make_shared<LineDescription>();
+  static const auto process = fmt::format("{:08x}", std::random_device()());
+  told->process = process;
   told->run = number_;
   told->title = scenario_.scene.title;
   told->scenario = scenario_.file.filename().string();

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "sim/live/line.hpp"
@@ -19,8 +18,9 @@ class LineRun : public loop::Observer {
   LineRun(const Line::Options& options, int number, Problems& problems);
 
   /// Simulates up to where the session ended that it goes on from. Records all of the run in a new folder in
-  /// `folder`, which has the next number, unless that is "". Throws std::runtime_error.
-  void begin(const std::filesystem::path& folder);
+  /// `folder`, which has the next number, unless that is "". Gives up as soon as `stopped`. Throws
+  /// std::runtime_error.
+  void begin(const std::filesystem::path& folder, const std::atomic<bool>& stopped);
   /// Retentive values are in their file, for who begins next. Throws std::runtime_error.
   void keep_retentive() const;
   /// All that was recorded is in its files, and retentive values in theirs. Throws std::runtime_error.
@@ -40,8 +40,8 @@ class LineRun : public loop::Observer {
   [[nodiscard]] loop::Simulation& simulation() { return *simulation_; }
 
   void happened(const loop::RecordedEvent& event) override;
-  /// From now on seen() tells whether such an event has happened; "" = any.
-  void await(const std::string& event);
+  /// From now on seen() tells whether such an event has happened; "" = any. A problem if nothing reports it.
+  Problems await(const std::string& event);
   [[nodiscard]] bool seen() const { return seen_; }
 
   /// Has an asker's channels sampled by take_samples(), and the programs watched if it wants that.

@@ -251,7 +251,8 @@ std::string description_json(const LineDescription& line) {
   auto programs = ordered_json::array();
   for (const auto& program : line.programs) programs.push_back(program_json(program));
   return text_of({{"line",
-                   {{"run", line.run},
+                   {{"process", line.process},
+                    {"run", line.run},
                     {"title", line.title},
                     {"scenario", line.scenario},
                     {"step", seconds(line.step)},

@@ -5,17 +5,15 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/signal_set.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <map>
-#include <set>
-#include <stdexcept>
 #include <thread>
 
 #include "sim/live/port.hpp"
@@ -36,6 +34,7 @@ constexpr std::size_t largest_message = 64U << 10U;  // [bytes] from a client
 constexpr std::size_t largest_request = 16U << 10U;  // heading and body of HTTP
 constexpr std::size_t most_connections = 256;
 constexpr std::size_t most_waiting = 4U << 20U;  // [bytes] for one client; what comes then is left out
+constexpr int most_news_to_come = 8;
 constexpr auto patience = std::chrono::seconds(10);
 
 using Text = std::shared_ptr<const std::string>;
@@ -96,6 +95,7 @@ struct Server::Core {
   std::thread thread;
   std::shared_ptr<const LineDescription> description;
   Text described;
+  std::atomic<int> news_to_come = 0;
 };
 
 /// One connection: requests of HTTP, until one asks for a WebSocket.
@@ -133,8 +133,9 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     if (waiting_.size() == 1) write();
   }
 
-  void tell(const News& news, const Text& text) {
+  void tell(const News& news, const Text& text, bool samples_too) {
     send(text, false);
+    if (!samples_too) return;
     if (const auto samples = samples_json(news.samples, wanted_); !samples.empty())
       send(std::make_shared<const std::string>(samples), false);
   }
@@ -153,6 +154,7 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     if (websocket::is_upgrade(request) && core_.may(request) && view(request.target()).substr(0, 3) == "/ws")
       return open_socket(request);
     response_ = std::make_unique<Response>(core_.answer(request));
+    stream_.expires_after(patience);
     http::async_write(stream_, *response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error && self->response_->keep_alive()) return self->read_request();
       beast::error_code ignored;
@@ -252,7 +254,7 @@ bool Server::Core::knows_host(std::string_view host) const {
   const auto port = fmt::format(":{}", options.port);
   for (const auto* name : {"localhost", "127.0.0.1", "[::1]"})
     if (host == name + port || (options.port == 80 && host == name)) return true;
-  return !options.token.empty() && host.ends_with(port);
+  return !options.token.empty();  // which such a page does not have
 }
 
 /// Asked by a page of this server, or by nobody's.
@@ -326,7 +328,10 @@ std::string Server::url() const {
 }
 
 void Server::tell(std::shared_ptr<const News> news) {
-  asio::post(core_->context, [this, news = std::move(news)] {
+  // Where it comes behind, the curves have a gap.
+  const bool samples_too = core_->news_to_come++ < most_news_to_come;
+  asio::post(core_->context, [this, samples_too, news = std::move(news)] {
+    --core_->news_to_come;
     for (const auto& answer : news->answers) {
       const auto found = core_->clients.find(answer.asker);
       if (found == core_->clients.end()) continue;
@@ -335,7 +340,7 @@ void Server::tell(std::shared_ptr<const News> news) {
     if (core_->clients.empty()) return;
     const auto text = std::make_shared<const std::string>(news_json(*news));
     for (const auto& [asker, held] : core_->clients)
-      if (const auto client = held.lock()) client->tell(*news, text);
+      if (const auto client = held.lock()) client->tell(*news, text, samples_too);
   });
 }
 

@@ -279,25 +279,27 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
 }
 
 std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& folder,
-                                Problems& problems) {
-  const auto session = read_lines(file, problems);
-  if (!session) return "";
-  std::vector<std::string> notes;
-  const auto replay = read_session(file, {}, notes, problems);
+                                std::vector<std::string>& notes, Problems& problems) {
+  auto replay = read_session(file, {}, notes, problems);
   if (!replay) return "";
-  for (const auto& [path, value] : session->set) {
+  auto& scenario = replay->scenario;
+  for (const auto& [path, value] : scenario.overrides) {
     problems.push_back({file.string(), 1, 1, fmt::format("the session ran with --set \"{}={}\"", path, value),
                         "put the value into a scenario and run the session of that one"});
   }
+  if (loop::retentive_file(scenario))
+    problems.push_back({file.string(), 1, 1,
+                        fmt::format("{} keeps retentive values: a scenario that extends it would begin with "
+                                    "today's and change them",
+                                    scenario.file.string()),
+                        "drycut replay runs the session with those that it began with"});
   std::error_code unknown;
-  const auto base = std::filesystem::proximate(session->scenario, folder, unknown);
+  const auto base = std::filesystem::proximate(scenario.file, folder, unknown);
   return fmt::format("# {}: a session of drycut live as a scenario\nextends: {}\nscene: {{duration: {}}}\n",
-                     file.string(), scenario::yaml_text((unknown ? session->scenario : base).string()),
-                     scenario::format_time(std::max(replay->reached, replay->scenario.scene.step))) +
-         scenario::yaml_of([&](scenario::Archive& archive) {
-           archive.list({"timeline", ""},
-                        const_cast<std::vector<scenario::Stimulus>&>(replay->scenario.timeline));
-         });
+                     file.string(), scenario::yaml_text((unknown ? scenario.file : base).string()),
+                     scenario::format_time(std::max(replay->reached, scenario.scene.step))) +
+         scenario::yaml_of(
+             [&](scenario::Archive& archive) { archive.list({"timeline", ""}, scenario.timeline); });
 }
 
 }  // namespace drycut::sim::live

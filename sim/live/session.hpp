@@ -70,8 +70,8 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
                                    std::vector<std::string>& notes, Problems& problems);
 
 /// The same as a scenario of its own: extends, duration and the whole timeline, for a file in `folder`. A
-/// problem if an override of the session has no place there.
+/// problem if an override of the session, or retentive values that it began with, have no place there.
 std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& folder,
-                                Problems& problems);
+                                std::vector<std::string>& notes, Problems& problems);
 
 }  // namespace drycut::sim::live

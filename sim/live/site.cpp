@@ -1,9 +1,7 @@
 #include "sim/live/site.hpp"
 
-#include <array>
 #include <fstream>
 #include <sstream>
-#include <utility>
 
 #include "renders/embedded.hpp"
 

@@ -46,6 +46,10 @@ Time last_instant(const scenario::Check& check) {
 }
 
 // Over one window, the whole of it.
+bool looks_at_instants(const scenario::Check& check) {
+  return check.kind == scenario::Check::Kind::always || check.kind == scenario::Check::Kind::eventually;
+}
+
 bool is_judged_once(const scenario::Check& check) {
   return check.kind == scenario::Check::Kind::always && !check.every;
 }
@@ -327,8 +331,7 @@ void Checks::finish_statistics(State& state) {
 
 std::string Checks::looked_at(const State& state) {
   const auto& check = state.check;
-  if (check.kind == scenario::Check::Kind::always || check.kind == scenario::Check::Kind::eventually)
-    return state.windowed ? "periods" : "instants";
+  if (looks_at_instants(check)) return state.windowed ? "periods" : "instants";
   return state.windowed && check.kind == scenario::Check::Kind::each
              ? fmt::format("cycles from {0} to {0}", check.event.text)
              : check.event.text + (state.count == 1 ? " event" : " events");
@@ -337,8 +340,11 @@ std::string Checks::looked_at(const State& state) {
 std::vector<CheckResult> Checks::results(Time end) {
   std::vector<CheckResult> all;
   for (auto& state : states_) {
+    if (state.windowed && looks_at_instants(state.check)) close_windows(state, end);
+    const Tally so_far = state;
     all.push_back(result(state, end));
     all.back().tolerances = tolerances_of(state);
+    static_cast<Tally&>(state) = so_far;
   }
   return all;
 }
@@ -383,12 +389,7 @@ CheckResult Checks::result(State& state, Time end) {
     return result;
   }
   if (check.kind == scenario::Check::Kind::all) finish_statistics(state);
-  if (state.windowed && !by_event) {
-    close_windows(state, end);
-    if (is_judged_once(check) && state.taken > 0) judge_window(state, seconds(end));
-    state.done = true;
-    state.taken = 0;
-  }
+  if (state.windowed && is_judged_once(check) && state.taken > 0) judge_window(state, seconds(end));
   if (state.count == 0) {
     result.detail = never_looked_at();
     return result;

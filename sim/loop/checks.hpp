@@ -53,6 +53,7 @@ class Checks : public Observer {
   void sample(Time now) override;
   /// An event; the watch has been updated for it.
   void happened(const RecordedEvent& event) override;
+  /// As if the run ended at `end`, now; it may go on.
   [[nodiscard]] std::vector<CheckResult> results(Time end);
 
  private:
@@ -73,15 +74,9 @@ class Checks : public Observer {
     std::string unit;
     double noted = 0;  ///< the number at an instant to tell of
   };
-  struct State {
-    scenario::Check check;
-    std::optional<scenario::Expression> expression;
-    std::vector<Operand> operands;  ///< what the expression names
-    std::deque<Slot> slots;         ///< event values or statistics, by name in the expression
-    std::deque<Slot> values;        ///< all: event values, inside statistics
-    std::vector<Series> series;     ///< all: the numbers behind the statistics
-    std::string unit;               ///< common to all names in the expression
-    int count = 0;                  ///< events or instants looked at
+  /// What a check has come to so far.
+  struct Tally {
+    int count = 0;  ///< events or instants looked at
     int failed = 0;
     std::optional<double> worst;
     std::optional<double> used;  ///< of its limit, then
@@ -91,14 +86,22 @@ class Checks : public Observer {
     double last_failed_at = 0;
     double last_at = 0;             ///< instant looked at last
     std::optional<double> held_at;  ///< eventually: first time
-
-    bool windowed = false;    ///< its expression has statistics
-    Time begin = 0;           ///< always, eventually: of the present window
-    double began = 0;         ///< [s] the same, of each too
-    bool open = false;        ///< each: a cycle has begun
-    bool done = false;        ///< there are no more windows
-    int taken = 0;            ///< instants in the present window
-    std::string last_window;  ///< what the last one came to
+    std::string last_window;        ///< what the last one came to
+  };
+  struct State : Tally {
+    scenario::Check check;
+    std::optional<scenario::Expression> expression;
+    std::vector<Operand> operands;  ///< what the expression names
+    std::deque<Slot> slots;         ///< event values or statistics, by name in the expression
+    std::deque<Slot> values;        ///< all: event values, inside statistics
+    std::vector<Series> series;     ///< all: the numbers behind the statistics
+    std::string unit;               ///< common to all names in the expression
+    bool windowed = false;  ///< its expression has statistics
+    Time begin = 0;         ///< always, eventually: of the present window
+    double began = 0;       ///< [s] the same, of each too
+    bool open = false;      ///< each: a cycle has begun
+    bool done = false;      ///< there are no more windows
+    int taken = 0;          ///< instants in the present window
   };
 
   /// `known`: the names that may be suggested; left as it was.

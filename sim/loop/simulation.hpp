@@ -134,6 +134,8 @@ class Simulation {
   [[nodiscard]] const std::vector<std::string>& caption_units() const { return captions_.units; }
   /// Events that the plants can report.
   [[nodiscard]] const std::vector<KnownEvent>& known_events() const { return known_events_; }
+  /// With those of timeline and controller.
+  [[nodiscard]] const std::vector<KnownEvent>& all_events() const { return all_events_; }
 
  private:
   void load_controller(Problems& problems);

@@ -125,6 +125,16 @@ TEST_F(LivePage, PanelGoesByWhatTheScenarioSays) {
   EXPECT_EQ(stand.text("[data-name=\"panel.start\"] .kind"), "switch");
   EXPECT_EQ(stand.look("Number(document.querySelector('[data-name=\"web.speed\"] input[type=range]').max)"),
             200);
+  // Changes take as long as one says, with a comma or a unit too; what is no time is told.
+  stand.type("#ramp", "soon");
+  stand.type("[data-name=\"web.speed\"] input.value", "0.6 m/s");
+  EXPECT_TRUE(stand.becomes(
+      "document.querySelector('[data-name=\"web.speed\"] .problem').innerText.includes('soon')"));
+  stand.type("#ramp", "0,5");
+  stand.type("[data-name=\"web.speed\"] input.value", "0.6 m/s");
+  stand.click("#step");
+  EXPECT_TRUE(
+      stand.becomes("document.querySelector('#events').textContent.includes('-> 0.6 m/s over 0.5 s')"));
   // Names of values are there in full.
   stand.click("#tab-values");
   EXPECT_THAT(stand.look("[...document.querySelectorAll('#values .name')].filter((one) => one.scrollWidth > "
@@ -219,6 +229,22 @@ TEST_F(LivePage, ComesBackByItself) {
   EXPECT_TRUE(stand.becomes("document.querySelector('#lost').hidden"));
   stand.click("#step");
   EXPECT_TRUE(stand.becomes("document.querySelector('#time').innerText === '0.0010'"));
+}
+
+TEST_F(LivePage, BeginsAnewWithAnotherProcess) {
+  Stand stand;
+  stand.open();
+  stand.click("[data-name=\"panel.start\"] button");
+  stand.click("#step");
+  EXPECT_TRUE(stand.becomes("document.querySelector('#events b') !== null && drycut.scope.traces.count > 0"));
+  const auto keeps = [&](const char* process) {
+    return stand.look(
+        fmt::format("(() => {{ drycut.link.take({{line: {{...drycut.line, process: {}}}}}); return "
+                    "[document.querySelector('#events b') !== null, drycut.scope.traces.count > 0]; }})()",
+                    process));
+  };
+  EXPECT_EQ(keeps("drycut.line.process"), json::parse("[true, true]"));
+  EXPECT_EQ(keeps("'another'"), json::parse("[false, false]"));
 }
 
 }  // namespace

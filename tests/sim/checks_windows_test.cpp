@@ -30,15 +30,18 @@ struct Ran {
   loop::Recording recording;
 };
 
-Ran run(const std::string& check) {
+/// `on_the_way` comes every 2000 steps.
+Ran run(const std::string& check, const std::string& step = "1 ms",
+        const std::function<void(Simulation&)>& on_the_way = [](auto&) {}) {
   Problems problems;
   TestFolder folder;
-  const auto scenario = scenario::read_scenario(folder.file("line.yaml", head + check + "\n"), {}, problems);
+  const auto scenario = scenario::read_scenario(folder.file("line.yaml", head + check + "\n"),
+                                                {{"scene.step", step}}, problems);
   Ran ran;
   if (problems.empty()) {
     loop::Simulation simulation(scenario, problems);
     if (problems.empty()) {
-      ran.check = simulation.run().checks.front();
+      ran.check = simulation.run([&](Time) { on_the_way(simulation); }).checks.front();
       ran.recording = simulation.take_recording();
     }
   }
@@ -74,6 +77,28 @@ TEST(ChecksOverWindows, PercentileOfARampIsThatShareOfIt) {
           "from: 1 s, "
           "until: 2 s}");
   EXPECT_NEAR(*check.margin, 1, 1e-9);
+}
+
+// A live line looks all the time.
+TEST(ChecksOverWindows, LookingOnTheWayChangesNothing) {
+  for (const std::string& check : std::vector<std::string>{
+           "{name: a, always: rms(" + sine + ") <= 4, from: 1 s, until: 2.5 s}",
+           "{name: a, always: mean(bench.counter1.count) <= 1600}",
+           "{name: a, always: max(bench.counter1.count) <= 2600, from: 0.5 s, every: 1 s}",
+           "{name: a, eventually: min(bench.counter1.count) > 1000, every: 0.7 s}",
+           "{name: a, all: set, expect: count >= 4}"}) {
+    const auto unseen = run(check, "50 us").check;
+    int looks = 0;
+    const auto seen = run(check, "50 us", [&](Simulation& simulation) {
+                        ++looks;
+                        EXPECT_FALSE(simulation.outcome().checks.front().name.empty());
+                      }).check;
+    EXPECT_GT(looks, 10);
+    EXPECT_TRUE(unseen.passed) << check << ": " << unseen.detail;
+    EXPECT_EQ(seen.passed, unseen.passed) << check;
+    EXPECT_EQ(seen.detail, unseen.detail) << check;
+    EXPECT_EQ(seen.margin, unseen.margin) << check;
+  }
 }
 
 TEST(ChecksOverWindows, PeriodsAreJudgedOneByOne) {

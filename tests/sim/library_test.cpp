@@ -98,6 +98,8 @@ TEST(Library, WhatDoesNotFitIsThrown) {
   EXPECT_THAT([&] { line.write("knife.angle", 1); }, ThrowsMessage<BadInput>(HasSubstr("only be read")));
   EXPECT_THAT([&] { line.write("AxisX.pgain", 1e9); }, ThrowsMessage<BadInput>(HasSubstr("AxisX.pgain")));
   EXPECT_THAT([&] { line.write("panel.start", 0.5); }, ThrowsMessage<BadInput>(HasSubstr("panel.start")));
+  EXPECT_THAT([&] { line.write("web.drive.stiffness", 1e9); },
+              ThrowsMessage<BadInput>(HasSubstr("oscillate at 1125 Hz")));
   for (const double seconds : {-1.0, 1e10, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(line.advance(seconds), BadInput) << seconds;
 }

@@ -89,7 +89,7 @@ TEST_F(Lx3vpBus, ACounterMayCountThePulsesOfAnOutput) {
 TEST_F(Lx3vpBus, WhatDoesNotFitIsTold) {
   connect({{"2.CNT01", "axis.encoder"},
            {"X8", "axis.index"},
-           {"C234", "axis.encoder"},
+           {"C199", "axis.encoder"},
            {"C251", "axis.enable"},
            {"Y5", "axis.pulses"},
            {"Y2", "axis.encoder"},
@@ -99,13 +99,13 @@ TEST_F(Lx3vpBus, WhatDoesNotFitIsTold) {
            {"Y1", "axis.pulses"},
            {"X10", "axis.pulses"}});
   constexpr const char* terminals =
-      "' is not a terminal of the controller; write X0 to X377, Y0 to Y377 (octal), or C235 to C255 for a "
+      "' is not a terminal of the controller; write X0 to X377, Y0 to Y377 (octal), or C200 to C255 for a "
       "high-speed counter";
   EXPECT_THAT(
       told(),
       ElementsAre(
           std::string("line.yaml:1:3: '2.CNT01") + terminals, std::string("line.yaml:2:3: 'X8") + terminals,
-          std::string("line.yaml:3:3: 'C234") + terminals,
+          std::string("line.yaml:3:3: 'C199") + terminals,
           "line.yaml:4:12: C251 is a counter, axis.enable is a command; wire it to one of: axis.encoder",
           "line.yaml:5:12: Y5 gives no pulses, axis.pulses is a pulse train; wire it to Y0, Y1, Y2 or Y3",
           "line.yaml:6:12: Y2 is a digital output, axis.encoder is an encoder; wire it to one of: "

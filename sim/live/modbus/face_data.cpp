@@ -43,7 +43,7 @@ std::uint64_t FaceData::bits_now(const Bound& bound) const {
   if (!bound.read) return 0;
   if (!pending_.empty())
     if (const auto found = pending_.find(bound.place.value); found != pending_.end())
-      return found->second.bits;
+      return devices::to_bits(bound.place.format, found->second.number);
   return devices::to_bits(bound.place.format, bound.read());
 }
 
@@ -91,8 +91,10 @@ Exception FaceData::write(ModbusTable table, std::uint16_t address, std::span<co
     numbers.emplace_back(at->place.value, number);
   }
   if (!host_.act(numbers)) return Exception::illegal_data_value;
-  for (const auto& [at, bits] : changes)
-    pending_[at->place.value] = {bits, host_.now() + at->place.settles_ns};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const auto& place = changes[i].at->place;
+    pending_[place.value] = {numbers[i].second, host_.now() + place.settles_ns};
+  }
   return Exception::none;
 }
 

@@ -46,7 +46,7 @@ class FaceData final : public Data {
   Host host_;
   std::unordered_map<std::uint32_t, Bound> bound_;
   struct Pending {
-    std::uint64_t bits = 0;
+    double number = 0;
     Time until = 0;  ///< it has been taken then
   };
   std::unordered_map<std::string, Pending> pending_;  ///< by value

@@ -128,6 +128,9 @@ TEST(PlcopenGear, AGearedSlavesAccelerationIsLimitedAndTheWayCaughtUp) {
   }
   EXPECT_NEAR(peaks.a, 5e6, 1);
   EXPECT_NEAR(difference(b.s().set().position, b.m().set().position, turn), 0, 1e-5);
+  const auto remarks = b.s().take_remarks();
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].text, "the gear asks for more than cam_gear.a_max_slave 500 allows: the slave lags");
   covers({"cam_gear.a_max_slave"});
 }
 

@@ -247,6 +247,24 @@ TEST(RunCacheRoom, IsForThoseThatWereUsedLast) {
   EXPECT_TRUE(is_kept("third"));
 }
 
+// What a killed process began counts and goes like the rest; what is not ours stays.
+TEST(RunCacheRoom, IsTakenBackFromWhatWasBegunOnly) {
+  const TestFolder folder;
+  Problems problems;
+  OutputFolder results(folder / "out", "run", {}, problems);
+  std::ofstream(results.add("trace.csv")) << std::string(10'000, '1');
+  const RunCache cache(folder / "cache", problems, 25'000);
+  for (const auto* name : {"0123456789abcdef.4711", "0123456789abcdef", "notes.4711"}) {
+    fs::create_directories(folder / "cache" / name);
+    std::ofstream(folder / "cache" / name / "trace.csv") << std::string(20'000, '1');
+    fs::last_write_time(folder / "cache" / name, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  }
+  cache.keep("first", results, {});
+  EXPECT_FALSE(fs::exists(folder / "cache/0123456789abcdef.4711"));
+  EXPECT_TRUE(fs::exists(folder / "cache/0123456789abcdef"));
+  EXPECT_TRUE(fs::exists(folder / "cache/notes.4711"));
+}
+
 TEST_F(KeptRuns, WithoutTheOptionNothingIsKept) {
   options.cache.clear();
   ASSERT_EQ(run(), all_passed);

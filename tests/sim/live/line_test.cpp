@@ -251,6 +251,32 @@ TEST_F(LiveLine, KeepsItsPace) {
   EXPECT_GT(later->punctuality.cycles, 0U);
 }
 
+// Others come and go; the curves have every cycle all the same.
+TEST_F(LiveLine, WhoChoosesChannelsTakesNothingFromTheOthers) {
+  RunningLine line(options);
+  line.ask(Sample{{"web.position"}});
+  line.ask(Go{true});
+  for (int i = 0; i < 50; ++i) line.ask(Sample{{i % 2 == 0 ? "web.speed" : "web.lead"}});
+  line.ask(Go{false});
+  std::vector<Time> times;
+  line.until([&](const News& news) {
+    times.insert(times.end(), news.samples.times.begin(), news.samples.times.end());
+    return !news.running && times.size() > 1;
+  });
+  ASSERT_GT(times.size(), 2U);
+  for (std::size_t i = 2; i + 1 < times.size(); ++i)
+    ASSERT_EQ(times[i] - times[i - 1], times[2] - times[1]) << i;
+}
+
+TEST_F(LiveLine, DoesNotWaitForAnEventThatNothingReports) {
+  RunningLine line(options);
+  const auto problems = line.ask(UntilEvent{"timeline.sett"});
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(to_string(problems.front()),
+            "event:1:1: nothing here reports an event 'timeline.sett'; did you mean timeline.set?");
+  EXPECT_FALSE(line.until([](const News& news) { return !news.answers.empty(); })->running);
+}
+
 TEST_F(LiveLine, ChecksAreToldAsTheyStand) {
   RunningLine line(options);
   line.ask(Advance{500 * millisecond});

@@ -537,6 +537,16 @@ TEST_F(ModbusPlcopenLine, VariablesInMemoryAndOfTheMapAreThere) {
   expect_same_again();
 }
 
+// While the line stands still, what was written waits for the next step.
+TEST_F(ModbusPlcopenLine, WhatWaitsReadsInTheFormatOfEachAddress) {
+  begin(scene("    modbus: {input_registers: {200: {value: speed, type: real64}}}\n"), false);
+  Hmi hmi(server->port());
+  ASSERT_TRUE(hmi.write(10, Words{0, 0x4010})) << modbus_strerror(hmi.error);
+  EXPECT_EQ(now("speed"), 1.5);
+  EXPECT_THAT(hmi.holding(10, 2), ElementsAre(0, 0x4010)) << "2.25 as a REAL";
+  EXPECT_THAT(hmi.input(200, 4), ElementsAre(0, 0, 0, 0x4002)) << "and as an LREAL";
+}
+
 TEST_F(ModbusPlcopenLine, WithoutAnyTheMessageSaysWhatToDeclare) {
   folder.file("hmi.st", "PROGRAM p\nVAR x : INT; END_VAR\nx := 1;\nEND_PROGRAM\n");
   cli::LiveOptions options;

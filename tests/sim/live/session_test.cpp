@@ -137,6 +137,21 @@ TEST_F(LiveSession, BecomesAScenario) {
   expect_same(folder / "record/1", folder / "out/own");
 }
 
+TEST_F(LiveSession, OfAScenarioThatKeepsValuesItBecomesNone) {
+  folder.file("kept.il", "END\n");
+  folder.file("line.yaml",
+              "scene: {step: 1 ms, duration: 1 s}\nplants: {bench: {type: bench}}\n"
+              "controller: {lx3vp: {program: kept.il, retentive: kept.txt}}\n");
+  const auto session = folder.file(
+      "session.yaml", "- {scenario: line.yaml, set: [], fingerprint: 0}\n- {reached: 1 s}\n");
+  std::vector<std::string> notes;
+  Problems problems;
+  scenario_of_session(session, folder.path, notes, problems);
+  ASSERT_EQ(problems.size(), 1U) << lines_of(problems);
+  EXPECT_THAT(problems.front().what, HasSubstr("line.yaml keeps retentive values"));
+  EXPECT_EQ(notes.size(), 1U) << "another fingerprint";
+}
+
 TEST_F(LiveSession, WhatWasCutShortEndsThere) {
   folder.file("web.yaml", web_alone);
   const auto session = folder.file("session.yaml",
