@@ -94,6 +94,8 @@ class AnalogueAxis {
   // Regulation.
   /// One period: actions and DAC word. `tenths` [0.1 V] is for calibration.
   void regulate(Drive drive, std::int32_t tenths);
+  /// 0 V ahead of the next period.
+  void cut_output() { output_ = {}; }
 
   /// The demand for a speed in units of the speed parameters.
   [[nodiscard]] Demand demand(std::int32_t speed) const;

@@ -119,6 +119,9 @@ class AnaloguePositioner : public TableDevice<table> {
   void execute(int command) override {
     switch (command) {
       case CommandRow("EMRG"):
+        rest();
+        cut_output();
+        break;
       case CommandRow("CALON"):
         rest();
         break;
@@ -166,6 +169,13 @@ class AnaloguePositioner : public TableDevice<table> {
     set_state("st_still", true);
   }
 
+  /// An emergency's 0 V, before anything else of its sample: a REGOFF in it freezes no other voltage.
+  void cut_output() {
+    if (state("st_regoff") || !dac_) return;
+    axis_.cut_output();
+    dac_->word = 0;
+  }
+
   // The periodic step.
 
   void latch() override {
@@ -208,9 +218,10 @@ class AnaloguePositioner : public TableDevice<table> {
 
   /// Computes the output and puts it out; says what drives it.
   Drive regulate() {
-    const Drive drive = state("st_emrg")     ? Drive::emergency
-                        : state("st_regoff") ? Drive::frozen
-                        : state("st_cal")    ? Drive::calibration
+    // With regulation off the DAC may be another axis': not even an emergency writes it.
+    const Drive drive = state("st_regoff") ? Drive::frozen
+                        : state("st_emrg") ? Drive::emergency
+                        : state("st_cal")  ? Drive::calibration
                         : state("st_loopon") ? Drive::reaction
                                              : Drive::open_loop;
     axis_.regulate(drive, value("vout"));

@@ -117,6 +117,7 @@ void Camming4::rest() {
 
 void Camming4::emergency() {
   rest();
+  cut_output();
   set_state("st_emrg", true);
   value("vout") = 0;  // a calibration does not come back with its voltage
 }

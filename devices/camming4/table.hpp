@@ -306,6 +306,8 @@ inline constexpr std::array readings = {
             "000 1.2.4 names no unit, 1.2.12 no profile"},
     Reading{"wrncode", "a warning gives way to one of its own priority or a higher one",
             "000 1.4 calls the number a priority, and says no more"},
+    Reading{"EMRG", "leaves the output alone while st_regoff = 1",
+            "000 1.1.6.1 makes it 0 V, 1.9.6 does not update the DAC of an axis whose regulation is off"},
     Reading{"START", "needs st_still = 1", "000 1.9.5 prints st_still = 0"},
     Reading{"STARTCAM", "needs st_camex = 0", "000 1.9.5 prints st_camex = 1, 1.1.5.1 forbids it in a cam"},
     Reading{"LOOPON", "a silent no-op where the loop is closed", "000 1.9.5 prints st_loopon = 1"},

@@ -189,6 +189,8 @@ inline constexpr std::array readings = {
             "002 1.5 allows a change at constant speed only, 1.3.3 before the final deceleration"},
     Reading{"setpos", "a START beyond minpos..maxpos goes to the limit, and says so",
             "002 1.4.3 gives the range, no answer to a quota outside"},
+    Reading{"EMRG", "leaves the output alone while st_regoff = 1",
+            "002 1.3.1 gives no access to the DAC then, 1.4.2 puts the axis in emergency all the same"},
     Reading{"START", "needs st_cal = 0 where the print repeats st_emrg = 0",
             "002 1.4.2 prints st_emrg twice"},
     Reading{"PRESET", "with the enable already on, the search begins with its slow leg, reversed",

@@ -141,6 +141,20 @@ TEST_P(PositionerOfAnyKind, RegulationOffLeavesTheOutputAsItStands) {
   after("REGON", "!regoff DAC=0");  // it reacts where it stands
 }
 
+// 002 1.3.1: with regulation off an axis has no access to the DAC, which may be another one's.
+TEST_P(PositionerOfAnyKind, AnEmergencyWithRegulationOffLeavesTheOutputAsItStands) {
+  does("INIT LOOPON REGOFF");
+  cards.analogue_outputs.begin()->second.word = 123;
+  after("EMRG +5", "emrg regoff DAC=123");
+  after("RESUME +2", "!emrg DAC=123");
+  after("REGON", "!regoff DAC=0");
+}
+
+TEST_P(PositionerOfAnyKind, AnEmergencyAndRegulationOffInOneSampleLeaveZeroVolts) {
+  after("INIT LOOPON MANFW +60", "DAC>3000");
+  after("EMRG! REGOFF! sample", "emrg regoff still DAC=0");
+}
+
 TEST_P(PositionerOfAnyKind, FollowingErrorIsHeldForHalfASecond) {
   about("maxfollerr");
   after("maxfollerr=40 INIT LOOPON blocked=1 count=-40 sample", "!foller");
