@@ -63,7 +63,6 @@ void AnalogueAxis::stop() {
 void AnalogueAxis::brake(double bits_per_second) {
   target_.reset();
   placing_ = false;
-  placed_.reset();
   pause_ms_ = 0;
   profile_.brake(bits_per_second, settings.ramps);
 }
@@ -72,7 +71,6 @@ void AnalogueAxis::abort() {
   profile_.abort();
   pause_ms_ = 0;
   target_.reset();
-  placed_.reset();
   placing_ = false;
 }
 

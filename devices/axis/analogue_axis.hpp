@@ -69,7 +69,7 @@ class AnalogueAxis {
   void stop();
   /// Stops with the ramp from a speed that the profile did not give [bits x4/s].
   void brake(double bits_per_second);
-  /// Ends a movement here and now, and forgets what it was to reach.
+  /// Ends a movement here and now, and forgets what it was to reach. What was reached before stays.
   void abort();
   /// setvel or ramp times were written while moving.
   bool change(std::int32_t speed);
@@ -111,8 +111,10 @@ class AnalogueAxis {
   [[nodiscard]] bool frequency_new() const { return frequency_new_; }
   /// True while the axis is on its way to the quota of a placement.
   [[nodiscard]] bool placing() const { return placing_ && profile_.moving() && !profile_.stopping(); }
-  /// Quota of the last placement [Um], or nothing after a run or a stop.
+  /// Quota of the last placement [Um], or nothing if it did not end there or a run came after it.
   [[nodiscard]] std::optional<std::int32_t> placed() const { return placed_; }
+  /// Something else has taken the axis off that quota.
+  void forget_placement() { placed_.reset(); }
 
  private:
   static constexpr int long_rest_ms = 1 << 20;  ///< longer than any pause before a reversal

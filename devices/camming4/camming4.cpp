@@ -235,6 +235,8 @@ void Camming4::publish() {
   set_state("st_chvel",
             profile.moving() && !profile.stopping() && !profile.in_last_ramp() && !state("st_prson"));
   set_state("st_tpos", within(value("setpos")));
+  // A cam that comes back to the quota is no placement (000 1.9.2 toll).
+  if (state("st_camex") && !in_place()) axis_.forget_placement();
   set_state("st_toll", in_place());
   set_state("st_int", terminals_.interrupt_level && terminals_.interrupt_level->level);
 }

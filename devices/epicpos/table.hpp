@@ -204,6 +204,8 @@ inline constexpr std::array readings = {
         "of two devices that regulate on one output, the later one of INTDEVICE has the last word; a note "
         "tells it once",
         "002 1.3.1 forbids it and does not say what happens then"},
+    Reading{"st_toll", "goes by the quota of the last START until a manual movement or a search",
+            "002 1.4.4 names that quota and not what ends it"},
     Reading{"REGON", "turns regulation on",
             "002 1.4.2: the titles of REGOFF and REGON are exchanged in print"},
 };

@@ -118,6 +118,23 @@ TEST_P(PositionerOfAnyKind, EmergencyStopsWithoutRampAndResumeReactsOnTheSpot) {
   shows("posit=4000~1");
 }
 
+TEST_P(PositionerOfAnyKind, AnAxisOnItsQuotaStaysInToleranceUntilAnotherMovement) {
+  does("INIT LOOPON");
+  ASSERT_TRUE(place(1000));
+  after("EMRG", "emrg toll");
+  after("count+=50 sample", "!toll");  // by hand, there
+  after("count+=-50 sample", "toll");  // and back
+  after("RESUME CALON", "cal toll");
+  after("CALOFF", "toll");
+  after("MANBW", "!toll");
+  after("+60 STOP until:still MANFW", "!toll");
+}
+
+TEST_P(PositionerOfAnyKind, AnEmergencyOnTheWayIsNotInTolerance) {
+  after("INIT LOOPON setpos=1000 START +20 EMRG", "!toll");
+  after("count=1000 +2", "posit=1000 !toll");
+}
+
 TEST_P(PositionerOfAnyKind, CalibrationIsAVoltageSource) {
   says("INIT LOOPON vout=50 sample", {"vout: st_cal is 0, must be 1"});
   after("CALON", "cal DAC=0");
