@@ -60,11 +60,11 @@ void AnalogueAxis::stop() {
   pause_ms_ = 0;
 }
 
-void AnalogueAxis::brake(double bits_per_second) {
+void AnalogueAxis::brake(double bits_per_second, const Demand& ramp) {
   target_.reset();
   placing_ = false;
   pause_ms_ = 0;
-  profile_.brake(bits_per_second, settings.ramps);
+  profile_.brake(bits_per_second, ramp);
 }
 
 void AnalogueAxis::abort() {

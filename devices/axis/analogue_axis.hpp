@@ -67,8 +67,8 @@ class AnalogueAxis {
   /// Runs in a direction until stopped, at most to the quota `limit` [Um] if there is one.
   void run(bool backward, std::optional<std::int32_t> limit, std::int32_t speed);
   void stop();
-  /// Stops with the ramp from a speed that the profile did not give [bits x4/s].
-  void brake(double bits_per_second);
+  /// Stops with this ramp from a speed that the profile did not give [bits x4/s].
+  void brake(double bits_per_second, const Demand& ramp);
   /// Ends a movement here and now, and forgets what it was to reach. What was reached before stays.
   void abort();
   /// setvel or ramp times were written while moving.

@@ -132,6 +132,13 @@ double Camming4::cam_speed() const {
   return cam_.step().ratio * master_um * axis::bits_per_um(axis_.settings.resolution) + recovery_.speed();
 }
 
+/// The ramps of setvel beside a cam and out of it: ramptype is of placements alone (000 1.9.2).
+axis::Demand Camming4::straight_demand() const {
+  axis::Demand demand = axis_.demand(value("setvel"));
+  demand.shape = axis::RampShape::trapezoidal;
+  return demand;
+}
+
 void Camming4::step_cam() {
   const axis::Resolution slave = axis_.settings.resolution;
   CamSample sample;
@@ -192,7 +199,7 @@ void Camming4::step_recovery() {
     recovery_due_ = 0;
     recovery_way_ = 0;
     recovery_.move(static_cast<double>(recovery_running_) * axis::bits_per_um(axis_.settings.resolution),
-                   axis_.demand(value("setvel")));
+                   straight_demand());
   }
   recovery_way_ += recovery_.step(period_ms_ / 1000.0);
   if (recovery_.moving()) return;

@@ -92,6 +92,7 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   [[nodiscard]] double proven_way() const;
   [[nodiscard]] double master_rate() const;
   [[nodiscard]] double cam_speed() const;
+  [[nodiscard]] axis::Demand straight_demand() const;
   [[nodiscard]] std::int64_t master_raw() const;
 
   Terminals terminals_;

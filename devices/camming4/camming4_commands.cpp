@@ -92,7 +92,7 @@ void Camming4::stop_cam() {
   const double speed = cam_speed();
   leave_cam();
   set_state("st_still", false);
-  axis_.brake(speed);
+  axis_.brake(speed, straight_demand());
 }
 
 void Camming4::leave_cam() {

@@ -302,7 +302,8 @@ inline constexpr std::array readings = {
             "softening of n = 1..4 is a ramp of 1/(n+1) of the smaller sector on both sides of the boundary",
             "000 1.2.3 gives the fractions, the picture is lost"},
     Reading{"codeQsa",
-            "175 and 174 turn the tangent in degrees; 180 adds its way by a trapezoid of setvel, tacc, tdec",
+            "175 and 174 turn the tangent in degrees; 180 adds its way by a trapezoid of setvel, tacc, tdec, "
+            "whatever ramptype says",
             "000 1.2.4 names no unit, 1.2.12 no profile"},
     Reading{"wrncode", "a warning gives way to one of its own priority or a higher one",
             "000 1.4 calls the number a priority, and says no more"},
@@ -310,6 +311,8 @@ inline constexpr std::array readings = {
             "000 1.1.6.1 makes it 0 V, 1.9.6 does not update the DAC of an axis whose regulation is off"},
     Reading{"START", "needs st_still = 1", "000 1.9.5 prints st_still = 0"},
     Reading{"STARTCAM", "needs st_camex = 0", "000 1.9.5 prints st_camex = 1, 1.1.5.1 forbids it in a cam"},
+    Reading{"STOPCAM", "stops with a straight ramp whatever ramptype says",
+            "000 1.1.5.3 names tdec alone, 1.9.2 gives ramptype to placements and not to the cam"},
     Reading{"LOOPON", "a silent no-op where the loop is closed", "000 1.9.5 prints st_loopon = 1"},
     Reading{"CALOFF", "a silent no-op where there is no calibration",
             "000 1.9.5 prints st_cal = 0; the start-up program of 1.1.1.1 gives it without"},
