@@ -149,7 +149,7 @@ class Cam {
   int next_row_ = 0;     ///< 0 = not fetched
   Point master_origin_;  ///< start of the running sector
   Point slave_origin_;
-  Point loop_master_;  ///< where the executed spaces of LOOP begin
+  Point loop_master_;  ///< where the spaces that LOOP takes off begin
   Point loop_slave_;
   double speed_ = 0;            ///< exit speed of the last movement sector
   Softening softening_;         ///< of the change that the last sector began

@@ -268,6 +268,8 @@ inline constexpr std::array readings = {
         "000 1.4 gives the samples of a single parameter"},
     Reading{"", "9 rows without master space, 4 update rows in a sequence, one more is error 1",
             "000 1.2.11 and 1.2.12 say 9 and 4, 1.10 says 7 and 3"},
+    Reading{"", "138 takes off the space done but for what a gearing has taken off itself",
+            "000 1.2.9 and 1.2.13 take off the space done, 1.2.3.2 the laps of a gearing; none names both"},
     Reading{"integt", "the integral action grows by the proportional action of pgain 1000 in each integt",
             "000 1.1.12.3 gives the direction of the effect, no scale"},
     Reading{"derivt",
