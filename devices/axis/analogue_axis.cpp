@@ -154,7 +154,7 @@ void AnalogueAxis::regulate(Drive drive, std::int32_t tenths) {
       output_.saturated = 0;
       break;
   }
-  following_error_ = hold_.sample(std::abs(error()) > settings.max_following_error, settings.period_ms);
+  following_error_ = hold_.sample(follerr() > settings.max_following_error, settings.period_ms);
 }
 
 }  // namespace drycut::devices::axis

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 #include "devices/axis/dac.hpp"
@@ -8,6 +9,7 @@
 #include "devices/axis/position.hpp"
 #include "devices/axis/profile.hpp"
 #include "devices/axis/regulator.hpp"
+#include "devices/axis/speed.hpp"
 
 namespace drycut::devices::axis {
 
@@ -103,6 +105,8 @@ class AnalogueAxis {
   [[nodiscard]] const Theoretical& theoretical() const { return theoretical_; }
   [[nodiscard]] double speed() const { return speed_; }  ///< theoretical [bits x4/s]
   [[nodiscard]] double error() const { return theoretical_.minus(transducer_.total()); }  ///< [bits x4]
+  /// Its magnitude in whole bits, as programs see it; the loop works on error() itself.
+  [[nodiscard]] std::int32_t follerr() const { return std::abs(to_long(error())); }
   [[nodiscard]] const Actions& actions() const { return actions_; }
   [[nodiscard]] DacOutput output() const { return output_; }
   [[nodiscard]] bool following_error() const { return following_error_; }

@@ -225,11 +225,11 @@ void Camming4::publish() {
   value("encoder") = static_cast<std::int32_t>(axis_.quota.bits(resolution));
   value("positm") = static_cast<std::int32_t>(master_quota_.um(master_resolution_));
   value("encoderm") = static_cast<std::int32_t>(master_quota_.bits(master_resolution_));
-  value("follerr") = axis::to_long(std::abs(axis_.error()));
+  value("follerr") = axis_.follerr();
   value("intreg") = axis::to_long(axis_.actions().integral);
 
-  const double band = static_cast<double>(value("syncrange")) * static_cast<double>(resolution.pulse);
-  const bool in_band = std::abs(axis_.error()) * static_cast<double>(resolution.measure) <= band;
+  const bool in_band =
+      axis_.follerr() * resolution.measure <= value("syncrange") * resolution.pulse;  // less than 2^62
   const bool was_sync = state("st_sync");
   set_state("st_sync", state("st_camex") && in_band);
   if (was_sync && state("st_camex") && !in_band) warn(12, value("rowex"));

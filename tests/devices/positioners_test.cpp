@@ -181,6 +181,13 @@ TEST_P(PositionerOfAnyKind, FollowingErrorIsHeldForHalfASecond) {
   after("sample", "!foller");
 }
 
+TEST_P(PositionerOfAnyKind, AFollowingErrorIsReportedByTheBitsThatItShows) {
+  about("maxfollerr");
+  does("setvel=50 maxfollerr=10 pgain=0 feedfw=0 blocked=1 INIT LOOPON MANFW");
+  while (get("st_foller") == 0 && samples < 1000) tick();  // 0.1 bit more in each
+  shows("foller follerr=11");
+}
+
 TEST_P(PositionerOfAnyKind, LocksAndReversesItsCount) {
   after("INIT count+=100 CNTLOCK", "cntlock posit=100");
   after("count+=200 sample", "posit=100");

@@ -148,6 +148,14 @@ TEST_F(Camming4Stop, ACamThatBeginsOutOfTheSyncRangeHasNotLeftIt) {
   covers({"warning 12"});
 }
 
+TEST_F(Camming4Stop, TheSyncRangeIsLeftByTheBitsOfFollerr) {
+  without_gains();
+  constant_ratio(1000, 100);
+  does("syncrange=10 INIT LOOPON STARTCAM +2*1");
+  while (get("st_sync") == 1 && samples < 1000) tick(1);  // 0.1 bit more in each
+  shows("camex !sync wrncode=12 follerr=11");
+}
+
 TEST_F(Camming4Stop, PowerLossInARecoveryLeavesNothingOfIt) {
   rows({{154, 100, 100}, {180, 0, 400}, {154, 1000, 1000}, {136}});
   does("setvel=1000");
