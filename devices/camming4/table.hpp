@@ -156,7 +156,7 @@ inline constexpr std::array parameters_rows = {
     kept("toll", Size::L, "Um", 0, 999999, needs({"st_still"}),
          "largest distance from the quota for st_toll and st_tpos"),
     kept("maxfollerr", Size::L, "bits x4", 0, highest, "following error above which st_foller is reported"),
-    kept("syncrange", Size::L, "Um", 0, 999999, "following error up to which st_sync is reported in a cam"),
+    kept("syncrange", Size::L, "Um", 0, 9999999, "following error up to which st_sync is reported in a cam"),
     kept("prsmode", Size::B, "", 0, 2, needs({"!st_prson"}),
          "slave preset: 0 at the enable's release, 1 at the zero pulse after it, 2 at the enable without "
          "search"),
