@@ -61,7 +61,7 @@ void Camming4::initialise() {
   slip_ = 0;
   slip_due_ = false;
   master_rate_ = 0;
-  enable_was_ = enable_master_was_ = true;
+  enable_master_was_ = true;
   master_released_ = false;
   zero_master_.reset();
   input_was_ = terminals_.input && terminals_.input->level;
@@ -89,7 +89,8 @@ void Camming4::latch() {
 
 void Camming4::step() {
   sample_inputs();
-  sample_presets();
+  sample_preset(false);
+  sample_master_preset();
   if (state("st_camex"))
     step_cam();
   else
