@@ -21,9 +21,9 @@ namespace drycut::devices::axis {
 ///
 /// On purpose not here, because the manuals differ: resolution (000 1.9.2 measure and pulse, 002 1.4.3
 /// cntratio); ramp times and shapes (000 1.9.2 tacc, tdec, ramptype; 002 1.4.3 rampmode, taccdec, tinvt);
-/// writes in mid-move (002 1.4.3 refuses a setpos or posit out of reach); CNTLOCK, which keeps from presetting
-/// (002 1.4.2 alone); follerr (000 1.9.3 its magnitude); the integral action's name and limit; st_toll's
-/// delay (002 1.4.3 toldly); vout, which shows the output too (000 1.9.3).
+/// writes in mid-move (002 1.4.3 refuses a setpos or posit out of reach); CNTLOCK, which keeps from
+/// presetting (002 1.4.2 alone); follerr (000 1.9.3 its magnitude); the integral action's name and limit;
+/// st_toll's delay (002 1.4.3 toldly); vout, which shows the output too (000 1.9.3).
 template <const DeviceType& table>
 class AnaloguePositioner : public TableDevice<table> {
   using Base = TableDevice<table>;
@@ -213,9 +213,9 @@ class AnaloguePositioner : public TableDevice<table> {
   /// Computes the output and puts it out; says what drives it.
   Drive regulate() {
     // With regulation off the DAC may be another axis': not even an emergency writes it.
-    const Drive drive = state("st_regoff") ? Drive::frozen
-                        : state("st_emrg") ? Drive::emergency
-                        : state("st_cal")  ? Drive::calibration
+    const Drive drive = state("st_regoff")   ? Drive::frozen
+                        : state("st_emrg")   ? Drive::emergency
+                        : state("st_cal")    ? Drive::calibration
                         : state("st_loopon") ? Drive::reaction
                                              : Drive::open_loop;
     axis_.regulate(drive, value("vout"));

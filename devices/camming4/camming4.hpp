@@ -120,7 +120,7 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   std::int64_t recovery_done_ = 0;     ///< [Um] since the cam began
   double recovery_way_ = 0;            ///< of the running correction [bits x4]
 
-  bool enable_master_was_ = true;  ///< a preset without search needs a release first
+  bool enable_master_was_ = true;            ///< a preset without search needs a release first
   bool master_released_ = false;             ///< prsmodem 1: the enable was released, a zero pulse loads
   std::optional<std::int64_t> zero_master_;  ///< total at a zero pulse since the last sample
 

@@ -326,9 +326,10 @@ inline constexpr std::array readings = {
     Reading{"CALOFF", "a silent no-op where there is no calibration",
             "000 1.9.5 prints st_cal = 0; the start-up program of 1.1.1.1 gives it without"},
     Reading{"PRESETM", "needs st_prsonm = 0", "000 1.9.5 prints st_prson, the slave's"},
-    Reading{"RSPRSM", "needs st_init = 1, and no more",
-            "000 1.9.5 prints st_init = 0 and st_prson = 0, the slave's; its text ends a search of the master's "
-            "and clears what that found"},
+    Reading{
+        "RSPRSM", "needs st_init = 1, and no more",
+        "000 1.9.5 prints st_init = 0 and st_prson = 0, the slave's; its text ends a search of the master's "
+        "and clears what that found"},
     Reading{"PRESET",
             "needs st_still = 1, or turns a running search; with the enable already on, it begins with its "
             "slow leg, reversed",

@@ -177,11 +177,12 @@ inline constexpr std::array readings = {
             "001 1.4.5 prints the formula without the square below the line"},
     Reading{"maxiner", "watches the change of the inertia; the new value is kept anyway",
             "001 1.6.4 compares the value, 1.6.3 the change"},
-    Reading{"overpos",
-            "the way of a backlash recovery alone, no least way of a placement; the overshoot stays within "
-            "minpos..maxpos",
-            "001 1.6.3 adds 'and/or minimum delta of positioning' and says no more of it; 1.2.3 does not speak "
-            "of the limits"},
+    Reading{
+        "overpos",
+        "the way of a backlash recovery alone, no least way of a placement; the overshoot stays within "
+        "minpos..maxpos",
+        "001 1.6.3 adds 'and/or minimum delta of positioning' and says no more of it; 1.2.3 does not speak "
+        "of the limits"},
     Reading{"tool", "a quota setpos + tool beyond minpos..maxpos goes to the limit, and says so",
             "001 1.6.3 makes setpos + tool the final quota, and minpos and maxpos what the axis reaches"},
     Reading{

@@ -34,7 +34,7 @@ TEST_F(Camming4Stop, TheRampBeginsWithTheSpeedOfTheLaw) {
 TEST_F(Camming4Stop, TheRampIsStraightWhateverRamptypeSays) {
   constant_ratio(1000, 1000);
   does("pgain=0 ramptype=1 rtype=0 INIT LOOPON STARTCAM +100*10");  // 5000 Um/s
-  after("STOPCAM +11", "speed=3800~30");  // 100 Um/s less in each period
+  after("STOPCAM +11", "speed=3800~30");                            // 100 Um/s less in each period
   after("+26", "speed=1200~30");
   about("ramptype");
 }
