@@ -60,19 +60,17 @@ void AnalogueAxis::stop() {
   pause_ms_ = 0;
 }
 
-void AnalogueAxis::brake(double bits_per_second) {
+void AnalogueAxis::brake(double bits_per_second, const Demand& ramp) {
   target_.reset();
   placing_ = false;
-  placed_.reset();
   pause_ms_ = 0;
-  profile_.brake(bits_per_second, settings.ramps);
+  profile_.brake(bits_per_second, ramp);
 }
 
 void AnalogueAxis::abort() {
   profile_.abort();
   pause_ms_ = 0;
   target_.reset();
-  placed_.reset();
   placing_ = false;
 }
 
@@ -156,7 +154,7 @@ void AnalogueAxis::regulate(Drive drive, std::int32_t tenths) {
       output_.saturated = 0;
       break;
   }
-  following_error_ = hold_.sample(std::abs(error()) > settings.max_following_error, settings.period_ms);
+  following_error_ = hold_.sample(follerr() > settings.max_following_error, settings.period_ms);
 }
 
 }  // namespace drycut::devices::axis

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 #include "devices/axis/dac.hpp"
@@ -8,6 +9,7 @@
 #include "devices/axis/position.hpp"
 #include "devices/axis/profile.hpp"
 #include "devices/axis/regulator.hpp"
+#include "devices/axis/speed.hpp"
 
 namespace drycut::devices::axis {
 
@@ -67,9 +69,9 @@ class AnalogueAxis {
   /// Runs in a direction until stopped, at most to the quota `limit` [Um] if there is one.
   void run(bool backward, std::optional<std::int32_t> limit, std::int32_t speed);
   void stop();
-  /// Stops with the ramp from a speed that the profile did not give [bits x4/s].
-  void brake(double bits_per_second);
-  /// Ends a movement here and now, and forgets what it was to reach.
+  /// Stops with this ramp from a speed that the profile did not give [bits x4/s].
+  void brake(double bits_per_second, const Demand& ramp);
+  /// Ends a movement here and now, and forgets what it was to reach. What was reached before stays.
   void abort();
   /// setvel or ramp times were written while moving.
   bool change(std::int32_t speed);
@@ -94,6 +96,8 @@ class AnalogueAxis {
   // Regulation.
   /// One period: actions and DAC word. `tenths` [0.1 V] is for calibration.
   void regulate(Drive drive, std::int32_t tenths);
+  /// 0 V ahead of the next period.
+  void cut_output() { output_ = {}; }
 
   /// The demand for a speed in units of the speed parameters.
   [[nodiscard]] Demand demand(std::int32_t speed) const;
@@ -101,6 +105,8 @@ class AnalogueAxis {
   [[nodiscard]] const Theoretical& theoretical() const { return theoretical_; }
   [[nodiscard]] double speed() const { return speed_; }  ///< theoretical [bits x4/s]
   [[nodiscard]] double error() const { return theoretical_.minus(transducer_.total()); }  ///< [bits x4]
+  /// Its magnitude in whole bits, as programs see it; the loop works on error() itself.
+  [[nodiscard]] std::int32_t follerr() const { return std::abs(to_long(error())); }
   [[nodiscard]] const Actions& actions() const { return actions_; }
   [[nodiscard]] DacOutput output() const { return output_; }
   [[nodiscard]] bool following_error() const { return following_error_; }
@@ -109,8 +115,10 @@ class AnalogueAxis {
   [[nodiscard]] bool frequency_new() const { return frequency_new_; }
   /// True while the axis is on its way to the quota of a placement.
   [[nodiscard]] bool placing() const { return placing_ && profile_.moving() && !profile_.stopping(); }
-  /// Quota of the last placement [Um], or nothing after a run or a stop.
+  /// Quota of the last placement [Um], or nothing if it did not end there or a run came after it.
   [[nodiscard]] std::optional<std::int32_t> placed() const { return placed_; }
+  /// Something else has taken the axis off that quota.
+  void forget_placement() { placed_.reset(); }
 
  private:
   static constexpr int long_rest_ms = 1 << 20;  ///< longer than any pause before a reversal

@@ -21,10 +21,9 @@ namespace drycut::devices::axis {
 ///
 /// On purpose not here, because the manuals differ: resolution (000 1.9.2 measure and pulse, 002 1.4.3
 /// cntratio); ramp times and shapes (000 1.9.2 tacc, tdec, ramptype; 002 1.4.3 rampmode, taccdec, tinvt);
-/// writes in mid-move (002 1.4.3 refuses a setpos or posit out of reach); a preset without search (000 1.9.2
-/// at the enable's edge, 002 1.2.5.4 as long as it is on) and CNTLOCK, which keeps from presetting (002 1.4.2
-/// alone); follerr (000 1.9.3 its magnitude); the integral action's name and limit; st_toll's delay
-/// (002 1.4.3 toldly); vout, which shows the output too (000 1.9.3).
+/// writes in mid-move (002 1.4.3 refuses a setpos or posit out of reach); CNTLOCK, which keeps from
+/// presetting (002 1.4.2 alone); follerr (000 1.9.3 its magnitude); the integral action's name and limit;
+/// st_toll's delay (002 1.4.3 toldly); vout, which shows the output too (000 1.9.3).
 template <const DeviceType& table>
 class AnaloguePositioner : public TableDevice<table> {
   using Base = TableDevice<table>;
@@ -72,6 +71,7 @@ class AnaloguePositioner : public TableDevice<table> {
     axis_.settle();
     search_.abort();
     zero_.reset();
+    enable_released_ = false;
   }
 
   /// Speeds, ramps of these times [1/100 s] and regulation as the parameters say.
@@ -119,6 +119,9 @@ class AnaloguePositioner : public TableDevice<table> {
   void execute(int command) override {
     switch (command) {
       case CommandRow("EMRG"):
+        rest();
+        cut_output();
+        break;
       case CommandRow("CALON"):
         rest();
         break;
@@ -166,25 +169,26 @@ class AnaloguePositioner : public TableDevice<table> {
     set_state("st_still", true);
   }
 
+  /// An emergency's 0 V, before anything else of its sample: a REGOFF in it freezes no other voltage.
+  void cut_output() {
+    if (state("st_regoff") || !dac_) return;
+    axis_.cut_output();
+    dac_->word = 0;
+  }
+
   // The periodic step.
 
   void latch() override {
     if (state("st_init")) axis_.follow(count_of(counter_), state("st_cntlock"), state("st_cntrev"));
   }
 
-  /// A sample of the preset search; false if none runs. `locked`: nothing loads the count.
-  bool sample_search(bool enable, bool locked) {
-    const auto zero = std::exchange(zero_, std::nullopt);
-    if (!search_.searching()) return false;
-    search_settings_.locked = locked;
-    search_.sample(search_settings_, enable, zero, axis_);
-    value("setvel") = search_.speed(search_settings_);
-    value("setpos") = search_settings_.quota;
-    return true;
-  }
-
-  /// The preset of mode 2.
-  void load_preset() {
+  /// A sample of the preset: of its search, or in mode 2 a load as long as the enable is on, once it was off
+  /// since INIT (002 1.2.5.4). `locked`: nothing loads the count.
+  void sample_preset(bool locked) {
+    const bool enable = is_on(enable_);
+    if (!enable) enable_released_ = true;
+    if (sample_search(enable, locked)) return;
+    if (value("prsmode") != 2 || !enable || !enable_released_ || locked) return;
     axis_.quota.set_um(value("prspos"), axis_.settings.resolution);
     set_state("st_prsok", true);
     requota("IAZero");
@@ -208,8 +212,9 @@ class AnaloguePositioner : public TableDevice<table> {
 
   /// Computes the output and puts it out; says what drives it.
   Drive regulate() {
-    const Drive drive = state("st_emrg")     ? Drive::emergency
-                        : state("st_regoff") ? Drive::frozen
+    // With regulation off the DAC may be another axis': not even an emergency writes it.
+    const Drive drive = state("st_regoff")   ? Drive::frozen
+                        : state("st_emrg")   ? Drive::emergency
                         : state("st_cal")    ? Drive::calibration
                         : state("st_loopon") ? Drive::reaction
                                              : Drive::open_loop;
@@ -258,6 +263,17 @@ class AnaloguePositioner : public TableDevice<table> {
   PresetSearch search_;
 
  private:
+  /// False if no search runs.
+  bool sample_search(bool enable, bool locked) {
+    const auto zero = std::exchange(zero_, std::nullopt);
+    if (!search_.searching()) return false;
+    search_settings_.locked = locked;
+    search_.sample(search_settings_, enable, zero, axis_);
+    value("setvel") = search_.speed(search_settings_);
+    value("setpos") = search_settings_.quota;
+    return true;
+  }
+
   /// What every movement begins with.
   void depart() {
     tell_maxvel();
@@ -301,6 +317,7 @@ class AnaloguePositioner : public TableDevice<table> {
   DacTurn dac_turn_;
   PresetSettings search_settings_;    ///< of the running search
   std::optional<std::int64_t> zero_;  ///< total at a zero pulse since the last sample
+  bool enable_released_ = false;      ///< seen since INIT: a preset without search needs it
 };
 
 }  // namespace drycut::devices::axis

@@ -250,19 +250,26 @@ void Cam::rebase(std::int64_t master_count) {
   master_origin_ = point(master_count, 0, settings_.master.measure);
 }
 
-// positm stays below codeQm and posit below codeQs while a gearing runs [D27].
+// positm stays below codeQm and posit below codeQs while a gearing runs [D27]. A LOOP that comes after it
+// takes off no lap a second time.
 void Cam::wrap_counts(const CamSample& sample) {
   const Sector& sector = current();
   const std::int64_t master = master_value({sample.master_count, 0, 0}, sample);
   const std::int64_t master_lap = sector.master.grains;
-  if (std::abs(master) >= master_lap)
-    step_.master_shift = add(step_.master_shift, master - master % master_lap);
+  if (std::abs(master) >= master_lap) {
+    const std::int64_t laps = master - master % master_lap;
+    step_.master_shift = add(step_.master_shift, laps);
+    loop_master_ = moved(loop_master_, {laps, 0}, settings_.master.measure);
+  }
   const std::int64_t slave_lap = std::abs(sector.slave.grains);
   if (slave_lap == 0) return;
   const auto part =
       static_cast<std::int64_t>(step_.slave_fraction * static_cast<double>(settings_.slave.measure));
   const std::int64_t slave = slave_value({step_.slave_bits, part, 0}, sample);
-  if (std::abs(slave) >= slave_lap) step_.slave_shift = add(step_.slave_shift, slave - slave % slave_lap);
+  if (std::abs(slave) < slave_lap) return;
+  const std::int64_t laps = slave - slave % slave_lap;
+  step_.slave_shift = add(step_.slave_shift, laps);
+  loop_slave_ = moved(loop_slave_, {laps, 0}, settings_.slave.measure);
 }
 
 std::int64_t Cam::master_value(const Point& point, const CamSample& sample) const {

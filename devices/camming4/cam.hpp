@@ -149,12 +149,12 @@ class Cam {
   int next_row_ = 0;     ///< 0 = not fetched
   Point master_origin_;  ///< start of the running sector
   Point slave_origin_;
-  Point loop_master_;  ///< where the executed spaces of LOOP begin
+  Point loop_master_;  ///< where the spaces that LOOP takes off begin
   Point loop_slave_;
   double speed_ = 0;            ///< exit speed of the last movement sector
   Softening softening_;         ///< of the change that the last sector began
   bool softening_due_ = false;  ///< the last sector asked for one
-  bool beginning_ = false;      ///< no movement, no jump, no 160 since the start
+  bool beginning_ = false;      ///< no movement, no jump, no 160, no 180 since the start
   bool jumped_ = false;         ///< since the last movement
   bool adjacent_ = false;       ///< the last row was the movement before
   bool armed_ = false;          ///< the master has been below the quota of 160

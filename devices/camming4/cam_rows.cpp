@@ -51,6 +51,7 @@ int Cam::execute(int number, const CamSample& sample) {
       update_counts(row, sample);
       break;
     case CodeClass::recovery:
+      beginning_ = false;  // it moves the slave: too early for a 160 (000 1.2.13)
       step_.recovery += row.codeQs;
       step_.recovery_row = number;
       break;

@@ -61,7 +61,7 @@ void Camming4::initialise() {
   slip_ = 0;
   slip_due_ = false;
   master_rate_ = 0;
-  enable_was_ = enable_master_was_ = true;
+  enable_master_was_ = true;
   master_released_ = false;
   zero_master_.reset();
   input_was_ = terminals_.input && terminals_.input->level;
@@ -89,7 +89,8 @@ void Camming4::latch() {
 
 void Camming4::step() {
   sample_inputs();
-  sample_presets();
+  sample_preset(false);
+  sample_master_preset();
   if (state("st_camex"))
     step_cam();
   else
@@ -130,6 +131,13 @@ double Camming4::proven_way() const {
 double Camming4::cam_speed() const {
   const double master_um = master_rate_ * 1000.0 / period_ms_ / axis::bits_per_um(master_resolution_);
   return cam_.step().ratio * master_um * axis::bits_per_um(axis_.settings.resolution) + recovery_.speed();
+}
+
+/// The ramps of setvel beside a cam and out of it: ramptype is of placements alone (000 1.9.2).
+axis::Demand Camming4::straight_demand() const {
+  axis::Demand demand = axis_.demand(value("setvel"));
+  demand.shape = axis::RampShape::trapezoidal;
+  return demand;
 }
 
 void Camming4::step_cam() {
@@ -192,7 +200,7 @@ void Camming4::step_recovery() {
     recovery_due_ = 0;
     recovery_way_ = 0;
     recovery_.move(static_cast<double>(recovery_running_) * axis::bits_per_um(axis_.settings.resolution),
-                   axis_.demand(value("setvel")));
+                   straight_demand());
   }
   recovery_way_ += recovery_.step(period_ms_ / 1000.0);
   if (recovery_.moving()) return;
@@ -218,11 +226,11 @@ void Camming4::publish() {
   value("encoder") = static_cast<std::int32_t>(axis_.quota.bits(resolution));
   value("positm") = static_cast<std::int32_t>(master_quota_.um(master_resolution_));
   value("encoderm") = static_cast<std::int32_t>(master_quota_.bits(master_resolution_));
-  value("follerr") = axis::to_long(std::abs(axis_.error()));
+  value("follerr") = axis_.follerr();
   value("intreg") = axis::to_long(axis_.actions().integral);
 
-  const double band = static_cast<double>(value("syncrange")) * static_cast<double>(resolution.pulse);
-  const bool in_band = std::abs(axis_.error()) * static_cast<double>(resolution.measure) <= band;
+  const bool in_band =
+      axis_.follerr() * resolution.measure <= value("syncrange") * resolution.pulse;  // less than 2^62
   const bool was_sync = state("st_sync");
   set_state("st_sync", state("st_camex") && in_band);
   if (was_sync && state("st_camex") && !in_band) warn(12, value("rowex"));
@@ -235,6 +243,8 @@ void Camming4::publish() {
   set_state("st_chvel",
             profile.moving() && !profile.stopping() && !profile.in_last_ramp() && !state("st_prson"));
   set_state("st_tpos", within(value("setpos")));
+  // A cam that comes back to the quota is no placement (000 1.9.2 toll).
+  if (state("st_camex") && !in_place()) axis_.forget_placement();
   set_state("st_toll", in_place());
   set_state("st_int", terminals_.interrupt_level && terminals_.interrupt_level->level);
 }

@@ -78,7 +78,6 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   void run_function(int function, const Capture& capture, std::string_view subject);
   void function_start(const Capture& capture, std::string_view subject);
   void report_refusal(std::string_view what, std::string_view subject);
-  void sample_presets();
   void sample_master_preset();
 
   // The periodic step (camming4.cpp).
@@ -92,6 +91,7 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   [[nodiscard]] double proven_way() const;
   [[nodiscard]] double master_rate() const;
   [[nodiscard]] double cam_speed() const;
+  [[nodiscard]] axis::Demand straight_demand() const;
   [[nodiscard]] std::int64_t master_raw() const;
 
   Terminals terminals_;
@@ -120,8 +120,7 @@ class Camming4 final : public axis::AnaloguePositioner<camming4_type> {
   std::int64_t recovery_done_ = 0;     ///< [Um] since the cam began
   double recovery_way_ = 0;            ///< of the running correction [bits x4]
 
-  bool enable_was_ = true;  ///< a preset without search needs a release first
-  bool enable_master_was_ = true;
+  bool enable_master_was_ = true;            ///< a preset without search needs a release first
   bool master_released_ = false;             ///< prsmodem 1: the enable was released, a zero pulse loads
   std::optional<std::int64_t> zero_master_;  ///< total at a zero pulse since the last sample
 

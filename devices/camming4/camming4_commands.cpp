@@ -92,7 +92,7 @@ void Camming4::stop_cam() {
   const double speed = cam_speed();
   leave_cam();
   set_state("st_still", false);
-  axis_.brake(speed);
+  axis_.brake(speed, straight_demand());
 }
 
 void Camming4::leave_cam() {
@@ -117,6 +117,7 @@ void Camming4::rest() {
 
 void Camming4::emergency() {
   rest();
+  cut_output();
   set_state("st_emrg", true);
   value("vout") = 0;  // a calibration does not come back with its voltage
 }

@@ -133,13 +133,6 @@ void Camming4::report_refusal(std::string_view what, std::string_view subject) {
           fmt::format("by {}: its conditions do not hold", subject)});
 }
 
-void Camming4::sample_presets() {
-  const bool enable = is_on(enable_);
-  const bool met = !std::exchange(enable_was_, enable) && enable;
-  if (!sample_search(enable, false) && value("prsmode") == 2 && met) load_preset();
-  sample_master_preset();
-}
-
 void Camming4::sample_master_preset() {
   const bool enable = is_on(terminals_.enable_master);
   const bool released = enable_master_was_ && !enable;

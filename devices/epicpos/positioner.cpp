@@ -40,7 +40,6 @@ void Positioner::initialise() {
   if (axis_.posit() != value("posit")) axis_.quota.set_um(value("posit"), axis_.settings.resolution);
   begin();
   check_ratio();
-  enable_released_ = false;
   counter_part_ = 0;
   in_tolerance_ms_ = 0;
   if (axis_.settings.simulated && counter_->movers > 1)
@@ -114,20 +113,12 @@ void Positioner::execute(int command) {
 }
 
 void Positioner::step() {
-  sample_preset();
+  sample_preset(state("st_cntlock"));
   const axis::Theoretical before = axis_.theoretical();
   step_motion();
   if (axis_.settings.simulated) move_counter(axis_.theoretical().minus(before));
   regulate();
   publish();
-}
-
-void Positioner::sample_preset() {
-  const bool enable = is_on(enable_);
-  const bool locked = state("st_cntlock");
-  if (!enable) enable_released_ = true;
-  if (sample_search(enable, locked)) return;
-  if (value("prsmode") == 2 && enable && enable_released_ && !locked) load_preset();
 }
 
 void Positioner::move_counter(double bits) {

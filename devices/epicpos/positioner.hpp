@@ -28,13 +28,11 @@ class Positioner final : public axis::AnaloguePositioner<epicpos_type> {
  private:
   void recompute();
   void check_ratio();
-  void sample_preset();
   void move_counter(double bits);
   void publish();
 
   double counter_part_ = 0;  ///< of the simulated counter, not yet a whole bit
   std::int64_t in_tolerance_ms_ = 0;
-  bool enable_released_ = false;  ///< seen since INIT: a preset without search needs it
 };
 
 }  // namespace drycut::devices::epicpos

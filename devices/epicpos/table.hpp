@@ -189,6 +189,10 @@ inline constexpr std::array readings = {
             "002 1.5 allows a change at constant speed only, 1.3.3 before the final deceleration"},
     Reading{"setpos", "a START beyond minpos..maxpos goes to the limit, and says so",
             "002 1.4.3 gives the range, no answer to a quota outside"},
+    Reading{"EMRG", "leaves the output alone while st_regoff = 1",
+            "002 1.3.1 gives no access to the DAC then, 1.4.2 puts the axis in emergency all the same"},
+    Reading{"follerr", "the loop's error has fractions of a bit; st_foller goes by the whole bits of follerr",
+            "002 1.4.3 gives follerr in bits, and nothing says what the loop works on"},
     Reading{"START", "needs st_cal = 0 where the print repeats st_emrg = 0",
             "002 1.4.2 prints st_emrg twice"},
     Reading{"PRESET", "with the enable already on, the search begins with its slow leg, reversed",
@@ -202,6 +206,8 @@ inline constexpr std::array readings = {
         "of two devices that regulate on one output, the later one of INTDEVICE has the last word; a note "
         "tells it once",
         "002 1.3.1 forbids it and does not say what happens then"},
+    Reading{"st_toll", "goes by the quota of the last START until a manual movement or a search",
+            "002 1.4.4 names that quota and not what ends it"},
     Reading{"REGON", "turns regulation on",
             "002 1.4.2: the titles of REGOFF and REGON are exchanged in print"},
 };

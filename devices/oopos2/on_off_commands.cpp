@@ -56,7 +56,7 @@ std::int64_t OnOffPositioner::clamped(std::int64_t tenths, std::string_view subj
   return held;
 }
 
-/// What a movement command forgets of the placement before it.
+/// What START and a manual movement forget of the placement before.
 void OnOffPositioner::leave_quota() {
   set_state("st_toll", false);
   set_state("st_sttoll", false);

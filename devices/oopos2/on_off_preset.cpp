@@ -13,7 +13,7 @@ void OnOffPositioner::preset() {
     return;
   }
   if (value("prsmode") == 2) return;  // no search: the enable loads
-  leave_quota();
+  set_state("st_toll", false);  // st_sttoll stays: a search is none of the commands that end it (001 1.6.4)
   set_state("st_prson", true);
   set_state("st_prsok", false);
   set_state("st_still", false);

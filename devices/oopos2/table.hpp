@@ -22,7 +22,8 @@ inline constexpr std::array states_rows = {
     State{"st_movdir", R::zero, "direction of the last movement, 1 = backward"},
     State{"st_still", R::one, "no movement runs"},
     State{"st_erin", R::zero, "the last recalculation changed the inertia by more than maxiner"},
-    State{"st_sttoll", R::zero, "the last movement command was a START in tolerance, and nothing moved"},
+    State{"st_sttoll", R::zero,
+          "the last of START and the manual movements was a START in tolerance, and nothing moved"},
     State{"st_prsok", R::zero, "the count has been preset"},
     State{"st_prson", R::zero, "the preset search runs"},
     State{"st_regoff", R::zero, "regulation off: the movement outputs are left to others, no movement"},
@@ -176,7 +177,14 @@ inline constexpr std::array readings = {
             "001 1.4.5 prints the formula without the square below the line"},
     Reading{"maxiner", "watches the change of the inertia; the new value is kept anyway",
             "001 1.6.4 compares the value, 1.6.3 the change"},
-    Reading{"overpos", "an overshoot stays within minpos..maxpos", "001 1.2.3 does not speak of the limits"},
+    Reading{
+        "overpos",
+        "the way of a backlash recovery alone, no least way of a placement; the overshoot stays within "
+        "minpos..maxpos",
+        "001 1.6.3 adds 'and/or minimum delta of positioning' and says no more of it; 1.2.3 does not speak "
+        "of the limits"},
+    Reading{"tool", "a quota setpos + tool beyond minpos..maxpos goes to the limit, and says so",
+            "001 1.6.3 makes setpos + tool the final quota, and minpos and maxpos what the axis reaches"},
     Reading{
         "STOP",
         "ends at once what runs, waits toldly, brakes; no recalculation, st_toll stays 0. It comes before "

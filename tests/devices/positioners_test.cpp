@@ -118,6 +118,23 @@ TEST_P(PositionerOfAnyKind, EmergencyStopsWithoutRampAndResumeReactsOnTheSpot) {
   shows("posit=4000~1");
 }
 
+TEST_P(PositionerOfAnyKind, AnAxisOnItsQuotaStaysInToleranceUntilAnotherMovement) {
+  does("INIT LOOPON");
+  ASSERT_TRUE(place(1000));
+  after("EMRG", "emrg toll");
+  after("count+=50 sample", "!toll");  // by hand, there
+  after("count+=-50 sample", "toll");  // and back
+  after("RESUME CALON", "cal toll");
+  after("CALOFF", "toll");
+  after("MANBW", "!toll");
+  after("+60 STOP until:still MANFW", "!toll");
+}
+
+TEST_P(PositionerOfAnyKind, AnEmergencyOnTheWayIsNotInTolerance) {
+  after("INIT LOOPON setpos=1000 START +20 EMRG", "!toll");
+  after("count=1000 +2", "posit=1000 !toll");
+}
+
 TEST_P(PositionerOfAnyKind, CalibrationIsAVoltageSource) {
   says("INIT LOOPON vout=50 sample", {"vout: st_cal is 0, must be 1"});
   after("CALON", "cal DAC=0");
@@ -141,6 +158,20 @@ TEST_P(PositionerOfAnyKind, RegulationOffLeavesTheOutputAsItStands) {
   after("REGON", "!regoff DAC=0");  // it reacts where it stands
 }
 
+// 002 1.3.1: with regulation off an axis has no access to the DAC, which may be another one's.
+TEST_P(PositionerOfAnyKind, AnEmergencyWithRegulationOffLeavesTheOutputAsItStands) {
+  does("INIT LOOPON REGOFF");
+  cards.analogue_outputs.begin()->second.word = 123;
+  after("EMRG +5", "emrg regoff DAC=123");
+  after("RESUME +2", "!emrg DAC=123");
+  after("REGON", "!regoff DAC=0");
+}
+
+TEST_P(PositionerOfAnyKind, AnEmergencyAndRegulationOffInOneSampleLeaveZeroVolts) {
+  after("INIT LOOPON MANFW +60", "DAC>3000");
+  after("EMRG! REGOFF! sample", "emrg regoff still DAC=0");
+}
+
 TEST_P(PositionerOfAnyKind, FollowingErrorIsHeldForHalfASecond) {
   about("maxfollerr");
   after("maxfollerr=40 INIT LOOPON blocked=1 count=-40 sample", "!foller");
@@ -148,6 +179,13 @@ TEST_P(PositionerOfAnyKind, FollowingErrorIsHeldForHalfASecond) {
   does("count=0");
   for (int ms = period; ms < 500; ms += period) after("sample", "foller");
   after("sample", "!foller");
+}
+
+TEST_P(PositionerOfAnyKind, AFollowingErrorIsReportedByTheBitsThatItShows) {
+  about("maxfollerr");
+  does("setvel=50 maxfollerr=10 pgain=0 feedfw=0 blocked=1 INIT LOOPON MANFW");
+  while (get("st_foller") == 0 && samples < 1000) tick();  // 0.1 bit more in each
+  shows("foller follerr=11");
 }
 
 TEST_P(PositionerOfAnyKind, LocksAndReversesItsCount) {

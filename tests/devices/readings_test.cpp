@@ -32,6 +32,40 @@ TEST(Readings, BelongToARowAndNameThePlaceInAManual) {
   }
 }
 
+// What the devices decide where a manual is open, or against its letter, is not left to be found out.
+TEST(Readings, SayWhatTheDevicesDecide) {
+  struct Decided {
+    std::string_view device;
+    std::string_view of;
+    std::string_view says;
+  };
+  for (const Decided& decided : {Decided{"CAMMING4", "EMRG", "st_regoff"},
+                                 {"EPICPOS", "EMRG", "st_regoff"},
+                                 {"CAMMING4", "st_toll", "the last START"},
+                                 {"EPICPOS", "st_toll", "the last START"},
+                                 {"CAMMING4", "STOPCAM", "whatever ramptype"},
+                                 {"CAMMING4", "codeQsa", "whatever ramptype"},
+                                 {"CAMMING4", "", "but for what a gearing has taken off"},
+                                 {"CAMMING4", "follerr", "fractions of a bit"},
+                                 {"EPICPOS", "follerr", "fractions of a bit"},
+                                 {"EANPOS", "follerr", "fractions of a bit"},
+                                 {"CAMMING4", "RSPRSM", "no more"},
+                                 {"CAMMING4", "prsmode", "as long as the enable is on"},
+                                 {"CAMMING4", "prsmodem", "at the enable's edge"},
+                                 {"OOPOS2", "tool", "goes to the limit"},
+                                 {"OOPOS2", "overpos", "no least way"}}) {
+    const auto says = [&](const Reading& reading) {
+      return reading.of == decided.of && reading.text.find(decided.says) != std::string_view::npos;
+    };
+    EXPECT_TRUE(std::ranges::any_of(catalogue(),
+                                    [&](const CatalogueEntry& entry) {
+                                      return entry.type->name == decided.device &&
+                                             std::ranges::any_of(entry.type->readings, says);
+                                    }))
+        << decided.device << ' ' << decided.of << ": " << decided.says;
+  }
+}
+
 TEST(Readings, OfTheLanguageCoverWhatNoManualShows) {
   for (const char* word :
        {"NEXT", "ENDWHILE", "ENDSUB", "CALL", "RESOUT", "timer", "NEQ", "order of operators"})

@@ -148,6 +148,8 @@ TEST(CamErrors, StartSyncNotAtTheBeginning) {
   EXPECT_EQ(error_of({{190, 2, 0}, sync, move, end_row}), fine);
   EXPECT_EQ(error_of({sync, move, {138}}), (CamEvent{7, 1}));
   EXPECT_EQ(error_of({sync, sync, move, end_row}), (CamEvent{7, 2}));
+  EXPECT_EQ(error_of({{180, 0, 300}, sync, move, end_row}), (CamEvent{7, 2}));  // it moves the slave
+  EXPECT_EQ(error_of({sync, {180, 0, 300}, move, end_row}), fine);
 }
 
 TEST(CamErrors, ArcsThatDoNotExist) {

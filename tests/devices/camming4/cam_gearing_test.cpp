@@ -138,6 +138,28 @@ TEST(CamGearing, ReleaseGoesOnWithTheNextRowAtOnce) {
   }
 }
 
+// 000 1.2.3.2 and 1.2.9: each takes off what the other has not.
+TEST(CamGearing, ALoopAfterItsReleaseBringsTheCountsBackToWhereTheyBegan) {
+  for (const std::int32_t slave : {50, -50}) {
+    SCOPED_TRACE(slave);
+    CamBench bench({{154, 100, slave, 0, 2}, {133, 100, slave}, {138}});
+    bench.master_grains = 10;
+    bench.slave_grains = -4;
+    bench.start();
+    bench.run(1048, 3);
+    EXPECT_EQ(bench.positm(), 1058 % 100);
+    bench.cam.write(1, Column::codeQsa, 0);
+    bench.run(1147, 3);
+    EXPECT_EQ(bench.cam.step().row, 2);
+    bench.cam.write(1, Column::codeQsa, 2);
+    EXPECT_EQ(bench.to(1150).row, 1);
+    EXPECT_THAT(bench.errors, IsEmpty());
+    EXPECT_EQ(bench.positm(), 10 + 2);
+    EXPECT_EQ(bench.posit(), -4 + slave / 50);
+    EXPECT_EQ(bench.cam.step().slave_bits, 1150 * slave / 100);  // the axis has not noticed
+  }
+}
+
 TEST(CamGearing, MasterFasterThanALapASamplingIsError4) {
   CamBench bench = started({{154, 100, 50, 0, 2}, end_row});
   bench.to(50);

@@ -38,6 +38,16 @@ TEST_F(Camming4Motion, AStoppedPlacementIsNotInTolerance) {
   after("INIT LOOPON setpos=1000 START +80 STOP until:still +50", "!toll posit<999");
 }
 
+// 000 1.9.2 toll: the placement, not the arrival in a cam.
+TEST_F(Camming4Motion, ACamKeepsTheToleranceUntilItLeavesTheQuotaForGood) {
+  does("INIT LOOPON");
+  ASSERT_TRUE(place(1000));
+  rows({{133, 100, 0}, {131, 100, 50}, {135, 100, 50}, {131, 100, -50}, {135, 100, -50}, {136}});
+  after("STARTCAM +8*10", "camex toll");
+  after("+20*10", "!toll");
+  after("+40*10", "!camex posit=1000~2 !toll");
+}
+
 TEST_F(Camming4Motion, ChangesSpeedAndTargetOnTheFly) {
   after("INIT LOOPON setpos=5000 START +60", "chvel");
   after("setvel=2500 setpos=4000 +60", "ffwdreg=1638");

@@ -14,8 +14,17 @@ TEST_F(Camming4Preset, ModeTwoLoadsAtTheEnableAfterARelease) {
   by_hand = true;
   after("prspos=99 prsmode=2 2.INP01=1 INIT LOOPON +5", "!prsok");
   after("2.INP01=0 +2 2.INP01=1 +1", "prsok posit=99");
-  after("RSPRSOK", "!prsok");
+  after("2.INP01=0 RSPRSOK", "!prsok");
   after("PRESET", "!prson");
+}
+
+// 002 1.2.5.4 explains the words that 000 1.9.2 uses too.
+TEST_F(Camming4Preset, ModeTwoLoadsAsLongAsTheEnableIsOn) {
+  by_hand = true;
+  after("prspos=99 prsmode=2 blocked=1 INIT LOOPON +2 2.INP01=1 +1", "prsok posit=99");
+  after("RSPRSOK count+=30 +1", "prsok posit=99");
+  after("prspos=-7 +1", "posit=-7");
+  after("2.INP01=0 count+=30 +1", "posit=23");
 }
 
 TEST_F(Camming4Preset, MasterPresetModeZero) {

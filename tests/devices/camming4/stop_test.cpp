@@ -30,6 +30,23 @@ TEST_F(Camming4Stop, TheRampBeginsWithTheSpeedOfTheLaw) {
   covers({"STOPCAM accepted", "st_still"});
 }
 
+// 000 1.9.2 ramptype: of placements; what belongs to a cam is trapezoidal.
+TEST_F(Camming4Stop, TheRampIsStraightWhateverRamptypeSays) {
+  constant_ratio(1000, 1000);
+  does("pgain=0 ramptype=1 rtype=0 INIT LOOPON STARTCAM +100*10");  // 5000 Um/s
+  after("STOPCAM +11", "speed=3800~30");                            // 100 Um/s less in each period
+  after("+26", "speed=1200~30");
+  about("ramptype");
+}
+
+TEST_F(Camming4Stop, ARecoveryIsATrapezoidWhateverRamptypeSays) {
+  rows({{154, 10, 0}, {180, 0, 3000}, {154, 10000, 0}, {136}});
+  does("pgain=0 ramptype=1 rtype=0 INIT LOOPON STARTCAM +5*5 +10");
+  const double before = speed();
+  after("+10", "rowex=3");
+  EXPECT_NEAR(speed() - before, 1000, 10);  // 100 Um/s more in each period
+}
+
 TEST_F(Camming4Stop, ASlowMastersCountsAreNoSteps) {
   // One count of the master in three samples, 60 Um of slave each: 10000 Um/s on average, 0 or 30000 in a
   // sample. The ramp must begin near the average whichever sample STOPCAM meets.
@@ -129,6 +146,14 @@ TEST_F(Camming4Stop, ACamThatBeginsOutOfTheSyncRangeHasNotLeftIt) {
   after("count=10 +1", "sync");
   after("count=60 +1", "wrncode=12");
   covers({"warning 12"});
+}
+
+TEST_F(Camming4Stop, TheSyncRangeIsLeftByTheBitsOfFollerr) {
+  without_gains();
+  constant_ratio(1000, 100);
+  does("syncrange=10 INIT LOOPON STARTCAM +2*1");
+  while (get("st_sync") == 1 && samples < 1000) tick(1);  // 0.1 bit more in each
+  shows("camex !sync wrncode=12 follerr=11");
 }
 
 TEST_F(Camming4Stop, PowerLossInARecoveryLeavesNothingOfIt) {

@@ -37,7 +37,7 @@ constexpr VariableRule variable_rules[] = {
     {"prsposm", 'L', "RW", 'R', -999999, 999999, "!prsonm"},
     {"toll", 'L', "RW", 'R', 0, 999999, "still"},
     {"maxfollerr", 'L', "RW", 'R', 0, most},
-    {"syncrange", 'L', "RW", 'R', 0, 999999},
+    {"syncrange", 'L', "RW", 'R', 0, 9999999},
     {"prsmode", 'B', "RW", 'R', 0, 2, "!prson"},
     {"prsmodem", 'B', "RW", 'R', 0, 2, "!prsonm"},
     {"prsdir", 'B', "RW", 'R', 0, 1, "!prson"},

@@ -61,9 +61,19 @@ TEST_F(Oopos2Tolerance, StartInToleranceMovesNothing) {
   after("setpos=490 START", "!sttoll !still");
 }
 
-TEST_F(Oopos2Tolerance, EveryMovementCommandClearsSttoll) {
+// 001 1.6.4 st_sttoll names START and the manual movements.
+TEST_F(Oopos2Tolerance, APresetSearchLeavesSttoll) {
   place(500);
-  for (const char* name : {"MANSFW", "MANSBW", "MANFFW", "MANFBW", "PRESET"}) {
+  after("START", "sttoll toll");
+  after("PRESET +2", "prson !still sttoll !toll");
+  after("STOP until:still", "sttoll !toll");
+  write("setpos", get("posit") + 100);
+  after("START", "!sttoll !still");
+}
+
+TEST_F(Oopos2Tolerance, EveryManualMovementClearsSttoll) {
+  place(500);
+  for (const char* name : {"MANSFW", "MANSBW", "MANFFW", "MANFBW"}) {
     does("START");
     ASSERT_EQ(get("st_sttoll"), 1) << name;
     command(name);
