@@ -112,6 +112,12 @@ TEST_F(EpicposChange, AManualMovementCountedBackInItsRampGoesAtSetvel) {
   after("until:still +300", "posit=4000~1");
 }
 
+TEST_F(EpicposChange, APresetSearchTakesNewTimesAndNoSpeed) {
+  does("INIT LOOPON PRESET +100 taccdec=50 setvel=9000");
+  after("+60", "speed=5000~1 setvel=5000 silent");  // prsvel
+  EXPECT_EQ(duration("STOP"), 25);
+}
+
 TEST_F(EpicposChange, ParametersThatDoNotCountChangeNothing) {
   begin(300);
   does("tdec=999");  // rampmode 0
