@@ -56,8 +56,9 @@ void AnalogueAxis::depart(double way, std::int32_t speed) {
 
 void AnalogueAxis::stop() {
   // A movement that still waits to begin has no ramp to finish.
-  profile_.stop(settings.finish_ramp && pause_ms_ == 0, settings.ramps);
+  profile_.stop(settings.finish_ramp && pause_ms_ == 0);
   pause_ms_ = 0;
+  if (profile_.stopping()) placing_ = false;
 }
 
 void AnalogueAxis::brake(double bits_per_second, const Demand& ramp) {
@@ -74,7 +75,17 @@ void AnalogueAxis::abort() {
   placing_ = false;
 }
 
-bool AnalogueAxis::change(std::int32_t speed) { return profile_.change(demand(speed)); }
+bool AnalogueAxis::change(const Demand& before, const Demand& after) {
+  Demand demand = profile_.demand();
+  const auto take = [&](auto Demand::*part) {
+    if (before.*part != after.*part) demand.*part = after.*part;
+  };
+  take(&Demand::speed);
+  take(&Demand::seconds_per_speed_up);
+  take(&Demand::seconds_per_speed_down);
+  take(&Demand::keep_gradient);
+  return demand == profile_.demand() || profile_.change(demand);
+}
 
 bool AnalogueAxis::retarget(std::int32_t target) {
   if (!placing_ || !profile_.retarget(theoretical_way_to(target))) return false;
@@ -91,10 +102,10 @@ bool AnalogueAxis::requota() {
   return false;
 }
 
-void AnalogueAxis::settle() {
+bool AnalogueAxis::settle() {
   theoretical_ = {transducer_.total(), 0};
   regulator_.reset();
-  if (target_) requota();
+  return !target_ || profile_.resume(theoretical_way_to(*target_));
 }
 
 void AnalogueAxis::rest() { rest_ms_ = std::min(rest_ms_ + settings.period_ms, long_rest_ms); }
@@ -122,9 +133,9 @@ void AnalogueAxis::step_profile() {
     rest();
   }
   speed_ = profile_.speed();
-  if (profile_.moving() || profile_.stopping() || !target_) return;
+  if (profile_.moving() || !target_) return;
   // The profile ends on the quota itself: no rounding of its arithmetic is left.
-  theoretical_.add(theoretical_way_to(*target_));
+  if (!profile_.stopping()) theoretical_.add(theoretical_way_to(*target_));
   if (placing_) placed_ = target_;
 }
 

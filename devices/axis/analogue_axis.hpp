@@ -73,15 +73,17 @@ class AnalogueAxis {
   void brake(double bits_per_second, const Demand& ramp);
   /// Ends a movement here and now, and forgets what it was to reach. What was reached before stays.
   void abort();
-  /// setvel or ramp times were written while moving.
-  bool change(std::int32_t speed);
+  /// Parameters were written while moving: what differs in the demand they make, `before` and `after`, acts
+  /// beside the rest of what the movement goes by. False if it cannot: then it waits for the next movement.
+  bool change(const Demand& before, const Demand& after);
   /// setpos was written while moving: false if the target stays the old one.
   bool retarget(std::int32_t target);
   /// posit changed under a movement: the target quota stays; a target that cannot be reached any more ends
   /// in a stop, and false is returned.
   bool requota();
-  /// Theoretical := actual, integral 0: the following error is gone (LOOPON, RESUME).
-  void settle();
+  /// Theoretical := actual, integral 0: the following error is gone (LOOPON, RESUME). A movement goes on to
+  /// its quota; false if the axis has passed that: then it stops.
+  bool settle();
   /// The same for a theoretical position that comes from elsewhere and keeps its fraction of a bit: moves it
   /// by the whole bits nearest to the error, and gives them [bits x4].
   std::int64_t settle_by_bits();

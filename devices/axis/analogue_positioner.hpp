@@ -100,13 +100,15 @@ class AnaloguePositioner : public TableDevice<table> {
     if (acts != value(variable)) report(acts_as(name_of(variable), value(variable), acts));
   }
 
-  /// A parameter was written: the running movement takes it if it can. `ramps`: its speed or its ramps are
-  /// others.
-  void write_motion(VariableRow variable, bool ramps) {
-    if (!axis_.profile().moving() || search_.searching()) return;
-    bool taken = true;
-    if (variable == "setpos" && axis_.placing()) taken = axis_.retarget(clamped(value("setpos")));
-    if (ramps) taken = axis_.change(value("setvel"));
+  /// The demand that the parameters make; a preset search has a speed of its own.
+  [[nodiscard]] Demand demanded() const { return axis_.demand(search_.searching() ? 0 : value("setvel")); }
+
+  /// A parameter was written: the running movement takes it if it can. `before`: what they demanded then.
+  void write_motion(VariableRow variable, const Demand& before) {
+    if (!axis_.profile().moving()) return;
+    bool taken = axis_.change(before, demanded());
+    if (variable == "setpos" && axis_.placing() && !search_.searching())
+      taken = axis_.retarget(clamped(value("setpos")));
     if (!taken) report(kept_for_the_next(name_of(variable)));
   }
 
@@ -129,7 +131,7 @@ class AnaloguePositioner : public TableDevice<table> {
       case CommandRow("LOOPON"):
       case CommandRow("CALOFF"):
       case CommandRow("REGON"):
-        axis_.settle();
+        if (!axis_.settle()) tell_quota_lost(table.commands[command].name);
         break;
       case CommandRow("START"):
         start_placement();
@@ -196,7 +198,10 @@ class AnaloguePositioner : public TableDevice<table> {
 
   /// The count was changed by `cause`: a quota out of the running movement's reach is told.
   void requota(std::string_view cause) {
-    if (axis_.requota()) return;
+    if (!axis_.requota()) tell_quota_lost(cause);
+  }
+
+  void tell_quota_lost(std::string_view cause) {
     report({Diagnostic::Kind::note, std::string(cause),
             "the running movement cannot reach its quota any more and stops"});
   }

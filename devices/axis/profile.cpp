@@ -12,21 +12,28 @@ constexpr double rounding = 1e-6;  // [bits x4] of distance that a replan may lo
 
 }  // namespace
 
-double Plan::space() const { return ramp_space(first) + first.to * constant + ramp_space(last); }
+double Plan::space() const {
+  return ramp_space(lead) + ramp_space(first) + first.to * constant + ramp_space(last);
+}
 
 double Plan::space_at(double t) const {
-  if (t < first.duration) return ramp_space(shape, first, t);
-  const double after_first = t - first.duration;
-  if (after_first < constant) return ramp_space(first) + first.to * after_first;
-  const double in_last = std::min(after_first - constant, last.duration);
-  return ramp_space(first) + first.to * constant + ramp_space(shape, last, in_last);
+  double space = 0;
+  for (const Ramp* ramp : {&lead, &first}) {
+    if (t < ramp->duration) return space + ramp_space(shape, *ramp, t);
+    space += ramp_space(*ramp);
+    t -= ramp->duration;
+  }
+  if (t < constant) return space + first.to * t;
+  return space + first.to * constant + ramp_space(shape, last, std::min(t - constant, last.duration));
 }
 
 double Plan::speed_at(double t) const {
-  if (t < first.duration) return ramp_speed(shape, first, t);
-  const double after_first = t - first.duration;
-  if (after_first < constant) return first.to;
-  return after_first - constant < last.duration ? ramp_speed(shape, last, after_first - constant) : last.to;
+  for (const Ramp* ramp : {&lead, &first}) {
+    if (t < ramp->duration) return ramp_speed(shape, *ramp, t);
+    t -= ramp->duration;
+  }
+  if (t < constant) return first.to;
+  return t - constant < last.duration ? ramp_speed(shape, last, t - constant) : last.to;
 }
 
 std::optional<Plan> plan_move(double speed, double distance, const Demand& demand) {
@@ -38,10 +45,10 @@ std::optional<Plan> plan_move(double speed, double distance, const Demand& deman
     distance = stopping;
   }
 
-  if (distance <= 0 && speed <= 0) return Plan{demand.shape, {}, 0, {}};
+  if (distance <= 0 && speed <= 0) return Plan{demand.shape, {}, {}, 0, {}};
   const double target = std::max(demand.speed, 0.0);
   const double change_time = (target > speed ? up : down) * std::abs(target - speed);
-  Plan plan{demand.shape, {speed, target, change_time}, 0, {target, 0, target * down}};
+  Plan plan{demand.shape, {}, {speed, target, change_time}, 0, {target, 0, target * down}};
   const double ramps = ramp_space(plan.first) + ramp_space(plan.last);
   if (ramps <= distance || target <= speed) {
     plan.constant = target > 0 ? std::max(distance - ramps, 0.0) / target : for_ever;
@@ -61,17 +68,19 @@ std::optional<Plan> plan_move(double speed, double distance, const Demand& deman
   return plan;
 }
 
-Plan plan_stop(double speed, const Demand& demand) {
-  return {demand.shape, {speed, speed, 0}, 0, {speed, 0, speed * demand.seconds_per_speed_down}};
+Plan plan_stop(double speed, double distance, const Demand& demand) {
+  Ramp last{speed, 0, speed * demand.seconds_per_speed_down};
+  if (distance > 0 && ramp_space(last) > distance) last.duration = 2 * distance / speed;
+  return {demand.shape, {}, {speed, speed, 0}, 0, last};
 }
 
-void Profile::adopt(const Plan& plan) {
+void Profile::adopt(const Plan& plan, double distance, const Progress& lead) {
   plan_ = plan;
-  distance_ = plan.space();
-  covered_ = 0;
-  time_ = 0;
+  plan_.lead = lead.ramp;
+  distance_ = distance;
+  covered_ = lead.covered;
+  time_ = begun_ = lead.time;
   periods_ = 0;
-  change_waits_ = false;
 }
 
 void Profile::move(double distance, const Demand& demand) {
@@ -79,8 +88,7 @@ void Profile::move(double distance, const Demand& demand) {
   demand_ = demand;
   moving_ = true;
   stopping_ = false;
-  adopt(*plan_move(0, std::abs(distance), demand));
-  distance_ = std::abs(distance);
+  adopt(*plan_move(0, std::abs(distance), demand), std::abs(distance));
 }
 
 void Profile::brake(double speed, const Demand& demand) {
@@ -88,87 +96,77 @@ void Profile::brake(double speed, const Demand& demand) {
   demand_ = demand;
   moving_ = true;
   stopping_ = true;
-  adopt(plan_stop(std::abs(speed), demand));
+  const Plan plan = plan_stop(std::abs(speed), 0, demand);
+  adopt(plan, plan.space());
+}
+
+bool Profile::replan(const Progress& kept, double distance, const Demand& demand) {
+  const auto plan = plan_move(kept.ramp.to, distance - kept.left(), demand);
+  if (!plan) return false;
+  demand_ = demand;
+  adopt(*plan, distance + kept.covered, kept);
+  return true;
 }
 
 bool Profile::change(const Demand& demand) {
-  if (!moving_ || stopping_ || in_last_ramp()) return false;
-  if (plan_.shape == RampShape::epicycloidal && in_first_ramp()) {
-    demand_ = demand;
-    change_waits_ = true;
-    return true;
-  }
-  const double distance = remaining();
-  const auto plan = plan_move(plan_.speed_at(time_), distance, demand);
-  if (!plan) return false;
-  demand_ = demand;
-  adopt(*plan);
-  distance_ = distance;
-  return true;
+  return moving_ && !stopping_ && !in_last_ramp() && replan(unbent(), remaining(), demand);
 }
 
 bool Profile::retarget(double remaining) {
-  if (!moving_ || stopping_ || in_last_ramp()) return false;
-  const double distance = remaining * direction_;
-  if (plan_.shape == RampShape::epicycloidal && in_first_ramp()) {
-    // The running ramp stays; what follows it takes up the difference.
-    const double after_first = distance + covered_ - ramp_space(plan_.first);
-    const double spare = after_first - ramp_space(plan_.last);
-    if (spare < -rounding) return false;
-    if (plan_.first.to > 0) plan_.constant = std::max(spare, 0.0) / plan_.first.to;
-    distance_ = distance + covered_;
-    return true;
-  }
-  const auto plan = distance < 0 ? std::nullopt : plan_move(plan_.speed_at(time_), distance, demand_);
-  if (!plan) return false;
-  adopt(*plan);
-  distance_ = distance;
-  return true;
+  return moving_ && !stopping_ && !in_last_ramp() && replan(unbent(), remaining * direction_, demand_);
 }
 
-void Profile::stop(bool finish_ramp, const Demand& demand) {
+bool Profile::resume(double remaining) {
+  const double distance = remaining * direction_;
+  if (!moving_ || stopping_) return true;
+  if (replan(unbent(), distance, demand_) || replan(here(), distance, demand_)) return true;
+  stopping_ = distance <= 0;
+  const Plan plan = plan_stop(plan_.speed_at(time_), distance, demand_);
+  adopt(plan, stopping_ ? plan.space() : distance);
+  return !stopping_;
+}
+
+void Profile::stop(bool finish_ramp) {
   if (!moving_ || stopping_ || in_last_ramp()) return;
   stopping_ = true;
-  change_waits_ = false;
-  if (finish_ramp && plan_.shape == RampShape::epicycloidal && in_first_ramp()) {
-    plan_.constant = 0;
-    plan_.last = {plan_.first.to, 0, plan_.first.to * demand.seconds_per_speed_down};
-    distance_ = plan_.space();
-    return;
-  }
-  Plan plan = plan_stop(plan_.speed_at(time_), demand);
-  plan.shape = plan_.shape;
-  adopt(plan);
+  const Progress kept = finish_ramp ? unbent() : here();
+  const Plan plan = plan_stop(kept.ramp.to, remaining() - kept.left(), demand_);
+  adopt(plan, ramp_space(kept.ramp) + plan.space(), kept);
 }
 
 double Profile::step(double period_s) {
   if (!moving_) return 0;
   ++periods_;
-  time_ = static_cast<double>(periods_) * period_s;
+  time_ = begun_ + static_cast<double>(periods_) * period_s;
   const double before = covered_;
-  if (time_ >= plan_.duration() - instant) {
-    moving_ = false;
-    covered_ = stopping_ ? plan_.space() : distance_;
-  } else {
-    covered_ = plan_.space_at(time_);
-    if (change_waits_ && !in_first_ramp()) {
-      change_waits_ = false;
-      const double way = covered_ - before;
-      change(demand_);
-      return direction_ * way;
-    }
-  }
+  moving_ = time_ < plan_.duration() - instant;
+  covered_ = moving_ ? plan_.space_at(time_) : distance_;
   return direction_ * (covered_ - before);
+}
+
+Profile::Progress Profile::here() const {
+  const double speed = plan_.speed_at(time_);
+  return {{speed, speed, 0}, 0, 0};
+}
+
+Profile::Progress Profile::under_way() const {
+  if (time_ < plan_.lead.duration) return {plan_.lead, time_, covered_};
+  const double time = time_ - plan_.lead.duration;
+  if (time < plan_.first.duration) return {plan_.first, time, covered_ - ramp_space(plan_.lead)};
+  return here();
 }
 
 Phase Profile::phase() const {
   if (!moving_) return Phase::still;
-  if (in_first_ramp()) return plan_.first.to >= plan_.first.from ? Phase::accelerating : Phase::decelerating;
-  return in_last_ramp() ? Phase::decelerating : Phase::constant;
+  if (in_last_ramp()) return Phase::decelerating;
+  const Ramp ramp = under_way().ramp;
+  if (ramp.duration <= 0) return Phase::constant;
+  return ramp.to >= ramp.from ? Phase::accelerating : Phase::decelerating;
 }
 
 bool Profile::in_last_ramp() const {
-  return moving_ && time_ >= plan_.first.duration + plan_.constant && plan_.last.duration > 0;
+  const double begin = plan_.lead.duration + plan_.first.duration + plan_.constant;
+  return moving_ && time_ >= begin && plan_.last.duration > 0;
 }
 
 }  // namespace drycut::devices::axis

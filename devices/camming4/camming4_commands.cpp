@@ -49,7 +49,7 @@ void Camming4::execute(int command) {
     case CommandRow("LOOPON"):
       // In a cam the table goes on from where the axis is; else the axis would jump after it.
       slip_due_ = state("st_camex");
-      if (!slip_due_) axis_.settle();
+      if (!slip_due_) AnaloguePositioner::execute(command);
       break;
     case CommandRow("CALON"):
       rest();

@@ -26,6 +26,7 @@ void Camming4::written(Symbol symbol, std::int32_t new_value) {
     return;
   }
   const bool changed = value(variable) != new_value;
+  const axis::Demand before = demanded();
   if (variable == "mtype" && changed) {
     value(variable) = new_value;
     master_.rebase(master_raw());
@@ -42,8 +43,7 @@ void Camming4::written(Symbol symbol, std::int32_t new_value) {
   if (!changed) return;
   recompute();
   if (state("st_init")) {
-    write_motion(variable,
-                 variable == "setvel" || variable == "tacc" || variable == "tdec" || variable == "rtype");
+    write_motion(variable, before);
   } else {
     // The counts of a new resolution, for INIT to go on from.
     value("encoder") = static_cast<std::int32_t>(axis_.quota.bits(axis_.settings.resolution));

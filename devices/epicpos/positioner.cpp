@@ -11,11 +11,6 @@ namespace {
 constexpr int cpu_slot = 1;                  // its counters have no wires: a device moves them
 constexpr std::int64_t ratio_bits = 400000;  // cntratio counts 1/100000 Um a pulse, a pulse is 4 bits
 
-bool same_ramps(const axis::Demand& a, const axis::Demand& b) {
-  return a.seconds_per_speed_up == b.seconds_per_speed_up &&
-         a.seconds_per_speed_down == b.seconds_per_speed_down;
-}
-
 }  // namespace
 
 std::unique_ptr<Device> make_epicpos(const Resources& resources, Cards& cards) {
@@ -63,6 +58,7 @@ bool Positioner::may_write(Symbol symbol, std::int32_t new_value) {
 void Positioner::written(Symbol symbol, std::int32_t new_value) {
   const VariableRow variable{symbol.index};
   const bool changed = value(variable) != new_value;
+  const axis::Demand before = demanded();
   value(variable) = new_value;
   check_dependent_range(variable);
   if (variable == "posit") {
@@ -71,10 +67,9 @@ void Positioner::written(Symbol symbol, std::int32_t new_value) {
     return;
   }
   if (!changed) return;
-  const axis::Demand ramps = axis_.settings.ramps;
   recompute();
   if (variable == "cntratio") check_ratio();
-  write_motion(variable, variable == "setvel" || !same_ramps(ramps, axis_.settings.ramps));
+  write_motion(variable, before);
 }
 
 /// What the ratio acts as, if not as itself.

@@ -73,6 +73,43 @@ TEST_F(Camming4Motion, WhatTheRunningMovementCannotTakeIsSaid) {
   says("+1", {"posit: the running movement cannot reach its quota any more and stops"});
 }
 
+TEST_F(Camming4Motion, ATimeThatWasRefusedActsNowhere) {
+  // 000 1.9.3: in motion only if the quota can be reached. In use: 0.1 s and 250 Um to stop.
+  const std::vector<std::string> kept = {
+      "tdec: kept for the next movement, the running one cannot take it any more"};
+  does("maxpos=4000 INIT LOOPON MANFW +350 forget");  // about 3250 Um
+  says("tdec=999 +1", kept);
+  EXPECT_EQ(duration("STOP"), 50);
+  shows("posit<4000");
+  does("posit=0 tdec=100 setpos=4000 START +350 forget");
+  says("tdec=999 +1", kept);
+  after("setvel=2500 +60", "ffwdreg=1638 silent");
+  after("until:still +200", "posit=4000~1 toll silent");
+}
+
+TEST_F(Camming4Motion, AShortPlacementMadeLongInItsRampGoesAtSetvel) {
+  after("ramptype=1 rtype=1 INIT LOOPON setpos=50 START +9 setpos=4000 +200", "vconst ffwdreg=3277");
+  after("until:still +200", "posit=4000~1 toll");
+}
+
+TEST_F(Camming4Motion, LoopOnGoesOnToTheQuota) {
+  // 000 1.1.6.4: without stopping the axis. With the loop open it has gone 3375 or 3787 Um where 3750 are
+  // due, and has 625 or 212 Um left where the ramp takes 250.
+  for (const int ramptype : {0, 1})
+    for (const int feedfw : {900, 1010}) {
+      SCOPED_TRACE(testing::Message() << ramptype << ' ' << feedfw);
+      does("power INIT posit=0 sample forget");
+      set({{"ramptype", ramptype}, {"feedfw", feedfw}});
+      after("setpos=4000 START until:dec +1 LOOPON until:still +300", "posit=4000~1 toll silent");
+    }
+}
+
+TEST_F(Camming4Motion, LoopOnBeyondTheQuotaStopsAndIsTold) {
+  does("feedfw=1100 toll=500 INIT setpos=4000 START until:dec forget");  // at 4125 Um
+  says("LOOPON", {"LOOPON: the running movement cannot reach its quota any more and stops"});
+  after("until:still:51 +300", "posit=4375~15 toll");  // 250 Um on
+}
+
 TEST_F(Camming4Motion, AnOpenLoopStartsWhereTheAxisStands) {
   // 000 1.1.11: moved by hand, posit 0, minpos 0, maxpos the stroke, START without the position loop.
   after("INIT count+=300 +2 posit=0 minpos=0 maxpos=1000 setpos=1000 START until:still", "posit=1000~2");

@@ -15,6 +15,9 @@ class EpicposChange : public PositionerTest {
     does("START");
     ticks(periods - 1);
   }
+  static std::string kept(const std::string& name) {
+    return name + ": kept for the next movement, the running one cannot take it any more";
+  }
   static constexpr const char* quota_refused =
       "setpos: needs a quota that the running placement can still reach without turning";
   static constexpr const char* posit_refused =
@@ -50,6 +53,69 @@ TEST_F(EpicposChange, RampTimesThatLoseTheQuotaAreKeptForLater) {
   says("sample", {"tdec: kept for the next movement, the running one cannot take it any more"});
   shows("tdec=999");
   after("until:still:200 +300", "posit=4000~1");
+}
+
+TEST_F(EpicposChange, StopFollowsTheRampInUse) {
+  // 002 1.4.2; 1.4.3: a time that loses the quota is saved but not processed.
+  begin(300);
+  says("taccdec=999 sample", {kept("taccdec")});
+  const int here = get("posit");
+  EXPECT_EQ(duration("STOP"), 50);
+  EXPECT_NEAR(get("posit"), here + 250, 12);
+}
+
+TEST_F(EpicposChange, AManualMovementStopsBeforeItsLimitWhateverTimeWasRefused) {
+  does("maxpos=3000 INIT LOOPON MANFW +250");  // about 2250 Um
+  says("taccdec=999 sample", {kept("taccdec")});
+  EXPECT_EQ(duration("STOP"), 50);
+  shows("posit<3000");
+}
+
+TEST_F(EpicposChange, ATimeThatWasRefusedKeepsNothingElseOut) {
+  does("rampmode=1 tacc=100 tdec=100");
+  begin(300);
+  says("tdec=999 sample", {kept("tdec")});
+  after("setvel=2500 +60", "speed=2500~1 silent");
+  after("tacc=200 setvel=5000 +25", "speed=3750~15 silent");  // the middle of 0.1 s
+  after("setpos=4300 until:still +300", "posit=4300~1 toll silent");
+}
+
+TEST_F(EpicposChange, ATimeIsRefusedInTheRampThatItWouldFollow) {
+  begin(25, 1500);                                // 250 Um up, 1000 at speed, 250 down
+  says("taccdec=600 sample", {kept("taccdec")});  // 1500 Um to stop
+  after("setpos=1700 setvel=2500 +24", "speed=5000~10 silent");
+  after("+60", "speed=2500~1");
+  after("until:still +300", "posit=1700~1 toll silent");
+}
+
+TEST_F(EpicposChange, OfWhatIsWrittenTogetherInARampTheRestIsTaken) {
+  begin(25, 1500);
+  says("taccdec=600 setvel=2500 sample", {kept("taccdec")});
+  after("+84", "speed=2500~1");
+  after("until:still +300", "posit=1500~1 toll");
+}
+
+TEST_F(EpicposChange, AShortPlacementMadeLongInItsRampGoesAtSetvel) {
+  for (const int rtype : {0, 1}) {
+    does("power posit=0 sample");
+    write("rtype", rtype);
+    begin(10, 50);  // a peak of 500 or of 1581 Um/s
+    after("setpos=4000 +200", "speed=5000~1");
+    after("until:still +300", "posit=4000~1 toll silent");
+  }
+}
+
+TEST_F(EpicposChange, AManualMovementCountedBackInItsRampGoesAtSetvel) {
+  // The endless movement of 002 1.3.2, begun just before its limit.
+  does("rtype=1 maxpos=4000 posit=3950 INIT LOOPON MANFW +9");
+  after("posit=0 +200", "speed=5000~1");
+  after("until:still +300", "posit=4000~1");
+}
+
+TEST_F(EpicposChange, APresetSearchTakesNewTimesAndNoSpeed) {
+  does("INIT LOOPON PRESET +100 taccdec=50 setvel=9000");
+  after("+60", "speed=5000~1 setvel=5000 silent");  // prsvel
+  EXPECT_EQ(duration("STOP"), 25);
 }
 
 TEST_F(EpicposChange, ParametersThatDoNotCountChangeNothing) {
