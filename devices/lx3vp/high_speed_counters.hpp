@@ -7,8 +7,9 @@
 namespace drycut::devices::lx3vp {
 
 /// The counters C235..C255, and C200..C234 where they are wired, which count the pulses of their terminals by
-/// themselves. Those up to C245 count every pulse in the direction of M8200..M8245 (on = down); C246..C255 count both ways and show the direction in
-/// M8246..M8255. A pulse is one period of an encoder, four edges, as with an FX.
+/// themselves. Those up to C245 count every pulse in the direction of M8200..M8245 (on = down); C246..C255
+/// count both ways and show the direction in M8246..M8255. A pulse is one period of an encoder, four edges,
+/// as with an FX.
 class HighSpeedCounters {
  public:
   /// As in `Instructions`.

@@ -76,8 +76,8 @@ class Instructions {
   /// DPLSV, DDRVI, DDRVA, PLSY or ZRN: `powered` is the power flow into it.
   virtual void pulses(int step, const PulseOrder& order, bool powered) = 0;
 
-  /// OUT of a high-speed counter: counts the pulses of its terminals while powered; the contact is on from `preset` on.
-  /// Register and contact are the controller's work then; RST C sets both back in the registers.
+  /// OUT of a high-speed counter: counts the pulses of its terminals while powered; the contact is on from
+  /// `preset` on. Register and contact are the controller's work then; RST C sets both back in the registers.
   virtual void high_speed_counter(int number, std::int32_t preset, bool powered) = 0;
 
   /// An error of an instruction while it runs (M8067, D8067, D8069 = step); the scan goes on behind it.

@@ -27,10 +27,10 @@ namespace drycut::devices::lx3vp {
 /// pulse outputs and the high-speed counters, which work every 100 us.
 ///
 /// Terminals: X and Y of the base unit, C235..C255 and, where wired, C200..C234 as the high-speed counters,
-/// Y0..Y3 for pulses too. Inputs are taken into the registers at the start of a scan, outputs given at its end, which with `step_ns` comes
-/// as late as its instructions take, and the next scan after it; DECAM's start signal, its
-/// direction and its synchronous output go by the tick. An instruction that fails is told once and skipped. A
-/// scan that works too long (6105) stops program and outputs until the next power-up.
+/// Y0..Y3 for pulses too. Inputs are taken into the registers at the start of a scan, outputs given at its
+/// end, which with `step_ns` comes as late as its instructions take, and the next scan after it; DECAM's
+/// start signal, its direction and its synchronous output go by the tick. An instruction that fails is told
+/// once and skipped. A scan that works too long (6105) stops program and outputs until the next power-up.
 class Lx3vpController : public Controller, private Instructions {
  public:
   /// `program` is free of problems; `scan_ns` > 0; `step_ns` >= 0: what an instruction takes, or a word that

@@ -81,8 +81,8 @@ struct Registers {
   std::array<std::uint16_t, index_registers> v{};  ///< V0..V7; of a 32-bit index the upper word
   std::array<std::uint16_t, index_registers> z{};  ///< Z0..Z7
   std::int64_t time_ns = 0;  ///< since power-up, at the start of the scan: what timers run by
-  /// Counters that count pulses of terminals by themselves: C235..C255, and of C200..C234 those that are wired
-  /// (003 4.1.3 takes C231).
+  /// Counters that count pulses of terminals by themselves: C235..C255, and of C200..C234 those that are
+  /// wired (003 4.1.3 takes C231).
   std::bitset<counters> counts_pulses = ~std::bitset<counters>() << first_high_speed_counter;
   /// Words of D that a program, a file or a scenario has written, be it 0 (003 5: the others have their
   /// initial values).

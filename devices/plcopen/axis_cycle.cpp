@@ -214,11 +214,10 @@ void Axis::follow(const AxisMotion& master, double dt) {
     const char* limit = speed ? "dynamik.vb_max" : "dynamik.a_max";
     if ((speed ? parameters_.v_max_slave : parameters_.a_max_slave) > 0)
       limit = speed ? "cam_gear.v_max_slave" : "cam_gear.a_max_slave";
-    remarks_.push_back(
-        {"warning", fmt::format("{} asks for more than {} {} allows: the slave lags",
-                                coupling_->cam() != nullptr ? "the cam" : "the gear", limit,
-                                speed ? limits.velocity / increments_per_speed
-                                      : limits.acceleration / increments_per_acceleration)});
+    remarks_.push_back({"warning", fmt::format("{} asks for more than {} {} allows: the slave lags",
+                                               coupling_->cam() != nullptr ? "the cam" : "the gear", limit,
+                                               speed ? limits.velocity / increments_per_speed
+                                                     : limits.acceleration / increments_per_acceleration)});
   }
   if (coupling_->engaged()) done_ = true;
   if (outcome == CouplingOutcome::pass_complete) {

@@ -32,9 +32,10 @@ inline constexpr std::array readings = {
     Reading{"MC_CamOut", "Error is TRUE while ErrorID is not 0", "the vendor's page prints FALSE"},
     Reading{"MC_Phasing", "the shift is added to the running master; a slave at dynamik.vb_max lags",
             "the vendor's page gives the limits of the shift alone"},
-    Reading{"MC_Stop",
-            "holds Stopping while Execute is TRUE; a movement interrupts it, MC_Halt and couplings are refused",
-            "the vendor lets a movement interrupt it, PLCopen refuses all"},
+    Reading{
+        "MC_Stop",
+        "holds Stopping while Execute is TRUE; a movement interrupts it, MC_Halt and couplings are refused",
+        "the vendor lets a movement interrupt it, PLCopen refuses all"},
     Reading{"MC_ReadParameter", "takes PLCopen's numbers", "the vendor's block takes names"},
     Reading{"MC_WriteParameter", "takes PLCopen's numbers", "the vendor's block takes names"},
     Reading{"cam_gear.v_diff_percent",

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -215,7 +215,7 @@ void RunCache::keep(const std::string& inputs, const OutputFolder& from, const K
   }
   const auto text = json.dump(2) + "\n";
   write_file(begun / entry_file, fingerprint_of(text) + "\n" + text);
-  fs::remove_all(entry);              // a damaged one
+  fs::remove_all(entry);            // a damaged one
   fs::rename(begun, entry, error);  // unless another process has kept the same
   make_room();
 }

@@ -298,8 +298,9 @@ std::string scenario_of_session(const std::filesystem::path& file, const std::fi
   return fmt::format("# {}: a session of drycut live as a scenario\nextends: {}\nscene: {{duration: {}}}\n",
                      file.string(), scenario::yaml_text((unknown ? scenario.file : base).string()),
                      scenario::format_time(std::max(replay->reached, scenario.scene.step))) +
-         scenario::yaml_of(
-             [&](scenario::Archive& archive) { archive.list({"timeline", ""}, scenario.timeline); });
+         scenario::yaml_of([&](scenario::Archive& archive) {
+           archive.list({"timeline", ""}, scenario.timeline);
+         });
 }
 
 }  // namespace drycut::sim::live

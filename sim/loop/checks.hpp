@@ -96,12 +96,12 @@ class Checks : public Observer {
     std::deque<Slot> values;        ///< all: event values, inside statistics
     std::vector<Series> series;     ///< all: the numbers behind the statistics
     std::string unit;               ///< common to all names in the expression
-    bool windowed = false;  ///< its expression has statistics
-    Time begin = 0;         ///< always, eventually: of the present window
-    double began = 0;       ///< [s] the same, of each too
-    bool open = false;      ///< each: a cycle has begun
-    bool done = false;      ///< there are no more windows
-    int taken = 0;          ///< instants in the present window
+    bool windowed = false;          ///< its expression has statistics
+    Time begin = 0;                 ///< always, eventually: of the present window
+    double began = 0;               ///< [s] the same, of each too
+    bool open = false;              ///< each: a cycle has begun
+    bool done = false;              ///< there are no more windows
+    int taken = 0;                  ///< instants in the present window
   };
 
   /// `known`: the names that may be suggested; left as it was.

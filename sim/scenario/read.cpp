@@ -167,8 +167,8 @@ void refuse_axes_without_wires(const YamlNode& root, Findings& findings) {
   }
 }
 
-// A section whose name is nearly that of one which is not there is told and then read as that one, so that the
-// rest is judged by what was meant.
+// A section whose name is nearly that of one which is not there is told and then read as that one, so that
+// the rest is judged by what was meant.
 void take_misspelt_sections(YamlNode& root, Findings& findings) {
   for (auto& [key, value, first_line] : root.entries) {
     const auto meant = nearest(key.text, section_names());

@@ -31,8 +31,9 @@ struct Ran {
 };
 
 /// `on_the_way` comes every 2000 steps.
-Ran run(const std::string& check, const std::string& step = "1 ms",
-        const std::function<void(Simulation&)>& on_the_way = [](auto&) {}) {
+Ran run(
+    const std::string& check, const std::string& step = "1 ms",
+    const std::function<void(Simulation&)>& on_the_way = [](auto&) {}) {
   Problems problems;
   TestFolder folder;
   const auto scenario = scenario::read_scenario(folder.file("line.yaml", head + check + "\n"),

@@ -44,7 +44,8 @@ TEST(Lx3vpTables, DecamHasInitialValuesAndReadings) {
               testing::ContainsRegex("\n  thresholds beyond the table +the manual does not limit them"));
   const auto json = nlohmann::json::parse(printed("DECAM", true));
   EXPECT_EQ(json.at("readings").size(), devices::lx3vp::block_readings().size());
-  EXPECT_THAT(printed("ECAMTBX", false), testing::ContainsRegex("\n  P6 high 3 +midCAMend: word 31 of the block"));
+  EXPECT_THAT(printed("ECAMTBX", false),
+              testing::ContainsRegex("\n  P6 high 3 +midCAMend: word 31 of the block"));
   EXPECT_THAT(printed("LX3VP", false), testing::ContainsRegex("\n  STL +SET and OUT of a state"));
 }
 

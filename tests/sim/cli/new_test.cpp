@@ -60,7 +60,8 @@ struct EveryStart : NewLine, testing::WithParamInterface<Start> {
 };
 
 TEST_P(EveryStart, RunsAndPassesWhereItIs) {
-  EXPECT_THAT(out, AllOf(HasSubstr(GetParam().about), HasSubstr(" run '" + (folder / "line/line.yaml").string())));
+  EXPECT_THAT(out,
+              AllOf(HasSubstr(GetParam().about), HasSubstr(" run '" + (folder / "line/line.yaml").string())));
   CheckOptions check;
   check.files = {folder / "line/line.yaml"};
   EXPECT_EQ(captured([&] { return check_files(check); }), all_passed) << err;

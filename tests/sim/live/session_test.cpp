@@ -142,8 +142,8 @@ TEST_F(LiveSession, OfAScenarioThatKeepsValuesItBecomesNone) {
   folder.file("line.yaml",
               "scene: {step: 1 ms, duration: 1 s}\nplants: {bench: {type: bench}}\n"
               "controller: {lx3vp: {program: kept.il, retentive: kept.txt}}\n");
-  const auto session = folder.file(
-      "session.yaml", "- {scenario: line.yaml, set: [], fingerprint: 0}\n- {reached: 1 s}\n");
+  const auto session =
+      folder.file("session.yaml", "- {scenario: line.yaml, set: [], fingerprint: 0}\n- {reached: 1 s}\n");
   std::vector<std::string> notes;
   Problems problems;
   scenario_of_session(session, folder.path, notes, problems);
