@@ -178,8 +178,7 @@ TEST_P(AxisProfileShapes, ADemandThatIsRefusedLeavesTheOneInUse) {
   Profile profile;
   const Demand used = demand(2000, 100, 50, GetParam());
   profile.move(1000, used);
-  double space = 0;
-  for (int i = 0; i < 200; ++i) space += profile.step(period);       // 600 bits done
+  for (int i = 0; i < 200; ++i) profile.step(period);                // 600 bits done
   EXPECT_FALSE(profile.change(demand(2000, 100, 400, GetParam())));  // 800 bits to stop
   EXPECT_EQ(profile.demand(), used);
   EXPECT_TRUE(profile.retarget(300));
