@@ -120,7 +120,7 @@ double Camming4::master_rate() const {
 /// The master's way in a sampling, either direction, without what the last bit of the history makes of it: a
 /// sector of just a sampling time is no error in any phase of the counts [bits x4].
 double Camming4::proven_way() const {
-  const double samples = static_cast<double>(master_history_.size());
+  const auto samples = static_cast<double>(master_history_.size());
   const auto now = static_cast<double>(master_moved_);
   if (std::abs(now - static_cast<double>(master_way_) / samples) > 1) return std::abs(now);
   return std::max(std::abs(static_cast<double>(master_way_)) - 1, 0.0) / samples;

@@ -71,12 +71,12 @@ class Parser {
                                             scenario::Sign::positive, findings);
       if (time && *time <= most_advance) return Advance{*time};
     }
-    refuse("advance is a time of an hour at most", "{\"advance\": \"1 ms\"}");
+    refuse("advance is a time of an hour at most", R"({"advance": "1 ms"})");
     return {};
   }
   std::optional<decltype(Request::what)> read_until(const ordered_json& event) {
     if (event.is_string()) return UntilEvent{event.get<std::string>()};
-    refuse("until is an event's name", "{\"until\": \"cut\"}, \"\" for any");
+    refuse("until is an event's name", R"({"until": "cut"}, "" for any)");
     return {};
   }
   std::optional<decltype(Request::what)> read_pace(const ordered_json& pace) {
@@ -97,7 +97,7 @@ class Parser {
       sample.programs = message["programs"].get<bool>();
       return sample;
     }
-    refuse("programs is true or false", "{\"watch\": [], \"programs\": true}");
+    refuse("programs is true or false", R"({"watch": [], "programs": true})");
     return {};
   }
   std::optional<decltype(Request::what)> read_values(const ordered_json& message) {
