@@ -1,11 +1,13 @@
 ;-----
-; The HMI of the rotary knife, a task beside rotary_knife.mod. Registers of Modbus, unit 1:
-;   written  0     piece length [0.1 mm], from 450 mm to 3 m; acts at the next start
-;   read     0     length of the next start [0.1 mm]
-;            1     0 not homed, 1 homing, 2 ready, 3 cutting, 4 going back on top
-;            2     sector of the cam
-;            3     following error [bits x4]
-;            4     speed of the web [0.1 m/min]
+; The HMI of the rotary knife, a task beside rotary_knife.mod. Registers of Modbus, unit 1, addresses from 0:
+;   written by 6 or 16
+;       0   piece length [0.1 mm], from 450 mm to 3 m, else ignored; acts at the next start
+;   read by 3 or 4
+;       0   length of the next start [0.1 mm]
+;       1   0 not homed, 1 homing, 2 ready, 3 cutting, 4 going back on top
+;       2   sector of the cam
+;       3   following error [bits x4]
+;       4   speed of the web [0.1 m/min]
 ;-----
 hmi:mode   = 1                    ; slave
 hmi:idcard = 1

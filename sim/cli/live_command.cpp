@@ -127,11 +127,18 @@ live::Line::Options line_options(const LiveOptions& options, Problems& problems)
   return wanted;
 }
 
+void check_record(const std::filesystem::path& folder, Problems& problems) {
+  std::error_code ignored;
+  if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
+    problems.push_back({"--record", 1, 1, fmt::format("{} is a file", folder.string()), "name a folder"});
+}
+
 }  // namespace
 
 int live_scenario(const LiveOptions& options) {
   Problems problems;
   const auto wanted = line_options(options, problems);
+  check_record(options.record, problems);
   std::optional<live::Line> line;
   std::filesystem::path opcua;
   if (options.opcua) opcua = live::find_opcua_gateway(problems);
@@ -180,9 +187,7 @@ int replay_session(const ReplayOptions& options) {
   check_output("--to-scenario", options.to_scenario.string(), {session, "session"}, problems);
   std::string text;
   std::vector<std::string> notes;
-  if (problems.empty())
-    text = live::scenario_of_session(session, std::filesystem::absolute(options.to_scenario).parent_path(),
-                                     notes, problems);
+  if (problems.empty()) text = live::scenario_of_session(session, options.to_scenario, notes, problems);
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;

@@ -63,7 +63,7 @@ LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
   std::vector<std::string> told;
   machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
   if (!problems.empty()) return;
-  fingerprint_ = fingerprint_of(scenario_);
+  fingerprint_ = options.from ? replay_.fingerprint : fingerprint_of(scenario_);
   simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
   if (!problems.empty()) return;
   simulation_->keep_nothing();

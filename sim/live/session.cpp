@@ -262,7 +262,8 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
         (std::filesystem::absolute(file).parent_path() / retentive_copy).string();
     scenario.controller->retains = false;
   }
-  if (fingerprint_of(scenario) != session->fingerprint)
+  replay.fingerprint = fingerprint_of(scenario);
+  if (replay.fingerprint != session->fingerprint)
     notes.push_back(
         fmt::format("{} or one of its files is not what it was in the session: this run may differ",
                     session->scenario.string()));
@@ -278,11 +279,19 @@ std::optional<Replay> read_session(const std::filesystem::path& file, std::optio
   return replay;
 }
 
-std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& folder,
+std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& to,
                                 std::vector<std::string>& notes, Problems& problems) {
   auto replay = read_session(file, {}, notes, problems);
   if (!replay) return "";
   auto& scenario = replay->scenario;
+  std::error_code unknown;
+  for (const auto& source : scenario.sources) {
+    if (std::filesystem::weakly_canonical(source, unknown) != std::filesystem::weakly_canonical(to, unknown))
+      continue;
+    problems.push_back({to.string(), 1, 1, "the session's scenario stands there, and what is made extends it",
+                        "name another file"});
+    break;
+  }
   for (const auto& [path, value] : scenario.overrides) {
     problems.push_back({file.string(), 1, 1, fmt::format("the session ran with --set \"{}={}\"", path, value),
                         "put the value into a scenario and run the session of that one"});
@@ -293,8 +302,8 @@ std::string scenario_of_session(const std::filesystem::path& file, const std::fi
                                     "today's and change them",
                                     scenario.file.string()),
                         "drycut replay runs the session with those that it began with"});
-  std::error_code unknown;
-  const auto base = std::filesystem::proximate(scenario.file, folder, unknown);
+  const auto base =
+      std::filesystem::proximate(scenario.file, std::filesystem::absolute(to).parent_path(), unknown);
   return fmt::format("# {}: a session of drycut live as a scenario\nextends: {}\nscene: {{duration: {}}}\n",
                      file.string(), scenario::yaml_text((unknown ? scenario.file : base).string()),
                      scenario::format_time(std::max(replay->reached, scenario.scene.step))) +

@@ -59,8 +59,9 @@ class SessionFile {
 
 /// A session to be run again: simulated to `reached`, it is what the live line was.
 struct Replay {
-  scenario::Scenario scenario;  ///< the acts are the end of its timeline
-  std::size_t acts = 0;         ///< so many
+  scenario::Scenario scenario;    ///< the acts are the end of its timeline
+  std::size_t acts = 0;           ///< so many
+  std::uint64_t fingerprint = 0;  ///< of the scenario and its files without the acts
   Time reached = 0;
 };
 
@@ -69,9 +70,10 @@ struct Replay {
 std::optional<Replay> read_session(const std::filesystem::path& file, std::optional<Time> until,
                                    std::vector<std::string>& notes, Problems& problems);
 
-/// The same as a scenario of its own: extends, duration and the whole timeline, for a file in `folder`. A
-/// problem if an override of the session, or retentive values that it began with, have no place there.
-std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& folder,
+/// The same as a scenario of its own: extends, duration and the whole timeline, to be written to the file
+/// `to`. A problem if an override of the session, or retentive values that it began with, have no place
+/// there, or if `to` is one of the scenario's own files.
+std::string scenario_of_session(const std::filesystem::path& file, const std::filesystem::path& to,
                                 std::vector<std::string>& notes, Problems& problems);
 
 }  // namespace drycut::sim::live
