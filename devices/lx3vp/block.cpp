@@ -106,10 +106,8 @@ constexpr Reading readings_of_blocks[] = {
     {"words 19 and 21", "printed as unsigned; a slave that runs backwards needs them signed"},
     {"word 31",
      "reserved in print; midCAMend stops by itself, and the print does not say how DECAM knows: by this "
-     "word, "
-     "as if word 4 bit 1 were on, whatever the program writes there. A program that makes rows of its own "
-     "where "
-     "ECAMTBX had made such a table writes 0"},
+     "word, as if word 4 bit 1 were on, whatever the program writes there. A program that makes rows of its "
+     "own where ECAMTBX had made such a table writes 0"},
     {"words 19 and 27",
      "pulses and counts since the start, words 21 and 25 positions of the table: with a table that begins at "
      "(0, 0) and without zoom they are the same; function bit 6 goes on from the former"},

@@ -63,7 +63,7 @@ LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
   std::vector<std::string> told;
   machine_ = machine_of(read(options, told, problems).scenario, parts_, problems);
   if (!problems.empty()) return;
-  fingerprint_ = options.from ? replay_.fingerprint : fingerprint_of(scenario_);
+  if (!options.from) replay_.fingerprint = fingerprint_of(scenario_);
   simulation_ = std::make_unique<loop::Simulation>(scenario_, problems);
   if (!problems.empty()) return;
   simulation_->keep_nothing();
@@ -93,7 +93,7 @@ void LineRun::record_in(const fs::path& folder) {
     const auto next = folder / std::to_string(number);
     if (fs::create_directory(next)) record_ = next;
   }
-  session_.emplace(record_ / session_file, scenario_, fingerprint_);
+  session_.emplace(record_ / session_file, scenario_, replay_.fingerprint);
   const auto& timeline = scenario_.timeline;
   for (auto act = timeline.end() - static_cast<std::ptrdiff_t>(replay_.acts); act != timeline.end(); ++act)
     session_->add(*act);

@@ -70,7 +70,6 @@ class LineRun : public loop::Observer {
   std::vector<std::string> notes_;
   scenario::Scenario& scenario_ = replay_.scenario;
   int number_;
-  std::uint64_t fingerprint_ = 0;
   std::vector<std::string> parts_;
   std::string machine_;
   std::unique_ptr<loop::Simulation> simulation_;

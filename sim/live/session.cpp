@@ -285,13 +285,12 @@ std::string scenario_of_session(const std::filesystem::path& file, const std::fi
   if (!replay) return "";
   auto& scenario = replay->scenario;
   std::error_code unknown;
-  for (const auto& source : scenario.sources) {
-    if (std::filesystem::weakly_canonical(source, unknown) != std::filesystem::weakly_canonical(to, unknown))
-      continue;
+  const auto place = std::filesystem::weakly_canonical(to, unknown);
+  if (std::ranges::any_of(scenario.sources, [&](const auto& source) {
+        return std::filesystem::weakly_canonical(source, unknown) == place;
+      }))
     problems.push_back({to.string(), 1, 1, "the session's scenario stands there, and what is made extends it",
                         "name another file"});
-    break;
-  }
   for (const auto& [path, value] : scenario.overrides) {
     problems.push_back({file.string(), 1, 1, fmt::format("the session ran with --set \"{}={}\"", path, value),
                         "put the value into a scenario and run the session of that one"});

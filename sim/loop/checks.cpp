@@ -45,11 +45,11 @@ Time last_instant(const scenario::Check& check) {
   return check.until.value_or(std::numeric_limits<Time>::max());
 }
 
-// Over one window, the whole of it.
 bool looks_at_instants(const scenario::Check& check) {
   return check.kind == scenario::Check::Kind::always || check.kind == scenario::Check::Kind::eventually;
 }
 
+// Over one window, the whole of it.
 bool is_judged_once(const scenario::Check& check) {
   return check.kind == scenario::Check::Kind::always && !check.every;
 }

@@ -221,12 +221,16 @@ TEST_F(KeptRuns, AnEntryThatLeadsOutOfTheFolderIsNotUsed) {
   EXPECT_FALSE(fs::exists(folder / "out/other"));
 }
 
-TEST(RunCacheRoom, IsForThoseThatWereUsedLast) {
-  const TestFolder folder;
+/// A cache with room for two results of 10 000 bytes.
+struct RunCacheRoom : testing::Test {
+  RunCacheRoom() { std::ofstream(results.add("trace.csv")) << std::string(10'000, '1'); }
+  TestFolder folder;
   Problems problems;
-  OutputFolder results(folder / "out", "run", {}, problems);
-  std::ofstream(results.add("trace.csv")) << std::string(10'000, '1');
-  const RunCache cache(folder / "cache", problems, 25'000);
+  OutputFolder results{folder / "out", "run", {}, problems};
+  const RunCache cache{folder / "cache", problems, 25'000};
+};
+
+TEST_F(RunCacheRoom, IsForThoseThatWereUsedLast) {
   ASSERT_TRUE(problems.empty());
   OutputFolder again(folder / "again", "run", {}, problems);
   const auto is_kept = [&](const std::string& inputs) { return cache.take(inputs, again).has_value(); };
@@ -248,12 +252,7 @@ TEST(RunCacheRoom, IsForThoseThatWereUsedLast) {
 }
 
 // What a killed process began counts and goes like the rest; what is not ours stays.
-TEST(RunCacheRoom, IsTakenBackFromWhatWasBegunOnly) {
-  const TestFolder folder;
-  Problems problems;
-  OutputFolder results(folder / "out", "run", {}, problems);
-  std::ofstream(results.add("trace.csv")) << std::string(10'000, '1');
-  const RunCache cache(folder / "cache", problems, 25'000);
+TEST_F(RunCacheRoom, IsTakenBackFromWhatWasBegunOnly) {
   for (const auto* name : {"0123456789abcdef.4711", "0123456789abcdef", "notes.4711"}) {
     fs::create_directories(folder / "cache" / name);
     std::ofstream(folder / "cache" / name / "trace.csv") << std::string(20'000, '1');
