@@ -201,8 +201,8 @@ void write_video(Page& page, const Report& report) {
   page += fmt::format(
       "<figure class=\"film\"><video aria-label=\"Film of the run\" controls loop muted playsinline "
       "preload=\"auto\"{} "
-      "src=\"data:video/mp4;base64,{}\"></video><figcaption>{}</figcaption></figure>\n",
-      poster, base64(bytes), html_text(report.video.filename().string()));
+      "src=\"data:video/mp4;base64,{}\"></video></figure>\n",
+      poster, base64(bytes));
 }
 
 void write_frames(Page& page, const Report& report) {
@@ -227,11 +227,10 @@ void write_figures(Page& page, const Report& report, const std::vector<ReportFig
     const std::size_t data = first + i;
     const bool live = data < report.live.size() && can_be_live(report.live[data]);
     const bool narrow = data < report.live.size() && report.live[data].width <= narrowest_alone;
-    page += fmt::format(
-        "<figure class=\"plot{}\"{}><div class=\"ground\">{}</div>{}</figure>\n", narrow ? " narrow" : "",
-        live ? fmt::format(" data-plot=\"{}\"", data) : "",
-        picture(plots[i], data < report.live.size() ? plot_words(report.live[data]) : plots[i].caption),
-        caption(plots[i]));
+    page += fmt::format("<figure class=\"plot{}\"{}><div class=\"ground\">{}</div>{}</figure>\n",
+                        narrow ? " narrow" : "", live ? fmt::format(" data-plot=\"{}\"", data) : "",
+                        picture(plots[i], plots[i].words.empty() ? plots[i].caption : plots[i].words),
+                        caption(plots[i]));
   }
 }
 
@@ -239,10 +238,13 @@ void write_figures(Page& page, const Report& report, const std::vector<ReportFig
 void write_plots(Page& page, const Report& report) {
   if (report.plots.empty() && !report.view) return;
   page.heading("Measured");
-  if (report.view) page += "<div class=\"beside\">\n";
-  if (report.view) page += view_figure(*report.view) + "<div>\n";
+  for (const std::string& unit : report.units)
+    page += fmt::format("<p class=\"remark\">{}</p>\n", html_text(unit));
+  // The machine stays at the top as far as the box around it goes.
+  page += "<div>\n";
+  if (report.view) page += view_figure(*report.view);
   write_figures(page, report, report.plots, 0);
-  if (report.view) page += "</div>\n</div>\n";
+  page += "</div>\n";
 }
 
 /// "PASS 0.05 mm left\n10 cuts": the badge, the rest, and the second line small.

@@ -44,7 +44,8 @@ std::string rows_text(const ReportTable& table, std::size_t width);
 
 struct ReportFigure {
   std::filesystem::path png;
-  std::string caption;
+  std::string caption;     ///< below it; "" = none
+  std::string words = {};  ///< what it shows, for who cannot see it
 };
 
 /// A part of the page about one thing: what to know, plots, tables; what is folded stays with it.
@@ -78,7 +79,8 @@ struct Report {
   std::vector<ReportFigure> frames;      ///< chosen frames, shown as a strip
   std::filesystem::path video;           ///< MP4 of all frames, "" = none
   std::filesystem::path poster = {};     ///< PNG that stands for it until it plays, as large
-  std::optional<MachineView> view = {};  ///< stands beside the plots and shows the time of their cursor
+  std::optional<MachineView> view = {};  ///< stands above the plots and shows the time of their cursor
+  std::vector<std::string> units = {};   ///< the device's own units, explained where the plots begin
   std::vector<ReportFigure> plots;
   std::vector<ReportSection> sections = {};  ///< behind the plots
   /// The plots as data, one a figure in `plots` and then in `sections`, for a browser to zoom; or none.

@@ -334,8 +334,7 @@
     plot.panels.forEach((panel, index) => self.addPanel(panel, index, narrow));
     this.busy = false;
     this.paint();
-    element(this.box, "p", "live-hint", plot.xLabel + " \u00b7 drag: zoom \u00b7 shift and drag: move \u00b7 " +
-            "two fingers: zoom and move \u00b7 double click: whole range \u00b7 keys: \u2190 \u2192 + \u2212 Home");
+    element(this.box, "p", "live-hint", plot.xLabel);
     figure.classList.add("is-live");
   }
 
@@ -553,6 +552,10 @@
 
   const figures = document.querySelectorAll("figure.plot[data-plot]"), made = [];
   figures.forEach(figure => made.push(new Plot(figure, data.plots[Number(figure.dataset.plot)])));
+  // Said once, where it is first needed.
+  if (made.length)
+    element(made[0].box, "p", "live-hint", "In every plot: drag to zoom \u00b7 shift and drag to move \u00b7 two fingers zoom and move \u00b7 " +
+            "double click for the whole range \u00b7 keys \u2190 \u2192 + \u2212 Home");
   dark.addEventListener("change", () => made.forEach(plot => plot.paint()));
   window.drycutPlots = made;
   window.drycutPoint = pointAt;

@@ -38,7 +38,6 @@
     make(pace, "option", "", { value, textContent: text, selected: value === 1 });
   figure.append(caption);
   figure.hidden = false;
-  figure.parentElement.classList.add("with-view");
 
   // ---- unpacking ----
   async function unpacked(source) {

@@ -90,7 +90,7 @@ void draw_torque_over_speed(const loop::DriveVerdict& drive, renders::Curve poin
 
 renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts) {
   renders::ReportTable table{
-      "Drives and their ratings", {"drive", "", "is", "may be", "used"}, {}, false, true};
+      "Drives and their ratings", {"drive", "", "value", "limit", "used"}, {}, false, true};
   for (const auto& verdict : verdicts) {
     auto name = verdict.drive + "\n" + verdict.cycles;
     for (const auto& figure : verdict.figures) {

@@ -137,6 +137,18 @@ renders::ReportTable controller_table(loop::Simulation& simulation) {
 
 std::string units_note(double simulated) { return fmt::format("{:g} s", simulated); }
 
+/// The units of the device in which something was recorded, explained.
+std::vector<std::string> units_explained(const loop::Recording& recording) {
+  std::vector<std::string> lines;
+  for (const auto& [unit, meaning] : unit_meaning_rows) {
+    const auto& columns = recording.columns();
+    if (std::any_of(columns.begin(), columns.end(),
+                    [&](const auto& column) { return column.unit.starts_with(unit); }))
+      lines.push_back(fmt::format("{}: {}.", unit, meaning));
+  }
+  return lines;
+}
+
 MachineFacts facts_of(const loop::Simulation& simulation, const loop::Outcome& outcome) {
   MachineFacts facts{outcome.drives, {}};
   for (const auto& [name, plant] : simulation.plants())
@@ -156,7 +168,7 @@ std::vector<std::string> lines_in(const loop::Simulation& simulation) {
   return lines;
 }
 
-constexpr std::size_t report_frames = 6;
+constexpr std::size_t fewest_frames = 3, most_frames = 6;  // of a report
 constexpr std::size_t strip_frames = 8;
 
 std::vector<double> times_of(const std::vector<loop::Snapshot>& shots) {
@@ -213,9 +225,14 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
     report.summary.push_back(std::move(drives));
   if (outcome.half_step) report.summary.push_back(studies::margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
-    for (const auto& chosen : frames_to_show(simulation, outcome, report_frames))
+    // Frames between moments that have a name look alike; around an event each of them counts.
+    const auto wanted = simulation.frames_event() ? most_frames
+                                                  : std::clamp(moments_in_film(simulation, outcome).size(),
+                                                               fewest_frames, most_frames);
+    for (const auto& chosen : frames_to_show(simulation, outcome, wanted))
       report.frames.push_back({drawn.frames.at(chosen.frame), frame_label(simulation, chosen)});
   }
+  report.units = units_explained(simulation.recording());
   report.video = drawn.video;
   report.poster = drawn.poster;
   for (const auto& known : simulation.known_events()) {

@@ -75,11 +75,13 @@ renders::ReportKey value_key(const loop::Tolerance& tolerance, const EventNumber
   if (count < enough)
     key.notes.push_back(fmt::format("of {}, too few for a Cpk", counted(count, "value")));
   else
-    key.notes.push_back(
-        !found ? fmt::format("no spread in {} values, so no Cpk", count)
-               : fmt::format("Cpk {}, of {} values",
-                             found->cpk > 100 ? std::string("above 100") : fmt::format("{:.2f}", found->cpk),
-                             count));
+    key.notes.push_back(!found ? fmt::format("no spread in {} values, so no Cpk", count)
+                               : fmt::format("Cpk {}, of {} values",
+                                             found->cpk > 100 ? std::string("above 100")
+                                             : found->cpk < 0
+                                                 ? std::string("below 0: their mean is beyond a limit")
+                                                 : fmt::format("{:.2f}", found->cpk),
+                                             count));
   return key;
 }
 
@@ -98,12 +100,12 @@ void add_pieces(const loop::Recording& recording, const std::vector<loop::KnownE
   for (const auto& [name, series] : all) {
     renders::ReportKey key{
         all.size() == 1 ? "pieces" : "pieces of " + name, fmt::format("{}", series.numbers.size()), {}, {}};
-    // How fast they come at last, over ten gaps.
+    // How fast they come at the end, over ten gaps.
     const auto& times = series.times;
     const auto gaps = std::min<std::size_t>(times.size() - 1, 10);
     if (gaps > 0 && times.back() > times[times.size() - 1 - gaps])
       key.notes.push_back(
-          fmt::format("{:.4g} a minute at last",
+          fmt::format("{:.4g} per minute at the end",
                       60 * static_cast<double>(gaps) / (times.back() - times[times.size() - 1 - gaps])));
     keys.push_back(std::move(key));
   }
@@ -156,12 +158,12 @@ void add_drives(const loop::Outcome& outcome, std::vector<renders::ReportKey>& k
   for (const auto* drive : drives) {
     for (const auto& figure : drive->figures) {
       if (figure.name != "rms torque" && figure.name != "peak torque") continue;
-      keys.push_back({fmt::format("{} of {}", figure.name, drive->drive),
-                      fmt::format("{:.3g} {}", figure.value, figure.unit),
-                      {fmt::format("may be {:.4g} {}{}", figure.rating, figure.unit,
-                                   figure.judged ? "" : "; not judged"),
-                       drive->cycles},
-                      figure.share});
+      keys.push_back(
+          {fmt::format("{} of {}", figure.name, drive->drive),
+           fmt::format("{:.3g} {}", figure.value, figure.unit),
+           {fmt::format("limit {:.4g} {}{}", figure.rating, figure.unit, figure.judged ? "" : "; not judged"),
+            drive->cycles},
+           figure.share});
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "renders/report_data.hpp"
 #include "sim/report/results.hpp"
 
 namespace drycut::sim::report {
@@ -27,8 +28,9 @@ void add_plots(std::vector<renders::Plot> plots, OutputFolder& folder, renders::
     while (!taken.insert(plot.name).second) plot.name += '_';
     names.push_back(plot.name + ".png");
   }
-  for (const auto& png : renders::draw_plots(plots, folder.add(plots_folder, names)))
-    report.plots.push_back({png, fmt::format("{}/{}", plots_folder, png.filename().string())});
+  const auto pictures = renders::draw_plots(plots, folder.add(plots_folder, names));
+  for (std::size_t i = 0; i < plots.size(); ++i)
+    report.plots.push_back({pictures[i], "", renders::plot_words(plots[i])});
   report.live = std::move(plots);
 }
 

@@ -34,6 +34,16 @@ inline constexpr std::array shown_unit_rows = {
     ShownUnitRow{"1/100 s", "s", 0.01},
 };
 
+/// What a reader who does not know the controller must be told of a unit that stays as the device has it.
+struct UnitMeaningRow {
+  std::string_view unit;  ///< also as part of another: "Um/s", "bits x4/s"
+  std::string_view meaning;
+};
+inline constexpr std::array unit_meaning_rows = {
+    UnitMeaningRow{"bits x4", "counts of the encoder, four for each of its lines"},
+    UnitMeaningRow{"Um", "the axis' own unit of measurement, as its parameters measure and pulse define it"},
+};
+
 inline ShownUnit shown_unit(std::string_view unit) {
   for (const auto& row : shown_unit_rows)
     if (row.unit == unit) return {std::string(row.shown), row.factor};

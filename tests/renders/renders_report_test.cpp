@@ -8,6 +8,7 @@
 
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
+#include "renders/report_data.hpp"
 #include "tests/renders/renders_scratch.hpp"
 
 namespace drycut::renders {
@@ -177,7 +178,7 @@ TEST(RendersReport, APictureSaysInWordsWhatItShows) {
   plot.x_label = "time [s]";
   plot.panels = {{"", "speed [m/min]", {{"web", {0, 1}, {1, 2}}, {"knife", {0, 1}, {1, 2}}}, {}, {}}, {}};
   plot.panels[1].lanes = {{"busy", {0, 1}, {0, 1}}};
-  report.live = {plot};
+  report.plots[0].words = plot_words(plot);
   const std::string page = written(report, scratch);
   EXPECT_THAT(page, HasSubstr("alt=\"Motion: speed [m/min] of web, knife; busy over time [s]\""));
   EXPECT_THAT(page, HasSubstr("alt=\"The machine, f0.png caption\""));

@@ -65,7 +65,7 @@ TEST(KeyFigures, PiecesWithMeanSpreadWorstAndCpk) {
   lengths[2] = 800;
   const auto recording = cuts_of(lengths);
   const auto keys = key_figures(recording, known, {}, limited({{"cut", "length", 799.9, 800.1, 1.2, open}}));
-  EXPECT_THAT(told(keys), ElementsAre("pieces: 11; 120 a minute at last",
+  EXPECT_THAT(told(keys), ElementsAre("pieces: 11; 120 per minute at the end",
                                       "length of cut: 800.000 ± 0.015 mm [30]; worst 800.030 mm: no. 5, at "
                                       "3.000 s; Cpk 2.24, of 10 values"));
 }
@@ -74,7 +74,7 @@ TEST(KeyFigures, OfFewValuesThereIsNoCpk) {
   const auto recording = cuts_of({800, 800.2, 799.9});
   EXPECT_THAT(
       told(key_figures(recording, known, {}, limited({{"knife.cut", "length", 799.9, 800.1, 0, 1.7}}))),
-      ElementsAre("pieces: 3; 120 a minute at last",
+      ElementsAre("pieces: 3; 120 per minute at the end",
                   "length of knife.cut: 800.100 ± 0.141 mm [200]; worst 800.200 mm: no. 2, at 1.500 s; of 2 "
                   "values, too few for a Cpk"));
 }
@@ -86,7 +86,7 @@ TEST(KeyFigures, OneSidedLimitsAndNoSpread) {
                                               {"cut", "length", 400, open, 0, open},
                                               {"cut", "length", 1, 2, 0, open},
                                               {"cut", "length", 1, 2, 100, open}})));
-  EXPECT_THAT(keys, ElementsAre("pieces: 12; 120 a minute at last",
+  EXPECT_THAT(keys, ElementsAre("pieces: 12; 120 per minute at the end",
                                 "mismatch of cut: 5.0 ± 0.0 mm/s [50]; worst 5.0 mm/s: no. 1, at 1.000 s; "
                                 "no spread in 12 values, so no Cpk",
                                 "length of cut: 800 ± 0 mm [50]; worst 800 mm: no. 1, at 1.000 s; no spread "
@@ -116,8 +116,8 @@ TEST(KeyFigures, SpeedsDrivesAndTheNearestCheck) {
   EXPECT_THAT(
       told(key_figures(recording, {}, {"web", "other"}, outcome)),
       ElementsAre("highest web speed: 60 m/min; lowest 0",
-                  "rms torque of knife.servo: 2.04 N m [21]; may be 9.5 N m; 10 cycles from cut to cut",
-                  "peak torque of knife.servo: 30 N m [105]; may be 28.6 N m; not judged; "
+                  "rms torque of knife.servo: 2.04 N m [21]; limit 9.5 N m; 10 cycles from cut to cut",
+                  "peak torque of knife.servo: 30 N m [105]; limit 28.6 N m; not judged; "
                   "10 cycles from cut to cut",
                   "farthest beyond its limit: failed [200]"));
   outcome.checks.pop_back();

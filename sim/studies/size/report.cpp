@@ -10,6 +10,7 @@
 
 #include "base/text.hpp"
 #include "base/units.hpp"
+#include "renders/report_data.hpp"
 #include "sim/report/drives.hpp"
 #include "sim/report/report.hpp"
 
@@ -314,8 +315,9 @@ void write_size_report(const PointQuestion& question, const SizeChoices& choices
   if (!small.empty()) {
     std::vector<std::string> names;
     for (const auto& plot : small) names.push_back(plot.name + ".png");
-    for (const auto& png : renders::draw_plots(small, folder.add(report::plots_folder, names)))
-      section.plots.push_back({png, fmt::format("{}/{}", report::plots_folder, png.filename().string())});
+    const auto pictures = renders::draw_plots(small, folder.add(report::plots_folder, names));
+    for (std::size_t i = 0; i < small.size(); ++i)
+      section.plots.push_back({pictures[i], "", renders::plot_words(small[i])});
     report.sections.push_back(std::move(section));
     for (auto& plot : small) report.live.push_back(std::move(plot));
   }
