@@ -78,7 +78,7 @@ Parameters supply_parameters(SupplyData& data) {
           "estimate: 200 V of 283 V, 400 V of 566 V"),
       row("resistor", "ohm", "brake resistor, 0 = none", data.resistor, 0, 1e4,
           "estimate: built-in resistor of the 2 kW class"),
-      row("resistor_power", "W", "that the brake resistor bears for ever", data.resistor_power, 0.1, 1e6,
+      row("resistor_power", "W", "continuous power of the brake resistor", data.resistor_power, 0.1, 1e6,
           "estimate: built-in resistor of the 2 kW class"),
       row("resistor_time_constant", "s", "thermal time constant of the brake resistor",
           data.resistor_time_constant, 0.1, 1e5, "estimate"),

@@ -250,7 +250,7 @@ std::vector<PlantDefinition::Objection> power_objections(const std::string& grou
 Parameters amplifier_parameters(AmplifierData& data, std::string_view source) {
   return {
       row("amplifier_current", "A",
-          "rms current that the amplifier bears for ever, 0 = what the motor's continuous torque takes",
+          "continuous rms current of the amplifier, 0 = what the motor's continuous torque takes",
           data.current, 0, 1e4, source),
       row("amplifier_peak_current", "A", "its largest rms current, 0 = what the motor's peak torque takes",
           data.peak_current, 0, 1e5, source),

@@ -12,7 +12,7 @@ Parameters station_parameters(StationData& data) {
           "the first one"),
       row("scrap.shorter", "mm", "a shorter piece that it cuts off drops out; 0: none", data.scrap_shorter, 0,
           100000, "nothing drops out"),
-      row("scrap.every", "every so-manieth piece that it cuts off drops out; 0: none", data.scrap_every, 0,
+      row("scrap.every", "every n-th piece is dropped; 0 = none", data.scrap_every, 0,
           1000, "nothing drops out"),
   };
 }

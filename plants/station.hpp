@@ -11,7 +11,7 @@ namespace drycut::plants {
 struct StationData {
   double place = 0;          ///< behind the first cut of the web, x = 0 [m]
   double scrap_shorter = 0;  ///< a shorter piece that it cuts off drops out [m]; 0 = none
-  int scrap_every = 0;       ///< every so-manieth one does; 0 = none
+  int scrap_every = 0;       ///< every n-th piece is dropped; 0 = none
 
   [[nodiscard]] bool drops() const { return scrap_shorter > 0 || scrap_every > 0; }
 };

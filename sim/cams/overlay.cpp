@@ -244,10 +244,10 @@ renders::Plot overlay_plot(const PlayedCam& played, const IdealCam& ideal, const
     return other_cycles(played, ideal, cycles, shown, of);
   };
   std::string silent;
-  add_error_panel(plot, "set less ideal position", ideal, pale(errors.set),
+  add_error_panel(plot, "set minus ideal position", ideal, pale(errors.set),
                   curves.of(errors.set, "this cycle"), silent);
   if (measured)
-    add_error_panel(plot, "following error, set less measured position", ideal, pale(errors.behind),
+    add_error_panel(plot, "following error, set minus measured position", ideal, pale(errors.behind),
                     curves.of(errors.behind, "this cycle"), silent);
   plot.panels.front().title += silent;
 

@@ -19,8 +19,8 @@ struct PlayedCycle {
 
 /// How far an axis was from its cam, in the ideal cam's error unit.
 struct CamErrors {
-  std::vector<double> set;  ///< set less ideal position, one a sample; not a number where there is no ideal
-  std::vector<double> behind;  ///< set less measured position; not a number where nothing measures
+  std::vector<double> set;  ///< set minus ideal position, one a sample; not a number where there is no ideal
+  std::vector<double> behind;  ///< set minus measured position; not a number where nothing measures
 };
 CamErrors errors_of(const PlayedCam& played, const IdealCam& ideal);
 

@@ -101,7 +101,7 @@ renders::ReportTable table_of(const std::string& title, const Columns& columns) 
 renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors,
                                   const std::vector<PlayedCycle>& cycles) {
   renders::ReportTable table{
-      "How near the axis was to its cam", {"difference", "largest", "root mean square", "over"}, {}, false};
+      "Cam tracking error", {"difference", "largest", "root mean square", "over"}, {}, false};
   const auto whole =
       std::count_if(cycles.begin(), cycles.end(), [](const auto& cycle) { return cycle.whole; });
   const auto add = [&](const std::string& name, const std::vector<double>& of) {
@@ -112,8 +112,8 @@ renders::ReportTable played_table(const IdealCam& ideal, const CamErrors& errors
           fmt::format("{} {}", error_text(figures.rms, ideal.error_step), ideal.error_unit),
           fmt::format("{}, {}", counted(figures.count, "sample"), counted(whole, "whole cycle"))}});
   };
-  add("set less ideal position", errors.set);
-  add("set less measured position (following error)", errors.behind);
+  add("set minus ideal position", errors.set);
+  add("set minus measured position (following error)", errors.behind);
   return table;
 }
 

@@ -17,7 +17,7 @@ struct PlayedCam {
     bool begins = false;  ///< the first one since the cam was entered
     double master = 0;
     double set = 0;     ///< where the device wanted the slave
-    double behind = 0;  ///< set less measured; not a number if nothing measures
+    double behind = 0;  ///< set minus measured; not a number if nothing measures
     double turn = 0;    ///< both are known but for whole turns of this length; 0 = they are known
   };
   std::string axis;

@@ -144,7 +144,7 @@ TEST_P(Reports, HaveAPageForTheCamItsPlotsAndItsTable) {
                          [](const char*, double) {});
   const auto report = read_file(out / "report.html", problems).value_or("");
   EXPECT_THAT(report, HasSubstr("<h2>" + title + "</h2>"));
-  EXPECT_THAT(report, HasSubstr("set less ideal position"));
+  EXPECT_THAT(report, HasSubstr("set minus ideal position"));
   const auto page = run.pages().at(0);
   EXPECT_TRUE(std::filesystem::exists(out / "plots" / ("cam_" + page.name + ".png")));
   EXPECT_TRUE(std::filesystem::exists(out / "plots" / ("cam_" + page.name + "_played.png")));

@@ -279,7 +279,7 @@ class CammingJudge {
         remark("the error stops the cam; what would come after it was not run");
         break;
       case CamRun::End::held:
-        remark("the cam waits for ever in sector 160; what would come after it was not run");
+        remark("the cam stays in sector 160 without end; what follows it was not run");
         break;
       case CamRun::End::cut_short:
         add(last - 1, Grade::caution, 0, 0, 1,

@@ -216,7 +216,7 @@ TEST(CamFindings, Warning9AQuotaAlreadyPassed) {
           "sector 2 (160 STS): warning 9: start quota of sector 160 already passed: it waits until the "
           "master has come back below it; give codeQm above the master's count at the start",
           "remark: the cam did not reach sector 3, 4",
-          "remark: the cam waits for ever in sector 160; what would come after it was not run"));
+          "remark: the cam stays in sector 160 without end; what follows it was not run"));
 }
 
 TEST(CamFindings, Warning10SofteningIsNotDone) {

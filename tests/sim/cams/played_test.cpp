@@ -226,7 +226,7 @@ TEST_F(PlayedCams, TheOverlayLaysTheErrorsBelowThePositions) {
   EXPECT_EQ(position[0].label, "ideal");
   EXPECT_NEAR(position[1].y.at(40), slave_of(200), 1e-9);
   EXPECT_NEAR(position[2].y.at(40), slave_of(200) - 0.5, 1e-9);
-  EXPECT_EQ(plot.panels[1].title, "set less ideal position: 0 bits x4 at most in this cycle");
+  EXPECT_EQ(plot.panels[1].title, "set minus ideal position: 0 bits x4 at most in this cycle");
   const auto& set = plot.panels[1].curves;
   ASSERT_EQ(set.size(), 2U);
   EXPECT_EQ(set[0].label, "2 other cycles");
@@ -234,7 +234,7 @@ TEST_F(PlayedCams, TheOverlayLaysTheErrorsBelowThePositions) {
   EXPECT_TRUE(std::is_sorted(set[0].x.begin(), set[0].x.end()));
   EXPECT_EQ(*std::max_element(set[0].y.begin(), set[0].y.end()), 4);
   EXPECT_EQ(plot.panels[2].title,
-            "following error, set less measured position: 1 bits x4 at most in this cycle");
+            "following error, set minus measured position: 1 bits x4 at most in this cycle");
   EXPECT_EQ(plot.x_label, "master in the cycle [Um]");
   ASSERT_EQ(plot.zones.size(), 3U);
   EXPECT_TRUE(plot.zones[1].strong);
@@ -251,7 +251,7 @@ TEST_F(PlayedCams, AnErrorFarBelowACountIsNotDrawnAsOne) {
   const auto cycles = cycles_of(played, exact);
   const auto plot = overlay_plot(played, exact, errors_of(played, exact), cycles, *shown_cycle(cycles), "o");
   ASSERT_EQ(plot.panels.size(), 2U) << "a flat line tells nothing";
-  EXPECT_EQ(plot.panels[0].title, "slave position; set less ideal position below 0.5 bits x4");
+  EXPECT_EQ(plot.panels[0].title, "slave position; set minus ideal position below 0.5 bits x4");
   EXPECT_THAT(plot.panels[1].title, testing::StartsWith("following error"));
   EXPECT_EQ(error_text(0.0005, 1), "below 0.001");
   EXPECT_EQ(error_text(5e-8, 1e-4), "below 0.0000001");
@@ -312,9 +312,9 @@ TEST_F(CamPages, ShowTheCamItsFeasibilityAndTheRun) {
               HasSubstr("velocity | 2500 Um/s at master 100 Um | maxvel 20000 Um/s | PASS 87.5 % left"));
   EXPECT_THAT(feasible, HasSubstr("verdict | the cam is sound |  | PASS"));
   EXPECT_THAT(
-      cells(table(page, "How near the axis was to its cam")),
+      cells(table(page, "Cam tracking error")),
       HasSubstr(
-          "set less measured position (following error) | 1 bits x4 | 1 bits x4 | 241 samples, 3 whole"));
+          "set minus measured position (following error) | 1 bits x4 | 1 bits x4 | 241 samples, 3 whole"));
   EXPECT_EQ(table(page, "Sectors in the order of running").headings.at(2), "master [Um]");
 }
 
