@@ -2,6 +2,7 @@
 #
 #   make demo    the rotary knife line: builds, runs it, says where the report is
 #   make test    builds and runs all tests
+#   make test-all  those, and the tests that take many minutes
 #   make quick   the tests that take seconds
 #   make bench   speed beside stock Bullet (and MuJoCo), in one run
 #   make         builds build/drycut
@@ -45,7 +46,7 @@ if [ -n "$$missing" ]; then \
 fi
 endef
 
-.PHONY: all setup demo test quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
+.PHONY: all setup demo test test-all quick cluster opcua python docs notebooks bench clang sanitize fuzz same-bytes reference deb lint tidy format meshes clean
 
 all: setup
 	@$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=OFF > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -65,6 +66,10 @@ test: setup
 	$(CONFIGURE) -S . -B $(BUILD) -DBUILD_TESTING=ON $(PYTHON)
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS) -E '^cluster\.(dask|slurm)$$'  # those are make cluster's
+
+# Tests of CONFIGURATIONS long, which nothing else runs: one at a time, for they load the machine.
+test-all: test
+	cd $(BUILD) && ctest --output-on-failure -C long -R '^long\.'
 
 # The tests of seconds, once built: all rooms but pictures and scenes, without what runs a machine for long.
 SLOW := *Coverage.*:*Random.*:*LongRun.*:*Fuzz.*:*BodeLimitCycle.*:*TuneMargins.*:LargeScenario.*:StLong.*:CompareScene.*:*NoTextCrashes*:*OverAMillion*:*Witness.*

@@ -7,13 +7,24 @@
 
 namespace drycut::renders {
 
+namespace {
+
+std::recursive_mutex& turns() {
+  static std::recursive_mutex of_the_process;
+  return of_the_process;
+}
+
+}  // namespace
+
+GlTurn::GlTurn() : lock_(turns()) {}
+
 void GlContext::Release::operator()(void* context) const {
   OSMesaDestroyContext(static_cast<OSMesaContext>(context));
 }
 
-// The rasteriser is one for all contexts of a process, who take turns; its own threads, one a core unless
-// LP_NUM_THREADS says otherwise, share the work of whoever has it. The pixels are the same for any number.
-GlContext::GlContext() : buffer_(16 * 16 * 4) {
+// The rasteriser's own threads, one a core unless LP_NUM_THREADS says otherwise, share the work of whoever
+// has the turn. The pixels are the same for any number.
+GlContext::GlContext(const GlTurn& turn) : buffer_(16 * 16 * 4) {
   const std::array<int, 13> attributes = {OSMESA_FORMAT,
                                           OSMESA_RGBA,
                                           OSMESA_DEPTH_BITS,
@@ -32,16 +43,20 @@ GlContext::GlContext() : buffer_(16 * 16 * 4) {
     throw std::runtime_error(
         "pictures: OSMesa gives no OpenGL 4.3 core context; install libosmesa6 with llvmpipe");
   }
-  make_current();
+  make_current(turn);
 }
 
-void GlContext::make_current() {
+void GlContext::make_current(const GlTurn& /*turn*/) {
   if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), buffer_.data(), GL_UNSIGNED_BYTE, 16,
                         16) == GL_FALSE) {
     throw std::runtime_error("pictures: OSMesa could not make its context current");
   }
 }
 
-GlContext::~GlContext() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+GlContext::~GlContext() {
+  const GlTurn turn;
+  OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+  context_.reset();
+}
 
 }  // namespace drycut::renders

@@ -39,8 +39,9 @@ std::array<Vec3, 8> corners_as_placed(const Extent& box, const Placement& placem
 
 }  // namespace
 
-GlRenderer::GlRenderer(const Stage& stage)
+GlRenderer::GlRenderer(const Stage& stage, const GlTurn& turn)
     : stage_(stage),
+      context_(turn),
       parts_(stage.surfaces),
       lamps_(stage),
       surface_program_(shaders::kSurfaceVertex, shaders::kSurfaceFragment),
@@ -87,7 +88,15 @@ GlRenderer::GlRenderer(const Stage& stage)
 }
 
 void GlRenderer::draw(const std::vector<Placement>& placements, const Camera& camera, Image& image) {
-  context_.make_current();
+  draw_pixels(placements, camera);
+  put_into(image);
+  antialias(image, stage_.height);
+}
+
+/// All of a frame that OpenGL does, in one turn.
+void GlRenderer::draw_pixels(const std::vector<Placement>& placements, const Camera& camera) {
+  const GlTurn turn;
+  context_.make_current(turn);
   if (camera_ != camera) {
     look_through(camera);
     draw_still(placements);
@@ -107,8 +116,8 @@ void GlRenderer::draw(const std::vector<Placement>& placements, const Camera& ca
     mark_floor();
   }
   light();
-  read_into(image);
-  antialias(image, stage_.height);
+  picture_.draw_frame();
+  glReadPixels(0, 0, stage_.width, stage_.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   if (glGetError() != GL_NO_ERROR) throw std::runtime_error("pictures: OpenGL failed to draw a frame");
 }
 
@@ -210,9 +219,7 @@ void GlRenderer::light() const {
   glDepthMask(GL_TRUE);
 }
 
-void GlRenderer::read_into(Image& image) {
-  picture_.draw_frame();
-  glReadPixels(0, 0, stage_.width, stage_.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+void GlRenderer::put_into(Image& image) const {
   for (int y = 0; y < stage_.height; ++y) {
     // GL counts rows from the bottom.
     const std::uint8_t* from =

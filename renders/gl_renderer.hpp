@@ -13,27 +13,30 @@ namespace drycut::renders {
 
 /// Draws parts on a floor, lit by a lamp with shadows and by the sky, antialiased. What stands still over the
 /// film is drawn once, and the floor is lit anew only where moving parts change its light. Owns its
-/// context; use it in the thread that made it.
+/// context; use it in the thread that made it. Renderers of several threads take turns at OpenGL.
 class GlRenderer {
  public:
   /// `stage` must outlive it. Throws std::runtime_error if the context, a shader or a framebuffer cannot be
   /// made.
-  explicit GlRenderer(const Stage& stage);
+  explicit GlRenderer(const Stage& stage) : GlRenderer(stage, GlTurn()) {}
 
   /// Draws the parts, placed one by one, as `camera` sees them, into the upper stage.height rows of `image`,
-  /// which is stage.width wide. Another renderer may have drawn in this thread before. The still parts' placements are those of any frame.
+  /// which is stage.width wide. Another renderer may have drawn in this thread before. The still parts'
+  /// placements are those of any frame.
   void draw(const std::vector<Placement>& placements, const Camera& camera, Image& image);
 
  private:
   using Name = unsigned int;  ///< of a GL object; the context frees them all when it goes
 
+  GlRenderer(const Stage& stage, const GlTurn& turn);
+  void draw_pixels(const std::vector<Placement>& placements, const Camera& camera);
   void look_through(const Camera& camera);
   void draw_still(const std::vector<Placement>& placements);
   void mark_floor() const;
   void mark_floor(const std::vector<std::array<Vec3, 8>>& moving) const;
   std::vector<std::size_t> in_view(const std::vector<Placement>& placements) const;
   void light() const;
-  void read_into(Image& image);
+  void put_into(Image& image) const;
 
   const Stage& stage_;
   std::optional<Camera> camera_;  ///< that the programs know
@@ -46,7 +49,7 @@ class GlRenderer {
   GlCanvas picture_;
   Matrix4 view_matrix_;
   Name empty_array_ = 0;
-  std::vector<std::uint8_t> pixels_;
+  std::vector<std::uint8_t> pixels_;  ///< of the last frame, RGBA, rows from below
 };
 
 }  // namespace drycut::renders

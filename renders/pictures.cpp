@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "base/picture_size.hpp"
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"
 #include "renders/gl_renderer.hpp"
@@ -21,9 +22,6 @@
 
 namespace drycut::renders {
 namespace {
-
-constexpr int kSmallest = 160;
-constexpr int kLargest = 8192;
 
 bool all_positive(const Vec3& values) { return values.allFinite() && values.minCoeff() > 0; }
 
@@ -69,10 +67,10 @@ void draw_frames(const Film& film, const std::vector<Stage>& stages, const Overl
 }  // namespace
 
 void require_drawable(const Film& film) {
-  require(film.width >= kSmallest && film.width <= kLargest && film.height >= kSmallest &&
-              film.height <= kLargest,
+  require(std::min(film.width, film.height) >= smallest_picture &&
+              std::max(film.width, film.height) <= largest_picture,
           fmt::format("size {}x{} cannot be drawn; width and height are {} to {} pixels", film.width,
-                      film.height, kSmallest, kLargest));
+                      film.height, smallest_picture, largest_picture));
   require(!film.follow || *film.follow < film.parts.size(), "the camera follows a part that is not there");
   require_sees(film.camera);
   for (const View& view : film.beside) require_sees(view.camera);
@@ -113,7 +111,7 @@ std::vector<std::filesystem::path> draw_film(const Film& film, const std::filesy
   if (film.frames.empty()) return files;
   const CaptionLayout caption(film);
   require(
-      film.height - caption.height() >= kSmallest / 4,
+      film.height - caption.height() >= smallest_picture / 4,
       fmt::format("size {}x{} leaves no room above the caption; make it higher", film.width, film.height));
   std::filesystem::create_directories(directory);
   const std::vector<Stage> stages = stages_of(film);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <numbers>
 
+#include "base/picture_size.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
 
@@ -12,8 +13,6 @@ namespace drycut::sim::scenario {
 
 namespace {
 
-constexpr int smallest = 64;
-constexpr int largest = 4096;
 constexpr std::size_t most_cameras = 4;
 constexpr std::size_t most_live = 2;
 constexpr double degree = std::numbers::pi / 180;
@@ -31,9 +30,9 @@ Form size_form(PicturesSection& pictures) {
         if (!crossed || second.ec != std::errc() || second.ptr != end) {
           findings.add(text.place, fmt::format("{}: '{}' is no picture size", name, text.text),
                        "write width x height in pixels without blanks: 960x540");
-        } else if (std::min(width, height) < smallest || std::max(width, height) > largest) {
+        } else if (std::min(width, height) < smallest_picture || std::max(width, height) > largest_picture) {
           findings.add(text.place, fmt::format("{} is {}, out of range", name, text.text),
-                       fmt::format("{} to {} pixels each way", smallest, largest));
+                       fmt::format("{} to {} pixels each way", smallest_picture, largest_picture));
         } else {
           pictures.width = width;
           pictures.height = height;

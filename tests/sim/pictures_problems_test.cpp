@@ -30,7 +30,10 @@ TEST(PicturesProblems, FramesAndPlots) {
        {"1:27: pictures.frames.size: '960x' is no picture size; write width x height in "
         "pixels without blanks: 960x540"}},
       {frames + "size: 9x9}}\n",
-       {"1:27: pictures.frames.size is 9x9, out of range; 64 to 4096 pixels each way"}},
+       {"1:27: pictures.frames.size is 9x9, out of range; 160 to 4096 pixels each way"}},
+      {frames + "size: 159x160}}\n",
+       {"1:27: pictures.frames.size is 159x160, out of range; 160 to 4096 pixels each way"}},
+      {frames + "size: 160x160}}\n", {}},
       {frames + "size: 99999999999x9}}\n",
        {"1:27: pictures.frames.size: '99999999999x9' is no picture size; write "
         "width x height in pixels without blanks: 960x540"}},
