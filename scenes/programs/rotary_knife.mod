@@ -11,7 +11,7 @@ AxisX:measurem = 5000
 AxisX:pulsem   = 10000
 AxisX:unitvel  = 0                ; speeds in mm/min
 AxisX:maxvel   = 240000
-AxisX:setvel   = 30000
+AxisX:setvel   = 10000            ; placements, as fast as the motor can brake within tdec
 AxisX:prsvel   = 20000
 AxisX:sprsvel  = 2000
 AxisX:tacc     = 100              ; 1 s from 0 to maxvel
@@ -51,7 +51,7 @@ WAIT NOT AxisX:st_regoff
 gbPhase = 1
 PRESET AxisX
 WAIT AxisX:st_prsok
-AxisX:setvel = 30000
+AxisX:setvel = 10000
 AxisX:setpos = 0
 START AxisX
 WAIT AxisX:st_toll AND AxisX:st_still
@@ -79,7 +79,7 @@ IF gbPhase EQ 3 AND NOT AxisX:st_camex
     gbPhase = 0
 ENDIF
 IF gbPhase EQ 4                   ; back on top
-    AxisX:setvel = 30000
+    AxisX:setvel = 10000
     AxisX:setpos = cCircum
     START AxisX
     WAIT AxisX:st_toll AND AxisX:st_still

@@ -40,7 +40,7 @@ void run_line() {
   const std::vector<sim::scenario::Override> overrides = {{"scene.duration", fmt::format("{} s", simulated)},
                                                           {"pictures", "{}"}};
   const auto scenario =
-      sim::scenario::read_scenario(DRYCUT_SOURCE_DIR "/scenes/rotary_knife.yaml", overrides, problems);
+      sim::scenario::read_scenario(DRYCUT_SOURCE_DIR "/tests/bench/line.yaml", overrides, problems);
   sim::loop::Simulation simulation(scenario, problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_string(problem));
   if (!problems.empty()) std::exit(2);

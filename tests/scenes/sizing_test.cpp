@@ -28,6 +28,9 @@ plants:
     grip: 0 N
     motor_friction: {coulomb: 0 N m, viscous: 0 N m s/rad}
     drum_friction: {coulomb: 0 N m, viscous: 0 N m s/rad}
+timeline: # at 60 m/min the wheel gives whole counts a cycle: no counting noise beside the closed form
+  - {at: 100 ms, set: {panel.start: 1}}
+  - {when: panel.in_sync == 1, after: 100 ms, ramp: {web.speed: 60 m/min}, over: 2 s}
 checks:
   - {name: no error, always: panel.fault == 0 && error_id == 0}
 )");

@@ -94,9 +94,11 @@ TEST(DriveJudge, RmsOfTheWorstTenCyclesIsThatOfItsSteps) {
   EXPECT_TRUE(line.ratings()[0].passed);
 }
 
+// The counts of the wheel alone cost 1.6 N m at any speed that is not round: a motor smaller than that finds
+// none.
 TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
   for (const char* scene : {"rotary_knife_short.yaml", "rotary_knife.yaml", "rotary_knife_long.yaml"})
-    for (const char* rated : {"1.5 N m", "2 N m"}) {
+    for (const char* rated : {"1.8 N m", "2 N m"}) {
       SCOPED_TRACE(std::string(scene) + " " + rated);
       std::map<std::string, std::string> small = {{"plants.knife.servo.rated_torque", rated}};
       Line line(scene, small);
@@ -110,7 +112,7 @@ TEST(DriveJudge, AMotorTooSmallFailsAndPassesAtTheSpeedItAdvises) {
       EXPECT_THAT(check.detail, HasSubstr("rms torque"));
 
       // The advice is an estimate from one run: following it leads there, in at most three.
-      double speed = 60;
+      double speed = 60.4;
       auto now = verdict;
       for (int run = 0; run < 3 && !now.holds(); ++run) {
         ASSERT_LT(now.advised, 1);
@@ -165,21 +167,27 @@ void expect_shares(const Line& line, double named) {
 }
 
 TEST(DriveJudge, ASaturationIsToldAsAShareOfTheCycle) {
-  Line cuts("rotary_knife_overload.yaml", {{"scene.duration", "8 s"}}, true);
+  // The smaller motor is at its limit when it stops after the search of home, too: that is in no cycle.
+  const std::map<std::string, std::string> changes = {{"scene.duration", "8 s"},
+                                                      {"plants.knife.servo.peak_torque", "22 N m"}};
+  Line cuts("rotary_knife_overload.yaml", changes, true);
   cuts.simulation->run();
   expect_shares(cuts, 0);
-  const auto of_cuts = figure(cuts.simulation->outcome().drives.at(0), "time at the torque limit, worst cycle");
+  const auto of_cuts =
+      figure(cuts.simulation->outcome().drives.at(0), "time at the torque limit, worst cycle");
   EXPECT_FALSE(of_cuts.judged);
   EXPECT_GE(of_cuts.value, figure(cuts.simulation->outcome().drives.at(0), "time at the torque limit").value);
   // A cycle shorter than the saturations: all of it.
   for (const double cycle : {0.5, 0.01}) {
-    Line named("rotary_knife_overload.yaml",
-               {{"scene.duration", "8 s"}, {"drives.cycle", cycle < 0.1 ? "10 ms" : "500 ms"}}, true);
+    auto cycled = changes;
+    cycled["drives.cycle"] = cycle < 0.1 ? "10 ms" : "500 ms";
+    Line named("rotary_knife_overload.yaml", cycled, true);
     named.simulation->run();
     expect_shares(named, cycle);
     if (cycle > 0.1) continue;
-    EXPECT_NEAR(figure(named.simulation->outcome().drives.at(0), "time at the torque limit, worst cycle").value, 100,
-                1e-6);
+    EXPECT_NEAR(
+        figure(named.simulation->outcome().drives.at(0), "time at the torque limit, worst cycle").value, 100,
+        1e-6);
   }
 }
 

@@ -91,7 +91,7 @@ TEST(PicturesFilm, LampsStandBehindTheNumbersAndAreLitWhereTheirChannelIsNotZero
   for (const auto& frame : film.frames) {
     ASSERT_EQ(frame.caption.size(), 3U);
     EXPECT_EQ(frame.caption[0].label, "web.speed");
-    EXPECT_EQ(frame.caption[0].value, "60.0 m/min");
+    EXPECT_EQ(frame.caption[0].value, "60.4 m/min");
     EXPECT_FALSE(frame.caption[0].lamp);
     EXPECT_EQ(frame.caption[1].label, "AxisX.st_sync");
     EXPECT_EQ(frame.caption[1].value, "");
