@@ -40,6 +40,12 @@ std::vector<Port> IdealAxis::ports() {
           {"switch2", &switches_[1].port, "limit or preset switch"}};
 }
 
+std::optional<PlugScale> IdealAxis::scale_of(std::string_view port) const {
+  if (port == "encoder") return PlugScale{1 / data_.resolution, false};
+  if (port == "reference") return PlugScale{data_.speed_at_10v, false};
+  return {};
+}
+
 std::vector<Channel> IdealAxis::channels() {
   return {
       {"position", "mm",

@@ -26,6 +26,7 @@ class IdealAxis : public Plant {
   void drive(double h) override { (void)h; }
   void sense(double h) override;
   std::vector<Port> ports() override;
+  [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
   std::vector<Fault> faults() override;
 

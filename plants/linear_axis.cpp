@@ -51,6 +51,15 @@ std::vector<Port> LinearAxis::ports() {
   return ports;
 }
 
+std::optional<PlugScale> LinearAxis::scale_of(std::string_view port) const {
+  const double turns_a_metre = data_.gear.ratio / data_.lead;  // of the motor
+  if (port == "encoder") return PlugScale{4 * data_.sensors.encoder.lines * turns_a_metre, false};
+  if (port == "scale") return PlugScale{1 / data_.sensors.scale_resolution, false};
+  if (port == "servo.reference")
+    return PlugScale{data_.drive.servo.speed_at_10v / (units::turn * turns_a_metre), false};
+  return {};
+}
+
 std::vector<Channel> LinearAxis::channels() {
   std::vector<Channel> channels = {
       {"position", "mm", [this] { return carriage().position * units::millimetres; },

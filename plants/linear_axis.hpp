@@ -49,6 +49,7 @@ class LinearAxis : public Plant {
   void drive(double h) override;
   void sense(double h) override;
   std::vector<Port> ports() override;
+  [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
   std::vector<Setting> settings() override;
   std::vector<Fault> faults() override;

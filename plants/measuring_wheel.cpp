@@ -57,9 +57,15 @@ void MeasuringWheel::sense(double before, double now, double h) {
 }
 
 void MeasuringWheel::offer_faults(std::vector<Fault>& faults, const std::string& component) {
-  faults.push_back({component, "slip", "%", [this](double v) { set_slip(v); },
-                    "share of the travel that the wheel does not follow, instead of the parameter's",
-                    in_percent});
+  faults.push_back(
+      {component,
+       "slip",
+       "%",
+       [this](double v) { set_slip(v); },
+       "share of the travel that the wheel does not follow, instead of the parameter's; below 0 it runs "
+       "ahead",
+       {-100, 100, false},
+       [this] { return data_.slip; }});
   pulses.offer_faults(faults, component);
 }
 

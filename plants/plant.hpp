@@ -60,6 +60,8 @@ struct Fault {
   std::function<void(double)> act;
   std::string meaning;
   Range range = {};  ///< whoever acts keeps to it
+  /// What the machine has without the fault, where it stands in for a parameter; none = 0.
+  std::function<double()> without = {};
 };
 
 // Rows of the lists above for what is kept in a member.
@@ -121,6 +123,13 @@ struct Recurrence {
   double cuts = 0;    ///< in a turn
 };
 
+/// What the signal of a plug is of the motion that it stands for.
+struct PlugScale {
+  double value = 0;  ///< encoder: counts (x4) a metre or radian of what is driven; reference: its speed at 10
+                     ///< V [m/s or rad/s]
+  bool turns = false;  ///< what is driven turns: radians
+};
+
 /// A machine or a part of a line. Bodies live in the World; everything else that acts is explicit.
 /// Per step h: drive() of all plants, World::step(), sense() of all plants, in scenario order.
 class Plant {
@@ -143,6 +152,8 @@ class Plant {
   virtual std::vector<EventType> event_types() { return {}; }
   virtual std::vector<DriveOfPlant> drives() { return {}; }
   virtual std::vector<Recurrence> recurrences() { return {}; }
+  /// Of the plug of that name, as its parameters say, errors of them left out; nothing where it has none.
+  [[nodiscard]] virtual std::optional<PlugScale> scale_of(std::string_view /*port*/) const { return {}; }
   virtual std::vector<Part> parts() { return {}; }
   /// The parameters that may change while it runs, bound to the machine itself: the rows of its table that
   /// are `live`. Whoever writes one keeps to its range and calls parameters_changed() then.

@@ -113,6 +113,14 @@ std::vector<Port> RotaryKnife::ports() {
   return ports;
 }
 
+std::optional<PlugScale> RotaryKnife::scale_of(std::string_view port) const {
+  if (port == "encoder")
+    return PlugScale{4.0 * data_.encoder.lines * (data_.encoder_on_drum ? 1 : data_.gear.ratio) / units::turn,
+                     true};
+  if (port == "servo.reference") return PlugScale{data_.drive.servo.speed_at_10v / data_.gear.ratio, true};
+  return {};
+}
+
 std::vector<Channel> RotaryKnife::channels() {
   const auto blade_speed = [this] { return drum_.speed * along_web_; };
   std::vector<Channel> channels = {

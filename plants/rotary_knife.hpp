@@ -61,6 +61,7 @@ class RotaryKnife : public Plant {
   void drive(double h) override;
   void sense(double h) override;
   std::vector<Port> ports() override;
+  [[nodiscard]] std::optional<PlugScale> scale_of(std::string_view port) const override;
   std::vector<Channel> channels() override;
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;

@@ -115,6 +115,11 @@ std::vector<Port> Web::ports() {
           {"photocell", &marks_.photocell().port, "photocell over the printed marks"}};
 }
 
+std::optional<PlugScale> Web::scale_of(std::string_view port) const {
+  if (port == "wheel") return PlugScale{4.0 * data_.wheel.lines / data_.wheel.circumference, false};
+  return {};
+}
+
 std::vector<Recurrence> Web::recurrences() { return {{"wheel", data_.wheel.circumference}}; }
 
 std::vector<Channel> Web::channels() {

@@ -87,6 +87,7 @@ bool CnfParser::keyword(const Words& words) {
              fmt::format("{} stands alone on its line, entries below it", found->word));
   close_groups();
   section_ = found->section;
+  if (section_ == Section::bus && !bus_seen_) bus_place_ = words[0].place;
   bus_seen_ = bus_seen_ || section_ == Section::bus;
   return true;
 }
@@ -256,6 +257,7 @@ void CnfParser::terminal(const Words& words, Kind kind) {
     return;
   }
   slot_uses_.push_back({address->slot, words[2]});
+  if (kind == Kind::output) sole_output(*address, words[2]);
   if (!named || type != Size::F) return;
   auto& terminals = kind == Kind::input ? configuration_.inputs : configuration_.outputs;
   terminals.push_back({words[0].text, *address, words[0].place});

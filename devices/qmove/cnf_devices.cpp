@@ -38,6 +38,9 @@ TerminalKind terminal_kind(Field::Kind kind) {
   }
 }
 
+// The manuals do not say how many terminals a card has; no card that they or their examples name has more.
+int most_terminals(Kind kind) { return kind == Kind::counter || kind == Kind::analogue ? 8 : 64; }
+
 }  // namespace
 
 void CnfParser::device(const Words& words) {
@@ -71,6 +74,13 @@ void CnfParser::device(const Words& words) {
   for (std::size_t i = 0; i < std::min(fields.size(), type.fields.size()); ++i) {
     const std::optional<Resource> found = resource(type.fields[i], fields[i], type);
     sound = sound && found;
+    if (found && found->address && found->address->kind == Kind::counter)
+      for (std::size_t j = 0; j < i; ++j)
+        if (record.resources[j].address == found->address)
+          complain(fields[i].place,
+                   fmt::format("{} and {} of {} are the same counter, {}", type.fields[j].name,
+                               type.fields[i].name, in_quotes(words[0].text), fields[i].text),
+                   "each encoder has a counter of its own");
     record.resources.push_back(found.value_or(Resource{}));
   }
   // A record with a fault stays, so that modules that name the device are still checked.
@@ -105,7 +115,17 @@ std::optional<Resource> CnfParser::resource(const Field& field, const Word& word
     return std::nullopt;
   }
   slot_uses_.push_back({address->slot, word});
+  if (wanted.kind == Kind::output) sole_output(*address, word);
   return Resource{0, address};
+}
+
+// An output has one name, or one device that works it.
+void CnfParser::sole_output(const Address& address, const Word& word) {
+  const auto [first, fresh] = outputs_.emplace(address, word.place);
+  if (!fresh)
+    complain(word.place, fmt::format("{} is taken already", in_quotes(word.text)),
+             fmt::format("the first stands in line {}; an output has one name or one device that works it",
+                         first->second.line));
 }
 
 std::optional<Resource> CnfParser::number_resource(const Field& field, const Word& word,
@@ -128,6 +148,16 @@ std::optional<Resource> CnfParser::number_resource(const Field& field, const Wor
 // An address in a slot without a card is a slip. A text without BUS (a fragment) is not judged.
 void CnfParser::check_bus() {
   if (!bus_seen_) return;
+  const auto is_cpu = [](const Slot& slot) { return upper(slot.card).find("CPU") != std::string::npos; };
+  if (std::none_of(configuration_.slots.begin(), configuration_.slots.end(), is_cpu))
+    complain(bus_place_, "BUS has no CPU card", "the CPU stands in slot 1: 1 1CPUB 02");
+  for (const SlotUse& use : slot_uses_) {
+    const auto address = parse_address(use.word.text);
+    const int most = most_terminals(address->kind);
+    if (address->number > most)
+      complain(use.word.place, fmt::format("{}: no card has so many", in_quotes(use.word.text)),
+               fmt::format("{} of a card is {} to {}", article(name_of(address->kind)), 1, most));
+  }
   for (const SlotUse& use : slot_uses_) {
     const auto found = std::find_if(configuration_.slots.begin(), configuration_.slots.end(),
                                     [&](const Slot& slot) { return slot.number == use.slot; });

@@ -64,6 +64,7 @@ class CnfParser : private Complaints {
   std::optional<std::size_t> device_type(const Word& word);
   std::optional<Resource> resource(const Field& field, const Word& word, const DeviceType& type);
   std::optional<Resource> number_resource(const Field& field, const Word& word, const DeviceType& type);
+  void sole_output(const Address& address, const Word& word);
   void check_bus();
 
   bool no_more_than(const Words& words, std::size_t count, const std::string& form);
@@ -83,7 +84,9 @@ class CnfParser : private Complaints {
     Word word;
   };
   std::vector<SlotUse> slot_uses_;
+  std::map<Address, Place> outputs_;  ///< that have a name or a device
   bool bus_seen_ = false;
+  Place bus_place_;
   bool said_after_end_ = false;
   std::int64_t cells_ = 0;
   Place last_ = {1, 1};

@@ -67,8 +67,8 @@ std::vector<Annotation> annotations_of(const std::vector<report::RunResult>& res
       if (checks[i].passed) continue;
       const auto margin = report::margin_text(checks[i]);
       add(Annotation::Kind::check, result.place_of(i), fmt::format("{}: {}", result.name, checks[i].name),
-          fmt::format("{} ({}){}{}", checks[i].detail, checks[i].expectation, margin.empty() ? "" : "; ",
-                      margin));
+          fmt::format("{}{}{} ({}){}{}", checks[i].detail, result.outcome.cause.empty() ? "" : ", ",
+                      result.outcome.cause, checks[i].expectation, margin.empty() ? "" : "; ", margin));
     }
     if (!result.outcome.failure.empty())
       add(Annotation::Kind::run, result.place_of(checks.size()), result.name + ": did not run to its end",

@@ -162,7 +162,7 @@ int check_files(const CheckOptions& options) {
   if (options.expand) return all_passed;
   for (const auto& note : checker.notes()) fmt::print("note {}\n", note);
   fmt::print("{} checked, no problem\n", counted(options.files.size(), "file"));
-  return all_passed;
+  return options.strict && !checker.notes().empty() ? check_failed : all_passed;
 }
 
 void add_check(CLI::App& app, int& status) {
@@ -176,6 +176,7 @@ void add_check(CLI::App& app, int& status) {
   check->add_flag("--expand", options.expand, "Print scenarios with every default in force");
   add_set(*check, options.set, "scenarios");
   add_annotate(*check, options.annotate);
+  check->add_flag("--strict", options.strict, "Notes fail it, too: exit status 1");
   check->add_flag("--schema", options.schema, "Print the JSON Schema of scenarios, for editors")
       ->excludes(files);
   check->callback([chosen, files, &status] {

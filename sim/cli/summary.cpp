@@ -72,6 +72,7 @@ class Text {
       text_ += fmt::format("The simulation stopped: {}\n\n", plain(result.outcome.failure));
     const auto& checks = result.outcome.checks;
     if (std::all_of(checks.begin(), checks.end(), [](const auto& c) { return c.passed; })) return;
+    if (!result.outcome.cause.empty()) text_ += fmt::format("It failed {}.\n\n", plain(result.outcome.cause));
     text_ +=
         "| failed check | expected | what it came to | beyond the limit | line |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < checks.size(); ++i) {

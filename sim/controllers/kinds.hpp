@@ -111,6 +111,8 @@ struct PlcopenSection final : scenario::ControllerSection {
   [[nodiscard]] Period period() const override { return {"cycle", cycle}; }
   [[nodiscard]] std::vector<scenario::Text> files() const override;
   [[nodiscard]] std::string_view settable() const override;
+  [[nodiscard]] std::vector<std::string> contradictions(const scenario::Scenario& scenario,
+                                                        const ScaleOf& scale_of) const override;
   std::unique_ptr<devices::Controller> load(const scenario::Scenario& scenario, Problems& problems,
                                             std::vector<std::string>* notes) const override;
 

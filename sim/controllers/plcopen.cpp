@@ -6,6 +6,7 @@
 #include "devices/plcopen/controller.hpp"
 #include "devices/plcopen/tab_file.hpp"
 #include "sim/controllers/kinds.hpp"
+#include "sim/controllers/plcopen_scales.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
@@ -261,6 +262,20 @@ std::vector<scenario::Text> PlcopenSection::files() const {
 
 std::string_view PlcopenSection::settable() const {
   return "name a variable of the program, or a value or parameter of an axis (drycut devices AXIS)";
+}
+
+std::vector<std::string> PlcopenSection::contradictions(const scenario::Scenario& scenario,
+                                                        const ScaleOf& scale_of) const {
+  auto found = contradicting_scales(*this, scenario, scale_of);
+  std::vector<plcopen::AxisConfiguration> configurations;
+  for (const auto& axis : axes) configurations.push_back(axis.configuration);
+  Problems told;  // by load()
+  const auto cams = load_tables(*this, configurations, scenario, told);
+  const auto text = read_named(program, scenario, told);
+  if (!text || text->find("Scaling") != std::string::npos)
+    return found;  // the program makes another cam of it
+  for (auto& note : contradicting_cams(*this, cams, scenario)) found.push_back(std::move(note));
+  return found;
 }
 
 std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenario& scenario,

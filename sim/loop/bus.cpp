@@ -57,6 +57,7 @@ std::string list(const std::vector<std::string>& names, std::string_view none) {
 void Panel::set(const std::string& name, bool on) {
   auto& port = switches.at(name);
   if (port.level != on) port.add_edge(on, 0.0);
+  if (on) pressed.insert(name);
   port.level = on;
 }
 

@@ -25,6 +25,7 @@ struct NamedPlant {
 struct Panel {
   std::map<std::string, plants::SignalPort> switches;
   std::map<std::string, plants::CommandPort> lamps;
+  std::set<std::string> pressed;  ///< switches that have been on
 
   /// Works a switch at the start of the coming step.
   void set(const std::string& name, bool on);

@@ -367,8 +367,12 @@ CheckResult Checks::result(State& state, Time end) {
   CheckResult result{check.name.text, expectation_text(check), false, {}, state.unit, {}, ""};
   const bool by_event = check.kind == scenario::Check::Kind::each || check.kind == scenario::Check::Kind::all;
   if (by_event && state.count < check.at_least) {
-    result.detail = fmt::format("only {} {} in the time looked at, at least {} expected", state.count,
-                                looked_at(state), check.at_least);
+    const bool cycles = state.windowed && check.kind == scenario::Check::Kind::each;
+    const auto what = cycles ? fmt::format("cycle from {0} to {0}", check.event.text) : check.event.text;
+    result.detail = fmt::format(
+        "{} between {} s and {} s, at least {} expected",
+        state.count == 0 ? "no " + what : fmt::format("only {} x {}", state.count, what),
+        seconds_text(check.from), seconds_text(std::min(end, check.until.value_or(end))), check.at_least);
     return result;
   }
   const auto never_looked_at = [&] {

@@ -21,6 +21,11 @@ plants::Random generator(const scenario::Scenario& scenario, std::size_t place) 
   return plants::Random(scenario.scene.seed, "disturbance", place + 1);
 }
 
+// A single step goes one way.
+bool goes_both_ways(const scenario::Disturbance& of) {
+  return of.kind != scenario::Disturbance::Kind::step || of.every > 0;
+}
+
 }  // namespace
 
 Disturbances::Disturbances(const scenario::Scenario& scenario, Names& names, Problems& problems) {
@@ -42,6 +47,14 @@ Disturbances::Disturbances(const scenario::Scenario& scenario, Names& names, Pro
              fmt::format("noise up to {:g} Hz has less than two steps a period", of.band.high));
     auto* sum = sum_of(of.at, scenario, names, problems);
     if (sum == nullptr) continue;
+    if (sum->is_fault && goes_both_ways(of) && sum->target.read() <= sum->low) {
+      problems.push_back(scenario::problem_at(
+          scenario, of.at.place,
+          fmt::format("{} cannot be less than it is, and this goes both ways: half of it would be lost",
+                      of.at.text),
+          "a single step up, {kind: step, amplitude: ...} without every"));
+      continue;
+    }
     const auto si = [&](const scenario::Quantity& quantity) {
       return in_si(scenario, problems, of.at.text, sum->target.unit, quantity);
     };
@@ -81,7 +94,7 @@ Disturbances::Sum* Disturbances::sum_of(const scenario::Text& name, const scenar
   const auto limit = [&](double number) {
     return target->unit.empty() ? number : scenario::to_si(number, target->unit);
   };
-  sums_.push_back({*target, limit(range.low), limit(range.high), target->read()});
+  sums_.push_back({*target, limit(range.low), limit(range.high), target->read(), names.is_fault(name.text)});
   auto& sum = sums_.back();
   names.stand_in(name.text, {[&sum](double base) {
                                sum.base = base;

@@ -12,8 +12,8 @@
 namespace drycut::sim::loop {
 
 /// What a scenario adds to settings, live parameters and faults of its plants, each entry with a generator of
-/// its own. Added to what the timeline sets, a ramp included; the sum keeps to the target's range. Faults,
-/// which tell no value, count from 0.
+/// its own. Added to what the timeline sets, a ramp included; the sum keeps to the target's range. Faults
+/// count from what the machine has without them, mostly 0.
 class Disturbances {
  public:
   /// Binds names and converts quantities; what does not fit is reported with its place in the scenario.
@@ -34,6 +34,7 @@ class Disturbances {
     double low = 0;  ///< range, in what the target's write takes
     double high = 0;
     double base = 0;
+    bool is_fault = false;
     double added = 0;
     bool active = false;  ///< something is added now
     bool was_active = false;

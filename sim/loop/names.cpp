@@ -144,7 +144,8 @@ std::optional<Target> Names::disturbed(const std::string& name) {
   if (settings_.contains(name)) return target(name);
   const auto* found = fault_called(name);
   if (found == nullptr) return {};
-  return Target{name, std::string(found->unit), [] { return 0.0; }, found->act, range_of(found->range)};
+  auto without = found->without ? found->without : [] { return 0.0; };
+  return Target{name, std::string(found->unit), std::move(without), found->act, range_of(found->range)};
 }
 
 void Names::stand_in(const std::string& name, StandIn in_place) {

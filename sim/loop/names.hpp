@@ -53,8 +53,12 @@ class Names {
   std::optional<plants::Fault> fault(const std::string& component, const std::string& fault);
 
   /// What a disturbance can be added to under this name: a plant's setting, live parameter or fault, which is
-  /// "component.fault" and reads 0.
+  /// "component.fault" and reads what the machine has without it.
   std::optional<Target> disturbed(const std::string& name);
+  /// True if it is a fault, which a setting of the same name goes before.
+  [[nodiscard]] bool is_fault(const std::string& name) {
+    return !settings_.contains(name) && fault_called(name) != nullptr;
+  }
   /// From now on this stands for that target: whoever sets or reads it, does so here.
   struct StandIn {
     std::function<void(double)> write;

@@ -9,9 +9,11 @@
 #include <unordered_map>
 
 #include "base/text.hpp"
+#include "sim/loop/consistency.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/opcua_names.hpp"
 #include "sim/scenario/format.hpp"
+#include "sim/scenario/variable_slips.hpp"
 #include "sim/scenario/variables.hpp"
 
 namespace drycut::sim::loop {
@@ -27,6 +29,7 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
       h_(seconds(scenario.scene.step)),
       world_(scenario.scene.seed),
       shutter_(scenario.pictures) {
+  const auto before = problems.size();
   load_controller(problems);
   build_plants();
   if (controller_) {
@@ -56,7 +59,15 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
   captions_ =
       bind_recording({scenario, named_, *names_, *watch_, known_events_, all_events_}, recording_, problems);
   drives_ = std::make_unique<DriveJudge>(scenario, named_);
-  observers_ = {checks_.get(), drives_.get(), &shutter_, &remarks_};
+  observers_ = {checks_.get(), drives_.get(), &shutter_, &remarks_, &causes_};
+  if (problems.size() == before) compare_with_machine();
+  scenario::blame_variables(scenario, problems, before, [&](const scenario::Trial& trial) {
+    Problems left;
+    const auto again =
+        scenario::read_scenario(scenario.file, scenario.overrides, left, plants::plant_types(), &trial);
+    if (again.buildable) const Simulation built(again, left);
+    return left;
+  });
 }
 
 Simulation::~Simulation() = default;
@@ -64,6 +75,13 @@ Simulation::~Simulation() = default;
 void Simulation::load_controller(Problems& problems) {
   controller_ = loop::load_controller(scenario_, problems, &notes_of_setup_);
   for (auto& note : scenario::unused_variables(scenario_)) notes_of_setup_.push_back(std::move(note));
+}
+
+void Simulation::compare_with_machine() {
+  if (!controller_) return;
+  contradictions_ = contradictions(scenario_, named_);
+  for (const auto& note : contradictions_) notes_of_setup_.push_back(note);
+  for (auto& note : doubtful_wires(scenario_, *controller_)) notes_of_setup_.push_back(std::move(note));
 }
 
 void Simulation::build_plants() {
@@ -305,6 +323,43 @@ Outcome Simulation::run(const std::function<void(Time)>& progress) {
   return outcome();
 }
 
+std::vector<std::string> Simulation::hindrances() const {
+  std::vector<std::string> found;
+  const auto& pushes = scenario_.panel.push_buttons;
+  std::string unpressed;
+  for (const auto& [name, port] : bus_.panel().switches) {
+    const bool is_push =
+        std::any_of(pushes.begin(), pushes.end(), [&](const auto& push) { return push.text == name; });
+    if (is_push || bus_.panel().pressed.contains(name)) continue;
+    std::string waits;
+    for (const auto& entry : scenario_.timeline)
+      for (const auto& [target, value] : entry.set)
+        if (entry.when && target.text == "panel." + name)
+          waits = fmt::format(": '{}' of line {} never came true", entry.when->text, entry.place.line);
+    unpressed += fmt::format("{}nothing pressed {} (panel.{} was never on{})", unpressed.empty() ? "" : ", ",
+                             name, name, waits);
+  }
+  if (!unpressed.empty()) found.push_back(std::move(unpressed));
+  if (!controller_) return found;
+  const auto programs = controller_->programs();
+  for (const auto& task : controller_->positions(time_).tasks) {
+    if (task.doing != "waits" || task.program >= programs.size() || task.line < 1) continue;
+    const auto lines = split_lines(programs[task.program].text);
+    if (static_cast<std::size_t>(task.line) > lines.size()) continue;
+    const auto line = lines[static_cast<std::size_t>(task.line) - 1];
+    const auto code = std::string(trimmed(line.substr(0, line.find(';'))));
+    // A pause of the main loop is no waiting.
+    const auto behind = code.find_last_of(' ');
+    if (behind == std::string::npos || is_digit(code[behind + 1])) continue;
+    auto waiting = fmt::format("{} stands in line {}: {}", programs[task.program].name, task.line, code);
+    if (found.empty())
+      found.push_back(std::move(waiting));
+    else
+      found.front() += "; " + waiting;
+  }
+  return found;
+}
+
 Outcome Simulation::outcome() {
   Outcome outcome;
   outcome.end = time_;
@@ -321,6 +376,8 @@ Outcome Simulation::outcome() {
                               {},
                               program_error_.empty() ? "no error" : program_error_});
   }
+  if (outcome.failure.empty() && !outcome.passed())
+    outcome.cause = causes_.of(outcome.checks, {contradictions_, hindrances()});
   return outcome;
 }
 

@@ -12,6 +12,7 @@
 #include "sim/cams/played.hpp"
 #include "sim/loop/bindings.hpp"
 #include "sim/loop/bus.hpp"
+#include "sim/loop/causes.hpp"
 #include "sim/loop/checks.hpp"
 #include "sim/loop/disturbances.hpp"
 #include "sim/loop/drive_judge.hpp"
@@ -42,6 +43,8 @@ struct Outcome {
   std::vector<CheckResult> checks;
   std::optional<HalfStep> half_step = {};  ///< where it was asked for
   std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
+  /// Why checks failed, as far as the run tells, as the end of a sentence: "because ..."; "" = it does not.
+  std::string cause = {};
   [[nodiscard]] bool passed() const;
 };
 
@@ -144,6 +147,10 @@ class Simulation {
   void delay_outputs(Problems& problems);
   void check_panel(Problems& problems) const;
 
+  void compare_with_machine();
+  /// Why nothing may have begun: switches that nobody pressed, programs that wait.
+  [[nodiscard]] std::vector<std::string> hindrances() const;
+
   void run_to_end(const std::function<void(Time)>& progress);
   void step();
   void add_share(RecordedEvent& event) const;
@@ -176,12 +183,14 @@ class Simulation {
   std::vector<plants::Part> parts_;  ///< of all plants, from the first shot on
   Captions captions_;
   Remarks remarks_;
+  Causes causes_;
   std::vector<Observer*> observers_;      ///< all of them, in the order in which they are told
   std::vector<KnownEvent> known_events_;  ///< of the plants
   std::vector<KnownEvent> all_events_;    ///< with those of timeline and controller
   std::string failure_;
   std::vector<std::string> notes_of_setup_;
-  std::string program_error_;  ///< first run-time error of the controller's program
+  std::vector<std::string> contradictions_;  ///< of controller and machine; among those notes too
+  std::string program_error_;                ///< first run-time error of the controller's program
 };
 
 }  // namespace drycut::sim::loop

@@ -77,6 +77,7 @@ void read_checks(const fs::path& file, IndexEntry& entry) {
   try {
     const bool passed = json.at("passed").get<bool>();
     const auto failure = json.at("failure").get<std::string>();
+    const auto cause = json.value("cause", "");
     std::vector<std::string> failed;
     const auto& checks = json.at("checks");
     for (const auto& check : checks)
@@ -87,11 +88,11 @@ void read_checks(const fs::path& file, IndexEntry& entry) {
     const auto count = failed.size();
     const auto more = count > most_named ? fmt::format(" and {} more", count - most_named) : "";
     if (count > most_named) failed.resize(most_named);
-    entry.verdict =
-        !failure.empty() ? failure
-        : count > 0 ? fmt::format("{} of {} checks failed: {}{}", count, checks.size(), listed(failed), more)
-        : checks.size() == 1 ? "1 check passed"
-                             : fmt::format("{} checks passed", checks.size());
+    entry.verdict = !failure.empty() ? failure
+                    : count > 0      ? fmt::format("{} of {} checks failed: {}{}{}{}", count, checks.size(),
+                                                   listed(failed), more, cause.empty() ? "" : "; ", cause)
+                    : checks.size() == 1 ? "1 check passed"
+                                         : fmt::format("{} checks passed", checks.size());
   } catch (const nlohmann::json::exception&) {
     entry.verdict = "checks.json cannot be read";
   }

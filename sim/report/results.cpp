@@ -67,11 +67,12 @@ std::string suite_of(const RunResult& result) {
   text += properties_of(result);
   for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
     const auto& check = outcome.checks[i];
-    text += case_of(result, i, check.name, each,
-                    check.passed
-                        ? ""
-                        : fmt::format("<failure message=\"{}\">{}; {}</failure>", escaped(check.expectation),
-                                      escaped(check.detail), escaped(margin_text(check))));
+    text += case_of(
+        result, i, check.name, each,
+        check.passed ? ""
+                     : fmt::format("<failure message=\"{}{}{}\">{}; {}</failure>", escaped(check.expectation),
+                                   outcome.cause.empty() ? "" : ": failed ", escaped(outcome.cause),
+                                   escaped(check.detail), escaped(margin_text(check))));
   }
   if (stopped)
     text += case_of(result, outcome.checks.size(), "runs to its end", each,
@@ -114,7 +115,9 @@ std::string verdict_text(const loop::Outcome& outcome) {
   const auto failed =
       std::count_if(outcome.checks.begin(), outcome.checks.end(), [](const auto& c) { return !c.passed; });
   if (outcome.checks.empty()) return "the scenario states no checks";
-  if (failed > 0) return fmt::format("{} of {} checks failed", failed, outcome.checks.size());
+  if (failed > 0)
+    return fmt::format("{} of {} checks failed{}{}", failed, outcome.checks.size(),
+                       outcome.cause.empty() ? "" : ", ", outcome.cause);
   return outcome.checks.size() == 1 ? "the one check passed"
                                     : fmt::format("all {} checks passed", outcome.checks.size());
 }
@@ -129,6 +132,7 @@ void write_checks(const loop::Outcome& outcome, const std::filesystem::path& fil
   json["passed"] = outcome.passed();
   json["end"] = seconds(outcome.end);
   json["failure"] = outcome.failure;
+  json["cause"] = outcome.cause;
   const auto& half = outcome.half_step;
   if (half) json["half_step"] = {{"step", seconds(half->step)}, {"failure", half->failure}};
   json["checks"] = nlohmann::ordered_json::array();

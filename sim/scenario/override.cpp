@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "sim/scenario/sections.hpp"
+#include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::scenario {
@@ -22,6 +23,7 @@ class OverrideSetter {
     const auto before = findings_.count();
     value_ = parse_yaml(override_.value, place_.source, findings_);
     if (findings_.count() != before) return;
+    root_ = &root;
     if (root.kind == YamlNode::Kind::map) set(root, override_.path, "");
   }
 
@@ -57,7 +59,7 @@ class OverrideSetter {
     if (rest == best->key.text && name == "variables") {
       give(*best, value_);
     } else if (rest == best->key.text) {
-      best->value = value_;
+      replace(best->value, full);
     } else {
       // A key that stands without a value is as good as absent.
       if (best->value.kind == YamlNode::Kind::null) best->value.kind = YamlNode::Kind::map;
@@ -121,10 +123,39 @@ class OverrideSetter {
     }
     auto& item = list.items[index];
     if (part.size() == rest.size()) {
-      item = value_;
+      replace(item, fmt::format("{}.{}", name, part));
     } else {
       set(item, rest.substr(part.size() + 1), fmt::format("{}.{}", name, part));
     }
+  }
+
+  // Nobody should have to know in which unit a number without one is read where the scenario writes one.
+  void replace(YamlNode& node, const std::string& name) {
+    const auto written = unit_of(node);
+    const auto given =
+        value_.kind == YamlNode::Kind::scalar ? parse_quantity(value_.text.text) : std::nullopt;
+    if (!written.empty() && given && given->unit.empty()) {
+      const auto& place = node.text.place;
+      return refuse(
+          fmt::format("{} has a unit in the scenario ({}, {}:{}:{}), and {} has none", name, node.text.text,
+                      findings_.sources().at(static_cast<std::size_t>(place.source)), place.line,
+                      place.column, value_.text.text),
+          fmt::format("write {} {} if that is meant", value_.text.text, written));
+    }
+    node = value_;
+  }
+
+  // Of a quantity that needs one, or of the variable that stands for it; else "".
+  [[nodiscard]] std::string unit_of(const YamlNode& node) const {
+    if (node.kind != YamlNode::Kind::scalar) return "";
+    const auto& text = node.text.text;
+    if (text.starts_with("${") && text.find('}') + 1 == text.size()) {
+      const auto* variables = child(*root_, "variables");
+      const auto* value = variables == nullptr ? nullptr : child(*variables, text.substr(2, text.size() - 3));
+      return value == nullptr || value->text.text.starts_with("${") ? "" : unit_of(*value);
+    }
+    const auto quantity = parse_quantity(text);
+    return quantity && is_unit(quantity->unit) && needs_unit(quantity->unit) ? quantity->unit : "";
   }
 
   void refuse(std::string what, std::string remedy) {
@@ -135,6 +166,7 @@ class OverrideSetter {
   Place place_;
   Findings& findings_;
   YamlNode value_;
+  const YamlNode* root_ = nullptr;
 };
 
 }  // namespace

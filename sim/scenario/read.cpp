@@ -10,6 +10,7 @@
 #include "sim/scenario/extends.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/sections.hpp"
+#include "sim/scenario/variable_slips.hpp"
 #include "sim/scenario/variables.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
@@ -102,6 +103,18 @@ void require_multiple(const YamlNode& root, std::initializer_list<std::string_vi
                    : fmt::format("for example {} or {}", format_time(below), format_time(below + step)));
 }
 
+// Who shortens a run from the command line knows that it does not get so far.
+void refuse_late_checks(const Scenario& scenario, const YamlNode& root, Findings& findings) {
+  const auto shortened = place_at(root, {"scene", "duration"}).source;
+  if (shortened > 0 && shortened <= static_cast<int>(scenario.overrides.size())) return;
+  for (const auto& check : scenario.checks)
+    if (check.from >= scenario.scene.duration)
+      findings.add(check.name.place,
+                   fmt::format("the check '{}' begins at {}, and the run ends at {}", check.name.text,
+                               format_time(check.from), format_time(scenario.scene.duration)),
+                   "an earlier from, or a longer scene.duration");
+}
+
 void check_together(const Scenario& scenario, const YamlNode& root, Findings& findings) {
   const Time step = scenario.scene.step;
   require_multiple(root, {"record", "every"}, scenario.record.every, step, findings);
@@ -120,6 +133,7 @@ void check_together(const Scenario& scenario, const YamlNode& root, Findings& fi
                              format_time(scenario.scene.duration), format_time(step)),
                  "let it last at least one step");
   }
+  refuse_late_checks(scenario, root, findings);
   constexpr Time most_steps = Time{1} << 53U;  // a recorder's row has a number that a double holds
   if (scenario.scene.duration / step > most_steps) {
     findings.add(place_at(root, {"scene", "step"}),
@@ -179,6 +193,24 @@ void take_misspelt_sections(YamlNode& root, Findings& findings) {
   }
 }
 
+// {gap: 0,4 mm} is a gap of 0 and a key '4 mm': told as what it is, and read as what was meant.
+void take_decimal_commas(YamlNode& node, Findings& findings) {
+  for (auto& item : node.items) take_decimal_commas(item, findings);
+  for (auto& entry : node.entries) take_decimal_commas(entry.value, findings);
+  for (std::size_t i = 1; i < node.entries.size(); ++i) {
+    auto& [key, value, repeated] = node.entries[i - 1];
+    const auto& torn = node.entries[i];
+    if (torn.value.kind != YamlNode::Kind::null || value.kind != YamlNode::Kind::scalar) continue;
+    const auto written = fmt::format("{},{}", value.text.text, torn.key.text);
+    const auto pointed = with_decimal_point(written);
+    if (pointed.empty()) continue;
+    findings.add(value.text.place, fmt::format("{}: '{}' has a decimal comma", key.text, written),
+                 fmt::format("write {}", pointed));
+    value.text = {pointed, value.text.place};
+    node.entries.erase(node.entries.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 // A scene that compares scenarios (sim/studies/compare/scene.hpp) is none itself.
 bool refuse_comparison(const YamlNode& root, Findings& findings) {
   const auto found = std::find_if(root.entries.begin(), root.entries.end(),
@@ -209,10 +241,13 @@ Problem problem_at(const Scenario& scenario, const Place& place, std::string wha
   return {name, place.line, place.column, std::move(what), std::move(remedy)};
 }
 
-Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,
-                            const std::vector<Override>& overrides, Problems& problems,
-                            std::span<const plants::PlantType> types) {
+namespace {
+
+Scenario read_once(std::string_view text, const std::filesystem::path& file,
+                   const std::vector<Override>& overrides, Problems& problems,
+                   std::span<const plants::PlantType> types, const Trial* trial) {
   Scenario scenario;
+  scenario.on_trial = trial != nullptr;
   scenario.file = file;
   scenario.sources = {file.string()};
   scenario.overrides = overrides;
@@ -224,18 +259,20 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
                  fmt::format("its sections are: {}", fmt::join(section_names(), ", ")));
   } else if (root.kind != YamlNode::Kind::null) {
     take_misspelt_sections(root, findings);
+    take_decimal_commas(root, findings);
     for (std::size_t i = 0; i < overrides.size(); ++i) {
       apply_override(root, overrides[i], static_cast<int>(i) + 1, findings);
     }
     if (root.kind == YamlNode::Kind::map) {
       if (!refuse_comparison(root, findings)) {
         const auto before = findings.count();
-        const auto used = resolve_variables(root, findings);
+        if (trial != nullptr) put_on_trial(root, *trial);
+        auto used = resolve_variables(root, findings);
         const bool resolved = findings.count() == before;
         read_sections(root, types, scenario, findings);
         scenario.buildable = scenario.buildable && resolved;
         for (auto& variable : scenario.variables) {
-          variable.used = used.contains(variable.name.text);
+          variable.uses = std::move(used[variable.name.text]);
           variable.beside = beside(root, variable.name.text);
         }
         refuse_slips(scenario, findings);
@@ -250,15 +287,30 @@ Scenario read_scenario_text(std::string_view text, const std::filesystem::path& 
   return scenario;
 }
 
+}  // namespace
+
+Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides, Problems& problems,
+                            std::span<const plants::PlantType> types, const Trial* trial) {
+  const auto before = problems.size();
+  auto scenario = read_once(text, file, overrides, problems, types, trial);
+  blame_variables(scenario, problems, before, [&](const Trial& other) {
+    Problems left;
+    read_once(text, file, overrides, left, types, &other);
+    return left;
+  });
+  return scenario;
+}
+
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                       Problems& problems, std::span<const plants::PlantType> types) {
+                       Problems& problems, std::span<const plants::PlantType> types, const Trial* trial) {
   const auto text = read_file(file, problems);
   if (!text) {
     Scenario scenario;
     scenario.file = file;
     return scenario;
   }
-  return read_scenario_text(*text, file, overrides, problems, types);
+  return read_scenario_text(*text, file, overrides, problems, types, trial);
 }
 
 }  // namespace drycut::sim::scenario

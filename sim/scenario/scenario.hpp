@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -97,6 +98,15 @@ struct ControllerSection {
   [[nodiscard]] virtual std::vector<Text> files() const = 0;
   /// What `set` can name, for messages.
   [[nodiscard]] virtual std::string_view settable() const = 0;
+  /// What a plug of the machine makes of its motion: "knife.encoder".
+  using ScaleOf = std::function<std::optional<plants::PlugScale>(const std::string& plug)>;
+  /// Where the section and the machine say different things of one thing, a phrase each.
+  [[nodiscard]] virtual std::vector<std::string> contradictions(const Scenario& scenario,
+                                                                const ScaleOf& scale_of) const {
+    (void)scenario;
+    (void)scale_of;
+    return {};
+  }
   /// The controller with its programs read and compiled; nullptr after problems. `notes`, if given, takes
   /// what is no fault.
   virtual std::unique_ptr<devices::Controller> load(const Scenario& scenario, Problems& problems,
@@ -342,7 +352,7 @@ struct Override {
 struct Variable {
   Text name;
   Text value;                            ///< what it comes to: a quantity, a switch, a text
-  bool used = false;                     ///< in the scenario; tables that it names are not looked at
+  std::vector<Place> uses = {};          ///< in the scenario; tables that it names are not looked at
   std::vector<std::string> beside = {};  ///< what is extended has none of this name but these
 };
 
@@ -366,9 +376,16 @@ struct Scenario {
   /// True if the machine can be built: plants and controller have no problem and all periods are multiples
   /// of the step. Problems elsewhere do not stop a check of the names.
   bool buildable = false;
+  bool on_trial = false;  ///< read with another value of a variable, to see what becomes of its problems
   std::vector<Override> overrides;   ///< that were applied
   std::vector<std::string> sources;  ///< names for messages: the file, then "--set PATH" of each override,
                                      ///< then other files that are read for it
+};
+
+/// Another value of a variable, put in its place as if the file had it, to see what becomes of the problems.
+struct Trial {
+  std::string variable;
+  std::string value;
 };
 
 /// A problem at a place of the scenario, with the right file name.
@@ -378,11 +395,13 @@ Problem problem_at(const Scenario& scenario, const Place& place, std::string wha
 /// reported with their place in `problems`, all of the file in one run. The scenario is usable only if no
 /// problem was added. Problems of an override have the file name "--set PATH".
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                       Problems& problems, std::span<const plants::PlantType> types = plants::plant_types());
+                       Problems& problems, std::span<const plants::PlantType> types = plants::plant_types(),
+                       const Trial* trial = nullptr);
 /// The same from a text that is already in memory; `file` names it in messages and places relative paths.
 Scenario read_scenario_text(std::string_view text, const std::filesystem::path& file,
                             const std::vector<Override>& overrides, Problems& problems,
-                            std::span<const plants::PlantType> types = plants::plant_types());
+                            std::span<const plants::PlantType> types = plants::plant_types(),
+                            const Trial* trial = nullptr);
 
 /// The scenario as YAML with every default in force; reading it back gives the same scenario.
 std::string expand(const Scenario& scenario);

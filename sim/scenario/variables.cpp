@@ -170,6 +170,17 @@ std::optional<Text> computed(const Text& text, const Lookup& lookup, const Repor
   return {};
 }
 
+// A number and behind it what can only be a unit that there is not: 60 m/mn, which arithmetic would read as
+// 60 m divided by something called mn. A text begins with a letter.
+bool looks_like_quantity(const std::string& text, Constant::Kind kind) {
+  const auto quantity = parse_quantity(text);
+  if (!quantity) return false;
+  if (kind == Constant::Kind::text) return true;
+  const auto& unit = quantity->unit;
+  return kind == Constant::Kind::formula && !unit.empty() && is_letter(unit.front()) &&
+         unit.find_first_of("*.+-()<>=") == std::string::npos;
+}
+
 /// What values of variables come to, by name.
 using Values = std::map<std::string, Text>;
 
@@ -203,7 +214,7 @@ class Resolver {
       if (value_of(*entries_.at(name)) != nullptr) sound[name] = entries_.at(name)->value.text;
     return sound;
   }
-  std::set<std::string> run(YamlNode& root) {
+  std::map<std::string, std::vector<Place>> run(YamlNode& root) {
     values();
     for (auto& entry : root.entries)
       if (&entry.value != section_) walk(entry.value);
@@ -236,7 +247,7 @@ class Resolver {
   }
 
   const std::string* find(const std::string& name, const Place& place) {
-    used_.insert(name);
+    used_[name].push_back(place);
     const auto entry = entries_.find(name);
     if (entry == entries_.end()) {
       findings_.add(place, fmt::format("there is no variable '{}'", name),
@@ -274,14 +285,8 @@ class Resolver {
     if (text.text.find(opening) != std::string::npos) return compute(text);
     if (is_quantity(text.text)) return true;
     auto constant = read_constant(text.text);
-    const bool begins_as_number =
-        !text.text.empty() && std::isdigit(static_cast<unsigned char>(text.text.front())) != 0;
-    if (constant.kind == Constant::Kind::text && begins_as_number && parse_quantity(text.text)) {
-      const auto parsed = parse_quantity(text.text);
-      findings_.add(
-          text.at(parsed->unit_offset),
-          fmt::format("variables.{}: unknown unit '{}'", entry.key.text, parsed->unit),
-          "units are written like mm, m/min, N m, kg m^2, rpm, deg, %; a text begins with a letter");
+    if (looks_like_quantity(text.text, constant.kind)) {
+      refuse_unit(text, "variables." + entry.key.text, findings_);
       return false;
     }
     for (const auto& fault : constant.faults) findings_.add(text.at(fault.offset), fault.what, fault.remedy);
@@ -312,7 +317,7 @@ class Resolver {
   std::map<std::string, YamlNode::Entry*> entries_;
   std::map<std::string, bool> sound_;  ///< that have been computed
   std::vector<std::string> open_;      ///< being computed, each for the one before
-  std::set<std::string> used_;
+  std::map<std::string, std::vector<Place>> used_;
 };
 
 /// The first values of variables that were given another, with those of the others.
@@ -349,7 +354,7 @@ bool is_separator(char c) { return std::string_view(",;\t=:\"\n\r").find(c) != s
 std::vector<const Variable*> unused(const Scenario& scenario) {
   std::vector<const Variable*> found;
   for (const auto& variable : scenario.variables)
-    if (!variable.used) found.push_back(&variable);
+    if (variable.uses.empty()) found.push_back(&variable);
   if (found.empty() || !scenario.controller) return found;
   std::string files;
   Problems ignored;
@@ -363,7 +368,7 @@ std::vector<const Variable*> unused(const Scenario& scenario) {
 
 }  // namespace
 
-std::set<std::string> resolve_variables(YamlNode& root, Findings& findings) {
+std::map<std::string, std::vector<Place>> resolve_variables(YamlNode& root, Findings& findings) {
   YamlNode* section = nullptr;
   for (auto& entry : root.entries)
     if (entry.key.text == "variables" && !entry.is_repeated()) section = &entry.value;
@@ -434,7 +439,7 @@ void refuse_slips(const Scenario& scenario, Findings& findings) {
     return did_you_mean(variable.name.text, variable.beside, "");
   };
   const auto is_slip = [&](const Variable& variable) {
-    return !variable.used && !variable.beside.empty() && !meant(variable).empty();
+    return variable.uses.empty() && !variable.beside.empty() && !meant(variable).empty();
   };
   if (std::none_of(scenario.variables.begin(), scenario.variables.end(), is_slip)) return;
   for (const auto* variable : unused(scenario))

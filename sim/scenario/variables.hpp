@@ -1,5 +1,5 @@
 #pragma once
-#include <set>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +13,8 @@ namespace drycut::sim::scenario {
 /// values are arithmetic too. A value that is arithmetic alone becomes a quantity, an expression with names
 /// in it (a check) gets the variables' quantities, and in any other text they stand as they are written.
 /// Unknown names, cycles and units that do not fit are problems where they stand; so is a value that measures
-/// something else than the variable's first one. Returns the names that are used.
-std::set<std::string> resolve_variables(YamlNode& root, Findings& findings);
+/// something else than the variable's first one. Returns where each that is used stands.
+std::map<std::string, std::vector<Place>> resolve_variables(YamlNode& root, Findings& findings);
 
 /// The same for a table in plain numbers (registers, a cam): every cell with ${name} in it is computed and
 /// must be a number. A cell keeps its width, so that what stands behind it keeps its column.

@@ -55,6 +55,15 @@ class Lines {
     const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), starts_.size() - 1);
     return text_.substr(starts_[line], offset(mark) - starts_[line] + 1).find("${") != std::string_view::npos;
   }
+  // A colon stands at `mark`, behind a key and a text that has begun: "title: saw: test".
+  [[nodiscard]] bool has_second_colon(const YAML::Mark& mark) const {
+    const auto at = offset(mark);
+    if (at >= text_.size() || text_[at] != ':') return false;
+    const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), starts_.size() - 1);
+    const auto before = text_.substr(starts_[line], at - starts_[line]);
+    const auto key = before.rfind(": ");
+    return key != std::string_view::npos && before.find_first_of(",{}[]\"'", key) == std::string_view::npos;
+  }
   // A tab before the first word of the line of `mark`; yaml-cpp's own message is not always about it.
   [[nodiscard]] std::optional<Place> indenting_tab(const YAML::Mark& mark) const {
     const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), starts_.size() - 1);
@@ -305,9 +314,12 @@ class Builder : public YAML::EventHandler {
 
 // yaml-cpp's words for the commonest slips, in words that say what to do.
 std::pair<std::string, std::string> explain(const YAML::ParserException& error,
-                                            const std::optional<Place>& open, bool after_variable) {
+                                            const std::optional<Place>& open, bool after_variable,
+                                            bool at_colon) {
   if (after_variable)
     return {"inside { } and [ ] a value with ${name} stands in quotes", "write \"${length} / 2\""};
+  if (at_colon)
+    return {"a second ': ' behind a key", "a text with a colon in it stands in quotes: title: \"saw: test\""};
   const std::string opened =
       open ? fmt::format(" opened at line {}, column {}", open->line, open->column) : std::string();
   if (error.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) {
@@ -386,7 +398,8 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
       findings.add(*tab, "a tab in the indentation", "indent with spaces");
     } else {
       const auto open = builder.open_bracket();
-      auto [what, remedy] = explain(error, open, open && lines.has_variable(error.mark));
+      auto [what, remedy] =
+          explain(error, open, open && lines.has_variable(error.mark), lines.has_second_colon(error.mark));
       findings.add(lines.place(error.mark), std::move(what), std::move(remedy));
     }
   } catch (const std::exception& error) {

@@ -28,6 +28,19 @@ bool is_group(const ParameterTable& table, const std::string& name) {
                      [&](const auto& row) { return row.name.starts_with(name + "."); });
 }
 
+// A key without a value behind another entry of its line may be the rest of that one's text: a comma ends a
+// value in {...}. What to write then; "" if it is nothing like that.
+std::string torn_at_comma(const YamlNode& map, const YamlNode::Entry& entry) {
+  const auto next =
+      std::find_if(map.entries.begin(), map.entries.end(), [&](const auto& one) { return &one == &entry; });
+  if (entry.value.kind != YamlNode::Kind::null || next == map.entries.begin() || next == map.entries.end())
+    return "";
+  const auto& [key, value, repeated] = *(next - 1);
+  if (value.kind != YamlNode::Kind::scalar || value.text.place.line != entry.key.place.line) return "";
+  return fmt::format("a text with a comma in it stands in quotes: {}: \"{}, {}\"", key.text, value.text.text,
+                     entry.key.text);
+}
+
 // A table that is written as nested maps is suggested by the names of this map, another by whole names.
 std::string nearest_row(const ParameterTable& table, const std::string& prefix, const std::string& key) {
   const auto map = table.nested ? prefix : std::string();
@@ -177,8 +190,9 @@ void MapReader::read_level(const ParameterTable& table, const YamlNode& node, co
     if (row != table.rows.end()) {
       read_parameter(table, *row, entry);
     } else if (!is_group(table, name)) {
+      const auto torn = torn_at_comma(node, entry);
       findings_.add(key.place, fmt::format("unknown key '{}' in {}", key.text, where),
-                    nearest_row(table, prefix, key.text));
+                    torn.empty() ? nearest_row(table, prefix, key.text) : torn);
     } else if (entry.value.kind != YamlNode::Kind::map) {
       refuse_kind(entry.value, full(name), YamlNode::Kind::map, findings_);
     } else {
@@ -253,10 +267,13 @@ bool MapReader::finish() {
   for (const auto& entry : node_.entries) {
     if (has_table_ || std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) continue;
     const auto where = name_.empty() ? std::string() : fmt::format(" in {}", name_);
-    const bool torn = entry.key.text.find_first_of("()") != std::string::npos;  // max(a, b) in a {...}
-    findings_.add(
-        entry.key.place, fmt::format("unknown key '{}'{}", entry.key.text, where),
-        torn ? "an expression with a comma in it stands in quotes" : did_you_mean(entry.key.text, known_));
+    const bool in_expression =
+        entry.key.text.find_first_of("()") != std::string::npos;  // max(a, b) in a {...}
+    const auto torn = torn_at_comma(node_, entry);
+    findings_.add(entry.key.place, fmt::format("unknown key '{}'{}", entry.key.text, where),
+                  in_expression   ? "an expression with a comma in it stands in quotes"
+                  : !torn.empty() ? torn
+                                  : did_you_mean(entry.key.text, known_));
   }
   for (const auto& judge : judges_) judge(*this);
   return true;

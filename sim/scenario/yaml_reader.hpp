@@ -20,6 +20,10 @@ enum class Sign { not_negative, positive };
 // Readers of single values. Each says in `findings` what is wrong with `text` and what would be right;
 // `name` is the full name of the value in messages ("plants.web.speed").
 
+/// "0.4 mm" of "0,4 mm"; "" if it is nothing like that.
+std::string with_decimal_point(std::string_view text);
+/// Says what is wrong with the unit of `text`, a number with one that is not known.
+void refuse_unit(const Text& text, const std::string& name, Findings& findings);
 /// A number with a unit that is known: the unit's dimension is not looked at.
 std::optional<Quantity> read_quantity(const Text& text, const std::string& name, Findings& findings);
 /// A number without unit is understood where one is one: counts, codes, ratios; not %, mm or deg.

@@ -22,6 +22,7 @@ const std::vector<std::string> common_units = {
     "N s/m", "V",     "mV",      "V/s",       "A",      "bar",    "Hz",     "1/min", "%",     "W",
     "kW",    "count", "count/s", "N m s/rad", "kg/m^2", "rad/s^2"};
 
+// What stands behind a number and is no unit. "0,4 mm" is how many write it.
 std::string unit_remedy(const std::string& unit) {
   return did_you_mean(unit, common_units, "units are written like mm, m/min, N m, kg m^2, rpm, deg, %");
 }
@@ -37,6 +38,28 @@ std::optional<Expression> compile_anything(const Text& text, std::vector<Express
 
 }  // namespace
 
+std::string with_decimal_point(std::string_view text) {
+  const auto comma = text.find(',');
+  const auto is_digit_at = [&](std::size_t at) { return at < text.size() && is_digit(text[at]); };
+  if (comma == std::string_view::npos || comma == 0 || !is_digit_at(comma - 1) || !is_digit_at(comma + 1))
+    return "";
+  auto pointed = std::string(text);
+  pointed[comma] = '.';
+  const auto quantity = parse_quantity(pointed);
+  return quantity && is_unit(quantity->unit) ? pointed : "";
+}
+
+void refuse_unit(const Text& text, const std::string& name, Findings& findings) {
+  const auto quantity = parse_quantity(text.text);
+  const auto pointed = with_decimal_point(text.text);
+  if (!pointed.empty())
+    findings.add(text.place, fmt::format("{}: '{}' has a decimal comma", name, text.text),
+                 fmt::format("write {}", pointed));
+  else
+    findings.add(text.at(quantity->unit_offset), fmt::format("{}: unknown unit '{}'", name, quantity->unit),
+                 unit_remedy(quantity->unit));
+}
+
 bool needs_unit(std::string_view unit) {
   return !unit.empty() && (!same_dimension(unit, "") || to_si(1, unit) != 1);
 }
@@ -49,8 +72,7 @@ std::optional<Quantity> read_quantity(const Text& text, const std::string& name,
     return {};
   }
   if (!is_unit(parsed->unit)) {
-    findings.add(text.at(parsed->unit_offset), fmt::format("{}: unknown unit '{}'", name, parsed->unit),
-                 unit_remedy(parsed->unit));
+    refuse_unit(text, name, findings);
     return {};
   }
   return Quantity{parsed->number, parsed->unit, text.place};

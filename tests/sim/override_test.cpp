@@ -47,6 +47,27 @@ TEST(Override, FillsAKeyThatStandsWithoutAValue) {
   EXPECT_EQ(made.controller->set.size(), 1U);
 }
 
+TEST(Override, ABareNumberIsNoQuantityWhereTheScenarioHasAUnit) {
+  const std::string text =
+      "variables: {speed: 60 m/min, count: 3}\n"
+      "scene: {duration: 1 s}\nplants:\n  axis: {type: ideal_axis, speed_at_10v: 500 mm/s}\n"
+      "timeline:\n  - {at: 0.1 s, set: {axis.x: \"${speed}\", axis.n: \"${count}\"}}\n";
+  std::vector<std::string> problems;
+  (void)read(text,
+             {{"plants.axis.speed_at_10v", "700"},
+              {"timeline.0.set.axis.x", "70"},
+              {"timeline.0.set.axis.n", "4"},
+              {"scene.duration", "2"},
+              {"plants.axis.speed_at_10v", "0.7 m/s"}},
+             problems);
+  ASSERT_EQ(problems.size(), 3U);
+  EXPECT_THAT(problems[0],
+              HasSubstr("plants.axis.speed_at_10v has a unit in the scenario (500 mm/s, x.yaml:4:43), and "
+                        "700 has none; write 700 mm/s if that is meant"));
+  EXPECT_THAT(problems[1], HasSubstr("write 70 m/min if that is meant"));
+  EXPECT_THAT(problems[2], HasSubstr("write 2 s if that is meant"));
+}
+
 TEST(Override, WhatItMadeUpIsRefusedByTheReaders) {
   std::vector<std::string> problems;
   (void)read(scenario,

@@ -9,6 +9,7 @@
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/scenario/units.hpp"
+#include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/tune/patch.hpp"
 #include "sim/studies/tune/search.hpp"
 
@@ -95,7 +96,15 @@ void check_parameter(TunedParameter& parameter, const Study& study, std::optiona
     Problems ignored;
     const auto scenario = scenario::read_scenario_text(entry.text, entry.file, study.set, ignored);
     if (!ignored.empty()) return;
+    const bool bare = parameter.unit.empty() && !parameter.relative;
     const auto value = present_value(parameter, scenario);
+    if (bare && scenario::needs_unit(parameter.unit)) {
+      problems.push_back({parameter.option, 1, parameter.low_column,
+                          fmt::format("{} is {}, and no unit is given", parameter.path,
+                                      scenario::dimension_name(parameter.unit)),
+                          fmt::format("such as {}..{} {}", parameter.low, parameter.high, parameter.unit)});
+      return;
+    }
     if (&entry == &study.cases.front()) present = value;
     if (!place_relative(parameter, value, problems)) return;
     try_bounds(parameter, study, entry, problems);

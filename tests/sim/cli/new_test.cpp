@@ -65,8 +65,55 @@ TEST_P(EveryStart, RunsAndPassesWhereItIs) {
   CheckOptions check;
   check.files = {folder / "line/line.yaml"};
   EXPECT_EQ(captured([&] { return check_files(check); }), all_passed) << err;
+  check.strict = true;
+  EXPECT_EQ(captured([&] { return check_files(check); }), all_passed) << out;
   EXPECT_NE(run(), "");
   EXPECT_THAT(content(folder / "line/README.md"), Not(HasSubstr("@")));
+}
+
+/// A line whose machine was changed, and its axes and cam not.
+struct ChangedLine : NewLine {
+  std::string notes(const std::vector<std::string>& set, bool strict = false) {
+    CheckOptions check;
+    check.files = {folder / "line/line.yaml"};
+    check.set = set;
+    check.strict = strict;
+    EXPECT_EQ(captured([&] { return check_files(check); }), strict ? check_failed : all_passed) << err;
+    return out;
+  }
+};
+
+TEST_F(ChangedLine, IsToldWhatNoLongerFits) {
+  ASSERT_EQ(make("line", "rotary_knife", "plcopen"), all_passed);
+  EXPECT_THAT(
+      notes({"plants.knife.gear.ratio=3"}),
+      AllOf(HasSubstr("note Knife.path says 40960 counts for 360 deg, and knife.encoder gives 24576"),
+            HasSubstr(
+                "note Knife.antr.v_at_10v is 2400 deg/s, and 10 V at knife.servo.reference are 4000 deg/s")));
+  EXPECT_THAT(notes({"plants.knife.circumference=800 mm"}, true),
+              HasSubstr("as a drum of 600 mm does, and knife has 800 mm"));
+  EXPECT_THAT(notes({"plants.web.wheel.lines=5000"}),
+              HasSubstr("Web.path says 40000 counts for 500 mm, and web.wheel gives 20000"));
+  EXPECT_THAT(notes({"wiring.QX0.5=panel.lamp"}),
+              HasSubstr("note QX0.5 is wired to panel.lamp, and no program works it"));
+}
+
+TEST_F(ChangedLine, SaysWhyItFailsEverywhere) {
+  ASSERT_EQ(make("line", "rotary_knife", "plcopen"), all_passed);
+  RunOptions options;
+  options.scenarios = {folder / "line/line.yaml"};
+  options.out = folder / "out";
+  options.summary = (folder / "summary.md").string();
+  options.annotate = "github";
+  options.pictures = false;
+  options.set = {"timeline.0.set.panel.start=0", "scene.duration=8 s"};
+  EXPECT_EQ(captured([&] { return run_scenarios(options); }), check_failed) << err;
+  const std::string why = "because nothing pressed start (panel.start was never on)";
+  EXPECT_THAT(out, AllOf(HasSubstr("checks failed, " + why), HasSubstr("no cut between 7.0 s and 8.0 s"),
+                         testing::ContainsRegex("::error.*" + std::string("because nothing pressed start"))));
+  EXPECT_THAT(content(folder / "out/junit.xml"), HasSubstr("failed " + why));
+  EXPECT_THAT(content(folder / "out/line/checks.json"), HasSubstr("\"cause\": \"" + why));
+  EXPECT_THAT(content(folder / "summary.md"), HasSubstr("It failed because nothing pressed start"));
 }
 
 TEST_P(EveryStart, NeedsNothingOutside) {

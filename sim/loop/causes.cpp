@@ -1,0 +1,110 @@
+#include "sim/loop/causes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+
+namespace drycut::sim::loop {
+
+namespace {
+
+constexpr std::size_t most_kept = 200;  ///< of each kind
+
+bool is_one_of(std::string_view word, const auto& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+constexpr std::array<std::string_view, 5> errors = {"error", "errorstop", "block_error", "stopped", "trip"};
+constexpr std::array<std::string_view, 7> warnings = {"warning", "refused",     "contradiction", "held_up",
+                                                      "overrun", "counts_lost", "pulse_lost"};
+
+// When the first check failed that can say so; those that found nothing to judge cannot.
+std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
+  std::optional<double> first;
+  for (const auto& check : checks)
+    if (!check.passed && check.failed_at && (!first || *check.failed_at < *first)) first = check.failed_at;
+  return first;
+}
+
+}  // namespace
+
+void Causes::happened(const RecordedEvent& event) {
+  const double at = event.at_seconds();
+  const auto keep = [&](std::vector<Told>& list, bool each_text) {
+    const bool known = std::any_of(list.begin(), list.end(), [&](const Told& told) {
+      return told.source == event.source && (!each_text || told.text == event.text);
+    });
+    if (!known && list.size() < most_kept)
+      list.push_back({at, event.source, event.text.empty() ? event.event : event.text});
+  };
+  if (event.source == "timeline") {
+    if ((event.event == "fault" || event.text == "off") && faults_.size() < most_kept)
+      faults_.push_back({at, event.event, event.text});
+  } else if (is_one_of(event.event, errors)) {
+    keep(errors_, false);
+  } else if (is_one_of(event.event, warnings)) {
+    keep(warnings_, true);
+  } else if (event.event == "saturated" && limits_.size() < most_kept) {
+    const auto* begin = event.find("begin");
+    const auto* end = event.find("end");
+    if (begin != nullptr && end != nullptr) limits_.push_back({event.source, begin->number, end->number});
+  }
+}
+
+const Causes::Told* Causes::first_error(double until) const {
+  return errors_.empty() || errors_.front().at > until ? nullptr : &errors_.front();
+}
+
+const Causes::Told* Causes::last_warning(double until, const std::string& source) const {
+  const Told* last = nullptr;
+  for (const auto& warning : warnings_)
+    if (warning.at <= until && (source.empty() || warning.source == source)) last = &warning;
+  return last;
+}
+
+// What came before a failure: a fault that was put in, an error and the warning behind it, a drive at its
+// limit.
+std::string Causes::by_time(double failed_at) const {
+  constexpr double soon = 1;  // [s] what lies so little before a failure is held to be its cause
+  const Told* fault = nullptr;
+  for (const auto& one : faults_)
+    if (one.at <= failed_at) fault = &one;
+  if (fault != nullptr)
+    return fmt::format("because the timeline had at {:.6g} s: {} {}", fault->at, fault->source, fault->text);
+  const auto phrase = [](const Told& told) {
+    return fmt::format("{} at {:.6g} s: {}", told.source, told.at, told.text);
+  };
+  const auto* error = first_error(failed_at);
+  const auto* warning =
+      last_warning(error != nullptr ? error->at : failed_at, error != nullptr ? error->source : "");
+  if (error != nullptr)
+    return warning != nullptr
+               ? fmt::format("because {}; then at {:.6g} s: {}", phrase(*warning), error->at, error->text)
+               : "because " + phrase(*error);
+  for (const auto& limit : limits_)
+    if (limit.begin <= failed_at && failed_at - limit.end <= soon && warning == nullptr)
+      return fmt::format("after the drive of {} was at its torque limit from {:.6g} s on", limit.drive,
+                         limit.begin);
+  if (warning == nullptr) return "";
+  // An error of the same source that follows confirms it.
+  const bool confirmed = std::any_of(errors_.begin(), errors_.end(), [&](const Told& later) {
+    return later.source == warning->source && later.at - warning->at <= soon;
+  });
+  return fmt::format("{} {}", confirmed || failed_at - warning->at <= soon ? "because" : "after",
+                     phrase(*warning));
+}
+
+std::string Causes::of(const std::vector<CheckResult>& checks, const Known& known) const {
+  if (std::all_of(checks.begin(), checks.end(), [](const CheckResult& check) { return check.passed; }))
+    return "";
+  if (!known.contradictions.empty()) return "because " + known.contradictions.front();
+  constexpr auto ever = std::numeric_limits<double>::infinity();
+  const auto failed_at = first_failure(checks);
+  if (const auto* error = first_error(ever); !failed_at && error == nullptr && !known.hindrances.empty())
+    return fmt::format("because {}", known.hindrances.front());
+  return by_time(failed_at.value_or(ever));
+}
+
+}  // namespace drycut::sim::loop

@@ -1,0 +1,118 @@
+#include "sim/loop/consistency.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/text.hpp"
+
+namespace drycut::sim::loop {
+
+namespace {
+
+/// The text without comments, in small letters: of QCL and IL from ';' on, of Structured Text // and (* *).
+std::string program_words(const devices::ProgramText& program) {
+  std::string words;
+  const auto text = lower(program.text);
+  const bool is_st = program.language == "st";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto rest = std::string_view(text).substr(i);
+    if (is_st ? rest.starts_with("//") : text[i] == ';') {
+      while (i < text.size() && text[i] != '\n') ++i;
+      words += '\n';
+    } else if (is_st && rest.starts_with("(*")) {
+      i = std::min(text.find("*)", i), text.size() - 1) + 1;
+    } else {
+      words += text[i];
+    }
+  }
+  return words;
+}
+
+bool is_word_at(const std::string& text, std::size_t at, std::size_t length) {
+  const auto joins = [&](std::size_t i) { return i < text.size() && in_name(text[i]); };
+  return (at == 0 || !joins(at - 1)) && !joins(at + length);
+}
+
+int times_named(const std::string& text, const std::string& word) {
+  int times = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    if (is_word_at(text, at, word.size())) ++times;
+  return times;
+}
+
+/// The name before `at` in its line, and its colon: "  lamp AT %QX0.1".
+std::string name_before(const std::string& text, std::size_t at) {
+  const auto line = text.rfind('\n', at) + 1;
+  const auto words = split_words(std::string_view(text).substr(line, at - line), {1, 1}, " \t,:");
+  return words.empty() ? "" : words.front().text;
+}
+
+/// Whether anything in the programs can work the output. What cannot be told counts as worked.
+bool is_worked(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
+  const auto wanted = lower(terminal);
+  for (const auto& program : programs) {
+    const auto words = program_words(program);
+    if (program.language == "il") {
+      // A group of four bits and more, K2Y0, holds others; so do blocks of outputs.
+      if (words.find("y", 0) == std::string::npos) continue;
+      for (auto k = words.find('k'); k != std::string::npos; k = words.find('k', k + 1))
+        if (k + 2 < words.size() && is_digit(words[k + 1]) && words[k + 2] == 'y') return true;
+      if (words.find("zrst") != std::string::npos || times_named(words, wanted) > 0) return true;
+    } else if (program.language == "st") {
+      for (const auto* whole : {"%qb", "%qw", "%qd"})
+        if (words.find(whole) != std::string::npos) return true;
+      const auto at = words.find("%" + wanted);
+      if (at == std::string::npos || !is_word_at(words, at + 1, wanted.size())) continue;
+      const auto name = name_before(words, at);
+      return name.empty() || times_named(words, name) > 1;
+    } else if (program.language == "cnf") {
+      const auto at = words.find(wanted);
+      if (at == std::string::npos) continue;
+      const auto line = words.rfind('\n', at) + 1;
+      const auto fields = split_words(std::string_view(words).substr(line, at - line), {1, 1}, " \t");
+      if (fields.size() != 2) return true;  // a device's
+      int times = 0;
+      for (const auto& other : programs)
+        if (other.language == "qcl") times += times_named(program_words(other), fields.front().text);
+      return times > 0;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> contradictions(const scenario::Scenario& scenario,
+                                        const std::vector<NamedPlant>& plants) {
+  if (!scenario.controller) return {};
+  return scenario.controller->contradictions(
+      scenario, [&](const std::string& plug) -> std::optional<plants::PlugScale> {
+        for (const auto& [name, plant] : plants)
+          if (plug.starts_with(name + "."))
+            return plant->scale_of(std::string_view(plug).substr(name.size() + 1));
+        return {};
+      });
+}
+
+std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devices::Controller& controller) {
+  std::vector<std::string> notes;
+  const auto programs = controller.programs();
+  std::map<std::string, std::string> counters;
+  for (const auto& wire : scenario.wiring) {
+    const auto found = controller.terminal(wire.terminal.text);
+    const auto* address = std::get_if<devices::Address>(&found);
+    if (address == nullptr) continue;
+    const auto name = controller.terminal_name(*address);
+    if (address->kind == devices::Kind::output && !is_worked(name, programs))
+      notes.push_back(fmt::format("{} is wired to {}, and no program works it", name, wire.plug.text));
+    if (address->kind != devices::Kind::counter) continue;
+    const auto [first, fresh] = counters.emplace(wire.plug.text, name);
+    if (!fresh)
+      notes.push_back(fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));
+  }
+  return notes;
+}
+
+}  // namespace drycut::sim::loop

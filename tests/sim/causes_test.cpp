@@ -1,0 +1,69 @@
+// Why a run failed: what is told of what happened before.
+#include "sim/loop/causes.hpp"
+
+#include <gmock/gmock.h>
+
+namespace drycut::sim::loop {
+namespace {
+
+RecordedEvent told(double at, const std::string& source, const std::string& event, const std::string& text,
+                   std::vector<RecordedEvent::Value> values = {}) {
+  return {static_cast<Time>(at * 1e9), 0, source, event, std::move(values), text};
+}
+
+CheckResult failed(std::optional<double> at) {
+  CheckResult result{"cut length", "each cut: length > 0", false, {}, "", {}, ""};
+  result.failed_at = at;
+  return result;
+}
+
+TEST(Causes, AreNoneWhereAllPassed) {
+  Causes causes;
+  causes.happened(told(1, "Knife", "errorstop", "following error"));
+  auto passed = failed({});
+  passed.passed = true;
+  EXPECT_EQ(causes.of({passed}, {{"a"}, {"b"}}), "");
+  EXPECT_EQ(Causes().of({failed(2)}, {}), "");
+}
+
+TEST(Causes, WhatComesBeforeAFailureMayBeItsCauseAndWhatComesBehindIsNot) {
+  Causes causes;
+  causes.happened(told(2.282, "Knife", "warning", "the cam asks for more than dynamik.vb_max"));
+  causes.happened(told(2.488, "Knife", "errorstop", "following error above its limit"));
+  causes.happened(told(3, "timeline", "fault", "knife.encoder stuck = 1"));
+  EXPECT_EQ(causes.of({failed(2.34), failed(9)}, {}),
+            "because Knife at 2.282 s: the cam asks for more than dynamik.vb_max");
+  EXPECT_EQ(
+      causes.of({failed(2.49)}, {}),
+      "because Knife at 2.282 s: the cam asks for more than dynamik.vb_max; then at 2.488 s: following error "
+      "above its limit");
+  EXPECT_EQ(causes.of({failed(3.1)}, {}), "because the timeline had at 3 s: fault knife.encoder stuck = 1");
+  EXPECT_EQ(causes.of({failed(1)}, {}), "");
+}
+
+TEST(Causes, AWarningOfLongAgoIsOnlyWhatCameBefore) {
+  Causes causes;
+  causes.happened(told(1, "AxisX", "warning", "a value is out of range"));
+  EXPECT_EQ(causes.of({failed(9)}, {}), "after AxisX at 1 s: a value is out of range");
+}
+
+TEST(Causes, ADriveAtItsLimitIsTold) {
+  Causes causes;
+  causes.happened(told(2.6, "knife", "saturated", "", {{"begin", 2.4, "s"}, {"end", 2.6, "s"}}));
+  EXPECT_EQ(causes.of({failed(2.5)}, {}), "after the drive of knife was at its torque limit from 2.4 s on");
+  EXPECT_EQ(causes.of({failed(5)}, {}), "");
+  EXPECT_EQ(causes.of({failed(2)}, {}), "");
+}
+
+TEST(Causes, WhatContradictsTheMachineGoesBeforeAllAndWhyNothingBeganBeforeWarnings) {
+  Causes causes;
+  causes.happened(told(1, "AxisX", "warning", "a value is out of range"));
+  const Causes::Known known = {{}, {"nothing pressed start (panel.start was never on)"}};
+  EXPECT_EQ(causes.of({failed({})}, known), "because nothing pressed start (panel.start was never on)");
+  EXPECT_EQ(causes.of({failed({})}, {{"a differs from b"}, known.hindrances}), "because a differs from b");
+  causes.happened(told(2, "AxisX", "error", "division by zero"));
+  EXPECT_THAT(causes.of({failed({})}, known), testing::HasSubstr("division by zero"));
+}
+
+}  // namespace
+}  // namespace drycut::sim::loop
