@@ -37,6 +37,7 @@ class Compiler : public TokenReader<Token> {
   void word_statement();
   const NamedThing* assignment();
   void store(const NamedThing& thing, Type type);
+  void note_fraction(Type type, int begin, const Token& name);
   void note_wrapping(const NamedThing& thing, Type type, int begin, const Token& name);
   void check_assignable(const NamedThing& thing, const Token& name);
   void check_writable(int device, Symbol symbol, const Token& parameter);

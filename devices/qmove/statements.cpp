@@ -1,4 +1,6 @@
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -73,7 +75,10 @@ const NamedThing* Compiler::assignment() {
     const std::optional<Symbol> symbol = device ? find_parameter(*device, parameter) : std::nullopt;
     if (symbol) check_writable(*device, *symbol, parameter);
     if (!expect("=", "write: Device:parameter = value")) return nullptr;
-    if (expression() == Type::real) emit(Op::to_long);
+    const int value = here();
+    const Type type = expression();
+    note_fraction(type, value, parameter);
+    if (type == Type::real) emit(Op::to_long);
     emit(Op::store_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
     insert_barriers(begin);
     return nullptr;
@@ -92,6 +97,7 @@ const NamedThing* Compiler::assignment() {
   const int value = here();
   const Type type = expression();
   if (thing) note_wrapping(*thing, type, value, name);
+  if (thing && thing->size != Size::S) note_fraction(type, value, name);
   store(thing ? *thing : NamedThing{}, type);
   insert_barriers(begin);
   return thing;
@@ -107,6 +113,17 @@ void Compiler::note_wrapping(const NamedThing& thing, Type type, int begin, cons
   program_.notes.push_back(fmt::format("{}:{}:{}: {}: {} does not fit size {}, taken as {}", file_,
                                        name.place.line, name.place.column, name.text, value,
                                        static_cast<char>(thing.size), stored));
+}
+
+// What takes whole numbers cuts a single's fraction off: toll = 0.03 is 0.
+void Compiler::note_fraction(Type type, int begin, const Token& name) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+  if (!plain || type != Type::real) return;
+  const auto value = std::bit_cast<float>(program_.code.back().a);
+  if (value == std::trunc(value)) return;
+  program_.notes.push_back(fmt::format("{}:{}:{}: {} takes whole numbers: {} is taken as {}", file_,
+                                       name.place.line, name.place.column, name.text, value,
+                                       std::trunc(value)));
 }
 
 // Converts the value on the stack to what `thing` holds and stores it there.

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/text.hpp"
 #include "sim/scenario/axis_units.hpp"
 
 namespace drycut::sim::controllers {

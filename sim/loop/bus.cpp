@@ -242,8 +242,9 @@ class Connector {
       return connect_pulses(address, wire, std::get<plants::PulsePort*>(port.plug));
     if (port.plug.index() != plug_for(address.kind)) {
       problem(wire.plug.place,
-              fmt::format("{} is a {}, {} is {}", controller_.terminal_name(address), name_of(address.kind),
-                          wire.plug.text, kind_of(port)),
+              fmt::format("{} is {} {}, {} is {}", controller_.terminal_name(address),
+                          address.kind == Kind::analogue ? "an" : "a", name_of(address.kind), wire.plug.text,
+                          kind_of(port)),
               fmt::format("wire it to one of: {}", plugs_of_kind(plug_for(address.kind))));
       return;
     }

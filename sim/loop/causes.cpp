@@ -11,14 +11,15 @@ namespace drycut::sim::loop {
 
 namespace {
 
-constexpr std::size_t most_kept = 200;  ///< of each kind
+constexpr std::size_t most_causes = 200;  ///< of each kind
 
-bool is_one_of(std::string_view word, const auto& words) {
+bool is_among(std::string_view word, const auto& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
-constexpr std::array<std::string_view, 5> errors = {"error", "errorstop", "block_error", "stopped", "trip"};
-constexpr std::array<std::string_view, 7> warnings = {"warning", "refused",     "contradiction", "held_up",
-                                                      "overrun", "counts_lost", "pulse_lost"};
+constexpr std::array<std::string_view, 5> error_events = {"error", "errorstop", "block_error", "stopped",
+                                                          "trip"};
+constexpr std::array<std::string_view, 7> warning_events = {
+    "warning", "refused", "contradiction", "held_up", "overrun", "counts_lost", "pulse_lost"};
 
 // When the first check failed that can say so; those that found nothing to judge cannot.
 std::optional<double> first_failure(const std::vector<CheckResult>& checks) {
@@ -36,17 +37,17 @@ void Causes::happened(const RecordedEvent& event) {
     const bool known = std::any_of(list.begin(), list.end(), [&](const Told& told) {
       return told.source == event.source && (!each_text || told.text == event.text);
     });
-    if (!known && list.size() < most_kept)
+    if (!known && list.size() < most_causes)
       list.push_back({at, event.source, event.text.empty() ? event.event : event.text});
   };
   if (event.source == "timeline") {
-    if ((event.event == "fault" || event.text == "off") && faults_.size() < most_kept)
+    if ((event.event == "fault" || event.text == "off") && faults_.size() < most_causes)
       faults_.push_back({at, event.event, event.text});
-  } else if (is_one_of(event.event, errors)) {
+  } else if (is_among(event.event, error_events)) {
     keep(errors_, false);
-  } else if (is_one_of(event.event, warnings)) {
+  } else if (is_among(event.event, warning_events)) {
     keep(warnings_, true);
-  } else if (event.event == "saturated" && limits_.size() < most_kept) {
+  } else if (event.event == "saturated" && limits_.size() < most_causes) {
     const auto* begin = event.find("begin");
     const auto* end = event.find("end");
     if (begin != nullptr && end != nullptr) limits_.push_back({event.source, begin->number, end->number});

@@ -52,14 +52,18 @@ std::string name_before(const std::string& text, std::size_t at) {
 /// Whether anything in the programs can work the output. What cannot be told counts as worked.
 bool is_worked(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
   const auto wanted = lower(terminal);
+  if (wanted.find('.') != std::string::npos && is_letter(wanted.front()) && wanted.front() != 'q')
+    return true;  // an axis'
   for (const auto& program : programs) {
     const auto words = program_words(program);
     if (program.language == "il") {
-      // A group of four bits and more, K2Y0, holds others; so do blocks of outputs.
-      if (words.find("y", 0) == std::string::npos) continue;
+      // A group of four bits and more, K2Y0, holds others; so do blocks of outputs. A cam's block has the
+      // number of its synchronous output.
       for (auto k = words.find('k'); k != std::string::npos; k = words.find('k', k + 1))
         if (k + 2 < words.size() && is_digit(words[k + 1]) && words[k + 2] == 'y') return true;
       if (words.find("zrst") != std::string::npos || times_named(words, wanted) > 0) return true;
+      const auto number = parsed<int>(std::string_view(wanted).substr(1), 8);
+      if (number && times_named(words, fmt::format("k{}", *number)) > 0) return true;
     } else if (program.language == "st") {
       for (const auto* whole : {"%qb", "%qw", "%qd"})
         if (words.find(whole) != std::string::npos) return true;
@@ -80,6 +84,14 @@ bool is_worked(const std::string& terminal, const std::vector<devices::ProgramTe
     }
   }
   return false;
+}
+
+/// A counter of an LX3VP, which its program has to name.
+bool is_unread(const std::string& terminal, const std::vector<devices::ProgramText>& programs) {
+  return !programs.empty() &&
+         std::all_of(programs.begin(), programs.end(), [&](const devices::ProgramText& program) {
+           return program.language == "il" && times_named(program_words(program), lower(terminal)) == 0;
+         });
 }
 
 }  // namespace
@@ -108,6 +120,9 @@ std::vector<std::string> doubtful_wires(const scenario::Scenario& scenario, devi
     if (address->kind == devices::Kind::output && !is_worked(name, programs))
       notes.push_back(fmt::format("{} is wired to {}, and no program works it", name, wire.plug.text));
     if (address->kind != devices::Kind::counter) continue;
+    if (is_unread(name, programs))
+      notes.push_back(
+          fmt::format("{} is wired to {}, and the program does not name it", name, wire.plug.text));
     const auto [first, fresh] = counters.emplace(wire.plug.text, name);
     if (!fresh)
       notes.push_back(fmt::format("{} and {} are both wired to {}", first->second, name, wire.plug.text));

@@ -334,7 +334,7 @@ std::vector<std::string> Simulation::hindrances() const {
     std::string waits;
     for (const auto& entry : scenario_.timeline)
       for (const auto& [target, value] : entry.set)
-        if (entry.when && target.text == "panel." + name)
+        if (entry.when && value.number != 0 && target.text == "panel." + name)
           waits = fmt::format(": '{}' of line {} never came true", entry.when->text, entry.place.line);
     unpressed += fmt::format("{}nothing pressed {} (panel.{} was never on{})", unpressed.empty() ? "" : ", ",
                              name, name, waits);

@@ -37,6 +37,18 @@ TEST(QmoveStatement, ANumberBeyondTheSizeOfItsVariableWrapsAndIsNoted) {
   EXPECT_EQ(started("gbSmall = 200\nEND\n")["gbSmall"], -56);
 }
 
+TEST(QmoveStatement, AFractionThatIsCutOffIsNoted) {
+  const std::string module = "slR = 0.03\nslR = cHalf\nslR = 2.0\nslR = 7\nEND\n";
+  Problems problems;
+  const Configuration configuration =
+      parse_configuration("CONST\ncHalf -2.5\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
+                          testing::puppets(), problems);
+  const Program program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
+  EXPECT_EQ(text_of(problems), "");
+  EXPECT_THAT(program.notes, ::testing::ElementsAre("task.mod:1:1: slR takes whole numbers: 0.03 is taken as 0",
+                                                    "task.mod:2:1: slR takes whole numbers: -2.5 is taken as -2"));
+}
+
 TEST(QmoveStatement, IfElseNest) {
   const std::string module =
       "IF slA GT 0\n  IF (slA GT 10)\n    slR = 2\n  ELSE\n    slR = 1\n  ENDIF\nELSE\n  slR = "
