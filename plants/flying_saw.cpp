@@ -88,6 +88,7 @@ void FlyingSaw::watch(const EndStop& stop, Crash& crash) {
 }
 
 void FlyingSaw::sense(double h) {
+  tell_motor_load(h);
   screw_.sense(h);
   servo_.sense(rotor());
   for (Event& event : servo_.take_events(rotor())) happened(std::move(event));
@@ -124,6 +125,10 @@ void FlyingSaw::report(const SawCut::Outcome& outcome) {
 }
 
 std::vector<DriveOfPlant> FlyingSaw::drives() { return servo_.drives(load_inertia(data_)); }
+
+MotorLoad FlyingSaw::motor_load(double h) const {
+  return screw_.motor_load(servo_.amplifier().torque(), 0, h);
+}
 
 std::vector<EventType> FlyingSaw::event_types() {
   std::vector<EventType> types = {

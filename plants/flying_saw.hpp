@@ -6,6 +6,7 @@
 #include "plants/flying_saw_blade.hpp"
 #include "plants/flying_saw_clamp.hpp"
 #include "plants/flying_saw_head.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/plant.hpp"
 #include "plants/screw_drive.hpp"
 #include "plants/servo_axis.hpp"
@@ -55,7 +56,7 @@ struct LeastStroke {
 /// (force, displacement) when the sideways force exceeds its limit, once per engagement; `crash` (side,
 /// speed, impulse, force) when the carriage has been in an end stop; `following_error` of a servo that takes
 /// pulses.
-class FlyingSaw : public Plant {
+class FlyingSaw : public Plant, public TellsMotorLoad {
  public:
   FlyingSaw(const FlyingSawData& data, World& world, Web& web);
 
@@ -68,6 +69,7 @@ class FlyingSaw : public Plant {
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;
+  [[nodiscard]] MotorLoad motor_load(double h) const override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;
   Parameters live_parameters() override;

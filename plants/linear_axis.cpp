@@ -32,6 +32,7 @@ void LinearAxis::drive(double h) {
 }
 
 void LinearAxis::sense(double h) {
+  tell_motor_load(h);
   screw_.sense(h);
   for (EndStop& stop : screw_.stops)
     if (stop.stopped(carriage())) happened(stop.hit("end_stop"));
@@ -94,6 +95,10 @@ std::vector<Setting> LinearAxis::settings() {
 }
 
 std::vector<DriveOfPlant> LinearAxis::drives() { return drive_.drives(load_inertia(data_)); }
+
+MotorLoad LinearAxis::motor_load(double h) const {
+  return screw_.motor_load(drive_.torque(), -data_.mass * units::gravity * std::sin(data_.inclination), h);
+}
 
 std::vector<EventType> LinearAxis::event_types() {
   std::vector<EventType> types = {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "plants/axis_drive.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/plant.hpp"
 #include "plants/screw_drive.hpp"
 
@@ -40,7 +41,7 @@ struct LinearAxisData : ScrewDriveData {
 ///
 /// Events: `end_stop` (side, speed, impulse, force) when an end stop has taken the motion out of the
 /// carriage; `trip` (speed) of inverter or contactors.
-class LinearAxis : public Plant {
+class LinearAxis : public Plant, public TellsMotorLoad {
  public:
   /// `carrier`: see LinearAxisData, may be null; `lender`: whose drive it shares, null for its own.
   LinearAxis(const LinearAxisData& data, World& world, const LinearAxis* carrier,
@@ -55,6 +56,7 @@ class LinearAxis : public Plant {
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;
+  [[nodiscard]] MotorLoad motor_load(double h) const override;
   std::vector<Part> parts() override;
   Parameters live_parameters() override;
   void parameters_changed() override;

@@ -73,6 +73,7 @@ double RotaryKnife::implicit_coupling(const Slide& material, double h) const {
 }
 
 void RotaryKnife::sense(double h) {
+  tell_motor_load(h);
   gear_.sense(rotor_, drum_, h);
   servo_.sense(rotor_);
   for (Event& event : servo_.take_events(rotor_)) happened(std::move(event));
@@ -185,6 +186,21 @@ std::vector<DriveOfPlant> RotaryKnife::drives() {
   auto drives = servo_.drives(data_.geared() / (data_.gear.ratio * data_.gear.ratio * data_.motors));
   for (auto& drive : drives) drive.alike = data_.motors;
   return drives;
+}
+
+// The motors share what turns with the drum.
+MotorLoad RotaryKnife::motor_load(double h) const {
+  const double arm = 1 / (data_.gear.ratio * data_.motors);
+  const double torque = servo_.amplifier().torque();
+  const double turning = rotor_.inertia * (rotor_.speed - rotor_.speed_before) / h;
+  const double drum = drum_.inertia * (drum_.speed - drum_.speed_before) / h;
+  const double resisting = gear_.torque() * data_.motors - drum;
+  const double rubbing = friction_in(friction_, drum_.speed_before, resisting, drum_.inertia, h);
+  return {.torque = torque,
+          .acceleration = turning + drum * arm,
+          .friction = torque - gear_.torque() / data_.gear.ratio - turning + rubbing * arm,
+          .load = (resisting - rubbing) * arm,
+          .speed = rotor_.speed};
 }
 
 std::vector<Recurrence> RotaryKnife::recurrences() {

@@ -4,6 +4,7 @@
 #include "plants/counter_drum.hpp"
 #include "plants/cutting.hpp"
 #include "plants/encoder.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/plant.hpp"
 #include "plants/position_switch.hpp"
 #include "plants/servo_axis.hpp"
@@ -54,7 +55,7 @@ struct RotaryKnifeData {
 /// (mismatch) when blade and web differ by more than mismatch_limit while the blade is in the web, once per
 /// engagement; `following_error` of a servo that takes pulses. The first cut, number 1, is as long as the web
 /// beyond the cut at the start plus its travel.
-class RotaryKnife : public Plant {
+class RotaryKnife : public Plant, public TellsMotorLoad {
  public:
   RotaryKnife(const RotaryKnifeData& data, World& world, Web& web);
 
@@ -66,6 +67,7 @@ class RotaryKnife : public Plant {
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;
+  [[nodiscard]] MotorLoad motor_load(double h) const override;
   std::vector<Recurrence> recurrences() override;
   std::vector<Part> parts() override;
   void callouts(std::vector<Callout>& out) override;

@@ -67,6 +67,20 @@ void ScrewDrive::sense(double h) {
   sensors.sense(rotor, slide, h);
 }
 
+MotorLoad ScrewDrive::motor_load(double torque, double weight, double h) const {
+  const double arm = 1 / (screw_per_metre_ * data_.gear.ratio);  // of the part at the motor [m]
+  const double turning = rotor.inertia * (rotor.speed - rotor.speed_before) / h;
+  const double moving = slide.mass * (slide.speed - slide.speed_before) / h;
+  const double resisting = force_ + weight - moving;
+  const double rubbing = friction_in(data_.guide_friction, slide.speed_before, resisting, slide.mass, h);
+  return {.torque = torque,
+          .acceleration = turning + moving * arm,
+          .friction = torque - force_ * arm - turning + rubbing * arm,
+          .load = (resisting - rubbing) * arm,
+          .gravity = -weight * arm,
+          .speed = rotor.speed};
+}
+
 void ScrewDrive::take(const ScrewDriveData& data, double mass, World& world) {
   data_ = data;
   if (slide.mass != mass) world.set_mass(slide, mass);

@@ -5,6 +5,7 @@
 #include "plants/axis_transducers.hpp"
 #include "plants/end_stop.hpp"
 #include "plants/friction.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/transmission.hpp"
 #include "plants/world.hpp"
 
@@ -62,6 +63,8 @@ class ScrewDrive {
   /// Other gear, friction and mass of the part [kg] from now on; the rest must be kept.
   void take(const ScrewDriveData& data, double mass, World& world);
 
+  /// What the motor's `torque` went into in the last step of `h` seconds; `weight` acts along the slide [N].
+  [[nodiscard]] MotorLoad motor_load(double torque, double weight, double h) const;
   [[nodiscard]] double torque() const { return torque_; }  ///< at the screw in the last step [N m]
   [[nodiscard]] double force() const { return force_; }    ///< on the part in the last step [N]
   [[nodiscard]] double twist() const { return twist_; }    ///< of the screw ahead of the part [rad]

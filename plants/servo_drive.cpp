@@ -201,7 +201,7 @@ void ServoDrive::offer_power_faults(std::vector<Fault>& faults, const std::strin
 }
 
 Parameters servo_parameters(ServoData& data, const ServoSources& from) {
-  constexpr std::string_view sheet = "data sheet: Mitsubishi HG-SR202";
+  constexpr std::string_view sheet = "unchecked: data sheet of Mitsubishi HG-SR202";
   Parameters rows = {
       row("rotor_inertia", "kg m2", "inertia of the rotor, a body of its own", data.rotor_inertia, 1e-7, 10,
           sheet),
@@ -232,7 +232,7 @@ Parameters servo_parameters(ServoData& data, const ServoSources& from) {
       row("stall_torque", "N m", "continuous torque at standstill, 0 = as at rated speed", data.stall_torque,
           0, 1e4, "estimate"),
       row("torque_constant", "N m/A", "torque over the rms current", data.torque_constant, 1e-3, 1e3,
-          "estimate: rated torque at 10.6 A"),
+          "estimate: rated torque at 9.6 A"),
       row("winding_resistance", "ohm",
           "between two phases at 20 degC, 0 = 6 % of the rated power is lost in it", data.winding_resistance,
           0, 1e4, "estimate: usual in the class"),

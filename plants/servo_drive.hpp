@@ -33,7 +33,7 @@ struct ServoData {
   double current_lag = 0.5e-3;   ///< time constant of the current loop, 0 = none [s]
   // Electrical side; 0 = not known, estimated from the rest: see electrical()
   double stall_torque = 0;        ///< for ever, at standstill [N m]
-  double torque_constant = 0.9;   ///< over the rms current [N m/A]
+  double torque_constant = 0.99;  ///< over the rms current [N m/A]
   double winding_resistance = 0;  ///< between two phases, cold (20 degC) [ohm]
   MotorHeatData heat = {};
   AmplifierData amplifier = {};

@@ -51,6 +51,7 @@ void VerticalPress::drive(double h) {
 }
 
 void VerticalPress::sense(double h) {
+  tell_motor_load(h);
   screw_.sense(h);
   report_contacts();
   watch_for_sag(h);
@@ -129,6 +130,10 @@ std::vector<Setting> VerticalPress::settings() {
 }
 
 std::vector<DriveOfPlant> VerticalPress::drives() { return drive_.drives(load_inertia(data_)); }
+
+MotorLoad VerticalPress::motor_load(double h) const {
+  return screw_.motor_load(drive_.torque(), data_.counterbalance - ram().mass * units::gravity, h);
+}
 
 Parameters VerticalPress::live_parameters() { return live_rows(vertical_press_parameters(data_)); }
 

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "plants/axis_drive.hpp"
+#include "plants/motor_load.hpp"
 #include "plants/plant.hpp"
 #include "plants/screw_drive.hpp"
 
@@ -45,7 +46,7 @@ struct VerticalPressData : ScrewDriveData {
 ///
 /// Events: `end_stop` and `pressed` (speed, impulse, force) when end stop or workpiece has stopped the ram,
 /// `sag` (speed, position) when the ram goes down though brake and drive are to hold it, `trip` of the drive.
-class VerticalPress : public Plant {
+class VerticalPress : public Plant, public TellsMotorLoad {
  public:
   VerticalPress(const VerticalPressData& data, World& world);
 
@@ -57,6 +58,7 @@ class VerticalPress : public Plant {
   std::vector<Fault> faults() override;
   std::vector<EventType> event_types() override;
   std::vector<DriveOfPlant> drives() override;
+  [[nodiscard]] MotorLoad motor_load(double h) const override;
   std::vector<Part> parts() override;
   Parameters live_parameters() override;
   void parameters_changed() override;

@@ -13,6 +13,7 @@
 #include "sim/report/gallery.hpp"
 #include "sim/report/part_meshes.hpp"
 #include "sim/report/results.hpp"
+#include "sim/report/torque.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/studies/bode/loop.hpp"
 #include "sim/time.hpp"
@@ -43,6 +44,7 @@ class RunFolder {
     folder_->begin();
     report::write_checks(report::outcome_to_come(), folder_->add(report::checks_file));
     simulation_.follow_cams();
+    report::follow_torques(simulation_);
     simulation_.write_to(folder_->add(report::trace_file), folder_->add(report::events_file));
   }
   /// Returns what was left out because a helper program is missing.

@@ -52,6 +52,9 @@ void add_commands(CLI::App& app, int& status);
 int list_devices(const std::string& name, bool json);
 int list_plants(const std::string& name, bool json);
 int list_motors(const std::string& name, bool json);
+/// drycut plants --units, drycut plants --motor-template: the file for a motor of `kind`, "" = servo.
+int list_units(const std::string& quantity, bool json);
+int print_motor_template(const std::string& kind);
 
 /// Prints problems in order on standard error; says how many.
 void print_problems(const Problems& problems);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text.hpp"
 #include "sim/cli/commands.hpp"
 #include "sim/cli/pages.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
@@ -49,7 +50,7 @@ Sheet table_of(const std::vector<scenario::MotorModel>& motors, std::string_view
     parameters.push_back(parameter);
     columns.push_back(heading(std::string(parameter), has->find(parameter)->shown));
   }
-  columns.insert(columns.end(), {"vendor", "series"});
+  columns.insert(columns.end(), {"values", "vendor", "series"});
   Sheet sheet(std::string(kind), title_of(kind), columns);
   for (const auto& motor : motors) {
     if (motor.kind != kind) continue;
@@ -59,7 +60,7 @@ Sheet table_of(const std::vector<scenario::MotorModel>& motors, std::string_view
       row.emplace_back(value == nullptr ? std::string()
                                         : (value->is_estimate() ? "~" : "") + split(value->shown).first);
     }
-    row.insert(row.end(), {motor.vendor, motor.series});
+    row.insert(row.end(), {motor.standing(), motor.vendor, motor.series});
     sheet.add(std::move(row));
   }
   return sheet;
@@ -77,10 +78,26 @@ Page page_of(const scenario::MotorModel& motor) {
   Sheet values("values", fmt::format("Values, for {}: {{model: {}}}", motor.kind, motor.name.text),
                {"name=parameter", "value", "source=from"});
   for (const auto& value : motor.values) values.add({value.parameter, value.shown, value.from});
-  return {motor.name.text, fmt::format("{}, {} {}", kind, motor.vendor, motor.series), "", {values}};
+  return {motor.name.text,
+          fmt::format("{}, {} {}; values {}", kind, motor.vendor, motor.series, motor.standing()),
+          "",
+          {values}};
 }
 
 }  // namespace
+
+int print_motor_template(const std::string& kind) {
+  const auto& kinds = scenario::motor_kinds;
+  const auto found = std::find(std::begin(kinds), std::end(kinds), kind.empty() ? kinds[0] : kind);
+  if (found == std::end(kinds)) {
+    fmt::print(stderr, "drycut plants --motor-template: there is no kind of motor '{}'; {}\n", kind,
+               did_you_mean(kind, {kinds[0].data(), kinds[1].data()},
+                            fmt::format("there are: {}, {}", kinds[0], kinds[1])));
+    return bad_input;
+  }
+  fmt::print("{}", scenario::motor_template(*found));
+  return all_passed;
+}
 
 std::vector<Sheet> motor_tables() { return tables_of(scenario::shipped_motors()); }
 

@@ -101,16 +101,33 @@ void add_devices(CLI::App& app, int& status) {
 }
 
 void add_plants(CLI::App& app, int& status) {
-  const auto motors = std::make_shared<bool>(false);
-  const auto list = [motors](const std::string& name, bool json) {
-    return *motors ? list_motors(name, json) : list_plants(name, json);
+  struct Instead {
+    bool motors = false;
+    bool form = false;
+    bool units = false;
+  };
+  const auto instead = std::make_shared<Instead>();
+  const auto list = [instead](const std::string& name, bool json) {
+    return instead->motors  ? list_motors(name, json)
+           : instead->form  ? print_motor_template(name)
+           : instead->units ? list_units(name, json)
+                            : list_plants(name, json);
   };
   auto* plants = add_pages(app, status, list, "plants", "List plant types, or the table of one",
                            "Plant type, such as rotary_knife; with --motors a motor, such as HG-SR202");
-  plants->add_flag(
-      "--motors", *motors,
+  auto* motors = plants->add_flag(
+      "--motors", instead->motors,
       "Motors for servo: {model: ...} and induction_motor: {model: ...}, or the values of one with "
       "their sources; those in ./catalogue too");
+  auto* form = plants->add_flag(
+      "--motor-template", instead->form,
+      "A file for a motor of your own, to fill in with five values of its data sheet and keep "
+      "in catalogue/; of induction motors: --motor-template induction_motor");
+  auto* units = plants->add_flag(
+      "--units", instead->units,
+      "The units that scenarios and catalogues understand, or those of one quantity, such as torque");
+  motors->excludes(form)->excludes(units);
+  form->excludes(units);
 }
 
 }  // namespace drycut::sim::cli

@@ -45,6 +45,8 @@ std::vector<Page> scenario_pages();
 Page cam_table_page();
 /// A page for each plant type.
 std::vector<Page> plant_pages();
+/// A table of units for each quantity.
+std::vector<Sheet> unit_tables();
 /// A table of servo motors and one of induction motors that come with the program.
 std::vector<Sheet> motor_tables();
 

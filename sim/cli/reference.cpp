@@ -97,7 +97,7 @@ _drycut() {{
   case "$COMP_CWORD:${{COMP_WORDS[1]}}" in
     1:*) COMPREPLY=($(compgen -W "{} --help --version" -- "$word")); return ;;
     2:devices) COMPREPLY=($(compgen -W "{} --json --help" -- "$word")); return ;;
-    2:plants) COMPREPLY=($(compgen -W "{} --json --motors --help" -- "$word")); return ;;
+    2:plants) COMPREPLY=($(compgen -W "{} --json --motors --motor-template --units --help" -- "$word")); return ;;
   esac
   case "${{COMP_WORDS[1]}}" in
 {}  esac
@@ -130,8 +130,22 @@ std::string motors() {
   std::string text =
       "# Motors\n\nMade by `drycut reference`; `drycut plants --motors` prints the same, `drycut plants "
       "--motors NAME` every "
-      "value of one and where it is from. ~ is an estimate.\n";
+      "value of one and where it is from. ~ is an estimate. `values` says how far they can be trusted: "
+      "checked, every "
+      "value from a sheet was compared with the page that its source names; unchecked, one was not; n "
+      "estimated, that "
+      "many are not given and the program estimates them on the safe side.\n";
   for (const auto& sheet : motor_tables()) text += sheet.markdown();
+  return text;
+}
+
+std::string units() {
+  std::string text =
+      "# Units\n\nMade by `drycut reference`; `drycut plants --units` prints the same. A value is written in "
+      "any unit "
+      "of its quantity; SI prefixes (`m`, `k`, `u`) and products, quotients and powers (`N m s/rad`) are "
+      "understood.\n";
+  for (const auto& sheet : unit_tables()) text += sheet.markdown();
   return text;
 }
 
@@ -161,6 +175,7 @@ int write_reference(const CLI::App& program, const std::filesystem::path& folder
   put("devices.md", contents("Devices and controllers", "drycut devices NAME", device_pages()));
   put("plants.md", contents("Plants", "drycut plants NAME", plant_pages()));
   put("motors.md", motors());
+  put("units.md", units());
   put("cam_tables.md", markdown(cam_table_page()));
   for (const auto& pages : {device_pages(), plant_pages(), scenario_pages()})
     for (const auto& page : pages) put(page.name + ".md", markdown(page));

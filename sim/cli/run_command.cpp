@@ -28,6 +28,7 @@
 #include "sim/report/gallery.hpp"
 #include "sim/report/index.hpp"
 #include "sim/report/results.hpp"
+#include "sim/report/torque.hpp"
 #include "sim/studies/compare/scene_run.hpp"
 #include "sim/studies/half_step.hpp"
 
@@ -97,7 +98,10 @@ void run_job(Job& job, const RunOptions& options, int threads,
     return std::chrono::duration<double>(Clock::now() - begun).count();
   };
   const auto duration = static_cast<double>(job.scenario.scene.duration);
-  if (options.pictures) job.simulation->follow_cams();
+  if (options.pictures) {
+    job.simulation->follow_cams();
+    report::follow_torques(*job.simulation);
+  }
   if (!options.pictures && !options.gltf) job.simulation->keep_nothing();
   records::RunFiles files(job.scenario, *job.simulation, folder);
   job.result.outcome = job.simulation->run([&](Time now) {

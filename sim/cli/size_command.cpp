@@ -94,8 +94,8 @@ void print_best(const SizePlan& plan, const std::vector<studies::Sized>& sized,
     const auto& one = sized[order[rank]];
     const auto name = printable(name_of(plan.candidates[order[rank]]));
     if (one.kind == Kind::fits || one.kind == Kind::close)
-      fmt::print("{:>3}. {}: {:.0f} % left of {}, {}\n", rank + 1, name, one.reserve, one.nearest,
-                 printable(one.hardest));
+      fmt::print("{:>3}. {}: {:.0f} % left of {}, {}; motor's values {}\n", rank + 1, name, one.reserve,
+                 one.nearest, printable(one.hardest), plan.candidates[order[rank]].values);
     else
       fmt::print("{:>3}. {} {}: {}{}\n", rank + 1, name, name_of(one.kind), printable(one.reason),
                  one.where.empty() ? "" : ", " + printable(one.where));

@@ -13,6 +13,7 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/opcua_names.hpp"
 #include "sim/scenario/format.hpp"
+#include "sim/scenario/motor_catalogue.hpp"
 #include "sim/scenario/variable_slips.hpp"
 #include "sim/scenario/variables.hpp"
 
@@ -73,6 +74,8 @@ Simulation::Simulation(const scenario::Scenario& scenario, Problems& problems)
 Simulation::~Simulation() = default;
 
 void Simulation::load_controller(Problems& problems) {
+  for (const auto& plant : scenario_.plants)
+    for (auto& note : scenario::notes_of_models(plant)) notes_of_setup_.push_back(std::move(note));
   controller_ = loop::load_controller(scenario_, problems, &notes_of_setup_);
   for (auto& note : scenario::unused_variables(scenario_)) notes_of_setup_.push_back(std::move(note));
 }

@@ -28,6 +28,7 @@
 #include "sim/report/report.hpp"
 #include "sim/report/results.hpp"
 #include "sim/report/shown_units.hpp"
+#include "sim/report/torque.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/studies/half_step.hpp"
@@ -223,6 +224,7 @@ renders::Report report_of(const scenario::Scenario& scenario, loop::Simulation& 
   add_checks(outcome.checks, report);
   if (auto drives = drive_table(outcome.drives); !drives.rows.empty())
     report.summary.push_back(std::move(drives));
+  for (const auto& split : torque_splits(scenario, simulation)) report.tables.push_back(torque_table(split));
   if (outcome.half_step) report.summary.push_back(studies::margin_table(outcome, scenario.scene.step));
   if (!drawn.frames.empty()) {
     // Frames between moments that have a name look alike; around an event each of them counts.

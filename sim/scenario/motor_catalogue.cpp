@@ -4,16 +4,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
 #include "base/text.hpp"
-#include "plants/induction_motor.hpp"
-#include "plants/servo_drive.hpp"
 #include "renders/embedded.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/forms.hpp"
+#include "sim/scenario/motor_estimates.hpp"
 #include "sim/scenario/parameter_text.hpp"
 #include "sim/scenario/units.hpp"
 #include "sim/scenario/yaml_reader.hpp"
@@ -24,41 +24,22 @@ namespace {
 
 constexpr std::uintmax_t largest_series = std::uintmax_t{1} << 20U;  // [bytes]
 
-// What every motor says, where its group has the parameter: else it would be another motor's.
-constexpr std::string_view required[] = {
-    "rotor_inertia",         "rated_torque",      "rated_speed",       "peak_torque",
-    "torque_at_max_speed",   "max_speed",         "rated_frequency",   "synchronous_speed",
-    "pullout_torque",        "stall_torque",      "torque_constant",   "winding_resistance",
-    "winding_time_constant", "amplifier_current", "overload_time",     "amplifier_peak_current",
-    "housing_time_constant", "temperature_rise",  "temperature_limit", "stator_resistance",
-    "rated_current",         "no_load_current"};
+constexpr std::string_view of_program = "estimate: drycut's, ";
+constexpr std::string_view former_name = "formerly";
+constexpr std::string_view source_words[] = {"sheet: ", "unchecked: ", "estimate: "};
 
-// A group's table, to try values on, and the name plate's power.
-struct Scratch {
-  plants::ServoData servo;
-  plants::InductionMotorData induction_motor;
-  double rated_power = 0;  // [W]
-  plants::Parameters rows;
-
-  explicit Scratch(std::string_view kind) {
-    rows = kind == motor_kinds[0] ? servo_parameters(servo) : induction_motor_parameters(induction_motor);
-    rows.push_back(plants::row("rated_power", "kW", "power of the name plate", rated_power, 1e-3, 1e4, ""));
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  [[nodiscard]] const plants::Parameter* find(std::string_view name) const {
-    const auto found =
-        std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
-    return found == rows.end() ? nullptr : &*found;
-  }
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    names.reserve(rows.size());
-    for (const auto& row : rows) names.push_back(row.name);
-    return names;
-  }
-};
+// Of values by where they are from.
+std::string standing_of(const std::vector<std::string_view>& sources) {
+  const auto count = [&](std::string_view begin) {
+    return std::count_if(sources.begin(), sources.end(), [&](auto from) { return from.starts_with(begin); });
+  };
+  const auto estimated = count(source_words[2]);
+  const auto* const word = estimated == std::ssize(sources)                      ? "estimated"
+                           : count("checked") + estimated == std::ssize(sources) ? "checked"
+                                                                                 : "unchecked";
+  const auto completed = count(of_program);
+  return completed == 0 ? word : fmt::format("{}, {} estimated", word, completed);
+}
 
 // Reads one file.
 class SeriesReader : public MapReader {
@@ -96,15 +77,34 @@ class SeriesReader : public MapReader {
     if (!has(key)) missing(key, remedy);
   }
 
-  static bool says_source(const std::string& text) {
-    return text.starts_with("sheet: ") || text.starts_with("estimate: ");
+  // "checked 2026-11-24: "
+  static bool says_check(std::string_view text) {
+    constexpr std::string_view form = "checked dddd-dd-dd: ";
+    if (text.size() <= form.size()) return false;
+    for (std::size_t i = 0; i < form.size(); ++i)
+      if (i >= 8 && form[i] == 'd' ? std::isdigit(static_cast<unsigned char>(text[i])) == 0
+                                   : text[i] != form[i])
+        return false;
+    return true;
+  }
+  static bool says_source(std::string_view text) {
+    return says_check(text) || std::any_of(std::begin(source_words), std::end(source_words), [&](auto word) {
+             return text.starts_with(word) && text.size() > word.size();
+           });
+  }
+  // What a sheet's values are until somebody has compared them.
+  static std::string told_source(const std::string& text) {
+    constexpr std::string_view sheet = source_words[0];
+    return text.starts_with(sheet) ? fmt::format("{}{}", source_words[1], text.substr(sheet.size())) : text;
   }
 
   void refuse_source(const Text& text, const std::string& name, const std::vector<std::string>& words) {
     const auto near = nearest(text.text, words);
-    findings().add(text.place, fmt::format("{} says neither which sheet nor why an estimate", name),
-                   near.empty() ? R"(write "sheet: ..." or "estimate: ...", or a word of sources)"
-                                : fmt::format("did you mean {}?", near));
+    findings().add(
+        text.place, fmt::format("{} says neither which sheet nor why an estimate", name),
+        near.empty()
+            ? R"(write "sheet: ...", "checked 2026-11-24: ..." or "estimate: ...", or a word of sources)"
+            : fmt::format("did you mean {}?", near));
   }
 
   void read_sources(const YamlNode& map) {
@@ -115,7 +115,7 @@ class SeriesReader : public MapReader {
         refuse_kind(entry.value, name, YamlNode::Kind::scalar, findings());
       else if (!says_source(entry.value.text.text))
         refuse_source(entry.value.text, name, {});
-      sources_.emplace_back(entry.key.text, entry.value.text.text);
+      sources_.emplace_back(entry.key.text, told_source(entry.value.text.text));
     }
   }
 
@@ -126,7 +126,7 @@ class SeriesReader : public MapReader {
       if (word == from.text) return text;
       words.push_back(word);
     }
-    if (says_source(from.text)) return from.text;
+    if (says_source(from.text)) return told_source(from.text);
     refuse_source(from, name, words);
     return "";
   }
@@ -134,10 +134,10 @@ class SeriesReader : public MapReader {
   // The values of a map, those that are wrong left out.
   std::vector<MotorModel::Value> read_values(const YamlNode& map, const std::string& name) {
     std::vector<MotorModel::Value> values;
-    Scratch scratch(kind_);  // takes the values
+    MotorTable scratch(kind_);  // takes the values
     refuse_duplicates(map, name, findings());
     for (const auto& entry : map.entries) {
-      if (entry.is_repeated()) continue;
+      if (entry.is_repeated() || entry.key.text == former_name) continue;
       const auto full = fmt::format("{}.{}", name, entry.key.text);
       const auto* const row = scratch.find(entry.key.text);
       if (row == nullptr) {
@@ -172,10 +172,13 @@ class SeriesReader : public MapReader {
     if (entry.key.text.empty() || entry.key.text == plants::no_model)
       findings().add(entry.key.place, fmt::format("'{}' cannot name a motor", entry.key.text),
                      "write what is on its name plate");
-    MotorModel motor{entry.key, kind_, vendor_, series_, {}};
+    MotorModel motor{entry.key, "", kind_, vendor_, series_, {}};
+    if (const auto* const former = child(entry.value, former_name))
+      form(motor.formerly)
+          .read(*former, {fmt::format("{}.{}", name, former_name), entry.key.place}, findings());
     const auto own = read_values(entry.value, name);
-    const Scratch scratch(kind_);
-    for (const auto& row : scratch.rows) {
+    const MotorTable table(kind_);
+    for (const auto& row : table.rows) {
       for (const auto* values : {&own, &std::as_const(common_)}) {
         const auto given = std::find_if(values->begin(), values->end(),
                                         [&](const auto& value) { return value.parameter == row.name; });
@@ -184,15 +187,20 @@ class SeriesReader : public MapReader {
         break;
       }
     }
-    if (findings().count() == before) judge_motor(motor, name, scratch);
+    if (findings().count() == before) judge_motor(motor, name);
+    if (findings().count() == before) complete(motor);
     motors_.push_back(std::move(motor));
   }
 
-  void judge_motor(const MotorModel& motor, const std::string& name, const Scratch& scratch) {
-    for (const auto& key : required) {
-      if (scratch.find(key) == nullptr || motor.find(key) != nullptr || is_wrong_in_common(key)) continue;
-      findings().add(motor.name.place, fmt::format("{}.{} is missing", name, key),
-                     "left out it would be that of the motor that is the default");
+  void judge_motor(const MotorModel& motor, const std::string& name) {
+    for (const auto& keys : needed_values(kind_)) {
+      const bool given = std::any_of(keys.begin(), keys.end(), [&](auto key) {
+        return motor.find(key) != nullptr || is_wrong_in_common(key);
+      });
+      if (!given)
+        findings().add(motor.name.place, fmt::format("{}.{} is missing", name, fmt::join(keys, " or ")),
+                       "write it from the motor's sheet; drycut plants --motor-template shows which values "
+                       "a motor needs and which are estimated without");
     }
     const auto* const power = motor.find("rated_power");
     const auto* const torque = motor.find("rated_torque");
@@ -205,6 +213,26 @@ class SeriesReader : public MapReader {
                      fmt::format("{}.rated_power is {}, but rated torque at rated speed gives {:.3g} kW",
                                  name, power->text.text, made / 1e3),
                      "within 3 % of each other");
+  }
+
+  // The rest of the values, as estimates.
+  void complete(MotorModel& motor) {
+    std::vector<MotorModel::Value> all;
+    MotorTable table(kind_);
+    for (const auto& value : motor.values) table.set(value.parameter, si(value));
+    const auto estimates = table.estimates();
+    for (const auto& row : table.rows) {
+      if (const auto* const given = motor.find(row.name)) {
+        all.push_back(*given);
+        continue;
+      }
+      const auto estimate = std::find_if(estimates.begin(), estimates.end(),
+                                         [&](const auto& made) { return made.parameter == row.name; });
+      if (estimate == estimates.end()) continue;
+      const auto shown = value_text(row);
+      all.push_back({row.name, {shown, motor.name.place}, shown, std::string(of_program) + estimate->why});
+    }
+    motor.values = std::move(all);
   }
 
   // It is told once, where it stands.
@@ -281,6 +309,41 @@ const MotorModel::Value* MotorModel::find(std::string_view parameter) const {
   return found == values.end() ? nullptr : &*found;
 }
 
+bool MotorModel::Value::is_completed() const { return from.starts_with(of_program); }
+
+std::string MotorModel::standing() const {
+  std::vector<std::string_view> sources;
+  for (const auto& value : values) sources.push_back(value.from);
+  return standing_of(sources);
+}
+
+std::vector<std::string> notes_of_models(const PlantEntry& plant) {
+  std::vector<std::string> notes;
+  for (const auto& row : plant.definition->parameters()) {
+    if (motor_kind(row.name).empty()) continue;
+    const auto group =
+        std::string_view(row.name).substr(0, row.name.size() - std::string_view("model").size());
+    std::string motor;
+    std::vector<std::string_view> sources;
+    for (const auto& value : plant.modelled) {
+      if (!value.parameter.starts_with(group)) continue;
+      const auto comma = value.from.find(", ");
+      motor = value.from.substr(0, comma);
+      sources.push_back(std::string_view(value.from).substr(comma + 2));
+    }
+    if (sources.empty()) continue;
+    const auto parameter = fmt::format("{}.{}", plant.name.text, row.name);
+    if (const auto name = value_text(row); name != motor)
+      notes.push_back(fmt::format("{}: {} is called {} now; the next release does not know the old name",
+                                  parameter, name, motor));
+    if (const auto standing = standing_of(sources); standing != "checked")
+      notes.push_back(
+          fmt::format("{}: the values of {} are {}; compare them with its sheet: drycut plants --motors {}",
+                      parameter, motor, standing, motor));
+  }
+  return notes;
+}
+
 std::vector<MotorModel> read_motors(const std::filesystem::path& folder, Findings& findings) {
   std::vector<MotorModel> motors;
   read_own(folder, motors, findings);
@@ -303,7 +366,7 @@ const MotorModel* MotorCatalogue::find(std::string_view kind, const Text& name, 
   }
   std::vector<std::string> known;
   for (const auto& motor : *motors_) {
-    if (motor.kind == kind && motor.name.text == name.text) return &motor;
+    if (motor.kind == kind && (motor.name.text == name.text || motor.formerly == name.text)) return &motor;
     if (motor.kind == kind) known.push_back(motor.name.text);
   }
   // It may be in a file that cannot be read.
@@ -314,6 +377,37 @@ const MotorModel* MotorCatalogue::find(std::string_view kind, const Text& name, 
                     ? "'drycut plants --motors' lists them; your own are in catalogue/ beside the scenario"
                     : fmt::format("did you mean {}?", near));
   return nullptr;
+}
+
+std::string motor_template(std::string_view kind) {
+  MotorTable table(kind);
+  const auto needed = needed_values(kind);
+  const auto unit = [&](std::string_view name) { return std::string(table.find(name)->unit); };
+  std::string text = fmt::format(
+      "# A motor of your own, from the values of its data sheet. Fill in each ___ and keep the file in "
+      "catalogue/\n"
+      "# beside the scenario, which then says {}: {{model: NAME}}. Write the sheet's own units: N m, lb in, "
+      "oz in;\n"
+      "# kg cm2, lb in2, oz in s2; rpm; kW, hp. The page of units: drycut plants --units.\n"
+      "vendor: ___\nseries: ___\nkind: {}\nsources:\n"
+      "  # Once the values were compared with the sheet: \"checked 2026-11-24: which sheet, p. 12\"\n"
+      "  sheet: \"sheet: which sheet, and which page of it\"\nmotors:\n  NAME: # as on the name plate\n",
+      kind, kind);
+  for (const auto& keys : needed) {
+    for (const auto& key : keys) table.set(std::string(key), 1);
+    text += fmt::format("    {}: {{value: ___ {}, from: sheet}}", keys.front(), unit(keys.front()));
+    for (std::size_t i = 1; i < keys.size(); ++i)
+      text += fmt::format(" # or {}: {{value: ___ {}, from: sheet}}", keys[i], unit(keys[i]));
+    text += "\n";
+  }
+  text +=
+      "    # What is not given is estimated on the safe side, and marked so. From the sheet it is better:\n";
+  text += fmt::format("    # rated_power: {{value: ___ {}, from: sheet}} # compared with torque and speed\n",
+                      unit("rated_power"));
+  for (const auto& estimate : table.estimates())
+    text += fmt::format("    # {}: {{value: ___ {}, from: sheet}} # else {}\n", estimate.parameter,
+                        unit(estimate.parameter), estimate.why);
+  return text;
 }
 
 std::string_view motor_kind(std::string_view parameter) {

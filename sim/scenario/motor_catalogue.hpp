@@ -15,7 +15,9 @@ namespace drycut::sim::scenario {
 // The motors that `servo: {model: HG-SR202}` and `induction_motor: {model: ...}` can name. A series is a file
 // of YAML: vendor, series, kind (the group that takes it), sources (a word for each), common (values of them
 // all) and motors, by their names. A value is {value: 9.55 N m, from: sheet}; `from` is a word of `sources`,
-// or says itself "sheet: which" or "estimate: why".
+// or says itself "checked 2026-11-24: which sheet and page", "sheet: which" or "estimate: why". Five values
+// of a sheet are enough: the others are estimated (sim/scenario/motor_estimates.hpp). `formerly` is the name
+// that a motor had in the release before.
 
 struct MotorModel {
   struct Value {
@@ -23,17 +25,27 @@ struct MotorModel {
         parameter;      ///< of the group: "rated_torque"; or "rated_power", which the name plate alone has
     Text text;          ///< as the file says it, and where
     std::string shown;  ///< in the parameter's unit: "9.55 N m"
-    std::string from;   ///< "sheet: ..." or "estimate: ..."
+    /// "checked 2026-11-24: ...", compared with that page on that day; "unchecked: ...", of a sheet, but not
+    /// compared; "estimate: ..."
+    std::string from;
     [[nodiscard]] bool is_estimate() const { return from.starts_with("estimate"); }
+    [[nodiscard]] bool is_checked() const { return from.starts_with("checked"); }
+    /// The file does not give it: it follows from the others.
+    [[nodiscard]] bool is_completed() const;
   };
   Text name;
-  std::string kind;  ///< "servo", "induction_motor"
+  std::string formerly;  ///< accepted with a note; "" = no other name
+  std::string kind;      ///< "servo", "induction_motor"
   std::string vendor;
   std::string series;
   std::vector<Value> values;  ///< in the order of the group's table
 
-  /// The value of that name; nullptr if the file gives none.
+  /// The value of that name; nullptr if there is none.
   [[nodiscard]] const Value* find(std::string_view parameter) const;
+  /// How far its values can be trusted: "checked" if all that are from a sheet were compared with it,
+  /// "unchecked" if one was not, "estimated" if none is from a sheet; "unchecked, 11 estimated" where the
+  /// file does not give all.
+  [[nodiscard]] std::string standing() const;
 };
 
 /// The groups that take a model.
@@ -51,7 +63,8 @@ class MotorCatalogue {
   MotorCatalogue(std::filesystem::path folder, Findings& findings)
       : folder_(std::move(folder)), findings_(findings) {}
 
-  /// The motor of that name for a group. If there is none that is a problem of the value `full`: nullptr.
+  /// The motor of that name for a group, or of that former name. If there is none that is a problem of the
+  /// value `full`: nullptr.
   const MotorModel* find(std::string_view kind, const Text& name, const std::string& full);
 
  private:
@@ -60,6 +73,14 @@ class MotorCatalogue {
   std::optional<std::vector<MotorModel>> motors_;
   bool is_sound_ = true;  ///< no problem in any file
 };
+
+/// What a reader should know of the motors that a plant names: a former name, values that nobody has compared
+/// with their sheet, estimates.
+std::vector<std::string> notes_of_models(const PlantEntry& plant);
+
+/// A file with one motor of that kind, to fill in from its sheet: what it must give, and in remarks what else
+/// it may, with the estimate for each.
+std::string motor_template(std::string_view kind);
 
 /// "servo" for the parameter "servo.model"; "" for one that names no model.
 std::string_view motor_kind(std::string_view parameter);

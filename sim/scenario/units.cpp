@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -55,6 +56,43 @@ bool well_formed(std::string_view text) {
   return text.empty() || (text.front() != ' ' && text.back() != ' ' && text.front() != '-');
 }
 
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// "lb in" and "oz-in s2" with the forces that they mean: "lbf in", "ozf-in s2". A length squared ("lb in2")
+// leaves the mass, and so does a time below the line, where "lb ft/s2" is a force already.
+std::string with_forces(std::string_view text) {
+  const auto line = text.find('/');
+  const auto above = text.substr(0, line);
+  const auto is_letter = [&](std::size_t i) {
+    return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+  };
+  std::size_t pound = text.size();
+  std::size_t pound_end = 0;
+  bool beside_length = false;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (is_letter(end)) ++end;
+    const auto word = text.substr(i, end - i);
+    const bool powered =
+        end < text.size() && (text[end] == '^' || std::isdigit(static_cast<unsigned char>(text[end])) != 0);
+    if (i >= above.size()) {
+      if (is_one_of(word, {"s", "sec", "second", "min", "minute"})) return std::string(text);
+    } else if (!powered &&
+               is_one_of(word, {"lb", "lbs", "pound", "pounds", "oz", "ozs", "ounce", "ounces"})) {
+      pound = i;
+      pound_end = end;
+    } else if (!powered && is_one_of(word, {"in", "inch", "inches", "ft", "foot", "feet"})) {
+      beside_length = true;
+    }
+    i = std::max(end, i + 1);
+  }
+  if (pound == text.size() || !beside_length) return std::string(text);
+  return fmt::format("{}{}{}", text.substr(0, pound), text[pound] == 'o' ? "ozf" : "lbf",
+                     text.substr(pound_end));
+}
+
 // The table of units, loaded once (5 ms). UDUNITS is not safe for several threads, hence one lock over all.
 class Table {
  public:
@@ -67,6 +105,21 @@ class Table {
     add("revs", "revolution");
     add("turns", "turn");
     add("Nm", "N m");
+    add("kNm", "kN m");
+    add("mNm", "mN m");
+    add("Ncm", "N cm");
+    // In UDUNITS alone an oz is a volume, and ozf, slug and hp have six digits.
+    add("oz", "lb/16");
+    add("ozs", "lb/16");
+    add("ounce", "lb/16");
+    add("ounces", "lb/16");
+    add("lbs", "lb");
+    add("ozf", "lbf/16");
+    add("lbsf", "lbf");
+    for (const char* power : {"hp", "HP", "Hp"}) add(power, "550 foot lbf/second");
+    add("slug", "lbf second2/foot");
+    add("ips", "inch/second");
+    add("fpm", "foot/minute");
     for (const char* counted : {"line", "lines", "piece", "pieces", "cut", "cuts", "pulse", "pulses", "blade",
                                 "blades", "bit", "bits"}) {
       add(counted, "1");
@@ -92,7 +145,7 @@ class Table {
 
   std::optional<Conversion> convert(std::string_view text) const {
     if (system_ == nullptr || text.size() > 60 || !well_formed(text)) return {};
-    const Unit unit(ut_parse(system_, std::string(text).c_str(), UT_UTF8));
+    const Unit unit(ut_parse(system_, with_forces(text).c_str(), UT_UTF8));
     if (!unit) return {};
     std::array<char, 256> definition{};
     const int length =

@@ -202,7 +202,7 @@ TEST(PowerStage, CopperLossIsThatOfThreePhases) {
   ServoData data;
   data.winding_resistance = 0.7;
   Stage stage(data);
-  stage.run(1, 9);  // 10 A at 0.9 N m/A
+  stage.run(1, 10 * data.torque_constant);  // 10 A
   const double cold = 1.5 * 0.7 * 100;
   EXPECT_NEAR(stage.stage.loss(), cold * stage.stage.heat().resistance(), 0.05);
   const auto& totals = stage.stage.totals();

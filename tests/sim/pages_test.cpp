@@ -42,11 +42,12 @@ TEST_F(Pages, ThatAreNotThereAreToldWithThoseThatAre) {
 TEST_F(Pages, OfMotorsSayWhereEachValueIsFrom) {
   EXPECT_EQ(captured([] { return list_motors("", false); }), all_passed);
   EXPECT_THAT(out, AllOf(HasSubstr("\nServo motors, for servo: {model: ...}\n"),
-                         ContainsRegex("\n  HG-SR202 +2 +9.5 .* Mitsubishi Electric +HG-SR"),
+                         ContainsRegex("\n  HG-SR202 +2 +9.5 .* unchecked +Mitsubishi Electric +HG-SR"),
+                         ContainsRegex("\n  HC103R +1 .* checked +Mitsubishi Electric +MELDAS"),
                          HasSubstr("\nInduction motors, for induction_motor: {model: ...}\n")));
   EXPECT_EQ(captured([] { return list_motors("hg-sr202", false); }), all_passed);
   EXPECT_THAT(out, AllOf(testing::StartsWith("HG-SR202: servo, Mitsubishi Electric HG-SR"),
-                         ContainsRegex("\n  rated_torque +9.5 N m +sheet: Mitsubishi SH"),
+                         ContainsRegex("\n  rated_torque +9.5 N m +unchecked: Mitsubishi SH"),
                          ContainsRegex("\n  torque_at_max_speed +19 N m +estimate: ")));
   EXPECT_EQ(captured([] { return list_motors("", true); }), all_passed);
   const auto motors = json::parse(out);
@@ -56,6 +57,25 @@ TEST_F(Pages, OfMotorsSayWhereEachValueIsFrom) {
   EXPECT_EQ(same->at("values").at(0).at("name"), "rotor_inertia");
   EXPECT_EQ(captured([] { return list_motors("HG-SR203", false); }), bad_input);
   EXPECT_EQ(err, "drycut plants --motors: there is no motor 'HG-SR203'; did you mean HG-SR202?\n");
+}
+
+TEST_F(Pages, OfUnitsSayWhatOneIsInSi) {
+  EXPECT_EQ(captured([] { return list_units("torque", false); }), all_passed);
+  EXPECT_THAT(out,
+              AllOf(ContainsRegex("\n  lb in +0.112984829\n"), ContainsRegex("\n  oz-in +0.00706155181\n")));
+  EXPECT_EQ(captured([] { return list_units("torqe", false); }), bad_input);
+  EXPECT_THAT(err, HasSubstr("did you mean torque?"));
+  EXPECT_EQ(captured([] { return list_units("", true); }), all_passed);
+  EXPECT_GT(json::parse(out).size(), 20U);
+}
+
+TEST_F(Pages, OfferATemplateForAMotor) {
+  EXPECT_EQ(captured([] { return print_motor_template(""); }), all_passed);
+  EXPECT_THAT(out, AllOf(HasSubstr("\nkind: servo\n"),
+                         HasSubstr("\n    rated_torque: {value: ___ N m, from: sheet}\n")));
+  EXPECT_EQ(captured([] { return print_motor_template("induction_motor"); }), all_passed);
+  EXPECT_THAT(out, HasSubstr("\nkind: induction_motor\n"));
+  EXPECT_EQ(captured([] { return print_motor_template("stepper"); }), bad_input);
 }
 
 TEST_F(Pages, OfPlantsTellWhichDriveBringsWhat) {

@@ -1,4 +1,5 @@
 #include "sim/scenario/units.hpp"
+#include "sim/scenario/unit_groups.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,11 +39,66 @@ TEST(Units, ConvertsTheUnitsOfTheField) {
                {3, "pieces", 3},
                {20, "celsius", 293.15},
                {2, "m2", 2},
+               {3, "mNm", 0.003},
                {0.5, "", 0.5}};
   for (const auto& [number, unit, si] : cases) {
     ASSERT_TRUE(is_unit(unit)) << unit;
     EXPECT_NEAR(to_si(number, unit), si, 4e-16 * std::abs(si)) << unit;
     EXPECT_NEAR(from_si(si, unit), number, 4e-14 * number) << unit;
+  }
+}
+
+// As American sheets spell them, by the definitions of pound, inch and standard gravity.
+TEST(Units, ReadsAmericanSheets) {
+  constexpr double pound = 0.45359237;
+  constexpr double inch = 0.0254;
+  constexpr double gravity = 9.80665;
+  constexpr double torque = pound * gravity * inch;
+  const struct {
+    double si;
+    std::vector<const char*> units;
+    const char* like;
+  } cases[] = {
+      {torque,
+       {"lbf in", "lb in", "in lb", "lb-in", "in-lb", "lbs in", "lbf-in", "in lbf", "lb*in", "lb.in"},
+       "N m"},
+      {torque * 12, {"lbf ft", "lb ft", "ft lb", "ft-lb", "lb-ft", "foot pound"}, "N m"},
+      {torque / 16, {"oz in", "ozf in", "oz-in", "in-oz", "ounce inch"}, "N m"},
+      {torque, {"lb in s2", "lbf in s2", "lb-in-s2", "lb in s^2", "in lb s2", "lb in sec2"}, "kg m2"},
+      {torque / 16, {"oz in s2", "ozf in s2", "oz-in-s2", "oz-in-sec^2"}, "kg m2"},
+      {torque * 12, {"lb ft s2"}, "kg m2"},
+      {pound * inch * inch, {"lb in2", "lb-in2", "lb in^2"}, "kg m2"},
+      {pound * inch * inch / 16, {"oz in2", "oz-in2"}, "kg m2"},
+      {torque / 16, {"oz in/A", "oz-in/A", "ozf in/A"}, "N m/A"},
+      {torque, {"lb in/rad"}, "N m/rad"},
+      {550 * 12 * torque, {"hp", "HP"}, "W"},
+      {inch, {"in", "inch"}, "m"},
+      {12 * inch, {"ft", "foot"}, "m"},
+      {pound, {"lb", "lbs", "pound"}, "kg"},
+      {pound / 16, {"oz", "ounce"}, "kg"},
+      {pound * gravity, {"lbf"}, "N"},
+      {pound * gravity / inch, {"lbf/in"}, "N/m"},
+      {std::numbers::pi / 30, {"rpm"}, "rad/s"},
+      // A force already, and no force at all.
+      {pound * 12 * inch, {"lb ft/s2"}, "N"},
+  };
+  for (const auto& [si, units, like] : cases)
+    for (const auto* unit : units) {
+      ASSERT_TRUE(is_unit(unit)) << unit;
+      EXPECT_TRUE(same_dimension(unit, like)) << unit;
+      EXPECT_NEAR(to_si(1, unit), si, 1e-12 * si) << unit;
+    }
+}
+
+TEST(Units, OfThePageAreOfTheirQuantity) {
+  for (const auto& group : unit_groups()) {
+    EXPECT_FALSE(group.units.empty());
+    for (const auto& unit : group.units) {
+      ASSERT_TRUE(is_unit(unit)) << unit;
+      EXPECT_TRUE(same_dimension(unit, group.units.front())) << group.quantity << ": " << unit;
+    }
+    // In SI itself, so that a reader can convert by the page alone.
+    EXPECT_TRUE(group.units.front() == "%" || to_si(1, group.units.front()) == 1) << group.quantity;
   }
 }
 

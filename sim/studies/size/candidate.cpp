@@ -118,6 +118,7 @@ class CandidateMaker {
     const auto& drive = choices_.drive;
     Candidate made;
     made.motor = motor.name.text;
+    made.values = motor.standing();
     made.rated_power = si_of(motor, "rated_power");
     if (made.rated_power <= 0) made.rated_power = si_of(motor, "rated_torque") * si_of(motor, "rated_speed");
     made.gear = gear;

@@ -10,6 +10,7 @@ namespace drycut::sim::studies {
 /// A motor with its drive, a gear and a brake resistor, and how they are set up in the scenario.
 struct Candidate {
   std::string motor;
+  std::string values;         ///< how far its values can be trusted: MotorModel::standing()
   double rated_power = 0;     ///< [W]
   std::string gear;           ///< as given; "" = as it is
   double ratio = 0;           ///< of the gear; 0: the plant has none

@@ -126,7 +126,9 @@ std::vector<scenario::MotorModel> read_motors_of(const std::string& text, const 
   for (std::size_t i = 0; i < items.size(); ++i) {
     bool any = false;
     for (std::size_t k = 0; k < motors.size(); ++k) {
-      const bool fits = items[i] == "all" || fnmatch(items[i].c_str(), names[k].c_str(), 0) == 0;
+      const bool fits =
+          items[i] == "all" || fnmatch(items[i].c_str(), names[k].c_str(), 0) == 0 ||
+          (!motors[k].formerly.empty() && fnmatch(items[i].c_str(), motors[k].formerly.c_str(), 0) == 0);
       chosen[k] = chosen[k] || fits;
       any = any || fits;
     }

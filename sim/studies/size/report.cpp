@@ -50,7 +50,7 @@ std::string ratio_text(const Candidate& candidate) {
 renders::ReportTable what_fits(const SizePage& page, bool each) {
   renders::ReportTable table{
       each ? "All that fit, in this order" : "What fits: the best of each motor, in this order",
-      {"", "motor", "rated power [kW]"},
+      {"", "motor", "its values", "rated power [kW]"},
       {},
       each};
   auto& headings = table.headings;
@@ -65,7 +65,7 @@ renders::ReportTable what_fits(const SizePage& page, bool each) {
     const auto& one = page.sized[page.order[rank]];
     if (!holds(one.kind)) break;
     if (!seen.insert(candidate.motor).second && !each) continue;
-    std::vector<std::string> cells = {std::to_string(rank + 1), candidate.motor,
+    std::vector<std::string> cells = {std::to_string(rank + 1), candidate.motor, candidate.values,
                                       fmt::format("{:.3g}", candidate.rated_power / 1e3)};
     if (!page.choices.gears.empty()) cells.push_back(ratio_text(candidate));
     if (!page.choices.resistors.empty()) cells.push_back(candidate.resistor.text);

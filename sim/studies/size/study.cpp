@@ -168,7 +168,8 @@ std::vector<std::size_t> ranked(const std::vector<Candidate>& candidates, const 
 std::string size_csv(const std::vector<Candidate>& candidates, const std::vector<Sized>& sized,
                      const std::vector<std::size_t>& order) {
   std::string text =
-      "rank,verdict,motor,rated power [kW],gear ratio,brake resistor,reserve [%],nearest limit,at,inertia "
+      "rank,verdict,motor,motor values,rated power [kW],gear ratio,brake resistor,reserve [%],nearest "
+      "limit,at,inertia "
       "ratio";
   for (const auto& rating : ratings)
     text += fmt::format(",{}", csv_cell(fmt::format("{} [% of its rating]", rating.name)));
@@ -176,8 +177,8 @@ std::string size_csv(const std::vector<Candidate>& candidates, const std::vector
   for (std::size_t rank = 0; rank < order.size(); ++rank) {
     const auto& candidate = candidates[order[rank]];
     const auto& one = sized[order[rank]];
-    text += fmt::format("{},{},{},{:.6g},{},{},{},{},{},{:.6g}", rank + 1, name_of(one.kind),
-                        csv_cell(candidate.motor), candidate.rated_power / 1e3,
+    text += fmt::format("{},{},{},{},{:.6g},{},{},{},{},{},{:.6g}", rank + 1, name_of(one.kind),
+                        csv_cell(candidate.motor), csv_cell(candidate.values), candidate.rated_power / 1e3,
                         candidate.ratio > 0 ? number_text(candidate.ratio) : "",
                         csv_cell(candidate.resistor.text), sized_cell(one.reserve), csv_cell(one.nearest),
                         csv_cell(one.hardest), candidate.inertia_ratio);

@@ -255,12 +255,12 @@ TEST_F(SizeCommand, TheMotorOfAnInverter) {
       "axis.yaml",
       "scene: {duration: 1 s}\nplants:\n  a: {type: linear_axis, drive: inverter}\ndrives: {cycle: 0.2 s}\n");
   options.scenario = folder / "axis.yaml";
-  options.motors = "IEC-4P-1*";
+  options.motors = "generic-4P-1*";
   options.set = {"plants.a.inverter.torque_limit=20 N m"};
   options.resistors = "100,200 W";
   EXPECT_EQ(run(), all_passed) << err;
   EXPECT_EQ(rows().size(), 4U);
-  EXPECT_EQ(rows().front().at("motor"), "IEC-4P-1.1kW");
+  EXPECT_EQ(rows().front().at("motor"), "generic-4P-1.1kW");
   EXPECT_EQ(rows().front().at("brake resistor"), "100 W");
   EXPECT_THAT(rows().front().at("set"), HasSubstr("plants.a.inverter.supply.resistor_power=100 W"));
 }

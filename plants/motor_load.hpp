@@ -1,0 +1,81 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "plants/friction.hpp"
+
+namespace drycut::plants {
+
+/// What the torque of a motor went into in a step, each part seen at the motor and positive where the motor
+/// must give it [N m]. Together they are the torque, to rounding.
+struct MotorLoad {
+  double torque = 0;        ///< of the motor
+  double acceleration = 0;  ///< of rotor and load, each body's own
+  double friction = 0;      ///< with brakes, and what a screw loses
+  double load = 0;          ///< of the process: cut, workpiece, clamps, end stops
+  double gravity = 0;       ///< weight, less a counterbalance
+  double speed = 0;         ///< of the motor [rad/s]
+};
+
+/// The part of `effort`, all that resisted a body in a step of `h` seconds, that was its friction, with
+/// `speed` at the start of the step: as the model has it while it slides; of a body that stands what holds it
+/// is friction as far as friction goes.
+[[nodiscard]] inline double friction_in(const Friction& friction, double speed, double effort, double inertia,
+                                        double h) {
+  double dry = friction.coulomb;
+  if (friction.breakaway > 0) {
+    const double ratio = speed / friction.stribeck_speed;
+    dry += friction.breakaway * std::exp(-ratio * ratio);
+  }
+  const double viscous = friction.viscous * speed;
+  const bool slides = std::abs(speed) * inertia > dry * h;
+  return viscous + (slides ? std::copysign(dry, speed) : std::clamp(effort - viscous, -dry, dry));
+}
+
+/// A plant with a drive that can say what its motor's torque goes into. It does so where it is asked to
+/// before the run, every step; of a long run the last 100 000 steps are kept, twice as many at most.
+class TellsMotorLoad {
+ public:
+  /// In single precision: a minute of steps of 100 us are 14 MB.
+  struct Sample {
+    float torque;  ///< each as in MotorLoad
+    float acceleration;
+    float friction;
+    float load;
+    float gravity;
+    float speed;
+  };
+  struct Kept {
+    std::vector<Sample> samples;
+    std::size_t left_out = 0;  ///< earlier ones
+  };
+
+  virtual ~TellsMotorLoad() = default;
+
+  /// What it went into in the last step of `h` seconds.
+  [[nodiscard]] virtual MotorLoad motor_load(double h) const = 0;
+
+  void keep_motor_loads() { kept_ = std::make_unique<Kept>(); }
+  /// A sample a step since the start; nullptr where nobody asked.
+  [[nodiscard]] const Kept* motor_loads() const { return kept_.get(); }
+
+ protected:
+  TellsMotorLoad() = default;
+  TellsMotorLoad(const TellsMotorLoad&) = delete;
+  TellsMotorLoad& operator=(const TellsMotorLoad&) = delete;
+
+  /// At the end of each step.
+  void tell_motor_load(double h) {
+    if (kept_ != nullptr) keep(motor_load(h));
+  }
+
+ private:
+  void keep(const MotorLoad& load);
+
+  std::unique_ptr<Kept> kept_;
+};
+
+}  // namespace drycut::plants
