@@ -5,11 +5,13 @@ import WebSocket from "ws";
 const between_attempts = 500; // [ms]
 const lost_for_good = 10_000; // [ms] without a connection
 const most_names = 500; // a message
+const most_open = 60; // messages that are not answered yet: of more the line says that it is busy
 
 /// What the line answers when it refuses something.
 export class Refused extends Error {
-  constructor(problems) {
+  constructor({ problems, busy = false }) {
     super(problems.map(({ what, remedy }) => (remedy ? `${what}; ${remedy}` : what)).join("\n"));
+    this.busy = busy;
   }
 }
 /// There is no connection to the line now.
@@ -24,6 +26,7 @@ export class Line extends EventEmitter {
   #socket;
   #next = 1;
   #asked = new Map(); // by number: {resolve, reject, seen}
+  #held = []; // what is asked when there is room: the same with the message
   #seen_with_news = [];
   #reading = undefined; // a message of names that is being put together
   #since = Date.now();
@@ -73,11 +76,19 @@ export class Line extends EventEmitter {
 
   #ask(message, seen) {
     if (!this.connected) return Promise.reject(new Lost("no connection to the line"));
-    const id = this.#next++;
     return new Promise((resolve, reject) => {
-      this.#asked.set(id, { resolve, reject, seen });
-      this.#socket.send(JSON.stringify({ ...message, id }));
+      this.#held.push({ message, resolve, reject, seen });
+      this.#send();
     });
+  }
+
+  #send() {
+    while (this.#held.length > 0 && this.#asked.size < most_open) {
+      const { message, ...asked } = this.#held.shift();
+      const id = this.#next++;
+      this.#asked.set(id, asked);
+      this.#socket.send(JSON.stringify({ ...message, id }));
+    }
   }
 
   #connect() {
@@ -86,7 +97,7 @@ export class Line extends EventEmitter {
     socket.on("message", (data) => this.#take(JSON.parse(data)));
     socket.on("error", () => {});
     socket.on("close", () => {
-      for (const { reject } of [...this.#asked.values(), ...this.#seen_with_news]) reject(new Lost("no connection to the line"));
+      for (const { reject } of [...this.#asked.values(), ...this.#held.splice(0), ...this.#seen_with_news]) reject(new Lost("no connection to the line"));
       this.#asked.clear();
       this.#seen_with_news = [];
       if (this.#closed) return;
@@ -110,7 +121,8 @@ export class Line extends EventEmitter {
       const asked = this.#asked.get(message.done);
       this.#asked.delete(message.done);
       if (!asked) return;
-      if (message.problems.length > 0) asked.reject(new Refused(message.problems));
+      this.#send();
+      if (message.problems.length > 0) asked.reject(new Refused(message));
       else if (asked.seen) this.#seen_with_news.push({ ...asked, answer: message });
       else asked.resolve(message);
     }

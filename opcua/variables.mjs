@@ -43,7 +43,7 @@ export function status_of(error, refused, told) {
   if (error instanceof Lost) return StatusCodes.BadNoCommunication;
   if (!(error instanceof Refused)) throw error;
   told(error.message);
-  return refused;
+  return error.busy ? StatusCodes.BadTooManyOperations : refused;
 }
 
 /// The binding of a variable whose value `get` gives, now or later, and that `set` writes if there is one;

@@ -50,6 +50,8 @@ function takeNews(told) {
   }
   by("failure").hidden = !failed;
   if (failed) by("failure-text").textContent = news.failure;
+  by("record-lost").hidden = news.record_lost === undefined;
+  by("record-lost-text").textContent = news.record_lost ?? "";
   for (const button of by("pace").children)
     button.setAttribute("aria-pressed", String(Number(button.dataset.pace) === news.pace));
   tellLateness(news.late, news.pace);

@@ -16,11 +16,12 @@ export class Events {
     by("notes").hidden = line.notes.length === 0;
     if (!anew) return;
     by("events").replaceChildren();
-    this.count = 0;
+    this.count = this.left_out = 0;
     this.tell();
   }
 
   news(news) {
+    this.left_out += news.left_out ?? 0;
     if (!news.events) return;
     const list = by("events");
     const rows = news.events.map((event) => {
@@ -39,7 +40,8 @@ export class Events {
     this.tell();
   }
   tell() {
-    by("event-count").textContent = this.count > most ? `${this.count}, the last ${most} here` : String(this.count);
+    const all = this.count + this.left_out, here = Math.min(this.count, most);
+    by("event-count").textContent = all > here ? `${all}, ${here} of them here` : String(all);
     by("event-none").hidden = this.count > 0;
   }
   filter() {

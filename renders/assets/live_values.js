@@ -3,6 +3,7 @@ import { by, icon, make, memory, shown } from "./live_dom.js";
 import { write } from "./live_write.js";
 
 const most = 120;  // values that are told at once
+const in_order = new Intl.Collator("en", { numeric: true }).compare;  // D100 before D1004
 
 export class Values {
   /// `changed`: told when other values are wanted; `scoped`: puts a channel on the scope.
@@ -26,7 +27,8 @@ export class Values {
     this.pinned = new Set(memory.get("watch." + line.scenario, []));
     this.watcher.disconnect();
     this.seen.clear();
-    this.rows = new Map(line.channels.map((channel) => [channel.name, this.row(channel)]));
+    const channels = [...line.channels].sort((one, other) => in_order(one.name, other.name));
+    this.rows = new Map(channels.map((channel) => [channel.name, this.row(channel)]));
     this.sort();
   }
 

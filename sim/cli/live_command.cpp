@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 #include <pthread.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <random>
@@ -19,22 +22,23 @@
 #include "sim/live/line.hpp"
 #include "sim/live/modbus/server.hpp"
 #include "sim/live/opcua_gateway.hpp"
+#include "sim/live/port.hpp"
 #include "sim/live/server.hpp"
 #include "sim/live/session.hpp"
+#include "sim/loop/recorder.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 
 namespace drycut::sim::cli {
 
 namespace {
 
-/// Calls `act` when the program is told to end, from a thread of its own; as long as it lives, the signal
-/// does nothing else.
+/// Calls `act` when the program is told to end, from a thread of its own; as long as it lives, the signals
+/// do nothing else.
 class OnEnd {
  public:
   explicit OnEnd(const std::function<void()>& act) {
     sigemptyset(&signals_);
-    sigaddset(&signals_, SIGINT);
-    sigaddset(&signals_, SIGTERM);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
     pthread_sigmask(SIG_BLOCK, &signals_, &before_);
     thread_ = std::thread([this, act] {
       int which = 0;
@@ -78,17 +82,13 @@ std::string make_token() {
   return token;
 }
 
-std::unique_ptr<live::modbus::Server> serve_modbus(const LiveOptions& options, live::Line& line) {
-  if (!options.modbus) return nullptr;
-  auto server = std::make_unique<live::modbus::Server>(
-      live::modbus::Server::Options{options.listen, static_cast<std::uint16_t>(*options.modbus)}, line);
-  fmt::print("Modbus TCP: {} port {}\n", options.listen, server->port());
-  if (!is_own(options.listen))
+void print_modbus(const std::string& address, int port) {
+  fmt::print("Modbus TCP: {} port {}\n", address, port);
+  if (!is_own(address))
     fmt::print(
         "WARNING: Modbus knows no token and no password. Whoever reaches {} port {} reads and writes the "
         "controller.\n",
-        options.listen, server->port());
-  return server;
+        address, port);
 }
 
 std::filesystem::path session_in(const std::filesystem::path& given) {
@@ -127,10 +127,55 @@ live::Line::Options line_options(const LiveOptions& options, Problems& problems)
   return wanted;
 }
 
+/// The nearest folder above that is there must take another one; nothing is made yet.
 void check_record(const std::filesystem::path& folder, Problems& problems) {
+  if (folder.empty()) return;
   std::error_code ignored;
-  if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
-    problems.push_back({"--record", 1, 1, fmt::format("{} is a file", folder.string()), "name a folder"});
+  auto there = std::filesystem::absolute(folder, ignored).lexically_normal();
+  while (!std::filesystem::exists(there, ignored) && there.has_relative_path()) there = there.parent_path();
+  if (!std::filesystem::is_directory(there, ignored))
+    problems.push_back({"--record", 1, 1, fmt::format("{} is a file", there.string()), "name a folder"});
+  else if (access(there.c_str(), W_OK | X_OK) != 0)
+    problems.push_back({"--record", 1, 1,
+                        fmt::format("nothing can be written in {}: {}", there.string(), std::strerror(errno)),
+                        "name another folder"});
+}
+
+/// The line on its wires until it is told to end.
+int run_line(const LiveOptions& options, const std::filesystem::path& opcua, live::Line& line) {
+  const OnEnd end([&] { line.stop(); });
+  const auto token = is_own(options.listen) ? "" : make_token();
+  live::Server server({options.listen, static_cast<std::uint16_t>(options.port), token}, line);
+  std::optional<live::modbus::Server> modbus;
+  if (options.modbus)
+    modbus.emplace(live::modbus::Server::Options{options.listen, static_cast<std::uint16_t>(*options.modbus)},
+                   line);
+  std::optional<live::OpcuaGateway> gateway;
+  if (options.opcua) {
+    const auto port = live::free_port(options.listen, static_cast<std::uint16_t>(*options.opcua));
+    gateway.emplace(live::OpcuaGateway::Options{opcua, server.url(), options.listen, port, token});
+  }
+  fmt::print("the line: {} (open it in a browser; Ctrl-C ends it)\n", server.url());
+  if (modbus) print_modbus(options.listen, modbus->port());
+  std::fflush(stdout);
+  if (options.ready) options.ready(server.url());
+  int run_without_record = 0;
+  const auto tell_loss = [&](const live::News& news) {
+    if (news.record_lost.empty() || std::exchange(run_without_record, news.run) == news.run) return;
+    fmt::print(stderr, "drycut live: the record has ended at {} s, the line goes on: {}\n",
+               loop::seconds_text(news.time), printable(news.record_lost));
+  };
+  line.run({[&](auto news) {
+              tell_loss(*news);
+              server.tell(std::move(news));
+            },
+            [&](auto description) { server.describe(std::move(description)); },
+            [&](auto answers) { server.answer(std::move(answers)); }});
+  if (!options.record.empty() && !line.record().empty())
+    fmt::print("again, to the byte: drycut replay {}\n", line.record().string());
+  if (line.record_lost().empty()) return interrupted_status;
+  fmt::print(stderr, "drycut live: not all of it is recorded: {}\n", printable(line.record_lost()));
+  return simulation_failed;
 }
 
 }  // namespace
@@ -147,31 +192,16 @@ int live_scenario(const LiveOptions& options) {
     if (const auto lacking = live::modbus::lacking(*line); !lacking.empty())
       problems.push_back({"--modbus", 1, 1, "the controller has no Modbus", "it takes " + lacking});
   }
-  if (!problems.empty()) {
-    print_problems(problems);
-    return bad_input;
-  }
   try {
-    const OnEnd end([&] { line->stop(); });
-    const auto token = is_own(options.listen) ? "" : make_token();
-    live::Server server({options.listen, static_cast<std::uint16_t>(options.port), token}, *line);
-    std::optional<live::OpcuaGateway> gateway;
-    if (options.opcua) {
-      const auto port = live::free_port(options.listen, static_cast<std::uint16_t>(*options.opcua));
-      gateway.emplace(live::OpcuaGateway::Options{opcua, server.url(), options.listen, port, token});
-    }
-    fmt::print("the line: {} (open it in a browser; Ctrl-C ends it)\n", server.url());
-    const auto modbus = serve_modbus(options, *line);
-    std::fflush(stdout);
-    if (options.ready) options.ready(server.url());
-    line->run([&](auto news) { server.tell(std::move(news)); },
-              [&](auto description) { server.describe(std::move(description)); });
+    if (problems.empty()) return run_line(options, opcua, *line);
+  } catch (const live::CannotListen& taken) {
+    problems.push_back(taken.problem);
   } catch (const std::exception& error) {
     fmt::print(stderr, "drycut live: {}\n", printable(error.what()));
     return simulation_failed;
   }
-  if (!options.record.empty()) fmt::print("again, to the byte: drycut replay {}\n", line->record().string());
-  return all_passed;
+  print_problems(problems);
+  return bad_input;
 }
 
 int replay_session(const ReplayOptions& options) {
@@ -203,7 +233,8 @@ void add_live(CLI::App& app, int& status) {
   auto& options = *chosen;
   auto* command = app.add_subcommand(
       "live",
-      "Run a scenario in real time with a page in the browser: the machine, the operator's panel, a scope");
+      "Run a scenario in real time with a page in the browser: the machine, the operator's panel, a scope\n"
+      "It runs until Ctrl-C: status 130. Status 3: not all of it could be recorded.");
   command->add_option("scenario", options.scenario, "Scenario file (.yaml)");
   command->add_option(
       "--from", options.from,

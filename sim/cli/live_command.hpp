@@ -23,7 +23,8 @@ struct LiveOptions {
   std::optional<int> opcua;      ///< port of an OPC UA gateway, 0 = any free one
   std::function<void(const std::string& url)> ready = {};  ///< is told where the page is
 };
-/// drycut live: until SIGINT or SIGTERM; 0, 2 bad input, 3 it cannot listen or record
+/// drycut live: until SIGINT, SIGTERM or SIGHUP, then 130; 2 bad input, or it cannot listen there or record
+/// there; 3 if the record ended before the line
 int live_scenario(const LiveOptions& options);
 
 struct ReplayOptions {

@@ -39,6 +39,7 @@ std::unique_ptr<devices::Controller> Lx3vpSection::load(const scenario::Scenario
   lx3vp::il::Program compiled;
   if (const auto text = read_named(program, scenario, problems))
     compiled = lx3vp::il::compile(*text, path_of(program), problems);
+  compiled.file = program.text;  // a run says the same wherever it is started
   std::vector<lx3vp::RegisterValue> values;
   if (!registers.text.empty()) {
     if (const auto text = read_named_table(registers, scenario, problems))

@@ -303,8 +303,8 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
   }
   if (problems.size() != before) return nullptr;
   if (notes != nullptr) note_slow_phasing(compiled, *this, scenario, *notes);
-  auto controller =
-      std::make_unique<plcopen::PlcopenController>(std::move(compiled), file, std::move(configuration));
+  auto controller = std::make_unique<plcopen::PlcopenController>(std::move(compiled), program.text,
+                                                                 std::move(configuration));
   fill_modbus(*controller, scenario, problems);
   if (problems.size() != before) return nullptr;
   return controller;

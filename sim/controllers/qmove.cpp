@@ -55,6 +55,9 @@ std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario
   if (notes != nullptr)
     for (const auto& program : programs)
       notes->insert(notes->end(), program.notes.begin(), program.notes.end());
+  // A run says the same wherever it is started.
+  for (std::size_t i = 0; i < programs.size(); ++i) programs[i].file = tasks[i].text;
+  parsed.file = configuration.text;
   return std::make_unique<qmove::QmoveController>(std::move(parsed), std::move(programs),
                                                   devices::catalogue(), cycle, statement_time);
 }

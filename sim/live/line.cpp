@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <thread>
 
 #include "sim/live/line_run.hpp"
 
@@ -12,15 +14,12 @@ namespace drycut::sim::live {
 namespace {
 
 constexpr auto between_news = std::chrono::milliseconds(33);
+constexpr auto least_between_news = std::chrono::milliseconds(10);
 constexpr auto not_made_good = std::chrono::milliseconds(200);  ///< who is so late begins anew
 constexpr int news_an_outcome = 15;
-
-/// This thread before the others of the machine, where the system lets us; it does when we are root, or have
-/// been given CAP_SYS_NICE or a limit of rtprio.
-void be_first(bool first) {
-  const sched_param priority{first ? 1 : 0};
-  sched_setscheduler(0, (first ? SCHED_RR : SCHED_OTHER) | SCHED_RESET_ON_FORK, &priority);
-}
+/// Requests have so much of the time between two cycles; the others wait for the next one.
+constexpr auto for_mail = std::chrono::microseconds(400);
+constexpr auto in_time = std::chrono::milliseconds(1);
 
 }  // namespace
 
@@ -31,58 +30,40 @@ Line::Line(Options options, Problems& problems)
 
 Line::~Line() = default;
 
-void Line::stop() {
-  const std::lock_guard lock(inbox_.mutex);
-  stopped_ = true;
-  has_mail_ = true;
-  inbox_.changed.notify_all();
-}
-
-void Line::ask(Request request) {
-  const std::lock_guard lock(inbox_.mutex);
-  inbox_.requests.push_back(std::move(request));
-  has_mail_ = true;
-  inbox_.changed.notify_all();
-}
-
-void Line::run(const Listener& listener, const Describe& describe) {
-  listener_ = listener;
-  describe_ = describe;
-  run_->begin(options_.record, stopped_);
-  describe_(run_->describe());
+void Line::run(Listener listener) {
+  listener_ = std::move(listener);
+  run_->begin(options_.record, inbox_);
+  listener_.described(run_->describe());
   begin_pace();
   next_news_ = Clock::now();
   while (take_mail()) {
-    if (running_ && run_->failure().empty()) {
+    if (!running_ || !run_->failure().empty()) {
+      inbox_.wait_until(next_news_);
+    } else if (Clock::now() >= due_) {
       cycle();
       keep_pace();
     } else {
-      wait_for_mail();
+      await_cycle();
     }
+    if (!answers_.empty()) answer();
     if (Clock::now() >= next_news_) tell();
   }
   be_first(false);
   tell();
-  run_->end();
+  end_run();
 }
 
 const std::filesystem::path& Line::record() const { return run_->record(); }
 
 bool Line::take_mail() {
-  if (!has_mail_.exchange(false)) return true;
-  if (stopped_) return false;
-  std::deque<Request> mail;
-  {
-    const std::lock_guard lock(inbox_.mutex);
-    mail.swap(inbox_.requests);
+  if (!inbox_.has_mail()) return true;
+  const auto enough = Clock::now() + for_mail;
+  // Who is late runs first, but nobody waits for ever.
+  while (const auto request = inbox_.take()) {
+    act_on(*request);
+    if ((keeps_pace() && behind_) || Clock::now() >= enough) break;
   }
-  for (const auto& request : mail) act_on(request);
-  return true;
-}
-
-void Line::wait_for_mail() {
-  std::unique_lock lock(inbox_.mutex);
-  inbox_.changed.wait_until(lock, next_news_, [this] { return has_mail_.load(); });
+  return !inbox_.stopped();
 }
 
 void Line::act_on(const Request& request) {
@@ -110,8 +91,10 @@ void Line::act_on(const Request& request) {
     begin_pace();
   } else if (std::holds_alternative<Restart>(what)) {
     problems = restart();
+    answers_.push_back({request.asker, problems});
+    for (const auto asker : inbox_.take_restarts()) answers_.push_back({asker, problems});
+    return tell_soon();
   } else if (const auto* sampled = std::get_if<Sample>(&what)) {
-    tell();  // what has been sampled until now
     problems = run_->want(request.asker, *sampled);
   } else if (const auto* read = std::get_if<Read>(&what)) {
     std::vector<double> values;
@@ -122,12 +105,11 @@ void Line::act_on(const Request& request) {
     visit->visit(*run_);
     return;
   } else {
-    tell();
     run_->leave(request.asker);
     return;
   }
   if (request.asker != 0) answers_.push_back({request.asker, std::move(problems)});
-  next_news_ = Clock::now();
+  if (!running_ || !std::holds_alternative<Act>(what)) tell_soon();
 }
 
 void Line::go(bool on) {
@@ -137,26 +119,30 @@ void Line::go(bool on) {
 
 Problems Line::restart() {
   Problems problems;
-  run_->keep_retentive();
+  try {
+    run_->keep_retentive();
+  } catch (const std::runtime_error& not_kept) {
+    return {{"restart", 1, 1, not_kept.what(), "make room for it; the line goes on as it is"}};
+  }
   auto fresh = std::make_unique<LineRun>(options_, run_->number() + 1, problems);
   if (!problems.empty()) return problems;
-  run_->end();
+  end_run();
   for (const auto& [asker, sample] : run_->wanted()) fresh->want(asker, sample);
   run_ = std::move(fresh);
   be_first(false);  // to where a session is gone on from is no matter of the clock
-  run_->begin(options_.record, stopped_);
+  run_->begin(options_.record, inbox_);
   until_.reset();
   until_event_.reset();
-  describe_(run_->describe());
+  listener_.described(run_->describe());
   begin_pace();
   return {};
 }
 
 Time Line::cycle_time() const {
-  constexpr Time at_full_speed = 10 * millisecond;
+  constexpr double at_full_speed = 10;  // [ms]; of a slow machine that is a while
   const auto fitting =
-      keeps_pace() ? static_cast<Time>(std::llround(static_cast<double>(millisecond) * std::max(1.0, pace_)))
-                   : at_full_speed;
+      static_cast<Time>(std::llround(static_cast<double>(millisecond) *
+                                     (keeps_pace() ? std::clamp(pace_, 1.0, at_full_speed) : at_full_speed)));
   const Time step = run_->step();
   return std::max(step, fitting / step * step);
 }
@@ -172,31 +158,50 @@ void Line::cycle() {
   until_.reset();
   until_event_.reset();
   running_ = false;
-  next_news_ = Clock::now();
+  tell_soon();
 }
 
 void Line::begin_pace() {
   be_first(keeps_pace());
-  begun_ = Clock::now();
+  begun_ = due_ = Clock::now();
   begun_at_ = run_->now();
+  behind_ = false;
   punctuality_ = {};
 }
 
 void Line::keep_pace() {
   if (!keeps_pace()) return;
-  const auto due = begun_ + std::chrono::nanoseconds(static_cast<std::int64_t>(
-                                static_cast<double>(run_->now() - begun_at_) / pace_));
-  const auto late = Clock::now() - due;
+  due_ = begun_ + std::chrono::nanoseconds(
+                      static_cast<std::int64_t>(static_cast<double>(run_->now() - begun_at_) / pace_));
+  const auto late = Clock::now() - due_;
+  behind_ = late > in_time;
   ++punctuality_.cycles;
-  if (late > std::chrono::milliseconds(1)) ++punctuality_.late;
+  if (behind_) ++punctuality_.late;
   punctuality_.worst = std::max(punctuality_.worst, std::chrono::duration<double>(late).count());
-  if (late > not_made_good) {
-    punctuality_.dropped += std::chrono::duration<double>(late).count();
-    begun_ += late;
-    return;
-  }
-  // A request wakes it, but waits for the next cycle: the line goes by its clock.
-  if (late < std::chrono::nanoseconds(0)) std::this_thread::sleep_until(due);
+  if (late <= not_made_good) return;
+  punctuality_.dropped += std::chrono::duration<double>(late).count();
+  begun_ += late;
+  due_ += late;
+  be_first(false);  // it never sleeps: nobody else would come to that core
+}
+
+// A request does not wake it where the cycles are short: the line goes by its clock.
+void Line::await_cycle() {
+  constexpr auto is_short = std::chrono::milliseconds(2);
+  if (keeps_pace()) be_first(true);
+  if (due_ - Clock::now() < is_short)
+    std::this_thread::sleep_until(due_);
+  else
+    inbox_.wait_until(std::min(due_, next_news_));
+}
+
+/// This thread before the others of the machine, where the system lets us; it does when we are root, or have
+/// been given CAP_SYS_NICE or a limit of rtprio.
+void Line::be_first(bool first) {
+  if (first == first_) return;
+  first_ = first;
+  const sched_param priority{first ? 1 : 0};
+  sched_setscheduler(0, (first ? SCHED_RR : SCHED_OTHER) | SCHED_RESET_ON_FORK, &priority);
 }
 
 void Line::tell() {
@@ -206,10 +211,21 @@ void Line::tell() {
   news->running = running_;
   news->pace = pace_;
   news->punctuality = punctuality_;
-  news->answers = std::exchange(answers_, {});
   if (news_++ % news_an_outcome == 0 || !running_) news->outcome = run_->outcome();
-  listener_(std::move(news));
+  listener_.news(std::move(news));
   next_news_ = Clock::now() + between_news;
+}
+
+// Who asks again and again does not have everybody told each time.
+void Line::tell_soon() {
+  next_news_ = std::max(Clock::now(), next_news_ - between_news + least_between_news);
+}
+
+void Line::answer() { listener_.answered(std::exchange(answers_, {})); }
+
+void Line::end_run() {
+  run_->end();
+  if (record_lost_.empty()) record_lost_ = run_->record_lost();
 }
 
 }  // namespace drycut::sim::live

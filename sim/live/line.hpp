@@ -1,16 +1,12 @@
 #pragma once
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "sim/live/inbox.hpp"
 #include "sim/live/session.hpp"
 #include "sim/loop/simulation.hpp"
 
@@ -20,58 +16,6 @@ namespace drycut::sim::live {
 inline constexpr double least_pace = 1e-4;
 inline constexpr double most_pace = 1e4;
 
-class LineRun;
-
-/// Who asked, so that the answer finds its way: 0 = nobody waits for one.
-using Asker = std::uint64_t;
-
-// What can be asked of a line. Each acts between two cycles.
-
-/// Something is done to the line, as a timeline does it: JSON or YAML, see read_act().
-struct Act {
-  std::string text;
-};
-/// Run, or stand still.
-struct Go {
-  bool on = false;
-};
-/// So much machine time, then stand still.
-struct Advance {
-  Time by = 0;
-};
-/// As fast as it goes to the next event of that name ("cut", "knife.cut"), "" = of any; then stand still.
-struct UntilEvent {
-  std::string name;
-};
-/// Machine seconds a second; 0 = as fast as it goes.
-struct Pace {
-  double value = 1;
-};
-/// From the beginning, with scenario and programs read again.
-struct Restart {};
-/// What the asker wants to have sampled every cycle, in place of what it wanted before.
-struct Sample {
-  std::vector<std::string> names;
-  std::size_t watched = 0;  ///< of so many at the end the latest value is enough
-  bool programs = false;    ///< and where the programs stand
-};
-/// The asker is gone.
-struct Leave {};
-/// Some values as they are now, told at once, in the line's thread; whoever asked is not answered otherwise.
-struct Read {
-  std::vector<std::string> names;
-  std::function<void(const Problems&, const std::vector<double>&)> told;
-};
-/// Looks at the run and does something to it, in the line's thread; whoever asked is not answered otherwise.
-struct Visit {
-  std::function<void(LineRun&)> visit;
-};
-
-struct Request {
-  Asker asker = 0;
-  std::variant<Act, Go, Advance, UntilEvent, Pace, Restart, Sample, Leave, Read, Visit> what;
-};
-
 /// How well the line keeps its pace, since it last began to run.
 struct Punctuality {
   std::uint64_t cycles = 0;
@@ -80,31 +24,34 @@ struct Punctuality {
   double dropped = 0;      ///< machine was too slow: so much was not made good [s]
 };
 
-/// What the line tells, thirty times a second and at once when it stops.
+/// What became of a request.
+struct Answer {
+  Asker asker = 0;
+  Problems problems = {};  ///< none: done
+};
+
+/// What the line tells, thirty times a second.
 struct News {
   int run = 0;  ///< number of the run: each restart is another one
   Time time = 0;
   bool running = false;
   double pace = 1;
-  std::string failure;  ///< the simulation itself cannot go on
+  std::string failure;      ///< the simulation itself cannot go on
+  std::string record_lost;  ///< why the record has ended while the line goes on, "" = it has not
   Punctuality punctuality;
   std::vector<plants::PartPose> poses;      ///< as LineDescription::parts
   std::vector<double> values;               ///< as LineDescription::targets
   std::vector<double> lamps;                ///< as LineDescription::lamps
   std::vector<loop::RecordedEvent> events;  ///< since the last news
+  std::size_t events_left_out = 0;          ///< there were so many more
   struct Samples {
-    std::shared_ptr<const std::vector<std::string>> names;
+    std::shared_ptr<const std::vector<std::string>> names;  ///< in their order
     std::vector<Time> times;
     std::vector<double> rows;  ///< a row a time
   };
   Samples samples;                                    ///< since the last news
   std::optional<devices::ProgramPositions> programs;  ///< if anybody wants to know
-  struct Answer {
-    Asker asker;
-    Problems problems;  ///< none: done
-  };
-  std::vector<Answer> answers;
-  std::optional<loop::Outcome> outcome;  ///< of the checks as if it ended now; twice a second
+  std::optional<loop::Outcome> outcome;               ///< of the checks as if it ended now; twice a second
 };
 
 /// What there is to see and to set; of one run.
@@ -172,8 +119,12 @@ class Line {
     bool running = true;                ///< from the beginning on
     std::filesystem::path record = {};  ///< folder of sessions, each run in a new one: 1, 2 ...; "" = none
   };
-  using Listener = std::function<void(std::shared_ptr<const News>)>;
-  using Describe = std::function<void(std::shared_ptr<const LineDescription>)>;
+  /// Who is told what the line has to say, in its thread.
+  struct Listener {
+    std::function<void(std::shared_ptr<const News>)> news;
+    std::function<void(std::shared_ptr<const LineDescription>)> described;  ///< of each run
+    std::function<void(std::vector<Answer>)> answered;
+  };
 
   /// Puts the scenario together; run() may be called if there are no problems.
   Line(Options options, Problems& problems);
@@ -181,22 +132,24 @@ class Line {
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
 
-  /// Runs until stop() is called, in the calling thread. What is told goes to the listeners, in this thread.
-  /// Throws std::runtime_error if a record cannot be written.
-  void run(const Listener& listener, const Describe& describe);
+  /// Runs until stop() is called, in the calling thread. Throws std::runtime_error if retentive values cannot
+  /// be kept.
+  void run(Listener listener);
   /// The present run: until run() is called, and in a Visit.
   [[nodiscard]] LineRun& present() { return *run_; }
   /// The folder of the present run's record, "" = none; once run() has returned.
   [[nodiscard]] const std::filesystem::path& record() const;
-  void stop();
-  void ask(Request request);
+  /// Why the record of a run ended before it did, "" = none did; once run() has returned.
+  [[nodiscard]] const std::string& record_lost() const { return record_lost_; }
+  void stop() { inbox_.stop(); }
+  /// False if the line is busy: too much of what was asked waits already, see Inbox.
+  bool ask(Request request) { return inbox_.put(std::move(request)); }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// False if the line is to stop.
+  /// Does what has been asked, as much as there is time for; false if the line is to stop.
   bool take_mail();
-  void wait_for_mail();
   void act_on(const Request& request);
   Problems restart();
   void go(bool on);
@@ -205,32 +158,32 @@ class Line {
   [[nodiscard]] bool keeps_pace() const { return running_ && pace_ != 0 && !until_event_; }
   void keep_pace();
   void begin_pace();
+  void await_cycle();
+  void be_first(bool first);
   void tell();
+  void tell_soon();
+  void answer();
+  void end_run();
   [[nodiscard]] Time cycle_time() const;
 
   Options options_;
   std::unique_ptr<LineRun> run_;
   Listener listener_;
-  Describe describe_;
-
-  struct Inbox {
-    std::mutex mutex;
-    std::condition_variable changed;
-    std::deque<Request> requests;
-  };
   Inbox inbox_;
-  std::atomic<bool> has_mail_ = false;  ///< something is in it
-  std::atomic<bool> stopped_ = false;
   bool running_ = false;
   double pace_ = 1;
   std::optional<Time> until_;               ///< stands still then
   std::optional<std::string> until_event_;  ///< or behind such an event
   Clock::time_point begun_;                 ///< where the pace is measured from
   Time begun_at_ = 0;
+  Clock::time_point due_;  ///< the next cycle
+  bool behind_ = false;    ///< the last one was late
+  bool first_ = false;     ///< its thread goes before the others of the machine
   Clock::time_point next_news_;
   int news_ = 0;
   Punctuality punctuality_;
-  std::vector<News::Answer> answers_;
+  std::vector<Answer> answers_;
+  std::string record_lost_;
 };
 
 }  // namespace drycut::sim::live

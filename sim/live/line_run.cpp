@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <set>
 
@@ -11,7 +12,6 @@
 #include "sim/loop/controller_loader.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/report/film.hpp"
-#include "sim/report/results.hpp"
 #include "sim/scenario/units.hpp"
 
 namespace drycut::sim::live {
@@ -20,7 +20,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_channels = 256;  ///< of an asker
+constexpr std::size_t most_channels = 256;       ///< of an asker
+constexpr std::size_t most_channels_all = 1024;  ///< different ones, of all askers
+constexpr std::size_t most_told = 100;           ///< events of a kind between two news
+constexpr std::size_t most_slips = 16;           ///< of a request are told
 
 /// The machine as a .glb: its first frame, with all that may ever be seen.
 std::string machine_of(scenario::Scenario scenario, std::vector<std::string>& parts, Problems& problems) {
@@ -77,33 +80,34 @@ LineRun::LineRun(const Line::Options& options, int number, Problems& problems)
     if (auto lamp = names.reading(name)) lamps_.push_back(std::move(*lamp));
 }
 
-void LineRun::begin(const fs::path& folder, const std::atomic<bool>& stopped) {
-  if (!folder.empty()) record_in(folder);
-  next_reached_ = replay_.reached;
-  while (!stopped && now() < replay_.reached && advance()) {
+void LineRun::begin(const fs::path& folder, const Inbox& inbox) {
+  if (!folder.empty()) {
+    record_ = std::make_unique<Record>(folder, scenario_, replay_.fingerprint, simulation_->recording());
+    simulation_->tell(*record_);
+    const auto& timeline = scenario_.timeline;
+    for (auto act = timeline.end() - static_cast<std::ptrdiff_t>(replay_.acts); act != timeline.end(); ++act)
+      record_->add(*act);
   }
-  constexpr std::size_t most_shown = 200;
-  if (events_.size() > most_shown) events_.erase(events_.begin(), events_.end() - most_shown);
+  simulation_->begin();
+  next_reached_ = replay_.reached;
+  while (!inbox.stopped() && now() < replay_.reached && advance()) {
+  }
 }
 
-void LineRun::record_in(const fs::path& folder) {
-  fs::create_directories(folder);
-  // Nothing that is there is touched: each run takes the next number.
-  for (int number = 1; record_.empty(); ++number) {
-    const auto next = folder / std::to_string(number);
-    if (fs::create_directory(next)) record_ = next;
-  }
-  session_.emplace(record_ / session_file, scenario_, replay_.fingerprint);
-  const auto& timeline = scenario_.timeline;
-  for (auto act = timeline.end() - static_cast<std::ptrdiff_t>(replay_.acts); act != timeline.end(); ++act)
-    session_->add(*act);
-  simulation_->write_to(record_ / report::trace_file, record_ / report::events_file);
+const fs::path& LineRun::record() const {
+  static const fs::path none;
+  return record_ ? record_->folder() : none;
+}
+
+const std::string& LineRun::record_lost() const {
+  static const std::string none;
+  return record_ ? record_->lost() : none;
 }
 
 void LineRun::end() {
-  if (session_) {
-    session_->reached(now());
-    simulation_->flush();
+  if (record_) {
+    record_->reached(now());
+    record_->finish();
   }
   keep_retentive();
 }
@@ -112,8 +116,8 @@ void LineRun::keep_retentive() const { loop::keep_retentive(scenario_, simulatio
 
 bool LineRun::advance() {
   const bool sound = simulation_->advance();
-  if (session_ && now() >= next_reached_) {
-    session_->reached(now());
+  if (record_ && now() >= next_reached_) {
+    record_->reached(now());
     next_reached_ = (now() / second + 1) * second;
   }
   return sound;
@@ -123,18 +127,26 @@ Problems LineRun::act(const std::string& text) {
   Problems problems;
   const auto stimulus = read_act(text, "act", now(), problems);
   if (stimulus) problems = act(*stimulus);
+  if (problems.size() > most_slips) problems.resize(most_slips);
   for (auto& problem : problems) problem.file = "act";
   return problems;
 }
 
 Problems LineRun::act(const scenario::Stimulus& stimulus) {
   Problems problems;
-  if (simulation_->act(stimulus, problems) && session_) session_->add(stimulus);
+  if (simulation_->act(stimulus, problems) && record_) record_->add(stimulus);
   return problems;
 }
 
+// A master that writes registers as fast as it can makes events by the thousand: those do not displace what
+// the machine reports.
 void LineRun::happened(const loop::RecordedEvent& event) {
-  events_.push_back(event);
+  auto& kept = event.source == "timeline" ? done_ : events_;
+  kept.push_back(event);
+  if (kept.size() > most_told) {
+    kept.pop_front();
+    ++events_left_out_;
+  }
   if (awaited_ && loop::names_event(*awaited_, event.source, event.event)) seen_ = true;
   if (awaited_ && awaited_->empty()) seen_ = true;
 }
@@ -149,51 +161,77 @@ Problems LineRun::await(const std::string& event) {
   return {};
 }
 
+/// Nullptr if there is no such value.
+const std::function<double()>* LineRun::known(const std::string& name) {
+  auto found = known_.find(name);
+  if (found == known_.end()) {
+    const auto reading = simulation_->names().reading(name);
+    if (!reading) return nullptr;
+    found = known_.emplace(name, reading->read).first;
+  }
+  return &found->second;
+}
+
 Problems LineRun::want(Asker asker, const Sample& sample) {
   const auto& names = sample.names;
   Problems problems;
   if (names.size() > most_channels)
-    problems.push_back(
-        {"sample", 1, 1, fmt::format("{} channels", names.size()), fmt::format("{} at most", most_channels)});
+    return {
+        {"sample", 1, 1, fmt::format("{} channels", names.size()), fmt::format("{} at most", most_channels)}};
   for (const auto& name : names) {
-    if (problems.size() < most_channels && !simulation_->names().reading(name))
+    if (problems.size() >= most_slips) break;
+    if (known(name) == nullptr)
       problems.push_back({"sample", 1, 1, fmt::format("there is no channel '{}'", name),
                           simulation_->names().suggest_reading(name)});
   }
   if (!problems.empty()) return problems;
-  wanted_[asker] = sample;
-  choose_samples();
+  auto& own = wanted_[asker];
+  count(own.names, -1);
+  count(names, 1);
+  if (const auto all = wanted_names_.size(); all > most_channels_all) {
+    count(names, -1);
+    count(own.names, 1);
+    return {{"sample", 1, 1, fmt::format("the line would sample {} channels", all),
+             fmt::format("{} at most for all pages together", most_channels_all)}};
+  }
+  own = sample;
+  chosen_anew_ = true;
   watch_programs();
   return {};
 }
 
 void LineRun::leave(Asker asker) {
-  if (wanted_.erase(asker) == 0) return;
-  choose_samples();
+  const auto gone = wanted_.extract(asker);
+  if (!gone) return;
+  count(gone.mapped().names, -1);
+  chosen_anew_ = true;
   watch_programs();
 }
 
+void LineRun::count(const std::vector<std::string>& names, int by) {
+  for (const auto& name : names)
+    if (const auto found = wanted_names_.try_emplace(name, 0).first; (found->second += by) == 0)
+      wanted_names_.erase(found);
+}
+
+// The columns change only between two news: nobody's curve has a gap because others come and go.
 void LineRun::take_samples() {
+  if (chosen_anew_ && samples_.times.empty()) choose_samples();
   if (readings_.empty()) return;
   samples_.times.push_back(now());
-  for (const auto& reading : readings_) samples_.rows.push_back(reading.read());
+  for (const auto* read : readings_) samples_.rows.push_back((*read)());
 }
 
 Problems LineRun::values_of(const std::vector<std::string>& names, std::vector<double>& values) {
   Problems problems;
   for (const auto& name : names) {
-    auto known = known_.find(name);
-    if (known == known_.end()) {
-      const auto reading = simulation_->names().reading(name);
-      if (!reading) {
-        problems.push_back({"read", 1, 1, fmt::format("there is no channel '{}'", name),
-                            simulation_->names().suggest_reading(name)});
-        if (problems.size() >= most_channels) break;
-        continue;
-      }
-      known = known_.emplace(name, reading->read).first;
+    if (const auto* read = known(name)) {
+      values.push_back((*read)());
+      continue;
     }
-    values.push_back(known->second());
+    problems.push_back({"read", 1, 1, fmt::format("there is no channel '{}'", name),
+                        simulation_->names().suggest_reading(name)});
+    if (problems.size() >= most_slips) break;
   }
   if (!problems.empty()) values.clear();
   return problems;
@@ -203,11 +241,16 @@ void LineRun::tell(News& news) {
   news.run = number_;
   news.time = now();
   news.failure = failure();
+  news.record_lost = record_lost();
   news.poses.reserve(shown_.size());
   for (const auto& part : shown_) news.poses.push_back(part.now());
   for (const auto& target : targets_) news.values.push_back(scenario::from_si(target.read(), target.unit));
   for (const auto& lamp : lamps_) news.lamps.push_back(lamp.read());
-  news.events = std::exchange(events_, {});
+  std::merge(done_.begin(), done_.end(), events_.begin(), events_.end(), std::back_inserter(news.events),
+             [](const auto& one, const auto& other) { return one.time < other.time; });
+  done_.clear();
+  events_.clear();
+  news.events_left_out = std::exchange(events_left_out_, 0);
   news.samples = std::exchange(samples_, {sample_names_, {}, {}});
   if (programs_wanted_) news.programs = simulation_->controller()->positions(now());
 }
@@ -324,13 +367,15 @@ void LineRun::watch_programs() {
 
 void LineRun::choose_samples() {
   auto names = std::make_shared<std::vector<std::string>>();
-  for (const auto& [asker, own] : wanted_)
-    for (const auto& name : own.names)
-      if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
+  names->reserve(wanted_names_.size());
   readings_.clear();
-  for (const auto& name : *names) readings_.push_back(simulation_->names().reading(name).value());
+  for (const auto& [name, askers] : wanted_names_) {
+    names->push_back(name);
+    readings_.push_back(known(name));
+  }
   sample_names_ = std::move(names);
   samples_ = {sample_names_, {}, {}};
+  chosen_anew_ = false;
 }
 
 }  // namespace drycut::sim::live

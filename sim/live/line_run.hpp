@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "sim/live/line.hpp"
+#include "sim/live/record.hpp"
 
 namespace drycut::sim::live {
 
@@ -18,15 +20,16 @@ class LineRun : public loop::Observer {
   LineRun(const Line::Options& options, int number, Problems& problems);
 
   /// Simulates up to where the session ended that it goes on from. Records all of the run in a new folder in
-  /// `folder`, which has the next number, unless that is "". Gives up as soon as `stopped`. Throws
-  /// std::runtime_error.
-  void begin(const std::filesystem::path& folder, const std::atomic<bool>& stopped);
+  /// `folder`, which has the next number, unless that is "". Gives up as soon as the line is to stop.
+  void begin(const std::filesystem::path& folder, const Inbox& inbox);
   /// Retentive values are in their file, for who begins next. Throws std::runtime_error.
   void keep_retentive() const;
   /// All that was recorded is in its files, and retentive values in theirs. Throws std::runtime_error.
   void end();
   /// The folder of the record, "" = none.
-  [[nodiscard]] const std::filesystem::path& record() const { return record_; }
+  [[nodiscard]] const std::filesystem::path& record() const;
+  /// Why the record has ended before the run, "" = it has not.
+  [[nodiscard]] const std::string& record_lost() const;
 
   [[nodiscard]] int number() const { return number_; }
   [[nodiscard]] Time now() const { return simulation_->time(); }
@@ -58,8 +61,9 @@ class LineRun : public loop::Observer {
   std::shared_ptr<const LineDescription> describe();
 
  private:
-  void record_in(const std::filesystem::path& folder);
   void choose_samples();
+  void count(const std::vector<std::string>& names, int by);
+  [[nodiscard]] const std::function<double()>* known(const std::string& name);
   void watch_programs();
   [[nodiscard]] double largest_used(const loop::Target& target) const;
   [[nodiscard]] std::optional<bool> is_push_button(const loop::Target& target) const;
@@ -72,20 +76,24 @@ class LineRun : public loop::Observer {
   int number_;
   std::vector<std::string> parts_;
   std::string machine_;
+  std::unique_ptr<Record> record_;  ///< looks at the simulation
   std::unique_ptr<loop::Simulation> simulation_;
-  std::filesystem::path record_;
-  std::optional<SessionFile> session_;
   Time next_reached_ = 0;
   std::vector<plants::Part> shown_;
   std::vector<loop::Target> targets_;  ///< what an operator sets: switches of the panel, settings of plants
   std::vector<loop::Reading> lamps_;
-  std::vector<loop::RecordedEvent> events_;
+  // What has happened since it was told last, the latest of it.
+  std::deque<loop::RecordedEvent> done_;    ///< by the timeline
+  std::deque<loop::RecordedEvent> events_;  ///< the others
+  std::size_t events_left_out_ = 0;
   std::optional<std::string> awaited_;
   bool seen_ = false;
   std::map<Asker, Sample> wanted_;
   bool programs_wanted_ = false;
-  std::vector<loop::Reading> readings_;
-  std::unordered_map<std::string, std::function<double()>> known_;  ///< what values_of() has looked up
+  std::map<std::string, int> wanted_names_;                         ///< by how many askers
+  bool chosen_anew_ = false;                                        ///< not sampled so yet
+  std::vector<const std::function<double()>*> readings_;            ///< of `sample_names_`
+  std::unordered_map<std::string, std::function<double()>> known_;  ///< what has been looked up
   std::shared_ptr<const std::vector<std::string>> sample_names_;
   News::Samples samples_;
 };

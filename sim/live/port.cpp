@@ -3,19 +3,18 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 namespace drycut::sim::live {
 
 namespace asio = boost::asio;
 
 namespace {
 
-std::string remedy_for(const boost::system::error_code& error, const char* option) {
+Problem problem_of(const boost::system::error_code& error, const std::string& what, const char* option) {
   if (error == asio::error::address_in_use)
-    return fmt::format("give another with {}, or {} 0 for any free one", option, option);
-  if (error == asio::error::access_denied) return fmt::format("give one from 1024 on with {}", option);
-  return "--listen takes an address of this machine, such as 127.0.0.1 or 0.0.0.0";
+    return {option, 1, 1, what, fmt::format("give another port, or {} 0 for any free one", option)};
+  if (error == asio::error::access_denied) return {option, 1, 1, what, "give a port from 1024 on"};
+  return {"--listen", 1, 1, what,
+          "an address of this machine, such as 127.0.0.1, or 0.0.0.0 for all of them"};
 }
 
 }  // namespace
@@ -31,8 +30,10 @@ std::uint16_t listen_at(asio::ip::tcp::acceptor& acceptor, const std::string& ad
     acceptor.listen();
     return acceptor.local_endpoint().port();
   } catch (const boost::system::system_error& error) {
-    throw std::runtime_error(fmt::format("cannot listen{} on {} port {}: {}; {}", for_whom, address, port,
-                                         error.code().message(), remedy_for(error.code(), option)));
+    throw CannotListen(problem_of(
+        error.code(),
+        fmt::format("cannot listen{} on {} port {}: {}", for_whom, address, port, error.code().message()),
+        option));
   }
 }
 

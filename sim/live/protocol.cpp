@@ -1,9 +1,11 @@
 #include "sim/live/protocol.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
@@ -40,7 +42,7 @@ class Parser {
   explicit Parser(Problems& problems) : problems_(problems) {}
 
   std::optional<decltype(Request::what)> read(const ordered_json& message) {
-    if (message.contains("act")) return Act{text_of(message["act"])};
+    if (message.contains("act")) return read_act(message["act"]);
     if (message.contains("run")) return read_switch(message["run"]);
     if (message.contains("advance")) return read_advance(message["advance"]);
     if (message.contains("until")) return read_until(message["until"]);
@@ -59,6 +61,13 @@ class Parser {
   }
 
  private:
+  std::optional<decltype(Request::what)> read_act(const ordered_json& act) {
+    auto text = text_of(act);
+    if (text.size() <= most_of_act) return Act{std::move(text)};
+    refuse(fmt::format("an act of {} bytes", text.size()),
+           fmt::format("{} at most; make several of it", most_of_act));
+    return {};
+  }
   std::optional<decltype(Request::what)> read_switch(const ordered_json& on) {
     if (on.is_boolean()) return Go{on.get<bool>()};
     refuse("run is true or false", "{\"run\": true}");
@@ -119,6 +128,7 @@ class Parser {
   }
 
   static constexpr Time most_advance = 3600 * second;
+  static constexpr std::size_t most_of_act = 16U << 10U;  ///< [bytes]: it is read between two cycles
   Problems& problems_;
 };
 
@@ -283,40 +293,65 @@ std::string news_json(const News& news) {
       {"values", news.values},
       {"lamps", news.lamps}};
   if (!news.failure.empty()) json["failure"] = news.failure;
+  if (!news.record_lost.empty()) json["record_lost"] = news.record_lost;
+  if (news.events_left_out > 0) json["left_out"] = news.events_left_out;
   if (!news.events.empty()) json["events"] = events_json(news.events);
   if (news.programs) json["programs"] = positions_json(*news.programs);
   if (news.outcome) json["outcome"] = outcome_json(*news.outcome);
   return text_of({{"news", std::move(json)}});
 }
 
+bool knows(const News::Samples& samples, const Sample& wanted) {
+  return samples.names && std::ranges::all_of(wanted.names, [&](const auto& name) {
+           return std::ranges::binary_search(*samples.names, name);
+         });
+}
+
+// By hand: of all that is told these are by far the most numbers.
 std::string samples_json(const News::Samples& samples, const Sample& wanted) {
-  if (samples.times.empty() || !samples.names || wanted.names.empty()) return "";
+  if (samples.times.empty() || wanted.names.empty() || !knows(samples, wanted)) return "";
+  const auto& known = *samples.names;
   std::vector<std::size_t> columns;
   columns.reserve(wanted.names.size());
-  for (const auto& name : wanted.names) {
-    const auto found = std::find(samples.names->begin(), samples.names->end(), name);
-    if (found == samples.names->end()) return "";  // the line does not know yet
-    columns.push_back(static_cast<std::size_t>(found - samples.names->begin()));
-  }
-  const auto value = [&](std::size_t row, std::size_t item) -> ordered_json {
-    const double number = samples.rows[row * samples.names->size() + columns[item]];
-    if (std::isfinite(number)) return number;
-    return nullptr;
+  for (const auto& name : wanted.names)
+    columns.push_back(static_cast<std::size_t>(std::ranges::lower_bound(known, name) - known.begin()));
+  std::string text;
+  const auto put = [&](double number) {
+    if (text.back() != '[' && text.back() != ':') text += ',';
+    if (std::isfinite(number))
+      fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), number);
+    else
+      text += "null";
+  };
+  const auto value = [&](std::size_t row, std::size_t item) {
+    return samples.rows[row * known.size() + columns[item]];
   };
   const auto sampled = columns.size() - wanted.watched;
+  const auto last = samples.times.size() - 1;
   auto names = ordered_json::array();
-  auto times = ordered_json::array();
-  auto rows = ordered_json::array();
-  auto watched = ordered_json::object();
   for (std::size_t item = 0; item < sampled; ++item) names.push_back(wanted.names[item]);
-  for (std::size_t row = 0; sampled > 0 && row < samples.times.size(); ++row) {
-    times.push_back(seconds(samples.times[row]));
-    for (std::size_t item = 0; item < sampled; ++item) rows.push_back(value(row, item));
+  text = R"({"samples":{"names":)" + text_of(names) + R"(,"times":[)";
+  if (sampled > 0)
+    for (const auto time : samples.times) put(seconds(time));
+  text += R"(],"rows":[)";
+  for (std::size_t row = 0; sampled > 0 && row <= last; ++row)
+    for (std::size_t item = 0; item < sampled; ++item) put(value(row, item));
+  text += R"(],"watched":{)";
+  for (std::size_t item = sampled; item < columns.size(); ++item) {
+    text += (item == sampled ? "" : ",") + text_of(wanted.names[item]) + ":";
+    put(value(last, item));
   }
-  for (std::size_t item = sampled; item < columns.size(); ++item)
-    watched[wanted.names[item]] = value(samples.times.size() - 1, item);
+  return text + "}}}";
+}
+
+std::string busy_json(double id) {
   return text_of(
-      {{"samples", {{"names", names}, {"times", times}, {"rows", rows}, {"watched", std::move(watched)}}}});
+      {{"done", id},
+       {"busy", true},
+       {"problems",
+        list_of({{"", 1, 1, "busy: too much of what was asked waits for the line already",
+                  fmt::format("wait for answers; {} requests and {} kB a client, {} of all",
+                              Inbox::most_of_one, Inbox::most_bytes_of_one >> 10U, Inbox::most_of_all)}})}});
 }
 
 std::string answer_json(double id, const Problems& problems) {

@@ -10,10 +10,11 @@
 #include <boost/beast/websocket.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <deque>
+#include <list>
 #include <map>
+#include <mutex>
 #include <thread>
 
 #include "sim/live/port.hpp"
@@ -32,9 +33,12 @@ namespace {
 
 constexpr std::size_t largest_message = 64U << 10U;  // [bytes] from a client
 constexpr std::size_t largest_request = 16U << 10U;  // heading and body of HTTP
-constexpr std::size_t most_connections = 256;
-constexpr std::size_t most_waiting = 4U << 20U;  // [bytes] for one client; what comes then is left out
-constexpr int most_news_to_come = 8;
+constexpr std::size_t most_connections = 256;        ///< that have asked for something
+constexpr std::size_t most_unfinished = 64;          ///< others, whose request has not come yet
+constexpr std::size_t most_waiting = 4U << 20U;      // [bytes] for one client; what comes then is left out
+constexpr std::size_t most_news_to_come = 8;
+constexpr std::size_t most_numbers = 50'000;  ///< of samples, to all clients, each time that the line tells
+constexpr auto for_request = std::chrono::seconds(5);
 constexpr auto patience = std::chrono::seconds(10);
 
 using Text = std::shared_ptr<const std::string>;
@@ -67,6 +71,21 @@ bool same_token(std::string_view given, std::string_view wanted) {
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
+/// Two news as one, without their samples.
+std::shared_ptr<const News> merged(const News& earlier, const News& later) {
+  constexpr std::size_t most_events = 400;
+  auto both = std::make_shared<News>(later);
+  both->samples = {};
+  if (!both->outcome) both->outcome = earlier.outcome;
+  if (earlier.run != later.run) return both;
+  auto& events = both->events;
+  events.insert(events.begin(), earlier.events.begin(), earlier.events.end());
+  const auto more = events.size() - std::min(events.size(), most_events);
+  events.erase(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(more));
+  both->events_left_out += earlier.events_left_out + more;
+  return both;
+}
+
 }  // namespace
 
 /// All of it, in the one thread of the server; others post into it.
@@ -78,6 +97,9 @@ struct Server::Core {
   }
 
   void accept();
+  void make_room();
+  void tell(const News& news);
+  void tell_samples(const News::Samples& samples);
   [[nodiscard]] bool knows_host(std::string_view host) const;
   [[nodiscard]] bool is_ours(const Asked& request) const;
   [[nodiscard]] bool may(const Asked& request) const;
@@ -88,14 +110,17 @@ struct Server::Core {
   Site site;
   // Clients take themselves out as they go, with the context at the latest.
   std::size_t connections = 0;
+  std::list<Client*> unfinished;  ///< of them, by how long they have been
   Asker next_asker = 1;
+  Asker served = 0;                                ///< who was sent samples last
   std::map<Asker, std::weak_ptr<Client>> clients;  ///< that talk over a WebSocket
   asio::io_context context{1};
   tcp::acceptor acceptor;
   std::thread thread;
   std::shared_ptr<const LineDescription> description;
   Text described;
-  std::atomic<int> news_to_come = 0;
+  std::mutex mutex;  ///< of what the line's thread leaves here
+  std::deque<std::shared_ptr<const News>> news_to_come;
 };
 
 /// One connection: requests of HTTP, until one asks for a WebSocket.
@@ -104,6 +129,7 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
   Client(Core& core, tcp::socket socket) : core_(core), stream_(std::move(socket)) { ++core_.connections; }
   ~Client() {
     --core_.connections;
+    has_asked();
     if (asker_ == 0) return;
     core_.clients.erase(asker_);
     core_.line.ask({asker_, Leave{}});
@@ -115,11 +141,18 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     parser_.emplace();
     parser_->header_limit(largest_request);
     parser_->body_limit(largest_request);
-    stream_.expires_after(patience);
+    place_ = core_.unfinished.insert(core_.unfinished.end(), this);
+    stream_.expires_after(for_request);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
+                       self->has_asked();
                        if (!error) self->take_request();
                      });
+  }
+  /// It has been waited for long enough.
+  void close() {
+    has_asked();
+    stream_.close();
   }
 
   /// To the client, if it takes it in; `needed`: it goes down rather than without it.
@@ -133,17 +166,16 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     if (waiting_.size() == 1) write();
   }
 
-  void tell(const News& news, const Text& text, bool samples_too) {
-    send(text, false);
-    if (!samples_too) return;
-    if (const auto samples = samples_json(news.samples, wanted_); !samples.empty())
-      send(std::make_shared<const std::string>(samples), false);
+  /// What it is to be sent of these; until the line has come to what it asked for last, what it asked for
+  /// before.
+  [[nodiscard]] const Sample& wanted(const News::Samples& samples) const {
+    return knows(samples, wanted_) ? wanted_ : before_;
   }
   void answered(const Problems& problems) {
     if (open_.empty()) return;
     const auto [id, wanted] = std::move(open_.front());
     open_.pop_front();
-    if (wanted && problems.empty()) wanted_ = *wanted;
+    if (wanted && problems.empty()) before_ = std::exchange(wanted_, *wanted);
     if (id != 0 || !problems.empty())
       send(std::make_shared<const std::string>(answer_json(id, problems)), true);
   }
@@ -171,6 +203,7 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     timeout.keep_alive_pings = true;
     socket_->set_option(timeout);
     socket_->read_message_max(largest_message);
+    socket_->auto_fragment(false);
     socket_->async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (!error) self->begin();
     });
@@ -199,19 +232,32 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
     Problems problems;
     auto request = parse_request(message, asker_, id, problems);
     if (!request) return send(std::make_shared<const std::string>(answer_json(id, problems)), true);
+    request->bytes = message.size();
     if (auto* read = std::get_if<Read>(&request->what)) {
       read->told = [&context = core_.context, to = weak_from_this(), id](const auto& wrong,
                                                                          const auto& values) {
-        const auto text = std::make_shared<const std::string>(values_json(id, wrong, values));
-        asio::post(context, [to, text] {
-          if (const auto client = to.lock()) client->send(text, true);
+        asio::post(context, [to, id, wrong, values] {
+          if (const auto client = to.lock())
+            client->send(std::make_shared<const std::string>(values_json(id, wrong, values)), true);
         });
       };
-      return core_.line.ask(std::move(*request));
+      if (!core_.line.ask(std::move(*request))) refuse(id);
+      return;
     }
     const auto* sample = std::get_if<Sample>(&request->what);
-    open_.emplace_back(id, sample == nullptr ? std::nullopt : std::optional(*sample));
-    core_.line.ask(std::move(*request));
+    auto wanted = sample == nullptr ? std::nullopt : std::optional(*sample);
+    if (!core_.line.ask(std::move(*request))) return refuse(id);
+    open_.emplace_back(id, std::move(wanted));
+  }
+
+  void refuse(double id) {
+    static const Text without_number = std::make_shared<const std::string>(busy_json(0));
+    send(id == 0 ? without_number : std::make_shared<const std::string>(busy_json(id)), true);
+  }
+
+  void has_asked() {
+    if (place_) core_.unfinished.erase(*place_);
+    place_.reset();
   }
 
   void write() {
@@ -230,10 +276,12 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::unique_ptr<Response> response_;
   std::optional<websocket::stream<beast::tcp_stream>> socket_;
-  Asker asker_ = 0;  ///< 0 = it has no WebSocket
+  std::optional<std::list<Client*>::iterator> place_;  ///< among the unfinished
+  Asker asker_ = 0;                                    ///< 0 = it has no WebSocket
   std::deque<Text> waiting_;
   std::size_t waiting_bytes_ = 0;
   Sample wanted_;  ///< channels that it is sent
+  Sample before_;
   /// What the line has been asked and not answered: the message's number, channels to be sampled.
   std::deque<std::pair<double, std::optional<Sample>>> open_;
 };
@@ -241,12 +289,18 @@ class Server::Core::Client : public std::enable_shared_from_this<Client> {
 void Server::Core::accept() {
   acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    if (!error && connections < most_connections) {
+    if (!error) make_room();
+    if (!error && connections - unfinished.size() < most_connections) {
       socket.set_option(tcp::no_delay(true), error);
       std::make_shared<Client>(*this, std::move(socket))->read_request();
     }
     accept();
   });
+}
+
+// Who opens connections and asks for nothing locks nobody out.
+void Server::Core::make_room() {
+  if (unfinished.size() >= most_unfinished) unfinished.front()->close();
 }
 
 // A page of another site can have a name of its own lead here: then the host is that name.
@@ -327,20 +381,63 @@ std::string Server::url() const {
                      token.empty() ? "" : "?token=" + token);
 }
 
-void Server::tell(std::shared_ptr<const News> news) {
-  // Where it comes behind, the curves have a gap.
-  const bool samples_too = core_->news_to_come++ < most_news_to_come;
-  asio::post(core_->context, [this, samples_too, news = std::move(news)] {
-    --core_->news_to_come;
-    for (const auto& answer : news->answers) {
-      const auto found = core_->clients.find(answer.asker);
-      if (found == core_->clients.end()) continue;
-      if (const auto client = found->second.lock()) client->answered(answer.problems);
+void Server::Core::tell(const News& news) {
+  if (clients.empty()) return;
+  const auto text = std::make_shared<const std::string>(news_json(news));
+  for (const auto& [asker, held] : clients)
+    if (const auto client = held.lock()) client->send(text, false);
+  if (!news.samples.times.empty()) tell_samples(news.samples);
+}
+
+// By turns: where there is more than can be told, each one's curves have gaps, and nobody else's page waits.
+// What several want is written once.
+void Server::Core::tell_samples(const News::Samples& samples) {
+  std::vector<std::pair<Sample, Text>> written;
+  std::size_t numbers = 0;
+  auto next = clients.upper_bound(served);
+  for (auto left = clients.size(); left > 0 && numbers < most_numbers; --left, ++next) {
+    if (next == clients.end()) next = clients.begin();
+    served = next->first;
+    const auto client = next->second.lock();
+    if (!client) continue;
+    const auto& wanted = client->wanted(samples);
+    auto same =
+        std::find_if(written.begin(), written.end(), [&](const auto& one) { return one.first == wanted; });
+    if (same == written.end()) {
+      numbers += samples.times.size() * (wanted.names.size() - wanted.watched) + wanted.watched;
+      written.emplace_back(wanted, std::make_shared<const std::string>(samples_json(samples, wanted)));
+      same = std::prev(written.end());
     }
-    if (core_->clients.empty()) return;
-    const auto text = std::make_shared<const std::string>(news_json(*news));
-    for (const auto& [asker, held] : core_->clients)
-      if (const auto client = held.lock()) client->tell(*news, text, samples_too);
+    if (!same->second->empty()) client->send(same->second, false);
+  }
+}
+
+void Server::tell(std::shared_ptr<const News> news) {
+  {
+    const std::lock_guard lock(core_->mutex);
+    auto& to_come = core_->news_to_come;
+    if (to_come.size() >= most_news_to_come) {  // it comes behind: curves have a gap, events are told later
+      to_come.back() = merged(*to_come.back(), *news);
+      return;
+    }
+    to_come.push_back(std::move(news));
+  }
+  asio::post(core_->context, [core = core_.get()] {
+    std::unique_lock lock(core->mutex);
+    const auto first = std::move(core->news_to_come.front());
+    core->news_to_come.pop_front();
+    lock.unlock();
+    core->tell(*first);
+  });
+}
+
+void Server::answer(std::vector<Answer> answers) {
+  asio::post(core_->context, [core = core_.get(), answers = std::move(answers)] {
+    for (const auto& [asker, problems] : answers) {
+      const auto found = core->clients.find(asker);
+      if (found == core->clients.end()) continue;
+      if (const auto client = found->second.lock()) client->answered(problems);
+    }
   });
 }
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sim/live/line.hpp"
 
@@ -18,7 +19,7 @@ class Server {
     std::uint16_t port = 8080;  ///< 0 = any free one
     std::string token;          ///< demanded as ?token=... ; "" = none
   };
-  /// Where it listens is taken here. Throws std::runtime_error if it cannot be.
+  /// Where it listens is taken here. Throws CannotListen.
   Server(Options options, Line& line);
   ~Server();
   Server(const Server&) = delete;
@@ -31,6 +32,7 @@ class Server {
   /// From any thread.
   void tell(std::shared_ptr<const News> news);
   void describe(std::shared_ptr<const LineDescription> line);
+  void answer(std::vector<Answer> answers);
 
  private:
   struct Core;

@@ -110,6 +110,8 @@ class Reader {
       if (time) session_.reached = std::max(session_.reached, *time);
       return;
     }
+    // An earlier version recorded acts that did nothing.
+    if (child(node, "at") != nullptr && node.entries.size() == 1) return;
     scenario::Stimulus act;
     scenario::MapReader reader(node, "the act", findings);
     visit(reader, act);

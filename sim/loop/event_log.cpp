@@ -25,6 +25,7 @@ void EventLog::push_back(const RecordedEvent& event) {
 
 void EventLog::clear() {
   entries_.clear();
+  texts_.clear();
   numbers_.clear();
 }
 

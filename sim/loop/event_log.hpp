@@ -41,7 +41,7 @@ class EventLog {
   EventLog& operator=(EventLog&&) = default;
 
   void push_back(const RecordedEvent& event);
-  /// Forgets the events; words stay.
+  /// Forgets the events. Their kinds stay: there are few of them.
   void clear();
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
   [[nodiscard]] bool empty() const { return entries_.empty(); }

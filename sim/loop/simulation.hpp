@@ -79,18 +79,18 @@ class Simulation {
   Outcome run(const std::function<void(Time)>& progress = {});
 
   // For whoever works at the machine while it runs, in place of run().
+  /// What is recorded of time zero; advance() does it else.
+  void begin() {
+    if (time_ == 0 && next_record_ == 0) record();
+  }
   /// One step; false if the simulation itself failed, now or before.
   bool advance() {
-    if (time_ == 0) record();
+    begin();
     if (failure_.empty()) step();
     return failure_.empty();
   }
   /// Tells one more, from now on; it outlives the simulation.
   void tell(Observer& observer) { observers_.push_back(&observer); }
-  /// What has been written is in the files; of whoever steps it in place of run().
-  void flush() {
-    if (files_) files_->finish();
-  }
   /// Takes an entry of the timeline more, before the step at which it is due: at() in the future, or now. The
   /// run is the same as if it had stood behind the scenario's own. False, and nothing taken, if it does not
   /// fit.

@@ -48,12 +48,20 @@ std::string action_text(const Text& target, const Quantity& value) {
 
 constexpr std::string_view action_schema = R"({"type": ["number", "string", "boolean"]})";
 
+/// What acts on nothing would be no line of a session.
+void refuse_empty(const YamlNode& map, const Form::Name& name, std::string_view example, Findings& findings) {
+  if (!map.entries.empty()) return;
+  findings.add(name.key, fmt::format("{} is empty", name.full),
+               fmt::format("name what it acts on, {}, or leave it out", example));
+}
+
 // set: {panel.start: 1, web.speed: 60 m/min}
 Form actions_form(std::vector<std::pair<Text, Quantity>>& actions) {
   return whole(
       YamlNode::Kind::map,
       [&actions](const YamlNode& map, const Form::Name& name, Findings& findings) {
         refuse_duplicates(map, name.full, findings);
+        refuse_empty(map, name, "{web.speed: 30 m/min}", findings);
         for (const auto& entry : map.entries) {
           const auto quantity = read_action(entry, name.full + "." + entry.key.text, findings);
           if (quantity) actions.emplace_back(entry.key, *quantity);
@@ -64,7 +72,7 @@ Form actions_form(std::vector<std::pair<Text, Quantity>>& actions) {
         for (const auto& [target, value] : actions) items.push_back(action_text(target, value));
         return yaml_map(items);
       },
-      map_schema(action_schema));
+      fmt::format(R"({{"type": "object", "minProperties": 1, "additionalProperties": {}}})", action_schema));
 }
 
 void read_faults(const YamlNode& map, const std::string& name, std::vector<Stimulus::FaultAction>& faults,
@@ -106,12 +114,14 @@ Form faults_form(std::vector<Stimulus::FaultAction>& faults) {
   return whole(
       YamlNode::Kind::map,
       [&faults](const YamlNode& map, const Form::Name& name, Findings& findings) {
+        refuse_empty(map, name, "{knife.encoder: {lose_counts: 200}}", findings);
         read_faults(map, name.full, faults, findings);
       },
       [&faults] { return faults_text(faults); },
-      fmt::format(R"({{"type": "object", "additionalProperties": {{"type": "object", "minProperties": 1,)"
-                  R"( "additionalProperties": {}}}}})",
-                  action_schema));
+      fmt::format(
+          R"({{"type": "object", "minProperties": 1, "additionalProperties": {{"type": "object", "minProperties": 1,)"
+          R"( "additionalProperties": {}}}}})",
+          action_schema));
 }
 
 void judge_stimulus(MapReader& reader, Stimulus& stimulus) {

@@ -55,8 +55,9 @@ class Stand {
     if (!problems.empty()) fuzz::broken(to_string(problems.front()));
     server_ = std::make_unique<live::Server>(live::Server::Options{"127.0.0.1", 0, ""}, *line_);
     thread_ = std::thread([this] {
-      line_->run([this](auto news) { server_->tell(std::move(news)); },
-                 [this](auto told) { server_->describe(std::move(told)); });
+      line_->run({[this](auto news) { server_->tell(std::move(news)); },
+                  [this](auto told) { server_->describe(std::move(told)); },
+                  [this](auto answers) { server_->answer(std::move(answers)); }});
     });
     host = "127.0.0.1:" + std::to_string(server_->port());
   }

@@ -62,7 +62,7 @@ class Line:
         """Ends it and runs it again: the same bytes."""
         self.process.send_signal(signal.SIGINT)
         self.process.communicate(timeout=60)
-        assert self.process.returncode == 0, self.process.returncode
+        assert self.process.returncode == 130, self.process.returncode
         again = os.path.join(self.folder.name, "again")
         subprocess.run([PROGRAM, "replay", os.path.join(self.record, "1"), "--no-pictures", "--out", again], check=True,
                        stdout=subprocess.DEVNULL)

@@ -17,7 +17,7 @@ const gateway_of = (line) => Number(execFileSync("pgrep", ["-P", String(line.chi
 test("the line ends its gateway", async () => {
   const line = await start_line(web);
   const gateway = gateway_of(line);
-  assert.deepEqual(await line.end("SIGTERM"), { status: 0, signal: null });
+  assert.deepEqual(await line.end("SIGTERM"), { status: 130, signal: null });
   assert.equal(alive(gateway), false);
   assert.ok(existsSync(join(folder, "drycut", "opcua", "own")));
   assert.deepEqual(readdirSync(folder).filter((name) => name !== "drycut" && !name.endsWith(".yaml") && !name.startsWith("node-opcua")), []);
@@ -35,7 +35,7 @@ test("a gateway that is killed leaves the line running, which says so", async ()
   process.kill(gateway_of(line), "SIGKILL");
   await line.hears(/the OPC UA gateway has ended by signal 9; the line goes on without it/);
   assert.equal((await fetch(new URL("line.json", line.page))).status, 200);
-  assert.deepEqual(await line.end(), { status: 0, signal: null });
+  assert.deepEqual(await line.end(), { status: 130, signal: null });
 });
 
 test("a client that comes back finds the line as it was", async () => {

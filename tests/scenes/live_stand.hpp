@@ -44,8 +44,9 @@ class Stand {
     EXPECT_EQ(lines_of(problems), "");
     serve(0);
     work_ = std::thread([this] {
-      line_->run([this](auto news) { tell(std::move(news)); },
-                 [this](auto description) { describe(std::move(description)); });
+      line_->run({[this](auto news) { tell(std::move(news)); },
+                  [this](auto description) { describe(std::move(description)); },
+                  [this](auto answers) { answer(std::move(answers)); }});
     });
     browser.emplace(folder_.path);
     browser->window(1280, 720);
@@ -102,6 +103,10 @@ class Stand {
   void tell(std::shared_ptr<const live::News> news) {
     const std::lock_guard lock(mutex_);
     if (server_) server_->tell(std::move(news));
+  }
+  void answer(std::vector<live::Answer> answers) {
+    const std::lock_guard lock(mutex_);
+    if (server_) server_->answer(std::move(answers));
   }
   void describe(std::shared_ptr<const live::LineDescription> description) {
     const std::lock_guard lock(mutex_);

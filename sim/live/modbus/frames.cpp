@@ -190,19 +190,21 @@ Bytes refusal(Request request, Exception exception) {
 
 std::size_t cost_of(Request request) {
   constexpr std::size_t counted = 5;
+  constexpr std::size_t a_write = 8;  // each is an act, an event and a line of the record
   if (request.size() < counted) return 1;
   switch (request[0]) {
     case 1:
     case 2:
     case 3:
     case 4:
+      return std::min(word_at(request, 3), most_read_bits);
     case 15:
     case 16:
-      return std::min(word_at(request, 3), most_read_bits);
+      return a_write * std::min(word_at(request, 3), most_read_bits);
     case 23:
-      return most_read_words + most_exchanged_words;
+      return most_read_words + a_write * most_exchanged_words;
     default:
-      return 1;
+      return a_write;
   }
 }
 

@@ -27,7 +27,7 @@ using tcp = asio::ip::tcp;
 namespace {
 
 constexpr std::size_t most_connections = 64;
-constexpr std::size_t most_a_cycle = 2000;  ///< bits and words of requests between two cycles
+constexpr std::size_t most_a_cycle = 2000;  ///< of requests between two cycles, see cost_of()
 constexpr auto patience = std::chrono::seconds(10);
 
 using FaceOr = std::variant<const devices::ModbusFace*, std::string>;
@@ -76,6 +76,7 @@ struct Server::Desk : std::enable_shared_from_this<Desk> {
   /// In the line's thread.
   void serve(LineRun& run);
   void answer(LineRun& run, Frame& frame);
+  void tell_closed(int unit);
 
   std::mutex mutex;
   Core* core = nullptr;  ///< nullptr: the server is gone
@@ -84,6 +85,7 @@ struct Server::Desk : std::enable_shared_from_this<Desk> {
 
   // Of the line's thread:
   int run_number = 0;
+  bool told_closed = false;  ///< of that run
   const devices::ModbusFace* face = nullptr;
   std::optional<FaceData> data;
 
@@ -228,17 +230,31 @@ void Server::Desk::serve(LineRun& run) {
 void Server::Desk::answer(LineRun& run, Frame& frame) {
   if (run_number != run.number()) {
     run_number = run.number();
+    told_closed = false;
     data.reset();
     const auto shown = face_of(run);
     face = std::holds_alternative<std::string>(shown) ? nullptr : std::get<0>(shown);
     if (face != nullptr) data.emplace(*face, host_of(run));
   }
-  if (!data)
+  if (!data) {
     frame.pdu = refusal(frame.pdu, Exception::server_device_failure);
-  else if (!face->answers(frame.unit))
+  } else if (!face->answers(frame.unit)) {
+    tell_closed(frame.unit);
     frame.pdu = refusal(frame.pdu, Exception::gateway_target_failed);
-  else
+  } else {
     frame.pdu = modbus::answer(frame.pdu, *data);
+  }
+}
+
+// Once a run: a master that asks again and again hears it from its exception.
+void Server::Desk::tell_closed(int unit) {
+  if (std::exchange(told_closed, true)) return;
+  fmt::print(
+      "Modbus: unit {} does not answer (exception 11): the controller has no power, the program has not "
+      "opened "
+      "its device as a slave, or it is another unit\n",
+      unit);
+  std::fflush(stdout);
 }
 
 Server::Server(Options options, Line& line)

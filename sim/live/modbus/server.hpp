@@ -22,8 +22,7 @@ class Server {
     std::string address = "127.0.0.1";
     std::uint16_t port = 502;  ///< 0 = any free one
   };
-  /// Where it listens is taken here. Throws std::runtime_error if it cannot be. The line may go on when it is
-  /// gone.
+  /// Where it listens is taken here. Throws CannotListen. The line may go on when it is gone.
   Server(Options options, Line& line);
   ~Server();
   Server(const Server&) = delete;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -31,7 +32,8 @@ class RunningLine {
     line = std::make_unique<Line>(std::move(options), problems);
     EXPECT_EQ(lines_of(problems), "");
     thread_ = std::thread([this] {
-      line->run([this](auto news) { take(std::move(news)); }, [this](auto told) { take(std::move(told)); });
+      line->run({[this](auto news) { take(std::move(news)); }, [this](auto told) { take(std::move(told)); },
+                 [this](auto answers) { take(std::move(answers)); }});
     });
   }
   ~RunningLine() { stop(); }
@@ -47,14 +49,9 @@ class RunningLine {
   Problems ask(decltype(Request::what) what) {
     std::unique_lock lock(mutex_);
     const Asker asker = ++askers_;
-    auto next = news_.size();
-    line->ask({asker, std::move(what)});
-    for (;;) {
-      for (; next < news_.size(); ++next)
-        for (const auto& answer : news_[next]->answers)
-          if (answer.asker == asker) return answer.problems;
-      if (!wait(lock, [&] { return next < news_.size(); })) return {};
-    }
+    EXPECT_TRUE(line->ask({asker, std::move(what)}));
+    if (!wait(lock, [&] { return answers_.contains(asker); })) return {};
+    return answers_.at(asker);
   }
   /// The first news from now on, or of those not looked at yet, for which `wanted` holds.
   std::shared_ptr<const News> until(const std::function<bool(const News&)>& wanted) {
@@ -85,6 +82,11 @@ class RunningLine {
     news_.push_back(std::move(news));
     told_.notify_all();
   }
+  void take(std::vector<Answer> answers) {
+    const std::lock_guard lock(mutex_);
+    for (auto& answer : answers) answers_[answer.asker] = std::move(answer.problems);
+    told_.notify_all();
+  }
   void take(std::shared_ptr<const LineDescription> description) {
     const std::lock_guard lock(mutex_);
     description_ = std::move(description);
@@ -93,6 +95,7 @@ class RunningLine {
   std::mutex mutex_;
   std::condition_variable told_;
   std::vector<std::shared_ptr<const News>> news_;
+  std::map<Asker, Problems> answers_;
   std::size_t seen_ = 0;
   std::shared_ptr<const LineDescription> description_;
   Asker askers_ = 0;

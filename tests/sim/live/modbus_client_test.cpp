@@ -565,20 +565,23 @@ TEST_F(ModbusLx3vpLine, APortThatIsTakenEndsTheProgram) {
   options.scenario = folder / "line.yaml";
   options.port = 0;
   options.modbus = server->port();
-  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::simulation_failed);
-  EXPECT_THAT(err,
-              HasSubstr(fmt::format("cannot listen for Modbus on 127.0.0.1 port {}: Address already in use; "
-                                    "give another with --modbus, or --modbus 0 for any free one\n",
-                                    server->port())));
+  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::bad_input);
+  EXPECT_EQ(
+      err, fmt::format("--modbus:1:1: cannot listen for Modbus on 127.0.0.1 port {}: Address already in use; "
+                       "give another port, or --modbus 0 for any free one\n",
+                       server->port()));
+  EXPECT_EQ(out, "");
   options.modbus = {};
   options.port = server->port();
-  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::simulation_failed);
-  EXPECT_THAT(err,
-              HasSubstr("Address already in use; give another with --port, or --port 0 for any free one\n"));
+  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("Address already in use; give another port, or --port 0 for any free one\n"));
   options.port = 0;
-  options.listen = "192.0.2.1";  // of documents, nobody's
-  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::simulation_failed);
-  EXPECT_THAT(err, HasSubstr("--listen takes an address of this machine"));
+  for (const auto* address : {"192.0.2.1", "nonsense"}) {  // of documents, nobody's
+    options.listen = address;
+    EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::bad_input);
+    EXPECT_THAT(err, testing::StartsWith("--listen:1:1: cannot listen"));
+    EXPECT_THAT(err, HasSubstr("an address of this machine"));
+  }
 }
 
 }  // namespace

@@ -187,9 +187,12 @@ TEST(ModbusFrames, EndWhereTheBytesAreNone) {
 TEST(ModbusFrames, CostWhatTheyAreAbout) {
   EXPECT_EQ(cost_of(bytes({1, 0, 0, 0x07, 0xD0})), 2000U);
   EXPECT_EQ(cost_of(bytes({1, 0, 0, 0xFF, 0xFF})), 2000U);
-  EXPECT_EQ(cost_of(bytes({6, 0, 0, 0, 1})), 1U);
+  EXPECT_EQ(cost_of(bytes({3, 0, 0, 0, 123})), 123U);
+  // One write of all that fits is half of what is looked at between two cycles.
+  EXPECT_EQ(cost_of(bytes({16, 0, 0, 0, 123})), 8 * 123U);
+  EXPECT_EQ(cost_of(bytes({6, 0, 0, 0, 1})), 8U);
   EXPECT_EQ(cost_of(bytes({3})), 1U);
-  EXPECT_EQ(cost_of(bytes({23, 0, 0, 0, 1, 0})), 246U);
+  EXPECT_EQ(cost_of(bytes({23, 0, 0, 0, 1, 0})), 125U + 8 * 121U);
 }
 
 /// A controller of two numbers that takes what it is given in its next step.

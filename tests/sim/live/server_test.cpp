@@ -1,12 +1,15 @@
 // Who may talk to a line, and what happens to those who talk nonsense.
 #include "sim/live/server.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "tests/sim/live/live_bench.hpp"
@@ -33,8 +36,9 @@ struct LiveServer : testing::Test {
                                   problems);
     server = std::make_unique<Server>(Server::Options{"127.0.0.1", 0, token}, *line);
     thread = std::thread([this] {
-      line->run([this](auto news) { server->tell(std::move(news)); },
-                [this](auto told) { server->describe(std::move(told)); });
+      line->run({[this](auto news) { server->tell(std::move(news)); },
+                 [this](auto told) { server->describe(std::move(told)); },
+                 [this](auto answers) { server->answer(std::move(answers)); }});
     });
     host = "127.0.0.1:" + std::to_string(server->port());
     Socket first = connect();  // the line has been described
@@ -186,6 +190,50 @@ TEST_F(LiveServer, CarriesWhatIsAskedAndWhatBecameOfIt) {
   const auto samples = message_with(socket, "samples");
   EXPECT_EQ(samples["names"], nlohmann::json::parse(R"(["web.speed"])"));
   EXPECT_EQ(samples["times"].size(), samples["rows"].size());
+}
+
+TEST_F(LiveServer, WhoBeginsARequestAndNeverEndsItLocksNobodyOut) {
+  auto page = connect();
+  std::vector<tcp::socket> half_open;
+  for (int i = 0; i < 400; ++i) {
+    half_open.push_back(raw());
+    if (i % 2 == 0) asio::write(half_open.back(), asio::buffer(std::string("GET / HTTP/1.1\r\nHost: ")));
+    if (i % 50 == 49) {
+      EXPECT_THAT(get("/", "Host: " + host + "\r\n"), StartsWith("HTTP/1.1 200")) << i;
+    }
+  }
+  EXPECT_THAT(message(page), StartsWith("{\"line\""));
+  auto another = connect();
+  EXPECT_THAT(message(another), StartsWith("{\"line\""));
+}
+
+TEST_F(LiveServer, SaysThatItIsBusy) {
+  std::promise<void> go;
+  line->ask({0, Visit{[&](LineRun&) { go.get_future().wait(); }}});
+  auto flood = connect();
+  constexpr int more = 5;
+  const int most = static_cast<int>(Inbox::most_of_one);
+  for (int id = 1; id <= most + more; ++id)
+    flood.write(
+        asio::buffer(fmt::format(R"({{"id": {}, "act": {{"set": {{"web.speed": "45 m/min"}}}}}})", id)));
+  const auto answer = [&](Socket& of) {
+    for (;;) {
+      auto json = nlohmann::json::parse(message(of));
+      if (json.contains("done")) return json;
+    }
+  };
+  for (int id = most + 1; id <= most + more; ++id) {
+    const auto busy = answer(flood);
+    EXPECT_EQ(busy["done"], id);
+    EXPECT_EQ(busy["busy"], true);
+    EXPECT_THAT(busy["problems"][0]["what"], StartsWith("busy"));
+  }
+  auto other = connect();
+  other.write(asio::buffer(std::string(R"({"id": 1, "act": {"set": {"web.speed": "40 m/min"}}})")));
+  go.set_value();
+  EXPECT_EQ(answer(other), nlohmann::json::parse(R"({"done": 1, "problems": []})")) << "it has asked once";
+  for (int id = 1; id <= most; ++id)
+    EXPECT_EQ(answer(flood), nlohmann::json({{"done", id}, {"problems", nlohmann::json::array()}}));
 }
 
 TEST_F(LiveServer, FiftyClientsAndOneThatNeverReads) {

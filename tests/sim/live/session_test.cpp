@@ -2,8 +2,10 @@
 #include "sim/live/session.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 
 #include "sim/cli/live_command.hpp"
@@ -332,6 +334,135 @@ TEST_F(LiveFrom, SlipsAreTold) {
   EXPECT_THAT(told(session, scenario), HasSubstr("both a scenario and a session"));
   EXPECT_THAT(told("", {}), HasSubstr("neither a scenario nor a session"));
   EXPECT_THAT(told(session, {}, {"scene.step=2 ms"}), HasSubstr("--set"));
+}
+
+TEST_F(LiveSession, WhatDidNothingIsPassedOver) {
+  folder.file("web.yaml", web_alone);
+  const auto session = folder.file("session.yaml",
+                                   "- {scenario: web.yaml, set: [], fingerprint: 0}\n"
+                                   "- {at: 300 ms}\n"
+                                   "- {at: 400 ms, set: {web.speed: 10 m/min}}\n"
+                                   "- {reached: 1 s}\n");
+  std::vector<std::string> notes;
+  Problems problems;
+  const auto replay = read_session(session, {}, notes, problems);
+  ASSERT_TRUE(replay) << lines_of(problems);
+  EXPECT_EQ(replay->acts, 1U);
+}
+
+// A run tells the same wherever it is started: programs are called what the scenario calls them.
+TEST_F(LiveSession, ErrorsNameProgramsAsTheScenarioDoes) {
+  struct Case {
+    std::string controller;
+    std::string file;
+    std::string program;
+    std::string told;
+  };
+  const Case cases[] = {
+      {"lx3vp", "p.il", "LD M8000\nDIV D0 K0 D2\nEND\n", "sub/p.il:2: 6706"},
+      {"plcopen", "p.st", "PROGRAM p\nVAR x, y : INT; END_VAR\nx := 1 / y;\nEND_PROGRAM\n", "sub/p.st:3:"},
+  };
+  fs::create_directory(folder / "sub");
+  int number = 0;
+  for (const auto& [controller, file, program, told] : cases) {
+    folder.file("sub/" + file, program);
+    const auto scenario =
+        folder.file("line.yaml", fmt::format("scene: {{duration: 1 s}}\nplants: {{bench: {{type: "
+                                             "bench}}}}\ncontroller: {{{}: {{program: sub/{}}}}}\n",
+                                             controller, file));
+    {
+      RunningLine line({.scenario = fs::proximate(scenario),
+                        .set = {},
+                        .pace = 0,
+                        .running = false,
+                        .record = folder / "record"});
+      line.ask(Advance{50 * millisecond});
+      line.until([](const News& news) { return news.time == 50 * millisecond; });
+    }
+    const auto session = folder / fmt::format("record/{}", ++number);
+    EXPECT_THAT(bytes_of(session / "events.csv"), HasSubstr("," + told)) << controller;
+    replay(session);
+    expect_same(session, folder / "again/session");
+  }
+}
+
+/// No file of this process grows beyond so many bytes, as on a disk that is full.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t most) : ignored_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{most, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, ignored_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*ignored_)(int);
+};
+
+TEST_F(LiveSession, AFullDiskEndsTheRecordAndNotTheLine) {
+  const auto scenario = folder.file("web.yaml", web_alone);
+  {
+    RunningLine line(
+        {.scenario = scenario, .set = {}, .pace = 0, .running = false, .record = folder / "record"});
+    line.until([](const News&) { return true; });
+    const SmallDisk disk(8192);
+    EXPECT_EQ(lines_of(line.ask(Act{R"({"set": {"web.speed": "0.1 m/s"}})"})), "");
+    line.ask(Advance{20 * second});
+    const auto there = line.until([](const News& news) { return !news.running && news.time == 20 * second; });
+    EXPECT_THAT(there->record_lost, testing::MatchesRegex("cannot write .*record/1/trace.csv: .*"));
+    EXPECT_EQ(there->failure, "");
+    EXPECT_EQ(lines_of(line.ask(Act{R"({"set": {"web.speed": "0.2 m/s"}})"})), "");
+    line.ask(Advance{millisecond});
+    EXPECT_EQ(line.until([](const News& news) { return !news.running && news.time > 20 * second; })->failure,
+              "");
+    line.stop();
+    EXPECT_THAT(line.line->record_lost(), HasSubstr("trace.csv"));
+  }
+  // What there is, is what happened.
+  const auto kept = bytes_of(folder / "record/1/trace.csv");
+  EXPECT_GT(kept.size(), 4096U);
+  EXPECT_EQ(kept.back(), '\n');
+  replay(folder / "record/1");
+  EXPECT_EQ(err, "");
+  const auto again = bytes_of(folder / "again/session/trace.csv");
+  const auto both = std::min(kept.size(), again.size());
+  EXPECT_GT(both, 4096U);
+  EXPECT_EQ(kept.substr(0, both), again.substr(0, both));
+}
+
+TEST_F(LiveSession, StatusSaysHowTheLineEnded) {
+  cli::LiveOptions options;
+  options.scenario = folder.file("web.yaml", web_alone);
+  options.port = 0;
+  options.record = folder / "record";
+  options.ready = [](const auto&) { kill(getpid(), SIGINT); };
+  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::interrupted_status);
+  EXPECT_EQ(err, "");
+  options.record = folder / "lost";
+  options.ready = [&](const auto&) {
+    folder.file("lost", "a file where the folder was to be\n");
+    kill(getpid(), SIGTERM);
+  };
+  EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::simulation_failed);
+  EXPECT_THAT(err, testing::ContainsRegex("cannot make .*/lost"));
+}
+
+TEST_F(LiveSession, WhereNothingCanBeWrittenIsTold) {
+  cli::LiveOptions options;
+  options.scenario = folder.file("web.yaml", web_alone);
+  options.ready = [](const auto&) { ADD_FAILURE(); };
+  for (const auto* record : {"/dev/null", "/dev/null/record/today"}) {
+    options.record = record;
+    EXPECT_EQ(captured([&] { return cli::live_scenario(options); }), cli::bad_input) << record;
+    EXPECT_THAT(err, testing::StartsWith("--record:1:1: ")) << record;
+  }
 }
 
 // As many acts as a busy day has: each is touched when it is due, and then no more.

@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "sim/live/session.hpp"
+#include "sim/loop/observer.hpp"
+#include "sim/loop/recorder.hpp"
+#include "sim/loop/trace_files.hpp"
+
+namespace drycut::sim::live {
+
+/// What a live run writes: its session, its trace and its events. When one of them cannot be written any more
+/// (a full disk), the record ends there, in whole lines, and the run goes on without.
+class Record final : public loop::Observer {
+ public:
+  /// In a new folder in `folder`, which has the next number. `recording` has all its channels and outlives
+  /// this.
+  Record(const std::filesystem::path& folder, const scenario::Scenario& scenario, std::uint64_t fingerprint,
+         const loop::Recording& recording);
+
+  void sample(Time time) override;
+  void happened(const loop::RecordedEvent& event) override;
+  /// Everything is in the files.
+  void finish() override;
+  /// Something was done to the line.
+  void add(const scenario::Stimulus& act);
+  /// The run has come so far; to the disk.
+  void reached(Time now);
+
+  /// What could not be written and why, "" = nothing.
+  [[nodiscard]] const std::string& lost() const { return lost_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  void write(const std::function<void()>& what);
+
+  std::filesystem::path folder_;
+  std::optional<SessionFile> session_;
+  std::optional<loop::TraceFiles> files_;
+  std::string lost_;
+};
+
+}  // namespace drycut::sim::live
