@@ -175,17 +175,18 @@ TEST_F(CamInCommand, ThePictureIsDrawn) {
 // named.
 TEST_F(CamInCommand, ATableTakesTheValuesOfTheLineBesideIt) {
   const auto line = [&](const char* name, const char* length) {
-    return folder.file(
+    return test_folder.file(
         name, fmt::format("variables: {{length: {}}}\ncontroller: {{plcopen: {{program: a.st, tables: "
                           "[cams/knife.tab]}}}}\n",
                           length));
   };
   fs::create_directories(folder / "cams");
-  folder.file("other.yaml",
-              "variables: {length: 3 m}\ncontroller: {plcopen: {program: a.st, tables: [cams/x.tab]}}\n");
+  test_folder.file(
+      "other.yaml",
+      "variables: {length: 3 m}\ncontroller: {plcopen: {program: a.st, tables: [cams/x.tab]}}\n");
   cli::CamOptions cam;
   cam.table =
-      folder.file("cams/knife.tab", content(fs::path(DRYCUT_SOURCE_DIR) / "scenes/new/cams/knife.tab"));
+      test_folder.file("cams/knife.tab", content(fs::path(DRYCUT_SOURCE_DIR) / "scenes/new/cams/knife.tab"));
   EXPECT_EQ(run(cam), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("has its value from a scenario; name it: drycut cam --scene"));
   const auto first = line("line.yaml", "900 mm");
