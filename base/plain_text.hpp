@@ -22,4 +22,8 @@ std::optional<TextFault> text_fault(std::string_view text);
 /// \x1B.
 std::string printable(std::string_view text);
 
+/// A word of a command line for a shell: as it stands, or between single quotes where the shell would take it
+/// apart.
+std::string shell_word(std::string_view text);
+
 }  // namespace drycut

@@ -65,7 +65,7 @@ void TableReader::out_of_range(const Word& word, std::string remedy) {
   if (word.text.find("${") == std::string::npos)
     return fault(word.place, fmt::format("'{}' is out of range", word.text), std::move(remedy));
   fault(word.place, fmt::format("'{}' has its value from a scenario", word.text),
-        "drycut run that scenario: its results have the cam as it was played, in cams/");
+        "name it: drycut cam --scene SCENARIO.yaml");
 }
 
 std::optional<int> TableReader::whole(const Word& word, int min, int max) {

@@ -7,6 +7,7 @@
 
 #include "sim/cams/study.hpp"
 #include "sim/cli/arguments.hpp"
+#include "sim/cli/table_values.hpp"
 #include "sim/file.hpp"
 #include "sim/report/report.hpp"
 
@@ -56,9 +57,11 @@ void write(const CamOptions& options, const cams::CamStudy& study) {
 
 int validate_cam(const CamOptions& options) {
   Problems problems;
-  const auto text = read_file(options.table, problems);
-  const auto table =
-      text ? cams::read_cam(options.device, *text, options.table.string(), problems) : devices::CamTable();
+  const auto file = read_file(options.table, problems);
+  const auto values = file ? with_values(*file, options.table, options.scene, problems) : TableText();
+  const auto table = problems.empty()
+                         ? cams::read_cam(options.device, values.text, options.table.string(), problems)
+                         : devices::CamTable();
   check_options(options, cams::gives_master_speed(table), problems);
   cams::CamStudy study;
   if (problems.empty()) {
@@ -73,6 +76,8 @@ int validate_cam(const CamOptions& options) {
     return bad_input;
   }
   auto report = cams::cam_report(study.text, study.findings);
+  if (!values.scenario.empty())
+    report = fmt::format("with the values of {}\n{}", values.scenario.string(), report);
   if (!options.at.empty() && options.csv.empty()) report += '\n' + cams::cam_samples_text(study.points);
   // Samples on standard output are for a program: it must find nothing else there.
   fmt::print(options.csv == "-" ? stderr : stdout, "{}", report);
@@ -99,6 +104,9 @@ void add_cam(CLI::App& app, int& status) {
   cam->add_option("table", options.table, "Cam table (.csv, .tab): " + headers)->required();
   cam->add_option("--device", options.device, "Device that runs the cam; else by the table's header")
       ->check(CLI::IsMember(devices));
+  cam->add_option(
+      "--scene", options.scene,
+      "Scenario whose values the table takes for its ${name}; else that beside it, or above, which names it");
   cam->add_option("--master-speed", options.duty.master_speed,
                   "Speed of the master: results in time too, and what depends on it is judged");
   cam->add_option("--max-velocity", options.duty.max_velocity, "Limit of the slave's velocity");

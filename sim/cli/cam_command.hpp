@@ -11,6 +11,8 @@ namespace drycut::sim::cli {
 struct CamOptions {
   std::filesystem::path table;
   std::string device = {};  ///< "" = by the table's header
+  std::filesystem::path scene =
+      {};  ///< whose values a table with ${name} takes; "" = that beside it which names it
   cams::CamDuty duty;
   std::vector<double> at;  ///< master positions, empty = 1000 a pass and every boundary
   std::string csv;         ///< "" = none, "-" = standard output

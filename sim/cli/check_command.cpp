@@ -17,6 +17,7 @@
 #include "sim/cli/annotations.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/file_kinds.hpp"
+#include "sim/cli/table_values.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/simulation.hpp"
 #include "sim/report/part_meshes.hpp"
@@ -59,8 +60,8 @@ class Checker {
         return;
       case Kind::cam_table:
         if (const auto text = read_file(file, problems_))
-          cams::read_cam(lower(file.extension().string()) == ".tab" ? "mc_camin" : "", *text, file.string(),
-                         problems_);
+          cams::read_cam(lower(file.extension().string()) == ".tab" ? "mc_camin" : "",
+                         with_values(*text, file, {}, problems_).text, file.string(), problems_);
         return;
       default:
         problems_.push_back(

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 
+#include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "sim/cams/study.hpp"
@@ -63,8 +64,6 @@ class JobReader {
     if (kind) job_.kind = *kind;
     if (const auto goal = chosen("--minimise", options_.minimise, goals, problems_)) job_.goal = *goal;
     job_.length = needed("--length", options_.length);
-    job_.sync = quantity("--sync", options_.sync, "mm", 0).value_or(0);
-    if (options_.sync.empty()) missing("--sync", "the way that the tool is in the material");
     job_.speed = quantity("--speed", options_.speed, "m/min");
     job_.max_velocity = quantity("--max-velocity", options_.max_velocity, "m/s");
     job_.max_acceleration = quantity("--max-acceleration", options_.max_acceleration, "m/s2");
@@ -72,6 +71,7 @@ class JobReader {
     job_.no_reverse = options_.no_reverse;
     if (!kind) return job_;  // what else it needs hangs on it
     read_slave();
+    read_sync();
     read_loads();
     check_combinations();
     return job_;
@@ -127,6 +127,25 @@ class JobReader {
       refuse("--no-reverse", options_.no_reverse, "a flying saw must go back");
   }
 
+  void read_sync() {
+    const bool knife = job_.kind == DesignKind::rotary_knife;
+    if (knife)
+      job_.thickness = quantity("--thickness", options_.thickness, "mm").value_or(0);
+    else
+      refuse("--thickness", !options_.thickness.empty(),
+             "only the blade of a rotary knife swings through it");
+    constexpr double tenth = 1e-4;
+    if (!options_.sync.empty())
+      job_.sync = quantity("--sync", options_.sync, "mm", 0).value_or(0);
+    else if (job_.thickness > 0 && job_.thickness < job_.radius())
+      job_.sync = std::ceil(job_.contact() / tenth) * tenth;
+    else if (job_.kind == DesignKind::feed)
+      missing("--sync", "the way of the master on which the slave rests");
+    else
+      missing("--sync", knife ? "the way on which the blade runs with the web"
+                              : "the way on which the saw runs with the tube");
+  }
+
   /// An inertia of a drum is what its mass at the blade would be.
   double load(const char* option, const std::string& text, const char* straight, const char* turning) {
     if (text.empty()) return 0;
@@ -163,8 +182,11 @@ class JobReader {
         if (given) problem(option, "it means nothing without the master's speed", "give --speed too");
     if (options_.device.empty() && !options_.table.empty())
       problem("--table", "whose table?", "give --device camming4, lx3vp or mc_camin");
-    if (!options_.table.empty() && std::filesystem::path(options_.table).extension() != ".csv")
-      problem("--table", fmt::format("{} does not end in .csv", options_.table), "name it x.csv");
+    const auto ending = std::filesystem::path(options_.table).extension();
+    const bool tab = options_.device == "mc_camin";
+    if (!options_.table.empty() && ending != ".csv" && !(tab && ending == ".tab"))
+      problem("--table", fmt::format("{} does not end in .csv{}", options_.table, tab ? " or .tab" : ""),
+              tab ? "name it x.csv, or x.tab for the kernel's own kind" : "name it x.csv");
     if (options_.table.empty() && !options_.scene.empty())
       problem("--scene", "there is nothing to run in it", "give --table too");
     if (options_.decpt && options_.device != "camming4")
@@ -177,8 +199,9 @@ class JobReader {
   DesignJob job_;
 };
 
-/// "0.01 mm", or "500 mm/10000".
-PulseWay pulse_way(const char* option, const std::string& text, Problems& problems) {
+/// "0.01 mm", or "500 mm/10000"; nothing if it is not given.
+std::optional<PulseWay> pulse_way(const char* option, const std::string& text, Problems& problems) {
+  if (text.empty()) return {};
   const auto slash = text.rfind('/');
   const auto refuse = [&] {
     problems.push_back({option, 1, 1, fmt::format("{} is no way of a pulse", in_quotes(text)),
@@ -198,18 +221,29 @@ PulseWay pulse_way(const char* option, const std::string& text, Problems& proble
   return sound ? made : refuse();
 }
 
-std::string given(const std::string& text, const std::string& otherwise) {
-  return text.empty() ? otherwise : text;
+/// The scene in which the table is to run, if one is asked for.
+std::optional<scenario::Scenario> scene_of(const DesignOptions& options, Problems& problems) {
+  if (options.scene.empty()) return {};
+  const auto before = problems.size();
+  auto scene = scenario::read_scenario(options.scene, {}, problems);
+  if (problems.size() != before) return {};
+  return scene;
 }
 
-std::optional<studies::DesignSheet> designed(const DesignOptions& options, Problems& problems) {
+std::optional<studies::DesignSheet> designed(const DesignOptions& options,
+                                             const std::optional<scenario::Scenario>& scene,
+                                             Problems& problems) {
   const auto job = JobReader(options, problems).read();
-  const DesignAxes axes{pulse_way("--master-pulse", given(options.master_pulse, "0.01 mm"), problems),
-                        pulse_way("--slave-pulse", given(options.slave_pulse, "0.02 mm"), problems),
-                        options.decpt};
+  const studies::GivenPulses pulses{pulse_way("--master-pulse", options.master_pulse, problems),
+                                    pulse_way("--slave-pulse", options.slave_pulse, problems)};
   const auto fit = options.device.empty() ? std::optional<Fit>(nullptr)
                                           : chosen("--device", options.device, devices, problems);
   if (problems.empty()) problems = studies::hindrances(job);
+  if (!problems.empty()) return {};
+  auto axes = scene
+                  ? studies::scene_axes(*scene, options.device, job, pulses, problems)
+                  : DesignAxes{pulses.master.value_or(PulseWay{0.01}), pulses.slave.value_or(PulseWay{0.02})};
+  axes.decpt = options.decpt;
   if (!problems.empty()) return {};
   const auto cam = studies::design_cam(job);
   if (!cam) {
@@ -224,16 +258,10 @@ std::optional<studies::DesignSheet> designed(const DesignOptions& options, Probl
   return sheet;
 }
 
-/// The scenario that plays the table, if one is asked for.
-std::optional<studies::CamScene> scene_of(const DesignOptions& options, const studies::DesignSheet& sheet,
-                                          Problems& problems) {
-  if (options.scene.empty()) return {};
-  // The program counts pulses of the scene's machine.
-  if (options.device == "lx3vp" && (options.master_pulse.empty() || options.slave_pulse.empty()))
-    problems.push_back({options.master_pulse.empty() ? "--master-pulse" : "--slave-pulse", 1, 1,
-                        "it is not given, and the scene has pulses of its own",
-                        R"(such as --master-pulse "0.05 mm" --slave-pulse "600 mm/20000")"});
-  auto made = studies::cam_scene(sheet, options.scene, options.table, problems);
+/// The scenario that plays the table.
+std::optional<studies::CamScene> scene_with(const DesignOptions& options, const studies::DesignSheet& sheet,
+                                            const scenario::Scenario& scene, Problems& problems) {
+  auto made = studies::cam_scene(sheet, scene, options.table, problems);
   if (!made) return {};
   for (const auto& file : {made->file, made->registers_file})
     if (!file.empty()) check_output("--scene", file.string(), {options.scene, "scene"}, problems);
@@ -256,9 +284,10 @@ std::string table_text(const DesignOptions& options, studies::DesignSheet& sheet
 
 int design_cam(const DesignOptions& options) {
   Problems problems;
-  auto sheet = designed(options, problems);
+  const auto base = scene_of(options, problems);
+  auto sheet = designed(options, base, problems);
   std::optional<studies::CamScene> scene;
-  if (problems.empty()) scene = scene_of(options, *sheet, problems);
+  if (problems.empty() && base) scene = scene_with(options, *sheet, *base, problems);
   std::optional<OutputFolder> folder;
   if (problems.empty() && !options.out.empty())
     folder.emplace(options.out, "design", std::vector<std::string>{"design.png"}, problems);
@@ -273,7 +302,8 @@ int design_cam(const DesignOptions& options) {
       write_file(options.table, table);
       fmt::print("  table: {}\n", options.table);
       if (const auto speed = sheet->device->duty.master_speed)
-        fmt::print("  judge it again: drycut cam {} --master-speed {:.9g}\n", options.table, *speed);
+        fmt::print("  judge it again: drycut cam {} --master-speed {:.9g}\n", shell_word(options.table),
+                   *speed);
     }
     if (scene && !scene->registers.empty()) {
       write_file(scene->registers_file, scene->registers);
@@ -281,7 +311,8 @@ int design_cam(const DesignOptions& options) {
     }
     if (scene) {
       write_file(scene->file, scene->scenario);
-      fmt::print("  scenario: {}; drycut run takes it\n", scene->file.string());
+      fmt::print("  scenario: {}\n  run it: drycut run {}\n", scene->file.string(),
+                 shell_word(scene->file.string()));
     }
     if (folder) {
       folder->begin();
@@ -322,6 +353,11 @@ void add_design(CLI::App& app, int& status) {
   add("--feed", options.feed, "Way of the slave for a piece");
   add("--sync", options.sync,
       "Way of the master around the cut on which the slave has its speed; of a feed: rests");
+  add("--thickness", options.thickness,
+      "Of the material under a rotary knife: the blade has the web's speed along the web while it swings "
+      "through, "
+      "its own is v / cos; --sync is then the way on which it has, without it as long as the blade is in the "
+      "material (lx3vp, mc_camin)");
   add("--speed", options.speed, "Speed of the master: figures in time, and what limits need");
   add("--minimise", options.minimise, "rms or peak of the acceleration, peak jerk, or energy (copper loss)");
   add("--max-velocity", options.max_velocity, "Limit of the slave's velocity, as \"1.5 m/s\"");
@@ -332,14 +368,15 @@ void add_design(CLI::App& app, int& status) {
   add("--viscous", options.viscous, "For energy: friction with speed, N s/m, of a drum also N m s");
   add("--coulomb", options.coulomb, "For energy: friction without, N, of a drum also N m");
   add("--device", options.device, "What is to play it: camming4, lx3vp, mc_camin");
-  add("--table", options.table, "Write the device's table");
+  add("--table", options.table, "Write the device's table: .csv, of mc_camin also .tab");
   add("--scene", options.scene,
       "Scenario (.yaml) in which the table is to run: writes one beside the table that extends it, with the "
       "registers that the PLC needs");
   add("--master-pulse", options.master_pulse,
-      "Way of the master a pulse (count x4), of CAMMING4 and LX3VP; also as \"500 mm/10000\"; 0.01 mm unless "
-      "given");
-  add("--slave-pulse", options.slave_pulse, "The same of the slave; 0.02 mm unless given");
+      "Way of the master a pulse (count x4), of CAMMING4 and LX3VP; also as \"500 mm/10000\"; unless given "
+      "the "
+      "scene's, without one 0.01 mm");
+  add("--slave-pulse", options.slave_pulse, "The same of the slave; unless given the scene's, else 0.02 mm");
   design->add_option("--decpt", options.decpt, "CAMMING4: 1 Um is 10^-decpt mm; else the coarsest that fits")
       ->check(CLI::Range(0, 3));
   add_out(*design, options.out, "Directory for a picture: position, velocity, acceleration, jerk");

@@ -15,6 +15,7 @@ struct DesignOptions {
   int blades = 1;
   std::string feed;
   std::string sync;
+  std::string thickness;
   std::string speed;
   std::string max_velocity;
   std::string max_acceleration;
@@ -27,8 +28,8 @@ struct DesignOptions {
   std::string device;        ///< camming4, lx3vp, mc_camin; "" = the cam alone
   std::string table;         ///< file for the device's table, "" = none
   std::string scene;         ///< in which the table is to run: a scenario beside it, "" = none
-  std::string master_pulse;  ///< "500 mm/10000"; "" = 0.01 mm
-  std::string slave_pulse;   ///< "" = 0.02 mm
+  std::string master_pulse;  ///< "500 mm/10000"; "" = the scene's, without one 0.01 mm
+  std::string slave_pulse;   ///< "" = the scene's, without one 0.02 mm
   std::optional<int> decpt = {};
   std::filesystem::path out;  ///< folder for the picture, "" = none
 };

@@ -220,7 +220,8 @@ int make_line(const NewOptions& options) {
   }
   fmt::print("{}: {}\n", folder.string(), start->about);
   for (const auto& file : files) fmt::print("  {}\n", file.name);
-  fmt::print("Run it: {} run '{}'\n", program_invocation_name, (folder / "line.yaml").string());  // as called
+  fmt::print("Run it: {} run {}\n", shell_word(program_invocation_name),
+             shell_word((folder / "line.yaml").string()));  // as called
   return all_passed;
 }
 

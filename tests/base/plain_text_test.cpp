@@ -17,6 +17,13 @@ TEST(PlainText, Utf8IsTakenToTheEndsOfItsRanges) {
     EXPECT_EQ(told(text), "") << printable(text);
 }
 
+TEST(PlainText, AShellTakesAWordAsItWas) {
+  EXPECT_EQ(shell_word("cams/best-2.csv"), "cams/best-2.csv");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("my cam.csv"), "'my cam.csv'");
+  EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
+}
+
 TEST(PlainText, WhatIsNoUtf8IsTold) {
   EXPECT_EQ(told("\x80"), "1:1: byte 0x80 is no text") << "a rest alone";
   EXPECT_EQ(told("\xC1\xBF"), "1:1: byte 0xc1 is no text") << "longer than it needs";

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/cli/design_command.hpp"
+#include "sim/cli/new_command.hpp"
 #include "sim/loop/simulation.hpp"
 #include "tests/test_folder.hpp"
 
@@ -67,7 +68,7 @@ struct DesignedCams : testing::Test {
   /// drycut design --device ... --table ... --scene ...: the scenario that plays the table.
   fs::path design(cli::DesignOptions options, const std::string& device, const fs::path& scene) {
     options.device = device;
-    options.table = folder / "cam.csv";
+    if (options.table.empty()) options.table = folder / "cam.csv";
     options.scene = scene;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
@@ -75,6 +76,16 @@ struct DesignedCams : testing::Test {
     testing::internal::GetCapturedStdout();
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     return fs::path(options.table).replace_extension(".yaml");
+  }
+  /// What is told of a job that the scene cannot take; nothing is written.
+  std::string refused(cli::DesignOptions options, const std::string& device, const fs::path& scene) {
+    options.device = device;
+    options.table = folder / "refused.csv";
+    options.scene = scene;
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(cli::design_cam(options), cli::bad_input);
+    EXPECT_FALSE(fs::exists(options.table));
+    return testing::internal::GetCapturedStderr();
   }
   /// The shipped knife has 0.05 mm a pulse of the wheel and 20000 a turn, the saw 0.02 mm.
   static cli::DesignOptions in_pulses(cli::DesignOptions options) {
@@ -134,15 +145,86 @@ TEST_F(DesignedCams, TheSpeedGoesWithTheTable) {
 TEST_F(DesignedCams, AnotherMachineIsRefused) {
   auto job = knife_job();
   job.circumference = "500 mm";
-  job.device = "lx3vp";
-  job.table = folder / "cam.csv";
-  job.scene = scenes / "rotary_knife_lx3vp.yaml";
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(cli::design_cam(job), cli::bad_input);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              testing::AllOf(testing::HasSubstr("has a drum of 600 mm, the job one of 500 mm"),
-                             testing::HasSubstr("--master-pulse:1:1: it is not given")));
-  EXPECT_FALSE(fs::exists(job.table));
+  EXPECT_THAT(refused(job, "lx3vp", scenes / "rotary_knife_lx3vp.yaml"),
+              testing::HasSubstr("has a drum of 600 mm, the job one of 500 mm"));
+  EXPECT_THAT(refused(saw_job(), "lx3vp", scenes / "rotary_knife_lx3vp.yaml"),
+              testing::HasSubstr("--scene:1:1: "));
+  job = knife_job();
+  job.master_pulse = "0.01 mm";
+  EXPECT_THAT(refused(job, "lx3vp", scenes / "rotary_knife_lx3vp.yaml"),
+              testing::AllOf(testing::HasSubstr("--master-pulse:1:1: 0.01 mm a pulse; "),
+                             testing::HasSubstr(" has 0.05 mm at C251; leave it out")));
+  job = knife_job();
+  job.thickness = "2 mm";
+  EXPECT_THAT(refused(job, "lx3vp", scenes / "rotary_knife_lx3vp.yaml"),
+              testing::HasSubstr("--thickness \"0.5 mm\", or another scene"));
+}
+
+// What a pulse is stands in the scene: its wheel, gear and drive.
+TEST_F(DesignedCams, PulsesAreThoseOfTheScene) {
+  for (const auto& [job, scene] :
+       {std::pair{knife_job(), "rotary_knife_lx3vp.yaml"}, {saw_job(), "flying_saw_lx3vp.yaml"}}) {
+    const auto bytes = [&](const cli::DesignOptions& options) {
+      design(options, "lx3vp", scenes / scene);
+      std::ifstream file(folder / "cam.csv");
+      return std::string{std::istreambuf_iterator<char>(file), {}};
+    };
+    const auto given = bytes(in_pulses(job));
+    EXPECT_EQ(bytes(job), given);
+    EXPECT_THAT(given, testing::HasSubstr(job.kind == "rotary_knife" ? "\n16000,20000\n" : "\n13200,0\n"));
+  }
+}
+
+// Every line that drycut new makes takes a cam that is designed for it, whether of its own length or another;
+// one without a cam says so.
+TEST_F(DesignedCams, EveryNewLineTakesOne) {
+  for (const auto& start : cli::starts()) {
+    SCOPED_TRACE(start.machine + " " + start.controller);
+    const auto line = folder / (start.machine + start.controller);
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(cli::make_line({.folder = line, .machine = start.machine, .controller = start.controller}),
+              cli::all_passed);
+    testing::internal::GetCapturedStdout();
+    const auto* device = start.controller == "qmove"   ? "camming4"
+                         : start.controller == "lx3vp" ? "lx3vp"
+                                                       : "mc_camin";
+    if (start.machine == "vertical_press") {
+      EXPECT_THAT(refused(saw_job(), device, line / "line.yaml"), testing::HasSubstr("plays no cam"));
+      continue;
+    }
+    const bool knife = start.machine == "rotary_knife";
+    for (const bool same : {true, false}) {
+      SCOPED_TRACE(same);
+      auto job = knife ? knife_job() : saw_job();
+      job.length = knife ? (same ? "800 mm" : "700 mm") : (same ? "1 m" : "1.2 m");
+      job.sync = knife ? (same ? "120 mm" : "80 mm") : "270 mm";
+      if (!knife) job.speed = "34 m/min";
+      if (same && start.controller == "plcopen") {
+        job.table = folder / "cam.tab";
+        const auto tab = design(job, device, line / "line.yaml");
+        expect_passed(Ran(tab), 8);
+        continue;
+      }
+      expect_passed(Ran(design(job, device, line / "line.yaml")), 8);
+    }
+  }
+}
+
+// Through thick material the blade keeps the web's speed along it: without that it comes in with 1 - 3 / 95.5
+// of it.
+TEST_F(DesignedCams, TheBladeSwingsThroughTheMaterialAtTheWebsSpeed) {
+  const auto scene =
+      folder.file("thick.yaml", "extends: " + (scenes / "new/rotary_knife_plcopen.yaml").string() +
+                                    "\nvariables: {speed: 20 m/min}\n"
+                                    "plants: {web: {thickness: 3 mm, shear_strength: 0.3 MPa}}\n"
+                                    "checks:\n  even: {each: cut, from: 7 s, expect: abs(mismatch) <= 4}\n");
+  auto job = knife_job();
+  job.speed = "20 m/min";
+  job.sync = "80 mm";
+  EXPECT_THAT(Ran(design(job, "mc_camin", scene)).failed(),
+              testing::ElementsAre(testing::StartsWith("even")));
+  job.thickness = "3 mm";
+  expect_passed(Ran(design(job, "mc_camin", scene)), 10);
 }
 
 /// A feed of 120 mm in 300 mm of the master, of which it rests for 100 mm.
@@ -255,17 +337,17 @@ TEST_F(DesignedCams, ScenesThatTakeNoTableAreRefused) {
   for (const auto& [name, device, scene, told] : {
            NoScene{"another controller", "lx3vp", scenes / "rotary_knife.yaml", "--scene:1:1: "},
            NoScene{"no file", "camming4", folder / "nowhere.yaml", "nowhere.yaml"},
-           NoScene{"no axis", "camming4", qcl("no", ""), "0 axes with CAMMING4; name a scene with one"},
+           NoScene{"no axis", "camming4", qcl("no", ""), "plays no cam: it has no axis of CAMMING4"},
            NoScene{"two axes", "camming4", qcl("two", fmt::format("A{0}B{0}", axis)), "2 axes with CAMMING4"},
            NoScene{"no slZone", "camming4", qcl("one", "A" + axis), "there is no slZone"},
-           NoScene{"no DECAM", "lx3vp", il("none.il"), "its program has 0 DECAM; name a scene with one"},
+           NoScene{"no DECAM", "lx3vp", il("none.il"), "plays no cam: it has no axis of CAMMING4, no DECAM"},
            NoScene{"no room", "lx3vp", il("high.il"), "rows behind D7900 reach into the special registers"},
            NoScene{"by name", "mc_camin", scenes / "mc_camin_first.yaml",
                    "its program asks for its table by the name of the file; let it ask by ID"},
            NoScene{"two tables", "mc_camin", scenes / "mc_camin_table_switch.yaml",
                    "cam tables; name a scene with one"},
        }) {
-    auto options = knife_job();
+    auto options = device == std::string("lx3vp") ? in_pulses(knife_job()) : knife_job();
     options.device = device;
     options.table = folder / "cam.csv";
     options.scene = scene;

@@ -288,11 +288,13 @@ devices::CamTable read_mc_camin(std::string_view text, const std::string& file, 
 std::string file_of(CamFile& cam, const std::string& file) {
   constexpr std::array endless = {"negative", "no", "positive"};
   auto& table = cam.table;
+  const bool tab = std::filesystem::path(file).extension() == ".tab";
   auto text = table.file.empty() ? "" : fmt::format("## {}\n", table.file);
+  if (!tab) text += fmt::format("# interpolation: {}\n", name_of(cam.interpolation));
   text += fmt::format(
-      "# interpolation: {}\n# master_modulo: {:.0f}\n# slave_modulo: {:.0f}\n# endless: {}\n# periodic: {}\n"
+      "# master_modulo: {:.0f}\n# slave_modulo: {:.0f}\n# endless: {}\n# periodic: {}\n"
       "# master_unit: {}\n# slave_unit: {}\n",
-      name_of(cam.interpolation), cam.master_modulo, cam.slave_modulo,
+      cam.master_modulo, cam.slave_modulo,
       endless[static_cast<std::size_t>(static_cast<int>(cam.endless) + 1)], cam.periodic ? "yes" : "no",
       cam.master_unit, cam.slave_unit);
   for (const auto& [key, limit] : {std::pair{"maxvel", cam.limits.velocity},
@@ -300,15 +302,25 @@ std::string file_of(CamFile& cam, const std::string& file) {
                                    {"minpos", cam.limits.travel.least},
                                    {"maxpos", cam.limits.travel.most}})
     if (limit) text += fmt::format("# {}: {}\n", key, *limit);
+  if (tab)
+    text += fmt::format(
+        "Tablename    = {}\nTabletype    = {}\nTable-ID     = {}\nFunctiontype = {} # {}\nLines        = {}\n"
+        "Begintable\n",
+        std::filesystem::path(file).stem().string(), table.type, table.id,
+        static_cast<int>(cam.interpolation), name_of(cam.interpolation), table.lines());
   const int columns = table.columns();
   cam.header = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  text += tab ? "# " : "";
   text += columns == 4 ? "a0,a1,a2,a3\n" : columns == 2 ? "master,slave\n" : "slave\n";
   for (std::size_t line = 0; line < table.lines(); ++line) {
     cam.lines.push_back(cam.header + 1 + static_cast<int>(line));
     for (int column = 0; column < columns; ++column)
       fmt::format_to(std::back_inserter(text), "{}{}", table.value(line, column),
-                     column + 1 == columns ? '\n' : ',');
+                     column + 1 == columns ? '\n'
+                     : tab                 ? ' '
+                                           : ',');
   }
+  if (tab) text += "EndTable\n";
   table.file = file;
   return text;
 }

@@ -16,20 +16,40 @@ using devices::CamPolynomial;
 
 std::vector<MoveStep> steady(int steps) { return std::vector<MoveStep>(2 * static_cast<std::size_t>(steps)); }
 
-CamLaw law_of(const DesignJob& job, const std::vector<MoveStep>& steps) {
+/// The synchronous way of a blade that swings through the material: cubics along the law, which leave it by
+/// less than a micrometre.
+void add_swing(const DesignJob& job, int pieces, CamLaw& law) {
+  const double radius = job.radius();
+  const double width = job.sync / pieces;
+  const auto along = [&](int i) { return (i * width - job.sync / 2) / radius; };
+  const auto slave = [&](int i) { return radius * std::asin(along(i)) + job.sync_slave() / 2; };
+  const auto rise = [&](int i) { return width / std::sqrt(1 - along(i) * along(i)); };
+  for (int i = 0; i < pieces; ++i) {
+    const double way = slave(i + 1) - slave(i);
+    const CamPolynomial cubic{
+        {slave(i), rise(i), 3 * way - 2 * rise(i) - rise(i + 1), rise(i) + rise(i + 1) - 2 * way}};
+    law.pieces.push_back({i * width, width, 0, i + 1, cubic});
+  }
+}
+
+CamLaw law_of(const DesignJob& job, const std::vector<MoveStep>& steps, int swing) {
   CamLaw law;
   law.master_length = job.length;
   law.slave_length = job.slave;
   const double width = job.way() / static_cast<double>(steps.size());
-  double slave = job.ratio() * job.sync;
+  double slave = job.sync_slave();
   double ratio = job.ratio();
-  if (job.sync > 0) law.pieces.push_back({0, job.sync, 0, 1, CamPolynomial{{0, slave}}});
+  if (job.thickness > 0)
+    add_swing(job, swing, law);
+  else if (job.sync > 0)
+    law.pieces.push_back({0, job.sync, 0, 1, CamPolynomial{{0, slave}}});
+  const int row = law.pieces.empty() ? 1 : law.pieces.back().row;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const auto& [begin, end] = steps[i];
     const double rise = end - begin;
     CamPolynomial cubic{{slave, ratio * width, begin * width * width / 2, rise * width * width / 6}};
     law.pieces.push_back(
-        {job.sync + static_cast<double>(i) * width, width, 0, static_cast<int>(i) + 2, cubic});
+        {job.sync + static_cast<double>(i) * width, width, 0, row + static_cast<int>(i) + 1, cubic});
     slave += cubic.c[1] + cubic.c[2] + cubic.c[3];
     ratio += width * (begin + end) / 2;
   }
@@ -82,7 +102,7 @@ std::optional<DesignedCam> design_cam(const DesignJob& job, const DesignGrid& gr
   const auto made = [&]() -> std::optional<DesignedCam> {
     const auto move = job.is_steady() ? std::optional(Move{steady(grid.steps), 0}) : best_move(problem);
     if (!move) return {};
-    DesignedCam cam{job, law_of(job, move->steps), 0, 2 * grid.steps};
+    DesignedCam cam{job, law_of(job, move->steps, grid.swing), 0, 2 * grid.steps};
     cam.home = home_of(job, cam.law);
     return cam;
   };
@@ -144,6 +164,11 @@ CamFigures figures_of(const CamLaw& law, double from, double length, double mast
       }
     }
     look(piece.at(end));
+    // A place where the slave turns round lies between the points.
+    if (begin > 0 || end < piece.length) continue;
+    const auto reached = piece.extremes(devices::CamOrder::position);
+    figures.low = std::min(figures.low, reached.low * slave_unit);
+    figures.high = std::max(figures.high, reached.high * slave_unit);
   }
   return figures;
 }

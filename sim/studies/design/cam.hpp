@@ -9,10 +9,11 @@ namespace drycut::sim::studies {
 
 /// A job's best cam. A cycle begins where the synchronous way does.
 struct DesignedCam {
-  DesignJob job;        ///< with the synchronous way that it has
-  devices::CamLaw law;  ///< a line, then cubics of one length [m]
-  double home = 0;      ///< where in the cycle a device's table begins [m of the master]
-  int steps = 0;        ///< cubics
+  DesignJob job;  ///< with the synchronous way that it has
+  devices::CamLaw
+      law;  ///< a line, or cubics where a blade swings through material; then cubics of one length [m]
+  double home = 0;  ///< where in the cycle a device's table begins [m of the master]
+  int steps = 0;    ///< cubics
   /// The slave at any master position, cycle after cycle.
   [[nodiscard]] devices::CamMotion at(double master) const;
 };
@@ -21,6 +22,7 @@ struct DesignedCam {
 struct DesignGrid {
   int steps = 100;              ///< of half the way from cut to cut
   bool stands_at_step = false;  ///< the slave turns round at the end of a step, not within
+  int swing = 64;               ///< cubics of a synchronous way on which the blade swings through material
 };
 
 /// The best cam for a job that nothing hinders; nothing if there is none on this grid. Its home: where a

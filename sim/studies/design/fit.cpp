@@ -7,13 +7,14 @@
 
 namespace drycut::sim::studies {
 
-void fit_with_room(const DesignJob& job, const std::function<bool(const DesignedCam&)>& fit) {
+void fit_with_room(const DesignJob& job, const std::function<bool(const DesignedCam&)>& fit,
+                   const DesignGrid& grid) {
   for (const double room : {1.0, 0.998, 0.99, 0.97, 0.94, 0.9}) {
     auto narrower = job;
     for (const auto limit : {&DesignJob::max_velocity, &DesignJob::max_acceleration, &DesignJob::max_travel})
       if (narrower.*limit) narrower.*limit = room * *(narrower.*limit);
     if (!hindrances(narrower).empty()) return;
-    const auto cam = design_cam(narrower);
+    const auto cam = design_cam(narrower, grid);
     if (!cam || fit(*cam)) return;
     const bool limited = job.max_velocity || job.max_acceleration || job.max_travel;
     if (!limited) return;

@@ -24,6 +24,12 @@ struct DesignAxes {
   PulseWay master;
   PulseWay slave;
   std::optional<int> decpt = {};  ///< CAMMING4: 1 Um = 10^-decpt mm; absent = the coarsest that fits the job
+  /// MC_CamIn: where the middle of the synchronous way is to be; absent = half of it behind the beginning.
+  struct Cut {
+    double master = 0;  ///< [m]
+    double slave = 0;   ///< at the blade [m]
+  };
+  std::optional<Cut> cut = {};
 };
 
 /// A cam as a device plays it.
@@ -48,7 +54,8 @@ std::optional<DeviceCam> fit_mc_camin(const DesignJob& job, const DesignAxes& ax
 
 /// Gives `fit` best cams of a job, each a little farther inside its limits than the one before, until one
 /// fits: what a device rounds passes limits that the cam itself just keeps.
-void fit_with_room(const DesignJob& job, const std::function<bool(const DesignedCam&)>& fit);
+void fit_with_room(const DesignJob& job, const std::function<bool(const DesignedCam&)>& fit,
+                   const DesignGrid& grid = {});
 
 /// True if what a device plays keeps the job's limits.
 bool keeps_limits(const DesignJob& job, const CamFigures& figures);

@@ -256,6 +256,12 @@ std::optional<DeviceCam> fit_camming4(const DesignJob& job, const DesignAxes& ax
     set(head.settings.master, axes.master, um->decpt, "--master-pulse", problems);
     set(head.settings.slave, axes.slave, um->decpt, "--slave-pulse", problems);
   }
+  if (job.thickness > 0)
+    problems.push_back(
+        {"--thickness", 1, 1,
+         "a synchronous sector of CAMMING4 is straight: it cannot follow the swing of the blade",
+         fmt::format("leave it out: the blade comes into {} of material {:.2g} % slower than the web",
+                     length_text(job.thickness), 100 * job.thickness / job.radius())});
   if (!problems.empty()) return {};
   auto stretched = job;
   stretched.sync = um->sync * um->um;

@@ -30,8 +30,10 @@ void take_sync(const DesignJob& job, PulseJob& pulses) {
   constexpr int most_more = 64;
   const int least = static_cast<int>(std::ceil(job.sync / pulses.master_unit - 1e-6));
   double best = 1;
+  auto tried = job;
   for (int sync = least; sync <= std::min(least + most_more, pulses.length - 4); ++sync) {
-    const double slave = job.ratio() * sync * pulses.master_unit / pulses.slave_unit;
+    tried.sync = sync * pulses.master_unit;
+    const double slave = tried.sync_slave() / pulses.slave_unit;
     const double rest = std::abs(slave - std::round(slave));
     if (rest >= best - 1e-9) continue;
     best = rest;
@@ -80,6 +82,7 @@ class RowMaker {
     EcamRows rows = {{0, 0}};
     fill(rows, begin_, spacing);
     if (begin_ > 0) rows.push_back({begin_, slave});
+    if (cam_.job.thickness > 0) fill(rows, begin_ + pulses_.sync, spacing);
     if (pulses_.sync > 0) rows.push_back({begin_ + pulses_.sync, slave + pulses_.sync_slave});
     fill(rows, pulses_.length, spacing);
     rows.push_back({pulses_.length, pulses_.slave});
@@ -148,7 +151,7 @@ CamFigures figures_of(const EcamRows& rows, const PulseJob& pulses, int sync_beg
     return (rows[i % count + 1].master - rows[i % count].master) * pulses.master_unit;
   };
   const auto half = [&](std::size_t i) {
-    const bool synchronous = pulses.sync > 0 && rows[i % count].master == sync_begin;
+    const bool synchronous = pulses.sync > 0 && job.thickness == 0 && rows[i % count].master == sync_begin;
     return synchronous ? 0 : length(i) / 2;
   };
   const auto ratio = [&](std::size_t i) {

@@ -57,9 +57,74 @@ devices::plcopen::CamFile empty_file(const DesignJob& job) {
   return file;
 }
 
+/// Where the table begins in the cam's cycle [m of the master], and the slave that it has 0 for [m].
+struct Beginning {
+  double master = 0;
+  double zero = 0;
+};
+
+/// A saw's is at home, a knife's where the synchronous way begins; or whole rows before it, so that the blade
+/// is at its lowest where the program has that.
+Beginning beginning(const DesignedCam& cam, const DesignJob& job, double width, const DesignAxes& axes) {
+  if (job.kind == DesignKind::flying_saw) return {cam.home, cam.at(cam.home).position};
+  if (job.kind == DesignKind::feed || !axes.cut) return {};
+  const auto piece = std::lround(job.length / width);
+  const auto behind = std::lround((axes.cut->master - job.sync / 2) / width);
+  const double before = static_cast<double>((behind % piece + piece) % piece) * width;
+  const double cycle = job.slave * job.blades;
+  const double zero = job.sync_slave() / 2 - axes.cut->slave;
+  // The table begins within the first turn.
+  const double turns = std::floor((cam.at(-before).position - zero) / cycle + 1e-9);
+  return {-before, zero + turns * cycle};
+}
+
+/// The cam as a table; `job` has the synchronous way of its rows.
+DeviceCam played(const DesignedCam& cam, const DesignJob& job, const CubicRows& rows,
+                 const DesignAxes& axes) {
+  DeviceCam made{.job = job, .unit = "0.1 um"};
+  auto file = empty_file(job);
+  const bool saw = job.kind == DesignKind::flying_saw;
+  const double slave_unit = saw || job.kind == DesignKind::feed ? increment : job.slave * job.blades / turn;
+  const double width = job.length / rows.all;
+  const auto [begin, zero] = beginning(cam, job, width, axes);
+  for (int i = 0; i < rows.all * job.blades; ++i) {
+    const double master = begin + i * width;
+    const auto start = cam.at(master + 1e-6 * width);  // behind a step of acceleration
+    const auto middle = cam.at(master + width / 2);
+    const double a0 = cam.at(master).position - zero;
+    const double a1 = cam.at(master).velocity * width;
+    const double a3 = start.jerk * width * width * width / 6;
+    const double a2 = (middle.acceleration * width * width - 3 * a3) / 2;
+    for (const double a : {a0, a1, a2, a3}) file.table.values.push_back(a / slave_unit);
+  }
+  const double sync_begin = saw ? job.length - begin : -begin;
+  made.sync_begin = std::round(sync_begin / increment);
+  made.sync_end = std::round((sync_begin + job.sync) / increment);
+  if (job.speed) {
+    const double units_a_metre = increment / slave_unit * 1000;  // mm or deg
+    made.duty.master_speed = *job.speed * 1000;
+    if (job.max_velocity) file.limits.velocity = *job.max_velocity * units_a_metre;
+    if (job.max_acceleration) file.limits.acceleration = *job.max_acceleration * units_a_metre;
+  }
+  made.notes.push_back(fmt::format("{} cubics of {}, {} of them synchronous (POLYNOM_3_KOEFF)",
+                                   rows.all * job.blades, length_text(width), rows.synchronous * job.blades));
+  for (std::size_t line = 1; line <= file.table.lines(); ++line) file.lines.push_back(static_cast<int>(line));
+  made.table = {file};
+  Problems none;
+  const auto study = cams::study_cam(made.table, {made.duty}, none);
+  made.figures = figures_of(study.course.law, 0, job.length / increment, increment, slave_unit, job);
+  // Where the carriage turns round is as exact as the cam was found: its travel begins there.
+  if (job.max_travel) {
+    auto& travel = std::get<devices::plcopen::CamFile>(made.table).limits.travel;
+    travel.least = std::floor(made.figures.low / increment);
+    travel.most = std::ceil((made.figures.low + *job.max_travel) / increment);
+  }
+  return made;
+}
+
 }  // namespace
 
-std::optional<DeviceCam> fit_mc_camin(const DesignJob& job, const DesignAxes& /*axes*/, Problems& problems) {
+std::optional<DeviceCam> fit_mc_camin(const DesignJob& job, const DesignAxes& axes, Problems& problems) {
   whole_units("--length", job.length, increment, "0.1 um", problems);
   if (job.kind == DesignKind::feed) whole_units("--feed", job.slave, increment, "0.1 um", problems);
   for (const auto& [option, way] : {std::pair{"--length", job.length * job.blades}, {"--feed", job.slave}})
@@ -74,50 +139,20 @@ std::optional<DeviceCam> fit_mc_camin(const DesignJob& job, const DesignAxes& /*
 
   auto stretched = job;
   stretched.sync = job.length * rows.synchronous / rows.all;
-  const bool saw = job.kind == DesignKind::flying_saw;
-  const auto cam = design_cam(stretched, {(rows.all - rows.synchronous) / 2, saw});
-  if (!cam) {
+  const DesignGrid grid{(rows.all - rows.synchronous) / 2, job.kind == DesignKind::flying_saw,
+                        rows.synchronous};
+  std::optional<DeviceCam> made;
+  fit_with_room(
+      stretched,
+      [&](const DesignedCam& cam) {
+        made = played(cam, stretched, rows, axes);
+        if (!keeps_limits(job, made->figures)) made.reset();
+        return made.has_value();
+      },
+      grid);
+  if (!made)
     problems.push_back({"--sync", 1, 1, fmt::format("no cam of {} rows keeps the limits", rows.all),
                         "give the limits a little more room"});
-    return {};
-  }
-  DeviceCam made{.job = stretched, .unit = "0.1 um"};
-  auto file = empty_file(job);
-  const double slave_unit = saw || job.kind == DesignKind::feed ? increment : job.slave * job.blades / turn;
-  const double width = job.length / rows.all;
-  // A knife's begins where the synchronous way does, a saw's at home.
-  const double begin = saw ? cam->home : 0;
-  const double zero = cam->at(begin).position;
-  for (int i = 0; i < rows.all * job.blades; ++i) {
-    const double master = begin + i * width;
-    const auto start = cam->at(master + 1e-6 * width);  // behind a step of acceleration
-    const auto middle = cam->at(master + width / 2);
-    const double a0 = cam->at(master).position - zero;
-    const double a1 = cam->at(master).velocity * width;
-    const double a3 = start.jerk * width * width * width / 6;
-    const double a2 = (middle.acceleration * width * width - 3 * a3) / 2;
-    for (const double a : {a0, a1, a2, a3}) file.table.values.push_back(a / slave_unit);
-  }
-  const double sync_begin = saw ? job.length - begin : 0;
-  made.sync_begin = std::round(sync_begin / increment);
-  made.sync_end = std::round((sync_begin + stretched.sync) / increment);
-  if (job.speed) {
-    const double units_a_metre = increment / slave_unit * 1000;  // mm or deg
-    made.duty.master_speed = *job.speed * 1000;
-    if (job.max_velocity) file.limits.velocity = *job.max_velocity * units_a_metre;
-    if (job.max_acceleration) file.limits.acceleration = *job.max_acceleration * units_a_metre;
-  }
-  if (job.max_travel) {
-    file.limits.travel.least = -1;
-    file.limits.travel.most = std::ceil(*job.max_travel / increment);
-  }
-  made.notes.push_back(fmt::format("{} cubics of {}, {} of them synchronous (POLYNOM_3_KOEFF)",
-                                   rows.all * job.blades, length_text(width), rows.synchronous * job.blades));
-  for (std::size_t line = 1; line <= file.table.lines(); ++line) file.lines.push_back(static_cast<int>(line));
-  made.table = {file};
-  Problems none;
-  const auto study = cams::study_cam(made.table, {made.duty}, none);
-  made.figures = figures_of(study.course.law, 0, job.length / increment, increment, slave_unit, stretched);
   return made;
 }
 

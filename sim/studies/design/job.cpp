@@ -108,7 +108,53 @@ void add_limits(const DesignJob& job, Problems& problems) {
                       "raise several of them" + slower});
 }
 
+/// Beyond this the blade would have to be twice as fast as the web.
+constexpr double most_along = 0.866;
+
+void add_thickness(const DesignJob& job, Problems& problems) {
+  const double least = job.contact();
+  const double most = 2 * most_along * job.radius();
+  if (job.thickness > job.radius() / 2) {
+    problems.push_back(
+        {"--thickness", 1, 1,
+         fmt::format("{} are too much for blades on a radius of {}", length_text(job.thickness),
+                     length_text(std::round(job.radius() * 1e4) / 1e4)),
+         fmt::format("give {} at most", length_text(std::floor(job.radius() * 5e3) / 1e4))});
+  } else if (job.sync < least - 1e-9) {
+    problems.push_back(
+        {"--sync", 1, 1,
+         fmt::format("{} is less than the way on which the blade is in {} of material", length_text(job.sync),
+                     length_text(job.thickness)),
+         fmt::format("give {} at least, or leave it out", length_text(std::ceil(least * 1e4) / 1e4))});
+  } else if (job.sync > most || job.sync_slave() >= job.slave) {
+    problems.push_back({"--sync", 1, 1,
+                        fmt::format("on {} the blade would swing too far out of the web to keep its speed",
+                                    length_text(job.sync)),
+                        fmt::format("leave it out for the {} on which the blade is in the material",
+                                    length_text(std::ceil(least * 1e4) / 1e4))});
+  }
+}
+
 }  // namespace
+
+// A blade on a circle is as far along the web as the sine of its angle; its speed along it is the cosine's
+// share.
+double DesignJob::ratio() const {
+  if (kind == DesignKind::feed) return 0;
+  const double along = thickness > 0 ? sync / 2 / radius() : 0;
+  return 1 / std::sqrt(1 - along * along);
+}
+
+double DesignJob::sync_slave() const {
+  if (kind == DesignKind::feed) return 0;
+  return thickness > 0 ? 2 * radius() * std::asin(sync / 2 / radius()) : sync;
+}
+
+double DesignJob::radius() const { return slave * blades / units::turn; }
+
+double DesignJob::contact() const {
+  return thickness > 0 ? 2 * std::sqrt(thickness * (2 * radius() - thickness)) : 0;
+}
 
 bool DesignJob::is_steady() const {
   constexpr double rounding = 1e-9;
@@ -148,6 +194,7 @@ Problems hindrances(const DesignJob& job) {
                         fmt::format("{} is longer than the way of {} from blade to blade",
                                     length_text(job.sync), length_text(job.slave)),
                         fmt::format("give less than {}", length_text(job.slave))});
+  if (job.thickness > 0 && problems.empty()) add_thickness(job, problems);
   if (problems.empty()) add_limits(job, problems);
   return problems;
 }

@@ -17,6 +17,9 @@ struct DesignJob {
   double slave = 0;  ///< the slave's way for a piece: from blade to blade, 0 of a flying saw, the feed [m]
   int blades = 1;    ///< pieces for a turn of a rotary knife
   double sync = 0;   ///< of the master's way: with its speed around the cut; of a feed: at rest [m]
+  /// Of the material under a rotary knife: along it the blade has the web's speed while it swings through. 0:
+  /// the blade's own speed is the web's [m].
+  double thickness = 0;
   std::optional<double> speed = {};             ///< of the master [m/s]
   std::optional<double> max_velocity = {};      ///< of the slave [m/s]
   std::optional<double> max_acceleration = {};  ///< of the slave [m/s2]
@@ -27,12 +30,18 @@ struct DesignJob {
   double viscous = 0;  ///< [N s/m]
   double coulomb = 0;  ///< [N]
 
-  /// Slave to master in the synchronous way.
-  [[nodiscard]] double ratio() const { return kind == DesignKind::feed ? 0 : 1; }
+  /// Slave to master at both ends of the synchronous way.
+  [[nodiscard]] double ratio() const;
+  /// The slave's way on it [m].
+  [[nodiscard]] double sync_slave() const;
+  /// The master's way on which a blade is in the material, 0 without `thickness` [m].
+  [[nodiscard]] double contact() const;
+  /// Of the circle of the blade tips [m].
+  [[nodiscard]] double radius() const;
   /// The master's way from the end of a synchronous way to the next.
   [[nodiscard]] double way() const { return length - sync; }
   /// What the slave goes beyond the synchronous ratio on that way; negative: less.
-  [[nodiscard]] double distance() const { return slave - ratio() * length; }
+  [[nodiscard]] double distance() const { return slave - sync_slave() - ratio() * way(); }
   /// The slave runs with the master all the time: pieces as long as the way from blade to blade.
   [[nodiscard]] bool is_steady() const;
   /// Friction as the move counts it; `speed` and `inertia` are known.

@@ -1,6 +1,6 @@
 // A scenario that plays a designed table: what the program of a controller would have to write is there
 // before power-up.
-#include "sim/studies/design/scene.hpp"
+#include "sim/studies/design/scene_reading.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,9 +9,9 @@
 #include <cmath>
 #include <regex>
 
+#include "base/text.hpp"
 #include "devices/lx3vp/block.hpp"
 #include "sim/cams/study.hpp"
-#include "sim/controllers/kinds.hpp"
 #include "sim/scenario/format.hpp"
 
 namespace drycut::sim::studies {
@@ -20,16 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace word = devices::lx3vp::word;
-
-/// The first group of each match.
-std::vector<std::string> found(const std::string& text, const std::string& pattern) {
-  const std::regex regex(pattern, std::regex::ECMAScript | std::regex::multiline);
-  std::vector<std::string> all;
-  for (auto match = std::sregex_iterator(text.begin(), text.end(), regex); match != std::sregex_iterator();
-       ++match)
-    all.push_back((*match)[1]);
-  return all;
-}
 
 class SceneMaker {
  public:
@@ -40,16 +30,12 @@ class SceneMaker {
 
   std::optional<CamScene> make() {
     const auto before = problems_.size();
-    check_drum();
     if (const auto* qmove = section<controllers::QmoveSection>("camming4"))
       take(std::get<devices::camming4::CamTable>(sheet_.device->table), *qmove);
     else if (const auto* lx3vp = section<controllers::Lx3vpSection>("lx3vp"))
       take(std::get<devices::lx3vp::EcamTable>(sheet_.device->table), *lx3vp);
     else if (const auto* plcopen = section<controllers::PlcopenSection>("mc_camin"))
       take(*plcopen);
-    else
-      refuse(fmt::format("{} does not run {}", scene_.file.string(), sheet_.device_name),
-             "name a scene of its controller");
     if (problems_.size() != before) return {};
     made_.scenario = text();
     return made_;
@@ -63,24 +49,7 @@ class SceneMaker {
   void refuse(std::string what, std::string remedy) {
     problems_.push_back({"--scene", 1, 1, std::move(what), std::move(remedy)});
   }
-  std::string content(const scenario::Text& file) {
-    return controllers::read_named(file, scene_, problems_).value_or("");
-  }
-
-  /// The scene's knife must be the job's.
-  void check_drum() {
-    if (sheet_.cam.job.kind != DesignKind::rotary_knife) return;
-    const double wanted = sheet_.cam.job.slave * sheet_.cam.job.blades;
-    for (const auto& plant : scene_.plants) {
-      for (const auto& row : plant.definition->parameters()) {
-        const auto* const value = std::get_if<double*>(&row.value);
-        if (row.name != "circumference" || value == nullptr || std::abs(**value - wanted) <= 1e-9) continue;
-        refuse(fmt::format("{} has a drum of {}, the job one of {}", scene_.file.string(),
-                           length_text(**value), length_text(wanted)),
-               fmt::format("--circumference \"{}\", or another scene", length_text(**value)));
-      }
-    }
-  }
+  std::string content(const scenario::Text& file) { return content_of(file, scene_, problems_); }
 
   /// Where the job's speed goes: a variable, or the web that nothing else sets; "" = the scene has its own.
   [[nodiscard]] std::string speed_path() const {
@@ -102,11 +71,11 @@ class SceneMaker {
 
   void take(const devices::camming4::CamTable& cam, const controllers::QmoveSection& section) {
     const auto configuration = content(section.configuration);
-    const auto axes = found(configuration, R"(^\s*(\w+)\s+CAMMING4\b)");
+    const auto axes = found_in(configuration, R"(^\s*(\w+)\s+CAMMING4\b)");
     if (axes.size() != 1)
       return refuse(fmt::format("its configuration has {} axes with CAMMING4", axes.size()),
                     "name a scene with one");
-    if (found(configuration, R"(^\s*(slZone)\s+L\b)").empty())
+    if (found_in(configuration, R"(^\s*(slZone)\s+L\b)").empty())
       return refuse("its program takes no cam: there is no slZone to tell it that one is given",
                     "give it one, as in scenes/programs/rotary_knife.mod");
     const auto& axis = axes.front();
@@ -134,7 +103,7 @@ class SceneMaker {
 
   void take(const devices::lx3vp::EcamTable& cam, const controllers::Lx3vpSection& section) {
     const auto program = content(section.program);
-    const auto blocks = found(program, R"(^\s*DECAM\s+\S+\s+D(\d+)\b)");
+    const auto blocks = found_in(program, R"(^\s*DECAM\s+\S+\s+D(\d+)\b)");
     if (blocks.size() != 1)
       return refuse(fmt::format("its program has {} DECAM", blocks.size()), "name a scene with one");
     const int block = std::stoi(blocks.front());
@@ -151,7 +120,7 @@ class SceneMaker {
                        table_.filename().string());
     if (!section.registers.text.empty())
       text += controllers::read_named_table(section.registers, scene_, problems_).value_or("") + '\n';
-    const auto answers = found(program, fmt::format(R"(^\s*ECAMTBX\s+\S+\s+\S+\s+D{}\s+D(\d+)\b)", block));
+    const auto answers = found_in(program, fmt::format(R"(^\s*ECAMTBX\s+\S+\s+\S+\s+D{}\s+D(\d+)\b)", block));
     if (!answers.empty())
       text += fmt::format("D{}:L,{} ; rows, where ECAMTBX would answer\n", answers.front(), rows);
     line(word::sync_low, ":L", static_cast<long>(sheet_.device->sync_begin), "synchronous from here");
@@ -178,23 +147,22 @@ class SceneMaker {
       return refuse(fmt::format("it has {} cam tables", section.tables.size()), "name a scene with one");
     const auto& old = section.tables.front();
     const auto program = content(section.program);
-    if (!found(program, R"(\b(File)\s*:=)").empty())
+    if (!found_in(program, R"(\b(File)\s*:=)").empty())
       return refuse("its program asks for its table by the name of the file", "let it ask by ID");
+    const auto present = present_table(scene_, problems_);
+    if (!present) return;
     const auto table = fmt::format("{{file: {}, id: {}}}", scenario::yaml_text(table_.filename().string()),
-                                   old.id == 0 ? id_of(old.file) : old.id);
-    std::string zone;
-    if (!found(program, R"((\bzoneBegins\b))").empty())
-      zone = fmt::format(", set: {{zoneBegins: {:.0f}, zoneEnds: {:.0f}}}", sheet_.device->sync_begin,
-                         sheet_.device->sync_end);
-    controller_ = fmt::format("plcopen: {{tables: [{}]{}}}", table, zone);
-  }
-
-  /// A table's own.
-  int id_of(const scenario::Text& file) {
-    Problems ignored;  // the scene's
-    const auto table = cams::read_cam("mc_camin", content(file), file.text, ignored);
-    const auto* cam = std::get_if<devices::plcopen::CamFile>(&table);
-    return cam == nullptr ? 0 : cam->table.id;
+                                   old.id == 0 ? present->table.id : old.id);
+    std::vector<std::string> set;
+    if (!found_in(program, R"((\bzoneBegins\b))").empty())
+      set = {fmt::format("zoneBegins: {:.0f}", sheet_.device->sync_begin),
+             fmt::format("zoneEnds: {:.0f}", sheet_.device->sync_end)};
+    // What stretches the scene's table to another length must not stretch one that is made for it.
+    for (const auto& scaling : found_in(program, R"(\b(?:Master|Slave)Scaling\s*:=\s*([A-Za-z_]\w*))"))
+      for (const auto& [name, value] : section.set)
+        if (lower(name.text) == lower(scaling)) set.push_back(name.text + ": 1");
+    controller_ = fmt::format("plcopen: {{tables: [{}]{}}}", table,
+                              set.empty() ? "" : fmt::format(", set: {{{}}}", fmt::join(set, ", ")));
   }
 
   [[nodiscard]] std::string text() const {
@@ -235,12 +203,35 @@ class SceneMaker {
 
 }  // namespace
 
-std::optional<CamScene> cam_scene(const DesignSheet& sheet, const fs::path& scene, const fs::path& table,
-                                  Problems& problems) {
+std::vector<std::string> found_in(const std::string& text, const std::string& pattern, std::size_t group) {
+  const std::regex regex(pattern, std::regex::ECMAScript | std::regex::multiline);
+  std::vector<std::string> all;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), regex); match != std::sregex_iterator();
+       ++match)
+    all.push_back((*match)[group]);
+  return all;
+}
+
+std::string content_of(const scenario::Text& file, const scenario::Scenario& scene, Problems& problems) {
+  return controllers::read_named(file, scene, problems).value_or("");
+}
+
+std::optional<devices::plcopen::CamFile> present_table(const scenario::Scenario& scene, Problems& problems) {
+  const auto* section = controllers::controller_of<controllers::PlcopenSection>(scene);
+  if (section == nullptr || section->tables.size() != 1) return {};
   const auto before = problems.size();
-  const auto base = scenario::read_scenario(scene, {}, problems);
+  const auto& file = section->tables.front().file;
+  const auto text = controllers::read_named_table(file, scene, problems);
+  if (!text) return {};
+  const auto table =
+      cams::read_cam("mc_camin", *text, (scene.file.parent_path() / file.text).string(), problems);
   if (problems.size() != before) return {};
-  return SceneMaker(sheet, base, table, problems).make();
+  return std::get<devices::plcopen::CamFile>(table);
+}
+
+std::optional<CamScene> cam_scene(const DesignSheet& sheet, const scenario::Scenario& scene,
+                                  const fs::path& table, Problems& problems) {
+  return SceneMaker(sheet, scene, table, problems).make();
 }
 
 }  // namespace drycut::sim::studies

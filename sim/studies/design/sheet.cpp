@@ -44,6 +44,7 @@ std::string job_text(const DesignJob& job) {
       text = fmt::format("Feed: {} for {} of the master, at rest for {} of it", length_text(job.slave),
                          length_text(job.length), length_text(job.sync));
   }
+  if (job.thickness > 0) text += fmt::format(", through {}", length_text(job.thickness));
   if (job.speed) text += fmt::format("; {}", velocity_text(*job.speed));
   return text;
 }
@@ -56,6 +57,30 @@ std::string limits_text(const DesignJob& job) {
   std::string text;
   for (const auto& limit : limits) text += (text.empty() ? ", within " : ", ") + limit;
   return text + (job.no_reverse ? ", never backwards" : "");
+}
+
+/// What was to be small, within which limits.
+std::string aim_text(const DesignJob& job) { return std::string(goal_text(job.goal)) + limits_text(job); }
+
+/// What there is to move beside the synchronous way.
+std::string move_text(const DesignJob& job) {
+  if (job.is_steady())
+    return fmt::format(
+        "nothing to optimise: pieces of {} are as long as the way from blade to blade, so the blade has the "
+        "web's "
+        "speed all the time; any other length needs its own cam\n",
+        length_text(job.length));
+  auto text = aim_text(job) + '\n';
+  text += fmt::format("T = {}{} of the master are left to move in, by d = {}{}\n", length_text(job.way()),
+                      job.speed ? fmt::format(" ({} ms)", number_text(1000 * job.way() / *job.speed, 7)) : "",
+                      length_text(job.distance()), job.ratio() > 0 ? " against it" : "");
+  if (job.thickness > 0)
+    text += fmt::format(
+        "along the web the blade has its speed: its own is up to {} of it where it is in the material, {} at "
+        "the ends "
+        "of the synchronous way\n",
+        number_text(1 / (1 - job.thickness / job.radius()), 5), number_text(job.ratio(), 5));
+  return text;
 }
 
 /// A cam's line of the table.
@@ -186,7 +211,7 @@ renders::Panel panel_of(const DesignSheet& sheet, const char* title, const std::
   for (int i = 0; i <= points; ++i) {
     const double u = static_cast<double>(i) / points;
     devices::CamMotion motion;
-    motion.position = job.ratio() * (job.sync + u * way) + d * u * u * u * (10 + u * (6 * u - 15));
+    motion.position = job.sync_slave() + job.ratio() * u * way + d * u * u * u * (10 + u * (6 * u - 15));
     motion.velocity = job.ratio() + 30 * d / way * u * u * (1 - u) * (1 - u);
     motion.acceleration = 60 * d / (way * way) * u * (1 - u) * (1 - 2 * u);
     motion.jerk = 60 * d / (way * way * way) * (1 - 6 * u + 6 * u * u);
@@ -200,16 +225,14 @@ renders::Panel panel_of(const DesignSheet& sheet, const char* title, const std::
 }  // namespace
 
 std::string remarks_text(const DesignSheet& sheet) {
-  return fmt::format("## {}.\n## {}{}, by drycut design.\n", job_text(sheet.cam.job),
-                     goal_text(sheet.cam.job.goal), limits_text(sheet.cam.job));
+  const auto& job = sheet.cam.job;
+  return fmt::format("## {}.\n## {}, by drycut design.\n", job_text(job),
+                     job.is_steady() ? "at the web's speed all the time" : aim_text(job));
 }
 
 std::string sheet_text(const DesignSheet& sheet) {
   const auto& job = sheet.cam.job;
-  auto text = fmt::format("{}\n{}{}\n", job_text(job), goal_text(job.goal), limits_text(job));
-  text += fmt::format("T = {}{} of the master are left to move in, by d = {}{}\n", length_text(job.way()),
-                      job.speed ? fmt::format(" ({} ms)", number_text(1000 * job.way() / *job.speed, 7)) : "",
-                      length_text(job.distance()), job.ratio() > 0 ? " against it" : "");
+  auto text = fmt::format("{}\n{}", job_text(job), move_text(job));
   text += '\n' + table_of_figures(sheet);
   if (sheet.device) text += '\n' + device_text(sheet);
   return text;

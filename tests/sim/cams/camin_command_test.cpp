@@ -171,12 +171,48 @@ TEST_F(CamInCommand, ThePictureIsDrawn) {
   EXPECT_GT(fs::file_size(made.png), 10'000u);
 }
 
+// A table with ${length} takes it from the scenario beside or above it that names it, or from the one that is
+// named.
+TEST_F(CamInCommand, ATableTakesTheValuesOfTheLineBesideIt) {
+  const auto line = [&](const char* name, const char* length) {
+    return test_folder.file(
+        name, fmt::format("variables: {{length: {}}}\ncontroller: {{plcopen: {{program: a.st, tables: "
+                          "[cams/knife.tab]}}}}\n",
+                          length));
+  };
+  fs::create_directories(folder / "cams");
+  test_folder.file(
+      "other.yaml",
+      "variables: {length: 3 m}\ncontroller: {plcopen: {program: a.st, tables: [cams/x.tab]}}\n");
+  cli::CamOptions cam;
+  cam.table =
+      test_folder.file("cams/knife.tab", content(fs::path(DRYCUT_SOURCE_DIR) / "scenes/new/cams/knife.tab"));
+  EXPECT_EQ(run(cam), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("has its value from a scenario; name it: drycut cam --scene"));
+  const auto first = line("line.yaml", "900 mm");
+  EXPECT_EQ(run(cam), cli::all_passed) << err;
+  EXPECT_THAT(out,
+              testing::AllOf(testing::StartsWith("with the values of " + first.lexically_normal().string()),
+                             HasSubstr("turn 9000000 (900 mm)")));
+  EXPECT_EQ(check(cam.table), cli::all_passed) << err;
+  line("same.yaml", "0.9 m");  // says nothing else
+  EXPECT_EQ(run(cam), cli::all_passed) << err;
+  const auto third = line("third.yaml", "1 m");
+  EXPECT_EQ(run(cam), cli::bad_input);
+  EXPECT_THAT(err, testing::AllOf(HasSubstr("knife.tab:1:1: it has values from a scenario"),
+                                  HasSubstr("third.yaml"), HasSubstr("name one: drycut cam --scene")));
+  cam.scene = third;
+  EXPECT_EQ(run(cam), cli::all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("turn 10000000 (1000 mm)"));
+}
+
 TEST_F(CamInCommand, CheckReadsTabFilesAndCsv) {
   EXPECT_EQ(check(file("Tabletype = 9\n", "a.tab")), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("a.tab:1:13: '9' is out of range; write a whole number, 1 to 7"));
   EXPECT_EQ(check(file(content(shipped_cams / "mc_rotary_knife.tab"), "b.tab")), cli::all_passed);
   EXPECT_EQ(check(file("# master_modulo: ${length}\n", "d.tab")), cli::bad_input);
-  EXPECT_THAT(err, HasSubstr("'${length}' has its value from a scenario; drycut run that scenario: "));
+  EXPECT_THAT(
+      err, HasSubstr("'${length}' has its value from a scenario; name it: drycut cam --scene SCENARIO.yaml"));
   EXPECT_EQ(check(file("slave\n1,2\n", "c.csv")), cli::bad_input);
   EXPECT_THAT(err, HasSubstr("c.csv:2:1: 2 numbers"));
 }

@@ -120,9 +120,72 @@ TEST_F(DesignCommand, PiecesAsLongAsTheTurnNeedNoMove) {
     options.length = "600 mm";
     options.device = device;
     EXPECT_EQ(run(options), cli::all_passed) << device << err;
+    EXPECT_THAT(out, HasSubstr("nothing to optimise: pieces of 600 mm")) << device;
+    EXPECT_THAT(out, Not(HasSubstr("the least"))) << device;
     EXPECT_NEAR(line("designed").at(2), 0, 1e-9) << device;
     EXPECT_NEAR(line("as " + std::string(device) + " plays it").at(4), 1, 1e-6) << device;
   }
+}
+
+// In material the blade is as far along the web as the web is: s = r asin(x / r) around the cut.
+TEST_F(DesignCommand, ABladeThatSwingsThroughMaterialKeepsTheWebsSpeed) {
+  DesignJob job;
+  job.length = 0.8;
+  job.slave = 0.6;
+  job.thickness = 0.008;
+  const double radius = 0.6 / (2 * M_PI);
+  EXPECT_NEAR(job.contact(), 2 * std::sqrt(radius * radius - std::pow(radius - 0.008, 2)), 1e-12);
+  job.sync = 0.08;
+  ASSERT_TRUE(hindrances(job).empty());
+  const auto cam = design_cam(job);
+  ASSERT_TRUE(cam);
+  for (double along = -0.04; along <= 0.04; along += 0.001) {
+    const auto motion = cam->at(0.04 + along + 1e-12);
+    const double angle = (motion.position - job.sync_slave() / 2) / radius;
+    EXPECT_NEAR(radius * std::sin(angle), along, 1e-8) << along;
+    EXPECT_NEAR(motion.velocity * std::cos(angle), 1, 1e-6) << along;
+  }
+  // All of it is still a turn a piece, and nothing jumps where the move begins and ends.
+  EXPECT_NEAR(cam->at(0.8 - 1e-9).position, 0.6, 1e-8);
+  for (const double end : {0.08, 0.8})
+    EXPECT_NEAR(cam->at(end - 1e-9).velocity, cam->at(end + 1e-9).velocity, 1e-6);
+}
+
+// What the job may travel is what the table says, and the judge of tables finds that it does.
+TEST_F(DesignCommand, TablesKeepTheTravelThatTheySay) {
+  for (const auto* device : {"camming4", "lx3vp", "mc_camin"})
+    for (const auto* goal : {"rms", "peak"})
+      for (const auto* travel : {"355 mm", "370 mm", "450 mm", "480 mm"})
+        for (const auto* sync : {"250 mm", "270 mm"}) {
+          SCOPED_TRACE(fmt::format("{} {} {} {}", device, goal, travel, sync));
+          auto options = saw();
+          options.length = "1 m";
+          options.speed = "34 m/min";
+          options.sync = sync;
+          options.minimise = goal;
+          options.max_travel = travel;
+          options.device = device;
+          EXPECT_EQ(run(options), cli::all_passed) << out << err;
+        }
+}
+
+// The kernel's own kind of file: the same cam, to the last digit.
+TEST_F(DesignCommand, ATabFileHasTheSameCam) {
+  auto options = knife();
+  options.device = "mc_camin";
+  const auto samples = [&](const char* table) {
+    options.table = folder / table;
+    EXPECT_EQ(run(options), cli::all_passed) << err;
+    cli::CamOptions cam;
+    cam.table = options.table;
+    cam.csv = "-";
+    EXPECT_EQ(captured([&] { return cli::validate_cam(cam); }), cli::all_passed) << err;
+    return out;
+  };
+  const auto tab = samples("cam.tab");
+  EXPECT_THAT(content(folder / "cam.tab"), testing::AllOf(HasSubstr("\nFunctiontype = 3 # POLYNOM_3_KOEFF\n"),
+                                                          HasSubstr("\nTable-ID     = 1\n")));
+  EXPECT_EQ(tab, samples("cam.csv"));
 }
 
 TEST_F(DesignCommand, EnergyNeedsLessForceThanRmsWhereFrictionIsLarge) {
@@ -500,9 +563,47 @@ std::vector<Refused> refusals() {
        change(knife(),
               [](auto& o) {
                 o.device = "mc_camin";
+                o.table = "x.txt";
+              }),
+       {"--table:1:1: x.txt does not end in .csv or .tab; name it x.csv"}},
+      {"tab_of_another_device",
+       change(knife(),
+              [](auto& o) {
+                o.device = "lx3vp";
                 o.table = "x.tab";
               }),
        {"--table:1:1: x.tab does not end in .csv; name it x.csv"}},
+      // A feed has no tool: it rests.
+      {"feed_without_rest",
+       change(knife(),
+              [](auto& o) {
+                o.kind = "feed";
+                o.circumference = o.sync = "";
+                o.feed = "120 mm";
+              }),
+       {"--sync:1:1: it is not given; give the way of the master on which the slave rests"}},
+      {"thickness_of_a_saw",
+       change(saw(), [](auto& o) { o.thickness = "2 mm"; }),
+       {"--thickness:1:1", "leave it out"}},
+      // 2 sqrt(8 (2 * 95.493 - 8)) mm of web pass while the blade is in 8 mm of it.
+      {"sync_shorter_than_the_swing",
+       change(knife(),
+              [](auto& o) {
+                o.thickness = "8 mm";
+                o.sync = "70 mm";
+              }),
+       {"--sync:1:1: 70 mm is less than the way on which the blade is in 8 mm of material; give 76.6 mm at "
+        "least"}},
+      {"too_thick",
+       change(knife(), [](auto& o) { o.thickness = "60 mm"; }),
+       {"--thickness:1:1", "give 47.7 mm at most"}},
+      {"swing_under_camming4",
+       change(knife(),
+              [](auto& o) {
+                o.thickness = "2 mm";
+                o.device = "camming4";
+              }),
+       {"--thickness:1:1: a synchronous sector of CAMMING4 is straight", "2.1 % slower than the web"}},
       {"scene_without_table",
        change(knife(), [](auto& o) { o.scene = "x.yaml"; }),
        {"--scene:1:1: there is nothing to run in it; give --table too"}},
