@@ -90,6 +90,11 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& kind, const std::
            "name one that can be written");
     return;
   }
+  if (const auto why = hindrance_in(folder_); !why.empty()) {
+    refuse(fmt::format("nothing can be written into {}: {}", folder_.string(), why),
+           "name one that can be written");
+    return;
+  }
   if (lock_folder(folder_, lock_) == Locked::by_another) {
     refuse(fmt::format("another drycut is writing into {}", folder_.string()),
            "let it end first, or name another folder");
@@ -134,15 +139,10 @@ std::vector<std::string> OutputFolder::strangers(const std::vector<std::string>&
   return found;
 }
 
-void OutputFolder::begin(const std::vector<std::string>& kept) {
-  std::set<std::string> staying;
+void OutputFolder::remove(const std::set<std::string>& names) {
   std::set<fs::path, std::greater<>> folders;  // the inner ones first
-  for (const auto& name : listed_) {
+  for (const auto& name : names) {
     const auto file = folder_ / name;
-    if (std::find(kept.begin(), kept.end(), name) != kept.end()) {
-      staying.insert(name);
-      continue;
-    }
     if (!is_ours(file)) continue;
     std::error_code error;
     fs::remove(file, error);
@@ -153,13 +153,58 @@ void OutputFolder::begin(const std::vector<std::string>& kept) {
   }
   std::error_code ignored;  // a folder in which something of the user's stands stays
   for (const auto& folder : folders) fs::remove(folder, ignored);
+}
+
+void OutputFolder::write_manifest(const std::set<std::string>& names) {
   auto text =
       fmt::format("# Written by drycut ({}). The next one removes these files and no others.\n", kind_);
-  for (const auto& name : staying) text += name + '\n';
-  OutputFile manifest(manifest_);
-  manifest.write(text);
-  manifest.finish();
-  listed_ = std::move(staying);
+  for (const auto& name : names) text += name + '\n';
+  write_file(manifest_, text);
+  listed_ = names;
+}
+
+void OutputFolder::take_back(const std::string& name) {
+  remove({name});
+  auto staying = listed_;
+  staying.erase(name);
+  write_manifest(staying);
+}
+
+void OutputFolder::begin(const std::vector<std::string>& kept) {
+  std::set<std::string> staying;
+  std::set<std::string> going;
+  for (const auto& name : listed_)
+    (std::find(kept.begin(), kept.end(), name) != kept.end() ? staying : going).insert(name);
+  remove(going);
+  write_manifest(staying);
+}
+
+void OutputFolder::begin_aside(const std::vector<std::string>& kept) {
+  aside_ = fmt::format(".{}-to-come/", kind_);
+  kept_ = {kept.begin(), kept.end()};
+  std::vector<std::string> staying;  // but what one that was killed has left waiting
+  for (const auto& name : listed_)
+    if (!name.starts_with(aside_)) staying.push_back(name);
+  begin(staying);
+}
+
+void OutputFolder::finish() {
+  std::set<std::string> staying = waiting_;
+  std::set<std::string> going;
+  for (const auto& name : listed_) {
+    const bool stays = waiting_.contains(name) || kept_.contains(name);
+    (stays ? staying : going).insert(name);
+  }
+  for (const auto& name : waiting_) {
+    std::error_code error;
+    fs::create_directories((folder_ / name).parent_path(), error);
+    if (!error) fs::rename(folder_ / aside_ / name, folder_ / name, error);
+    require(!error, "write", folder_ / name, error);
+  }
+  remove(going);
+  write_manifest(staying);
+  aside_.clear();
+  waiting_.clear();
 }
 
 void OutputFolder::list(const std::vector<std::string>& names) {
@@ -178,16 +223,26 @@ fs::path OutputFolder::add(const std::string& name) {
 }
 
 fs::path OutputFolder::add(const std::string& subfolder, const std::vector<std::string>& names) {
-  auto place = subfolder.empty() ? folder_ : folder_ / subfolder;
+  const auto inside = [&](const std::string& name) {
+    return subfolder.empty() ? name : fmt::format("{}/{}", subfolder, name);
+  };
+  const bool waits = !aside_.empty() && !(names.size() == 1 && kept_.contains(inside(names[0])));
+  const auto place = folder_ / (waits ? aside_ : "") / subfolder;
   std::error_code error;
   fs::create_directories(place, error);
   require(!error, "make", place, error);
   std::vector<std::string> files;
   for (const auto& name : names) {
-    files.push_back(subfolder.empty() ? name : fmt::format("{}/{}", subfolder, name));
-    if (!listed_.contains(files.back()) && fs::exists(fs::symlink_status(place / name, error)))
+    const auto own = inside(name);
+    for (const auto& listed : {own, aside_ + own}) {
+      if (listed_.contains(listed) || !fs::exists(fs::symlink_status(folder_ / listed, error))) continue;
       throw std::runtime_error(
-          fmt::format("{} is in the way: no earlier {} wrote it", (place / name).string(), kind_));
+          fmt::format("{} is in the way: no earlier {} wrote it", (folder_ / listed).string(), kind_));
+    }
+    files.push_back(own);
+    if (!waits) continue;
+    files.push_back(aside_ + own);
+    waiting_.insert(own);
   }
   list(files);
   return place;

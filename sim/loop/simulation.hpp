@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,8 +41,9 @@ struct Outcome {
   Time end = 0;         ///< simulated until
   std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
   std::vector<CheckResult> checks;
-  std::optional<HalfStep> half_step = {};  ///< where it was asked for
-  std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
+  std::optional<HalfStep> half_step = {};    ///< where it was asked for
+  std::vector<DriveVerdict> drives = {};     ///< what the drives came to beside their ratings
+  std::map<std::string, double> turns = {};  ///< of recorded channels that begin again: how far they count
   [[nodiscard]] bool passed() const;
 };
 

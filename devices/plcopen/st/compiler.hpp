@@ -116,6 +116,7 @@ class Statements : public Declarations {
   using Labels = std::map<std::int64_t, std::pair<std::int64_t, Place>>;
   int statements(std::initializer_list<std::string_view> closing);
   int statements_until(const std::function<bool()>& closes);
+  bool read_as_closer();
   int statement();
   int assignment_or_call();
   int call_statement(const Tree& call);

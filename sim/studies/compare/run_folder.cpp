@@ -29,7 +29,7 @@ namespace {
 class MappedFile {
  public:
   explicit MappedFile(const fs::path& file) {
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a FIFO is not waited for
     const auto end = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
     if (end > 0) place_ = mmap(nullptr, static_cast<std::size_t>(end), PROT_READ, MAP_PRIVATE, descriptor, 0);
     if (place_ != MAP_FAILED) size_ = static_cast<std::size_t>(end);
@@ -119,6 +119,7 @@ void read_checks_json(const std::string& text, const std::string& file, RunFolde
     run.passed = json.at("passed").get<bool>();
     run.end = json.at("end").get<double>();
     run.failure = json.at("failure").get<std::string>();
+    if (json.contains("turns")) json.at("turns").get_to(run.turns);
     for (const auto& check : json.at("checks")) run.checks.push_back(check_of(check));
   } catch (const nlohmann::json::parse_error& error) {
     int line = 1;
@@ -223,6 +224,7 @@ void add_about(const fs::path& folder, records::Record& record, Problems& proble
     if (const auto text = whole_file(file, problems)) read_checks_json(*text, file.string(), run, problems);
   if (!run.version.empty()) record.about.emplace_back("drycut", run.version);
   record.checks = std::move(run.checks);
+  record.failure = std::move(run.failure);
   const auto file = folder / report::scenario_file;
   if (!fs::exists(file, ignored)) return;
   if (const auto text = whole_file(file, problems)) {

@@ -7,6 +7,7 @@
 #include "base/units.hpp"
 #include "sim/cams/motion_plot.hpp"
 #include "sim/cams/report.hpp"
+#include "sim/records/own_file.hpp"
 
 namespace drycut::sim::studies {
 
@@ -200,7 +201,7 @@ renders::Panel panel_of(const DesignSheet& sheet, const char* title, const std::
 }  // namespace
 
 std::string remarks_text(const DesignSheet& sheet) {
-  return fmt::format("## {}.\n## {}{}, by drycut design.\n", job_text(sheet.cam.job),
+  return fmt::format("## {} design: {}.\n## {}{}.\n", records::own_mark, job_text(sheet.cam.job),
                      goal_text(sheet.cam.job.goal), limits_text(sheet.cam.job));
 }
 

@@ -57,6 +57,32 @@ TEST_F(Compare, ARunIsReadBackAsItWasWritten) {
   EXPECT_EQ(run.parameter("pictures.plots[cuts].from"), nullptr) << "pictures change no result";
 }
 
+TEST_F(Compare, WhatBeginsAgainWithEachTurnIsComparedOnItsCircle) {
+  RunTexts before;
+  RunTexts after;
+  before.trace =
+      "time [s],Knife.actual_position [deg],knife.speed [m/min]\n0.0,359.9,60\n0.1,0.1,60\n0.2,179,60\n";
+  after.trace =
+      "time [s],Knife.actual_position [deg],knife.speed [m/min]\n0.0,0.1,60\n0.1,359.8,60\n0.2,179,60\n";
+  const auto difference = [&] {
+    const auto comparison = compared(before, after);
+    EXPECT_EQ(comparison.channels[0].name, "Knife.actual_position");
+    return comparison.channels[0].difference;
+  };
+  EXPECT_NEAR(difference(), 359.8, 1e-9) << "nothing says that it begins again";
+  const auto turn = [](const std::string& checks, const char* length) {
+    return with(checks, "\"checks\"",
+                "\"turns\": {\"Knife.actual_position\": " + std::string(length) + "}, \"checks\"");
+  };
+  const auto plain = after.checks;
+  before.checks = turn(before.checks, "360.0");
+  EXPECT_NEAR(difference(), 359.8, 1e-9) << "one of them counts on";
+  after.checks = turn(plain, "720.0");
+  EXPECT_NEAR(difference(), 359.8, 1e-9) << "their turns are not the same";
+  after.checks = turn(plain, "360.0");
+  EXPECT_NEAR(difference(), 0.3, 1e-9);
+}
+
 TEST_F(Compare, CellsInQuotesAreReadBack) {
   RunTexts texts;
   texts.trace = "time [s],\"recipe[2,5] [-]\"\n0.0,1\n";
