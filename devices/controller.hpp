@@ -23,9 +23,7 @@ struct ControllerValue {
   std::function<double()> read;
   std::function<void(double)> write;  ///< empty if read-only; acts as a program's store does (device mailbox)
   std::optional<ValueRange> range = {};  ///< of one that can be written: the manual's, of a parameter
-  /// How far it counts before it begins again, in `unit`; empty, or 0: it does not.
-  std::function<double()> turn = {};
-  bool of_table = false;  ///< a row of a cam table: one of many, of which most are 0
+  bool of_table = false;                 ///< a row of a cam table: one of many, of which most are 0
 
   /// What is wrong with giving it `number`, nullopt if it is taken as it is.
   [[nodiscard]] std::optional<ValueFault> misfit(double number) const {

@@ -1,6 +1,5 @@
 #include "devices/plcopen/axis_values.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "devices/cards.hpp"
@@ -10,8 +9,6 @@ namespace {
 
 // 0.1 um in a mm, 0.0001 deg in a deg.
 constexpr double increments = 10'000;
-
-double turn_of_axis(const Axis& axis) { return std::max(0.0, axis.modulo()) / increments; }
 
 double coupling_phase(const Axis& axis) {
   return axis.coupling() == nullptr ? 0 : 1 + static_cast<double>(axis.coupling()->phase());
@@ -31,10 +28,9 @@ constexpr AxisValue input(std::string_view name, std::string_view meaning) {
 
 constexpr std::array value_rows{
     AxisValue{"set_position", AxisQuantity::position, "commanded position, of a modulo axis in its turn",
-              [](const Axis& axis) { return axis.set().position.part / increments; }, nullptr, 0, 0,
-              turn_of_axis},
+              [](const Axis& axis) { return axis.set().position.part / increments; }, nullptr, 0, 0, true},
     AxisValue{"actual_position", AxisQuantity::position, "position by the encoder",
-              [](const Axis& axis) { return axis.actual().part / increments; }, nullptr, 0, 0, turn_of_axis},
+              [](const Axis& axis) { return axis.actual().part / increments; }, nullptr, 0, 0, true},
     AxisValue{"set_velocity", AxisQuantity::velocity, "commanded speed",
               [](const Axis& axis) { return axis.set().velocity / increments; }},
     AxisValue{"actual_velocity", AxisQuantity::velocity, "speed by the encoder",

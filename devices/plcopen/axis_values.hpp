@@ -20,8 +20,7 @@ struct AxisValue {
   void (*write)(Axis& axis, double value) = nullptr;  ///< nullptr: can only be read
   double min = 0;                                     ///< of one that can be written
   double max = 0;
-  /// Of one that begins again with each turn of a modulo axis: how long that is, 0 of another axis.
-  double (*turn)(const Axis& axis) = nullptr;
+  bool in_turn = false;  ///< of a modulo axis: begins again with each turn
 };
 std::span<const AxisValue> axis_value_table();
 

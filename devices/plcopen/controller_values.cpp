@@ -62,7 +62,6 @@ std::optional<ControllerValue> PlcopenController::axis_value(int number, std::st
                           },
                           {},
                           {}};
-    if (row.turn != nullptr) value.turn = [this, number, &row] { return row.turn(axis(number)); };
     const auto wired = [&](const AxisTerminal& terminal) {
       return terminal.kind == Kind::input && terminal.name == row.name &&
              cards_.inputs.contains(terminal.address(number));

@@ -103,7 +103,7 @@ std::optional<Reading> Names::reading(const std::string& name) {
     return {};
   }
   if (controller_ != nullptr) {
-    if (auto value = controller_->find(name)) return Reading{name, value->unit, value->read, value->turn};
+    if (auto value = controller_->find(name)) return Reading{name, value->unit, value->read};
   }
   return {};
 }

@@ -18,8 +18,6 @@ struct Reading {
   std::string name;
   std::string unit;  ///< of the number; "" = pure number
   std::function<double()> read;
-  std::function<double()> turn =
-      {};  ///< how far it counts before it begins again, in `unit`; empty = on and on
 };
 
 /// A number that the timeline can set or ramp; `write` takes it in `unit` as the timeline gives it (SI for

@@ -311,8 +311,6 @@ Outcome Simulation::outcome() {
   outcome.failure = failure_;
   outcome.checks = checks_->results(time_);
   outcome.drives = drives_->verdicts();
-  for (const auto& column : recording_.columns())
-    if (const double turn = watch_->turn(column.name); turn > 0) outcome.turns.emplace(column.name, turn);
   for (auto& check : drives_->results(outcome.drives)) outcome.checks.push_back(std::move(check));
   if (controller_) {
     outcome.checks.push_back({"the program runs",

@@ -1,7 +1,6 @@
 #pragma once
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,9 +40,8 @@ struct Outcome {
   Time end = 0;         ///< simulated until
   std::string failure;  ///< why the simulation itself stopped before its time, "" if it did not
   std::vector<CheckResult> checks;
-  std::optional<HalfStep> half_step = {};    ///< where it was asked for
-  std::vector<DriveVerdict> drives = {};     ///< what the drives came to beside their ratings
-  std::map<std::string, double> turns = {};  ///< of recorded channels that begin again: how far they count
+  std::optional<HalfStep> half_step = {};  ///< where it was asked for
+  std::vector<DriveVerdict> drives = {};   ///< what the drives came to beside their ratings
   [[nodiscard]] bool passed() const;
 };
 

@@ -9,7 +9,6 @@ const double* Watch::slot(const std::string& name) {
   auto reading = names_.reading(name);
   if (!reading) return nullptr;
   index_.emplace(name, readings_.size());
-  if (reading->turn) turns_.emplace(name, std::move(reading->turn));
   readings_.push_back(std::move(*reading));
   slots_.push_back(readings_.back().read());
   return &slots_.back();

@@ -1,6 +1,5 @@
 #pragma once
 #include <deque>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,13 +24,6 @@ class Watch {
     return readings_[index_.at(name)].unit;
   }
 
-  /// Of a reading that has a slot: how far it counts before it begins again at the other end, in its unit;
-  /// 0 = on and on.
-  [[nodiscard]] double turn(const std::string& name) const {
-    const auto found = turns_.find(name);
-    return found == turns_.end() ? 0 : found->second();
-  }
-
   void update() {
     for (std::size_t i = 0; i < readings_.size(); ++i) slots_[i] = readings_[i].read();
   }
@@ -44,7 +36,6 @@ class Watch {
   std::map<std::string, std::size_t> index_;
   std::vector<Reading> readings_;
   std::deque<double> slots_;
-  std::map<std::string, std::function<double()>> turns_;  ///< of those that have one
 };
 
 }  // namespace drycut::sim::loop

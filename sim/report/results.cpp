@@ -131,7 +131,6 @@ void write_checks(const loop::Outcome& outcome, const std::filesystem::path& fil
   json["failure"] = outcome.failure;
   const auto& half = outcome.half_step;
   if (half) json["half_step"] = {{"step", seconds(half->step)}, {"failure", half->failure}};
-  if (!outcome.turns.empty()) json["turns"] = outcome.turns;
   json["checks"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < outcome.checks.size(); ++i) {
     const auto& check = outcome.checks[i];

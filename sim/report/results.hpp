@@ -48,8 +48,7 @@ std::vector<FilePlace> places_of_checks(const Scene& scene) {
   return places;
 }
 
-/// checks.json: the version, the turns of channels that begin again (`turns`), and name, expectation, passed,
-/// margin, unit, at, detail of every check; with
+/// checks.json: the version, and name, expectation, passed, margin, unit, at, detail of every check; with
 /// --verify-step also what it came to at half the step.
 void write_checks(const loop::Outcome& outcome, const std::filesystem::path& file);
 

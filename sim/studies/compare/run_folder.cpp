@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "devices/plcopen/axis_values.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/records/csv_files.hpp"
@@ -119,7 +120,6 @@ void read_checks_json(const std::string& text, const std::string& file, RunFolde
     run.passed = json.at("passed").get<bool>();
     run.end = json.at("end").get<double>();
     run.failure = json.at("failure").get<std::string>();
-    if (json.contains("turns")) json.at("turns").get_to(run.turns);
     for (const auto& check : json.at("checks")) run.checks.push_back(check_of(check));
   } catch (const nlohmann::json::parse_error& error) {
     int line = 1;
@@ -194,6 +194,27 @@ std::vector<std::pair<std::string, double>> starts_of(const scenario::YamlNode& 
         starts.emplace_back(event->text.text, scenario::to_si(time->number, time->unit));
   }
   return starts;
+}
+
+/// The positions of modulo axes: their axis has a turn, in the unit of its positions.
+std::map<std::string, double> turns_of(const RunFolder& run) {
+  constexpr std::string_view axes = "controller.plcopen.axes.";
+  constexpr std::string_view modulo = ".modulo";
+  std::map<std::string, double> turns;
+  for (const auto& [path, value] : run.parameters) {
+    if (!path.starts_with(axes) || !path.ends_with(modulo)) continue;
+    const auto axis = path.substr(axes.size(), path.size() - axes.size() - modulo.size());
+    const auto turn = scenario::parse_quantity(value);
+    if (!turn || !(turn->number > 0)) continue;
+    for (const auto& row : devices::plcopen::axis_value_table()) {
+      const auto* column = row.in_turn ? run.recording.column(fmt::format("{}.{}", axis, row.name)) : nullptr;
+      if (column == nullptr || !scenario::is_unit(turn->unit) || !scenario::is_unit(column->unit) ||
+          !scenario::same_dimension(turn->unit, column->unit))
+        continue;
+      turns[column->name] = scenario::from_si(scenario::to_si(turn->number, turn->unit), column->unit);
+    }
+  }
+  return turns;
 }
 
 void read_scenario_yaml(const std::string& text, const std::string& file, RunFolder& run,
@@ -288,6 +309,7 @@ RunFolder read_run(const fs::path& folder, Problems& problems) {
     read_checks_json(*text, name(report::checks_file), run, problems);
   if (const auto text = whole_file(folder / report::scenario_file, problems))
     read_scenario_yaml(*text, name(report::scenario_file), run, problems);
+  run.turns = turns_of(run);
   return run;
 }
 

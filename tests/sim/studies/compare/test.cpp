@@ -70,16 +70,15 @@ TEST_F(Compare, WhatBeginsAgainWithEachTurnIsComparedOnItsCircle) {
     return comparison.channels[0].difference;
   };
   EXPECT_NEAR(difference(), 359.8, 1e-9) << "nothing says that it begins again";
-  const auto turn = [](const std::string& checks, const char* length) {
-    return with(checks, "\"checks\"",
-                "\"turns\": {\"Knife.actual_position\": " + std::string(length) + "}, \"checks\"");
+  const auto plain = after.scenario;
+  const auto turning = [&](const std::string& turn) {
+    return plain + "controller:\n  plcopen: {axes: {Knife: {modulo: " + turn + "}}}\n";
   };
-  const auto plain = after.checks;
-  before.checks = turn(before.checks, "360.0");
+  before.scenario = turning("360 deg");
   EXPECT_NEAR(difference(), 359.8, 1e-9) << "one of them counts on";
-  after.checks = turn(plain, "720.0");
+  after.scenario = turning("720 deg");
   EXPECT_NEAR(difference(), 359.8, 1e-9) << "their turns are not the same";
-  after.checks = turn(plain, "360.0");
+  after.scenario = turning("360.0 deg");
   EXPECT_NEAR(difference(), 0.3, 1e-9);
 }
 
