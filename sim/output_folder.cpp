@@ -72,6 +72,16 @@ void require(bool good, const std::string& what, const fs::path& file, const std
   if (!good) throw std::runtime_error(fmt::format("cannot {} {}: {}", what, file.string(), why.message()));
 }
 
+/// Removes the folders that these files were in, as far as nothing stands in them.
+void remove_emptied(const fs::path& folder, const std::set<std::string>& files) {
+  std::set<fs::path, std::greater<>> inside;  // the inner ones first
+  for (const auto& name : files)
+    for (auto parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())
+      inside.insert(folder / parent);
+  std::error_code not_empty;
+  for (const auto& place : inside) fs::remove(place, not_empty);
+}
+
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
 }  // namespace
@@ -140,7 +150,6 @@ std::vector<std::string> OutputFolder::strangers(const std::vector<std::string>&
 }
 
 void OutputFolder::remove(const std::set<std::string>& names) {
-  std::set<fs::path, std::greater<>> folders;  // the inner ones first
   for (const auto& name : names) {
     const auto file = folder_ / name;
     if (!is_ours(file)) continue;
@@ -148,11 +157,8 @@ void OutputFolder::remove(const std::set<std::string>& names) {
     fs::remove(file, error);
     require(!error, "remove", file, error);
     fs::remove(file.string() + ".part", error);  // of a run that was killed
-    for (auto parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())
-      folders.insert(folder_ / parent);
   }
-  std::error_code ignored;  // a folder in which something of the user's stands stays
-  for (const auto& folder : folders) fs::remove(folder, ignored);
+  remove_emptied(folder_, names);
 }
 
 void OutputFolder::write_manifest(const std::set<std::string>& names) {
@@ -186,6 +192,18 @@ void OutputFolder::begin_aside(const std::vector<std::string>& kept) {
   for (const auto& name : listed_)
     if (!name.starts_with(aside_)) staying.push_back(name);
   begin(staying);
+  // What does not come to finish() makes room again with the last owner; nothing waits behind finish().
+  made_ = {nullptr, [folder = folder_, manifest = manifest_, aside = aside_, earlier = made_](void*) {
+             std::error_code ignored;
+             std::set<std::string> waiting;
+             for (const auto& name : read_manifest(manifest))
+               if (name.starts_with(aside)) waiting.insert(name);
+             for (const auto& name : waiting) {
+               fs::remove(folder / name, ignored);
+               fs::remove((folder / name).string() + ".part", ignored);
+             }
+             remove_emptied(folder, waiting);
+           }};
 }
 
 void OutputFolder::finish() {

@@ -94,7 +94,7 @@ int compare_runs(const CompareOptions& options) {
     folder->begin();
     studies::write_comparison(comparison, page, *folder, options.pictures);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", words_of(error));
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   fmt::print("{}: {}", page.title, studies::comparison_text(comparison, page.passed.has_value()));

@@ -78,7 +78,7 @@ int convert_run(const ConvertOptions& options) {
       try {
         studies::write_record(record, format, out);
       } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", printable(words_of(error)));
+        fmt::print(stderr, "{}\n", printable(drycut::words_of(error)));
         return simulation_failed;
       }
       std::string names;

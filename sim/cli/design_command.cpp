@@ -292,7 +292,7 @@ int design_cam(const DesignOptions& options) {
       fmt::print("  picture: {}\n", picture.string());
     }
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", words_of(error));
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   return cams::is_unsound(sheet->findings, false) ? check_failed : all_passed;

@@ -39,7 +39,7 @@ int index_folder(const fs::path& folder) {
     fmt::print("{} {} of results, {}: {}\n", entries.size(), entries.size() == 1 ? "folder" : "folders",
                report::index_verdict(entries), (folder / report::index_file).string());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", words_of(error));
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   return all_passed;

@@ -80,6 +80,6 @@ int main(int argc, char** argv) {
     std::raise(interrupted.signal);
     return interrupted_status;
   } catch (const std::exception& error) {
-    return failed(words_of(error));
+    return failed(drycut::words_of(error));
   }
 }

@@ -220,7 +220,7 @@ int make_line(const NewOptions& options) {
   try {
     write_all(files, folder);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "drycut new: {}\n", printable(words_of(error)));
+    fmt::print(stderr, "drycut new: {}\n", printable(drycut::words_of(error)));
     return simulation_failed;
   }
   fmt::print("{}: {}\n", folder.string(), start->about);

@@ -96,7 +96,7 @@ void keep(Job& job, const RunCache& cache) {
         job.inputs, *job.folder,
         {job.result.outcome, job.result.has_report, job.simulation->notes(), job.scene.filename().string()});
   } catch (const std::exception& error) {
-    job.notes.push_back(fmt::format("not kept in the cache: {}", words_of(error)));
+    job.notes.push_back(fmt::format("not kept in the cache: {}", drycut::words_of(error)));
   }
 }
 
@@ -170,7 +170,8 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
     } catch (const std::exception& error) {
       // What stopped the run came first: a full disk takes none of the files behind the one that filled it.
       const auto& failure = job.result.outcome.failure;
-      job.trouble = failure.empty() ? words_of(error) : fmt::format("{}; then {}", failure, words_of(error));
+      job.trouble = failure.empty() ? drycut::words_of(error)
+                                    : fmt::format("{}; then {}", failure, drycut::words_of(error));
     }
   });
 }
@@ -197,7 +198,7 @@ void run_groups(std::vector<Group>& groups, bool pictures) {
       if (InterruptWatch::come() != 0) throw std::runtime_error("interrupted before");
       run_group(group, pictures);
     } catch (const std::exception& error) {
-      group.trouble = fmt::format("not compared: {}", words_of(error));
+      group.trouble = fmt::format("not compared: {}", drycut::words_of(error));
     }
   }
 }
@@ -291,7 +292,7 @@ int run_scenarios(const RunOptions& options) {
           options.summary,
           summary_text(results, {options.out, links_from(options.summary, options.out, options.links)}));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", words_of(error));
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   return InterruptWatch::come() == 0 ? status_of(work) : interrupted_status;

@@ -146,7 +146,7 @@ int size_drive(const SizeOptions& options) {
     if (!store.lost().empty()) return simulation_failed;
     return fitting > 0 ? all_passed : check_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", options.out.string(), words_of(error));
+    fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
     return simulation_failed;
   }
 }

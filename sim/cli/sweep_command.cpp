@@ -130,7 +130,7 @@ int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& wor
     for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
     return store.lost().empty() ? all_passed : simulation_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", options.out.string(), words_of(error));
+    fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
     return simulation_failed;
   }
 }

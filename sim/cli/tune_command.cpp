@@ -59,7 +59,7 @@ int tune_scenarios(const TuneOptions& options) {
   try {
     return tune(options, plan, *folder);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", words_of(error));
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
 }

@@ -163,7 +163,8 @@ TEST_F(OutputFolders, WhatIsMadeAtTheEndLeavesTheEarlierResultsUntilThen) {
     out.begin_aside({});
     std::ofstream(out.add("a.csv")) << "new";
     EXPECT_EQ(content(folder / "out/a.csv"), "a");
-  }  // a full disk, or a kill
+  }  // a full disk
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 3) << "what waited makes room again";
   EXPECT_EQ(content(folder / "out/a.csv"), "a");
   EXPECT_EQ(content(folder / "out/plots/y.png"), "png");
   auto out = open({"a.csv", "plots/", "kept"});
