@@ -142,7 +142,7 @@ class Asked {
     files.insert(files.end(), studies::study_pages.begin(), studies::study_pages.end());
     folder.emplace(place.folder, kind, files, problems);
     refuse(problems, argument_names);
-    folder->begin({points_file});
+    folder->begin_aside({points_file});
   }
 
   [[nodiscard]] std::string table() const { return bound ? "envelope.csv" : "sweep.csv"; }
@@ -190,9 +190,10 @@ py::dict studied(const SweepCall& call, const std::string& find_max, std::option
     csv = table;
     simulated = store.simulated();
     if (place.kept) {
-      sim::write_file(asked->folder->add(asked->table()), csv);
+      write_file(asked->folder->add(asked->table()), csv);
       write_report();
     }
+    asked->folder->finish();
   }
   return answer(*asked, csv, simulated);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/output_file.hpp"
 #include "renders/cairo_image.hpp"
 #include "renders/png_image.hpp"
 #include "renders/text.hpp"

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/output_file.hpp"
 #include "renders/geometry.hpp"
 #include "renders/gltf_track.hpp"
 #include "renders/pictures.hpp"

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/output_file.hpp"
 #include "renders/axis_ticks.hpp"
 #include "renders/contours.hpp"
 #include "renders/paper.hpp"

@@ -5,10 +5,12 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -142,6 +144,18 @@ Mesh placed(const aiScene& scene, double unit, const MeshPlacing& placing) {
   return all;
 }
 
+/// A mesh may name files beside it. Of those only what is a file is opened: a FIFO would be waited for.
+class FilesOnly : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+  bool Exists(const char* file) const override {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored);
+  }
+};
+
 void choose_settings(Assimp::Importer& importer) {
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, smooth_up_to);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -222,6 +236,7 @@ std::variant<Mesh, MeshProblem> load_mesh(const std::filesystem::path& file, con
   const auto read = [&] {
     Assimp::Importer importer;
     choose_settings(importer);
+    importer.SetIOHandler(std::make_unique<FilesOnly>().release());  // the importer's from here on
     return packed(corners_of(importer, importer.ReadFile(file.string(), aiProcess_ValidateDataStructure),
                              unit, placing));
   };

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "base/output_file.hpp"
 #include "base/picture_size.hpp"
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"

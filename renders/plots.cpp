@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/output_file.hpp"
 #include "renders/plot_painter.hpp"
 #include "renders/png_image.hpp"
 #include "renders/text.hpp"

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
 namespace drycut::renders {
 namespace {
@@ -58,6 +59,10 @@ std::string png_bytes(const Image& image, int effort) {
   bytes += {8, PNG_COLOR_TYPE_RGB, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE, PNG_INTERLACE_NONE};
   finish_chunk(bytes, header);
 
+  const std::size_t text = begin_chunk(bytes, "tEXt");
+  bytes += std::string_view("Software\0drycut", 15);
+  finish_chunk(bytes, text);
+
   const std::size_t data = begin_chunk(bytes, "IDAT");
   const std::string rows = unfiltered_rows(image);
   const std::size_t before = bytes.size();
@@ -81,13 +86,6 @@ Image read_png(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": not a whole PNG picture: " + png.message);
   }
   return image;
-}
-
-void write_file(const std::filesystem::path& file, const std::string& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 std::string read_file(const std::filesystem::path& file) {

@@ -24,14 +24,12 @@ struct Image {
 };
 
 /// The image as a PNG file's bytes. `effort` is libdeflate's, from 1 to 12: tuned for speed unless it is said
-/// otherwise, not for the last byte. Throws std::runtime_error.
+/// otherwise, not for the last byte. Its chunk Software says drycut. Throws std::runtime_error.
 std::string png_bytes(const Image& image, int effort = 1);
 
 /// Reads a PNG file of any kind. Throws std::runtime_error if it is none.
 Image read_png(const std::filesystem::path& file);
 
-/// Throws std::runtime_error that names the file.
-void write_file(const std::filesystem::path& file, const std::string& bytes);
 /// Throws std::runtime_error that names the file.
 std::string read_file(const std::filesystem::path& file);
 

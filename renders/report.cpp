@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/output_file.hpp"
 #include "base/sheet.hpp"
 #include "renders/embedded.hpp"
 #include "renders/html.hpp"
@@ -334,20 +335,6 @@ void write_scenario(Page& page, const std::string& expanded) {
       scroll_box("Scenario with every default in force"), html_text(expanded));
 }
 
-/// Written beside its place and moved there at once: who looks sees the old report or the whole new one.
-void replace_file(const std::filesystem::path& file, const std::string& bytes) {
-  std::filesystem::path unfinished = file;
-  unfinished += ".part";
-  try {
-    write_file(unfinished, bytes);
-    std::filesystem::rename(unfinished, file);
-  } catch (const std::exception&) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw;
-  }
-}
-
 }  // namespace
 
 std::string rows_text(const ReportTable& table, std::size_t width) {
@@ -386,7 +373,7 @@ void write_report(const Report& report, const std::filesystem::path& file) {
   page += live_maps(report.maps);
   page += "</body>\n</html>\n";
   page.text.insert(top, contents_of(page));
-  replace_file(file, page.text);
+  write_file(file, page.text);
 }
 
 }  // namespace drycut::renders

@@ -1,14 +1,9 @@
 #include "sim/file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <iconv.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -54,8 +49,6 @@ std::optional<std::string> plain(std::string text, const fs::path& file, Problem
   if (!fault) return text;
   return refuse(fault->line, fault->column, fault->what);
 }
-
-std::string last_error() { return std::strerror(errno); }
 
 FileSet::File from_disk(const fs::path& file, std::uintmax_t largest) {
   using State = FileSet::State;
@@ -156,63 +149,6 @@ std::optional<std::string> read_file(const fs::path& file, Problems& problems, c
       break;
   }
   return plain(std::move(found.bytes), file, problems);
-}
-
-std::string hindrance(const fs::path& file) {
-  struct stat found {};
-  if (stat(file.c_str(), &found) != 0) return "";
-  if (S_ISDIR(found.st_mode)) return "it is a directory";
-  constexpr auto writable = S_IWUSR | S_IWGRP | S_IWOTH;
-  // The administrator may write everything; what was made read-only is still not to be replaced.
-  if (S_ISREG(found.st_mode) && ((found.st_mode & writable) == 0 || access(file.c_str(), W_OK) != 0))
-    return "it is read-only";
-  if (!S_ISFIFO(found.st_mode)) return "";
-  const int reader = open(file.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-  if (reader < 0) return errno == ENXIO ? "nobody reads from this FIFO" : last_error();
-  close(reader);
-  return "";
-}
-
-OutputFile::OutputFile(fs::path file) : file_(std::move(file)) {
-  if (const auto why = hindrance(file_); !why.empty())
-    throw std::runtime_error(fmt::format("cannot write {}: {}", file_.string(), why));
-  std::error_code ignored;
-  const auto status = fs::status(file_, ignored);
-  const bool dangling = !fs::exists(status) && fs::is_symlink(fs::symlink_status(file_, ignored));
-  if (fs::is_regular_file(status)) file_ = fs::canonical(file_);
-  if (!dangling && (fs::is_regular_file(status) || !fs::exists(status)))
-    temporary_ = file_.string() + ".part";
-  stream_ = std::fopen(temporary_.empty() ? file_.c_str() : temporary_.c_str(), "wbe");
-  require(stream_ != nullptr);
-  struct stat old {};
-  if (temporary_.empty() || stat(file_.c_str(), &old) != 0) return;
-  fchmod(fileno(stream_), old.st_mode);  // the new one stays as open, or closed, to others as the old one
-}
-
-OutputFile::~OutputFile() {
-  if (stream_ != nullptr) std::fclose(stream_);
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
-}
-
-void OutputFile::require(bool good) const {
-  if (!good) throw std::runtime_error(fmt::format("cannot write {}: {}", file_.string(), last_error()));
-}
-
-void OutputFile::write(std::string_view text) {
-  require(std::fwrite(text.data(), 1, text.size(), stream_) == text.size());
-}
-
-void OutputFile::finish() {
-  require(std::fclose(std::exchange(stream_, nullptr)) == 0);
-  if (!temporary_.empty()) fs::rename(temporary_, file_);
-  temporary_.clear();
-}
-
-void write_file(const fs::path& file, std::string_view text) {
-  OutputFile out(file);
-  out.write(text);
-  out.finish();
 }
 
 }  // namespace drycut::sim

@@ -72,6 +72,16 @@ void require(bool good, const std::string& what, const fs::path& file, const std
   if (!good) throw std::runtime_error(fmt::format("cannot {} {}: {}", what, file.string(), why.message()));
 }
 
+/// Removes the folders that these files were in, as far as nothing stands in them.
+void remove_emptied(const fs::path& folder, const std::set<std::string>& files) {
+  std::set<fs::path, std::greater<>> inside;  // the inner ones first
+  for (const auto& name : files)
+    for (auto parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())
+      inside.insert(folder / parent);
+  std::error_code not_empty;
+  for (const auto& place : inside) fs::remove(place, not_empty);
+}
+
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
 }  // namespace
@@ -87,6 +97,11 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& kind, const std::
   if (folder_.empty() || error || !fs::is_directory(folder_)) {
     refuse(fmt::format("the directory {} cannot be made{}{}", folder_.string(), error ? ": " : "",
                        error ? error.message() : ""),
+           "name one that can be written");
+    return;
+  }
+  if (const auto why = hindrance_in(folder_); !why.empty()) {
+    refuse(fmt::format("nothing can be written into {}: {}", folder_.string(), why),
            "name one that can be written");
     return;
   }
@@ -134,32 +149,80 @@ std::vector<std::string> OutputFolder::strangers(const std::vector<std::string>&
   return found;
 }
 
-void OutputFolder::begin(const std::vector<std::string>& kept) {
-  std::set<std::string> staying;
-  std::set<fs::path, std::greater<>> folders;  // the inner ones first
-  for (const auto& name : listed_) {
+void OutputFolder::remove(const std::set<std::string>& names) {
+  for (const auto& name : names) {
     const auto file = folder_ / name;
-    if (std::find(kept.begin(), kept.end(), name) != kept.end()) {
-      staying.insert(name);
-      continue;
-    }
     if (!is_ours(file)) continue;
     std::error_code error;
     fs::remove(file, error);
     require(!error, "remove", file, error);
     fs::remove(file.string() + ".part", error);  // of a run that was killed
-    for (auto parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())
-      folders.insert(folder_ / parent);
   }
-  std::error_code ignored;  // a folder in which something of the user's stands stays
-  for (const auto& folder : folders) fs::remove(folder, ignored);
+  remove_emptied(folder_, names);
+}
+
+void OutputFolder::write_manifest(const std::set<std::string>& names) {
   auto text =
       fmt::format("# Written by drycut ({}). The next one removes these files and no others.\n", kind_);
-  for (const auto& name : staying) text += name + '\n';
-  OutputFile manifest(manifest_);
-  manifest.write(text);
-  manifest.finish();
-  listed_ = std::move(staying);
+  for (const auto& name : names) text += name + '\n';
+  write_file(manifest_, text);
+  listed_ = names;
+}
+
+void OutputFolder::take_back(const std::string& name) {
+  remove({name});
+  auto staying = listed_;
+  staying.erase(name);
+  write_manifest(staying);
+}
+
+void OutputFolder::begin(const std::vector<std::string>& kept) {
+  std::set<std::string> staying;
+  std::set<std::string> going;
+  for (const auto& name : listed_)
+    (std::find(kept.begin(), kept.end(), name) != kept.end() ? staying : going).insert(name);
+  remove(going);
+  write_manifest(staying);
+}
+
+void OutputFolder::begin_aside(const std::vector<std::string>& kept) {
+  aside_ = fmt::format(".{}-to-come/", kind_);
+  kept_ = {kept.begin(), kept.end()};
+  std::vector<std::string> staying;  // but what one that was killed has left waiting
+  for (const auto& name : listed_)
+    if (!name.starts_with(aside_)) staying.push_back(name);
+  begin(staying);
+  // What does not come to finish() makes room again with the last owner; nothing waits behind finish().
+  made_ = {nullptr, [folder = folder_, manifest = manifest_, aside = aside_, earlier = made_](void*) {
+             std::error_code ignored;
+             std::set<std::string> waiting;
+             for (const auto& name : read_manifest(manifest))
+               if (name.starts_with(aside)) waiting.insert(name);
+             for (const auto& name : waiting) {
+               fs::remove(folder / name, ignored);
+               fs::remove((folder / name).string() + ".part", ignored);
+             }
+             remove_emptied(folder, waiting);
+           }};
+}
+
+void OutputFolder::finish() {
+  std::set<std::string> staying = waiting_;
+  std::set<std::string> going;
+  for (const auto& name : listed_) {
+    const bool stays = waiting_.contains(name) || kept_.contains(name);
+    (stays ? staying : going).insert(name);
+  }
+  for (const auto& name : waiting_) {
+    std::error_code error;
+    fs::create_directories((folder_ / name).parent_path(), error);
+    if (!error) fs::rename(folder_ / aside_ / name, folder_ / name, error);
+    require(!error, "write", folder_ / name, error);
+  }
+  remove(going);
+  write_manifest(staying);
+  aside_.clear();
+  waiting_.clear();
 }
 
 void OutputFolder::list(const std::vector<std::string>& names) {
@@ -178,16 +241,26 @@ fs::path OutputFolder::add(const std::string& name) {
 }
 
 fs::path OutputFolder::add(const std::string& subfolder, const std::vector<std::string>& names) {
-  auto place = subfolder.empty() ? folder_ : folder_ / subfolder;
+  const auto inside = [&](const std::string& name) {
+    return subfolder.empty() ? name : fmt::format("{}/{}", subfolder, name);
+  };
+  const bool waits = !aside_.empty() && !(names.size() == 1 && kept_.contains(inside(names[0])));
+  const auto place = folder_ / (waits ? aside_ : "") / subfolder;
   std::error_code error;
   fs::create_directories(place, error);
   require(!error, "make", place, error);
   std::vector<std::string> files;
   for (const auto& name : names) {
-    files.push_back(subfolder.empty() ? name : fmt::format("{}/{}", subfolder, name));
-    if (!listed_.contains(files.back()) && fs::exists(fs::symlink_status(place / name, error)))
+    const auto own = inside(name);
+    for (const auto& listed : {own, aside_ + own}) {
+      if (listed_.contains(listed) || !fs::exists(fs::symlink_status(folder_ / listed, error))) continue;
       throw std::runtime_error(
-          fmt::format("{} is in the way: no earlier {} wrote it", (place / name).string(), kind_));
+          fmt::format("{} is in the way: no earlier {} wrote it", (folder_ / listed).string(), kind_));
+    }
+    files.push_back(own);
+    if (!waits) continue;
+    files.push_back(aside_ + own);
+    waiting_.insert(own);
   }
   list(files);
   return place;

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "base/text.hpp"
+
 namespace drycut::devices::lx3vp {
 
 namespace {
@@ -145,8 +150,9 @@ constexpr SpecialRegister specials[] = {
     {"M8150", "bit", "read", "Y3 is in use"},
     {"M8152", "bit", "write", "stops the pulses of Y2 at once"},
     {"M8153", "bit", "write", "stops the pulses of Y3 at once"},
-    {"M8235", "bit", "write", "C235 counts down; so on to M8245"},
-    {"M8246", "bit", "read", "C246 is counting down; so on to M8255"},
+    {"M8200", "bit", "write", "C200 counts down; so on to M8234", 35},
+    {"M8235", "bit", "write", "C235 counts down; so on to M8245", 11},
+    {"M8246", "bit", "read", "C246 is counting down; so on to M8255", 10},
     {"D8010", "u16", "read", "time of a scan [0.1 ms]"},
     {"D8061", "u16", "read", "6105: a scan worked longer than the watchdog time of 200 ms"},
     {"D8067", "u16", "read", "code of the last instruction error"},
@@ -165,6 +171,30 @@ constexpr SpecialRegister specials[] = {
 std::span<const BlockWord> block_words() { return words; }
 std::span<const BlockFlag> block_flags() { return flags; }
 std::span<const SpecialRegister> special_registers() { return specials; }
+
+bool is_served(char letter, int number) {
+  if (number < first_special) return true;
+  return std::any_of(std::begin(specials), std::end(specials), [&](const SpecialRegister& special) {
+    const int first = parsed<int>(special.name.substr(1)).value_or(0);
+    const int count = special.type == "i32" ? 2 : special.count;
+    return special.name.front() == letter && number >= first && number < first + count;
+  });
+}
+
+std::string served_specials(char letter) {
+  const int end = letter == 'D' ? data_words : relays;
+  std::string text;
+  for (int first = first_special; first < end; ++first) {
+    if (!is_served(letter, first)) continue;
+    int last = first;
+    while (last + 1 < end && is_served(letter, last + 1)) ++last;
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", letter, first);
+    if (last > first) text += fmt::format(" to {}{}", letter, last);
+    first = last;
+  }
+  return text;
+}
+
 std::span<const Reading> block_readings() { return readings_of_blocks; }
 
 std::string take_initial_values(Registers& registers, int block) {

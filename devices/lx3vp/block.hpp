@@ -43,8 +43,13 @@ struct SpecialRegister {
   std::string_view type;    ///< "i32", "i16", "u16", "bit"
   std::string_view access;  ///< "read", "write"
   std::string_view meaning;
+  int count = 1;  ///< of a row of relays: so many, each for the counter after the one before
 };
 std::span<const SpecialRegister> special_registers();
+/// Whether the simulated PLC serves D or M `number`: all below D8000 and M8000, of the others those above.
+bool is_served(char letter, int number);
+/// "M8000 to M8004, M8011 to M8014, ...": all of D or M that it serves from 8000 on.
+std::string served_specials(char letter);
 
 /// A place where the manual is silent or contradicts itself, and what is done here.
 struct Reading {

@@ -158,6 +158,8 @@ class Compiler : private Complaints {
       if (auto wrong = kinds[place] == 'v' ? misfit_of_set_value(step, *operand)
                                            : misfit(*operand, kinds[place], *step.spelling))
         refuse(words[i], std::move(*wrong));
+      else if (auto unknown = unserved(*operand))
+        refuse(words[i], std::move(*unknown));
     }
     if (words.size() - 1 != kinds.size())
       refuse(words.size() - 1 > kinds.size() ? words[kinds.size() + 1] : words.back(),

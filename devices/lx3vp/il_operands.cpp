@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "devices/lx3vp/block.hpp"
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/registers.hpp"
 
@@ -282,6 +283,18 @@ std::string_view operand_text(char kind) { return operand_kind(kind).text; }
 bool exists(const Operand& operand) {
   const auto* family = family_of(operand.kind == Kind::bits ? operand.of : operand.kind);
   return family == nullptr || exists(*family, operand.number);
+}
+
+std::optional<ValueFault> unserved(const Operand& operand) {
+  const bool grouped = operand.kind == Kind::bits;
+  const auto kind = grouped ? operand.of : operand.kind == Kind::word_bit ? Kind::D : operand.kind;
+  if (kind != Kind::D && kind != Kind::M) return {};
+  const int count = grouped ? 4 * operand.count : 1;
+  for (int number = operand.number; number < operand.number + count; ++number)
+    if (!is_served(letter_of(kind), number))
+      return ValueFault{fmt::format("{}{} is not simulated", letter_of(kind), number),
+                        fmt::format("there are {}", served_specials(letter_of(kind)))};
+  return {};
 }
 
 std::optional<ValueFault> misfit(const Operand& operand, char kind, const Spelling& spelling) {

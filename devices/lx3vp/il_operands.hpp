@@ -10,6 +10,9 @@ namespace drycut::devices::lx3vp::il {
 
 /// Reads an operand: a device in its range, a number or a label. A fault is told in `fault`.
 std::optional<Operand> read_operand(std::string_view text, ValueFault& fault);
+/// What is wrong with a special register or relay that the simulated PLC does not serve: a program that waits
+/// for it would wait for ever.
+std::optional<ValueFault> unserved(const Operand& operand);
 
 /// Whether an operand is of the kind that an instruction asks for (a letter of Mnemonic::operands), and fits
 /// its range with all the words or bits that the instruction takes there; else what is wrong.

@@ -86,7 +86,7 @@ void Lx3vpController::add_names() {
 
 std::optional<ControllerValue> Lx3vpController::find(const std::string& name) {
   const auto named = parse_register(name);
-  if (!named) return std::nullopt;
+  if (!named || !is_served(*named)) return std::nullopt;
   ControllerValue value{to_string(*named), "", {}, {}, {}};
   const auto at = static_cast<std::size_t>(named->number);
   if (named->kind == RegisterName::Kind::x) {

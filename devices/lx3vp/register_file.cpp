@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/lx3vp/block.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -58,6 +59,9 @@ class RowReader {
     const auto name = parse_register(name_text);
     if (!name && first && value_text == "value") return;
     if (!name) complain(name_text, fmt::format("'{}' is no register", shown(name_text)), register_text);
+    if (name && !is_served(*name))
+      complain(name_text, fmt::format("{} is not simulated", to_string(*name)),
+               "there are " + served_specials(letter_of(*name)));
     const auto value = read_number(value_text);
     if (!value)
       complain(value_text, fmt::format("'{}' is no number", shown(value_text)),

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "devices/lx3vp/block.hpp"
 
 namespace drycut::devices::lx3vp {
 
@@ -134,6 +135,11 @@ std::string to_string(const RegisterName& name) {
 char letter_of(const RegisterName& name) {
   const Prefix& prefix = prefix_of(name.kind);
   return prefix.kind == Kind::wide || prefix.kind == Kind::real ? 'D' : prefix.text.front();
+}
+
+bool is_served(const RegisterName& name) {
+  const char letter = letter_of(name);
+  return (letter != 'D' && letter != 'M') || is_served(letter, name.number);
 }
 
 double read(const Registers& registers, const RegisterName& name) {

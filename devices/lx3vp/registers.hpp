@@ -142,6 +142,8 @@ std::string shown(std::string_view text);
 std::optional<RegisterName> parse_register(std::string_view text);
 /// The letter of its device.
 char letter_of(const RegisterName& name);
+/// Whether the simulated PLC serves it: of the special ones not all (block.hpp).
+bool is_served(const RegisterName& name);
 /// In the first of the spellings above.
 std::string to_string(const RegisterName& name);
 

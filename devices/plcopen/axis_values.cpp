@@ -28,9 +28,9 @@ constexpr AxisValue input(std::string_view name, std::string_view meaning) {
 
 constexpr std::array value_rows{
     AxisValue{"set_position", AxisQuantity::position, "commanded position, of a modulo axis in its turn",
-              [](const Axis& axis) { return axis.set().position.part / increments; }},
+              [](const Axis& axis) { return axis.set().position.part / increments; }, nullptr, 0, 0, true},
     AxisValue{"actual_position", AxisQuantity::position, "position by the encoder",
-              [](const Axis& axis) { return axis.actual().part / increments; }},
+              [](const Axis& axis) { return axis.actual().part / increments; }, nullptr, 0, 0, true},
     AxisValue{"set_velocity", AxisQuantity::velocity, "commanded speed",
               [](const Axis& axis) { return axis.set().velocity / increments; }},
     AxisValue{"actual_velocity", AxisQuantity::velocity, "speed by the encoder",

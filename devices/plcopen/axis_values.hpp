@@ -20,6 +20,7 @@ struct AxisValue {
   void (*write)(Axis& axis, double value) = nullptr;  ///< nullptr: can only be read
   double min = 0;                                     ///< of one that can be written
   double max = 0;
+  bool in_turn = false;  ///< of a modulo axis: begins again with each turn
 };
 std::span<const AxisValue> axis_value_table();
 

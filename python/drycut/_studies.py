@@ -183,7 +183,7 @@ def tune(files: Path | Sequence[Path], vary: Mapping[str, str], minimise: str, *
                          list(constraints), start, ignore_checks, wire, at, amplitude, budget, seed,
                          [f"{path}={span}" for path, span in (spread or {}).items()], spread_runs, jobs, folder,
                          out is not None, progress)
-    words = ("phase", "note")
+    words = ("phase", "note", "checksum")
     got["trials"] = read_csv(got.pop("evaluations"), words)[0]
     got["spread"] = read_csv(got["spread"], words)[0] if got["spread"] else None
     return Tuning(**got)

@@ -10,7 +10,7 @@
 namespace drycut::sim::cams {
 
 std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> master_per_s) {
-  std::string text = "master,slave,velocity,acceleration,jerk,sector";
+  std::string text(cam_csv_header);
   if (master_per_s) text += ",time,velocity_t,acceleration_t,jerk_t";
   text += '\n';
   const auto out = std::back_inserter(text);

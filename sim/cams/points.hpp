@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "devices/cam/law.hpp"
@@ -14,8 +15,9 @@ struct CamPoint : devices::CamMotion {
   int row = 0;  ///< sector, or row of the table, that begins the piece; 0: the cam has released the slave
 };
 
-/// `master,slave,velocity,acceleration,jerk,sector`, and with the master's speed [units/s]
-/// `time,velocity_t,acceleration_t,jerk_t` [s, slave units/s, /s2, /s3]. Numbers read back to the same bits.
+inline constexpr std::string_view cam_csv_header = "master,slave,velocity,acceleration,jerk,sector";
+/// A table of these columns, and with the master's speed [units/s] `time,velocity_t,acceleration_t,jerk_t`
+/// [s, slave units/s, /s2, /s3]. Numbers read back to the same bits.
 std::string cam_csv(const std::vector<CamPoint>& points, std::optional<double> master_per_s);
 
 /// The samples of `--at` as a table.

@@ -103,9 +103,16 @@ std::string gitlab_text(const std::vector<Annotation>& annotations) {
   return json.dump(2) + "\n";
 }
 
+void check_annotate(const std::string& whom, Problems& problems) {
+  if (whom != "gitlab") return;
+  if (const auto why = hindrance(gitlab_file); !why.empty())
+    problems.push_back({"--annotate", 1, 1, fmt::format("{} cannot be written: {}", gitlab_file, why),
+                        "call drycut in a folder that can be written"});
+}
+
 void annotate(const std::string& whom, const std::vector<Annotation>& annotations) {
   if (whom == "github") fmt::print("{}", github_text(annotations));
-  if (whom == "gitlab") write_file(gitlab_file, gitlab_text(annotations));
+  if (whom == "gitlab" && hindrance(gitlab_file).empty()) write_file(gitlab_file, gitlab_text(annotations));
 }
 
 }  // namespace drycut::sim::cli

@@ -30,8 +30,11 @@ std::string github_text(const std::vector<Annotation>& annotations);
 std::string gitlab_text(const std::vector<Annotation>& annotations);
 inline constexpr auto* gitlab_file = "gl-code-quality-report.json";
 
+/// It is a problem of `--annotate` if what annotate() writes cannot be written.
+void check_annotate(const std::string& whom, Problems& problems);
 /// Prints them for "github" on standard output, writes them for "gitlab" into `gitlab_file` in the current
-/// folder; nothing for "". Throws std::runtime_error if that cannot be done.
+/// folder, unless check_annotate() has told that it cannot; nothing for "". Throws std::runtime_error if that
+/// cannot be done.
 void annotate(const std::string& whom, const std::vector<Annotation>& annotations);
 
 }  // namespace drycut::sim::cli

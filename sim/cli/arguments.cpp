@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "sim/file.hpp"
+#include "sim/records/own_file.hpp"
 #include "sim/studies/cluster/engine.hpp"
 
 namespace drycut::sim::cli {
@@ -75,27 +76,36 @@ std::vector<scenario::Override> overrides_of(const std::vector<std::string>& set
   return overrides;
 }
 
-void check_output(const char* option, const std::string& file, const InputFile& input, Problems& problems) {
+void add_force(CLI::App& command, bool& force) {
+  command.add_flag("--force", force, "Replace files, too, that drycut did not write");
+}
+
+void check_output(const char* option, const std::string& file, const InputFile& input,
+                  const Replacing& replacing, Problems& problems) {
   std::error_code ignored;
-  if (fs::equivalent(file, input.file, ignored))
-    problems.push_back(
-        {option, 1, 1, fmt::format("{} is the {} itself", file, input.kind), "name another file"});
+  const auto refuse = [&](std::string what, const char* remedy) {
+    problems.push_back({option, 1, 1, std::move(what), remedy});
+  };
+  const bool is_input = fs::equivalent(file, input.file, ignored);
+  if (is_input) refuse(fmt::format("{} is the {} itself", file, input.kind), "name another file");
   if (fs::is_directory(file, ignored))
-    problems.push_back({option, 1, 1, fmt::format("{} is a directory", file), "name a file"});
+    refuse(fmt::format("{} is a directory", file), "name a file");
   else if (const auto why = hindrance(file); !why.empty())
-    problems.push_back(
-        {option, 1, 1, fmt::format("{} cannot be written: {}", file, why), "name another file"});
+    refuse(fmt::format("{} cannot be written: {}", file, why), "name another file");
+  else if (!is_input && !replacing.force && fs::is_regular_file(file, ignored) &&
+           !records::is_own_file(file, replacing.header))
+    refuse(fmt::format("{} is there already, and drycut did not write it", file),
+           "name another file, or replace it with --force");
   const auto folder = fs::path(file).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
-    problems.push_back({option, 1, 1, fmt::format("there is no directory {}", folder.string()),
-                        "make it first or name another"});
+    refuse(fmt::format("there is no directory {}", folder.string()), "make it first or name another");
 }
 
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
-                   Problems& problems) {
-  if (!csv.empty() && csv != "-") check_output("--csv", csv, input, problems);
+                   const Replacing& replacing, Problems& problems) {
+  if (!csv.empty() && csv != "-") check_output("--csv", csv, input, replacing, problems);
   if (png.empty()) return;
-  check_output("--png", png, input, problems);
+  check_output("--png", png, input, {replacing.force}, problems);
   const fs::path picture = png;
   if (picture.extension() != ".png" || picture.stem().empty())
     problems.push_back({"--png", 1, 1, fmt::format("{} does not end in .png", png), "name it x.png"});

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -44,11 +45,19 @@ struct InputFile {
   std::filesystem::path file;
   std::string kind;  ///< "scenario", "table"
 };
-/// The file of an option can be written and is not the input.
-void check_output(const char* option, const std::string& file, const InputFile& input, Problems& problems);
-/// The files of `--csv` ("" = none, "-" = standard output) and `--png` ("" = none): they can be written, are
-/// not the input and not each other, and the picture's name ends in .png.
+/// What an option's file may replace: what drycut wrote (records::is_own_file), all else only with --force.
+struct Replacing {
+  bool force = false;
+  std::string_view header = {};  ///< with which the first line of a table of its kind begins
+};
+/// `--force`
+void add_force(CLI::App& command, bool& force);
+/// The file of an option can be written, is not the input and replaces nobody's work.
+void check_output(const char* option, const std::string& file, const InputFile& input,
+                  const Replacing& replacing, Problems& problems);
+/// The files of `--csv` ("" = none, "-" = standard output) and `--png` ("" = none), likewise; they are not
+/// each other, and the picture's name ends in .png. `replacing` has the header of the former.
 void check_outputs(const std::string& csv, const std::string& png, const InputFile& input,
-                   Problems& problems);
+                   const Replacing& replacing, Problems& problems);
 
 }  // namespace drycut::sim::cli

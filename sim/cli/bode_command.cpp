@@ -26,7 +26,8 @@ void check_options(const BodeOptions& options, Problems& problems) {
   studies::check_request(options.loop, problems);
   check_limit("--min-phase-margin", options.min_phase_margin, 180, "deg", problems);
   check_limit("--min-gain-margin", options.min_gain_margin, 200, "dB", problems);
-  check_outputs(options.csv, options.png, {options.scenario, "scenario"}, problems);
+  check_outputs(options.csv, options.png, {options.scenario, "scenario"},
+                {options.force, studies::bode_csv_header}, problems);
 }
 
 /// The limits of the options and what there is.
@@ -155,6 +156,7 @@ void add_bode(CLI::App& app, int& status) {
   bode->add_option("--min-gain-margin", options.min_gain_margin, "Fails if the margin is less [dB]");
   bode->add_option("--csv", options.csv, "Write the response; - prints it, the report to standard error");
   bode->add_option("--png", options.png, "Draw gain and phase");
+  add_force(*bode, options.force);
   add_out(*bode, options.out, "Directory for report.html, plot and table");
   add_set(*bode, options.set, "scenario");
   bode->callback([chosen, &status] { status = measure_bode(*chosen); });

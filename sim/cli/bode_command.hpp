@@ -19,6 +19,7 @@ struct BodeOptions {
   std::string png;                         ///< "" = none
   std::filesystem::path out;               ///< folder for report, plot and table, "" = none
   std::vector<std::string> set;            ///< overrides of the scenario: path=value
+  bool force = false;                      ///< files that drycut did not write are replaced too
 };
 /// drycut bode: 0 measured, 1 not stable, open, not to be trusted or below a limit, 2 bad input, 3 the
 /// simulation failed

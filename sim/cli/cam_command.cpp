@@ -9,6 +9,7 @@
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/table_values.hpp"
 #include "sim/file.hpp"
+#include "sim/records/own_file.hpp"
 #include "sim/report/report.hpp"
 
 namespace drycut::sim::cli {
@@ -34,9 +35,9 @@ void check_options(const CamOptions& options, bool speed_known, Problems& proble
                             "give --master-speed too"});
   }
   const InputFile input{options.table, "table"};
-  check_outputs(options.csv, options.png, input, problems);
+  check_outputs(options.csv, options.png, input, {options.force, cams::cam_csv_header}, problems);
   if (options.rows.empty()) return;
-  check_output("--table", options.rows, input, problems);
+  check_output("--table", options.rows, input, {options.force}, problems);
   if (options.rows == options.csv || options.rows == options.png)
     problems.push_back({"--table", 1, 1, "it is the file of another option", "name another file"});
 }
@@ -49,7 +50,8 @@ void write(const CamOptions& options, const cams::CamStudy& study) {
     else
       write_file(options.csv, text);
   }
-  if (!options.rows.empty() && !study.table.empty()) write_file(options.rows, study.table);
+  if (!options.rows.empty() && !study.table.empty())
+    write_file(options.rows, fmt::format("## {} cam.\n{}", records::own_mark, study.table));
   if (!options.png.empty() && !study.plot.panels.empty()) report::draw_png(study.plot, options.png);
 }
 
@@ -121,6 +123,7 @@ void add_cam(CLI::App& app, int& status) {
   cam->add_option("--loops", options.loops, "Times round, for a cam that comes back to its beginning")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
+  add_force(*cam, options.force);
   cam->add_flag("--strict", options.strict, "Warnings and cautions fail as well");
   cam->callback([chosen, &status] { status = validate_cam(*chosen); });
 }

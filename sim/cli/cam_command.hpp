@@ -20,6 +20,7 @@ struct CamOptions {
   std::string rows = {};   ///< file for the rows that the device makes from parameters, "" = none
   int loops = 1;
   bool strict = false;  ///< warnings and cautions fail too
+  bool force = false;   ///< files that drycut did not write are replaced too
 };
 /// drycut cam: 0 sound, 1 an error or a violated limit, 2 bad input
 int validate_cam(const CamOptions& options);

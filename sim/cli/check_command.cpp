@@ -153,10 +153,12 @@ class Checker {
 int check_files(const CheckOptions& options) {
   Checker checker(options);
   for (const auto& file : options.files) checker.check(file);
-  print_problems(checker.problems());
-  annotate(options.annotate, annotations_of(checker.problems()));
-  if (!checker.problems().empty()) {
-    fmt::print(stderr, "{} in {}\n", counted(checker.problems().size(), "problem"),
+  auto problems = checker.problems();
+  check_annotate(options.annotate, problems);
+  print_problems(problems);
+  annotate(options.annotate, annotations_of(problems));
+  if (!problems.empty()) {
+    fmt::print(stderr, "{} in {}\n", counted(problems.size(), "problem"),
                counted(options.files.size(), "file"));
     return bad_input;
   }

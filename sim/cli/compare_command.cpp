@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "base/output_file.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/scenario/yaml_reader.hpp"
 #include "sim/studies/compare/report.hpp"
@@ -93,7 +94,7 @@ int compare_runs(const CompareOptions& options) {
     folder->begin();
     studies::write_comparison(comparison, page, *folder, options.pictures);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   fmt::print("{}: {}", page.title, studies::comparison_text(comparison, page.passed.has_value()));

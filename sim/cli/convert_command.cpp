@@ -8,10 +8,12 @@
 #include <memory>
 #include <vector>
 
+#include "base/output_file.hpp"
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/records/csv_files.hpp"
+#include "sim/records/own_file.hpp"
 #include "sim/studies/compare/run_folder.hpp"
 #include "sim/studies/convert.hpp"
 
@@ -36,12 +38,17 @@ fs::path file_beside(const fs::path& run, const char* ending) {
 /// The files that are written: none is in the way, and none is what is read.
 void check_files(const ConvertOptions& options, const std::vector<fs::path>& files, Problems& problems) {
   std::error_code ignored;
+  // Anybody's trace may begin with its time; drycut's is the one that has its events beside it.
+  const auto& events = files.back();
+  const bool is_own_trace = files.size() > 1 && records::is_own_file(events, records::events_header);
+  const auto header = is_own_trace ? records::trace_header : records::events_header;
   for (const auto& file : files) {
-    if (!options.out.empty())
-      check_output("--out", file.string(), {options.run, "record"}, problems);
-    else if (fs::exists(file, ignored))
+    if (options.out.empty() && fs::exists(file, ignored))
       problems.push_back({file.string(), 1, 1, "there is such a file already",
-                          "name the file with --out: one that is named is replaced"});
+                          "name the file with --out: one that drycut wrote is replaced then"});
+    else
+      check_output("--out", file.string(), {options.run, "record"},
+                   {options.force, &file == &events ? records::events_header : header}, problems);
   }
 }
 
@@ -71,11 +78,13 @@ int convert_run(const ConvertOptions& options) {
       try {
         studies::write_record(record, format, out);
       } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", printable(error.what()));
+        fmt::print(stderr, "{}\n", printable(drycut::words_of(error)));
         return simulation_failed;
       }
       std::string names;
       for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.string();
+      if (!record.failure.empty())
+        fmt::print("note: the run did not come to its end: {}\n", printable(record.failure));
       fmt::print("{} rows of {} channels, {} events: {}\n", record.recording.times().size(),
                  record.recording.columns().size(), record.recording.events().size(), names);
       return all_passed;
@@ -98,7 +107,8 @@ void add_convert(CLI::App& app, int& status) {
   convert->add_option("--to", options.to, "csv, hdf5, mcap")->required();
   convert->add_option(
       "--out", options.out,
-      "The file, which is replaced if there is one; else the run's name with .csv, .h5, .mcap");
+      "The file, which is replaced if drycut wrote it; else the run's name with .csv, .h5, .mcap");
+  add_force(*convert, options.force);
   convert->callback([chosen, &status] { status = convert_run(*chosen); });
 }
 

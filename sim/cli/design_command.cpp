@@ -191,7 +191,8 @@ class JobReader {
       problem("--scene", "there is nothing to run in it", "give --table too");
     if (options_.decpt && options_.device != "camming4")
       problem("--decpt", "only CAMMING4 has it", "leave it out");
-    if (!options_.table.empty()) check_output("--table", options_.table, {"", "job"}, problems_);
+    if (!options_.table.empty())
+      check_output("--table", options_.table, {"", "job"}, {options_.force}, problems_);
   }
 
   const DesignOptions& options_;
@@ -264,7 +265,8 @@ std::optional<studies::CamScene> scene_with(const DesignOptions& options, const 
   auto made = studies::cam_scene(sheet, scene, options.table, problems);
   if (!made) return {};
   for (const auto& file : {made->file, made->registers_file})
-    if (!file.empty()) check_output("--scene", file.string(), {options.scene, "scene"}, problems);
+    if (!file.empty())
+      check_output("--scene", file.string(), {options.scene, "scene"}, {options.force}, problems);
   return made;
 }
 
@@ -321,7 +323,7 @@ int design_cam(const DesignOptions& options) {
       fmt::print("  picture: {}\n", picture.string());
     }
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   return cams::is_unsound(sheet->findings, false) ? check_failed : all_passed;
@@ -379,6 +381,7 @@ void add_design(CLI::App& app, int& status) {
   add("--slave-pulse", options.slave_pulse, "The same of the slave; unless given the scene's, else 0.02 mm");
   design->add_option("--decpt", options.decpt, "CAMMING4: 1 Um is 10^-decpt mm; else the coarsest that fits")
       ->check(CLI::Range(0, 3));
+  add_force(*design, options.force);
   add_out(*design, options.out, "Directory for a picture: position, velocity, acceleration, jerk");
   design->callback([chosen, &status] { status = design_cam(*chosen); });
 }

@@ -32,6 +32,7 @@ struct DesignOptions {
   std::string slave_pulse;   ///< "" = the scene's, without one 0.02 mm
   std::optional<int> decpt = {};
   std::filesystem::path out;  ///< folder for the picture, "" = none
+  bool force = false;         ///< files that drycut did not write are replaced too
 };
 /// drycut design: 0 designed, 1 `drycut cam` finds fault with the table, 2 bad input or a job that cannot be
 /// done, 3 a result could not be written

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <optional>
 
+#include "base/output_file.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report/index.hpp"
 
@@ -28,6 +28,7 @@ int index_folder(const fs::path& folder) {
   std::optional<OutputFolder> out;
   if (problems.empty())
     out.emplace(folder, report::index_kind, std::vector<std::string>{report::index_file}, problems);
+  for (auto& problem : problems) problem.file = folder.string();  // there is no --out
   if (!problems.empty()) {
     print_problems(problems);
     return bad_input;
@@ -35,12 +36,10 @@ int index_folder(const fs::path& folder) {
   try {
     out->begin({report::index_neighbour});
     const auto entries = report::write_index(folder, *out);
-    const auto failed = std::count_if(entries.begin(), entries.end(),
-                                      [](const report::IndexEntry& entry) { return entry.word == "FAIL"; });
-    fmt::print("{} {} of results, {} failed: {}\n", entries.size(),
-               entries.size() == 1 ? "folder" : "folders", failed, (folder / report::index_file).string());
+    fmt::print("{} {} of results, {}: {}\n", entries.size(), entries.size() == 1 ? "folder" : "folders",
+               report::index_verdict(entries), (folder / report::index_file).string());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   return all_passed;

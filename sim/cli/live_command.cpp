@@ -214,7 +214,8 @@ int replay_session(const ReplayOptions& options) {
     return run_scenarios(run);
   }
   Problems problems;
-  check_output("--to-scenario", options.to_scenario.string(), {session, "session"}, problems);
+  check_output("--to-scenario", options.to_scenario.string(), {session, "session"}, {options.force},
+               problems);
   std::string text;
   std::vector<std::string> notes;
   if (problems.empty()) text = live::scenario_of_session(session, options.to_scenario, notes, problems);
@@ -276,6 +277,7 @@ void add_replay(CLI::App& app, int& status) {
   add_no_pictures(*command, options.pictures, "No frames, plots or report");
   command->add_option("--to-scenario", options.to_scenario,
                       "Write it as a scenario with a timeline, and run nothing");
+  add_force(*command, options.force);
   command->callback([chosen, &status] { status = replay_session(*chosen); });
 }
 

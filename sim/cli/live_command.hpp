@@ -32,6 +32,7 @@ struct ReplayOptions {
   std::filesystem::path out = "out/replay";
   std::filesystem::path to_scenario;  ///< is written in place of a run; "" = run
   bool pictures = true;
+  bool force = false;  ///< a file that drycut did not write is replaced too
 };
 /// drycut replay: as drycut run
 int replay_session(const ReplayOptions& options);

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.hpp"
 #include "base/plain_text.hpp"
 #include "base/text.hpp"
 #include "sim/cli/commands.hpp"
@@ -79,6 +80,6 @@ int main(int argc, char** argv) {
     std::raise(interrupted.signal);
     return interrupted_status;
   } catch (const std::exception& error) {
-    return failed(error.what());
+    return failed(drycut::words_of(error));
   }
 }

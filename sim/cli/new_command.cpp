@@ -147,11 +147,16 @@ const Start* chosen_of(const std::vector<Start>& all, const NewOptions& options,
 
 void check_folder(const fs::path& folder, Problems& problems) {
   std::error_code error;
-  const auto refuse = [&](const char* what, const char* remedy) {
+  const auto refuse = [&](const std::string& what, const char* remedy) {
     problems.push_back({folder.string(), 1, 1, what, remedy});
   };
   if (folder.empty())
     return refuse("no folder is named", "drycut new FOLDER --from MACHINE --controller CONTROLLER");
+  auto above = fs::absolute(folder, error).parent_path();
+  while (above.has_relative_path() && !fs::exists(above, error)) above = above.parent_path();
+  if (const auto why = hindrance_in(above); !why.empty())
+    return refuse(fmt::format("nothing can be written into {}: {}", above.string(), why),
+                  "name a folder elsewhere");
   if (!fs::exists(fs::symlink_status(folder, error))) return;
   if (!fs::is_directory(folder, error))
     return refuse("there is a file of that name", "name a folder that is not there yet");
@@ -215,7 +220,7 @@ int make_line(const NewOptions& options) {
   try {
     write_all(files, folder);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "drycut new: {}\n", printable(error.what()));
+    fmt::print(stderr, "drycut new: {}\n", printable(drycut::words_of(error)));
     return simulation_failed;
   }
   fmt::print("{}: {}\n", folder.string(), start->about);

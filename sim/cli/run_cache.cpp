@@ -36,6 +36,8 @@ std::string fingerprint_of(std::string_view text) {
 
 /// Of a file's bytes; "" if it cannot be read to its end.
 std::string fingerprint_of_file(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return "";  // a FIFO would be waited for
   studies::Fingerprint hash;
   std::ifstream stream(file, std::ios::binary);
   std::string block(std::size_t{1} << 16U, '\0');

@@ -54,6 +54,17 @@ void open_folders(Work& work, const RunOptions& options, Problems& problems) {
   }
 }
 
+/// What nothing has run for must not be taken for this call's: a verdict over all, which a machine reads.
+void take_back_results(const std::filesystem::path& out) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(out, ignored)) return;
+  Problems not_ours;
+  OutputFolder folder(out, "runs", {junit_file}, not_ours);
+  if (!not_ours.empty() || !folder.listed().contains(junit_file)) return;
+  folder.take_back(junit_file);
+  fmt::print(stderr, "{} of an earlier run is removed: nothing has run\n", (out / junit_file).string());
+}
+
 /// Old results go before new ones are made: what is killed half-way must not leave an old verdict.
 void begin(Work& work) {
   work.folder->begin();
@@ -86,7 +97,7 @@ void keep(Job& job, const RunCache& cache) {
         job.inputs, *job.folder,
         {job.result.outcome, job.result.has_report, job.simulation->notes(), job.scene.filename().string()});
   } catch (const std::exception& error) {
-    job.notes.push_back(fmt::format("not kept in the cache: {}", error.what()));
+    job.notes.push_back(fmt::format("not kept in the cache: {}", drycut::words_of(error)));
   }
 }
 
@@ -161,7 +172,10 @@ void run_all(std::vector<std::unique_ptr<Job>>& jobs, const RunOptions& options)
       run_job(job, options, drawing_threads, show);
       if (may_be_kept) keep(job, *cache);
     } catch (const std::exception& error) {
-      job.trouble = error.what();
+      // What stopped the run came first: a full disk takes none of the files behind the one that filled it.
+      const auto& failure = job.result.outcome.failure;
+      job.trouble = failure.empty() ? drycut::words_of(error)
+                                    : fmt::format("{}; then {}", failure, drycut::words_of(error));
     }
   });
 }
@@ -188,7 +202,7 @@ void run_groups(std::vector<Group>& groups, bool pictures) {
       if (InterruptWatch::come() != 0) throw std::runtime_error("interrupted before");
       run_group(group, pictures);
     } catch (const std::exception& error) {
-      group.trouble = fmt::format("not compared: {}", error.what());
+      group.trouble = fmt::format("not compared: {}", drycut::words_of(error));
     }
   }
 }
@@ -235,7 +249,8 @@ void check_summary(const RunOptions& options, Problems& problems) {
   if (into_results && !std::filesystem::exists(options.out)) return;
   for (const auto& file : options.scenarios) {
     Problems own;
-    check_output("--summary", options.summary.string(), {file, "scenario"}, own);
+    check_output("--summary", options.summary.string(), {file, "scenario"}, {options.force, summary_header},
+                 own);
     if (own.empty()) continue;
     problems.insert(problems.end(), own.begin(), own.end());
     return;
@@ -250,6 +265,7 @@ void print_problems(const Problems& problems) {
 
 int run_scenarios(const RunOptions& options) {
   Problems problems;
+  check_annotate(options.annotate, problems);
   auto work = prepare(options, problems);
   const auto before = problems.size();
   if (!options.summary.empty()) check_summary(options, problems);
@@ -258,6 +274,8 @@ int run_scenarios(const RunOptions& options) {
   if (problems.empty()) open_folders(work, options, problems);
   if (!problems.empty()) {
     print_problems(problems);
+    work.folder.reset();  // and its lock
+    take_back_results(options.out);
     annotate(options.annotate, annotations_of(problems));
     if (has_summary &&
         std::filesystem::is_directory(std::filesystem::absolute(options.summary).parent_path()))
@@ -278,7 +296,7 @@ int run_scenarios(const RunOptions& options) {
           options.summary,
           summary_text(results, {options.out, links_from(options.summary, options.out, options.links)}));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
   return InterruptWatch::come() == 0 ? status_of(work) : interrupted_status;
@@ -305,6 +323,7 @@ void add_run(CLI::App& app, int& status) {
                   "Write a summary in Markdown, for pull requests: verdicts, failed checks, pictures");
   run->add_option("--links", options.links,
                   "With --summary: where the results will be found, https://host/page");
+  run->add_flag("--force", options.force, "With --summary: replace a file, too, that drycut did not write");
   add_annotate(*run, options.annotate);
   add_set(*run, options.set, "scenarios");
   auto* quiet = run->add_flag_callback(

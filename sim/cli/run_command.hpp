@@ -25,6 +25,7 @@ struct RunOptions {
   std::filesystem::path cache = {};    ///< keeps results by what determines them, "" = nothing is kept
   std::filesystem::path summary = {};  ///< in Markdown, "" = none
   std::string links = {};              ///< where a summary's readers find the results, "" = beside it
+  bool force = false;                  ///< a summary's file that drycut did not write is replaced too
   std::string annotate = {};           ///< what failed at its line, for "github" or "gitlab"; "" = for nobody
 };
 /// drycut run

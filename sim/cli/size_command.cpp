@@ -121,7 +121,7 @@ int size_drive(const SizeOptions& options) {
       print_problems(problems);
       return bad_input;
     }
-    folder->begin({runs_file});
+    folder->begin_aside({runs_file});
     studies::PointStore store(folder->add(runs_file), std::move(workers));
     Progress bar;
     const auto sized = studies::size_drives(plan.question, plan.candidates, plan.corners, store,
@@ -134,6 +134,7 @@ int size_drive(const SizeOptions& options) {
     write_file(folder->add(size_file), studies::size_csv(plan.candidates, sized, order));
     studies::write_size_report(plan.question, plan.choices, plan.candidates, plan.corners, sized, order,
                                *folder);
+    folder->finish();
     print_best(plan, sized, order);
     const auto fitting = std::count_if(sized.begin(), sized.end(), [](const auto& one) {
       return one.kind == studies::Sized::Kind::fits || one.kind == studies::Sized::Kind::close;
@@ -145,7 +146,7 @@ int size_drive(const SizeOptions& options) {
     if (!store.lost().empty()) return simulation_failed;
     return fitting > 0 ? all_passed : check_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", options.out.string(), error.what());
+    fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
     return simulation_failed;
   }
 }

@@ -39,9 +39,10 @@ class Text {
     const auto good = static_cast<std::size_t>(
         std::count_if(results.begin(), results.end(), [](const auto& r) { return r.outcome.passed(); }));
     text_ = good == results.size()
-                ? fmt::format("## Drycut: {} passed\n\n",
+                ? fmt::format("{}{} passed\n\n", summary_header,
                               good == 1 ? "the one scene" : fmt::format("all {} scenes", good))
-                : fmt::format("## Drycut: {} of {} scenes failed\n\n", results.size() - good, results.size());
+                : fmt::format("{}{} of {} scenes failed\n\n", summary_header, results.size() - good,
+                              results.size());
     text_ += "| scene | verdict | checks | simulated |\n|---|---|---|---|\n";
     for (const auto& result : results) row(result);
     for (const auto& result : results) failures(result);
@@ -112,7 +113,7 @@ std::string summary_text(const std::vector<report::RunResult>& results, const Su
 }
 
 std::string summary_text(const Problems& problems) {
-  auto text = fmt::format("## Drycut: nothing was run, {} {} wrong\n\n",
+  auto text = fmt::format("{}nothing was run, {} {} wrong\n\n", summary_header,
                           problems.size() == 1 ? "a thing" : fmt::format("{} things", problems.size()),
                           problems.size() == 1 ? "is" : "are");
   for (const auto& problem : problems) text += fmt::format("- {}\n", plain(to_string(problem)));

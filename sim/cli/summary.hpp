@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/problem.hpp"
@@ -16,6 +17,7 @@ struct Summary {
   std::filesystem::path out;  ///< the folder of all results
   std::optional<std::string> links;
 };
+inline constexpr std::string_view summary_header = "## Drycut: ";  ///< how it begins
 std::string summary_text(const std::vector<report::RunResult>& results, const Summary& summary);
 /// What it is told where nothing could be run.
 std::string summary_text(const Problems& problems);

@@ -122,14 +122,15 @@ int in_folder(const StudyOptions& options, OutputFolder& folder, const Work& wor
     Problems problems;
     auto workers = workers_of(options.cluster, options.jobs, options.out, problems);
     if (!problems.empty()) return bad(problems);
-    folder.begin({points_file});
+    folder.begin_aside({points_file});
     studies::PointStore store(folder.add(points_file), std::move(workers));
     work(store);
+    folder.finish();
     fmt::print("{} runs simulated now\n", store.simulated());
     for (const auto& lost : store.lost()) fmt::print(stderr, "{}\n", printable(lost));
     return store.lost().empty() ? all_passed : simulation_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", options.out.string(), error.what());
+    fmt::print(stderr, "{}: {}\n", options.out.string(), drycut::words_of(error));
     return simulation_failed;
   }
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/output_file.hpp"
 #include "base/plain_text.hpp"
 #include "sim/cli/arguments.hpp"
 #include "sim/cli/progress.hpp"
@@ -58,7 +59,7 @@ int tune_scenarios(const TuneOptions& options) {
   try {
     return tune(options, plan, *folder);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", drycut::words_of(error));
     return simulation_failed;
   }
 }

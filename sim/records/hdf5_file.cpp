@@ -85,6 +85,7 @@ Hdf5File::Hdf5File(const loop::Recording& recording, const std::filesystem::path
   H5Pset_attr_phase_change(list_of_file, 0, 0);  // attributes may be longer than 64 KB
   open.file = {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, list_of_file, access()), H5Fclose};
   require(open.file.good());
+  require(put_attribute(open.file, hdf5::writer_name, hdf5::writer));
   for (const auto& [name, text] : about) require(put_attribute(open.file, name.c_str(), text));
   {
     const auto list = creation(H5P_GROUP_CREATE);

@@ -233,10 +233,21 @@ About read_about(hid_t file) {
 }  // namespace
 
 bool is_hdf5(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;  // a FIFO would be waited for
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   std::array<char, signature.size()> begin{};
   std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
   return std::string_view(begin.data(), begin.size()) == signature;
+}
+
+bool names_drycut(const std::filesystem::path& file) {
+  const hdf5::Turn turn;
+  try {
+    return attribute_of(open_file(file), hdf5::writer_name) == hdf5::writer;
+  } catch (const Wrong&) {
+    return false;
+  }
 }
 
 Record read_hdf5(const std::filesystem::path& file, Problems& problems) {

@@ -89,6 +89,8 @@ inline constexpr auto* channels_name = "channels";
 inline constexpr auto* events_name = "events";
 inline constexpr auto* checks_name = "checks";
 inline constexpr auto* unit_name = "unit";
+inline constexpr auto* writer_name = "written_by";  ///< of the file: `writer`
+inline constexpr auto* writer = "drycut";
 
 /// Of an event a row a value, one at least. Where a text is longer than its field, it goes on in the row
 /// below, which has no time.

@@ -17,6 +17,7 @@ struct Record {
   loop::Recording recording;
   About about;
   std::vector<loop::CheckResult> checks;  ///< none in a run that did not come to its end
+  std::string failure = {};               ///< why it did not, as far as its folder says; "" = it did
 };
 
 }  // namespace drycut::sim::records

@@ -224,17 +224,40 @@ std::vector<IndexEntry> index_entries(const fs::path& folder) {
   return entries;
 }
 
-std::string index_page(const std::vector<IndexEntry>& entries) {
-  const auto failed = std::count_if(entries.begin(), entries.end(), has_failed);
-  const auto judged = std::count_if(entries.begin(), entries.end(),
-                                    [](const IndexEntry& entry) { return rank_of(entry) % 3 == 0; });
-  const auto* state = failed > 0 ? "fail" : judged > 0 ? "pass" : "told";
-  const auto word = failed > 0 ? "FAIL" : judged > 0 ? "PASS" : "RUNS";
-  auto said = failed > 0   ? fmt::format("{} of {} failed", failed, judged)
-              : judged > 0 ? fmt::format("{} passed", judged == 1 ? "it" : fmt::format("all {}", judged))
-                           : std::string("nothing is judged");
-  if (const auto told = static_cast<std::ptrdiff_t>(entries.size()) - judged; told > 0 && judged > 0)
+std::string index_verdict(const std::vector<IndexEntry>& entries) {
+  std::string said;
+  std::size_t judged = 0;
+  // A comparison that finds a difference is no run that failed.
+  const auto count = [&](bool runs, const char* one, const char* several) {
+    std::size_t all = 0;
+    std::size_t failed = 0;
+    for (const auto& entry : entries) {
+      if ((entry.kind == "run") != runs || rank_of(entry) % 3 != 0) continue;
+      ++all;
+      failed += has_failed(entry) ? 1 : 0;
+    }
+    judged += all;
+    if (all == 0) return;
+    said += said.empty() ? "" : "; ";
+    said += failed > 0 ? fmt::format("{} of {} {} failed", failed, all, all == 1 ? one : several)
+            : all == 1 ? fmt::format("the one {} passed", one)
+                       : fmt::format("all {} {} passed", all, several);
+  };
+  count(true, "run", "runs");
+  count(false, "comparison or study", "comparisons and studies");
+  if (judged == 0) return "nothing is judged";
+  if (const auto told = entries.size() - judged; told > 0)
     said += fmt::format("; {} {} nothing", told, told == 1 ? "judges" : "judge");
+  return said;
+}
+
+std::string index_page(const std::vector<IndexEntry>& entries) {
+  const bool failed = std::ranges::any_of(entries, has_failed);
+  const bool judged =
+      std::ranges::any_of(entries, [](const IndexEntry& entry) { return rank_of(entry) % 3 == 0; });
+  const auto* state = failed ? "fail" : judged ? "pass" : "told";
+  const auto word = failed ? "FAIL" : judged ? "PASS" : "RUNS";
+  const auto said = index_verdict(entries);
   std::string rows;
   for (const auto& entry : entries) rows += row_of(entry);
   return fmt::format(

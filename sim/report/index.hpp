@@ -33,6 +33,9 @@ struct IndexEntry {
 /// followed. A folder of which the verdict cannot be read is one of which it is not known.
 std::vector<IndexEntry> index_entries(const std::filesystem::path& folder);
 
+/// What came of them: "1 of 3 runs failed; all 2 comparisons and studies that judge passed".
+std::string index_verdict(const std::vector<IndexEntry>& entries);
+
 /// A page of them, sortable, that opens offline as long as it stays where it is. Same folders, same bytes.
 std::string index_page(const std::vector<IndexEntry>& entries);
 

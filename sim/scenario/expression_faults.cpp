@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "base/problem.hpp"
 #include "base/text.hpp"
 #include "sim/scenario/expression_functions.hpp"
@@ -19,8 +22,16 @@ std::string suggest(const std::string& word, const std::vector<std::string>& can
   const auto near = nearest(word, candidates);
   if (!near.empty()) return fmt::format("did you mean {}?", near);
   constexpr std::size_t few = 30;
-  if (listed.empty() || listed.size() > few) return "";
-  return fmt::format("known: {}", fmt::join(listed, ", "));
+  if (listed.empty()) return "no name is known here; write numbers";
+  if (listed.size() <= few) return fmt::format("known: {}", fmt::join(listed, ", "));
+  // Of many those that begin alike: gbStep and gbTour for gbPhase.
+  auto alike = listed;
+  std::ranges::stable_sort(alike, std::greater<>(), [&](const std::string& name) {
+    return std::ranges::mismatch(name, word).in1 - name.begin();
+  });
+  constexpr std::size_t most = 5;
+  alike.resize(most);
+  return fmt::format("known are {} and {} more", fmt::join(alike, ", "), listed.size() - most);
 }
 
 // "'3 mm' is a length"

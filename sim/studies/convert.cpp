@@ -53,7 +53,11 @@ class Part {
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
   [[nodiscard]] const fs::path& path() const { return part_; }
-  void finish() const { fs::rename(part_, file_); }
+  void finish() const {
+    std::error_code error;
+    fs::rename(part_, file_, error);
+    if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", file_.string(), error.message()));
+  }
 
  private:
   fs::path file_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <thread>
 
+#include "base/output_file.hpp"
 #include "renders/camera.hpp"
 #include "renders/caption_bar.hpp"
 #include "renders/pictures.hpp"
@@ -264,7 +265,7 @@ TEST(RendersFilm, SaysWhichFileCannotBeWritten) {
   const Scratch scratch;
   std::filesystem::create_directories(scratch / "frame_00000.png");  // a directory is in the way
   EXPECT_THAT(message_of<std::runtime_error>([&] { draw_film(two_parts(), scratch.path); }),
-              HasSubstr("frame_00000.png: cannot be written"));
+              HasSubstr("frame_00000.png: it is a directory"));
 }
 
 // ---- caption ----

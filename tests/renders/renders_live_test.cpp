@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/output_file.hpp"
 #include "renders/html.hpp"
 #include "renders/plot_layout.hpp"
 #include "renders/png_image.hpp"

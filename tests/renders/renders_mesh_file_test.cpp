@@ -3,6 +3,7 @@
 #include "renders/mesh_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <fstream>
@@ -60,6 +61,12 @@ class RendersMeshFile : public ::testing::Test {
   }
   Scratch scratch_;
 };
+
+/// A library of materials that is a FIFO, which nobody writes: the attempt took its two minutes.
+TEST_F(RendersMeshFile, AFifoBesideItIsNotWaitedFor) {
+  ASSERT_EQ(mkfifo((scratch_ / "box.mtl").c_str(), 0600), 0);
+  EXPECT_EQ(good("box.obj", "mtllib box.mtl\n" + box_obj(200, 100, 50)).corners.size(), 36U);
+}
 
 void expect_near(const Vec3& a, const Vec3& b) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1e-6) << i;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.hpp"
 #include "renders/html.hpp"
 #include "renders/png_image.hpp"
 #include "renders/report_data.hpp"
@@ -310,7 +311,7 @@ TEST(RendersReport, SaysThatItCannotBeWritten) {
   const Scratch scratch;
   EXPECT_THAT(
       message_of<std::runtime_error>([&] { write_report(Report{}, scratch / "no/such/report.html"); }),
-      HasSubstr("cannot be written"));
+      HasSubstr("cannot write "));
 }
 
 TEST(RendersReport, SameReportSameBytes) {

@@ -1,4 +1,5 @@
 // The film file and the strip made of the frames.
+#include "base/output_file.hpp"
 #include "renders/video.hpp"
 
 #include <gmock/gmock.h>

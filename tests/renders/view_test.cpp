@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/output_file.hpp"
 #include "renders/machine_view.hpp"
 #include "renders/png_image.hpp"
 #include "renders/thin_track.hpp"

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/output_file.hpp"
 #include "renders/caption_bar.hpp"
 #include "renders/pictures.hpp"
 #include "renders/png_image.hpp"
@@ -85,7 +86,7 @@ TEST_P(GoldenFrame, LooksAsItWasKept) {
   const auto image = drawn(film, GetParam().scene);
   const auto file = std::filesystem::path(DRYCUT_SOURCE_DIR) / "tests/renders/golden" /
                     (std::string(GetParam().scene) + ".png");
-  if (std::getenv("DRYCUT_KEEP_FRAMES") != nullptr) renders::write_file(file, renders::png_bytes(image));
+  if (std::getenv("DRYCUT_KEEP_FRAMES") != nullptr) write_file(file, renders::png_bytes(image));
   const auto golden = renders::read_png(file);
   EXPECT_LE(difference(image, golden), tolerated);
   EXPECT_EQ(image.rgb, drawn(film, GetParam().scene).rgb) << "the same run twice";

@@ -49,6 +49,17 @@ std::string faults_of(std::string_view text, const Numbers& numbers = {{"x", 1},
   return all;
 }
 
+TEST(Expression, OfManyNamesThoseThatBeginAlikeAreTold) {
+  Numbers many;
+  for (int i = 0; i < 100; ++i) many["AxisX.value" + std::to_string(i)] = 0;
+  for (const auto* name : {"gbStep", "gbTour", "slLength"}) many[name] = 0;
+  EXPECT_EQ(
+      faults_of("gbPhase == 1", many),
+      "0: unknown name 'gbPhase'; known are gbStep, gbTour, AxisX.value0, AxisX.value1, AxisX.value10 and 98 "
+      "more");
+  EXPECT_EQ(faults_of("gbPhase == 1", {}), "0: unknown name 'gbPhase'; no name is known here; write numbers");
+}
+
 // Below 100 there is a hundred to use up; between two limits what counts is the way from their middle.
 TEST(Expression, HowMuchOfTheLimitIsUsed) {
   const struct {

@@ -79,7 +79,9 @@ TEST_F(Index, FindsWhatDrycutWroteAndNothingElse) {
   EXPECT_EQ(entries[3].word, "36");
   EXPECT_EQ(entries[3].title, "Sweep of <it>");
   EXPECT_EQ(entries[3].verdict, "all < 1");
-  EXPECT_THAT(index_page(entries), HasSubstr("<span>2 of 5 failed; 1 judges nothing</span>"));
+  EXPECT_THAT(
+      index_page(entries),
+      HasSubstr("<span>1 of 4 runs failed; 1 of 1 comparison or study failed; 1 judges nothing</span>"));
   EXPECT_EQ(entries[3].picture, "sweep/plots/map.png");
   EXPECT_EQ(entries[4].word, "FAIL");
 }
@@ -107,9 +109,9 @@ TEST_F(Index, AStudyWithoutAPageLeadsToItsTable) {
 TEST_F(Index, ThePageLinksRelativelyAndEscapes) {
   run("a b#1", {false});
   ASSERT_EQ(index(), cli::all_passed) << err;
-  EXPECT_THAT(out, HasSubstr("1 folder of results, 1 failed: "));
+  EXPECT_THAT(out, HasSubstr("1 folder of results, 1 of 1 run failed: "));
   EXPECT_THAT(page(),
-              HasSubstr("<p class=\"verdict fail\"><strong>FAIL</strong> <span>1 of 1 failed</span>"));
+              HasSubstr("<p class=\"verdict fail\"><strong>FAIL</strong> <span>1 of 1 run failed</span>"));
   EXPECT_THAT(page(), HasSubstr("<a href=\"a%20b%231/report.html\">a b#1</a>"));
   EXPECT_THAT(page(), HasSubstr("The &lt;line&gt; &amp; more"));
   EXPECT_THAT(page(), HasSubstr("alt=\"The machine of a b#1\" src=\"a%20b%231/frames/0002.png\""));
@@ -142,7 +144,7 @@ TEST_F(Index, IsWrittenAgainTheSameAndOverTheOldOne) {
   EXPECT_TRUE(page() == first);
   run("b", {true});
   ASSERT_EQ(index(), cli::all_passed) << err;
-  EXPECT_THAT(page(), HasSubstr("<span>all 2 passed</span>"));
+  EXPECT_THAT(page(), HasSubstr("<span>all 2 runs passed</span>"));
 }
 
 // Whoever runs one scenario after the other into a folder finds them all.

@@ -156,6 +156,33 @@ TEST_F(OutputFolders, WhatIsKeptIsStillItsOwn) {
   EXPECT_FALSE(fs::exists(folder / "out/a.csv"));
 }
 
+TEST_F(OutputFolders, WhatIsMadeAtTheEndLeavesTheEarlierResultsUntilThen) {
+  command();
+  {
+    auto out = open();
+    out.begin_aside({});
+    std::ofstream(out.add("a.csv")) << "new";
+    EXPECT_EQ(content(folder / "out/a.csv"), "a");
+  }  // a full disk
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 3) << "what waited makes room again";
+  EXPECT_EQ(content(folder / "out/a.csv"), "a");
+  EXPECT_EQ(content(folder / "out/plots/y.png"), "png");
+  auto out = open({"a.csv", "plots/", "kept"});
+  ASSERT_EQ(told(), "");
+  out.begin_aside({"kept"});
+  std::ofstream(out.add("kept")) << "at once";
+  EXPECT_EQ(content(folder / "out/kept"), "at once");
+  std::ofstream(out.add("a.csv")) << "new";
+  std::ofstream(out.add("plots", {"x.png"}) / "x.png") << "new";
+  out.finish();
+  EXPECT_EQ(content(folder / "out/a.csv"), "new");
+  EXPECT_EQ(content(folder / "out/plots/x.png"), "new");
+  EXPECT_FALSE(fs::exists(folder / "out/plots/y.png")) << "the new results have none";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 4) << "nothing waits beside them";
+  open({"a.csv", "plots/", "kept"}).begin();
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 1) << "the manifest lists all";
+}
+
 // ---- drycut run ----
 
 struct RunsIntoFolders : CommandTest {
@@ -198,7 +225,22 @@ TEST_F(RunsIntoFolders, OldVerdictsGoBeforeAnythingRuns) {
   folder.file("out/second/trace.csv", "the user's");
   EXPECT_EQ(run({first, scenario("second.yaml")}), cli::bad_input);
   EXPECT_THAT(content(folder / "out/first/checks.json"), HasSubstr("\"passed\": true"));
-  EXPECT_TRUE(fs::exists(folder / "out/junit.xml"));
+  EXPECT_FALSE(fs::exists(folder / "out/junit.xml")) << "it is not this call's verdict";
+}
+
+TEST_F(RunsIntoFolders, AVerdictOverAllIsNotTakenForThatOfACallThatRanNothing) {
+  const auto file = scenario("line.yaml");
+  ASSERT_EQ(run({file}), cli::all_passed) << err << out;
+  const auto checks = content(folder / "out/line/checks.json");
+  folder.file("line.yaml", "scene: {step: 1 mn}\n");
+  EXPECT_EQ(run({file}), cli::bad_input);
+  EXPECT_THAT(err, HasSubstr("junit.xml of an earlier run is removed: nothing has run"));
+  EXPECT_FALSE(fs::exists(folder / "out/junit.xml"));
+  EXPECT_EQ(content(folder / "out/line/checks.json"), checks) << "what a run left by itself stays";
+  // One that drycut has not written is nobody's to remove.
+  folder.file("out/junit.xml", "<mine/>");
+  EXPECT_EQ(run({file}), cli::bad_input);
+  EXPECT_EQ(content(folder / "out/junit.xml"), "<mine/>");
 }
 
 /// A file-size limit ends the child in the midst of writing its trace, as a kill would.

@@ -117,6 +117,7 @@ class Statements : public Declarations {
   int statements(std::initializer_list<std::string_view> closing);
   void take_misspelt_end();
   int statements_until(const std::function<bool()>& closes);
+  bool read_as_closer();
   int statement();
   int assignment_or_call();
   int call_statement(const Tree& call);

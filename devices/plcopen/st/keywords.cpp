@@ -1,6 +1,7 @@
 #include "devices/plcopen/st/keywords.hpp"
 
 #include <array>
+#include <string>
 
 #include "base/text.hpp"
 
@@ -32,6 +33,17 @@ bool is_keyword(std::string_view word) {
   return is_one_of(others, word) || is_one_of(closers, word) || is_one_of(openers, word);
 }
 bool closes_block(std::string_view word) { return is_one_of(closers, word); }
+std::string_view meant_closer(std::string_view word) {
+  auto plain = upper(word);
+  std::erase(plain, '_');
+  if (plain == "ELSEIF" || plain == "ELIF") return "ELSIF";
+  for (const auto closer : closers) {
+    auto other = std::string(closer);
+    std::erase(other, '_');
+    if (other == plain) return closer;
+  }
+  return {};
+}
 bool opens_unit(std::string_view word) { return is_one_of(openers, word); }
 
 std::string_view standard_blocks() {

@@ -7,6 +7,8 @@ namespace drycut::devices::plcopen::st {
 bool is_keyword(std::string_view word);
 /// END_IF, ELSE, UNTIL and the like: where a statement that was given up must end.
 bool closes_block(std::string_view word);
+/// Which of them a word is that is none, as ENDIF and ELSEIF; "" if it is like none.
+std::string_view meant_closer(std::string_view word);
 /// PROGRAM, FUNCTION, TYPE and the like.
 bool opens_unit(std::string_view word);
 /// The standard blocks TON, TOF, TP, R_TRIG, F_TRIG, SR, RS, CTU, CTD, CTUD, as Structured Text with the pins

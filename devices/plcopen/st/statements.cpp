@@ -48,8 +48,15 @@ int Statements::statements_until(const std::function<bool()>& closes) {
   std::vector<int> all;
   const Place place = peek().place;
   while (at_ < stop_ && !closes()) {
+<<<<<<< HEAD
     take_misspelt_end();
     if (closes() || at_word(closes_block)) break;
+||||||| f1e532d
+    if (at_word(closes_block)) break;
+=======
+    if (at_word(closes_block)) break;
+    if (read_as_closer()) continue;
+>>>>>>> 7a77b697a97d304963d274d2bdfe987f4773ad18
     const std::size_t before = at_;
     try {
       all.push_back(statement());
@@ -59,6 +66,21 @@ int Statements::statements_until(const std::function<bool()>& closes) {
     }
   }
   return sequence_node(std::move(all), place);
+}
+
+/// ENDIF where END_IF is meant: told once, and read as that, so that nothing follows from it.
+bool Statements::read_as_closer() {
+  Token& word = tokens_[at_];
+  if (word.kind != Token::Kind::name || is_keyword(word.text)) return false;
+  const auto& next = peek(1);
+  const bool used = next.is(":=") || next.is(".") || next.is("[");
+  const auto meant = used ? std::string_view() : meant_closer(word.text);
+  // ELSEIF (a > b) THEN; a call ends with ')'.
+  if (meant.empty() || (next.is("(") && meant != "ELSIF")) return false;
+  complain(word.place, fmt::format("there is no word {}", in_quotes(word.text)),
+           fmt::format("did you mean {}?", in_quotes(meant)));
+  word.text = meant;
+  return true;
 }
 
 int Statements::statement() {
@@ -161,6 +183,7 @@ int Statements::condition(std::string_view closing) {
 }
 
 void Statements::close(const Token& opened, std::string_view closing) {
+  if (!peek().word(closing)) read_as_closer();
   if (accept_word(closing)) {
     // Many write END_IF without ';'.
     accept(";");

@@ -256,10 +256,7 @@ void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
 std::string bode_csv(const LoopResult& result) {
   const auto table = table_of(result);
   const bool speed = !result.speed.empty();
-  std::string text =
-      "frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],closed_loop.phase "
-      "[deg],"
-      "sensitivity.gain [dB],error";
+  std::string text(bode_csv_header);
   if (speed) text += fmt::format(",{0}.gain [{1}/V],{0}.phase [deg]", result.speed, result.speed_unit);
   text += '\n';
   const auto points = heard(result);

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "renders/plots.hpp"
@@ -23,7 +24,11 @@ inline const std::vector<std::string> bode_files = {"bode.csv", "report.html", "
 void write_bode_report(const LoopResult& result, const LimitCycle* cycle,
                        const std::vector<std::string>& faults, const std::vector<loop::CheckResult>& checks,
                        const std::string& expanded, OutputFolder& folder);
-/// One row a frequency: gains and phases of open loop, closed loop, sensitivity and speed.
+inline constexpr std::string_view bode_csv_header =
+    "frequency [Hz],open_loop.gain [dB],open_loop.phase [deg],closed_loop.gain [dB],closed_loop.phase "
+    "[deg],sensitivity.gain [dB],error";
+/// A table that begins with these columns, one row a frequency: gains and phases of open loop, closed loop,
+/// sensitivity and speed.
 std::string bode_csv(const LoopResult& result);
 /// Gain and phase over the logarithm of the frequency.
 renders::Plot bode_plot(const LoopResult& result, const std::string& name);

@@ -86,7 +86,9 @@ class Slurm final : public Engine {
     hash.add(folder_.string());
     name_ = fmt::format("drycut-{:016x}", hash.value());
     if (fs::exists(folder_)) clean();  // of a study that was killed
-    fs::create_directories(folder_);
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw std::runtime_error(fmt::format("cannot make {}: {}", folder_.string(), error.message()));
   }
   ~Slurm() override {
     try {

@@ -164,12 +164,25 @@ void measure(const RunFolder& run, ChannelRow& row, double from) {
   row.peak.push_back(count > 0 ? peak : nothing);
 }
 
-/// Notes the largest difference of run `in` to `first`.
+/// How far a channel counts before it begins again; 0 where it does not, or not alike in both runs.
+double turn_of(const RunFolder& first, const RunFolder& other, const std::string& name) {
+  const auto own = first.turns.find(name);
+  const auto others = other.turns.find(name);
+  const bool alike = own != first.turns.end() && others != other.turns.end() && own->second == others->second;
+  return alike ? own->second : 0;
+}
+
+/// Notes the largest difference of run `in` to `first`. What begins again lies on a circle: 359.9 deg and
+/// 0.1 deg are 0.2 deg apart.
 void subtract(const RunFolder& first, const RunFolder& other, std::size_t in, double from, ChannelRow& row) {
   const auto& times = first.recording.times();
   const auto& other_times = other.recording.times();
   const auto& values = first.recording.column(row.name)->values;
   const auto& other_values = other.recording.column(row.name)->values;
+  const double turn = turn_of(first, other, row.name);
+  const auto apart = [&](double a, double b) {
+    return std::abs(turn > 0 ? std::remainder(b - a, turn) : b - a);
+  };
   std::size_t k = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     while (k < other_times.size() && other_times[k] < times[i]) ++k;
@@ -178,7 +191,7 @@ void subtract(const RunFolder& first, const RunFolder& other, std::size_t in, do
     const double a = values[i];
     const double b = other_values[k];
     const double difference =
-        std::isnan(a) == std::isnan(b) ? std::abs(b - a) : std::numeric_limits<double>::infinity();
+        std::isnan(a) == std::isnan(b) ? apart(a, b) : std::numeric_limits<double>::infinity();
     if (!(difference > row.difference)) continue;
     row.difference = difference;
     row.at = seconds(times[i]);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "devices/plcopen/axis_values.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/known_events.hpp"
 #include "sim/records/csv_files.hpp"
@@ -29,7 +30,7 @@ namespace {
 class MappedFile {
  public:
   explicit MappedFile(const fs::path& file) {
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a FIFO is not waited for
     const auto end = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
     if (end > 0) place_ = mmap(nullptr, static_cast<std::size_t>(end), PROT_READ, MAP_PRIVATE, descriptor, 0);
     if (place_ != MAP_FAILED) size_ = static_cast<std::size_t>(end);
@@ -195,6 +196,27 @@ std::vector<std::pair<std::string, double>> starts_of(const scenario::YamlNode& 
   return starts;
 }
 
+/// The positions of modulo axes: their axis has a turn, in the unit of its positions.
+std::map<std::string, double> turns_of(const RunFolder& run) {
+  constexpr std::string_view axes = "controller.plcopen.axes.";
+  constexpr std::string_view modulo = ".modulo";
+  std::map<std::string, double> turns;
+  for (const auto& [path, value] : run.parameters) {
+    if (!path.starts_with(axes) || !path.ends_with(modulo)) continue;
+    const auto axis = path.substr(axes.size(), path.size() - axes.size() - modulo.size());
+    const auto turn = scenario::parse_quantity(value);
+    if (!turn || !(turn->number > 0)) continue;
+    for (const auto& row : devices::plcopen::axis_value_table()) {
+      const auto* column = row.in_turn ? run.recording.column(fmt::format("{}.{}", axis, row.name)) : nullptr;
+      if (column == nullptr || !scenario::is_unit(turn->unit) || !scenario::is_unit(column->unit) ||
+          !scenario::same_dimension(turn->unit, column->unit))
+        continue;
+      turns[column->name] = scenario::from_si(scenario::to_si(turn->number, turn->unit), column->unit);
+    }
+  }
+  return turns;
+}
+
 void read_scenario_yaml(const std::string& text, const std::string& file, RunFolder& run,
                         Problems& problems) {
   scenario::Findings findings({file});
@@ -223,6 +245,7 @@ void add_about(const fs::path& folder, records::Record& record, Problems& proble
     if (const auto text = whole_file(file, problems)) read_checks_json(*text, file.string(), run, problems);
   if (!run.version.empty()) record.about.emplace_back("drycut", run.version);
   record.checks = std::move(run.checks);
+  record.failure = std::move(run.failure);
   const auto file = folder / report::scenario_file;
   if (!fs::exists(file, ignored)) return;
   if (const auto text = whole_file(file, problems)) {
@@ -286,6 +309,7 @@ RunFolder read_run(const fs::path& folder, Problems& problems) {
     read_checks_json(*text, name(report::checks_file), run, problems);
   if (const auto text = whole_file(folder / report::scenario_file, problems))
     read_scenario_yaml(*text, name(report::scenario_file), run, problems);
+  run.turns = turns_of(run);
   return run;
 }
 

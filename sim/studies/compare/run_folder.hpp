@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,6 +33,7 @@ struct RunFolder {
   std::string failure;  ///< why the simulation stopped, "" if it did not
   std::vector<loop::CheckResult> checks;
   loop::Recording recording;
+  std::map<std::string, double> turns;  ///< of channels that begin again: how far they count, in their unit
   /// The scenario with every default in force, path and value: "plants.web.speed", "60 m/min". Entries of a
   /// list go by their name, "checks[cut length].expect", else by index. Pictures are left out.
   std::vector<std::pair<std::string, std::string>> parameters;

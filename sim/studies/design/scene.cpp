@@ -12,6 +12,7 @@
 #include "base/text.hpp"
 #include "devices/lx3vp/block.hpp"
 #include "sim/cams/study.hpp"
+#include "sim/records/own_file.hpp"
 #include "sim/scenario/format.hpp"
 
 namespace drycut::sim::studies {
@@ -116,8 +117,8 @@ class SceneMaker {
     const auto line = [&](int offset, const char* kind, auto value, const char* meaning) {
       text += fmt::format("D{}{},{} ; {}\n", block + offset, kind, value, meaning);
     };
-    text = fmt::format("# The block of DECAM at D{} with the cam of {}.\naddress,value\n", block,
-                       table_.filename().string());
+    text = fmt::format("# {} design: the block of DECAM at D{} with the cam of {}.\naddress,value\n",
+                       records::own_mark, block, table_.filename().string());
     if (!section.registers.text.empty())
       text += controllers::read_named_table(section.registers, scene_, problems_).value_or("") + '\n';
     const auto answers = found_in(program, fmt::format(R"(^\s*ECAMTBX\s+\S+\s+\S+\s+D{}\s+D(\d+)\b)", block));
@@ -168,9 +169,9 @@ class SceneMaker {
   [[nodiscard]] std::string text() const {
     const auto folder = fs::absolute(table_).lexically_normal().parent_path();
     const auto scene = fs::absolute(scene_.file).lexically_normal().lexically_relative(folder);
-    auto text =
-        fmt::format("# The cam of {} in {}, by drycut design: {}.\nextends: {}\n", table_.filename().string(),
-                    scene_.file.filename().string(), sheet_.device_name, scenario::yaml_text(scene.string()));
+    auto text = fmt::format("# {} design: the cam of {} in {}, {}.\nextends: {}\n", records::own_mark,
+                            table_.filename().string(), scene_.file.filename().string(), sheet_.device_name,
+                            scenario::yaml_text(scene.string()));
     const auto has_length = std::any_of(scene_.variables.begin(), scene_.variables.end(),
                                         [](const auto& variable) { return variable.name.text == "length"; });
     std::vector<std::string> variables;

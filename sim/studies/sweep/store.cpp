@@ -12,6 +12,7 @@
 
 #include "sim/file.hpp"
 #include "sim/studies/override_json.hpp"
+#include "sim/studies/proven_line.hpp"
 
 namespace drycut::sim::studies {
 
@@ -42,10 +43,11 @@ PointStore::PointStore(const std::filesystem::path& file, cluster::Workers worke
   std::ifstream old(file, std::ios::binary);
   for (std::string line; std::getline(old, line) && !old.eof();) {
     std::uint64_t key = 0;
-    if (line.size() <= key_digits || line[key_digits] != ',') continue;
-    const auto read = std::from_chars(line.data(), line.data() + key_digits, key, 16);
-    const auto row = line.substr(key_digits + 1);
-    if (read.ec != std::errc() || read.ptr != line.data() + key_digits || !parse_row(row)) continue;
+    const auto whole = unharmed(line);
+    if (!whole || whole->size() <= key_digits) continue;
+    std::from_chars(whole->data(), whole->data() + key_digits, key, 16);
+    const std::string row(whole->substr(key_digits + 1));
+    if (!parse_row(row)) continue;
     rows_[key] = row;
     kept += line + "\n";
   }
@@ -94,7 +96,7 @@ std::vector<PointRow> PointStore::rows(const PointQuestion& question, const std:
     // As it is read back: numbers of as many digits, whoever has run it.
     rows[i] = parse_row(answer.text).value();
     rows_.emplace(keys[i], answer.text);
-    stream_ << fmt::format("{:0{}x},{}\n", keys[i], key_digits, answer.text) << std::flush;
+    stream_ << proven(fmt::format("{:0{}x},{}", keys[i], key_digits, answer.text)) + '\n' << std::flush;
     ++simulated_;
     progress(++done, points.size());
   };

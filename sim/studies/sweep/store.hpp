@@ -21,8 +21,9 @@ using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
 /// in what order those run is known here only.
 class PointStore {
  public:
-  /// Takes what is in the file; a line cut short is left out. Throws std::runtime_error if it cannot be
-  /// written. `workers` run what is not in it; a number of jobs is so many threads here.
+  /// Takes what is in the file; a line that is cut short or damaged is left out, and its point run again.
+  /// Throws std::runtime_error if it cannot be written. `workers` run what is not in it; a number of jobs is
+  /// so many threads here.
   PointStore(const std::filesystem::path& file, cluster::Workers workers);
 
   /// The rows of points, each given by its overrides, in their order: from the file, else run now. One that

@@ -162,7 +162,7 @@ TunePlan plan_tuning(const TuneRequest& request, std::vector<scenario::Override>
 
 Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Workers& workers,
            OutputFolder& folder, const TuneProgress& progress) {
-  folder.begin({evaluations_file, spread_file});
+  folder.begin_aside({evaluations_file, spread_file});
   const auto& study = plan.study;
   auto trials = std::make_unique<Trials>(
       study, plan.vary, std::vector<scenario::Override>{}, folder.add(evaluations_file), workers,
@@ -191,6 +191,7 @@ Tuned tune(const TunePlan& plan, const TuneRequest& request, const cluster::Work
     }
     write_tuning_report(tuning, folder);
   }
+  folder.finish();
   return {std::move(trials), std::move(spread), searched, has_report, std::move(tuning)};
 }
 

@@ -14,11 +14,13 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/text.hpp"
 #include "sim/file.hpp"
 #include "sim/loop/controller_loader.hpp"
 #include "sim/studies/compare/recorded_csv.hpp"
 #include "sim/studies/fingerprint.hpp"
 #include "sim/studies/override_json.hpp"
+#include "sim/studies/proven_line.hpp"
 
 namespace drycut::sim::studies {
 
@@ -66,7 +68,7 @@ std::optional<Verdict> parsed_verdict(const std::string& text, std::size_t rooms
 std::string row_of(std::size_t number, const Trials::Trial& trial) {
   std::string row = fmt::format("{},{}", number, trial.phase);
   for (const double value : trial.point) row += fmt::format(",{}", value);
-  return row + "," + text_of(trial.verdict) + "\n";
+  return proven(row + "," + text_of(trial.verdict)) + "\n";
 }
 
 /// What prepare() has not found out.
@@ -135,10 +137,10 @@ std::string Trials::heading() const {
     line += "," + csv_quoted(p.unit.empty() ? p.path : fmt::format("{} [{}]", p.path, p.unit));
   line += "," + csv_quoted(study_.minimise);
   for (const auto& text : study_.constraints) line += "," + csv_quoted("room of " + text);
-  return line + ",failed_checks,violation,stopped,runs,note";
+  return line + ",failed_checks,violation,stopped,runs,note,checksum";
 }
 
-// Takes what an earlier run of the same study left; a line cut short ends it.
+// Takes what an earlier run of the same study left, but lines that are cut short or damaged.
 void Trials::load() {
   const auto first = fingerprint() + "\n" + heading() + "\n";
   std::string text = first;
@@ -147,13 +149,9 @@ void Trials::load() {
   content << old.rdbuf();
   const std::string all = old ? content.str() : "";
   if (all.starts_with(first)) {
-    const auto rest = std::string_view(all).substr(first.size(), all.rfind('\n') + 1 - first.size());
-    Problems ignored;
-    cams::TableProblems broken(file_.string(), ignored);
-    CsvRows rows(rest, broken);
-    for (CsvRow row; rows.next(row);) {
-      const auto trial = trial_of(row);
-      if (!trial) break;
+    for (const auto line : split_lines(std::string_view(all).substr(first.size()))) {
+      const auto trial = trial_of(line);
+      if (!trial) continue;
       kept_.emplace(trial->point, trial->verdict);
       text += row_of(++rows_, *trial);
     }
@@ -161,7 +159,15 @@ void Trials::load() {
   write_file(file_, text);
 }
 
-std::optional<Trials::Trial> Trials::trial_of(const CsvRow& row) const {
+std::optional<Trials::Trial> Trials::trial_of(std::string_view line) const {
+  const auto whole = unharmed(line);
+  if (!whole) return {};
+  Problems ignored;
+  cams::TableProblems broken("", ignored);
+  const auto text = std::string(*whole) + "\n";
+  CsvRows rows(text, broken);
+  CsvRow row;
+  if (!rows.next(row)) return {};
   const auto values = 2 + parameters_.size();
   if (row.cells.size() < values) return {};
   Trial trial{row.cells[1].text, {}, {}};

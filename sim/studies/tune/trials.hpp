@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/studies/cluster/workers.hpp"
@@ -14,8 +15,6 @@
 #include "sim/studies/tune/study.hpp"
 
 namespace drycut::sim::studies {
-
-struct CsvRow;
 
 /// Every set of values that was tried, in order, kept in a CSV file: a study that is run again takes from the
 /// file what it has and runs only the rest. The file does not depend on the number of jobs.
@@ -54,7 +53,7 @@ class Trials {
 
  private:
   void load();
-  [[nodiscard]] std::optional<Trial> trial_of(const CsvRow& row) const;
+  [[nodiscard]] std::optional<Trial> trial_of(std::string_view line) const;
   void append(const Trial& trial);
   [[nodiscard]] std::string heading() const;
   [[nodiscard]] std::string fingerprint() const;

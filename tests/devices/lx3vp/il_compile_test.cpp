@@ -46,6 +46,30 @@ void expect_operand_faults(std::vector<Refused> lines) {
   expect_faults(lines);
 }
 
+TEST(IlCompile, SpecialDevicesThatAreNotServedAreRefused) {
+  const std::string relays =
+      "there are M8000 to M8004, M8011 to M8014, M8020 to M8022, M8029, M8061, M8067, M8145 to M8150, M8152 "
+      "to "
+      "M8153, M8200 to M8255";
+  const std::string words =
+      "there are D8010, D8061, D8067, D8069, D8140 to D8143, D8145 to D8148, D8150 to D8153";
+  expect_operand_faults({{"OUT M8034", {"2:5: M8034 is not simulated; " + relays}},
+                         {"AND M8033\nOUT Y0", {"2:5: M8033 is not simulated; " + relays}},
+                         {"SET M8040", {"2:5: M8040 is not simulated; " + relays}},
+                         {"SET M8050", {"2:5: M8050 is not simulated; " + relays}},
+                         {"MOV K4M8000 D0", {"2:5: M8005 is not simulated; " + relays}},
+                         {"MOV K1M8000 D0", {}},
+                         {"MOV K1M8000Z0 D0", {}},
+                         {"OUT M8200", {}},
+                         {"AND M8255\nOUT Y0", {}},
+                         {"MOV D8000 D0", {"2:5: D8000 is not simulated; " + words}},
+                         {"MOV K1 D8120", {"2:8: D8120 is not simulated; " + words}},
+                         {"AND D8013.0\nOUT Y0", {"2:5: D8013 is not simulated; " + words}},
+                         {"DMOV K1 D8140", {}},
+                         {"MOV D8141 D0", {}},
+                         {"MOV D7999 D0", {}}});
+}
+
 TEST(IlCompile, DevicesOutOfRange) {
   expect_operand_faults(
       {{"OUT Y400", {"2:5: 'Y400' does not exist; there are Y0 to Y377"}},

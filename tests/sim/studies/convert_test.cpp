@@ -198,6 +198,7 @@ TEST_F(ConvertCommand, WhatWasKilledIsAPrefix) {
   EXPECT_TRUE(killed.checks.empty()) << "they are not known yet";
   EXPECT_EQ(killed.recording.events().size(), 2U);
   ASSERT_EQ(convert(folder / "killed/web", "csv", folder / "killed.csv"), all_passed) << err;
+  EXPECT_THAT(out, HasSubstr("note: the run did not come to its end: the run has not come to its end; "));
   const auto text = content(folder / "killed.csv");
   const auto whole = content(run("csv") / "trace.csv");  // its first 10 s
   EXPECT_EQ(text.substr(0, whole.size()), whole);

@@ -57,6 +57,31 @@ TEST_F(Compare, ARunIsReadBackAsItWasWritten) {
   EXPECT_EQ(run.parameter("pictures.plots[cuts].from"), nullptr) << "pictures change no result";
 }
 
+TEST_F(Compare, WhatBeginsAgainWithEachTurnIsComparedOnItsCircle) {
+  RunTexts before;
+  RunTexts after;
+  before.trace =
+      "time [s],Knife.actual_position [deg],knife.speed [m/min]\n0.0,359.9,60\n0.1,0.1,60\n0.2,179,60\n";
+  after.trace =
+      "time [s],Knife.actual_position [deg],knife.speed [m/min]\n0.0,0.1,60\n0.1,359.8,60\n0.2,179,60\n";
+  const auto difference = [&] {
+    const auto comparison = compared(before, after);
+    EXPECT_EQ(comparison.channels[0].name, "Knife.actual_position");
+    return comparison.channels[0].difference;
+  };
+  EXPECT_NEAR(difference(), 359.8, 1e-9) << "nothing says that it begins again";
+  const auto plain = after.scenario;
+  const auto turning = [&](const std::string& turn) {
+    return plain + "controller:\n  plcopen: {axes: {Knife: {modulo: " + turn + "}}}\n";
+  };
+  before.scenario = turning("360 deg");
+  EXPECT_NEAR(difference(), 359.8, 1e-9) << "one of them counts on";
+  after.scenario = turning("720 deg");
+  EXPECT_NEAR(difference(), 359.8, 1e-9) << "their turns are not the same";
+  after.scenario = turning("360.0 deg");
+  EXPECT_NEAR(difference(), 0.3, 1e-9);
+}
+
 TEST_F(Compare, CellsInQuotesAreReadBack) {
   RunTexts texts;
   texts.trace = "time [s],\"recipe[2,5] [-]\"\n0.0,1\n";

@@ -150,6 +150,24 @@ TEST_F(SweepCommand, GoesOnWhereItWasCutShort) {
   EXPECT_EQ(text_of(folder / "sweep/sweep.csv"), whole);
 }
 
+TEST_F(SweepCommand, AFlippedBitCostsItsPointAndNoOther) {
+  sweep.over = {"variables.speed=5..125 m/min:12"};
+  ASSERT_EQ(run_sweep(), all_passed) << err;
+  const auto whole = text_of(folder / "sweep/sweep.csv");
+  const auto cache = text_of(folder / "sweep/points.cache");
+  // In a number behind the verdict, in the key, in the verdict, in the checksum.
+  for (const auto at : {cache.rfind(','), cache.find('\n') + 4, cache.find("failed"), cache.size() - 3}) {
+    for (const int bit : {0, 1, 4}) {
+      auto damaged = cache;
+      damaged[at - 1] = static_cast<char>(damaged[at - 1] ^ (1 << bit));
+      std::ofstream(folder / "sweep/points.cache", std::ios::binary) << damaged;
+      ASSERT_EQ(run_sweep(), all_passed) << err;
+      EXPECT_THAT(out, HasSubstr("\n1 runs simulated")) << at << " bit " << bit;
+      EXPECT_EQ(text_of(folder / "sweep/sweep.csv"), whole) << at << " bit " << bit;
+    }
+  }
+}
+
 TEST_F(SweepCommand, GoesOnAfterKill9) {
   sweep.over = {"variables.speed=5..125 m/min:400"};
   sweep.set = {"variables.end=2 s"};

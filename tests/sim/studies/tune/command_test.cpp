@@ -182,6 +182,21 @@ TEST_F(TuneMargins, SameAnswerForAnyJobsAndWhenResumed) {
   EXPECT_THAT(out, Not(HasSubstr(" 0 simulated now")));
 }
 
+TEST_F(TuneMargins, AFlippedBitInTheTableCostsItsTrialAndNoOther) {
+  options.budget = 12;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  const auto patch = content(folder / "out/patch.txt");
+  auto table = content(folder / "out/evaluations.csv");
+  const auto third = table.find("\n3,");
+  ASSERT_NE(third, std::string::npos) << table;
+  const auto digit = table.find('.', table.find(',', table.find(',', third + 3) + 1)) + 1;  // of the metric
+  table[digit] = static_cast<char>(table[digit] ^ 1);
+  std::ofstream(folder / "out/evaluations.csv", std::ios::binary) << table;
+  ASSERT_EQ(run(), cli::all_passed) << out << err;
+  EXPECT_THAT(out, HasSubstr(" 1 simulated now"));
+  EXPECT_EQ(content(folder / "out/patch.txt"), patch);
+}
+
 TEST_F(TuneMargins, AnUnstableLoopIsBeyondEveryMargin) {
   options.vary = {pgain + "=2200..3000"};
   options.budget = 6;
