@@ -89,8 +89,9 @@ TEST_F(Files, TheNewFileIsAsOpenToOthersAsTheOldOne) {
 TEST_F(Files, OptionsThatNameSuchFilesAreRefusedBeforeAnythingRuns) {
   const auto file = folder.file("kept.csv", "old");
   fs::permissions(file, fs::perms::owner_read);
-  const cli::CamOptions options{
-      std::string(DRYCUT_SOURCE_DIR) + "/scenes/cams/fly_cut.csv", {}, {}, {}, file, ""};
+  cli::CamOptions options;
+  options.table = std::string(DRYCUT_SOURCE_DIR) + "/scenes/cams/fly_cut.csv";
+  options.csv = file;
   EXPECT_EQ(captured([&] { return cli::validate_cam(options); }), cli::bad_input);
   EXPECT_EQ(err, "--csv:1:1: " + file.string() + " cannot be written: it is read-only; name another file\n");
 }

@@ -115,7 +115,6 @@ class Statements : public Declarations {
   /// By their lower ends: the upper one and where it stands.
   using Labels = std::map<std::int64_t, std::pair<std::int64_t, Place>>;
   int statements(std::initializer_list<std::string_view> closing);
-  void take_misspelt_end();
   int statements_until(const std::function<bool()>& closes);
   bool read_as_closer();
   int statement();

@@ -31,32 +31,12 @@ int Statements::statements(std::initializer_list<std::string_view> closing) {
       [&] { return peek().kind == Token::Kind::name && is_one_of(closing, peek().text); });
 }
 
-// ENDIF alone is told as END_IF and taken for it, so that what stands behind it is judged as it was meant.
-void Statements::take_misspelt_end() {
-  const Token& word = peek();
-  if (word.kind != Token::Kind::name || peek(1).is(":=") || peek(1).is("(") || peek(1).is(".")) return;
-  const auto text = upper(word.text);
-  if (!text.starts_with("END")) return;
-  const auto meant = "END_" + text.substr(3);
-  if (!closes_block(meant)) return;
-  complain(word.place, fmt::format("{} is no word of the language", in_quotes(word.text)),
-           fmt::format("did you mean {}?", meant));
-  tokens_[at_].text = meant;
-}
-
 int Statements::statements_until(const std::function<bool()>& closes) {
   std::vector<int> all;
   const Place place = peek().place;
   while (at_ < stop_ && !closes()) {
-<<<<<<< HEAD
-    take_misspelt_end();
-    if (closes() || at_word(closes_block)) break;
-||||||| f1e532d
-    if (at_word(closes_block)) break;
-=======
     if (at_word(closes_block)) break;
     if (read_as_closer()) continue;
->>>>>>> 7a77b697a97d304963d274d2bdfe987f4773ad18
     const std::size_t before = at_;
     try {
       all.push_back(statement());
