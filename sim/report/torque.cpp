@@ -419,18 +419,19 @@ std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario,
 }
 
 renders::ReportTable torque_table(const TorqueSplit& split) {
-  renders::ReportTable table{
-      fmt::format("Where the torque of {} goes, {}, {:.3f} to {:.3f} s", split.drive,
-                  split.cycles > 0 ? fmt::format("last {}", counted(split.cycles, "cycle")) : "whole run",
-                  split.begin, split.end),
-      {"part", "rms [N m]", "peak [N m]", "share [%]"},
-      {}};
+  renders::ReportTable table{fmt::format("Torque of {} by cause", split.drive),
+                             {"part", "rms [N m]", "peak [N m]", "share [%]"},
+                             {}};
   const auto add = [&](const TorqueSplit::Part& part) {
     table.rows.push_back({{part.name + "\n" + part.meaning, fmt::format("{:.4g}", part.rms),
                            fmt::format("{:.4g}", part.peak), fmt::format("{:.1f}", 100 * part.share)}});
   };
   for (const auto& part : split.parts) add(part);
   add(split.torque);
+  table.rows.back().cells.front() +=
+      fmt::format(", {}, {:.3f} to {:.3f} s",
+                  split.cycles > 0 ? fmt::format("last {}", counted(split.cycles, "cycle")) : "whole run",
+                  split.begin, split.end);
   return table;
 }
 
