@@ -9,6 +9,7 @@
 #include "sim/cli/commands.hpp"
 #include "sim/cli/pages.hpp"
 #include "sim/scenario/motor_catalogue.hpp"
+#include "sim/scenario/units.hpp"
 
 namespace drycut::sim::cli {
 
@@ -30,6 +31,13 @@ std::pair<std::string, std::string> split(const std::string& shown) {
   const auto space = shown.find(' ');
   return space == std::string::npos ? std::pair(shown, std::string())
                                     : std::pair(shown.substr(0, space), shown.substr(space + 1));
+}
+
+// A value from a sheet in other units has all digits of a double.
+std::string short_number(const std::string& number) {
+  constexpr std::size_t readable = 8;
+  const auto quantity = scenario::parse_quantity(number);
+  return quantity && number.size() > readable ? fmt::format("{:.6g}", quantity->number) : number;
 }
 
 std::string heading(const std::string& parameter, const std::string& shown) {
@@ -57,8 +65,9 @@ Sheet table_of(const std::vector<scenario::MotorModel>& motors, std::string_view
     std::vector<Sheet::Cell> row = {motor.name.text};
     for (const auto& parameter : parameters) {
       const auto* const value = motor.find(parameter);
-      row.emplace_back(value == nullptr ? std::string()
-                                        : (value->is_estimate() ? "~" : "") + split(value->shown).first);
+      row.emplace_back(value == nullptr
+                           ? std::string()
+                           : (value->is_estimate() ? "~" : "") + short_number(split(value->shown).first));
     }
     row.insert(row.end(), {motor.standing(), motor.vendor, motor.series});
     sheet.add(std::move(row));
@@ -77,7 +86,10 @@ Page page_of(const scenario::MotorModel& motor) {
   std::replace(kind.begin(), kind.end(), '_', ' ');
   Sheet values("values", fmt::format("Values, for {}: {{model: {}}}", motor.kind, motor.name.text),
                {"name=parameter", "value", "source=from"});
-  for (const auto& value : motor.values) values.add({value.parameter, value.shown, value.from});
+  for (const auto& value : motor.values) {
+    const auto [number, unit] = split(value.shown);
+    values.add({value.parameter, short_number(number) + (unit.empty() ? "" : " " + unit), value.from});
+  }
   return {motor.name.text,
           fmt::format("{}, {} {}; values {}", kind, motor.vendor, motor.series, motor.standing()),
           "",

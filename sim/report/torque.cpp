@@ -421,7 +421,9 @@ std::vector<TorqueSplit> torque_splits(const scenario::Scenario& scenario,
 renders::ReportTable torque_table(const TorqueSplit& split) {
   renders::ReportTable table{fmt::format("Torque of {} by cause", split.drive),
                              {"part", "rms [N m]", "peak [N m]", "share [%]"},
-                             {}};
+                             {},
+                             false,
+                             true};
   const auto add = [&](const TorqueSplit::Part& part) {
     table.rows.push_back({{part.name + "\n" + part.meaning, fmt::format("{:.4g}", part.rms),
                            fmt::format("{:.4g}", part.peak), fmt::format("{:.1f}", 100 * part.share)}});

@@ -37,13 +37,6 @@ Field field_above(double rated_speed, double frequency) {
   return nearest.frequency > 0 ? nearest : Field{frequency > 0 ? frequency : 60, 1.05 * rated_speed};
 }
 
-double three_digits(double value, bool up) {
-  if (value == 0) return 0;
-  const double scale = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
-  const double scaled = value * scale;
-  return (up ? std::ceil(scaled - 1e-9) : std::round(scaled)) / scale;
-}
-
 }  // namespace
 
 std::vector<std::vector<std::string_view>> needed_values(std::string_view kind) {
@@ -84,11 +77,19 @@ void MotorTable::set(const std::string& name, double value) {
   given_.insert(name);
 }
 
-void MotorTable::estimate(std::string_view name, double value, std::string why, bool up) {
+void MotorTable::estimate(std::string_view name, double value, std::string why) {
   if (given_.contains(name)) return;
   const auto& row = *find(name);
-  *std::get<double*>(row.value) = to_si(three_digits(from_si(value, row.unit), up), row.unit);
+  *std::get<double*>(row.value) = value;
   made_.push_back({row.name, std::move(why)});
+}
+
+double MotorTable::rounded(std::string_view name, double value, int digits, bool up) const {
+  if (value == 0) return 0;
+  const auto unit = find(name)->unit;
+  const double number = from_si(value, unit);
+  const double scale = std::pow(10, digits - 1 - std::floor(std::log10(std::abs(number))));
+  return to_si((up ? std::ceil(number * scale - 1e-9) : std::round(number * scale)) / scale, unit);
 }
 
 std::vector<MotorTable::Estimate> MotorTable::estimates() {
@@ -103,7 +104,8 @@ std::vector<MotorTable::Estimate> MotorTable::estimates() {
 void MotorTable::estimate_servo() {
   auto& motor = servo_;
   if (rated_current_ > 0)
-    estimate("torque_constant", motor.rated_torque / rated_current_, "rated torque over rated current");
+    estimate("torque_constant", rounded("torque_constant", motor.rated_torque / rated_current_),
+             "rated torque over rated current");
   estimate("max_speed", motor.rated_speed, "the rated speed: no higher one is known");
   const bool is_flat = motor.max_speed <= motor.rated_speed;
   estimate("torque_at_max_speed", is_flat ? motor.peak_torque : motor.rated_torque,
@@ -112,13 +114,17 @@ void MotorTable::estimate_servo() {
   if (!given_.contains("stall_torque")) motor.stall_torque = 0;
   const auto rest = plants::electrical(motor);
   estimate("stall_torque", rest.stall_torque, "the rated torque: at standstill most motors have more");
-  estimate("winding_resistance", rest.winding_resistance, "6 % of the rated power is lost in it");
-  const bool plate = rated_current_ > rest.amplifier.current;
-  estimate("amplifier_current", plate ? rated_current_ : rest.amplifier.current,
-           "the motor's continuous current: the amplifier is chosen to give it", true);
+  estimate("winding_resistance", rounded("winding_resistance", rest.winding_resistance),
+           "6 % of the rated power is lost in it");
+  // A rounded torque constant would ask for a little more than the plate's.
+  const bool plate = rated_current_ > 0 && rest.stall_torque <= motor.rated_torque;
+  estimate("amplifier_current",
+           plate ? rated_current_ : rounded("amplifier_current", rest.amplifier.current, 3, true),
+           "the motor's continuous current: the amplifier is chosen to give it");
   motor.amplifier.peak_current = given_.contains("amplifier_peak_current") ? motor.amplifier.peak_current : 0;
-  estimate("amplifier_peak_current", plants::electrical(motor).amplifier.peak_current,
-           "the current of the peak torque: the amplifier is chosen to give it", true);
+  estimate("amplifier_peak_current",
+           rounded("amplifier_peak_current", plants::electrical(motor).amplifier.peak_current, 3, true),
+           "the current of the peak torque: the amplifier is chosen to give it");
   estimate("overload_time", 1, "thermal relays of amplifiers stand their peak current longer");
   estimate_heat(20);
 }
@@ -134,14 +140,15 @@ void MotorTable::estimate_induction_motor() {
     const auto field =
         field_above(winding.rated_speed, given_.contains("rated_frequency") ? motor.rated_frequency : 0);
     estimate("rated_frequency", field.frequency, "the mains with the least slip at rated speed");
-    estimate("synchronous_speed", field.speed,
+    estimate("synchronous_speed", rounded("synchronous_speed", field.speed, 6),
              "the next speed of a field above rated speed, of 2 to 8 poles");
   }
-  estimate("max_speed", 1.2 * winding.synchronous_speed,
+  estimate("max_speed", rounded("max_speed", 1.2 * winding.synchronous_speed, 6),
            "1.2 times the field's speed, which every motor is tested at (IEC 60034-1)");
   const auto rest = plants::electrical(motor);
-  estimate("no_load_current", rest.no_load_current, "half the rated current");
-  estimate("stator_resistance", rest.stator_resistance, "7 % of the rated power is lost in it");
+  estimate("no_load_current", rounded("no_load_current", rest.no_load_current), "half the rated current");
+  estimate("stator_resistance", rounded("stator_resistance", rest.stator_resistance),
+           "7 % of the rated power is lost in it");
   estimate_heat(30);
 }
 

@@ -43,8 +43,10 @@ class MotorTable {
   void estimate_induction_motor();
   /// What all motors have: heat.
   void estimate_heat(double winding_time_constant);
-  /// Sets a value that was not given, to three digits in its unit; `up`: no smaller.
-  void estimate(std::string_view name, double value, std::string why, bool up = false);
+  /// Sets a value that was not given.
+  void estimate(std::string_view name, double value, std::string why);
+  /// A value [SI] to some digits in its parameter's unit; `up`: no smaller.
+  [[nodiscard]] double rounded(std::string_view name, double value, int digits = 3, bool up = false) const;
 
   bool is_servo_;
   plants::ServoData servo_;

@@ -372,7 +372,7 @@ TEST_F(MotorModels, OfFiveValuesAreCompleted) {
   own("own.yaml", head + R"(  M1:
     rated_torque: {value: 21 lb in, from: sheet}
     peak_torque: {value: 63 lbf in, from: sheet}
-    rated_speed: {value: 3000 rpm, from: sheet}
+    rated_speed: {value: 3005 rpm, from: sheet}
     rotor_inertia: {value: 0.018 oz in s2, from: sheet}
     rated_current: {value: 4 A, from: sheet}
 )");
@@ -384,8 +384,12 @@ TEST_F(MotorModels, OfFiveValuesAreCompleted) {
   ASSERT_EQ(motor.name.text, "M1");
   constexpr double pound_inch = 0.45359237 * 9.80665 * 0.0254;
   const double rated = 21 * pound_inch;
-  const double speed = 3000 * std::numbers::pi / 30;
+  const double speed = 3005 * std::numbers::pi / 30;
   EXPECT_NEAR(si(motor, "rated_torque"), rated, 1e-12);
+  // Copies are exact: no more than the sheet has, and no less than its neighbours need.
+  EXPECT_EQ(si(motor, "max_speed"), si(motor, "rated_speed"));
+  EXPECT_EQ(si(motor, "torque_at_max_speed"), si(motor, "peak_torque"));
+  EXPECT_EQ(si(motor, "stall_torque"), si(motor, "rated_torque"));
   EXPECT_NEAR(si(motor, "rotor_inertia"), 0.018 * pound_inch / 16, 1e-15);
   const auto is_estimate = [&](const char* name, double value) {
     SCOPED_TRACE(name);
