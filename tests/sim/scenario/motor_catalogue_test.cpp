@@ -325,7 +325,7 @@ TEST_F(MotorModels, OfABrokenFileAreToldInIt) {
         "mean "
         "sheet?"}},
       {head + "  S1-3:\n    rated_torque: {value: 3 N m, from: \"checked today: p. 3\"}\n",
-       {"own.yaml:7:40: motors.S1-3.rated_torque.from says neither which sheet nor why an estimate; write "
+       {"own.yaml:7:41: motors.S1-3.rated_torque.from says neither which sheet nor why an estimate; write "
         "\"sheet: ...\", \"checked 2026-11-24: ...\" or \"estimate: ...\", or a word of sources"}},
       {with("rated_power: {value: 2 kW, from: sheet}"),
        {"own.yaml:23:26: motors.S1-3.rated_power is 2 kW, but rated torque at rated speed gives 0.942 kW; "
@@ -393,7 +393,7 @@ TEST_F(MotorModels, OfFiveValuesAreCompleted) {
   EXPECT_NEAR(si(motor, "rotor_inertia"), 0.018 * pound_inch / 16, 1e-15);
   const auto is_estimate = [&](const char* name, double value) {
     SCOPED_TRACE(name);
-    EXPECT_NEAR(si(motor, name), value, 0.005 * value);
+    EXPECT_NEAR(si(motor, name), value, 0.01 * value);  // rounded to three digits, currents up
     ASSERT_NE(motor.find(name), nullptr);
     EXPECT_TRUE(motor.find(name)->is_estimate());
   };
