@@ -328,6 +328,7 @@ int envelope_scenario(const EnvelopeOptions& options) {
     write_file(folder->add(envelope_file), studies::envelope_csv(envelopes));
     studies::write_envelope_report(envelopes, *folder);
     for (const auto& envelope : envelopes) print_envelope(envelope, envelopes.size() > 1);
+    if (const auto why = studies::why_again(envelopes); !why.empty()) fmt::print("  note {}\n", why);
     const auto& request = envelopes.front().request;
     const auto sought =
         envelopes.size() > 1

@@ -1,4 +1,4 @@
-// make bench: how long a physics step of the default line takes, everything included, beside other engines
+// make bench: how long a physics step of a rotary knife line takes, everything included, beside other engines
 // that step only its bare mechanism. All in one run, one after the other in rounds, so that the ratios mean
 // something on a busy machine; the smallest time of the rounds counts.
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ double seconds_of(const std::function<void()>& run) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// The default line, its closed loop with devices, program, checks and recording, without pictures.
+/// The frozen line, its closed loop with devices, program, checks and recording, without pictures.
 void run_line() {
   Problems problems;
   const std::vector<sim::scenario::Override> overrides = {{"scene.duration", fmt::format("{} s", simulated)},

@@ -122,6 +122,30 @@ TEST(CountingGrid, IsThatOfTheRoundSpeeds) {
   EXPECT_EQ(grid(saw.counts("tube", 40.0 / 60)), 3) << "106, 107, 107 counts";
 }
 
+// docs/maximum_speed.md tells it: 3.90 N m and 5.28 N m.
+TEST(CountingGrid, CostsAThirdOfThePeakTorqueBesideIt) {
+  std::map<double, double> peaks;  // [N m] by speed [m/min]
+  for (const double speed : {60.0, 60.4}) {
+    Problems problems;
+    auto scenario = scenario::read_scenario(source_root / "scenes/rotary_knife.yaml",
+                                            {{"plants.web.speed", std::to_string(speed) + " m/min"},
+                                             {"plants.web.wheel.eccentricity", "0 mm"},
+                                             {"plants.web.wheel.slip", "0 %"},
+                                             {"plants.web.wheel.circumference_error", "0 %"},
+                                             {"plants.knife.encoder.eccentricity", "0 deg"}},
+                                            problems);
+    ASSERT_EQ(lines_of(problems), "");
+    scenario.pictures.frames = false;
+    loop::Simulation simulation(scenario, problems);
+    simulation.run();
+    const auto& torque = simulation.recording().column("knife.motor.torque")->values;
+    for (std::size_t i = 2000; i < torque.size(); ++i)  // from 4 s on
+      peaks[speed] = std::max(peaks[speed], std::abs(static_cast<double>(torque[i])));
+  }
+  EXPECT_NEAR(peaks[60.0], 3.90, 0.01);
+  EXPECT_NEAR(peaks[60.4], 5.28, 0.01);
+}
+
 // What the report of `make demo` says of the pieces, as a customer reads it.
 TEST(DemoLine, ItsPiecesHaveTheSpreadOfARealLine) {
   Shipped line(source_root / "scenes/rotary_knife.yaml");

@@ -183,6 +183,15 @@ void seek(Envelope& envelope, PointStore& store, const StudyProgress& progress) 
   for (const auto& seeker : seekers) envelope.bounds.push_back(seeker.bound());
 }
 
+std::string_view why_again(const std::vector<Envelope>& envelopes) {
+  for (const auto& envelope : envelopes)
+    for (const auto& bound : envelope.bounds)
+      if (bound.again)
+        return "what holds again beyond its bound may be a round speed: the measuring wheel gives whole "
+               "counts a sampling there, and the loop is quieter than beside it (drycut help maximum_speed)";
+  return "";
+}
+
 namespace {
 
 /// "115..121.875; 140": where it fails though it holds again behind.

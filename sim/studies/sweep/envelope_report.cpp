@@ -272,6 +272,7 @@ void write_envelope_report(const std::vector<Envelope>& envelopes, OutputFolder&
     report.texts.push_back({studies.size() > 1 ? "The first bound of each scenario, once more with pictures"
                                                : "The first bound, once more with pictures",
                             commands});
+  if (const auto why = why_again(envelopes); !why.empty()) report.notes.emplace_back(why);
   std::erase_if(plots, [](const renders::Plot& plot) { return plot.panels.empty(); });
   report::write_report(std::move(report), std::move(plots), folder);
 }

@@ -71,6 +71,9 @@ struct Envelope {
   std::vector<Bound> bounds = {};  ///< one a point
 };
 
+/// Why one of them may hold again beyond its bound; "" where none does.
+std::string_view why_again(const std::vector<Envelope>& envelopes);
+
 /// The points of its axes, as above, with what is sought in place of a last axis.
 std::vector<SweepPoint> planned(Envelope& envelope, Problems& problems);
 

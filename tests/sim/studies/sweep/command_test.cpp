@@ -357,6 +357,13 @@ TEST_F(EnvelopeSearch, WhatFailsBelowTheBoundIsFound) {
   }
 }
 
+TEST_F(EnvelopeSearch, OnlyWhatHoldsAgainIsExplained) {
+  search({116, 4});
+  EXPECT_THAT(out, HasSubstr("drycut help maximum_speed"));
+  search({500, 1});
+  EXPECT_THAT(out, testing::Not(HasSubstr("maximum_speed")));
+}
+
 TEST_F(EnvelopeSearch, WithoutASuchItIsTheLimit) {
   const auto found = search({500, 1});
   EXPECT_LE(found.bound, 131);
