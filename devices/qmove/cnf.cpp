@@ -210,6 +210,7 @@ void CnfParser::timer(const Words& words) {
 void CnfParser::slot(const Words& words) {
   const std::optional<std::int64_t> number = digits(words[0].text);
   if (!number || *number < 1 || *number > max_slot) {
+    bus_faulty_ = true;
     complain(words[0].place, in_quotes(words[0].text) + " is not a slot number",
              fmt::format("write: <slot> <card> <firmware>, the slot from 1 to {}", max_slot));
     return;

@@ -77,10 +77,11 @@ void CnfParser::device(const Words& words) {
     if (found && found->address && found->address->kind == Kind::counter)
       for (std::size_t j = 0; j < i; ++j)
         if (record.resources[j].address == found->address)
-          complain(fields[i].place,
-                   fmt::format("{} and {} of {} are the same counter, {}", type.fields[j].name,
-                               type.fields[i].name, in_quotes(words[0].text), fields[i].text),
-                   "each encoder has a counter of its own");
+          // The manual's own start-up example does it (000 1.1.1.1).
+          configuration_.notes.push_back(fmt::format("{}:{}:{}: {} and {} of {} are the same counter, {}",
+                                                     file_, fields[i].place.line, fields[i].place.column,
+                                                     type.fields[j].name, type.fields[i].name, words[0].text,
+                                                     fields[i].text));
     record.resources.push_back(found.value_or(Resource{}));
   }
   // A record with a fault stays, so that modules that name the device are still checked.
@@ -149,7 +150,7 @@ std::optional<Resource> CnfParser::number_resource(const Field& field, const Wor
 void CnfParser::check_bus() {
   if (!bus_seen_) return;
   const auto is_cpu = [](const Slot& slot) { return upper(slot.card).find("CPU") != std::string::npos; };
-  if (std::none_of(configuration_.slots.begin(), configuration_.slots.end(), is_cpu))
+  if (!bus_faulty_ && std::none_of(configuration_.slots.begin(), configuration_.slots.end(), is_cpu))
     complain(bus_place_, "BUS has no CPU card", "the CPU stands in slot 1: 1 1CPUB 02");
   for (const SlotUse& use : slot_uses_) {
     const auto address = parse_address(use.word.text);

@@ -86,6 +86,7 @@ class CnfParser : private Complaints {
   std::vector<SlotUse> slot_uses_;
   std::map<Address, Place> outputs_;  ///< that have a name or a device
   bool bus_seen_ = false;
+  bool bus_faulty_ = false;  ///< a row of it could not be read
   Place bus_place_;
   bool said_after_end_ = false;
   std::int64_t cells_ = 0;

@@ -121,6 +121,7 @@ class Checker {
     const auto before = problems_.size();
     if (const auto text = read_file(file, problems_)) {
       configuration_ = qmove::parse_configuration(*text, file.string(), devices::catalogue(), problems_);
+      notes_.insert(notes_.end(), configuration_->notes.begin(), configuration_->notes.end());
     }
     if (problems_.size() != before) configuration_.reset();
   }

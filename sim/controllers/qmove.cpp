@@ -52,9 +52,11 @@ std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario
                                              devices::catalogue(), problems));
   }
   if (problems.size() != before) return nullptr;
-  if (notes != nullptr)
+  if (notes != nullptr) {
+    notes->insert(notes->end(), parsed.notes.begin(), parsed.notes.end());
     for (const auto& program : programs)
       notes->insert(notes->end(), program.notes.begin(), program.notes.end());
+  }
   // A run says the same wherever it is started.
   for (std::size_t i = 0; i < programs.size(); ++i) programs[i].file = tasks[i].text;
   parsed.file = configuration.text;

@@ -320,14 +320,15 @@ TEST(ServoDrive, WhatIsNotKnownIsEstimatedFromTheRest) {
   data.rated_torque = 2;
   const ServoData estimated = electrical(data);
   EXPECT_EQ(estimated.stall_torque, 2);
-  EXPECT_NEAR(estimated.amplifier.current, 2 / 0.9, 1e-12);
-  EXPECT_NEAR(estimated.amplifier.peak_current, data.peak_torque / 0.9, 1e-12);
-  const double current = 2 / 0.9;
+  EXPECT_NEAR(estimated.amplifier.current, 2 / data.torque_constant, 1e-12);
+  EXPECT_NEAR(estimated.amplifier.peak_current, data.peak_torque / data.torque_constant, 1e-12);
+  const double current = 2 / data.torque_constant;
   EXPECT_NEAR(1.5 * estimated.winding_resistance * current * current, 0.06 * 2 * data.rated_speed, 1e-9);
   data.stall_torque = 3;
   data.amplifier.peak_current = 20;
   EXPECT_EQ(electrical(data).stall_torque, 3);
-  EXPECT_NEAR(ratings(data).peak_torque, 18, 1e-12) << "the amplifier has no more current";
+  EXPECT_NEAR(ratings(data).peak_torque, 20 * data.torque_constant, 1e-12)
+      << "the amplifier has no more current";
   EXPECT_NEAR(ratings(data).continuous(data.rated_speed / 2), 2.5, 1e-12);
 }
 

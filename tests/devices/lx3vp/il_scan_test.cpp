@@ -1,4 +1,5 @@
 // What instruction lists do: contacts, connections, coils, timers, counters, jumps.
+#include "tests/devices/lx3vp/covers.hpp"
 #include "tests/devices/lx3vp/il_bench.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -200,7 +201,8 @@ TEST(IlCounters, CountsEdgesUpToItsSetValue) {
   EXPECT_FALSE(out(plc, {}));
 }
 
-TEST(IlCounters, WideOnesCountBothWays) {
+TEST(Lx3vpCounters, WideOnesCountBothWays) {
+  covers({"M8200"});
   Plc plc("LD X1\nOUT M8200\nLD X0\nOUT C200 K-2\nLD C200\nOUT Y0");
   const auto count = [&](bool down) {
     const bool contact = down ? out(plc, {0, 1}) : out(plc, {0});

@@ -99,9 +99,9 @@ TEST(IlConversions, MeansLeaveTheRemainder) {
   EXPECT_EQ(Once("DMOV K1000000 D2\nDMEANP D0 D10 K2", 2000001, true).plc.registers.i32(10), 1500000);
   EXPECT_EQ(Once("MOV H31 K2M0\nMEAN K1M0 D10 K2").d(10), 2) << "of groups, one behind the other";
   EXPECT_EQ(error("MEAN D0 D10 K65"), "6706 p.il:2: 6706: MEAN: a count of 65 is none of 1 to 64");
-  EXPECT_EQ(error("MEAN D8254 D10 K3"),
-            "6706 p.il:2: 6706: MEAN: 3 values from D8254 on go beyond what there is");
-  EXPECT_EQ(error("DMEAN D8254 D10 K1"), "no error");
+  EXPECT_EQ(error("MEAN T254 D10 K3"),
+            "6706 p.il:2: 6706: MEAN: 3 values from T254 on go beyond what there is");
+  EXPECT_EQ(error("DMEAN D8152 D10 K1"), "no error");
 }
 
 TEST(IlConversions, SquareRootsTellWhetherTheyAreWhole) {

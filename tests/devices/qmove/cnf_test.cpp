@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -105,6 +106,8 @@ TEST(QmoveCnf, ElevenFieldsOfCamming4LackCountMb) {
       "AxisX CAMMING4 2 2.CNT01 2.CNT01 2.CNT02 1 2.INP01 2 2.INP02 2.INP03 5 2.AN01 2.OUT01";
   const Configuration short_form = parsed("INTDEVICE\n" + eleven + "\nEND\n");
   const Configuration long_form = parsed("INTDEVICE\n" + twelve + "\nEND\n");
+  EXPECT_THAT(short_form.notes, ::testing::ElementsAre(
+                                    "t.cnf:2:26: CountS and CountMA of AxisX are the same counter, 2.CNT01"));
   ASSERT_EQ(short_form.devices[0].resources.size(), 12U);
   EXPECT_FALSE(short_form.devices[0].resources[3].address);
   EXPECT_EQ(long_form.devices[0].resources[3].address, (Address{Kind::counter, 2, 2}));

@@ -38,10 +38,10 @@ TEST(QmoveStatement, ANumberBeyondTheSizeOfItsVariableWrapsAndIsNoted) {
 }
 
 TEST(QmoveStatement, AFractionThatIsCutOffIsNoted) {
-  const std::string module = "slR = 0.03\nslR = cHalf\nslR = 2.0\nslR = 7\nEND\n";
+  const std::string module = "slR = 0.03\nslR = cDeep\nslR = 2.0\nslR = 7\nEND\n";
   Problems problems;
   const Configuration configuration =
-      parse_configuration("CONST\ncHalf -2.5\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
+      parse_configuration("CONST\ncDeep -2.5\n" + std::string(testing::usual_cnf.substr(6)), "test.cnf",
                           testing::puppets(), problems);
   const Program program = compile_module(module, "task.mod", configuration, testing::puppets(), problems);
   EXPECT_EQ(text_of(problems), "");
