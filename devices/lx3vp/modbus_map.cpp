@@ -43,6 +43,8 @@ std::optional<ModbusPlace> place_at(ModbusTable table, int address, bool writing
     if (writing && !row.may_write) return std::nullopt;
     auto name = row.first;
     name.number += offset / each;
+    // Clients read whole blocks: what is not simulated reads 0 among the rest, and takes nothing.
+    if (!is_served(name)) return writing ? std::nullopt : std::optional(ModbusPlace{"", format_of(row)});
     return ModbusPlace{to_string(name), format_of(row), offset % each * word_bits};
   }
   return std::nullopt;

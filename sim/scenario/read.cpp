@@ -153,10 +153,13 @@ void read_sections(const YamlNode& root, std::span<const plants::PlantType> type
   scenario.buildable = reader.machine_is_sound() && findings.count() == singly;
 }
 
-std::vector<std::string> beside(const YamlNode& root, const std::string& variable) {
+/// What the file and what it extends say of a variable.
+void take_origin(const YamlNode& root, Variable& variable) {
   const auto* section = child(root, "variables");
-  const auto* value = section == nullptr ? nullptr : child(*section, variable);
-  return value == nullptr ? std::vector<std::string>() : value->beside;
+  const auto* value = section == nullptr ? nullptr : child(*section, variable.name.text);
+  if (value == nullptr) return;
+  variable.beside = value->beside;
+  variable.given_anew = !value->first.empty();
 }
 
 // An axis drives something, so it has wires.
@@ -273,7 +276,7 @@ Scenario read_once(std::string_view text, const std::filesystem::path& file,
         scenario.buildable = scenario.buildable && resolved;
         for (auto& variable : scenario.variables) {
           variable.uses = std::move(used[variable.name.text]);
-          variable.beside = beside(root, variable.name.text);
+          take_origin(root, variable);
         }
         refuse_slips(scenario, findings);
         refuse_axes_without_wires(root, findings);

@@ -354,6 +354,7 @@ struct Variable {
   Text value;                            ///< what it comes to: a quantity, a switch, a text
   std::vector<Place> uses = {};          ///< in the scenario; tables that it names are not looked at
   std::vector<std::string> beside = {};  ///< what is extended has none of this name but these
+  bool given_anew = false;               ///< another value than what is extended or the file has
 };
 
 struct Scenario {

@@ -75,6 +75,14 @@ bool stands_in(const Problem& problem, const Problems& problems) {
                      [&](const Problem& other) { return place_of(other) == place_of(problem); });
 }
 
+// Where a variable that was given anew stands: what is wrong there is the new value's own.
+Problems places_given_anew(const Scenario& scenario) {
+  Problems places;
+  for (const auto& variable : scenario.variables)
+    if (variable.given_anew) places.push_back(problem_at(scenario, variable.value.place, "", ""));
+  return places;
+}
+
 // Whether one of the problems is in a line that uses the variable, or in a table, where uses are not known.
 bool may_be_to_blame(const Variable& variable, const Scenario& scenario, const Problems& problems) {
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
@@ -124,8 +132,11 @@ void put_on_trial(YamlNode& root, const Trial& trial) {
 void blame_variables(const Scenario& scenario, Problems& problems, std::size_t first,
                      const std::function<Problems(const Trial&)>& again) {
   if (scenario.on_trial) return;
+  const auto anew = places_given_anew(scenario);
+  const auto is_its_own = [&](const Problem& problem) { return stands_in(problem, anew); };
   for (const auto& variable : scenario.variables) {
-    const Problems told(problems.begin() + static_cast<std::ptrdiff_t>(first), problems.end());
+    Problems told(problems.begin() + static_cast<std::ptrdiff_t>(first), problems.end());
+    std::erase_if(told, is_its_own);
     const auto present = parse_quantity(variable.value.text);
     if (told.empty()) return;
     if (!present || !is_unit(present->unit) || !may_be_to_blame(variable, scenario, told)) continue;
@@ -133,6 +144,7 @@ void blame_variables(const Scenario& scenario, Problems& problems, std::size_t f
     Candidate best;
     for (auto& candidate : candidates_for(*present)) {
       auto left = again({variable.name.text, candidate.value});
+      std::erase_if(left, is_its_own);
       // It has to take some away and to bring none.
       const bool brings_none = std::all_of(left.begin(), left.end(),
                                            [&](const Problem& problem) { return stands_in(problem, told); });

@@ -295,6 +295,7 @@ TEST_F(DesignedCams, FeedUnderMcCamIn) {
               "select(Master := Web, Slave := Feed, CamTable := table, Execute := power.Status);\n"
               "cam(Master := Web, Slave := Feed, CamTableID := select.CamTableID, Execute := select.Done,\n"
               "    StartMode := HLI_CI_F_PERIODIC OR HLI_CI_ENDLESS_POSITIVE);\nEND_PROGRAM\n");
+  folder.file("old.csv", "master,slave\n0,0\n300,120\n");
   const auto scene = folder.file(
       "line.yaml",
       "scene: {duration: 4 s}\nplants:\n  web: {type: web, speed: 0 m/min, wheel: {lines: 10000}}\n"

@@ -24,7 +24,7 @@ STRUCTURE = ("unknown key", "unknown controller", "unknown plant type", "unknown
              "is not a way and its counts")
 # These are of YAML itself, where readers differ, and come before any schema.
 TEXT = ("not used in scenarios", "is given twice", "levels deep", "the map opened", "a tab in",
-        "after the end of the document")
+        "after the end of the document", "a second ': ' behind a key")
 # Everything else is wrong in meaning only: names, units, ranges, what does not fit together.
 
 

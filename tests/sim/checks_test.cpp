@@ -97,7 +97,7 @@ TEST_F(ChecksTest, EachWithoutAnEventFails) {
   EXPECT_FALSE(result().passed);
   EXPECT_TRUE(result().tolerances.empty());
   EXPECT_FALSE(result().used);
-  EXPECT_EQ(result().detail, "only 0 cut events in the time looked at, at least 1 expected");
+  EXPECT_EQ(result().detail, "no cut between 0.0 s and 10.0 s, at least 1 expected");
 }
 
 TEST_F(ChecksTest, AllLooksAtStatistics) {

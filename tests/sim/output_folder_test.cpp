@@ -167,14 +167,16 @@ TEST_F(OutputFolders, WhatIsMadeAtTheEndLeavesTheEarlierResultsUntilThen) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 3) << "what waited makes room again";
   EXPECT_EQ(content(folder / "out/a.csv"), "a");
   EXPECT_EQ(content(folder / "out/plots/y.png"), "png");
-  auto out = open({"a.csv", "plots/", "kept"});
-  ASSERT_EQ(told(), "");
-  out.begin_aside({"kept"});
-  std::ofstream(out.add("kept")) << "at once";
-  EXPECT_EQ(content(folder / "out/kept"), "at once");
-  std::ofstream(out.add("a.csv")) << "new";
-  std::ofstream(out.add("plots", {"x.png"}) / "x.png") << "new";
-  out.finish();
+  {
+    auto out = open({"a.csv", "plots/", "kept"});
+    ASSERT_EQ(told(), "");
+    out.begin_aside({"kept"});
+    std::ofstream(out.add("kept")) << "at once";
+    EXPECT_EQ(content(folder / "out/kept"), "at once");
+    std::ofstream(out.add("a.csv")) << "new";
+    std::ofstream(out.add("plots", {"x.png"}) / "x.png") << "new";
+    out.finish();
+  }
   EXPECT_EQ(content(folder / "out/a.csv"), "new");
   EXPECT_EQ(content(folder / "out/plots/x.png"), "new");
   EXPECT_FALSE(fs::exists(folder / "out/plots/y.png")) << "the new results have none";

@@ -62,7 +62,7 @@ TEST(Override, ABareNumberIsNoQuantityWhereTheScenarioHasAUnit) {
              problems);
   ASSERT_EQ(problems.size(), 3U);
   EXPECT_THAT(problems[0],
-              HasSubstr("plants.axis.speed_at_10v has a unit in the scenario (500 mm/s, x.yaml:4:43), and "
+              HasSubstr("plants.axis.speed_at_10v has a unit in the scenario (500 mm/s, x.yaml:4:42), and "
                         "700 has none; write 700 mm/s if that is meant"));
   EXPECT_THAT(problems[1], HasSubstr("write 70 m/min if that is meant"));
   EXPECT_THAT(problems[2], HasSubstr("write 2 s if that is meant"));

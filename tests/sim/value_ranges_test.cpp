@@ -112,7 +112,7 @@ TEST_F(ValueRanges, TheTimelineKeepsToTheTables) {
           "line.yaml:13:53: axis.encoder.lose_counts does not hold 1e+308; write -2147483648 to 2147483647",
           "line.yaml:13:67: axis.encoder.stuck does not hold 2; write 0 to 1",
           "line.yaml:13:78: axis.encoder.jitter does not hold -1; write 0 to 1000000",
-          "line.yaml:13:101: web.wheel.slip does not hold 101; write 0 to 100 %"));
+          "line.yaml:13:101: web.wheel.slip does not hold 101; write -100 to 100 %"));
 }
 
 TEST_F(ValueRanges, RegistersAreNotWrapped) {

@@ -116,7 +116,7 @@ TEST_F(Extends, SlipsAreTold) {
        "3: the variable 'spede' is not used, and what is extended has none of this name; did you mean "
        "speed?"},
       {"plants", "axs: {speed_at_10v: 2 m/s}", "3: plants.axs.type is missing; did you mean axis?"},
-      {"checks", "slwo: {from: 2 s}", "9: checks.slwo does not say what it checks; did you mean slow?"},
+      {"checks", "slwo: {from: 0.2 s}", "9: checks.slwo does not say what it checks; did you mean slow?"},
       {"scene", "tilte: x", "3: unknown key 'tilte' in scene; did you mean title?"},
       {"record", "chanels: []", "3: unknown key 'chanels' in record; did you mean channels?"},
   };
@@ -296,7 +296,7 @@ TEST_F(Extends, ToldWhereItIsNamed) {
                 "line.yaml:2:10: there is no 'slwo' to leave out; did you mean slow?"},
            Case{"extends: base.yaml\nchecks: {slow: 3}\n",
                 "line.yaml:2:16: checks.slow must be a map, not a single value"},
-           Case{"extends: base.yaml\nchecks: {slow: {from: 2 s}, slow: {from: 3 s}}\n",
+           Case{"extends: base.yaml\nchecks: {slow: {from: 0.2 s}, slow: {from: 0.3 s}}\n",
                 "line.yaml:2:29: 'slow' is given twice in checks; keep one; the first is at line 2"},
            Case{"extends: base.yaml\nscene: {title: a, title: b}\n",
                 "line.yaml:2:19: 'title' is given twice in scene"},

@@ -51,9 +51,7 @@ TEST(ScenarioProblems, Yaml) {
       {"scene:\n\tstep: 1 ms\n", {"2:1: a tab in the indentation; indent with spaces"}},
       {"scene: {title: @b}\n", {"1:16: no YAML text begins like this; put the text into quotes"}},
       {"scene: a: b\n",
-       {"1:9: not readable as YAML: illegal map value; check indentation, colons and brackets here and in "
-        "the "
-        "line before"}},
+       {"1:9: a second ': ' behind a key; a text with a colon in it stands in quotes: title: \"saw: test\""}},
       {"scene: {title: \"abc}\nseed: 1\n",
        {"1:16: this quotation is not closed; end the text with the same quote",
         "3:1: the map opened at line 1, column 8 is not closed; write } or a comma here"}},

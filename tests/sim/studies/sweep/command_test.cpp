@@ -104,9 +104,9 @@ TEST_F(SweepCommand, APointThatCannotBeIsRefused) {
 TEST_F(SweepCommand, ARefusalNamesItsCheck) {
   // The check would end before it begins.
   sweep.set = {"checks.1.until=0.15 s"};
-  sweep.over = {"checks.1.from=0.1,0.2 s"};
+  sweep.over = {"checks.1.from=0.1,0.16 s"};
   ASSERT_EQ(run_sweep(), all_passed) << err;
-  EXPECT_THAT(rows("sweep/sweep.csv", 99)[2], HasSubstr("0.2,refused,checks.fast enough.until"));
+  EXPECT_THAT(rows("sweep/sweep.csv", 99)[2], HasSubstr("0.16,refused,checks.fast enough.until"));
   const auto page = text_of(folder / "sweep/report.html");
   EXPECT_THAT(page, HasSubstr("checks[fast enough].from [s]"));
   EXPECT_THAT(page, HasSubstr("checks.1.from=0.1 s"));  // a command takes the number
