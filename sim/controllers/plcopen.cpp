@@ -303,7 +303,10 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
     if (problems.size() == before) check_tasks(compiled, file, *this, scenario, problems);
   }
   if (problems.size() != before) return nullptr;
-  if (notes != nullptr) note_slow_phasing(compiled, *this, scenario, *notes);
+  if (notes != nullptr) {
+    for (const auto& axis : axes) notes->insert(notes->end(), axis.notes.begin(), axis.notes.end());
+    note_slow_phasing(compiled, *this, scenario, *notes);
+  }
   auto controller = std::make_unique<plcopen::PlcopenController>(std::move(compiled), program.text,
                                                                  std::move(configuration));
   fill_modbus(*controller, scenario, problems);

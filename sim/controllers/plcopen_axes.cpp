@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "sim/controllers/kinds.hpp"
 #include "sim/scenario/axis_units.hpp"
@@ -27,6 +29,22 @@ class AxisUnits {
   [[nodiscard]] std::optional<Measure> measure() const {
     return measured_by_ ? std::optional(measure_) : std::nullopt;
   }
+  /// Who writes units means one everywhere: what the bare numbers beside them come to.
+  [[nodiscard]] std::vector<std::string> bare_numbers(const std::string& axis,
+                                                      const scenario::Findings& findings) const {
+    std::vector<std::string> notes;
+    if (!measured_by_) return notes;
+    for (const auto& [parameter, text] : bare_) {
+      const auto& place = text.place;
+      notes.push_back(
+          fmt::format("{}:{}:{}: {}.{} is {} without a unit, in {}: {}; write {} {} if that is meant",
+                      findings.sources().at(static_cast<std::size_t>(place.source)), place.line, place.column,
+                      axis, parameter->name, text.text, parameter->unit,
+                      scenario::axis_value_text(*parameter, parameters_, measure_), text.text,
+                      scenario::axis_unit(*parameter, measure_).unit));
+    }
+    return notes;
+  }
 
   // A bare number is in the kernel's own unit.
   void assign(const AxisParameter& parameter, const scenario::Text& text, const std::string& full,
@@ -45,6 +63,8 @@ class AxisUnits {
       if (!unit) return;
       people = *unit;
       value = scenario::to_kernel(quantity->number, quantity->unit, people);
+    } else if (value != 0 && !scenario::axis_unit(parameter, Measure::length).unit.empty()) {
+      bare_.emplace_back(&parameter, text);
     }
     if (plcopen::set_parameter(parameters_, parameter, value)) return;
     const bool in_range = value >= parameter.min && value <= parameter.max;
@@ -105,6 +125,7 @@ class AxisUnits {
   Measure measure_ = Measure::angle;
   std::optional<std::string> measured_by_;  ///< the parameter whose unit tells it
   std::string measured_unit_;
+  std::vector<std::pair<const AxisParameter*, scenario::Text>> bare_;
 };
 
 scenario::Form parameter_form(const AxisParameter& parameter, plcopen::AxisConfiguration& axis,
@@ -198,6 +219,7 @@ void visit(scenario::Archive& archive, PlcopenSection::Axis& axis) {
   archive.judge([&axis, units](scenario::MapReader& reader) {
     auto& [name, parameters, measure] = axis.configuration;
     if (reader.is_sound()) judge_software_limits(reader, axis);
+    axis.notes = units->bare_numbers(axis.name.text, reader.findings());
     // A virtual axis has no zero to look for, unless the scenario wants it to be homed by the program.
     if (!is_given(axis, "homed_at_start") && parameters.kind == plcopen::AxisKind::virtual_axis)
       parameters.homed_at_start = true;

@@ -64,7 +64,7 @@ renders::ReportTable margin_table(const loop::Outcome& outcome, Time step) {
     table.rows.push_back(
         {{check.name, cell(check), cell(other),
           fmt::format("{}{}", by ? number(*by, check.unit) : "",
-                      check.passed == other.passed ? "" : " : the verdict hangs on the step")}});
+                      check.passed == other.passed ? "" : " : the verdict depends on the step")}});
   }
   if (!half.failure.empty()) table.rows.push_back({{"the simulation", "PASS", "FAIL", half.failure}});
   return table;

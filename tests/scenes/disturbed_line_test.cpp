@@ -67,6 +67,27 @@ struct LineRun {
   }
 };
 
+// A slip of 1 % about which a sine of 2 % breathes: after half a period 2 a v / w counts more are lost, after
+// a whole one none.
+TEST(SlipThatBreathes, GoesBothWaysAboutTheParameter) {
+  const auto counts = [](const std::string& disturbances) {
+    const LineRun run(
+        "scene: {duration: 2 s}\n"
+        "plants: {web: {type: web, speed: 60 m/min, wheel: {lines: 10000, slip: 1 %}}}\n"
+        "record: {every: 500 ms, channels: [web.wheel.count]}\n" +
+        disturbances);
+    return run.column("web.wheel.count");
+  };
+  const auto plain = counts("");
+  const auto breathing =
+      counts("disturbances: [{at: web.wheel.slip, kind: sine, amplitude: 2 %, frequency: 1 Hz}]\n");
+  ASSERT_GE(plain.size(), 4U);
+  ASSERT_EQ(plain.size(), breathing.size());
+  const double most = 2 * 0.02 * 80'000 / full_turn;  // 80 000 counts a second
+  for (std::size_t i = 0; i < plain.size(); ++i)
+    EXPECT_NEAR(plain[i] - breathing[i], i % 2 == 1 ? most : 0, 2) << i;
+}
+
 // The wheel's axis lies e beside its middle: while the wheel turns from a to b, r (b - a) + e (sin b - sin a)
 // of the web passes it. The controller cuts when its 800 mm have been counted, so a piece is e (sin b - sin
 // a) too long: a sine of one turn of the wheel, of amplitude 2 e sin(800 mm / 2 r).

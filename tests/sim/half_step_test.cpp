@@ -65,7 +65,7 @@ TEST_F(HalfStepTest, TellsHowFarEveryMarginMoved) {
   }
   EXPECT_THAT(out, HasSubstr("margin at 100 us"));
   EXPECT_THAT(out, HasSubstr("margin at 50 us"));
-  EXPECT_THAT(out, Not(HasSubstr("hangs on the step")));
+  EXPECT_THAT(out, Not(HasSubstr("depends on the step")));
   const auto page = content(folder / "out" / "line" / "report.html");
   EXPECT_THAT(page, HasSubstr("Margins at half the step"));
   EXPECT_THAT(page, HasSubstr("margin at 50 us"));
@@ -81,7 +81,7 @@ TEST_F(HalfStepTest, AVerdictThatHangsOnTheStepIsTold) {
   const bool passes = moved < 0;  // more room at the step itself
   EXPECT_EQ(run(), passes ? cli::all_passed : cli::check_failed) << "the scenario's own step judges";
   EXPECT_EQ(results()["checks"][0]["half_step"]["passed"], !passes);
-  EXPECT_THAT(out, HasSubstr("the verdict hangs on the step"));
+  EXPECT_THAT(out, HasSubstr("the verdict depends on the step"));
 }
 
 TEST_F(HalfStepTest, AStepWithoutAHalfIsRefused) {

@@ -223,6 +223,8 @@ TEST_F(Slips, InTheStructuredTextOfAKnife) {
       {t, "// 1 mm/s", "@# 1 mm/s", "comments are (* ... *) or //"},
       {t, "homed := TRUE;", "@SLOW := 1.0;", "'SLOW' is a constant"},
       {y, "path: [360 deg, 40960]", "path: @[360 deg 40960]", "write [500 mm, 10000]"},
+      {y, "kv: 60 1/s", "kv: @60", "60 without a unit, in 0.01/s: 0.6 1/s; write 60 1/s", true},
+      {y, "feed_forward: 100 %", "feed_forward: @100", "in 0.1 %: 10 %; write 100 %", true},
       {y, "is_master: on", "is_master: @yes", "write on or off"},
       {y, "[cams/knife.tab]", "[@cams/knif.tab]", "did you mean knife.tab?"},
       {y, "Knife.encoder: knife", "@Knive.encoder: knife", "did you mean Knife?"},
