@@ -74,8 +74,7 @@ class Text {
     const auto& checks = result.outcome.checks;
     if (std::all_of(checks.begin(), checks.end(), [](const auto& c) { return c.passed; })) return;
     if (!result.outcome.cause.empty()) text_ += fmt::format("It failed {}.\n\n", plain(result.outcome.cause));
-    text_ +=
-        "| failed check | expected | measured | beyond the limit | line |\n|---|---|---|---|---|\n";
+    text_ += "| failed check | expected | measured | beyond the limit | line |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < checks.size(); ++i) {
       if (checks[i].passed) continue;
       const auto place = result.place_of(i);

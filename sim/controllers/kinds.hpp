@@ -72,7 +72,7 @@ struct PlcopenSection final : scenario::ControllerSection {
     scenario::Text name;
     devices::plcopen::AxisConfiguration configuration = {};
     std::vector<std::pair<std::string, scenario::Place>> places =
-        {};  ///< of the parameters that the file gives
+        {};                               ///< of the parameters that the file gives
     std::vector<std::string> notes = {};  ///< numbers without a unit beside others that have one
   };
   std::vector<Axis> axes;
