@@ -24,7 +24,7 @@ constexpr std::string_view of_ratings = "drive within its ratings";  // the chec
 
 /// The bus is counted from where the brake resistor holds it: up to there nothing is used up.
 double used_share(const Candidate& candidate, std::size_t rating, double share) {
-  static const auto bus = rating_index("bus voltage over the mains'");
+  static const auto bus = rating_index("DC link above rectified mains");
   if (rating != bus || candidate.braked_share >= 1) return share;
   return std::max(0.0, (share - candidate.braked_share) / (1 - candidate.braked_share));
 }

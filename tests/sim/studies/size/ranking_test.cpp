@@ -82,6 +82,7 @@ TEST(RatedDrive, GoesThereAndBack) {
   verdict.figures[1].value = 3;
   verdict.inertia_ratio = 3.5;
   verdict.energy = 7;
+  verdict.steady = true;
   verdict.trips = {"overload at 1 s"};
   verdict.cycle_points = {{10, 1}, {11, 5}, {12, 2}};
   verdict.points = {{0, 1}, {0, -2}, {24, 5}, {12, 3}, {12, 4}};
@@ -97,6 +98,7 @@ TEST(RatedDrive, GoesThereAndBack) {
   EXPECT_EQ(drive.energy, 7);
   EXPECT_EQ(drive.trips, 1);
   EXPECT_EQ(drive.cycles, 3);
+  EXPECT_EQ(drive.steady, 1);
   EXPECT_EQ(drive.rms, (std::pair<double, double>(11, 5)));
   EXPECT_EQ(drive.outline[0], (std::pair<double, double>(0, 1)));
   EXPECT_EQ(drive.outline[1], (std::pair<double, double>(0, -2)));
