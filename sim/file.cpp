@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/plain_text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::sim {
 
@@ -120,6 +121,21 @@ std::vector<fs::path> files_in(const fs::path& folder, std::string_view extensio
   return files;
 }
 
+namespace {
+
+/// What to do about a file that is not there: its folder may have one of nearly its name.
+std::string instead_of(const fs::path& file, bool names_itself) {
+  const auto folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::vector<std::string> names;
+  for (const auto& other : files_in_use != nullptr ? files_in_use->files_in(folder) : from_folder(folder))
+    names.push_back(other.filename().string());
+  return did_you_mean(
+      file.filename().string(), names,
+      names_itself ? "check the path" : "check the path; it is relative to the file that names it");
+}
+
+}  // namespace
+
 std::optional<std::string> read_file(const fs::path& file, Problems& problems, std::uintmax_t largest) {
   return read_file(file, problems, {file.string(), 1, 1, "", ""}, largest);
 }
@@ -134,9 +150,7 @@ std::optional<std::string> read_file(const fs::path& file, Problems& problems, c
   switch (found.state) {
     case FileSet::State::missing:
       return problem(fmt::format("there is no file {}", file.string()),
-                     where.file == file.string()
-                         ? "check the path"
-                         : "check the path; it is relative to the file that names it");
+                     instead_of(file, where.file == file.string()));
     case FileSet::State::folder:
     case FileSet::State::irregular:
       return problem(fmt::format("{} is not a regular file", file.string()), "name a text file");

@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "devices/lx3vp/ecamtbx_words.hpp"
@@ -26,6 +29,7 @@ class SawFault {
       : p_(parameters), type_(type), list_(list) {}
 
   [[nodiscard]] std::string text(EcamError error) const {
+    if (auto slip = integer_for_float(); !slip.empty()) return slip;
     switch (error) {
       case EcamError::type:
         return wrong_type();
@@ -57,6 +61,18 @@ class SawFault {
   [[nodiscard]] double slave() const { return std::abs(static_cast<double>(p_.slave_length)); }
   [[nodiscard]] double k() const { return static_cast<double>(p_.sync_ratio); }
 
+  /// DMOV K2 in place of DEMOV E2: as a float an integer is next to nothing, a negative one no number.
+  [[nodiscard]] std::string integer_for_float() const {
+    constexpr std::int32_t as_float = 1 << 23;  // from here on it could be meant as one
+    for (const auto& [offset, value] :
+         {std::pair{saw_word::sync_ratio, p_.sync_ratio}, std::pair{saw_word::max_ratio, p_.max_ratio}}) {
+      const auto bits = std::bit_cast<std::int32_t>(value);
+      if (bits != 0 && bits > -as_float && bits < as_float)
+        return fmt::format("{}, a float that looks like the integer {}; write DEMOV E{}.0 D{}",
+                           is(offset, value), bits, bits, list_ + offset);
+    }
+    return "";
+  }
   [[nodiscard]] std::string wrong_type() const {
     constexpr int last_law = 2;
     if (p_.acceleration > last_law)

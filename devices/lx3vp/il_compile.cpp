@@ -143,6 +143,9 @@ class Compiler : private Complaints {
       ValueFault unread;
       auto operand = read_operand(words[i].text, unread);
       if (!operand) {
+        if (const auto number = decimal_comma(words, i); !number.empty())
+          unread = {fmt::format("{},{} has a decimal comma", words[i - 1].text, words[i].text),
+                    fmt::format("write {}", number)};
         refuse(words[i], std::move(unread));
         continue;
       }
@@ -170,6 +173,19 @@ class Compiler : private Complaints {
     if (!fault) return;
     const auto& last = step.operands.empty() || at != &words.front() ? *at : words.back();
     problem_at(last.place, std::move(fault->what), std::move(fault->remedy));
+  }
+
+  /// "E1.5" of the words that E1,5 falls apart into, the second at `i`; "" of others.
+  static std::string decimal_comma(const Statement& words, std::size_t i) {
+    const auto& before = words[i - 1];
+    const auto& after = words[i];
+    const bool together =
+        before.place.column + static_cast<int>(before.text.size()) + 1 == after.place.column;
+    const bool real = before.text.front() == 'E' || before.text.front() == 'e';
+    const bool digits = std::all_of(after.text.begin(), after.text.end(), is_digit);
+    return together && real && digits && before.text.find('.') == std::string::npos
+               ? fmt::format("{}.{}", before.text, after.text)
+               : "";
   }
 
   static std::string operands_text(const std::string& kinds) {

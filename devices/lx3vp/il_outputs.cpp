@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <tuple>
 
+#include "devices/lx3vp/il_doubts.hpp"
 #include "devices/lx3vp/il_values.hpp"
 
 namespace drycut::devices::lx3vp::il {
@@ -25,7 +30,62 @@ DecamOperands decam_operands(const Step& step) {
   return operands;
 }
 
+/// Looks for coils that two instructions drive. Steps of a sequence and what jumps lead to take turns.
+class CoilUses {
+ public:
+  explicit CoilUses(std::vector<std::string>& notes) : notes_(notes) {}
+
+  void add(const Program& program, const Step& step) {
+    if (step.op() == Op::label) ++part_;
+    if (step.op() == Op::stl || step.op() == Op::ret) in_sequence_ = step.op() == Op::stl;
+    const bool drives = step.op() == Op::out || step.op() == Op::set;
+    if (!drives || step.indexed || step.operands.empty()) return;
+    const auto& coil = step.operands.front();
+    if (coil.kind != Kind::Y && coil.kind != Kind::M && coil.kind != Kind::word_bit) return;
+    const auto [first, fresh] = uses_.emplace(std::tuple(coil.kind, coil.number, coil.count),
+                                              Use{step.op(), step.line, part_, in_sequence_});
+    auto& before = first->second;
+    const bool again = !fresh && step.op() == Op::out && before.op == Op::out && before.part == part_ &&
+                       !before.in_sequence && !in_sequence_;
+    const bool mixed = !fresh && step.op() != before.op;
+    if ((!again && !mixed) || before.told) return;
+    before.told = true;
+    notes_.push_back(fmt::format(
+        "{}:{}:{}: {} has {} here and {} in line {}: {}", program.file, step.line, coil.column,
+        to_string(coil), step.spelling->text, before.op == Op::out ? "OUT" : "SET", before.line,
+        mixed ? "OUT writes it in every scan, whatever SET has left" : "the last in a scan decides alone"));
+  }
+
+ private:
+  struct Use {
+    Op op;
+    int line;
+    int part;
+    bool in_sequence;
+    bool told = false;
+  };
+  std::vector<std::string>& notes_;
+  std::map<std::tuple<Kind, int, int>, Use> uses_;
+  int part_ = 0;  ///< between labels
+  bool in_sequence_ = false;
+};
+
 }  // namespace
+
+std::vector<std::string> doubts(const Program& program) {
+  constexpr std::array types = {0, 1, 100, 101};
+  std::vector<std::string> notes;
+  CoilUses coils(notes);
+  for (const auto& step : program.steps) {
+    coils.add(program, step);
+    if (step.op() != Op::ecamtbx || step.indexed || step.operands.size() < 2) continue;
+    const auto& type = step.operands[1];
+    if (type.kind == Kind::constant && std::find(types.begin(), types.end(), type.value) == types.end())
+      notes.push_back(fmt::format("{}:{}:{}: ECAMTBX has no type {}; write K0, K1, K100 or K101",
+                                  program.file, step.line, type.column, to_string(type)));
+  }
+  return notes;
+}
 
 void drive_outputs(const Registers& registers, const Step& step, bool powered, Instructions& instructions) {
   if (step.op() == Op::decam) return instructions.decam(step.number, decam_operands(step), powered);

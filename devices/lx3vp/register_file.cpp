@@ -91,7 +91,7 @@ class RowReader {
     if (const int line = given(name); line > 0)
       return complain(name_text, fmt::format("{} is given in line {} already", to_string(name), line),
                       "keep one of them");
-    values_.push_back({name, value});
+    values_.push_back({name, value, number_});
   }
 
   // The line that has given it, or part of it, already; else notes it and is 0.

@@ -12,6 +12,7 @@ namespace drycut::devices::lx3vp {
 struct RegisterValue {
   RegisterName name;
   double value = 0;
+  int line = 0;  ///< of the file
 };
 
 /// What is wrong with giving `value` to the register, nullopt if it takes it as it is.

@@ -38,6 +38,8 @@ class Compiler : public TokenReader<Token> {
   const NamedThing* assignment();
   void store(const NamedThing& thing, Type type);
   void note_fraction(Type type, int begin, const Token& name);
+  void note_range(const DeviceType& type, Symbol symbol, Type of_value, int begin, const Token& name);
+  bool other_closer();
   void note_wrapping(const NamedThing& thing, Type type, int begin, const Token& name);
   void check_assignable(const NamedThing& thing, const Token& name);
   void check_writable(int device, Symbol symbol, const Token& parameter);

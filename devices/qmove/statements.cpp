@@ -48,6 +48,7 @@ void Compiler::word_statement() {
   }};
   for (const Row& row : table)
     if (peek().word(row.word)) return row.run(*this);
+  if (other_closer()) return;
   const Token& next = peek(1);
   if (next.kind == Token::Kind::name) return device_command();
   const bool assigns = next.kind == Token::Kind::sign && std::string_view("=[:.").find(next.text[0]) < 4;
@@ -55,6 +56,27 @@ void Compiler::word_statement() {
     assignment();
   else
     unknown_statement();
+}
+
+// END_IF of Structured Text: told once, and read as what it means, so that nothing follows from it.
+bool Compiler::other_closer() {
+  struct Closer {
+    std::string_view word;
+    std::string_view meant;
+    Block::Kind closes;
+  };
+  static constexpr std::array<Closer, 4> closers{{{"END_IF", "ENDIF", Block::Kind::if_},
+                                                  {"END_WHILE", "ENDWHILE", Block::Kind::while_},
+                                                  {"END_FOR", "NEXT", Block::Kind::for_},
+                                                  {"END_SUB", "ENDSUB", Block::Kind::sub}}};
+  for (const auto& [word, meant, closes] : closers) {
+    if (!peek().word(word)) continue;
+    complain(peek().place, "unknown statement " + in_quotes(peek().text),
+             fmt::format("did you mean {}?", in_quotes(meant)));
+    close_block(closes);
+    return true;
+  }
+  return false;
 }
 
 // name = e, name[i] = e, name[i, j] = e, Device:parameter = e. Returns the name assigned to, if it is one.
@@ -78,6 +100,7 @@ const NamedThing* Compiler::assignment() {
     const int value = here();
     const Type type = expression();
     note_fraction(type, value, parameter);
+    if (symbol) note_range(type_of(*device), *symbol, type, value, parameter);
     if (type == Type::real) emit(Op::to_long);
     emit(Op::store_device, symbol ? add_symbol(*symbol) : 0, device.value_or(0));
     insert_barriers(begin);
@@ -124,6 +147,19 @@ void Compiler::note_fraction(Type type, int begin, const Token& name) {
   program_.notes.push_back(fmt::format("{}:{}:{}: {} takes whole numbers: {} is taken as {}", file_,
                                        name.place.line, name.place.column, name.text, value,
                                        std::trunc(value)));
+}
+
+// A device takes what lies outside of a parameter's range, and the run tells it: said here already.
+void Compiler::note_range(const DeviceType& type, Symbol symbol, Type of_value, int begin,
+                          const Token& name) {
+  const bool plain = !line_failed_ && here() == begin + 1 && program_.code.back().op == Op::push;
+  if (!plain || of_value == Type::real || symbol.kind != Symbol::Kind::variable) return;
+  const Variable& variable = type.variables[static_cast<std::size_t>(symbol.index)];
+  const std::int32_t value = program_.code.back().a;
+  if (value >= variable.min && value <= variable.max) return;
+  program_.notes.push_back(fmt::format("{}:{}:{}: {} goes from {} to {}, and {} is outside", file_,
+                                       name.place.line, name.place.column, name.text, variable.min,
+                                       variable.max, value));
 }
 
 // Converts the value on the stack to what `thing` holds and stores it there.
@@ -187,6 +223,10 @@ void Compiler::label() {
 
 void Compiler::wait() {
   take();
+  static constexpr std::array<std::string_view, 3> times = {"ms", "s", "min"};
+  if (peek().kind == Token::Kind::number && is_one_of(times, peek(1).text))
+    return syntax_error(peek(1), "WAIT takes a condition, not a time",
+                        "start a TIMER and wait for it: tmPause = 100, then WAIT tmPause");
   emit(Op::yield);
   const int begin = here();
   mark(begin);

@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "devices/catalogue.hpp"
-#include "devices/lx3vp/il_program.hpp"
+#include "devices/lx3vp/il_doubts.hpp"
 #include "devices/lx3vp/register_file.hpp"
 #include "devices/plcopen/st/program.hpp"
 #include "devices/qmove/cnf.hpp"
@@ -48,7 +48,7 @@ class Checker {
       case Kind::instruction_list:
       case Kind::program_table:
         if (const auto text = read_file(file, problems_))
-          devices::lx3vp::il::compile(*text, file.string(), problems_);
+          take_doubts(devices::lx3vp::il::compile(*text, file.string(), problems_));
         return;
       case Kind::structured_text:
         if (const auto text = read_file(file, problems_))
@@ -77,6 +77,10 @@ class Checker {
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  void take_doubts(const devices::lx3vp::il::Program& program) {
+    for (auto& doubt : devices::lx3vp::il::doubts(program)) notes_.push_back(std::move(doubt));
+  }
+
   void take_notes(const std::string& of, const loop::Simulation& simulation) {
     for (const auto& note : simulation.notes_of_setup()) notes_.push_back(fmt::format("{}: {}", of, note));
   }
@@ -159,6 +163,7 @@ int check_files(const CheckOptions& options) {
   print_problems(problems);
   annotate(options.annotate, annotations_of(problems));
   if (!problems.empty()) {
+    for (const auto& note : checker.notes()) fmt::print(stderr, "note {}\n", note);
     fmt::print(stderr, "{} in {}\n", counted(problems.size(), "problem"),
                counted(options.files.size(), "file"));
     return bad_input;

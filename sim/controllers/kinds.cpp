@@ -1,8 +1,13 @@
 #include "sim/controllers/kinds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
+#include "base/text.hpp"
+#include "sim/controllers/program_files.hpp"
 #include "sim/file.hpp"
 #include "sim/scenario/forms.hpp"
 #include "sim/scenario/variables.hpp"
@@ -20,6 +25,22 @@ constexpr std::array kinds = {
     ControllerKind{"qmove", "{configuration: ...}", make<QmoveSection>},
     ControllerKind{"lx3vp", "{program: ...}", make<Lx3vpSection>},
     ControllerKind{"plcopen", "{program: ...}", make<PlcopenSection>},
+};
+
+/// What texts of programs end in, and the key that takes them.
+struct Ending {
+  std::string_view ending;
+  std::string_view what;
+  std::string_view key;
+};
+constexpr std::array endings = {
+    Ending{".cnf", "a QMOVE configuration", "qmove.configuration"},
+    Ending{".mod", "a QCL unit", "qmove.tasks"},
+    Ending{".qcl", "a QCL unit", "qmove.tasks"},
+    Ending{".il", "an instruction list", "lx3vp.program"},
+    Ending{".st", "Structured Text", "plcopen.program"},
+    Ending{".tab", "a cam table", "plcopen.tables"},
+    Ending{".yaml", "a scenario", ""},
 };
 
 }  // namespace
@@ -50,6 +71,20 @@ std::optional<std::string> read_named(const scenario::Text& path, const scenario
                                       Problems& problems) {
   return read_file(scenario.file.parent_path() / path.text, problems,
                    scenario::problem_at(scenario, path.place, "", ""));
+}
+
+std::optional<std::string> read_program(std::string_view key, const scenario::Text& path,
+                                        const scenario::Scenario& scenario, Problems& problems) {
+  const auto of = lower(std::filesystem::path(path.text).extension().string());
+  for (const auto& [ending, what, home] : endings) {
+    if (ending != of || home == key) continue;
+    problems.push_back(scenario::problem_at(
+        scenario, path.place,
+        fmt::format("{} is {}, which controller.{} does not take", path.text, what, key),
+        home.empty() ? "drycut run takes it" : fmt::format("controller.{} takes it", home)));
+    return {};
+  }
+  return read_named(path, scenario, problems);
 }
 
 std::optional<std::string> read_named_table(const scenario::Text& path, const scenario::Scenario& scenario,

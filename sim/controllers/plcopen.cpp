@@ -7,6 +7,7 @@
 #include "devices/plcopen/tab_file.hpp"
 #include "sim/controllers/kinds.hpp"
 #include "sim/controllers/plcopen_scales.hpp"
+#include "sim/controllers/program_files.hpp"
 #include "sim/scenario/axis_units.hpp"
 #include "sim/scenario/format.hpp"
 #include "sim/scenario/forms.hpp"
@@ -295,7 +296,7 @@ std::unique_ptr<devices::Controller> PlcopenSection::load(const scenario::Scenar
   configuration.tables = load_tables(*this, configuration.axes, scenario, problems);
   const bool tables_sound = problems.size() == before;
   plcopen::st::Program compiled;
-  if (const auto text = read_named(program, scenario, problems)) {
+  if (const auto text = read_program("plcopen.program", program, scenario, problems)) {
     compiled = plcopen::st::compile(*text, file, problems);
     // A table that could not be read is not missing.
     if (tables_sound) check_names(compiled, file, configuration, problems);

@@ -3,6 +3,7 @@
 #include "devices/qmove/program.hpp"
 #include "devices/qmove/qmove_controller.hpp"
 #include "sim/controllers/kinds.hpp"
+#include "sim/controllers/program_files.hpp"
 #include "sim/scenario/forms.hpp"
 
 namespace drycut::sim::controllers {
@@ -38,7 +39,7 @@ std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario
                                                         std::vector<std::string>* notes) const {
   const auto before = problems.size();
   const auto folder = scenario.file.parent_path();
-  const auto text = read_named(configuration, scenario, problems);
+  const auto text = read_program("qmove.configuration", configuration, scenario, problems);
   if (!text) return nullptr;
   auto parsed = qmove::parse_configuration(*text, (folder / configuration.text).string(),
                                            devices::catalogue(), problems);
@@ -46,7 +47,7 @@ std::unique_ptr<devices::Controller> QmoveSection::load(const scenario::Scenario
   if (problems.size() != before) return nullptr;
   std::vector<qmove::Program> programs;
   for (const auto& task : tasks) {
-    const auto module = read_named(task, scenario, problems);
+    const auto module = read_program("qmove.tasks", task, scenario, problems);
     if (!module) continue;
     programs.push_back(qmove::compile_module(*module, (folder / task.text).string(), parsed,
                                              devices::catalogue(), problems));

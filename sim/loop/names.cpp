@@ -208,8 +208,13 @@ std::string Names::suggest_target(const std::string& name) const {
   for (const auto& [plug, port] : panel_.switches) names.push_back(std::string(panel_prefix) + plug);
   if (name.starts_with(panel_prefix)) {
     std::string switches;
-    for (const auto& [plug, port] : panel_.switches)
+    names.clear();
+    for (const auto& [plug, port] : panel_.switches) {
+      names.push_back(plug);
       switches += fmt::format("{} panel.{}", switches.empty() ? "; switches:" : ",", plug);
+    }
+    const auto near = nearest(name.substr(panel_prefix.size()), names);
+    if (!near.empty()) return fmt::format("did you mean {}{}?", panel_prefix, near);
     return fmt::format("wire an input to {} first{}", name, switches);
   }
   if (channels_.contains(name)) return "it can only be read; settings are listed by drycut plants";

@@ -145,6 +145,8 @@ class Scanner {
       return;
     }
     const char c = text_[at_];
+    if (pair == "=<" || pair == "=>")
+      return fault(at_, fmt::format("'{}' does not compare", pair), fmt::format("write {}=", pair[1]));
     if (c == '=') return fault(at_, "'=' does not compare", "write ==");
     if (c == '&') return fault(at_, "'&' is not known", "write &&");
     if (c == '|') return fault(at_, "'|' is not known", "write ||");

@@ -85,8 +85,16 @@ class OverrideSetter {
     } else {
       std::vector<std::string> keys = name.empty() ? sections : std::vector<std::string>();
       for (const auto& entry : map.entries) keys.push_back(entry.key.text);
+      std::sort(keys.begin(), keys.end());
+      keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+      const auto remedy = did_you_mean(first, keys);
+      const auto* controller = name.empty() ? child(map, "controller") : nullptr;
+      const bool is_value =
+          controller != nullptr && controller->entries.size() == 1 && nearest(first, keys).empty();
       refuse(fmt::format("there is no '{}' in {}", first, name.empty() ? "the scenario" : name),
-             did_you_mean(first, keys));
+             is_value ? fmt::format("of the controller's values write controller.{}.set.{}; {}",
+                                    controller->entries.front().key.text, rest, remedy)
+                      : remedy);
     }
   }
 

@@ -133,6 +133,11 @@ void judge_stimulus(MapReader& reader, Stimulus& stimulus) {
     reader.refuse("over", fmt::format("{}.over stands without ramp", name),
                   "write ramp instead of set, or leave over out");
   }
+  if (reader.has("at") && reader.has("when"))
+    reader.refuse("at", fmt::format("{} has both at and when", name),
+                  "keep one; from: is the time before which `when` is not looked at");
+  if (reader.has("from") && !reader.has("when"))
+    reader.refuse("from", fmt::format("{}.from stands without when", name), "write at for a time");
 }
 
 struct KindName {
@@ -267,9 +272,11 @@ void visit(Archive& archive, InputFilter& filter) {
 
 void visit(Archive& archive, Stimulus& stimulus) {
   archive.in_line();
-  archive.value({"at", "time from the start; with `when` it is not looked at before"}, form(stimulus.at, Sign::not_negative));
+  archive.value({"at", "time from the start", !stimulus.when}, form(stimulus.at, Sign::not_negative));
   archive.value({"when", "an expression; the entry acts once, the first time it is true"},
                 expression_form(stimulus.when));
+  archive.value({"from", "`when` is not looked at before this time", stimulus.when.has_value()},
+                form(stimulus.at, Sign::not_negative));
   archive.value({"after", "delay behind at or when", stimulus.after != 0},
                 form(stimulus.after, Sign::not_negative));
   archive.value({"every", "acts again with this period"}, form(stimulus.every, Sign::positive));

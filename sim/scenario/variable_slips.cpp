@@ -53,6 +53,9 @@ std::vector<Candidate> candidates_for(const ParsedQuantity& present) {
   if (number == 0)
     for (const double other : {1, 100})
       candidates.push_back({written(other, unit), fmt::format("is {}, and more is needed", is)});
+  if (number != std::round(number))
+    candidates.push_back(
+        {written(std::round(number), unit), fmt::format("is {}, and a whole number is needed", is)});
   const auto kind = needs_unit(unit) ? fmt::format("is {} ({})", dimension_name(unit), is)
                                      : fmt::format("is {}, without a unit", is);
   for (const auto& [small, large] : tried_units) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/text.hpp"
 #include "sim/file.hpp"
@@ -215,6 +216,7 @@ class Resolver {
     return sound;
   }
   std::map<std::string, std::vector<Place>> run(YamlNode& root) {
+    note_names(root);
     values();
     for (auto& entry : root.entries)
       if (&entry.value != section_) walk(entry.value);
@@ -222,6 +224,29 @@ class Resolver {
   }
 
  private:
+  void note_names(const YamlNode& node) {
+    const auto& text = node.text.text;
+    for (auto at = text.find(opening); at != std::string::npos; at = text.find(opening, at + 1)) {
+      const auto end = text.find('}', at);
+      if (end != std::string::npos) ++named_[text.substr(at + opening.size(), end - at - opening.size())];
+    }
+    for (const auto& item : node.items) note_names(item);
+    for (const auto& entry : node.entries) note_names(entry.value);
+  }
+  // Of several uses and a variable of nearly this name that nothing uses that one is the slip.
+  void refuse_unknown(const std::string& name, const Place& place) {
+    const auto meant = nearest(name, names_);
+    if (meant.empty() || named_.contains(meant) || named_[name] < 2) {
+      findings_.add(place, fmt::format("there is no variable '{}'", name),
+                    did_you_mean(name, names_, fmt::format("add variables: {{{}: 800 mm}}", name)));
+      return;
+    }
+    if (!misspelt_.insert(name).second) return;
+    findings_.add(entries_.at(meant)->key.place,
+                  fmt::format("the variable '{}' is not used, and there is no '{}', which {}:{} uses", meant,
+                              name, place.line, place.column),
+                  fmt::format("did you mean {}?", name));
+  }
   void walk(YamlNode& node) {
     if (node.kind == YamlNode::Kind::scalar) compute(node.text);
     for (auto& item : node.items) walk(item);
@@ -250,8 +275,7 @@ class Resolver {
     used_[name].push_back(place);
     const auto entry = entries_.find(name);
     if (entry == entries_.end()) {
-      findings_.add(place, fmt::format("there is no variable '{}'", name),
-                    did_you_mean(name, names_, fmt::format("add variables: {{{}: 800 mm}}", name)));
+      refuse_unknown(name, place);
       return nullptr;
     }
     const auto waiting = std::find(open_.begin(), open_.end(), name);
@@ -318,6 +342,8 @@ class Resolver {
   std::map<std::string, bool> sound_;  ///< that have been computed
   std::vector<std::string> open_;      ///< being computed, each for the one before
   std::map<std::string, std::vector<Place>> used_;
+  std::map<std::string, int> named_;  ///< in ${ }, how often
+  std::set<std::string> misspelt_;    ///< told at the variable that was meant
 };
 
 /// The first values of variables that were given another, with those of the others.

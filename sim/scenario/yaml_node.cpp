@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "base/plain_text.hpp"
+#include "base/text.hpp"
 
 namespace drycut::sim::scenario {
 
@@ -63,6 +64,24 @@ class Lines {
     const auto before = text_.substr(starts_[line], at - starts_[line]);
     const auto key = before.rfind(": ");
     return key != std::string_view::npos && before.find_first_of(",{}[]\"'", key) == std::string_view::npos;
+  }
+  // The word before `mark`: in "{speed: 0 m/min thickness: 2 mm}" a comma is missing before it.
+  [[nodiscard]] std::string_view word_before(const YAML::Mark& mark) const {
+    const auto end = offset(mark);
+    auto begin = end;
+    while (begin > 0 && !is_blank(text_[begin - 1])) --begin;
+    return text_.substr(begin, end - begin);
+  }
+  // What stands in the line before that of `mark` if it is "2.CNT01 knife.encoder", without a colon.
+  [[nodiscard]] std::string_view line_without_colon(const YAML::Mark& mark) const {
+    for (auto line = static_cast<std::size_t>(std::max(mark.line, 0)); line-- > 0;) {
+      auto begin = starts_[line];
+      const auto whole = text_.substr(begin, starts_[line + 1] - begin);
+      const auto content = trimmed(whole.substr(0, std::min(whole.find(" #"), whole.find('\n'))));
+      if (content.empty() || content.front() == '#') continue;
+      return content.find_first_of("-:{}[],\"'|>") == std::string_view::npos ? content : "";
+    }
+    return {};
   }
   // A tab before the first word of the line of `mark`; yaml-cpp's own message is not always about it.
   [[nodiscard]] std::optional<Place> indenting_tab(const YAML::Mark& mark) const {
@@ -313,29 +332,41 @@ class Builder : public YAML::EventHandler {
 };
 
 // yaml-cpp's words for the commonest slips, in words that say what to do.
-std::pair<std::string, std::string> explain(const YAML::ParserException& error,
-                                            const std::optional<Place>& open, bool after_variable,
-                                            bool at_colon) {
-  if (after_variable)
-    return {"inside { } and [ ] a value with ${name} stands in quotes", "write \"${length} / 2\""};
-  if (at_colon)
-    return {"a second ': ' behind a key", "a text with a colon in it stands in quotes: title: \"saw: test\""};
+void refuse_yaml(const YAML::ParserException& error, const Lines& lines, const std::optional<Place>& open,
+                 Findings& findings) {
+  auto place = lines.place(error.mark);
+  const auto told = [&](std::string what, std::string remedy) {
+    findings.add(place, std::move(what), std::move(remedy));
+  };
+  if (const auto tab = lines.indenting_tab(error.mark)) {
+    place = *tab;
+    return told("a tab in the indentation", "indent with spaces");
+  }
+  if (open && lines.has_variable(error.mark))
+    return told("inside { } and [ ] a value with ${name} stands in quotes", "write \"${length} / 2\"");
+  if (lines.has_second_colon(error.mark)) {
+    const auto key = lines.word_before(error.mark);
+    return told("a second ': ' behind a key",
+                fmt::format("{}a text with a colon in it stands in quotes: title: \"saw: test\"",
+                            open ? fmt::format("write a comma before '{}'; ", key) : ""));
+  }
   const std::string opened =
       open ? fmt::format(" opened at line {}, column {}", open->line, open->column) : std::string();
-  if (error.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) {
-    return {fmt::format("the list{} is not closed", opened), "write ] or a comma here"};
+  if (error.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW)
+    return told(fmt::format("the list{} is not closed", opened), "write ] or a comma here");
+  if (error.msg == YAML::ErrorMsg::END_OF_MAP_FLOW)
+    return told(fmt::format("the map{} is not closed", opened), "write } or a comma here");
+  if (error.msg == YAML::ErrorMsg::UNKNOWN_TOKEN)
+    return told("no YAML text begins like this", "put the text into quotes");
+  if (error.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR || error.msg.find("anchor") != std::string::npos)
+    return told("aliases (*name) are not used in scenarios", "write the value out");
+  if (const auto line = lines.line_without_colon(error.mark);
+      error.msg == YAML::ErrorMsg::MAP_VALUE && !open && !line.empty()) {
+    place = lines.place(static_cast<std::size_t>(line.data() - lines.text().data()));
+    return told(fmt::format("there is no colon in {}", in_quotes(line)), "write key: value");
   }
-  if (error.msg == YAML::ErrorMsg::END_OF_MAP_FLOW) {
-    return {fmt::format("the map{} is not closed", opened), "write } or a comma here"};
-  }
-  if (error.msg == YAML::ErrorMsg::UNKNOWN_TOKEN) {
-    return {"no YAML text begins like this", "put the text into quotes"};
-  }
-  if (error.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR || error.msg.find("anchor") != std::string::npos) {
-    return {"aliases (*name) are not used in scenarios", "write the value out"};
-  }
-  return {fmt::format("not readable as YAML: {}", error.msg),
-          "check indentation, colons and brackets here and in the line before"};
+  told(fmt::format("not readable as YAML: {}", error.msg),
+       "check indentation, colons and brackets here and in the line before");
 }
 
 }  // namespace
@@ -394,14 +425,7 @@ YamlNode parse_yaml(std::string_view text, int source, Findings& findings) {
     findings.add(lines.place(deep.mark), fmt::format("nested more than {} levels deep", deepest),
                  "nest less");
   } catch (const YAML::ParserException& error) {
-    if (const auto tab = lines.indenting_tab(error.mark)) {
-      findings.add(*tab, "a tab in the indentation", "indent with spaces");
-    } else {
-      const auto open = builder.open_bracket();
-      auto [what, remedy] =
-          explain(error, open, open && lines.has_variable(error.mark), lines.has_second_colon(error.mark));
-      findings.add(lines.place(error.mark), std::move(what), std::move(remedy));
-    }
+    refuse_yaml(error, lines, builder.open_bracket(), findings);
   } catch (const std::exception& error) {
     findings.add({1, 1, source}, fmt::format("not readable as YAML: {}", error.what()),
                  "a scenario is a YAML text");

@@ -63,6 +63,14 @@ std::string nearest_row(const ParameterTable& table, const std::string& prefix, 
       elsewhere == table.rows.end() ? table.help : fmt::format("did you mean {}?", elsewhere->name));
 }
 
+// Of a key that is there under a wrong name it is told how it is written, not that it is missing.
+bool misspells(const YamlNode& map, const std::vector<std::string>& known, std::string_view key) {
+  return std::any_of(map.entries.begin(), map.entries.end(), [&](const auto& entry) {
+    const bool sound = std::find(known.begin(), known.end(), entry.key.text) != known.end();
+    return !sound && nearest(entry.key.text, known) == key;
+  });
+}
+
 }  // namespace
 
 void refuse_kind(const YamlNode& node, const std::string& name, YamlNode::Kind wanted, Findings& findings) {
@@ -246,14 +254,18 @@ std::string MapReader::meant(std::string_view remedy) const {
 
 void MapReader::require(std::string_view key, std::string_view remedy) {
   judge([key, remedy](MapReader& reader) {
-    if (!reader.has(key)) reader.missing(key, remedy);
+    if (!reader.has(key) && (reader.has_table_ || !misspells(reader.node_, reader.known_, key)))
+      reader.missing(key, remedy);
   });
 }
 
 void MapReader::require_one(const std::vector<std::string_view>& keys, std::string_view what,
                             std::string_view remedy) {
   judge([keys, what, remedy](MapReader& reader) {
-    if (std::any_of(keys.begin(), keys.end(), [&](auto key) { return reader.has(key); })) return;
+    if (std::any_of(keys.begin(), keys.end(), [&](auto key) {
+          return reader.has(key) || (!reader.has_table_ && misspells(reader.node_, reader.known_, key));
+        }))
+      return;
     reader.findings_.add(reader.place(), fmt::format("{} {}", reader.name(), what), reader.meant(remedy));
   });
 }

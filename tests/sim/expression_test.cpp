@@ -279,6 +279,8 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
       {"(x < 3", "0: this ( is not closed; add )"},
       {"x < 3)", "5: this ) closes nothing; remove it"},
       {"x = 3", "2: '=' does not compare; write =="},
+      {"x =< 3", "2: '=<' does not compare; write <="},
+      {"x => 3", "2: '=>' does not compare; write >="},
       {"x < 3 & x > 1", "6: '&' is not known; write &&"},
       {"x < 3 | x > 1", "6: '|' is not known; write ||"},
       {"x < 3, 4", "5: ',' stands only between the arguments of a function; write . in decimals"},

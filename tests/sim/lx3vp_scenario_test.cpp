@@ -75,6 +75,19 @@ TEST_F(Lx3vpScenario, RunsAgainstTheBench) {
   EXPECT_LT(names.size(), 100u) << "the report lists what the program is about";
 }
 
+TEST_F(Lx3vpScenario, ValuesThatTheFirstScanReplacesAreNoted) {
+  write("saw.il", "LD M8002\nMOV K400 D100\nDMOV K7 D2006\nMOV K1 D2005\nLD X0\nMOV K3 D2023\nEND\n");
+  const auto scenario = read(R"(scene: {step: 50 us, duration: 2 s}
+controller:
+  lx3vp: {program: saw.il, registers: saw.csv, scan: 1 ms, set: {D100: 5, DD102: 6}}
+)");
+  const Simulation simulation(scenario, problems);
+  EXPECT_THAT(told(), IsEmpty());
+  EXPECT_THAT(simulation.notes_of_setup(),
+              ElementsAre(HasSubstr("saw.csv:3:1: DD2006 = 200000, and the program's first scan makes it 7"),
+                          HasSubstr("line.yaml:3:66: D100 = 5, and the program's first scan makes it 400")));
+}
+
 TEST_F(Lx3vpScenario, IsWrittenBackWhole) {
   const auto scenario = read(line);
   const auto text = scenario::expand(scenario);

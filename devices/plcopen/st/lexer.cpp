@@ -100,6 +100,11 @@ class StLexer : public Lexer<Token> {
   }
 
   void sign() {
+    // As other languages begin a comment; a typed value has its type before it: INT#5.
+    if (peek() == '#' && (at_ == 0 || !in_name(text_[at_ - 1]))) {
+      complain(place(), "'#' begins no comment", "comments are (* ... *) or // ...");
+      return advance(length([](char x) { return x != '\n'; }));
+    }
     constexpr std::array<std::string_view, 7> pairs{":=", "=>", "**", "<=", ">=", "<>", ".."};
     if (std::any_of(pairs.begin(), pairs.end(), [&](std::string_view pair) { return starts(pair); }))
       add(Kind::sign, 2);

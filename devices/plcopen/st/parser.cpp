@@ -100,6 +100,8 @@ Tree Parser::primary_tree() {
     default:
       break;
   }
+  if (token.is("=") && at_ > 0 && tokens_[at_ - 1].is("="))
+    give_up(token.place, "there is no '=='", "'=' compares");
   if (!accept("("))
     give_up(token.place, fmt::format("an expression is missing before {}", in_quotes(token.text)),
             "a value stands here");

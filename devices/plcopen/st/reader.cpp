@@ -11,6 +11,21 @@ std::string found(const Token& token) {
   return token.kind == Token::Kind::end ? "the end of the file" : in_quotes(token.text);
 }
 
+/// "1.5" of the tokens 1 , 5 that stand together, `at` being the comma; "" of others.
+std::string decimal_comma(const std::vector<Token>& tokens, std::size_t at) {
+  if (at == 0 || at + 1 >= tokens.size() || !tokens[at].is(",")) return "";
+  const auto joins = [&](std::size_t i) {
+    return tokens[i].kind == Token::Kind::number && tokens[i].place.line == tokens[at].place.line;
+  };
+  const auto& before = tokens[at - 1];
+  const auto& after = tokens[at + 1];
+  const int column = tokens[at].place.column;
+  const bool together = joins(at - 1) && joins(at + 1) &&
+                        before.place.column + static_cast<int>(before.text.size()) == column &&
+                        after.place.column == column + 1;
+  return together ? fmt::format("{}.{}", before.text, after.text) : "";
+}
+
 }  // namespace
 
 Place Reader::behind() const {
@@ -35,6 +50,8 @@ void Reader::expect(std::string_view sign, std::string_view where) {
   if (accept(sign)) return;
   if (peek().kind == Token::Kind::bad) throw GiveUp{};
   if (sign == ":=" && peek().is("=")) give_up(peek().place, "'=' compares", "':=' assigns");
+  if (const auto number = decimal_comma(tokens_, at_); !number.empty())
+    give_up(peek().place, "a decimal comma", fmt::format("write {}", number));
   // A sign that is missing at a line's end is missing there, not where the next line begins.
   const bool next_line = at_ > 0 && tokens_[at_ - 1].place.line != peek().place.line;
   const std::string what = fmt::format("'{}' is missing before {}", sign, found(peek()));

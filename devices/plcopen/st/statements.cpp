@@ -52,6 +52,14 @@ int Statements::statements_until(const std::function<bool()>& closes) {
 bool Statements::read_as_closer() {
   Token& word = tokens_[at_];
   if (word.kind != Token::Kind::name || is_keyword(word.text)) return false;
+  if (word.word("END") && at_ + 1 < stop_ && is_keyword(peek(1).text)) {
+    const auto closer = meant_closer(fmt::format("END{}", peek(1).text));
+    if (closer.empty()) return false;
+    complain(word.place, fmt::format("there is no word 'END {}'", peek(1).text),
+             fmt::format("did you mean {}?", in_quotes(closer)));
+    tokens_[++at_].text = closer;
+    return true;
+  }
   const auto& next = peek(1);
   const bool used = next.is(":=") || next.is(".") || next.is("[");
   const auto meant = used ? std::string_view() : meant_closer(word.text);

@@ -1,7 +1,11 @@
 // Every error of ECAMTBX, and 10 000 random parameter sets: a right table or the error, never a wrong table.
+#include <gmock/gmock.h>
+
+#include <bit>
 #include <limits>
 #include <random>
 
+#include "devices/lx3vp/ecamtbx_registers.hpp"
 #include "tests/devices/lx3vp/ecamtbx_bench.hpp"
 
 namespace drycut::devices::lx3vp {
@@ -109,6 +113,25 @@ TEST(EcamtbxErrors, NoNumbers) {
 TEST(EcamtbxErrors, EveryErrorHasItsWords) {
   for (int code = -8; code <= 0; ++code)
     EXPECT_FALSE(error_text(static_cast<EcamError>(code)).empty()) << code;
+}
+
+TEST(EcamtbxErrors, AnIntegerWhereAFloatBelongsIsToldAsSuch) {
+  Registers registers;
+  const auto told = [&](std::int32_t p4, std::int32_t p5) {
+    registers.set_i32(500, 16000);
+    registers.set_i32(502, 20000);
+    registers.set_i32(506, p4);
+    registers.set_i32(508, p5);
+    const auto error = make_rotary_saw(read_saw_parameters(registers, 500)).error;
+    return ecamtbx_fault(registers, 500, 100, error);
+  };
+  const auto two = std::bit_cast<std::int32_t>(2.0F);
+  EXPECT_THAT(told(2, 10),
+              ::testing::HasSubstr("a float that looks like the integer 2; write DEMOV E2.0 D506"));
+  EXPECT_THAT(told(two, 10), ::testing::HasSubstr("looks like the integer 10; write DEMOV E10.0 D508"));
+  EXPECT_THAT(told(-2, two), ::testing::HasSubstr("looks like the integer -2"));
+  EXPECT_THAT(told(0, two), ::testing::Not(::testing::HasSubstr("integer")));
+  EXPECT_THAT(told(two, std::bit_cast<std::int32_t>(1.5F)), ::testing::Not(::testing::HasSubstr("integer")));
 }
 
 // Random sets.

@@ -2,6 +2,7 @@
 #include <random>
 #include <set>
 
+#include "devices/lx3vp/il_doubts.hpp"
 #include "devices/lx3vp/il_operands.hpp"
 #include "tests/devices/lx3vp/il_bench.hpp"
 
@@ -284,6 +285,36 @@ TEST(IlCompile, RandomTextNeverCrashes) {
     scanner.scan(registers, notes);
   }
   EXPECT_GT(sound, 10);
+}
+
+TEST(IlDoubts, ACoilThatTwoInstructionsDrive) {
+  const auto told = [](const std::string& text) {
+    Problems problems;
+    const auto program = compile(text + "END\n", "p.il", problems);
+    EXPECT_TRUE(problems.empty()) << text;
+    return doubts(program);
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(told("LD X0\nOUT Y10\nLD X1\nOUT Y10\nLD X2\nOUT Y10\n"),
+              ElementsAre("p.il:4:5: Y10 has OUT here and OUT in line 2: the last in a scan decides alone"));
+  EXPECT_THAT(
+      told("LD X0\nSET M5\nLD X1\nOUT M5\n"),
+      ElementsAre("p.il:4:5: M5 has OUT here and SET in line 2: OUT writes it in every scan, whatever "
+                  "SET has left"));
+  EXPECT_THAT(told("LD X0\nSET Y10\nLD X1\nSET Y10\nLD X2\nRST Y10\n"), ElementsAre());
+  EXPECT_THAT(told("LD X0\nOUT D5.1\nLD X1\nOUT D5.2\n"), ElementsAre());
+  EXPECT_THAT(told("LD X0\nOUT T5 K10\nLD X1\nOUT T5 K20\n"), ElementsAre());
+  // Steps of a sequence and the parts that jumps choose from take turns.
+  EXPECT_THAT(told("LD X5\nSET S20\nSTL S20\nOUT Y1\nLD X0\nSET S21\nSTL S21\nOUT Y1\nRET\n"), ElementsAre());
+  EXPECT_THAT(told("LD X5\nCJ P1\nLD X0\nOUT Y1\nP1\nLD X1\nOUT Y1\n"), ElementsAre());
+}
+
+TEST(IlDoubts, ATypeOfCamThatThereIsNot) {
+  Problems problems;
+  const auto program = compile("LD M8002\nECAMTBX D0 K102 D100 D50\nLD M8002\nECAMTBX D0 K1 D100 D50\nEND\n",
+                               "p.il", problems);
+  EXPECT_THAT(doubts(program),
+              ::testing::ElementsAre("p.il:2:12: ECAMTBX has no type K102; write K0, K1, K100 or K101"));
 }
 
 }  // namespace

@@ -343,9 +343,13 @@ TEST(ScenarioProblems, Timeline) {
       {"timeline: [{at: 1 s, power: maybe}]\n",
        {"1:29: timeline.0.power: 'maybe' is not a switch position; write on or off (or true, false)"}},
       {"timeline: [{when: \"a =\", set: {a: 1}}]\n", {"1:22: '=' does not compare; write =="}},
-      {"timeline: [{att: 1 s, set: {a: 1}}]\n",
-       {"1:12: timeline.0 does not say when; add at: 0.5 s, or when: \"...\"",
-        "1:13: unknown key 'att' in timeline.0; did you mean at?"}},
+      {"timeline: [{att: 1 s, set: {a: 1}}]\n", {"1:13: unknown key 'att' in timeline.0; did you mean at?"}},
+      {"timeline: [{at: 1 s, when: \"a == 1\", set: {a: 1}}]\n",
+       {"1:13: timeline.0 has both at and when; keep one; from: is the time before which `when` is not "
+        "looked at"}},
+      {"timeline: [{at: 1 s, from: 1 s, set: {a: 1}}]\n",
+       {"1:22: timeline.0.from stands without when; write at for a time"}},
+      {"timeline: [{when: \"a == 1\", from: 1 s, set: {a: 1}}]\n", {}},
   });
 }
 
