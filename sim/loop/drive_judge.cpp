@@ -271,27 +271,35 @@ DriveVerdict DriveJudge::verdict(Drive drive) const {
           fmt::format("{}, {:.3g} s in all, first at {:.3f} s",
                       times == 1 ? "once" : fmt::format("{} times", times), time, first);
   }
-  verdict.warnings = warnings_of(verdict, whole);
+  remark(verdict, whole);
   verdict.cycle_points = drive.cycle_points.points();
   verdict.points = drive.points.points();
   return verdict;
 }
 
-std::vector<std::string> DriveJudge::warnings_of(const DriveVerdict& verdict, bool whole) {
-  if (!whole && verdict.steady) return {};
-  if (!whole)
-    return {
-        fmt::format("{}: no steady cycle in {}: no rms torque is within 1 % of that of the cycle before; "
-                    "let it run for longer",
-                    verdict.drive, verdict.cycles)};
+// What neither passes nor fails.
+void DriveJudge::remark(DriveVerdict& verdict, bool whole) {
+  if (!whole) {
+    if (!verdict.steady)
+      verdict.notes.push_back(
+          fmt::format("{}: no steady cycle in {}: no rms torque is within 1 % of that of the cycle before; "
+                      "let it run for "
+                      "longer",
+                      verdict.drive, verdict.cycles));
+    return;
+  }
   auto text = fmt::format(
       "{}: heat is not judged, for no machine cycle is known; name its length, such as "
       "drives: {{cycle: 2 s}}",
       verdict.drive);
-  for (const auto& figure : verdict.figures)
-    if (!figure.judged && figure.share > 1)
-      text += fmt::format("; {} would be {:.0f} %", figure.name, figure.share * percent);
-  return {text};
+  bool over = false;
+  const auto& means = verdict.figures.front().window;
+  for (const auto& figure : verdict.figures) {
+    if (figure.judged || figure.share <= 1 || figure.window != means) continue;
+    over = true;
+    text += fmt::format("; {} would be {:.0f} %", figure.name, figure.share * percent);
+  }
+  (over ? verdict.warnings : verdict.notes).push_back(std::move(text));
 }
 
 std::vector<DriveVerdict> DriveJudge::verdicts() const {
@@ -299,14 +307,6 @@ std::vector<DriveVerdict> DriveJudge::verdicts() const {
   verdicts.reserve(drives_.size());
   for (const auto& drive : drives_) verdicts.push_back(verdict(drive));
   return verdicts;
-}
-
-std::vector<std::string> DriveJudge::warnings() const {
-  std::vector<std::string> all;
-  if (!judged_) return all;
-  for (auto& verdict : verdicts())
-    for (auto& warning : verdict.warnings) all.push_back(std::move(warning));
-  return all;
 }
 
 std::string text_of(const DriveVerdict& verdict) {
@@ -327,7 +327,7 @@ std::string text_of(const DriveVerdict& verdict) {
   if (!verdict.limit_elsewhere.empty())
     text += fmt::format("; outside of these cycles at its torque limit {}", verdict.limit_elsewhere);
   if (const double share = std::floor(verdict.advised * percent);
-      !verdict.holds() && share > 0 && share < percent)
+      figure.share > 1 && share > 0 && share < percent)
     text += fmt::format("; within 90 % at {:.0f} % of this speed, by a cautious estimate", share);
   return text;
 }

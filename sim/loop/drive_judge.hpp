@@ -41,7 +41,8 @@ struct DriveVerdict {
   /// When the torque limit acted outside of what is judged: "twice, 0.12 s in all, first at 0.8 s"; "" =
   /// never.
   std::string limit_elsewhere;
-  std::vector<std::string> warnings;  ///< what a verdict without a failure does not say
+  std::vector<std::string> notes;     ///< heat that is not judged, no steady cycle
+  std::vector<std::string> warnings;  ///< of heat that is not judged and would be over its rating
   /// At this share of the machine's speed all would be within 90 % of their ratings, by a cautious estimate
   /// from one run: friction and load stay, the rest of the torque goes with the speed. 1 where all are; 0
   /// where friction and load alone are too much.
@@ -83,8 +84,8 @@ class DriveJudge : public Observer {
   [[nodiscard]] double cycle_of(const std::string& plant, Time now) const;
   /// The verdicts as they stand, a drive each.
   [[nodiscard]] std::vector<DriveVerdict> verdicts() const;
-  /// What a reader should know that no verdict says: heat that is not judged, no steady cycle.
-  [[nodiscard]] std::vector<std::string> warnings() const;
+  /// The check "drive within its ratings" is among the checks.
+  [[nodiscard]] bool judges() const { return judged_; }
   /// The check "drive within its ratings"; none without drives, or where the scenario switches it off;
   /// from verdicts().
   [[nodiscard]] std::vector<CheckResult> results(const std::vector<DriveVerdict>& verdicts) const;
@@ -137,7 +138,7 @@ class DriveJudge : public Observer {
   static void end_cycle(Drive& drive, DriveCycles::Ended ended);
   static void judge_row(Drive& drive);
   static std::string judge_rest(Drive& drive);
-  static std::vector<std::string> warnings_of(const DriveVerdict& verdict, bool whole);
+  static void remark(DriveVerdict& verdict, bool whole);
   [[nodiscard]] DriveVerdict verdict(Drive drive) const;
 
   bool judged_;

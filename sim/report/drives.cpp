@@ -109,7 +109,7 @@ renders::ReportTable drive_table(const std::vector<loop::DriveVerdict>& verdicts
     if (!verdict.limit_elsewhere.empty())
       table.rows.push_back(
           {{"", "at the torque limit\noutside of these cycles", verdict.limit_elsewhere, "", ""}});
-    if (verdict.advised < 1 && std::floor(100 * verdict.advised) > 0 && !verdict.holds())
+    if (verdict.advised < 1 && std::floor(100 * verdict.advised) > 0 && verdict.tightest().share > 1)
       table.rows.push_back({{"", "within 90 % of all",
                              fmt::format("at {:.0f} % of this speed\nby a cautious estimate",
                                          std::floor(100 * verdict.advised)),

@@ -326,7 +326,7 @@ TEST(DriveJudge, TheLoadOfACycleIsThatOfTheMoveFromAnyNumberOfThem) {
       hand.run(3, 1);
       const auto verdict = hand.verdict();
       EXPECT_TRUE(verdict.steady);
-      EXPECT_THAT(verdict.warnings, testing::IsEmpty());
+      EXPECT_THAT(verdict.notes, testing::IsEmpty());
       const auto& rms = figure(verdict, "rms torque");
       EXPECT_TRUE(rms.judged);
       EXPECT_NEAR(rms.value, ByHand::rms_of_move(), 2e-3 * ByHand::rms_of_move());
@@ -341,12 +341,33 @@ TEST(DriveJudge, WithoutASteadyCycleTheRunSaysSo) {
   for (const double more : {1.0, 1.05, 1.0, 1.05}) hand.move(more);
   EXPECT_FALSE(hand.verdict().steady);
   EXPECT_EQ(figure(hand.verdict(), "rms torque").window, "mean of 4 cycles");
-  EXPECT_THAT(hand.judge->warnings(),
+  EXPECT_THAT(hand.verdict().notes,
               ElementsAre(HasSubstr("axis.servo: no steady cycle in 4 cycles of 1.2 s")));
   hand.move(1.055);  // within 1 %
   EXPECT_TRUE(hand.verdict().steady);
   EXPECT_NEAR(figure(hand.verdict(), "rms torque").value, 1.055 * ByHand::rms_of_move(), 0.02);
-  EXPECT_THAT(hand.judge->warnings(), testing::IsEmpty());
+  EXPECT_THAT(hand.verdict().notes, testing::IsEmpty());
+}
+
+TEST(DriveJudge, WithoutACycleTheVerdictSaysThatHeatIsNotJudgedAndWarnsOfWhatWouldBeTooMuch) {
+  const std::string remedy = "axis.servo: heat is not judged, for no machine cycle is known; name its length";
+  ByHand cool(0);
+  cool.run(5, 1);
+  for (int i = 0; i < 3; ++i) cool.move();
+  EXPECT_TRUE(cool.check().passed);
+  EXPECT_THAT(cool.verdict().notes, ElementsAre(HasSubstr(remedy)));
+  EXPECT_THAT(cool.verdict().warnings, testing::IsEmpty());
+  // Standstill before the first motion is in no mean.
+  EXPECT_NEAR(figure(cool.verdict(), "rms torque").value, ByHand::rms_of_move(), 5e-3);
+
+  ByHand hot(0);
+  hot.run(5, 1);
+  for (int i = 0; i < 3; ++i) hot.move(2);
+  EXPECT_TRUE(hot.check().passed);
+  EXPECT_THAT(hot.verdict().notes, testing::IsEmpty());
+  ASSERT_EQ(hot.verdict().warnings.size(), 1U);
+  EXPECT_THAT(hot.verdict().warnings[0],
+              testing::AllOf(HasSubstr(remedy), HasSubstr("rms torque would be 120 %")));
 }
 
 // Counting noise makes each cycle another one; ten of them are the machine's work all the same.
